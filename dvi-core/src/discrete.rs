@@ -22,12 +22,11 @@ pub(crate) mod quadrature;
 
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
-use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
+use crate::solve::{Linearize, Stopping};
 use crate::space::sink::Sink;
-use crate::space::{LinearEquations, LinearSolver, Storing, linear};
+use crate::space::{LinearEquations, Storing};
 use crate::state::Statistics;
-use crate::{Lagrangian, Linear, Real, Scalar, Vector};
+use crate::{Lagrangian, Linear, Real, Vector};
 
 pub use crate::mechanics::{Ends, Interval, Span};
 pub use frequency::{
@@ -112,10 +111,33 @@ impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> LinearEquations<T>
     }
 }
 
+/// A discrete Lagrangian where a step begins.
+pub(crate) struct Departing<'a, S, T, L> {
+    pub(crate) l_d: &'a mut L,
+    pub(crate) system: &'a S,
+    pub(crate) interval: Interval<T>,
+    pub(crate) q0: &'a [T],
+}
+
+impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> Linearize<T> for Departing<'_, S, T, L> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn linearize<K: Sink<T>>(
+        &mut self,
+        delta: &[T],
+        d1: &mut [T],
+        sink: &mut K,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { l_d, system, interval, q0 } = self;
+        let ends = Ends { q0, delta };
+        l_d.linearize(Span { system, interval: *interval, ends }, d1, sink, statistics)
+    }
+}
+
 /// Solves p0 + D₁L_d(q0, q0 + Δ) = 0 by Newton's method, from the `delta` that stands there.
 ///
 /// # Errors
-/// [`StepFailure::NotConverged`], [`StepFailure::Singular`], or those of the discrete Lagrangian.
+/// As [`solve_by_newton`](crate::solve::solve_by_newton).
 #[inline]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
@@ -124,23 +146,10 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
     interval: Interval<T>,
     [q0, p0]: [&[T]; 2],
     delta: &mut [T],
-    (solver, [residual, weights]): (&mut Linear<S, T>, [&mut Vector<S, T>; 2]),
+    storage: (&mut Linear<S, T>, [&mut Vector<S, T>; 2]),
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let convergence = Convergence::new(stopping, stopping.max_iterations);
-    iterate(convergence, statistics, |due, statistics| {
-        due.prepare(system, weights, q0, delta);
-        statistics.linearizations += 1;
-        statistics.factorisations += 1;
-        let span = Span { system, interval, ends: Ends { q0, delta } };
-        let mut equations = Equations { l_d, span, p0, statistics };
-        let size = |j: usize| Scalar::abs(q0[j]) + Scalar::abs(delta[j]);
-        if *due == Due::Residual {
-            return linear::residual(&mut equations, size, |i| p0[i], [residual, weights]);
-        }
-        solver.solve(&mut equations, weights, residual)?;
-        Ok(sizes::reduce(system, weights, delta, residual))
-    })?;
-    norm::finite(delta)
+    let equations = &mut Departing { l_d, system, interval, q0 };
+    crate::solve::solve_by_newton(equations, system, [q0, p0], delta, storage, stopping, statistics)
 }

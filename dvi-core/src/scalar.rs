@@ -12,6 +12,7 @@ pub(crate) mod norm;
 mod number;
 pub(crate) mod pack;
 pub(crate) mod pairs;
+pub(crate) mod passes;
 pub(crate) mod simd;
 mod sinc;
 

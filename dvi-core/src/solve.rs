@@ -2,6 +2,7 @@
 //! are tried.
 
 mod coupled;
+mod newton;
 pub(crate) mod sizes;
 mod stopping;
 
@@ -14,6 +15,7 @@ use crate::state::Statistics;
 
 pub(crate) use crate::state::history::Guess;
 pub(crate) use coupled::{CoupledEquations, solve_coupled};
+pub(crate) use newton::{Linearize, solve_by_newton};
 pub(crate) use sizes::Due;
 pub use stopping::Stopping;
 pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdict};

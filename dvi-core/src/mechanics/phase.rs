@@ -132,24 +132,20 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         Ok(())
     }
 
-    /// The same where sums are plain, to q1, p1 and, if L is separable, ∂L/∂q in `to`, which has other
-    /// numbers afterwards.
+    /// The same where sums are plain, with Δ.
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn arrive(
+    pub(crate) fn advance_plainly(
         &mut self,
-        q: &mut Vector<S, T>,
-        to: [&mut Vector<S, T>; 3],
+        q: &mut [T],
+        to: &Arrival<'_, T>,
         increment: &[T],
         h: T,
     ) -> Result<(), StepFailure> {
-        let [q1, p1, force] = to;
-        Arrival { q: q1, p: p1, force }.finite::<S>()?;
-        replace::<S, T>(q, q1);
-        replace::<S, T>(&mut self.p, p1);
-        replace::<S, T>(&mut self.force, force);
+        to.finite::<S>()?;
+        self.set(q, to);
         self.remember(increment, h);
         Ok(())
     }
@@ -181,16 +177,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         if S::SEPARABLE {
             self.force.copy_from_slice(to.force);
         }
-    }
-}
-
-/// Puts the numbers of `new` into the place of `old`; what is in `new` then is of no use.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn replace<S: System, T: Real>(old: &mut Vector<S, T>, new: &mut Vector<S, T>) {
-    if S::Space::ON_STACK {
-        old.copy_from_slice(new);
-    } else {
-        core::mem::swap(old, new);
     }
 }
 

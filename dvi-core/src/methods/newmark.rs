@@ -16,7 +16,7 @@ use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::Inertial;
 use crate::memory::{Memory, lasting};
-use crate::methods::step::{Attempt, Begin, Carried, Equations, ladder};
+use crate::methods::step::{Attempt, Begin, Carried, Equations, Share, ladder, set_force};
 use crate::methods::variational::verlet;
 use crate::methods::{Carries, Method, PreservedForm, Scheme};
 use crate::scalar::norm::reported;
@@ -85,43 +85,42 @@ impl<S: System, T: Real> Memory<T> for NewmarkMemory<S, T> {
 }
 
 impl<T: Real> Newmark<T> {
-    /// Adds r to `r`, where F(q1) is `f1`.
-    fn add_residual<S: Separable<T>>(
-        &self,
-        &Begin { interval, phase, mass, .. }: &Begin<'_, S, T>,
-        delta: &[T],
-        f1: &[T],
-        r: &mut [T],
-    ) -> Result<(), StepFailure> {
-        let Some(mass) = mass else { return Err(StepFailure::NO_MATRIX) };
-        let (h, half) = (interval.h, T::lift(0.5));
-        for ((r, &f0), &f1) in r.iter_mut().zip(phase.force.iter()).zip(f1) {
-            *r += h * (half * f0 + self.beta * (f1 - f0));
+    /// Adds h[½F0 + β(F1 − F0)] to `r`.
+    fn add_impulse(&self, h: T, [f0, f1]: [&[T]; 2], r: &mut [T]) {
+        for ((r, &f0), &f1) in r.iter_mut().zip(f0).zip(f1) {
+            *r += h * (T::lift(0.5) * f0 + self.beta * (f1 - f0));
         }
-        mass.multiply_add(-T::lift(1.0) / h, delta, r);
-        Ok(())
     }
 }
 
 impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
-    const LEAVES_FORCE: bool = true;
+    type Coefficients = ();
+
+    fn begin(&mut self, _begin: &Begin<'_, S, T>, _node: &mut NodeWork<S, T>) -> Result<(), StepFailure> {
+        Ok(())
+    }
 
     fn evaluate(
         &mut self,
-        begin: &Begin<'_, S, T>,
+        Begin { system, interval, q, phase, .. }: &Begin<'_, S, T>,
         delta: &[T],
-        node: &mut NodeWork<S, T>,
-        [r, sum]: [&mut [T]; 2],
+        share: Share<'_, T>,
+        ((), NodeWork { point, gradient, .. }): (&mut (), &mut NodeWork<S, T>),
+        to: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Begin { system, interval, q, phase, .. } = begin;
-        phase.reach(q, delta, &mut node.point);
-        system.force(&node.point, &[], interval.time(T::lift(1.0)), &mut node.gradient);
-        statistics.gradients += 1;
-        self.add_residual(begin, delta, &node.gradient, r)?;
-        let half = T::lift(0.5) * begin.interval.h;
-        for ((sum, &f0), &f1) in sum.iter_mut().zip(begin.phase.force.iter()).zip(node.gradient.iter()) {
-            *sum += half * (f0 + f1);
+        match share {
+            Share::Left => {
+                phase.reach(q, delta, point);
+                set_force(*system, point, interval.time(T::lift(1.0)), gradient);
+                statistics.gradients += 1;
+                self.add_impulse(interval.h, [&phase.force, gradient], to);
+            }
+            Share::Both { force } => {
+                for ((sum, &f0), &f1) in to.iter_mut().zip(phase.force.iter()).zip(force) {
+                    *sum += T::lift(0.5) * interval.h * (f0 + f1);
+                }
+            }
         }
         Ok(())
     }
@@ -129,20 +128,25 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
     /// ∂r/∂Δ = −M/h + βh F1′
     fn linearize<K: Sink<T>>(
         &mut self,
-        begin: &Begin<'_, S, T>,
+        Begin { system, interval, q, phase, .. }: &Begin<'_, S, T>,
         delta: &[T],
-        node: &mut NodeWork<S, T>,
+        ((), node): (&mut (), &mut NodeWork<S, T>),
         r: &mut [T],
         sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let (h, zero, end) = (begin.interval.h, T::lift(0.0), begin.interval.time(T::lift(1.0)));
-        let weights = Weights { qq: self.beta * h, qv: zero, vq: zero, vv: -T::lift(1.0) / h };
         let NodeWork { point, velocity, gradient, momentum } = node;
-        begin.phase.reach(begin.q, delta, point);
-        // ∂L/∂q is the force, which comes along.
-        begin.system.linearize(point, velocity, end, weights, gradient, momentum, sink);
-        self.add_residual(begin, delta, gradient, r)
+        let (h, zero, per_h) = (interval.h, T::lift(0.0), T::lift(1.0) / interval.h);
+        phase.reach(q, delta, point);
+        for (v, &delta) in velocity.iter_mut().zip(delta) {
+            *v = delta * per_h;
+        }
+        let weights = Weights { qq: self.beta * h, qv: zero, vq: zero, vv: -per_h };
+        // ∂L/∂q and ∂L/∂v come along: F1 and MΔ/h.
+        system.linearize(point, velocity, interval.time(T::lift(1.0)), weights, gradient, momentum, sink);
+        self.add_impulse(h, [&phase.force, gradient], r);
+        r.iter_mut().zip(momentum.iter()).for_each(|(r, &momentum)| *r -= momentum);
+        Ok(())
     }
 }
 
@@ -203,15 +207,10 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
         {
             return verlet::step(system, mass, phase, work, q, (interval, summation), statistics);
         }
-        let budget = ladder.budget(stopping.max_iterations, 24 + q.len());
-        let changed = Attempt { system, interval, stopping, summation, budget, q, carried };
-        ladder.solve(
-            &mut (changed, *self),
+        Attempt { system, interval, stopping, summation, q, carried }.take(
+            &mut { *self },
+            ladder,
             statistics,
-            |(step, equations), statistics| step.by_fixed_point(equations, statistics),
-            |(step, equations), solver, guess, statistics| {
-                step.by_newton(equations, solver, guess, statistics)
-            },
         )
     }
 

@@ -2,19 +2,25 @@
 //!
 //! 0 = p0 + r(q0, Δ)      q1 = q0 + Δ      p1 = p0 + s(q0, Δ)
 //!
-//! A scheme says r, its derivative, and s: of a discrete Lagrangian r = D₁L_d and s = (D₁ + D₂)L_d. What
-//! belongs to no scheme stands here: the guess of Δ; the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + r) where M is
+//! A scheme says r, its derivative, and s: of a discrete Lagrangian r = D₁L_d and s = (D₁ + D₂)L_d. If L = ½ v·M
+//! v − V(q, t), these are impulses I of forces, and what the interpolation makes of the kinetic energy:
+//!
+//! r = I⁻ + M((A − K) q0 − KΔ)/h      s = I⁻ + I⁺ + M((A − K) q0 + (C − K) q1)/h
+//!
+//! What belongs to no scheme stands here: the guess of Δ; the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + r) where M is
 //! constant, and Newton's method behind it or alone; what is looked at where a step ends; and the sums.
 
-use crate::discrete::{DiscreteLagrangian, Interval, NodeWork, Span, solve_by_newton};
+use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
 use crate::memory::{Memory, lasting};
 use crate::scalar::norm;
-use crate::scalar::simd::apart_if;
-use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, iterate, sizes};
+use crate::scalar::passes::add;
+use crate::scalar::simd::{apart_if, widest_if};
+use crate::solve::{Convergence, Due, Guess, Iteration, Ladder, Linearize, Solver, Stopping};
+use crate::solve::{repeat, sizes, solve_by_newton};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -30,9 +36,66 @@ pub(super) struct Begin<'a, S: System, T: Real> {
     pub(super) mass: Option<&'a Mass<S, T>>,
 }
 
-/// What a scheme says of its step. All is **added** to what is passed; `node` is storage.
+impl<S: System, T: Real> Begin<'_, S, T> {
+    /// M where L is separable, so that it is constant.
+    ///
+    /// # Errors
+    /// None there.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn mass(&self) -> Result<&Mass<S, T>, StepFailure> {
+        self.mass.ok_or(StepFailure::NO_MATRIX)
+    }
+}
+
+/// Which ends of a step something belongs to.
+#[derive(Clone, Copy)]
+pub(super) enum Share<'a, T> {
+    /// The left one: r.
+    Left,
+    /// Both: s. If L is separable, F(q1) comes along.
+    Both { force: &'a [T] },
+}
+
+/// The kinetic part of r and s, of a separable L.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kinetic<T> {
+    /// K
+    pub(super) mixed: T,
+    /// A − K
+    pub(super) left: T,
+    /// C − K
+    pub(super) right: T,
+    /// 1/κ, where −(κ/h)M is about ∂r/∂Δ.
+    pub(super) per_stiffness: T,
+}
+
+impl<T: Real> Kinetic<T> {
+    /// That of the mean velocity Δ/h.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn of_mean_velocity() -> Self {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        Self { mixed: one, left: zero, right: zero, per_stiffness: one }
+    }
+}
+
+/// What a scheme says of its step. A node is storage.
 pub(super) trait Equations<S: Lagrangian<T>, T: Real> {
-    /// Adds r to `r` and s to `sum`.
+    /// Whether the kinetic part is another than that of the mean velocity.
+    const FITTED: bool = false;
+    /// What evaluations may change. It is a value of the step, which no other function sees.
+    type Coefficients;
+
+    /// The coefficients, as far as the start of the step decides them.
+    ///
+    /// # Errors
+    /// Those of a frequency.
+    fn begin(
+        &mut self,
+        begin: &Begin<'_, S, T>,
+        node: &mut NodeWork<S, T>,
+    ) -> Result<Self::Coefficients, StepFailure>;
+
+    /// Adds r or s to `to`, but for the [kinetic](Self::kinetic) part if L is separable.
     ///
     /// # Errors
     /// Those of a frequency that is read.
@@ -40,12 +103,13 @@ pub(super) trait Equations<S: Lagrangian<T>, T: Real> {
         &mut self,
         begin: &Begin<'_, S, T>,
         delta: &[T],
-        node: &mut NodeWork<S, T>,
-        to: [&mut [T]; 2],
+        share: Share<'_, T>,
+        work: (&mut Self::Coefficients, &mut NodeWork<S, T>),
+        to: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
 
-    /// Adds r to `r` and ∂r/∂Δ to `sink`.
+    /// Adds all of r to `r`, and ∂r/∂Δ to `sink`.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
@@ -53,18 +117,22 @@ pub(super) trait Equations<S: Lagrangian<T>, T: Real> {
         &mut self,
         begin: &Begin<'_, S, T>,
         delta: &[T],
-        node: &mut NodeWork<S, T>,
+        work: (&mut Self::Coefficients, &mut NodeWork<S, T>),
         r: &mut [T],
         sink: &mut K,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
 
-    /// Whether [`evaluate`](Self::evaluate) leaves F(q1) in `node.gradient`, of a separable L.
-    const LEAVES_FORCE: bool = false;
+    /// The kinetic part.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn kinetic(&self, _coefficients: &Self::Coefficients) -> Kinetic<T> {
+        Kinetic::of_mean_velocity()
+    }
 
-    /// 1/κ, where −(κ/h)M is about ∂r/∂Δ.
-    fn per_stiffness(&self) -> T {
-        T::lift(1.0)
+    /// Whether r is linear in Δ, with −(κ/h)M as its derivative, if L is separable.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_explicit(&self) -> bool {
+        false
     }
 }
 
@@ -74,8 +142,6 @@ pub(super) struct Carried<S: System, T: Real> {
     pub(super) phase: PhasePoint<S, T>,
     pub(super) inertial: Inertial<S, T>,
     pub(super) work: Work<S, T>,
-    /// In which iterations judge coordinates; work space.
-    pub(super) weights: Vector<S, T>,
 }
 
 /// Vectors that are written before they are read in each step.
@@ -89,6 +155,8 @@ pub(super) struct Work<S: System, T: Real> {
     pub(super) trial: Vector<S, T>,
     /// s
     pub(super) sum: Vector<S, T>,
+    /// In which iterations judge coordinates.
+    weights: Vector<S, T>,
 }
 
 impl<S: Lagrangian<T>, T: Real> Work<S, T> {
@@ -101,6 +169,7 @@ impl<S: Lagrangian<T>, T: Real> Work<S, T> {
             next: vector(),
             trial: vector(),
             sum: vector(),
+            weights: vector(),
         }
     }
 }
@@ -121,7 +190,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Carried<S, T> {
             phase: PhasePoint::new(system, q, v, t, summation)?,
             inertial: Inertial::new(system, q, v, t)?,
             work: Work::new(system),
-            weights: system.space().vector(),
         })
     }
 
@@ -169,54 +237,103 @@ pub(super) struct Attempt<'a, S: System, T: Real> {
     pub(super) interval: Interval<T>,
     pub(super) stopping: Stopping,
     pub(super) summation: Summation,
-    /// How many iterations the fixed point gets.
-    pub(super) budget: usize,
     pub(super) q: &'a mut Vector<S, T>,
     pub(super) carried: &'a mut Carried<S, T>,
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
-    /// A step by the fixed point, with M as its matrix.
+    /// Takes the step by what `ladder` has.
     ///
     /// # Errors
-    /// [`StepFailure::NotConverged`], or what is found at the end of the step.
-    #[inline(never)]
-    pub(super) fn by_fixed_point<E: Equations<S, T>>(
-        &mut self,
+    /// Those of the last way that was tried.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn take<E: Equations<S, T>>(
+        self,
         equations: &mut E,
+        ladder: &mut Ladder<Linear<S, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { system, interval, stopping, summation, budget, q, carried } = self;
-        let Carried { phase, inertial, work, weights } = &mut **carried;
-        let Some(mass) = inertial.constant() else { return Err(StepFailure::NO_MATRIX) };
-        let begin = Begin { system: *system, interval: *interval, q, phase, mass: Some(mass) };
-        let Work { node, increment, trial, sum, .. } = work;
-        phase.guess(Some(mass), &phase.p, interval.h, increment);
-        let stopping = match summation {
-            Summation::Plain => *stopping,
-            Summation::Compensated => stopping.exhaustive(),
+        // A slow contraction is given up as soon as Newton's method would be cheaper.
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + self.q.len());
+        ladder.solve(
+            &mut (self, equations),
+            statistics,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |(step, equations), statistics| step.by_fixed_point(*equations, budget, statistics),
+            |(step, equations), solver, guess, statistics| {
+                step.by_newton(*equations, solver, guess, statistics)
+            },
+        )
+    }
+
+    /// A step by the fixed point, with M as its matrix.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn by_fixed_point<E: Equations<S, T>>(
+        &mut self,
+        equations: &mut E,
+        budget: usize,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        match self.summation {
+            Summation::Plain => {
+                self.solve_by_mass::<true, E>(equations, (self.stopping, budget), statistics)
+            }
+            Summation::Compensated => self.compensated(equations, budget, statistics),
+        }
+    }
+
+    #[inline(never)]
+    fn compensated<E: Equations<S, T>>(
+        &mut self,
+        equations: &mut E,
+        budget: usize,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let criterion = (self.stopping.exhaustive(), budget);
+        self.solve_by_mass::<false, E>(equations, criterion, statistics)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn solve_by_mass<const PLAIN: bool, E: Equations<S, T>>(
+        &mut self,
+        equations: &mut E,
+        criterion: (Stopping, usize),
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { system, interval, q, carried, .. } = self;
+        let Carried { phase, inertial, work } = &mut **carried;
+        // What no other function sees may stay in registers.
+        let mut on_stack;
+        let work: &mut Work<S, T> = if <S::Space as Space>::ON_STACK {
+            on_stack = Work::new(*system);
+            &mut on_stack
+        } else {
+            work
         };
-        iterate(Convergence::fixed_point(stopping, *budget), statistics, |due, statistics| {
-            due.prepare(*system, weights, q, increment);
-            trial.copy_from_slice(&phase.p);
-            equations.evaluate(&begin, increment, node, [trial, sum], statistics)?;
-            mass.solve(trial, &mut node.velocity);
-            let scale = -(interval.h * equations.per_stiffness());
-            node.velocity.iter_mut().for_each(|velocity| *velocity *= scale);
-            Ok(sizes::reduce(*system, weights, increment, &node.velocity))
-        })?;
-        norm::finite(increment)?;
-        sum.fill(T::lift(0.0));
-        equations.evaluate(&begin, increment, node, [trial, sum], statistics)?;
-        self.arrive(E::LEAVES_FORCE, statistics)
+        widest_if(
+            !<S::Space as Space>::ON_STACK,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            || {
+                let Some(mass) = inertial.constant() else { return Err(StepFailure::NO_MATRIX) };
+                let begin = Begin { system: *system, interval: *interval, q, phase, mass: Some(mass) };
+                let mut coefficients = equations.begin(&begin, &mut work.node)?;
+                let mut scheme = (equations, &mut coefficients);
+                iterate_by_mass(&mut scheme, (&begin, mass), work, criterion, statistics)?;
+                arrive::<PLAIN, _, _, _>(
+                    scheme,
+                    (*system, *interval),
+                    q,
+                    (phase, inertial),
+                    work,
+                    statistics,
+                )
+            },
+        )
     }
 
     /// A step by Newton's method from a guess.
-    ///
-    /// # Errors
-    /// As those of [`solve_by_newton`], or what is found at the end of the step.
     #[inline(never)]
-    pub(super) fn by_newton<E: Equations<S, T>>(
+    fn by_newton<E: Equations<S, T>>(
         &mut self,
         equations: &mut E,
         solver: &mut Linear<S, T>,
@@ -224,65 +341,159 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { system, interval, stopping, q, carried, .. } = self;
-        let Carried { phase, inertial, work, weights } = &mut **carried;
+        let Carried { phase, inertial, work } = &mut **carried;
         let mass = inertial.constant();
         let begin = Begin { system: *system, interval: *interval, q, phase, mass };
-        let Work { node, increment, trial, sum, .. } = work;
+        let Work { node, increment, trial, weights, .. } = work;
+        let coefficients = &mut equations.begin(&begin, node)?;
         guess.begin(increment, |increment| phase.guess(mass, &phase.p, interval.h, increment));
-        let mut posed = Posed { equations, begin: &begin, node };
-        let (points, storage) = ([&***q, &phase.p], (solver, [&mut *trial, weights]));
-        solve_by_newton(&mut posed, *system, *interval, points, increment, storage, *stopping, statistics)?;
-        sum.fill(T::lift(0.0));
-        posed.equations.evaluate(&begin, increment, posed.node, [trial, sum], statistics)?;
-        self.arrive(E::LEAVES_FORCE, statistics)
+        let mut posed = Posed { equations, coefficients, begin: &begin, node };
+        let (points, storage) = ([&***q, &phase.p], (solver, [trial, weights]));
+        solve_by_newton(&mut posed, *system, points, increment, storage, *stopping, statistics)?;
+        arrive::<false, _, _, _>(
+            (equations, coefficients),
+            (*system, *interval),
+            q,
+            (phase, inertial),
+            work,
+            statistics,
+        )
+    }
+}
+
+/// Equations and their coefficients.
+type WithCoefficients<'a, S, T, E> = (&'a mut E, &'a mut <E as Equations<S, T>>::Coefficients);
+
+/// Sets the increment.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn iterate_by_mass<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>>(
+    scheme: &mut WithCoefficients<'_, S, T, E>,
+    (begin, mass): (&Begin<'_, S, T>, &Mass<S, T>),
+    work: &mut Work<S, T>,
+    (stopping, budget): (Stopping, usize),
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let is_explicit = S::SEPARABLE && scheme.0.is_explicit();
+    if is_explicit {
+        work.increment.fill(T::lift(0.0));
+        return ByMass { scheme, begin, mass, work }.correct(statistics);
+    }
+    begin.phase.guess(Some(mass), &begin.phase.p, begin.interval.h, &mut work.increment);
+    let convergence = Convergence::fixed_point(stopping, budget);
+    repeat(convergence, statistics, ByMass { scheme, begin, mass, work })?;
+    norm::finite(&work.increment)
+}
+
+/// The fixed point.
+struct ByMass<'a, 'b, 'c, S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>> {
+    scheme: &'a mut WithCoefficients<'b, S, T, E>,
+    begin: &'a Begin<'c, S, T>,
+    mass: &'a Mass<S, T>,
+    work: &'a mut Work<S, T>,
+}
+
+impl<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>> ByMass<'_, '_, '_, S, T, E> {
+    /// Corrects the increment, and leaves the correction in `node.velocity`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn correct(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Self { scheme: (equations, coefficients), begin, mass, work, .. } = self;
+        let Work { node, increment, trial: impulse, .. } = &mut **work;
+        let h = begin.interval.h;
+        impulse.copy_from_slice(&begin.phase.p);
+        equations.evaluate(begin, increment, Share::Left, (coefficients, node), impulse, statistics)?;
+        mass.solve(impulse, &mut node.velocity);
+        let Kinetic { mixed, left, per_stiffness, .. } = equations.kinetic(coefficients);
+        for ((v, delta), &q) in node.velocity.iter_mut().zip(increment.iter_mut()).zip(begin.q) {
+            let displacement = h * *v;
+            let missing = if S::SEPARABLE { displacement + left * q - mixed * *delta } else { displacement };
+            *v = missing * per_stiffness;
+            *delta += *v;
+        }
+        Ok(())
+    }
+}
+
+impl<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>> Iteration<T>
+    for ByMass<'_, '_, '_, S, T, E>
+{
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn prepare(&mut self, due: &mut Due) {
+        let Self { begin, work: Work { weights, increment, .. }, .. } = self;
+        due.prepare(begin.system, weights, begin.q, increment);
     }
 
-    /// Moves to q1 = q0 + Δ and p1 = p0 + s; `has_force` says that F(q1) is in `node.gradient`.
-    fn arrive(&mut self, has_force: bool, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Self { system, interval, q, carried, .. } = self;
-        let Carried { phase, inertial, work, .. } = &mut **carried;
-        let Work { node, next, increment, trial, sum, .. } = work;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        self.correct(statistics)?;
+        Ok(sizes::largest(&self.work.weights, &self.work.node.velocity))
+    }
+}
+
+/// Moves to q1 = q0 + Δ and p1 = p0 + s; `PLAIN` says that sums are plain, where they need not be asked.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn arrive<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>>(
+    (equations, coefficients): WithCoefficients<'_, S, T, E>,
+    (system, interval): (&S, Interval<T>),
+    q: &mut Vector<S, T>,
+    (phase, inertial): (&mut PhasePoint<S, T>, &mut Inertial<S, T>),
+    Work { node, next, increment, trial: force, sum, .. }: &mut Work<S, T>,
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    if PLAIN {
+        add(q, increment, next);
+    } else {
         phase.reach(q, increment, next);
-        phase.kick(sum, &mut node.momentum);
-        norm::finite(next).and(norm::finite(&node.momentum))?;
-        let end = interval.time(T::lift(1.0));
-        if S::SEPARABLE && has_force {
-            trial.copy_from_slice(&node.gradient);
-        } else if S::SEPARABLE {
-            set_force(*system, next, end, trial);
-            statistics.gradients += 1;
+    }
+    let end = interval.time(T::lift(1.0));
+    if S::SEPARABLE {
+        set_force(system, next, end, force);
+        statistics.gradients += 1;
+    }
+    let begin = Begin { system, interval, q, phase, mass: inertial.constant() };
+    sum.fill(T::lift(0.0));
+    let share = Share::Both { force };
+    equations.evaluate(&begin, increment, share, (coefficients, node), sum, statistics)?;
+    if S::SEPARABLE && E::FITTED {
+        let Kinetic { left, right, .. } = equations.kinetic(coefficients);
+        for (v, (&q0, &q1)) in node.velocity.iter_mut().zip(q.iter().zip(next.iter())) {
+            *v = left * q0 + right * q1;
         }
-        inertial.check(*system, [next, increment], [end, interval.h], &mut node.velocity)?;
-        let by = Increments { q: increment, p: sum };
-        phase.advance(q, &Arrival { q: next, p: &node.momentum, force: trial }, by, interval.h)
+        begin.mass()?.multiply_add(T::lift(1.0) / interval.h, &node.velocity, sum);
+    }
+    if PLAIN {
+        add(&phase.p, sum, &mut node.momentum);
+    } else {
+        phase.kick(sum, &mut node.momentum);
+    }
+    if !S::CONSTANT_MASS {
+        norm::finite(next).and(norm::finite(&node.momentum))?;
+        inertial.check(system, [next, increment], [end, interval.h], &mut node.velocity)?;
+    }
+    let to = Arrival { q: next, p: &node.momentum, force };
+    if PLAIN {
+        phase.advance_plainly(q, &to, increment, interval.h)
+    } else {
+        phase.advance(q, &to, Increments { q: increment, p: sum }, interval.h)
     }
 }
 
 /// Equations where a step begins, as Newton's method asks for them.
-struct Posed<'a, 'b, S: Lagrangian<T>, T: Real, E> {
+struct Posed<'a, 'b, S: Lagrangian<T>, T: Real, E: Equations<S, T>> {
     equations: &'a mut E,
+    coefficients: &'a mut E::Coefficients,
     begin: &'a Begin<'b, S, T>,
     node: &'a mut NodeWork<S, T>,
 }
 
-impl<S: Lagrangian<T>, T: Real, E: Equations<S, T>> DiscreteLagrangian<S, T> for Posed<'_, '_, S, T, E> {
-    fn derivatives(
-        &mut self,
-        span: Span<'_, S, T>,
-        r: &mut [T],
-        sum: &mut [T],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.equations.evaluate(self.begin, span.ends.delta, self.node, [r, sum], statistics)
-    }
-
+impl<S: Lagrangian<T>, T: Real, E: Equations<S, T>> Linearize<T> for Posed<'_, '_, S, T, E> {
     fn linearize<K: Sink<T>>(
         &mut self,
-        span: Span<'_, S, T>,
+        delta: &[T],
         r: &mut [T],
         sink: &mut K,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.equations.linearize(self.begin, span.ends.delta, self.node, r, sink, statistics)
+        let Self { equations, coefficients, begin, node } = self;
+        equations.linearize(begin, delta, (coefficients, node), r, sink, statistics)
     }
 }

@@ -10,25 +10,23 @@ mod coefficients;
 mod flight;
 mod lagrangian;
 mod memory;
-mod separable;
 mod together;
 pub(super) mod verlet;
 
-use crate::discrete::frequency::{self, Frequency, FrequencyIn, Local, Reading, Unfitted};
+use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::phase::Inertial;
-use crate::methods::step::{self, Carried, set_force};
+use crate::methods::step::{Attempt, Carried};
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep, one_by_one};
-use crate::solve::{Guess, Solver, Stopping};
+use crate::solve::{Solver, Stopping};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
-use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
+use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
-use coefficients::Coefficients;
-use lagrangian::Interpolated;
 pub use lagrangian::QuadratureLagrangian;
+use lagrangian::{Interpolated, read};
 pub use memory::VariationalMemory;
 
 /// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
@@ -140,90 +138,6 @@ impl<F, R> Variational<F, R> {
     }
 }
 
-/// One step: where it starts, how long it is, and which member of the family takes it.
-#[derive(Debug)]
-struct Step<'a, S, F, R, T> {
-    system: &'a S,
-    method: &'a Variational<F, R>,
-    t: T,
-    h: T,
-}
-
-impl<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> Step<'_, S, F, R, T> {
-    /// The time of a node.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn node_time(&self, c: f64) -> T {
-        self.t + T::lift(c) * self.h
-    }
-
-    /// Sets `force` to F at a point of the node `c`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn force(&self, point: &[T], c: f64, force: &mut [T]) {
-        set_force(self.system, point, self.node_time(c), force);
-    }
-}
-
-/// A step, and what it changes.
-struct Attempt<'a, S: NondegenerateLagrangian<T>, F, R, T: Real> {
-    step: Step<'a, S, F, R, T>,
-    coefficients: &'a mut Coefficients<T>,
-    ends: &'a mut [Local<S, T>; 2],
-    carried: &'a mut Carried<S, T>,
-    q: &'a mut Vector<S, T>,
-    /// Of the fixed point.
-    budget: usize,
-}
-
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Attempt<'_, S, F, R, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Self { step, coefficients, carried, q, budget, .. } = self;
-        // What the class of the system excludes is not compiled for it.
-        let is_plain = step.method.summation == Summation::Plain;
-        if S::SEPARABLE && is_plain && step.method.needs_forces_only::<S, T>() {
-            separable::step(step, coefficients, carried, q, *budget, statistics)
-        } else if S::CONSTANT_MASS {
-            self.in_general(|step, equations| step.by_fixed_point(equations, statistics))
-        } else {
-            Err(StepFailure::NO_MATRIX)
-        }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn newton(
-        &mut self,
-        solver: &mut Linear<S, T>,
-        guess: Guess,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.in_general(|step, equations| step.by_newton(equations, solver, guess, statistics))
-    }
-
-    /// The step of any L and any frequency.
-    #[inline(never)]
-    fn in_general(
-        &mut self,
-        take: impl FnOnce(
-            &mut step::Attempt<'_, S, T>,
-            &mut Interpolated<'_, S, F, R, T>,
-        ) -> Result<(), StepFailure>,
-    ) -> Result<(), StepFailure> {
-        let Self { step, coefficients, ends, carried, q, budget } = self;
-        let Step { system, method, t, h } = *step;
-        let (stopping, summation, interval) = (method.stopping, method.summation, Interval { t, h });
-        let mut step = step::Attempt {
-            system,
-            interval,
-            stopping,
-            summation,
-            budget: *budget,
-            q: &mut **q,
-            carried: &mut **carried,
-        };
-        take(&mut step, &mut Interpolated { method, coefficients, ends })
-    }
-}
-
 impl<F: Frequency, R: Rule> Variational<F, R> {
     /// Whether the step is Störmer–Verlet, for separable systems.
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -235,23 +149,6 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_explicit(&self) -> bool {
         self.rule.interior_nodes() == 0 && !self.reads_both_ends()
-    }
-
-    /// Whether forces are all that a step needs.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn needs_forces_only<S: NondegenerateLagrangian<T>, T: Real>(&self) -> bool {
-        S::SEPARABLE && self.frequency.reading() != Some(Reading::Variational)
-    }
-
-    /// Whether a fixed point is an iteration for the step: with a constant mass matrix.
-    fn has_fixed_point<S: NondegenerateLagrangian<T>, T: Real>(&self) -> bool {
-        self.needs_forces_only::<S, T>() || S::CONSTANT_MASS
-    }
-
-    /// Whether one node is all that lies between the ends, and Δ all that moves it.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn has_one_node_to_follow(&self) -> bool {
-        self.rule.interior_nodes() == 1 && !self.reads_both_ends()
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -272,7 +169,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     where
         F: FrequencyIn<T>,
     {
-        let VariationalMemory { coefficients, ends, carried, ladder } = memory;
+        let VariationalMemory { given, ends, carried, ladder } = memory;
         if S::SEPARABLE
             && F::UNFITTED
             && let (true, Carried { phase, inertial: Inertial::Constant(mass), work, .. }) =
@@ -281,10 +178,20 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
             let interval = Interval { t, h };
             return verlet::step(system, mass, phase, work, q, (interval, self.summation), statistics);
         }
-        let step = Step { system, method: self, t, h };
-        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        let mut attempt = Attempt { step, coefficients, ends, carried, q, budget };
-        ladder.solve(&mut attempt, statistics, Attempt::fixed_point, Attempt::newton)
+        let Self { stopping, summation, .. } = *self;
+        let step = Attempt { system, interval: Interval { t, h }, stopping, summation, q, carried };
+        macro_rules! take {
+            ($read:ident) => {{
+                let equations =
+                    &mut Interpolated::<{ read::$read }, _, _, _, _> { method: self, given, ends };
+                step.take(equations, ladder, statistics)
+            }};
+        }
+        match self.frequency.reading() {
+            Some(Reading::Averaged) if !F::UNFITTED => take!(AT_BOTH_ENDS),
+            Some(Reading::Variational) if !F::UNFITTED => take!(WITH_ITS_DERIVATIVES),
+            _ => take!(AT_THE_START),
+        }
     }
 
     fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
@@ -299,7 +206,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
                 "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities",
             );
         }
-        if self.solver == Solver::FixedPoint && !self.has_fixed_point::<S, T>() {
+        if self.solver == Solver::FixedPoint && !S::CONSTANT_MASS {
             let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton";
             return unsupported("Solver::FixedPoint", reason);
         }

@@ -4,12 +4,13 @@
 //! that of D₂L_d is M(C q1 − K q0)/h, A = Σ w B², C = Σ w B̄², K = −Σ w B B̄. On the oscillator of frequency
 //! ω, ∂²L_d/∂q0∂q1 = −(M/h)(K + z Σ w b b̄), z = (ωh)², with K + z Σ w b b̄ = S/(sin u/u)².
 
-use super::{Fitting, Step};
+use super::{Fitting, Variational};
 use crate::discrete::basis::{self, Bases, Basis};
 use crate::discrete::frequency::{self, FrequencyIn};
 use crate::discrete::quadrature::{NODES, Rule};
-use crate::discrete::{Ends, NodeWork};
+use crate::discrete::{Ends, NodeWork, Span};
 use crate::error::StepFailure;
+use crate::methods::step::Kinetic;
 use crate::scalar::norm::reported;
 use crate::space::sink::Sink;
 use crate::{NondegenerateLagrangian, Real, Scalar, System, Weights};
@@ -34,19 +35,6 @@ impl End {
     }
 }
 
-/// Sums over the nodes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sums<T> {
-    /// K = −Σ w B B̄
-    pub(super) mixed: T,
-    /// A − K = Σ w B(B + B̄)
-    pub(super) left: T,
-    /// C − K = Σ w B̄(B + B̄)
-    pub(super) right: T,
-    /// (sin u/u)²/S, one over the stiffness K + z Σ w b b̄
-    pub(super) inverse_kappa: T,
-}
-
 /// The coefficients of all nodes of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coefficients<T> {
@@ -54,26 +42,23 @@ pub(super) struct Coefficients<T> {
     pub(super) weights: [T; NODES],
     /// b, b̄, B and B̄.
     pub(super) bases: [Basis<T>; NODES],
-    pub(super) sums: Sums<T>,
+    /// Sums over the nodes: K = −Σ w B B̄, A − K = Σ w B(B + B̄), C − K = Σ w B̄(B + B̄), and one over
+    /// κ = K + z Σ w b b̄ = S/(sin u/u)².
+    pub(super) sums: Kinetic<T>,
 }
 
 impl<T: Real> Coefficients<T> {
     /// For u = 0, linear interpolation.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn linear(rule: &impl Rule) -> Self {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let zero = T::lift(0.0);
         let nodes = Bases::new(zero);
         let mut weights = [zero; NODES];
         let mut bases = [nodes.basis(0.0, nodes.pairs(0.0)); NODES];
         for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
             (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
         }
-        Self {
-            u: zero,
-            weights,
-            bases,
-            sums: Sums { mixed: one, left: zero, right: zero, inverse_kappa: one },
-        }
+        Self { u: zero, weights, bases, sums: Kinetic::of_mean_velocity() }
     }
 
     /// Makes these the coefficients for u = ωh.
@@ -117,34 +102,35 @@ impl<T: Real> Coefficients<T> {
                 *weight = T::lift(w) * fitted;
             }
         }
-        let inverse_kappa = T::lift(1.0) / (cosine_sum * factor);
+        let per_stiffness = T::lift(1.0) / (cosine_sum * factor);
         let [mixed, left, right] = [mixed, left, right].map(|sum| sum * factor);
-        (self.u, self.sums) = (u, Sums { mixed, left, right, inverse_kappa });
+        (self.u, self.sums) = (u, Kinetic { mixed, left, right, per_stiffness });
         Ok(())
     }
 
-    /// Where the frequency does not depend on the motion: makes these the coefficients of `step`.
+    /// Where the frequency does not depend on the motion: makes these the coefficients of a step of length `h`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn fix<S, F: FrequencyIn<T>, R: Rule>(
+    pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
         &mut self,
-        step: &Step<'_, S, F, R, T>,
+        Variational { rule, frequency, fitting, .. }: &Variational<F, R>,
+        h: T,
     ) -> Result<(), StepFailure> {
-        let u = step.method.frequency.fixed() * step.h;
-        if self.u == u { Ok(()) } else { self.fit(&step.method.rule, step.method.fitting, u) }
+        let u = frequency.fixed() * h;
+        if self.u == u { Ok(()) } else { self.fit(rule, *fitting, u) }
     }
 
-    /// Makes these the coefficients of `step` for the frequency `omega`.
+    /// Makes these the coefficients of a step of length `h` for the frequency `omega`.
     ///
     /// # Errors
     /// [`StepFailure::Resonance`], also if ωh is π or more.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn set<S, F, R: Rule>(
+    pub(super) fn set<F, R: Rule>(
         &mut self,
-        step: &Step<'_, S, F, R, T>,
-        omega: T,
+        Variational { rule, fitting, .. }: &Variational<F, R>,
+        [h, omega]: [T; 2],
     ) -> Result<(), StepFailure> {
-        let u = omega * step.h;
-        self.fit(&step.method.rule, step.method.fitting, u)?;
+        let u = omega * h;
+        self.fit(rule, *fitting, u)?;
         // A step over half a turn or more of a motion sees nothing of it.
         if Scalar::abs(u) < T::lift(core::f64::consts::PI) {
             return Ok(());
@@ -154,8 +140,17 @@ impl<T: Real> Coefficients<T> {
         Err(StepFailure::Resonance {
             u,
             sine,
-            cosine_sum: sine * sine / (u * u * reported(self.sums.inverse_kappa)),
+            cosine_sum: sine * sine / (u * u * reported(self.sums.per_stiffness)),
         })
+    }
+
+    /// Sets `point` to qʲ of a node.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn place_point(&self, node: usize, Ends { q0, delta }: Ends<'_, T>, point: &mut [T]) {
+        let Basis { b, b_bar, .. } = self.bases[node];
+        for ((point, &q), &delta) in point.iter_mut().zip(q0).zip(delta) {
+            *point = (b + b_bar) * q + b_bar * delta;
+        }
     }
 
     /// Sets `point` to qʲ and `velocity` to q̇ʲ of a node.
@@ -191,22 +186,22 @@ impl<T: Real> Coefficients<T> {
     /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
     pub(super) fn slope<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule>(
         &self,
-        step: &Step<'_, S, F, R, T>,
+        Variational { rule, fitting, .. }: &Variational<F, R>,
+        Span { system, interval, ends }: Span<'_, S, T>,
         work: &mut NodeWork<S, T>,
-        ends: Ends<'_, T>,
         twice_omega: T,
     ) -> T {
-        let (z, rule) = (self.u * self.u, &step.method.rule);
+        let (z, h) = (self.u * self.u, interval.h);
         let slopes = basis::table_slope(rule, z);
-        let fitted = step.method.fitting == Fitting::PhaseAndMomentum;
+        let fitted = *fitting == Fitting::PhaseAndMomentum;
         let factor_slope = if fitted { basis::weight_factor_slope(rule, z) } else { T::lift(0.0) };
-        let per_h = T::lift(1.0) / step.h;
+        let per_h = T::lift(1.0) / h;
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {
-            self.place(node, step.h, ends, work);
+            self.place(node, h, ends, work);
             let NodeWork { point, velocity, gradient, momentum } = &mut *work;
-            let (t, Ends { q0, delta }) = (step.node_time(c), ends);
-            step.system.gradient(point, velocity, t, gradient, momentum);
+            let (t, Ends { q0, delta }) = (interval.time(T::lift(c)), ends);
+            system.gradient(point, velocity, t, gradient, momentum);
             let Basis { b, b_bar, d, d_bar } = slopes[node];
             let mut along = T::lift(0.0);
             for i in 0..q0.len() {
@@ -216,11 +211,11 @@ impl<T: Real> Coefficients<T> {
             }
             by_z += self.weights[node] * along;
             if fitted {
-                let value = step.system.lagrangian(point, velocity, t);
+                let value = system.lagrangian(point, velocity, t);
                 by_z += T::lift(rule.weights()[node]) * factor_slope * value;
             }
         }
         // z = ω²h², and ℓ = h Σ w L.
-        step.h * by_z * twice_omega * step.h * step.h
+        h * by_z * twice_omega * h * h
     }
 }

@@ -7,112 +7,189 @@
 //! With a variational frequency, L_d = ℓ(q0, q1, ω(q0, q1)) and D₁L_d = ∂ℓ/∂q0 + ∂ℓ/∂ω ∂ω/∂q0: the first
 //! derivatives are exact, and D₁D₂L_d is that of ω held constant.
 
+use super::Variational;
 use super::coefficients::{Coefficients, End};
-use super::{Step, Variational};
 use crate::discrete::basis::Basis;
-use crate::discrete::frequency::{Frequency, FrequencyIn, GivenFrequency, Local, Reading};
+use crate::discrete::frequency::{FrequencyIn, GivenFrequency, Local};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
-use crate::methods::step::{Begin, Equations};
+use crate::methods::step::{Begin, Equations, Kinetic, Share, set_force};
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::space::sink::Sink;
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, System};
 
-/// Rule and interpolation, for a frequency that may be read where a step begins and ends.
-pub(super) struct Interpolated<'a, S: System, F, R, T: Real> {
+/// When a frequency is read from the motion, which the compiler knows in the loop of an iteration.
+pub(super) mod read {
+    /// There, or not at all.
+    pub(in super::super) const AT_THE_START: usize = 0;
+    /// The mean of both ends.
+    pub(in super::super) const AT_BOTH_ENDS: usize = 1;
+    /// The same, as a function of the ends.
+    pub(in super::super) const WITH_ITS_DERIVATIVES: usize = 2;
+}
+
+/// Rule and interpolation, for a frequency that is given or [`READ`](read) from the motion.
+pub(super) struct Interpolated<'a, const READ: usize, S: System, F, R, T: Real> {
     pub(super) method: &'a Variational<F, R>,
-    pub(super) coefficients: &'a mut Coefficients<T>,
+    /// Those of a frequency that is given, for the last length of a step.
+    pub(super) given: &'a mut Coefficients<T>,
     /// The frequencies at both ends.
     pub(super) ends: &'a mut [Local<S, T>; 2],
 }
 
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Interpolated<'_, S, F, R, T> {
-    /// The coefficients for the frequency at these ends.
-    fn read_frequency(
+impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>
+    Interpolated<'_, READ, S, F, R, T>
+{
+    /// Reads the coefficients for the frequency that depends on both ends.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn read_both_ends(
         &mut self,
-        step: &Step<'_, S, F, R, T>,
         begin: &Begin<'_, S, T>,
         delta: &[T],
-        node: &mut NodeWork<S, T>,
+        share: Share<'_, T>,
+        (coefficients, node): (&mut Coefficients<T>, &mut NodeWork<S, T>),
+        statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if F::UNFITTED {
-            return self.coefficients.fix(step);
+        if READ == read::AT_THE_START {
+            return Ok(());
         }
-        let Some(reading) = self.method.frequency.reading() else { return self.coefficients.fix(step) };
-        // Where L is not separable, a frequency that is read has been refused.
-        let Some(mass) = begin.mass else { return Err(StepFailure::Frequency { omega: f64::NAN }) };
-        let (frequency, per_h) = (&self.method.frequency, T::lift(1.0) / step.h);
+        let Self { method: Variational { frequency, .. }, ends: [start, end], .. } = self;
         let NodeWork { point: next, velocity, gradient, .. } = node;
-        let ([start, end], q0, force) = (&mut *self.ends, begin.q, &begin.phase.force);
-        for i in 0..q0.len() {
-            next[i] = q0[i] + delta[i];
+        let Begin { system, interval, q, phase, .. } = begin;
+        let (mass, per_h, t1) = (begin.mass()?, T::lift(1.0) / interval.h, interval.time(T::lift(1.0)));
+        for i in 0..q.len() {
+            next[i] = q[i] + delta[i];
             velocity[i] = delta[i] * per_h;
         }
-        let (t0, t1) = (step.t, step.node_time(1.0));
-        match reading {
-            Reading::LeftFrozen => {
-                mass.solve(&begin.phase.p, velocity);
-                start.evaluate(frequency, mass, q0, velocity, force)?;
-                return self.coefficients.set(step, start.omega);
+        if READ == read::WITH_ITS_DERIVATIVES {
+            start.differentiate(frequency, mass, system, q, velocity, interval.t)?;
+            end.differentiate(frequency, mass, system, next, velocity, t1)?;
+        } else {
+            let force = match share {
+                Share::Both { force } => force,
+                Share::Left => {
+                    set_force(*system, next, t1, gradient);
+                    statistics.gradients += 1;
+                    gradient
+                }
+            };
+            if F::OF_VELOCITY {
+                start.evaluate(frequency, mass, q, velocity, &phase.force)?;
             }
-            Reading::Averaged => {
-                start.evaluate(frequency, mass, q0, velocity, force)?;
-                step.system.force(next, &[], t1, gradient);
-                end.evaluate(frequency, mass, next, velocity, gradient)?;
-            }
-            Reading::Variational => {
-                start.differentiate(frequency, mass, step.system, q0, velocity, t0)?;
-                end.differentiate(frequency, mass, step.system, next, velocity, t1)?;
-            }
+            end.evaluate(frequency, mass, next, velocity, force)?;
         }
-        self.coefficients.set(step, T::lift(0.5) * (start.omega + end.omega))
+        let omega = T::lift(0.5) * (start.omega + end.omega);
+        coefficients.set(self.method, [interval.h, omega])
     }
 
-    /// Adds ∂ℓ/∂ω ∂ω/∂q0 to `d1`, and with it ∂ℓ/∂ω ∂ω/∂q1 to `sum`, if the frequency is variational.
+    /// Adds ∂ℓ/∂ω ∂ω/∂q0 to `to`, or the sum with ∂ℓ/∂ω ∂ω/∂q1, if the frequency is variational.
     fn vary_frequency(
         &mut self,
-        step: &Step<'_, S, F, R, T>,
-        at: Ends<'_, T>,
-        node: &mut NodeWork<S, T>,
-        d1: &mut [T],
-        sum: Option<&mut [T]>,
+        &Begin { system, interval, q: q0, .. }: &Begin<'_, S, T>,
+        delta: &[T],
+        share: Share<'_, T>,
+        (coefficients, node): (&Coefficients<T>, &mut NodeWork<S, T>),
+        to: &mut [T],
     ) {
-        if F::UNFITTED || self.method.frequency.reading() != Some(Reading::Variational) {
+        if READ != read::WITH_ITS_DERIVATIVES {
             return;
         }
-        let [start, end] = &*self.ends;
-        let half = T::lift(0.5) * self.coefficients.slope(step, node, at, start.omega + end.omega);
-        for (i, d1) in d1.iter_mut().enumerate() {
-            let by_velocity = (start.dv[i] + end.dv[i]) / step.h;
-            *d1 += half * (start.dq[i] - by_velocity);
-        }
-        if let Some(sum) = sum {
-            for (i, sum) in sum.iter_mut().enumerate() {
-                *sum += half * (start.dq[i] + end.dq[i]);
-            }
+        let ([start, end], span) = (&*self.ends, Span { system, interval, ends: Ends { q0, delta } });
+        let slope = coefficients.slope(self.method, span, node, start.omega + end.omega);
+        for (i, to) in to.iter_mut().enumerate() {
+            let by_left = start.dq[i] - (start.dv[i] + end.dv[i]) / interval.h;
+            let by_ends = match share {
+                Share::Left => by_left,
+                Share::Both { .. } => start.dq[i] + end.dq[i],
+            };
+            *to += T::lift(0.5) * slope * by_ends;
         }
     }
 }
 
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Equations<S, T>
-    for Interpolated<'_, S, F, R, T>
+impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Equations<S, T>
+    for Interpolated<'_, READ, S, F, R, T>
 {
+    const FITTED: bool = !F::UNFITTED;
+
+    type Coefficients = Coefficients<T>;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn begin(
+        &mut self,
+        begin: &Begin<'_, S, T>,
+        node: &mut NodeWork<S, T>,
+    ) -> Result<Coefficients<T>, StepFailure> {
+        let Self { method, given, ends: [start, _] } = self;
+        let Begin { interval: Interval { h, .. }, q, phase, .. } = begin;
+        let mut coefficients = Coefficients::linear(&method.rule);
+        // Each iteration reads it, all of it or its end.
+        let is_left = READ == read::WITH_ITS_DERIVATIVES || READ == read::AT_BOTH_ENDS && F::OF_VELOCITY;
+        if F::UNFITTED || is_left {
+            return Ok(coefficients);
+        }
+        if READ == read::AT_THE_START && method.frequency.reading().is_none() {
+            given.fix(*method, *h)?;
+            return Ok(**given);
+        }
+        let (mass, velocity) = (begin.mass()?, &mut node.velocity);
+        mass.solve(&phase.p, velocity);
+        start.evaluate(&method.frequency, mass, q, velocity, &phase.force)?;
+        if READ == read::AT_THE_START {
+            coefficients.set(*method, [*h, start.omega])?;
+        }
+        Ok(coefficients)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate(
         &mut self,
         begin: &Begin<'_, S, T>,
         delta: &[T],
-        node: &mut NodeWork<S, T>,
-        [d1, sum]: [&mut [T]; 2],
+        share: Share<'_, T>,
+        (coefficients, node): (&mut Coefficients<T>, &mut NodeWork<S, T>),
+        to: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Interval { t, h } = begin.interval;
-        let (step, ends) =
-            (Step { system: begin.system, method: self.method, t, h }, Ends { q0: begin.q, delta });
-        self.read_frequency(&step, begin, delta, node)?;
-        add_derivatives(&step, self.coefficients, ends, node, [d1, sum], statistics);
-        self.vary_frequency(&step, ends, node, d1, Some(sum));
+        self.read_both_ends(begin, delta, share, (coefficients, node), statistics)?;
+        let Begin { system, interval, q: q0, phase, .. } = *begin;
+        let (ends, h) = (Ends { q0, delta }, interval.h);
+        for (j, &c) in self.method.rule.nodes().iter().enumerate() {
+            let (time, weight) = (interval.time(T::lift(c)), coefficients.weights[j]);
+            let Basis { b, b_bar, d, d_bar } = coefficients.bases[j];
+            let ([by_point, by_velocity], at_end) = match share {
+                // The end of the step gives nothing to the left one: b = 0.
+                Share::Left if S::SEPARABLE && c == 1.0 => continue,
+                Share::Left => ([b, d], None),
+                Share::Both { force } => ([b + b_bar, d + d_bar], Some(force)),
+            };
+            if !S::SEPARABLE {
+                coefficients.place(j, h, ends, node);
+                let NodeWork { point, velocity, gradient, momentum } = &mut *node;
+                system.gradient(point, velocity, time, gradient, momentum);
+                statistics.gradients += 1;
+                for (to, (&l_q, &l_v)) in to.iter_mut().zip(gradient.iter().zip(momentum.iter())) {
+                    *to += weight * (h * by_point * l_q + by_velocity * l_v);
+                }
+                continue;
+            }
+            let force: &[T] = match at_end {
+                _ if c == 0.0 => &phase.force,
+                Some(force) if c == 1.0 => force,
+                _ => {
+                    coefficients.place_point(j, ends, &mut node.point);
+                    set_force(system, &node.point, time, &mut node.gradient);
+                    statistics.gradients += 1;
+                    &node.gradient
+                }
+            };
+            for (to, &force) in to.iter_mut().zip(force) {
+                *to += h * weight * by_point * force;
+            }
+        }
+        self.vary_frequency(begin, delta, share, (coefficients, node), to);
         Ok(())
     }
 
@@ -120,23 +197,28 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Equatio
         &mut self,
         begin: &Begin<'_, S, T>,
         delta: &[T],
-        node: &mut NodeWork<S, T>,
+        (coefficients, node): (&mut Coefficients<T>, &mut NodeWork<S, T>),
         d1: &mut [T],
         sink: &mut K,
-        _statistics: &mut Statistics,
+        statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Interval { t, h } = begin.interval;
-        let (step, ends) =
-            (Step { system: begin.system, method: self.method, t, h }, Ends { q0: begin.q, delta });
-        self.read_frequency(&step, begin, delta, node)?;
-        add_linearized(&step, self.coefficients, ends, node, d1, sink);
-        self.vary_frequency(&step, ends, node, d1, None);
+        self.read_both_ends(begin, delta, Share::Left, (coefficients, node), statistics)?;
+        let &Begin { system, interval, q: q0, .. } = begin;
+        let span = Span { system, interval, ends: Ends { q0, delta } };
+        add_linearized(self.method, span, coefficients, node, d1, sink);
+        self.vary_frequency(begin, delta, Share::Left, (coefficients, node), d1);
         Ok(())
     }
 
-    /// The stiffness of the fitted oscillator.
-    fn per_stiffness(&self) -> T {
-        self.coefficients.sums.inverse_kappa
+    /// κ is the stiffness of the fitted oscillator, so that only what differs from it is iterated.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn kinetic(&self, coefficients: &Coefficients<T>) -> Kinetic<T> {
+        coefficients.sums
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_explicit(&self) -> bool {
+        self.method.is_explicit()
     }
 }
 
@@ -161,29 +243,38 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Discret
 {
     fn derivatives(
         &mut self,
-        Span { system, interval, ends }: Span<'_, S, T>,
+        span: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { method, coefficients, node } = self;
-        let step = Step { system, method, t: interval.t, h: interval.h };
-        coefficients.fix(&step)?;
-        add_derivatives(&step, coefficients, ends, node, [d1, sum], statistics);
+        let Span { system, interval: interval @ Interval { h, .. }, ends } = span;
+        coefficients.fix(method, h)?;
+        for (j, &c) in method.rule.nodes().iter().enumerate() {
+            coefficients.place(j, h, ends, node);
+            let NodeWork { point, velocity, gradient, momentum } = &mut *node;
+            system.gradient(point, velocity, interval.time(T::lift(c)), gradient, momentum);
+            statistics.gradients += 1;
+            let (weight, Basis { b, b_bar, d, d_bar }) = (coefficients.weights[j], coefficients.bases[j]);
+            for (i, sum) in sum.iter_mut().enumerate() {
+                *sum += weight * (h * (b + b_bar) * gradient[i] + (d + d_bar) * momentum[i]);
+            }
+            add_first(coefficients, j, h, node, d1);
+        }
         Ok(())
     }
 
     fn linearize<K: Sink<T>>(
         &mut self,
-        Span { system, interval, ends }: Span<'_, S, T>,
+        span: Span<'_, S, T>,
         d1: &mut [T],
         sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { method, coefficients, node } = self;
-        let step = Step { system, method, t: interval.t, h: interval.h };
-        coefficients.fix(&step)?;
-        add_linearized(&step, coefficients, ends, node, d1, sink);
+        coefficients.fix(method, span.interval.h)?;
+        add_linearized(method, span, coefficients, node, d1, sink);
         Ok(())
     }
 }
@@ -196,57 +287,34 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDi
         Span { system, interval, ends }: Span<'_, S, T>,
         [d11, d12, d21, d22]: [&mut K; 4],
     ) -> Result<(), StepFailure> {
-        let Self { method, coefficients, node: work } = self;
-        let step = Step { system, method, t: interval.t, h: interval.h };
-        coefficients.fix(&step)?;
-        for (node, &c) in method.rule.nodes().iter().enumerate() {
-            coefficients.place(node, step.h, ends, work);
-            let at = [step.node_time(c), step.h];
-            coefficients.add_second(node, [End::Left, End::Left], system, at, work, d11);
-            coefficients.add_second(node, [End::Left, End::Right], system, at, work, d12);
-            coefficients.add_second(node, [End::Right, End::Left], system, at, work, d21);
-            coefficients.add_second(node, [End::Right, End::Right], system, at, work, d22);
+        let Self { method, coefficients, node } = self;
+        coefficients.fix(method, interval.h)?;
+        for (j, &c) in method.rule.nodes().iter().enumerate() {
+            coefficients.place(j, interval.h, ends, node);
+            let at = [interval.time(T::lift(c)), interval.h];
+            coefficients.add_second(j, [End::Left, End::Left], system, at, node, d11);
+            coefficients.add_second(j, [End::Left, End::Right], system, at, node, d12);
+            coefficients.add_second(j, [End::Right, End::Left], system, at, node, d21);
+            coefficients.add_second(j, [End::Right, End::Right], system, at, node, d22);
         }
         Ok(())
     }
 }
 
-/// Adds D₁ℓ and (D₁ + D₂)ℓ.
-fn add_derivatives<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real>(
-    step: &Step<'_, S, F, R, T>,
-    coefficients: &Coefficients<T>,
-    ends: Ends<'_, T>,
-    work: &mut NodeWork<S, T>,
-    [d1, sum]: [&mut [T]; 2],
-    statistics: &mut Statistics,
-) {
-    for (node, &c) in step.method.rule.nodes().iter().enumerate() {
-        coefficients.place(node, step.h, ends, work);
-        let NodeWork { point, velocity, gradient, momentum } = &mut *work;
-        step.system.gradient(point, velocity, step.node_time(c), gradient, momentum);
-        statistics.gradients += 1;
-        let (weight, Basis { b, b_bar, d, d_bar }) = (coefficients.weights[node], coefficients.bases[node]);
-        for (i, sum) in sum.iter_mut().enumerate() {
-            *sum += weight * (step.h * (b + b_bar) * gradient[i] + (d + d_bar) * momentum[i]);
-        }
-        add_first(coefficients, node, step.h, work, d1);
-    }
-}
-
 /// Adds D₁ℓ and D₁D₂ℓ.
-fn add_linearized<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real, K: Sink<T>>(
-    step: &Step<'_, S, F, R, T>,
+fn add_linearized<S: NondegenerateLagrangian<T>, F, R: Rule, T: Real, K: Sink<T>>(
+    Variational { rule, .. }: &Variational<F, R>,
+    Span { system, interval, ends }: Span<'_, S, T>,
     coefficients: &Coefficients<T>,
-    ends: Ends<'_, T>,
-    work: &mut NodeWork<S, T>,
+    node: &mut NodeWork<S, T>,
     d1: &mut [T],
     sink: &mut K,
 ) {
-    for (node, &c) in step.method.rule.nodes().iter().enumerate() {
-        coefficients.place(node, step.h, ends, work);
-        let at = [step.node_time(c), step.h];
-        coefficients.add_second(node, [End::Left, End::Right], step.system, at, work, sink);
-        add_first(coefficients, node, step.h, work, d1);
+    for (j, &c) in rule.nodes().iter().enumerate() {
+        coefficients.place(j, interval.h, ends, node);
+        let at = [interval.time(T::lift(c)), interval.h];
+        coefficients.add_second(j, [End::Left, End::Right], system, at, node, sink);
+        add_first(coefficients, j, interval.h, node, d1);
     }
 }
 

@@ -1,8 +1,8 @@
 //! What a run of the quadrature family carries from step to step.
 
+use super::Variational;
 use super::coefficients::Coefficients;
-use super::{Step, Variational};
-use crate::discrete::frequency::{FrequencyIn, Local};
+use crate::discrete::frequency::{FrequencyIn, Local, Reading};
 use crate::discrete::quadrature::Rule;
 use crate::error::StartError;
 use crate::memory::{Memory, lasting};
@@ -13,8 +13,8 @@ use crate::{Linear, NondegenerateLagrangian, Real, System, Vector};
 /// The phase point of a run of the quadrature family, its interpolation and its work space.
 #[derive(Debug)]
 pub struct VariationalMemory<S: System, T: Real> {
-    /// The latest coefficients of the interpolation.
-    pub(super) coefficients: Coefficients<T>,
+    /// The coefficients for a frequency that is given.
+    pub(super) given: Coefficients<T>,
     /// The frequencies at both ends of the step.
     pub(super) ends: [Local<S, T>; 2],
     pub(super) carried: Carried<S, T>,
@@ -36,25 +36,21 @@ impl<S: NondegenerateLagrangian<T>, T: Real> VariationalMemory<S, T> {
         t: T,
         h: T,
     ) -> Result<Self, StartError> {
-        let explicit = method.is_explicit();
-        let solver = match (method.needs_forces_only::<S, T>(), method.solver.in_numbers::<T>()) {
-            (true, _) if explicit => Solver::FixedPoint,
-            (true, solver) => solver,
-            // Forces that depend on velocities leave the fixed point as it is.
-            (false, Solver::Automatic) if !S::SEPARABLE && method.has_fixed_point::<S, T>() => {
-                Solver::Automatic
-            }
-            // Any L has no fixed point.
-            (false, Solver::Automatic | Solver::Newton) => Solver::Newton,
-            (false, solver @ (Solver::FixedPoint | Solver::NewtonKrylov)) => solver,
-        };
         let reading = method.frequency.reading();
-        let mut coefficients = Coefficients::linear(&method.rule);
+        let solver = match method.solver.in_numbers::<T>() {
+            _ if S::SEPARABLE && method.is_explicit() => Solver::FixedPoint,
+            // Without a constant M there is no fixed point, and a variational frequency is stiff in Δ.
+            Solver::Automatic if !S::CONSTANT_MASS || reading == Some(Reading::Variational) => {
+                Solver::Newton
+            }
+            solver => solver,
+        };
+        let mut given = Coefficients::linear(&method.rule);
         if reading.is_none() {
-            coefficients.fix(&Step { system, method, t, h }).map_err(StartError::Starter)?;
+            given.fix(method, h).map_err(StartError::Starter)?;
         }
         Ok(Self {
-            coefficients,
+            given,
             ends: [Local::new(system, reading), Local::new(system, reading)],
             carried: Carried::new(system, q, v, t, method.summation)?,
             ladder: ladder(system, q, v, t, solver),
