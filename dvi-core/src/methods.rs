@@ -5,8 +5,7 @@
 //! systems with constraints: [`Constrained`] and [`Rattle`]. For systems with impacts: [`Impacts`]. For
 //! rotations and unit vectors as coordinates: [`Geodesic`]. To compare with, for both: [`Gauss`] and
 //! [`RungeKutta`] on the equations of motion. With friction and noise, for regular systems: `Langevin`.
-//! Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that has no
-//! method.
+//! Around others: [`Composition`] and [`EnergyLimit`].
 
 mod collocation;
 mod composition;
@@ -15,7 +14,6 @@ mod energy_limit;
 mod flight;
 mod galerkin;
 mod gauss;
-mod general;
 mod geodesic;
 mod impacts;
 #[cfg(feature = "random")]
@@ -47,7 +45,6 @@ pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
 pub use flight::FreeFlight;
 pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
 pub use gauss::{Gauss, GaussMemory};
-pub use general::{General, GeneralMemory};
 pub use geodesic::{Geodesic, GeodesicMemory};
 pub use impacts::{Collision, Impact, Impacts, ImpactsMemory};
 #[cfg(feature = "random")]
@@ -249,22 +246,6 @@ pub(crate) fn one_by_one<S: Lagrangian<T>, T: Real, M: Method<S, T> + ?Sized>(
     Ok(())
 }
 
-/// A method whose run is determined by two consecutive points.
-pub trait TwoPoint<S: Lagrangian<T>, T: Real>: Method<S, T> {
-    /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
-    ///
-    /// # Errors
-    /// As [`Method::begin`].
-    fn begin_between(
-        &self,
-        system: &S,
-        q0: &Vector<S, T>,
-        q1: &Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<Self::Memory, StartError>;
-}
-
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
 /// may follow one another.
 pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
@@ -304,8 +285,7 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
     }
 }
 
-/// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian. With [`General`]
-/// around it, it is a method.
+/// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian.
 ///
 /// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
 /// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives, if it has
@@ -314,7 +294,7 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
     message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, or it reads a frequency from the motion",
     note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, \
-            `General` around these, and `EnergyLimit` around any of them"
+            and `EnergyLimit` around any of them"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
@@ -331,16 +311,15 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
 }
 
-/// A variational method that [`General`] and [`Constrained`] take steps of: all that these know of it is its
-/// discrete Lagrangian.
+/// A variational method that [`Constrained`] takes steps of: all that this knows of it is its discrete
+/// Lagrangian.
 ///
-/// [`EnergyLimit`] is none, because its limit would not be watched: it goes around them, as in
+/// [`EnergyLimit`] is none, because its limit would not be watched: it goes around `Constrained`, as in
 /// `EnergyLimit { method: Constrained::new(…), limit }`.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no discrete Lagrangian that `General` and `Constrained` could take steps of",
+    message = "`{Self}` has no discrete Lagrangian that `Constrained` could take steps of",
     label = "its steps are not variational, it reads a frequency from the motion, or it watches steps",
-    note = "such methods are `Variational` and, without constraints, `Sigma` and `Galerkin`; \
-            `EnergyLimit` goes around `General` and `Constrained`"
+    note = "such a method is `Variational`; `EnergyLimit` goes around `Constrained`"
 )]
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     /// Refuses options that have no effect there.
@@ -362,19 +341,19 @@ pub(crate) fn without_effect_inside(
     if summation != Summation::default() {
         return unsupported(
             "Summation::Compensated",
-            "`General` and `Constrained` add up the increments of their steps plainly",
+            "`Constrained` adds up the increments of its steps plainly",
         );
     }
     if solver != Solver::default() {
         return unsupported(
             "the solver of the inner method",
-            "`General` and `Constrained` solve their steps by Newton's method",
+            "`Constrained` solves its steps by Newton's method",
         );
     }
     if stopping != Stopping::default() {
         return unsupported(
             "the `stopping` of the inner method",
-            "`General` and `Constrained` have one of their own, which counts",
+            "`Constrained` has one of its own, which counts",
         );
     }
     Ok(())

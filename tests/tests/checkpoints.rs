@@ -2,7 +2,7 @@
 
 use dvi_core::RegularLagrangian;
 use dvi_core::error::CheckpointError;
-use dvi_core::methods::{General, Method, VariableStep};
+use dvi_core::methods::{Method, VariableStep};
 use dvi_core::prelude::*;
 use dvi_core::run::{Checkpoint, StepControl};
 use dvi_tests::bits;
@@ -106,7 +106,6 @@ fn degenerate_runs_go_on() -> Outcome {
     }
     check(&prey, OneStepGauss::<3>::new(), OneSidedState { x: 1.2, y: 0.9 })?;
     check(&prey, Projected::symmetric(), OneSidedState { x: 1.2, y: 0.9 })?;
-    check(&vortices, General::new(Sigma::midpoint()), start)?;
     check(&vortices, EnergyLimit { method: Sigma::midpoint(), limit: 1.0 }, start)?;
     // The parasitic mode is watched on as it was.
     let (pairs, start) = leapfrogging();

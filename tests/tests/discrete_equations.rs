@@ -81,6 +81,19 @@ fn dense_affine_form() -> Outcome {
     check(&system, start, 0.02, 10, 4e-15)
 }
 
+/// Where σ = 0 only reverses the defect, though no coordinate has one conjugate.
+#[test]
+fn dense_antisymmetric_form() -> Outcome {
+    let (mut system, start) = quadratic();
+    let a = system.a;
+    for (i, row) in system.a.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = (a[i][j] - a[j][i]) / 2.0;
+        }
+    }
+    check(&system, start, 0.02, 10, 4e-15)
+}
+
 fn quadratic() -> (Quadratic, QuadraticState) {
     let system = Quadratic {
         a: [[0.3, 1.1, -0.4, 0.2], [-0.7, 0.1, 0.5, 0.9], [0.2, -0.6, 0.4, 1.3], [0.8, -0.1, -1.0, -0.2]],

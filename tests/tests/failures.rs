@@ -3,7 +3,7 @@
 mod said;
 mod starts;
 
-use dvi_core::methods::{General, Method};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
@@ -217,7 +217,6 @@ fn steps_from_rest_at_the_origin_succeed() -> Outcome {
                 let (system, start) = (Shifted { g }, ShiftedState { x: 0.0, y: 0.0 });
                 succeeds(&system, Sigma { solver, ..Sigma::midpoint() }, start, h)?;
             }
-            succeeds(&system, General::new(Variational::simpson()), start, h)?;
         }
     }
     Ok(())
@@ -254,12 +253,10 @@ fn no_iterator_yields_a_velocity_that_is_no_number() -> Outcome {
         yields_finite_states(&Edge, Variational::sigma(0.0), h, edge)?;
         yields_finite_states(&Edge, Galerkin::<3>::new(), h, edge)?;
         yields_finite_states(&Edge, Gauss::<1>::new(), h, edge)?;
-        yields_finite_states(&Edge, General::new(Variational::sigma(0.0)), h, edge)?;
         yields_finite_states(&Edge, RungeKutta::classical(), h, edge)?;
         yields_finite_states(&Relativistic, RungeKutta::classical(), h, fast)?;
         yields_finite_states(&Relativistic, Variational::midpoint(), h, fast)?;
         yields_finite_states(&Relativistic, Gauss::<2>::new(), h, fast)?;
-        yields_finite_states(&Relativistic, General::new(Variational::midpoint()), h, fast)?;
     }
     Ok(())
 }

@@ -22,7 +22,6 @@ mod galerkin;
 mod gauges;
 mod gauss_guesses;
 mod gauss_newton;
-mod general_step;
 mod impacts;
 mod imports;
 mod lanes;

@@ -1,7 +1,7 @@
 //! Systems whose number of coordinates is known at run time only: their matrices are banded, and a run is
 //! that of the same system of fixed size, whose matrices are dense.
 
-use dvi_core::methods::{Composition, General, Method};
+use dvi_core::methods::{Composition, Method};
 use dvi_core::prelude::*;
 
 const N: usize = 24;
@@ -120,7 +120,6 @@ regular!(
     Variational { solver: NEWTON, ..Variational::simpson() },
     Variational { solver: NEWTON, ..Variational::midpoint().phase_fitted(Constant(0.7)) },
     Newmark { solver: NEWTON, ..Newmark::new(0.25) },
-    General::new(Variational::simpson()),
     Composition::triple_jump(Variational { solver: NEWTON, ..Variational::midpoint() }),
 );
 
@@ -155,15 +154,6 @@ regular!(
 );
 
 regular!(
-    rings_in_the_general_step_with_displacements_are_those_of_fixed_size:
-    Ring,
-    RingState,
-    LongRing,
-    LongRingState,
-    General::new(Galerkin::<3>::new()),
-);
-
-regular!(
     chains_with_displacements_are_those_of_fixed_size:
     Bent,
     BentState,
@@ -194,7 +184,6 @@ fn degenerate_systems_are_those_of_fixed_size() {
         LongLatticeState,
         Sigma { solver: newton, ..Sigma::midpoint() },
         Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
-        General::new(Sigma::midpoint()),
         RungeKutta::classical(),
     );
     pair!(

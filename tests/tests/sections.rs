@@ -200,8 +200,8 @@ fn crossings_lie_on_the_section_whatever_the_method() -> Outcome {
     check(Integrator::new(&Planar, newmark, 0.02, PLANAR)?, 1e-3, "newmark")?;
     let galerkin = Galerkin::<4>::new();
     check(Integrator::new(&Planar, galerkin, 0.5, PLANAR)?, 1e-5, "galerkin")?;
-    let general = dvi_core::methods::General::new(Variational::midpoint());
-    check(Integrator::new(&Planar, general, 0.02, PLANAR)?, 1e-3, "general")?;
+    let midpoint = Variational::midpoint();
+    check(Integrator::new(&Planar, midpoint, 0.02, PLANAR)?, 1e-3, "variational")?;
     let composed = Composition::yoshida(Variational::trapezoid());
     check(Integrator::new(&Planar, composed, 0.1, PLANAR)?, 1e-3, "composition")?;
     let at = CircleState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };

@@ -7,7 +7,7 @@ use std::thread;
 
 use dvi_core::diagnostics::{LyapunovExponent, TangentMap};
 use dvi_core::ensemble::{Ensemble, Outcome};
-use dvi_core::methods::{Composition, EnergyLimit, General, Method};
+use dvi_core::methods::{Composition, EnergyLimit, Method};
 use dvi_core::prelude::*;
 use dvi_core::space::Space;
 
@@ -122,7 +122,6 @@ fn none_and_one_of_a_degenerate_system() -> Checked {
         Gauss::<2>::new(),
         Gauss::<8>::new().in_lanes(),
         RungeKutta::classical(),
-        General::new(Sigma::midpoint()),
         EnergyLimit { method: Sigma::midpoint(), limit: 1.0 },
     );
     Ok(())
@@ -144,7 +143,6 @@ fn none_and_one_of_a_regular_system() -> Checked {
         Galerkin::<3>::new(),
         Galerkin { solver: NEWTON, ..Galerkin::<3>::new() },
         Galerkin::<8>::new().in_lanes(),
-        General::new(Galerkin::<3>::new()),
         Composition::kahan_li_8(Variational::trapezoid()),
         Gauss::<2>::new(),
         Gauss::<8>::new().in_lanes(),
@@ -163,7 +161,6 @@ fn none_and_one_of_a_regular_system() -> Checked {
         Variational::trapezoid(),
         Variational::midpoint(),
         Galerkin::<3>::new(),
-        General::new(Galerkin::<3>::new()),
         Gauss::<2>::new(),
         Gauss::<4>::new().in_lanes(),
         RungeKutta::classical(),
@@ -256,14 +253,12 @@ fn forty_fit_on_a_small_stack_with_matrices() -> Checked {
         OneStep::midpoint(),
         OneStepGauss::<3>::new(),
         Projected::symmetric(),
-        General::new(Sigma::midpoint()),
     );
     many!(
         40, 2; Free, FreeState { q, dot_q },
         Variational { solver: NEWTON, ..Variational::midpoint() },
         Galerkin { solver: NEWTON, ..Galerkin::<3>::new() },
         Galerkin::<8>::new().in_lanes(),
-        General::new(Galerkin::<3>::new()),
     );
     Ok(())
 }
@@ -303,7 +298,6 @@ fn literal_sizes_fit_on_a_small_stack() -> Checked {
         12; Dozen, DozenState { q, dot_q },
         Galerkin { solver: NEWTON, ..Galerkin::<9>::new() },
         Galerkin::<9>::new().in_lanes(),
-        General::new(Galerkin::<9>::new()),
     );
     literal!(1000; Thousand, ThousandState { q, dot_q }, Variational::trapezoid(), Gauss::<8>::new().in_lanes());
     Ok(())

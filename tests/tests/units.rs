@@ -8,7 +8,7 @@
 mod systems;
 
 use approx::relative_eq;
-use dvi_core::methods::{General, Method};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, State};
 
@@ -143,9 +143,6 @@ fn of_regular_systems() {
     check::<3, CoupledMasses, _>("coupled masses, Gauss", Gauss::<2>::new());
     check::<2, Kepler, _>("Kepler, composition", Composition::kahan_li_8(Variational::trapezoid()));
     check::<2, DoublePendulum, _>("double pendulum, Runge-Kutta", RungeKutta::classical());
-    check::<2, DoublePendulum, _>("double pendulum, general step", General::new(Galerkin::<4>::new()));
-    check::<3, Charge, _>("charge, general step", General::new(Galerkin::<3>::new()));
-    check::<3, CoupledMasses, _>("coupled masses, general step", General::new(Galerkin::<4>::new()));
 }
 
 #[test]

@@ -32,19 +32,16 @@ impl<T: Real> Combination<T> {
 
 /// The inverse of a combination.
 #[derive(Debug)]
-pub(crate) enum Inverse<S: System, T: Real> {
-    /// Entry j is one over the only entry of column j.
-    Reciprocals(Vector<S, T>),
-    /// The factors of the matrix with its rows times scales, these scales, and work space.
-    Factors(Square<S, T>, [Vector<S, T>; 2]),
+pub(crate) struct Inverse<S: System, T: Real> {
+    /// Entry j is one over the only entry of column j; of other matrices, what row j is multiplied by.
+    scales: Vector<S, T>,
+    /// The factors of other matrices, and work space.
+    factors: Option<(Square<S, T>, Vector<S, T>)>,
 }
 
 impl<S: System, T: Real> Clone for Inverse<S, T> {
     fn clone(&self) -> Self {
-        match self {
-            Self::Reciprocals(reciprocals) => Self::Reciprocals(reciprocals.clone()),
-            Self::Factors(matrix, vectors) => Self::Factors(matrix.clone(), vectors.clone()),
-        }
+        Self { scales: self.scales.clone(), factors: self.factors.clone() }
     }
 }
 
@@ -52,17 +49,20 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     /// Storage for the inverse of `combination`, which is evaluated at (`q`, `t`); its value comes from
     /// [`prepare`](Self::prepare).
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
-        let space = system.space();
-        if combination.is_matching::<S>() {
-            Self::Reciprocals(space.vector())
-        } else {
-            let Combination { a, b } = combination;
-            let matrix = space.square(|visit| {
+        let (space, Combination { a, b }) = (system.space(), combination);
+        let square = || {
+            space.square(|visit| {
                 let mut places = Places(|row: usize, column: usize, _| visit(row, column));
                 system.one_form_jacobian(q, t, a, b, &mut places);
-            });
-            Self::Factors(matrix, space.vectors())
-        }
+            })
+        };
+        let factors = (!combination.is_matching::<S>()).then(|| (square(), space.vector()));
+        Self { scales: space.vector(), factors }
+    }
+
+    /// The factors: none where all combinations match, so that no elimination is compiled into their steps.
+    fn factors(&self) -> Option<&Square<S, T>> {
+        if S::MATCHING { None } else { self.factors.as_ref().map(|(matrix, _)| matrix) }
     }
 
     /// Evaluates the combination at (`q`, `t`) and inverts it. `entries` is work space.
@@ -76,50 +76,40 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         entries: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Combination { a, b } = combination;
-        match self {
-            Self::Reciprocals(reciprocals) => {
-                system.conjugate_entries(q, t, a, b, entries);
-                for j in 0..entries.len() {
-                    reciprocals[j] = norm::reciprocal(entries[system.conjugate(j)], j)?;
-                }
-                Ok(())
+        let (Self { scales, factors }, Combination { a, b }) = (self, combination);
+        let Some((matrix, work)) = factors else {
+            system.conjugate_entries(q, t, a, b, entries);
+            for j in 0..entries.len() {
+                scales[j] = norm::reciprocal(entries[system.conjugate(j)], j)?;
             }
-            Self::Factors(matrix, [scales, work]) => {
-                statistics.factorisations += 1;
-                // A row has the unit of the action over that of its coordinate, and is compared in its size.
-                for block in sizes::blocks(system) {
-                    entries[block.clone()].fill(sizes::weight_of(norm::largest(&q[block])));
-                }
-                set_scales(scales, entries);
-                scales.iter_mut().for_each(|scale| *scale = power_below(*scale));
-                let evaluate = |matrix: &mut Square<S, T>| {
-                    system.one_form_jacobian(q, t, a, b, matrix.cleared());
-                    matrix.scale_rows(scales);
-                };
-                evaluate(matrix);
-                matrix.factor().or_else(|_| {
-                    evaluate(matrix);
-                    matrix.factor_with_care([entries, work])
-                })
-            }
+            return Ok(());
+        };
+        statistics.factorisations += 1;
+        // A row has the unit of the action over that of its coordinate, and is compared in its size.
+        for block in sizes::blocks(system) {
+            entries[block.clone()].fill(sizes::weight_of(norm::largest(&q[block])));
         }
+        set_scales(scales, entries);
+        scales.iter_mut().for_each(|scale| *scale = power_below(*scale));
+        let evaluate = |matrix: &mut Square<S, T>| {
+            system.one_form_jacobian(q, t, a, b, matrix.cleared());
+            matrix.scale_rows(scales);
+        };
+        evaluate(matrix);
+        matrix.factor().or_else(|_| {
+            evaluate(matrix);
+            matrix.factor_with_care([entries, work])
+        })
     }
 
     /// Sets `x` to the solution of (a Dα + b (Dα)ᵀ) x = `rhs`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
-        match self {
-            Self::Reciprocals(reciprocals) => divide(system, reciprocals, rhs, (0, x)),
-            // Never built for such a system; saying so keeps elimination out of its steps.
-            Self::Factors(..) if S::MATCHING => {}
-            Self::Factors(matrix, [scales, _]) => {
-                for ((x, &rhs), &scale) in x.iter_mut().zip(rhs).zip(scales.iter()) {
-                    *x = rhs * scale;
-                }
-                matrix.solve(x);
-            }
+        let Some(matrix) = self.factors() else { return divide(system, &self.scales, rhs, (0, x)) };
+        for ((x, &rhs), &scale) in x.iter_mut().zip(rhs).zip(self.scales.iter()) {
+            *x = rhs * scale;
         }
+        matrix.solve(x);
     }
 }
 
@@ -160,26 +150,20 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         x: &mut [T],
         mut take: impl FnMut(Range<usize>, &[T]),
     ) {
-        let reciprocals = match self {
-            Self::Reciprocals(reciprocals) if !<S::Space as Space>::ON_STACK => reciprocals,
-            Self::Reciprocals(_) | Self::Factors(..) => {
-                self.solve(system, rhs, x);
-                return take(0..x.len(), x);
-            }
-        };
+        if <S::Space as Space>::ON_STACK || self.factors().is_some() {
+            self.solve(system, rhs, x);
+            return take(0..x.len(), x);
+        }
         for block in blocks(x.len()) {
             let x = &mut x[..block.len()];
-            divide(system, reciprocals, rhs, (block.start, x));
+            divide(system, &self.scales, rhs, (block.start, x));
             take(block, x);
         }
     }
 
     /// One over the only entry of each column, if that is what the inverse is.
     pub(crate) fn reciprocals(&self) -> Option<&[T]> {
-        match self {
-            Self::Reciprocals(reciprocals) => Some(reciprocals),
-            Self::Factors(..) => None,
-        }
+        self.factors().is_none().then_some(&*self.scales)
     }
 
     /// Gives the entries of the solution, as of [`solve`](Self::solve), to `set`; with another matrix in
@@ -218,32 +202,21 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
 
 /// A constant combination, ready to be multiplied with.
 #[derive(Debug)]
-pub(crate) enum Product<S: System, T: Real> {
-    /// Entry i is the only entry of row i.
-    Entries(Vector<S, T>),
-    /// Evaluated again for each product.
-    Coefficients(Combination<T>),
-}
-
-impl<S: System, T: Real> Clone for Product<S, T> {
-    fn clone(&self) -> Self {
-        match self {
-            Self::Entries(entries) => Self::Entries(entries.clone()),
-            Self::Coefficients(combination) => Self::Coefficients(*combination),
-        }
-    }
+pub(crate) struct Product<S: System, T: Real> {
+    combination: Combination<T>,
+    /// Entry i is the only one of row i; of other matrices there are none, and they are evaluated for each product.
+    entries: Option<Vector<S, T>>,
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
     /// The combination at (`q`, `t`).
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
-        if combination.is_matching::<S>() {
+        let entries = combination.is_matching::<S>().then(|| {
             let mut entries = system.space().vector();
             system.conjugate_entries(q, t, combination.a, combination.b, &mut entries);
-            Self::Entries(entries)
-        } else {
-            Self::Coefficients(combination)
-        }
+            entries
+        });
+        Self { combination, entries }
     }
 
     /// Whether the combination is zero, seen from its product with a vector without pattern.
@@ -258,19 +231,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
 
     /// Sets `out` to (a Dα + b (Dα)ᵀ) x.
     pub(crate) fn apply(&self, system: &S, x: &[T], out: &mut [T]) {
-        match self {
-            Self::Entries(entries) => {
-                for (i, (out, &entry)) in out.iter_mut().zip(entries.iter()).enumerate() {
-                    *out = x[system.conjugate(i)] * entry;
-                }
+        if let Some(entries) = &self.entries {
+            for (i, (out, &entry)) in out.iter_mut().zip(entries.iter()).enumerate() {
+                *out = x[system.conjugate(i)] * entry;
             }
-            Self::Coefficients(_) if S::MATCHING => {}
-            Self::Coefficients(Combination { a, b }) => {
-                out.fill(T::lift(0.0));
-                // Dα is the same at every point.
-                let mut sink = ProductSink { x, sum: out };
-                system.one_form_jacobian(x, T::lift(0.0), *a, *b, &mut sink);
-            }
+            return;
         }
+        out.fill(T::lift(0.0));
+        // Dα is the same at every point.
+        let mut sink = ProductSink { x, sum: out };
+        system.one_form_jacobian(x, T::lift(0.0), self.combination.a, self.combination.b, &mut sink);
     }
 }

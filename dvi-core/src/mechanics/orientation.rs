@@ -9,50 +9,54 @@
 //!
 //! The Pfaffian comes from skew elimination, A = P L T Lᵀ Pᵀ (Wimmer 2012, ACM TOMS 38, algorithm 923).
 
-use core::slice;
-
-#[cfg(feature = "alloc")]
-use crate::error::CheckpointError;
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
-#[cfg(feature = "alloc")]
-use crate::memory::{Reader, Record};
 use crate::scalar::norm::reported;
 use crate::space::inertia::{Inertia, inertia};
-use crate::space::scratch;
 use crate::space::sink::Places;
 use crate::{
     DegenerateLagrangian, Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights,
 };
 
-/// Of an orientation that is not kept as the system asks for: it cannot be compared.
-const UNKNOWN: StepFailure = StepFailure::Orientation { matrix: "Ω", before: f64::NAN, after: f64::NAN };
-
-/// Ω at the end of the last step; nothing if it is the same everywhere.
+/// Ω at the end of the last step, and at the point that was compared with it last. If it is the same everywhere,
+/// nothing is compared.
 #[derive(Debug)]
-pub(crate) enum FormOrientation<S: System, T: Real> {
-    Constant,
-    /// The entry of each row, and storage for the next.
-    Pairs([Vector<S, T>; 2]),
-    /// The sign of the Pfaffian times the smallest pivot, and storage.
-    Pfaffian(T, Matrix<S, T>),
+pub(crate) struct FormOrientation<S: System, T: Real> {
+    /// The entry of each row, where Ω couples the coordinates in pairs.
+    entries: Vector<S, T>,
+    next: Vector<S, T>,
+    /// Where it does not.
+    pfaffian: Option<Pfaffian<S, T>>,
+}
+
+/// The sign of the Pfaffian times the smallest pivot, and storage.
+#[derive(Debug)]
+struct Pfaffian<S: System, T: Real> {
+    last: T,
+    next: T,
+    matrix: Matrix<S, T>,
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     /// At (`q`, `t`).
     pub(crate) fn new(system: &S, q: &[T], t: T) -> Self {
         let space = system.space();
-        if S::AFFINE {
-            return Self::Constant;
-        }
-        if S::CANONICAL {
-            let mut entries = space.vector();
+        let [mut entries, next]: [Vector<S, T>; 2] = space.vectors();
+        if !S::AFFINE && S::CANONICAL {
             system.conjugate_entries(q, t, T::lift(-1.0), T::lift(1.0), &mut entries);
-            return Self::Pairs([entries, space.vector()]);
         }
-        let mut matrix = space.matrix();
-        let pfaffian = Self::pfaffian(system, q, t, &mut matrix);
-        Self::Pfaffian(pfaffian, matrix)
+        let pfaffian = (!S::AFFINE && !S::CANONICAL).then(|| {
+            let mut matrix = space.matrix();
+            let last = pfaffian(system, q, t, &mut matrix);
+            Pfaffian { last, next: last, matrix }
+        });
+        Self { entries, next, pfaffian }
+    }
+
+    /// The Pfaffian, of which the compiler knows where there is none.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn pfaffian(&mut self) -> Option<&mut Pfaffian<S, T>> {
+        if S::CANONICAL { None } else { self.pfaffian.as_mut() }
     }
 
     /// Compares Ω at (`q`, `t`), the end of a step, with the last, and keeps it.
@@ -74,61 +78,42 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
         &mut self,
         system: &S,
         within: &[(&[T], T)],
-        end: (&[T], T),
+        (q1, t1): (&[T], T),
     ) -> Result<(), StepFailure> {
-        self.compare_all(system, within, Some(end))
+        for &(q, t) in within {
+            self.compare(system, q, t)?;
+        }
+        self.compare(system, q1, t1)?;
+        if let Some(Pfaffian { last, next, .. }) = self.pfaffian() {
+            *last = *next;
+        } else if !S::AFFINE {
+            self.entries.copy_from_slice(&self.next);
+        }
+        Ok(())
     }
 
     /// Compares Ω at (`q`, `t`), within a step, with the last.
     ///
     /// # Errors
     /// [`StepFailure::Orientation`].
-    #[inline]
-    pub(crate) fn compare(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
-        self.compare_all(system, &[(q, t)], None)
-    }
-
-    /// Compares Ω at points and times with the last, and keeps that at the `end`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn compare_all(
-        &mut self,
-        system: &S,
-        within: &[(&[T], T)],
-        end: Option<(&[T], T)>,
-    ) -> Result<(), StepFailure> {
-        // Which of them a system has is decided when it is compiled.
+    pub(crate) fn compare(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
         if S::AFFINE {
             return Ok(());
         }
-        if S::CANONICAL {
-            let Self::Pairs([entries, next]) = self else { return Err(UNKNOWN) };
-            scratch!(next = system, *next);
-            for &(q, t) in within {
-                compare_pairs(system, q, t, entries, next)?;
-            }
-            if let Some((q, t)) = end {
-                compare_pairs(system, q, t, entries, next)?;
-                entries.copy_from_slice(next);
-            }
-            return Ok(());
-        }
-        let Self::Pfaffian(before, matrix) = self else { return Err(UNKNOWN) };
-        for &(q, t) in within {
-            compare(*before, Self::pfaffian(system, q, t, matrix))?;
-        }
-        if let Some((q, t)) = end {
-            let after = Self::pfaffian(system, q, t, matrix);
-            compare(*before, after)?;
-            *before = after;
-        }
-        Ok(())
+        let Some(Pfaffian { last, next, matrix }) = self.pfaffian() else {
+            return compare_pairs(system, q, t, &self.entries, &mut self.next);
+        };
+        *next = pfaffian(system, q, t, matrix);
+        compare(*last, *next)
     }
+}
 
-    fn pfaffian(system: &S, q: &[T], t: T, matrix: &mut Matrix<S, T>) -> T {
-        matrix.fill(T::lift(0.0));
-        system.one_form_jacobian(q, t, T::lift(-1.0), T::lift(1.0), matrix);
-        pfaffian_sign(matrix, system.space().dimension())
-    }
+#[inline(never)]
+fn pfaffian<S: DegenerateLagrangian<T>, T: Real>(system: &S, q: &[T], t: T, matrix: &mut Matrix<S, T>) -> T {
+    matrix.fill(T::lift(0.0));
+    system.one_form_jacobian(q, t, T::lift(-1.0), T::lift(1.0), matrix);
+    pfaffian_sign(matrix, system.space().dimension())
 }
 
 /// Sets `next` to the entries of Ω at (`q`, `t`), and compares them with the last.
@@ -155,37 +140,12 @@ fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
     Ok(())
 }
 
-impl<S: System, T: Real> FormOrientation<S, T> {
-    /// What is compared with the next Ω.
-    fn kept(&self) -> &[T] {
-        match self {
-            Self::Constant => &[],
-            Self::Pairs([entries, _]) => entries,
-            Self::Pfaffian(sign, _) => slice::from_ref(sign),
-        }
-    }
-
-    fn kept_mut(&mut self) -> &mut [T] {
-        match self {
-            Self::Constant => &mut [],
-            Self::Pairs([entries, _]) => entries,
-            Self::Pfaffian(sign, _) => slice::from_mut(sign),
-        }
-    }
+impl<S: System, T: Real> Memory<T> for FormOrientation<S, T> {
+    lasting!(T; numbers entries, parts pfaffian);
 }
 
-impl<S: System, T: Real> Memory<T> for FormOrientation<S, T> {
-    fn restore(&mut self, from: &Self) {
-        self.kept_mut().copy_from_slice(from.kept());
-    }
-    #[cfg(feature = "alloc")]
-    fn save(&self, record: &mut Record<T>) {
-        record.numbers(self.kept());
-    }
-    #[cfg(feature = "alloc")]
-    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        reader.numbers(self.kept_mut())
-    }
+impl<S: System, T: Real> Memory<T> for Pfaffian<S, T> {
+    lasting!(T; number last);
 }
 
 /// The sign of the Pfaffian of a skew n×n matrix times its smallest pivot, zero if it is singular.

@@ -229,19 +229,13 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
         [t, h]: [T; 2],
         velocity: &mut [T],
     ) -> Result<(), StepFailure> {
-        match self {
-            // The same matrix everywhere has the same orientation.
-            Self::Constant(_) => Ok(()),
-            // Not compiled where the mass is constant.
-            Self::Varying(orientation) if !S::CONSTANT_MASS => {
-                let per_h = T::lift(1.0) / h;
-                for (v, &delta) in velocity.iter_mut().zip(increment) {
-                    *v = delta * per_h;
-                }
-                orientation.check(system, q, velocity, t)
-            }
-            Self::Varying(_) => Err(StepFailure::NO_MATRIX),
+        // The same matrix everywhere has the same orientation: then the rest is not compiled.
+        let (false, Self::Varying(orientation)) = (S::CONSTANT_MASS, self) else { return Ok(()) };
+        let per_h = T::lift(1.0) / h;
+        for (v, &delta) in velocity.iter_mut().zip(increment) {
+            *v = delta * per_h;
         }
+        orientation.check(system, q, velocity, t)
     }
 
     /// Sets `v` to the velocity with ∂L/∂v = p at (`q`, `t`).
@@ -261,12 +255,10 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
                 mass.solve(&phase.p, v);
                 Ok(())
             }
-            // Not compiled where the mass is constant.
-            Self::Varying(_) if !S::CONSTANT_MASS => {
+            Self::Varying(_) => {
                 phase.history.extrapolate(v);
                 Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v, S::QUADRATIC)
             }
-            Self::Varying(_) => Err(StepFailure::NO_MATRIX),
         }
     }
 }

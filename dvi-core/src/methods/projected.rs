@@ -16,6 +16,7 @@ use crate::methods::one_point::OnePoint;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{CoupledEquations, Stopping, from_either_guess, solve_coupled};
+use crate::space::sink::Product;
 use crate::space::{NodeSum, Sink, Storing};
 use crate::state::Statistics;
 use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights};
@@ -119,11 +120,6 @@ struct Work<S: System, T: Real> {
     end: Vector<S, T>,
     gradient: Vector<S, T>,
     one_form: Vector<S, T>,
-    /// λ/h.
-    slope: Vector<S, T>,
-    /// ∂L/∂q with that velocity, and a gradient of H.
-    lifted: Vector<S, T>,
-    force: Vector<S, T>,
     rest: Vector<S, T>,
 }
 
@@ -146,14 +142,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
     ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let space = system.space();
-        let [middle, velocity, end, gradient, one_form, slope, lifted, force, rest] = space.vectors();
+        let [middle, velocity, end, gradient, one_form, rest] = space.vectors();
         Ok(ProjectedMemory {
             point: OnePoint::new(system, q, t, |rates| [rates])?,
             solver: coupled_by_second_derivatives(system, [q, &rest], t, NODES - 1, Storing::Always),
             unknowns: space.vectors(),
             residuals: space.vectors(),
             weights: space.vectors(),
-            work: Work { middle, velocity, end, gradient, one_form, slope, lifted, force, rest },
+            work: Work { middle, velocity, end, gradient, one_form, rest },
         })
     }
 
@@ -226,7 +222,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Step<'_, S, T> {
             work.middle[i] = q[i] + T::lift(0.5) * delta[i] + in_middle * lambda[i];
             work.velocity[i] = (delta[i] + in_velocity * lambda[i]) / *h;
             work.end[i] = q[i] + delta[i];
-            work.slope[i] = lambda[i] / *h;
         }
     }
 
@@ -248,31 +243,24 @@ impl<S: DegenerateLagrangian<T>, T: Real> CoupledEquations<NODES, S, T> for Step
     ) -> Result<(), StepFailure> {
         self.place();
         let [centre, after] = self.times();
-        let Self { system, q, p, t, h, a, b, work, .. } = self;
-        let Work { middle, velocity, end, gradient, one_form, slope, lifted, force, .. } = &mut **work;
-        let half = T::lift(0.5) * *h;
+        let Self { system, q, p, t, h, a, b, unknowns: [_, _, lambda], work, .. } = self;
+        let Work { middle, velocity, end, gradient, one_form, .. } = &mut **work;
+        let (zero, half) = (T::lift(0.0), T::lift(0.5) * *h);
         system.gradient(middle, velocity, centre, gradient, one_form);
         for i in 0..q.len() {
             r1[i] = p[i] - one_form[i] + half * gradient[i];
             r2[i] = one_form[i] + half * gradient[i];
         }
         for (row, factor, point, time) in [(&mut *r1, *a, *q, *t), (&mut *r2, -*b, &**end, after)] {
-            if factor == T::lift(0.0) {
-                continue;
-            }
-            // h(∂L/∂q + ∇H) = Dαᵀλ, in which what the gradients of H leave by rounding is no larger than
-            // that of a step.
-            system.gradient(point, slope, time, lifted, one_form);
-            system.hamiltonian_gradient(point, time, force);
-            for i in 0..q.len() {
-                row[i] += factor * *h * (lifted[i] + force[i]);
-            }
+            // Dα(q)ᵀλ
+            let mut product = Product { x: &**lambda, sum: row };
+            system.one_form_jacobian(point, time, zero, factor, &mut product);
         }
-        // The last point was q1, and b is not zero.
+        system.one_form(end, after, one_form);
         for (r2, &form) in r2.iter_mut().zip(one_form.iter()) {
             *r2 -= form;
         }
-        statistics.gradients += NODES as u64;
+        statistics.gradients += 1;
         Ok(())
     }
 }
@@ -310,8 +298,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Step<'_, S, T> {
 
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, _vv: &mut impl Sink<T>) {
         let [centre, after] = self.times();
-        let Self { system, q, t, h, work, .. } = self;
-        let Work { middle, velocity, end, gradient, one_form, slope, rest, .. } = &mut **work;
+        let Self { system, q, t, unknowns: [_, _, lambda], work, .. } = self;
+        let Work { middle, velocity, end, gradient, one_form, rest } = &mut **work;
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
         let (point, time): (&[T], T) = [(*q, *t), (&**middle, centre), (&**end, after)][self.node];
@@ -321,10 +309,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Step<'_, S, T> {
                 system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq);
             }
             2 => {
-                // h L_qq at (q, λ/h) without that at (q, 0), which is of H.
-                let w = Weights { qq: *h, ..none };
-                system.linearize(point, slope, time, w, gradient, one_form, qq);
-                let w = Weights { qq: -*h, ..none };
+                // L_qq at (q, λ) without that at (q, 0), which is of H.
+                let w = Weights { qq: one, ..none };
+                system.linearize(point, lambda, time, w, gradient, one_form, qq);
+                let w = Weights { qq: -one, ..none };
                 system.linearize(point, rest, time, w, gradient, one_form, qq);
             }
             _ => {}

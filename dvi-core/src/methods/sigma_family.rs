@@ -11,16 +11,16 @@
 mod affine;
 mod leapfrog;
 mod memory;
-mod monitor;
-mod nonlinear;
+mod parasitic_mode;
 mod start;
+mod step;
 mod together;
 
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
-use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, TwoPoint, one_by_one};
-use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
+use crate::methods::VariationalMethod;
+use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, one_by_one};
 use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::space::sink::Places;
@@ -29,7 +29,7 @@ use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
 pub use memory::SigmaMemory;
-pub use monitor::ParasiticMode;
+pub use parasitic_mode::ParasiticMode;
 pub use start::Start;
 
 /// The σ-family: a discrete Lagrangian with one node between the ends.
@@ -150,6 +150,13 @@ impl<T: Real> Sigma<T> {
         self.sigma == T::lift(0.0) || self.sigma == T::lift(1.0)
     }
 
+    /// How many iterations the fixed point gets: a slow contraction is given up as soon as Newton would be
+    /// cheaper, whose advantage shrinks with the dimension.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn budget<N>(&self, ladder: &Ladder<N>, dimension: usize) -> usize {
+        ladder.budget(self.stopping.max_iterations, 12 + dimension)
+    }
+
     fn validate(&self, is_affine: bool) -> Result<(), StartError> {
         let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
         if !in_range {
@@ -219,17 +226,11 @@ impl<S, T: Real> Step<'_, S, T> {
     fn interval(&self) -> Interval<T> {
         Interval { t: self.t, h: self.h }
     }
-
-    /// A slow contraction is given up as soon as Newton would be cheaper; its advantage shrinks with the
-    /// dimension.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn budget<N>(&self, ladder: &Ladder<N>, dimension: usize) -> usize {
-        ladder.budget(self.method.stopping.max_iterations, 12 + dimension)
-    }
 }
 
 impl<T: Real> Scheme for Sigma<T> {
-    /// Two for σ = ½. For every other σ it is one, or more where the one-form allows it: see [`Sigma`].
+    /// Two for σ = ½, and one for every other σ: that is the order on any one-form. On those of which
+    /// [`Sigma`] says so, steps with σ ≠ ½ converge with a higher one.
     fn order(&self) -> usize {
         if self.is_midpoint() { 2 } else { 1 }
     }
@@ -253,7 +254,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
             return SigmaMemory::without_defect(system, self, q, t, h);
         }
         let q1 = self.start.second_point(system, q, t, h)?;
-        SigmaMemory::between(system, self, q, &q1, t, h)
+        SigmaMemory::between(system, self, [q, &q1], t, h)
     }
 
     /// Without a second point.
@@ -280,7 +281,13 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        memory.step(&Step { system, method: self, t, h }, q, statistics)
+        if let (true, SigmaMemory { carried, leaps: Some(leaps), monitor, .. }) = (S::AFFINE, &mut *memory) {
+            let run = (carried, leaps, monitor);
+            let (taken, result) = leapfrog::steps(system, run, q, Clock::new(t, h), 1);
+            statistics.gradients += taken;
+            return result;
+        }
+        step::step(&Step { system, method: self, t, h }, memory, q, statistics)
     }
 
     fn part_of_step(
@@ -292,9 +299,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         [h, whole]: [T; 2],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let step = Step { system, method: self, t, h };
-        memory.shorten(&step, q, whole)?;
-        memory.step(&step, q, statistics)
+        memory.shorten(system, self, q, t, [h, whole])?;
+        self.step(system, memory, q, t, h, statistics)
     }
 
     #[inline]
@@ -307,14 +313,13 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         count: u64,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if S::AFFINE && self.sigma == T::lift(0.0) {
-            let (taken, result) = leapfrog::steps(system, memory, q, clock, count);
+        if let (true, SigmaMemory { carried, leaps: Some(leaps), monitor, .. }) = (S::AFFINE, &mut *memory) {
+            let (taken, result) = leapfrog::steps(system, (carried, leaps, monitor), q, clock, count);
             statistics.steps += taken;
             statistics.gradients += taken;
-            result
-        } else {
-            one_by_one(self, system, memory, q, clock, count, statistics)
+            return result;
         }
+        one_by_one(self, system, memory, q, clock, count, statistics)
     }
 }
 
@@ -330,23 +335,21 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     }
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> InnerScheme<S, T> for Sigma<T> {
-    fn admit_inside(&self) -> Result<(), StartError> {
-        without_effect_inside(self.solver, self.stopping, self.summation)
-    }
-}
-
-impl<S: DegenerateLagrangian<T>, T: Real> TwoPoint<S, T> for Sigma<T> {
-    fn begin_between(
+impl<T: Real> Sigma<T> {
+    /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
+    ///
+    /// # Errors
+    /// As [`Method::begin`].
+    pub(crate) fn begin_between<S: DegenerateLagrangian<T>>(
         &self,
         system: &S,
         q0: &Vector<S, T>,
         q1: &Vector<S, T>,
         t: T,
         h: T,
-    ) -> Result<Self::Memory, StartError> {
+    ) -> Result<SigmaMemory<S, T>, StartError> {
         self.validate(S::AFFINE)?;
         self.go_with(system, q0, t)?;
-        SigmaMemory::between(system, self, q0, q1, t, h)
+        SigmaMemory::between(system, self, [q0, q1], t, h)
     }
 }

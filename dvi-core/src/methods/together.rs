@@ -30,9 +30,9 @@ impl<S: System, M: Carries<S, f64>> core::fmt::Debug for Companion<'_, S, M> {
 
 /// A method whose runs can be taken together, `W` at a time.
 ///
-/// `Sigma` with σ = 0 or ½ where α is affine and couples the coordinates in pairs, and
-/// `Variational::trapezoid` where it is explicit and the mass matrix diagonal, take steps in lanes. Of other
-/// systems and options each run is taken alone.
+/// `Sigma` where α is affine and couples the coordinates in pairs, with σ = 0 if Dα is antisymmetric and with
+/// σ = ½ if a run has no parasitic mode, and `Variational::trapezoid` where it is explicit and the mass
+/// matrix diagonal, take steps in lanes. Of other systems and options each run is taken alone.
 #[diagnostic::on_unimplemented(
     message = "runs of `{Self}` on `{S}` cannot be taken together in lanes",
     label = "it is neither `Sigma` nor `Variational`, or a parameter of the system is not of one type in all lanes"
@@ -100,7 +100,6 @@ pub(crate) fn of_lanes<'a, const W: usize, S>(systems: &[&'a S]) -> [&'a S; W] {
 }
 
 /// Whether all lanes of `packs` are finite.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn all_finite<const W: usize>(packs: &[Lanes<W>]) -> bool {
     let zero = Lanes::all(0.0);
     let mut sum = zero;

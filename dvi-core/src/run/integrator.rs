@@ -5,7 +5,7 @@ use core::fmt;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::memory::Aside;
-use crate::methods::{Carries, Clock, Method, TwoPoint};
+use crate::methods::{Carries, Clock, Method};
 use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
@@ -143,14 +143,14 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
     }
 }
 
-impl<'a, S: Lagrangian<T>, M: TwoPoint<S, T>, T: Real> Integrator<'a, S, M, T> {
-    /// A run of a two-step method that starts at `first`, time 0, and whose first step leads to `second`.
+impl<'a, S: DegenerateLagrangian<T>, T: Real> Integrator<'a, S, Sigma<T>, T> {
+    /// A run of the two-step method that starts at `first`, time 0, and whose first step leads to `second`.
     ///
     /// # Errors
     /// As [`new`](Self::new).
     pub fn from_two_points(
         system: &'a S,
-        method: M,
+        method: Sigma<T>,
         h: T,
         first: S::State<T>,
         second: S::State<T>,

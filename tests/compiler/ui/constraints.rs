@@ -538,7 +538,6 @@ mod massless {
 /// Methods that keep no constraints.
 mod without_constraints {
     use super::*;
-    use dvi_core::methods::General;
 
     #[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0, constraint = x * x + y * y - 1.0)]
     struct Pendulum;
@@ -550,7 +549,6 @@ mod without_constraints {
     fn run() {
         let _ = Integrator::new(&Pendulum, Variational::trapezoid(), 0.1, start());
         let _ = Integrator::new(&Pendulum, Gauss::<2>::new(), 0.1, start());
-        let _ = Integrator::new(&Pendulum, General::new(Variational::midpoint()), 0.1, start());
         let _ = Integrator::new(&Pendulum, RungeKutta::classical(), 0.1, start());
         let _ = Integrator::new(&Pendulum, Newmark::new(0.25), 0.1, start());
         let _ = Integrator::new(&Pendulum, Sigma::midpoint(), 0.1, start());

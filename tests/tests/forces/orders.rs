@@ -3,7 +3,7 @@
 use approx::abs_diff_eq;
 use dvi_core::discrete::Constant;
 use dvi_core::mechanics::motion::Rates;
-use dvi_core::methods::{General, Method};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 
@@ -74,11 +74,9 @@ fn methods_have_their_orders_on_a_particle_with_friction() -> Outcome {
         Variational::simpson(), 2.0, 128;
         Variational::new(Quadrature::gauss(3)?), 2.0, 128;
         Variational::midpoint().phase_fitted(Constant(1.5)), 2.0, 128;
-        General::new(Variational::trapezoid()), 2.0, 128;
         Galerkin::<3>::new(), 4.0, 32;
         Galerkin::<4>::new(), 6.0, 24;
         Galerkin::<5>::new(), 8.0, 24;
-        General::new(Galerkin::<4>::new()), 6.0, 24;
         Composition::suzuki(Variational::midpoint()), 4.0, 32;
         Gauss::<2>::new(), 4.0, 48;
         Gauss::<3>::new(), 6.0, 24;
@@ -96,7 +94,6 @@ fn methods_have_their_orders_with_forces_of_all_kinds() -> Outcome {
         Variational::simpson().phase_fitted(Constant(1.0)), 2.0, 64;
         Galerkin::<3>::new(), 4.0, 16;
         Galerkin::<4>::new(), 6.0, 12;
-        General::new(Galerkin::<3>::new()), 4.0, 16;
         Gauss::<2>::new(), 4.0, 16;
         RungeKutta::classical(), 4.0, 64;
     }

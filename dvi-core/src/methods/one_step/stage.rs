@@ -126,15 +126,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     /// The residual at the unknowns, against what it is made of.
     #[cold]
     fn residual(&mut self, step: &Step<'_, S, T>) -> Result<T, StepFailure> {
-        let Self { unknown, momentum, gradient, one_form, point, velocity, correction, weights, .. } = self;
+        let (mut equations, _, [correction, weights]) = self.equations(step);
+        let Equations { unknown, momentum, .. } = equations;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
-        let work = [point, velocity, gradient, one_form];
-        let residual = linear::residual(
-            &mut Equations { step, unknown, momentum, work },
-            size,
-            |i| momentum[i],
-            [correction, weights],
-        );
+        let residual = linear::residual(&mut equations, size, |i| momentum[i], [&mut *correction, weights]);
         // What has been evaluated is at the unknowns.
         correction.fill(T::lift(0.0));
         residual

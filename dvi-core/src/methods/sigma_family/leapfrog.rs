@@ -5,11 +5,11 @@
 //! Only s has to wait for the gradient: the point ahead, q0 + K⁻¹c0, was left by the step before. In a
 //! symmetric gauge, ½(x dy − y dx), it is the point before: q2 = q0 + 2s, the leapfrog scheme as it is
 //! usually written (Rowley & Marsden 2002, eq. 13). Over many steps the points are local arrays, which the
-//! compiler can keep in registers, and c, which no step needs, is computed at the end.
+//! compiler can keep in registers, and c, which no step needs, is computed at the end: 122 instructions a step
+//! of four vortices, and 272 where each state is read.
 
-use super::memory::{Ahead, SigmaMemory, Work};
-use super::monitor::Monitor;
-use crate::discrete::NodeWork;
+use super::memory::{Carried, Leaps, Work, add};
+use super::parasitic_mode::Monitor;
 use crate::error::StepFailure;
 use crate::mechanics::combination::{Inverse, Product};
 use crate::methods::Clock;
@@ -18,39 +18,27 @@ use crate::scalar::norm;
 use crate::space::scratch;
 use crate::{DegenerateLagrangian, Real, System, Vector};
 
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn add<T: Real>(q: &[T], increment: &[T], sum: &mut [T]) {
-    for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(increment) {
-        *sum = q + delta;
-    }
-}
-
-/// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
-/// good point.
+/// Takes `count` steps, or as many as succeed, and returns how many; `q`, and what the run carries, are then at
+/// the last good point.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
-    memory: &mut SigmaMemory<S, T>,
+    (carried, leaps, monitor): (&mut Carried<S, T>, &mut Leaps<S, T>, &mut Monitor<S, T>),
     q: &mut Vector<S, T>,
     clock: Clock<T>,
     count: u64,
 ) -> (u64, Result<(), StepFailure>) {
-    let SigmaMemory { defect, inverse, product, ahead, scale, l_d, work, monitor, .. } = memory;
-    // A run with σ = 0 and affine α has both.
-    let (Some(product), Some(ahead)) = (product, ahead) else {
-        return (0, Err(StepFailure::NO_MATRIX));
-    };
+    let Carried { defect, inverse, scale, l_d, work, .. } = carried;
+    let Leaps { product, ahead, reverses, storage: [delta, c] } = leaps;
     let from = monitor.steps;
     let node = &mut l_d.work;
-    let run = Run { system, inverse, product, node, work, monitor: &mut *monitor, defect, q, clock, count };
-    let (taken, result) = match ahead {
-        Ahead::Reversal => run.steps(|q0, _, ahead| ahead.copy_from_slice(q0)),
-        Ahead::Diagonal(factors) => run.steps(|q0, q1, ahead| {
-            for i in 0..q0.len() {
-                ahead[i] = q1[i] + factors[i] * (q1[i] - q0[i]);
-            }
-        }),
-        Ahead::General([delta, c]) => run.steps(|q0, q1, ahead| {
+    let kept = Kept { ahead, defect, spare: &mut node.momentum, q };
+    let storage = [&mut node.point, &mut node.velocity, &mut node.gradient];
+    let run = Run { system, inverse, product, monitor: &mut *monitor, clock, kept };
+    let (taken, result) = if *reverses {
+        run.steps(count, (storage, work), |q0, _, ahead| ahead.copy_from_slice(q0))
+    } else {
+        run.steps(count, (storage, work), |q0, q1, ahead| {
             for i in 0..q0.len() {
                 delta[i] = q1[i] - q0[i];
             }
@@ -60,138 +48,120 @@ pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
             for i in 0..q0.len() {
                 ahead[i] += q1[i];
             }
-        }),
+        })
     };
     monitor.steps = from + taken;
     (taken, result)
 }
 
-/// What the steps work on.
+/// What the steps are computed with, and what they leave.
 struct Run<'a, S: System, T: Real> {
     system: &'a S,
     inverse: &'a Inverse<S, T>,
     product: &'a Product<S, T>,
-    node: &'a mut NodeWork<S, T>,
-    work: &'a mut Work<S, T>,
     monitor: &'a mut Monitor<S, T>,
-    defect: &'a mut Vector<S, T>,
-    q: &'a mut Vector<S, T>,
     clock: Clock<T>,
-    count: u64,
+    kept: Kept<'a, S, T>,
+}
+
+/// The last good point, with the point ahead and the defect there, and storage for a point.
+struct Kept<'a, S: System, T: Real> {
+    q: &'a mut Vector<S, T>,
+    ahead: &'a mut Vector<S, T>,
+    defect: &'a mut Vector<S, T>,
+    spare: &'a mut Vector<S, T>,
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Run<'_, S, T> {
     /// With the rule that sets the point ahead, its last argument, from q0 and q1.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn steps(self, look_ahead: impl FnMut(&[T], &[T], &mut [T])) -> (u64, Result<(), StepFailure>) {
-        let Self { system, inverse, product, node, work, monitor, defect, q, clock, count } = self;
-        scratch!(q0 = system, node.point);
+    fn steps(
+        self,
+        count: u64,
+        ([point, velocity, of_h], work): ([&mut Vector<S, T>; 3], &mut Work<S, T>),
+        look_ahead: impl FnMut(&[T], &[T], &mut [T]),
+    ) -> (u64, Result<(), StepFailure>) {
+        let Self { system, kept, .. } = &self;
+        scratch!(q0 = system, *point);
         scratch!(q1 = system, work.next);
-        scratch!(q2 = system, work.trial);
-        scratch!(ahead = system, node.velocity);
-        scratch!(gradient = system, node.gradient);
+        scratch!(ahead = system, *velocity);
+        scratch!(gradient = system, *of_h);
         scratch!(s = system, work.increment);
-        let (kept_ahead, spare) = (&mut work.ahead, &mut node.momentum);
-        q1.copy_from_slice(q);
-        ahead.copy_from_slice(kept_ahead);
-        let points = Points { q0, q1, q2, ahead, gradient, s };
-        let before = monitor.steps;
-        let leapfrog = Leapfrog {
-            system,
-            inverse,
-            product,
-            monitor,
-            clock,
-            look_ahead,
-            points,
-            q,
-            kept_ahead,
-            defect,
-            spare,
-        };
-        walk(leapfrog, before, count)
+        q1.copy_from_slice(kept.q);
+        ahead.copy_from_slice(kept.ahead);
+        let before = self.monitor.steps;
+        walk(Leapfrog { run: self, look_ahead, q0, q1, ahead, gradient, s }, before, count)
     }
 }
 
-/// Arrays that hold the last points.
-struct Points<'a, T> {
-    q0: &'a mut [T],
-    q1: &'a mut [T],
-    q2: &'a mut [T],
-    ahead: &'a mut [T],
-    gradient: &'a mut [T],
-    s: &'a mut [T],
-}
-
-/// The last points, and where they are kept.
-struct Leapfrog<'a, S: System, T: Real, L> {
-    system: &'a S,
-    inverse: &'a Inverse<S, T>,
-    product: &'a Product<S, T>,
-    monitor: &'a mut Monitor<S, T>,
-    clock: Clock<T>,
+/// The last points, as the steps move them.
+struct Leapfrog<'a, 'b, S: System, T: Real, L> {
+    run: Run<'a, S, T>,
     look_ahead: L,
-    points: Points<'a, T>,
-    q: &'a mut Vector<S, T>,
-    kept_ahead: &'a mut Vector<S, T>,
-    defect: &'a mut Vector<S, T>,
-    spare: &'a mut Vector<S, T>,
+    q0: &'b mut [T],
+    q1: &'b mut [T],
+    ahead: &'b mut [T],
+    gradient: &'b mut [T],
+    s: &'b mut [T],
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk for Leapfrog<'_, S, T, L> {
+impl<S: DegenerateLagrangian<T>, T: Real, L: FnMut(&[T], &[T], &mut [T])> Walk
+    for Leapfrog<'_, '_, S, T, L>
+{
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) {
-        let Points { q0, q1, q2, ahead, gradient, s } = &mut self.points;
-        self.system.hamiltonian_gradient(q1, self.clock.after(number).time(), gradient);
-        self.inverse.solve(self.system, gradient, s);
-        add(ahead, s, q2);
+        let Self { run: Run { system, inverse, clock, .. }, q0, q1, ahead, gradient, s, .. } = self;
+        system.hamiltonian_gradient(q1, clock.after(number).time(), gradient);
+        inverse.solve(system, gradient, s);
         q0.copy_from_slice(q1);
-        q1.copy_from_slice(q2);
+        add(ahead, s, q1);
         (self.look_ahead)(q0, q1, ahead);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn block(&self) -> u64 {
-        self.monitor.period()
+        self.run.monitor.period()
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn watch(&mut self, number: u64) {
-        self.monitor.note(self.monitor.steps + number, self.points.q1);
+        let monitor = &mut *self.run.monitor;
+        monitor.note(monitor.steps + number, self.q1);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn admit(&mut self, number: u64) -> Result<(), StepFailure> {
-        self.monitor.examine(self.monitor.steps + number, self.q)
+        let Run { monitor, kept, .. } = &mut self.run;
+        monitor.examine(monitor.steps + number, kept.q)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn examine(&mut self, steps: u64) -> Result<(), StepFailure> {
         // Copies: what is examined must live in memory.
-        scratch!(examined = self.system, *self.spare);
-        examined.copy_from_slice(self.points.q1);
+        scratch!(examined = self.run.system, *self.run.kept.spare);
+        examined.copy_from_slice(self.q1);
         norm::finite(examined)?;
         if steps == 1 {
             return Ok(());
         }
-        examined.copy_from_slice(self.points.q0);
+        examined.copy_from_slice(self.q0);
         norm::finite(examined)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self) {
-        let Points { q0, q1, ahead, s, .. } = &mut self.points;
-        self.q.copy_from_slice(q1);
-        self.kept_ahead.copy_from_slice(ahead);
+        let Self { run: Run { system, product, kept, .. }, q0, q1, ahead, s, .. } = self;
+        kept.q.copy_from_slice(q1);
+        kept.ahead.copy_from_slice(ahead);
         for (s, (&q1, &q0)) in s.iter_mut().zip(q1.iter().zip(q0.iter())) {
             *s = q1 - q0;
         }
-        self.product.apply(self.system, s, self.defect);
+        product.apply(system, s, kept.defect);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_back(&mut self) {
-        self.points.q1.copy_from_slice(self.q);
-        self.points.ahead.copy_from_slice(self.kept_ahead);
+        self.q1.copy_from_slice(self.run.kept.q);
+        self.ahead.copy_from_slice(self.run.kept.ahead);
     }
 }

@@ -1,61 +1,66 @@
 //! What a run of the σ-family carries from step to step.
 //!
-//! For affine α the increment splits as Δ = K⁻¹c0 + s, K = σDα − (1−σ)(Dα)ᵀ, where the first part
-//! alternates with the defect and s = −(1−σ)h K⁻¹∇H is smooth; the history extrapolates s. For
-//! nonlinear α it extrapolates Δ.
+//! The increment of a step is Δ = K⁻¹c0 + s. If α is affine, K = σDα − (1−σ)(Dα)ᵀ is constant, the first part
+//! alternates with the defect, and s = −(1−σ)h K⁻¹∇H(q_σ) is smooth. If not, the first part is left out, and s
+//! is Δ. The history extrapolates s.
 
-use super::monitor::{Monitor, Pace, ParasiticMode};
-use super::{Sigma, Step, affine, nonlinear};
+use super::Sigma;
+use super::parasitic_mode::{Monitor, Pace, ParasiticMode};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::combination::{Combination, Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::memory::{Memory, lasting};
+use crate::scalar::norm;
 use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::history::History;
-use crate::state::summation::Carried;
-use crate::{DegenerateLagrangian, Lagrangian, Linear, Real, Space, System, Vector};
+use crate::state::summation;
+use crate::{DegenerateLagrangian, Linear, Real, Space, System, Vector};
 
 /// What a run of the σ-family carries from step to step: its defect, its guesses, the measured parasitic
 /// mode.
 #[derive(Debug)]
 pub struct SigmaMemory<S: System, T: Real> {
+    pub(super) carried: Carried<S, T>,
+    /// With the matrix of Newton's method. Explicit steps do not use it.
+    pub(super) ladder: Ladder<Linear<S, T>>,
+    pub(super) monitor: Monitor<S, T>,
+    /// Where α is affine and σ = 0.
+    pub(super) leaps: Option<Leaps<S, T>>,
+}
+
+/// The state (q, c) of the two-step map without q, and what its steps are computed with.
+#[derive(Debug)]
+pub(super) struct Carried<S: System, T: Real> {
     /// c = p − α(q) at the current point.
     pub(super) defect: Vector<S, T>,
     /// Whether c = 0 for all times, so that nothing needs to be done about it.
     pub(super) defect_vanishes: bool,
     /// α at the current point; kept if α is not affine.
     pub(super) one_form: Vector<S, T>,
+    /// The last s.
     pub(super) history: History<S, T>,
-    /// The matrix of the fixed point: constant if α is affine, and else frozen for one step.
+    /// That of K times `scale`: constant if α is affine, and else frozen for one step.
     pub(super) inverse: Inverse<S, T>,
-    /// −1/((1−σ)h), the scale of `inverse` if α is affine and σ ≠ 1.
     pub(super) scale: T,
-    /// K' = σ(Dα)ᵀ − (1−σ)Dα; kept if α is affine and c is not just reversed.
+    /// K' = σ(Dα)ᵀ − (1−σ)Dα, if α is affine and σ neither 0 nor ½, where c is just reversed.
     pub(super) product: Option<Product<S, T>>,
-    /// Kept if α is affine and σ = 0.
-    pub(super) ahead: Option<Ahead<S, T>>,
     pub(super) l_d: OneNode<S, T>,
-    /// With the matrix of Newton's method. Explicit steps do not use it.
-    pub(super) ladder: Ladder<Linear<S, T>>,
-    pub(super) monitor: Monitor<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
     /// What rounding has left out of the coordinates, if α is affine and σ neither 0 nor 1.
-    pub(super) carried: Carried<S, T>,
+    pub(super) rest: summation::Carried<S, T>,
     pub(super) work: Work<S, T>,
 }
 
 /// Vectors that are written before they are read in each step.
 #[derive(Debug)]
 pub(super) struct Work<S: System, T: Real> {
-    /// K⁻¹c0; p0 if α is not affine.
+    /// K⁻¹c0
     pub(super) shift: Vector<S, T>,
-    /// q0 + K⁻¹c0, which outlives the step, if α is affine and σ = 0.
-    pub(super) ahead: Vector<S, T>,
-    /// The smooth part of the increment.
+    /// s; Δ for Newton's method.
     pub(super) increment: Vector<S, T>,
     pub(super) trial: Vector<S, T>,
     /// In which iterations judge coordinates.
@@ -65,64 +70,38 @@ pub(super) struct Work<S: System, T: Real> {
     pub(super) next: Vector<S, T>,
 }
 
-impl<S: Lagrangian<T>, T: Real> Work<S, T> {
-    fn new(system: &S) -> Self {
-        let vector = || system.space().vector();
-        Self {
-            shift: vector(),
-            ahead: vector(),
-            increment: vector(),
-            trial: vector(),
-            weights: vector(),
-            sum: vector(),
-            next: vector(),
-        }
-    }
-}
-
-/// How the point ahead, q1 + K⁻¹c1, follows from q0 and q1.
+/// What the explicit steps of σ = 0 take besides.
 #[derive(Debug)]
-pub(super) enum Ahead<S: System, T: Real> {
-    /// It is q0.
-    Reversal,
-    /// K⁻¹c1 is a multiple of Δ in each coordinate.
-    Diagonal(Vector<S, T>),
-    /// By a product and a solve, with storage for Δ and c1.
-    General([Vector<S, T>; 2]),
-}
-
-impl<S: DegenerateLagrangian<T>, T: Real> Ahead<S, T> {
-    /// For c1 = `product` Δ and K⁻¹c = `scale` `inverse` c.
-    pub(super) fn new(system: &S, product: &Product<S, T>, inverse: &Inverse<S, T>, scale: T) -> Self {
-        let [mut delta, mut c]: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
-        if !S::MATCHING {
-            return Self::General([delta, c]);
-        }
-        delta.fill(scale);
-        product.apply(system, &delta, &mut c);
-        let mut factors = delta;
-        inverse.solve(system, &c, &mut factors);
-        let reversal = factors.iter().all(|&factor| factor == T::lift(-1.0));
-        if reversal { Self::Reversal } else { Self::Diagonal(factors) }
-    }
+pub(super) struct Leaps<S: System, T: Real> {
+    /// K' = −Dα.
+    pub(super) product: Product<S, T>,
+    /// The point ahead, q0 + K⁻¹c0.
+    pub(super) ahead: Vector<S, T>,
+    /// Whether Dα is antisymmetric, so that K⁻¹c1 = −Δ.
+    pub(super) reverses: bool,
+    /// For Δ and c1 where it is not.
+    pub(super) storage: [Vector<S, T>; 2],
 }
 
 impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
+    lasting!(T; part carried, part ladder, part monitor, parts leaps);
+}
+
+impl<S: System, T: Real> Memory<T> for Carried<S, T> {
     lasting!(
         T;
-        numbers defect, flag defect_vanishes, numbers one_form, part history, part ladder, part monitor, part orientation,
-        part carried, part work,
+        numbers defect, flag defect_vanishes, numbers one_form, part history, part orientation, part rest,
     );
 }
 
-impl<S: System, T: Real> Memory<T> for Work<S, T> {
+impl<S: System, T: Real> Memory<T> for Leaps<S, T> {
     lasting!(T; numbers ahead);
 }
 
 impl<S: System, T: Real> SigmaMemory<S, T> {
     /// c = p − α(q) at the current point, one entry per coordinate.
     pub fn defect(&self) -> &[T] {
-        &self.defect
+        &self.carried.defect
     }
 
     /// The parasitic mode as it was measured last, over five consecutive points; `None` before that. It is
@@ -137,7 +116,7 @@ impl<S: System, T: Real> SigmaMemory<S, T> {
     /// h(1 − 2σ) on an orbit without such a mode, and says little of it; take
     /// [`parasitic_mode`](Self::parasitic_mode).
     pub fn parasitic_amplitude(&self) -> T {
-        crate::scalar::norm::largest(&self.defect)
+        norm::largest(self.defect())
     }
 }
 
@@ -151,10 +130,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         h: T,
     ) -> Result<Self, StartError> {
         let mut memory = Self::new(system, method, q, t, h)?;
-        memory.defect_vanishes = true;
+        let Carried { defect_vanishes, inverse, history, l_d, work, .. } = &mut memory.carried;
+        *defect_vanishes = true;
         if S::AFFINE && method.sigma != T::lift(1.0) {
             // The first increment is about that of the field where the run begins.
-            let Self { inverse, history, l_d, work, .. } = &mut memory;
             system.hamiltonian_gradient(q, t, &mut l_d.work.gradient);
             inverse.solve(system, &l_d.work.gradient, &mut work.increment);
             history.begin_again(&work.increment);
@@ -166,124 +145,122 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
     pub(super) fn between(
         system: &S,
         method: &Sigma<T>,
-        q0: &Vector<S, T>,
-        q1: &Vector<S, T>,
+        [q0, q1]: [&Vector<S, T>; 2],
         t: T,
         h: T,
     ) -> Result<Self, StartError> {
         let mut memory = Self::new(system, method, q0, t, h)?;
-        let work = &mut memory.work;
+        let Carried { defect, one_form, l_d, work: Work { increment, sum, .. }, .. } = &mut memory.carried;
         for i in 0..q0.len() {
-            work.increment[i] = q1[i] - q0[i];
+            increment[i] = q1[i] - q0[i];
         }
         // c0 = p0 − α(q0) = −D₁L_d − α(q0).
-        let (mut unused, mut sum) = (Statistics::default(), system.space().vector());
-        let ends = Ends { q0, delta: &work.increment };
-        let span = Span { system, interval: Interval { t, h }, ends };
-        system.one_form(q0, t, &mut memory.one_form);
-        memory.defect.copy_from_slice(&memory.one_form);
-        let derivatives = memory.l_d.derivatives(span, &mut memory.defect, &mut sum, &mut unused);
-        derivatives.map_err(StartError::Starter)?;
-        memory.defect.iter_mut().for_each(|c| *c = -*c);
-        crate::scalar::norm::finite(&memory.defect).map_err(StartError::Starter)?;
+        defect.copy_from_slice(one_form);
+        let span = Span { system, interval: Interval { t, h }, ends: Ends { q0, delta: increment } };
+        l_d.derivatives(span, defect, sum, &mut Statistics::default()).map_err(StartError::Starter)?;
+        defect.iter_mut().for_each(|c| *c = -*c);
+        norm::finite(defect).map_err(StartError::Starter)?;
         memory.aim(system, method, q0);
         Ok(memory)
     }
 
-    /// Prepares the first step from `q` with the present defect, by about `work.increment`.
-    fn aim(&mut self, system: &S, method: &Sigma<T>, q: &[T]) {
-        if S::AFFINE && method.sigma != T::lift(1.0) {
-            self.shift_by_defect(system);
-            let work = &mut self.work;
-            for i in 0..q.len() {
-                work.increment[i] -= work.shift[i];
-                work.ahead[i] = q[i] + work.shift[i];
-            }
-        }
-        self.history.begin_again(&self.work.increment);
-    }
-
     fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {
         let (space, sigma) = (system.space(), method.sigma);
-        let left = T::lift(1.0) - sigma;
         let explicit = if S::AFFINE { method.is_end() } else { sigma == T::lift(0.0) };
-        let combination = fixed_point_matrix::<S, T>(method, h);
-        let mut inverse = Inverse::new(system, q, t, combination);
-        let rest: Vector<S, T> = space.vector();
-        let mut work = Work::new(system);
+        let (scale, matrix) = scaled_matrix::<S, T>(method, h);
+        let mut inverse = Inverse::new(system, q, t, matrix);
+        let [shift, increment, mut trial, weights, sum, next, rest, mut one_form] = space.vectors();
         if S::AFFINE {
-            let mut unused = Statistics::default();
-            inverse
-                .prepare(system, q, t, combination, &mut work.trial, &mut unused)
-                .map_err(StartError::Starter)?;
+            let unused = &mut Statistics::default();
+            inverse.prepare(system, q, t, matrix, &mut trial, unused).map_err(StartError::Starter)?;
         }
+        let one = T::lift(1.0);
         let product = (S::AFFINE && !method.is_midpoint())
-            .then(|| Product::new(system, q, t, Combination { a: -left, b: sigma }));
-        let scale = fixed_point_scale(method, h);
-        let ahead = product
-            .as_ref()
-            .filter(|_| sigma == T::lift(0.0))
-            .map(|product| Ahead::new(system, product, &inverse, scale));
+            .then(|| Product::new(system, q, t, Combination { a: sigma - one, b: sigma }));
+        let symmetric = Combination { a: one, b: one };
+        let reverses = S::AFFINE && Product::new(system, q, t, symmetric).vanishes(system);
+        let (leaps, product) = match product {
+            Some(product) if sigma == T::lift(0.0) => {
+                let leaps = Leaps { product, ahead: space.vector(), reverses, storage: space.vectors() };
+                (Some(leaps), None)
+            }
+            product => (None, product),
+        };
         let solver = if explicit { Solver::FixedPoint } else { method.solver.in_numbers::<T>() };
-        let mut one_form = space.vector();
+        let newton = || of_second_derivatives(system, q, &rest, t, solver.storing());
         system.one_form(q, t, &mut one_form);
-        let (limit, pace) = pace(system, method, q, t);
+        let (limit, pace) = match method.parasitic_limit {
+            // The mode is only reversed.
+            _ if S::AFFINE && method.is_midpoint() => (None, Pace::Seldom),
+            None => (None, Pace::Seldom),
+            // K' = −K: c is reversed, and a gradient added to it.
+            limit if reverses => (limit, Pace::WithTheFlow),
+            limit => (limit, Pace::EachStep),
+        };
         Ok(Self {
-            defect: space.vector(),
-            defect_vanishes: false,
-            one_form,
-            history: History::new(system, None),
-            inverse,
-            scale,
-            product,
-            ahead,
-            l_d: OneNode::new(system, sigma),
-            ladder: Ladder::new(solver, || of_second_derivatives(system, q, &rest, t, solver.storing())),
+            ladder: Ladder::new(solver, newton),
             monitor: Monitor::new(system, limit, pace),
-            orientation: FormOrientation::new(system, q, t),
-            carried: Carried::new(system, method.summation),
-            work,
+            leaps,
+            carried: Carried {
+                defect: space.vector(),
+                defect_vanishes: false,
+                one_form,
+                history: History::new(system, None),
+                inverse,
+                scale,
+                product,
+                l_d: OneNode::new(system, sigma),
+                orientation: FormOrientation::new(system, q, t),
+                rest: summation::Carried::new(system, method.summation),
+                work: Work { shift, increment, trial, weights, sum, next },
+            },
         })
     }
 
-    /// Prepares a step that is a part of one of the length `whole`. On a smooth orbit the defect is of first
-    /// order in that length and, if σ = ½, of second, so that its first term is taken for the whole.
+    /// Prepares the first step from `q` with the present defect, by about `work.increment`.
+    fn aim(&mut self, system: &S, method: &Sigma<T>, q: &[T]) {
+        let Self { carried, leaps, .. } = self;
+        if S::AFFINE && method.sigma != T::lift(1.0) {
+            carried.shift_by_defect(system);
+            let Work { shift, increment, .. } = &mut carried.work;
+            for i in 0..q.len() {
+                increment[i] -= shift[i];
+            }
+            if let Some(Leaps { ahead, .. }) = leaps {
+                add(q, shift, ahead);
+            }
+        }
+        carried.history.begin_again(&carried.work.increment);
+    }
+
+    /// Prepares a step of length `h` that is a part of one of the length `whole`. On a smooth orbit the
+    /// defect is of first order in that length and, if σ = ½, of second, so that its first term is taken for
+    /// the whole.
     pub(super) fn shorten(
         &mut self,
-        step: &Step<'_, S, T>,
+        system: &S,
+        method: &Sigma<T>,
         q: &Vector<S, T>,
-        whole: T,
+        t: T,
+        [h, whole]: [T; 2],
     ) -> Result<(), StepFailure> {
-        let Step { system, method, t, h } = *step;
+        let Carried { defect, inverse, scale, work, .. } = &mut self.carried;
         if S::AFFINE {
-            let (matrix, unused) = (fixed_point_matrix::<S, T>(method, h), &mut Statistics::default());
-            self.inverse.prepare(system, q, t, matrix, &mut self.work.trial, unused)?;
-            self.scale = fixed_point_scale(method, h);
+            let matrix;
+            (*scale, matrix) = scaled_matrix::<S, T>(method, h);
+            inverse.prepare(system, q, t, matrix, &mut work.trial, &mut Statistics::default())?;
         }
         let part = h / whole;
         let factor = if method.is_midpoint() { part * part } else { part };
-        self.defect.iter_mut().for_each(|c| *c *= factor);
+        defect.iter_mut().for_each(|c| *c *= factor);
+        work.increment.fill(T::lift(0.0));
         self.ladder.begin_again();
-        self.work.increment.fill(T::lift(0.0));
         self.aim(system, method, q);
         Ok(())
     }
+}
 
-    /// Takes one step from `q`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn step(
-        &mut self,
-        step: &Step<'_, S, T>,
-        q: &mut Vector<S, T>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        if S::AFFINE {
-            affine::step(step, self, q, statistics)
-        } else {
-            nonlinear::step(step, self, q, statistics)
-        }
-    }
-
+impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
     /// Sets `work.shift` to K⁻¹c0.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn shift_by_defect(&mut self, system: &S) {
@@ -296,46 +273,22 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
     }
 }
 
-/// The limit of the parasitic mode, and when the mode is measured.
-fn pace<S: DegenerateLagrangian<T>, T: Real>(
-    system: &S,
-    method: &Sigma<T>,
-    q: &[T],
-    t: T,
-) -> (Option<f64>, Pace) {
-    let one = T::lift(1.0);
-    match method.parasitic_limit {
-        // The mode is only reversed.
-        _ if S::AFFINE && method.is_midpoint() => (None, Pace::Seldom),
-        None => (None, Pace::Seldom),
-        // Where Dα is antisymmetric, K' = −K: c is reversed, and a gradient added to it.
-        limit
-            if S::AFFINE && Product::new(system, q, t, Combination { a: one, b: one }).vanishes(system) =>
-        {
-            (limit, Pace::WithTheFlow)
-        }
-        limit => (limit, Pace::EachStep),
+/// Sets `sum` to that of two vectors.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn add<T: Real>(a: &[T], b: &[T], sum: &mut [T]) {
+    for ((sum, &a), &b) in sum.iter_mut().zip(a).zip(b) {
+        *sum = a + b;
     }
 }
 
-/// Affine and σ ≠ 1: K times −1/((1−σ)h), whose inverse maps ∇H to s. Else K.
-/// Nonlinear and σ = 0: (Dα)ᵀ.
-pub(super) fn fixed_point_matrix<S: DegenerateLagrangian<T>, T: Real>(
+/// The scale of the matrix that is inverted, and the matrix, K times it. If α is affine and σ ≠ 1, the scale is
+/// −1/((1−σ)h), so that the inverse maps ∇H to s; else one.
+pub(super) fn scaled_matrix<S: DegenerateLagrangian<T>, T: Real>(
     method: &Sigma<T>,
     h: T,
-) -> Combination<T> {
-    let sigma = method.sigma;
-    let left = T::lift(1.0) - sigma;
-    if S::AFFINE && sigma != T::lift(1.0) {
-        let scale = fixed_point_scale(method, h);
-        Combination { a: sigma * scale, b: -left * scale }
-    } else if !S::AFFINE && sigma == T::lift(0.0) {
-        Combination { a: T::lift(0.0), b: T::lift(1.0) }
-    } else {
-        Combination { a: sigma, b: -left }
-    }
-}
-
-fn fixed_point_scale<T: Real>(method: &Sigma<T>, h: T) -> T {
-    T::lift(-1.0) / ((T::lift(1.0) - method.sigma) * h)
+) -> (T, Combination<T>) {
+    let (sigma, one) = (method.sigma, T::lift(1.0));
+    let left = one - sigma;
+    let scale = if S::AFFINE && sigma != one { -one / (left * h) } else { one };
+    (scale, Combination { a: sigma * scale, b: -left * scale })
 }

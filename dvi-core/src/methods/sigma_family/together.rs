@@ -8,8 +8,6 @@ use leaps::leaps;
 use midpoints::midpoints;
 
 use super::Sigma;
-use super::monitor::Monitor;
-use crate::error::StepFailure;
 use crate::methods::Clock;
 use crate::methods::together::{Companion, InStep, load_if_all_have};
 use crate::scalar::Lanes;
@@ -25,18 +23,13 @@ type Packed<const W: usize, S> = Vector<S, Lanes<W>>;
 #[derive(Debug)]
 pub struct Packs<const W: usize, S: System> {
     q: Packed<W, S>,
-    /// q0 + K⁻¹c0 if σ = 0; q0 + ½K⁻¹c0 if σ = ½.
-    ahead: Packed<W, S>,
-    /// The point before, if σ = 0; the increment s if σ = ½.
+    /// The point ahead, if σ = 0; the increment s if σ = ½.
     other: Packed<W, S>,
-    kept: [Packed<W, S>; 3],
+    kept: [Packed<W, S>; 2],
     gradient: Packed<W, S>,
     point: Packed<W, S>,
-    /// K⁻¹c0, if σ = ½.
-    shift: Packed<W, S>,
     history: [Packed<W, S>; DEPTH],
     reciprocals: Packed<W, S>,
-    factors: Packed<W, S>,
     /// Of one run.
     one: Vector<S, f64>,
     increment: Vector<S, f64>,
@@ -52,15 +45,12 @@ where
         let space = system.space();
         Packs {
             q: space.vector(),
-            ahead: space.vector(),
             other: space.vector(),
             kept: space.vectors(),
             gradient: space.vector(),
             point: space.vector(),
-            shift: space.vector(),
             history: space.vectors(),
             reciprocals: space.vector(),
-            factors: space.vector(),
             one: space.vector(),
             increment: space.vector(),
         }
@@ -82,7 +72,7 @@ where
         if !(is_affine && self.summation == Summation::Plain) {
             return 0;
         }
-        let of_run = |run: usize| runs[run].memory.inverse.reciprocals();
+        let of_run = |run: usize| runs[run].memory.carried.inverse.reciprocals();
         if !load_if_all_have(&mut packs.reciprocals, of_run, runs.len()) {
             return 0;
         }
@@ -97,18 +87,17 @@ where
 }
 
 /// Looks at the points `q` of the runs, and returns the number of steps that may follow, at most `most`,
-/// before that is to be done again; none if a run is to go on alone. `of_run` says as much of one run.
+/// before that is to be done again; none if a run is to go on alone.
 fn look<const W: usize, S: DegenerateLagrangian>(
     runs: &mut [Companion<'_, S, Sigma>],
     q: &[Lanes<W>],
     one: &mut Vector<S, f64>,
     most: u64,
-    of_run: impl Fn(&mut Monitor<S, f64>, &[f64]) -> Result<u64, StepFailure>,
 ) -> u64 {
     let mut steps = most;
     for (lane, run) in runs.iter_mut().enumerate() {
         read_lane(lane, q, one);
-        match of_run(&mut run.memory.monitor, one) {
+        match run.memory.monitor.look(one) {
             Ok(unseen) => steps = steps.min(unseen),
             Err(_) => return 0,
         }

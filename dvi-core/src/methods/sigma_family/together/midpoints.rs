@@ -24,15 +24,13 @@ pub(super) fn midpoints<const W: usize, S>(
 where
     S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
 {
-    let Packs { q, ahead, other, kept, gradient, point, shift, history, reciprocals, one, .. } = packs;
+    let Packs { q, other: increment, kept, gradient, point, history, reciprocals, one, .. } = packs;
     let Some(first) = runs.first().map(|run| &*run.memory) else { return 0 };
-    let (Some(mut place), vanishes) = (first.history.place_if_full(), first.defect_vanishes) else {
-        return 0;
-    };
-    let budget = first.ladder.budget(method.stopping.max_iterations, 12 + one.len());
+    let Some(mut place) = first.carried.history.place_if_full() else { return 0 };
+    let budget = method.budget(&first.ladder, one.len());
     let are_alike = runs.iter().map(|run| &*run.memory).all(|run| {
-        run.history.place_if_full() == Some(place)
-            && run.defect_vanishes == vanishes
+        run.carried.history.place_if_full() == Some(place)
+            && run.carried.defect_vanishes
             && run.ladder.tries_fixed_point()
     });
     if !are_alike {
@@ -40,20 +38,13 @@ where
     }
     load(q, |run| &*runs[run].q, runs.len());
     for (entry, packs) in history.iter_mut().enumerate() {
-        load(packs, |run| &*runs[run].memory.history.ring()[entry], runs.len());
+        load(packs, |run| &*runs[run].memory.carried.history.ring()[entry], runs.len());
     }
-    for (run, &system) in runs.iter_mut().zip(systems).filter(|_| !vanishes) {
-        run.memory.shift_by_defect(system);
-    }
-    load(shift, |run| &*runs[run].memory.work.shift, runs.len());
     let taken = S::packed(&of_lanes(systems), |system| {
         let mut taken = 0;
         while taken < count {
-            let steps = look(runs, q, one, count - taken, |monitor, q| {
-                monitor.look(q)?;
-                Ok(monitor.steps_unseen().max(1))
-            });
-            let [corrected, weights, ..] = &mut *kept;
+            let steps = look(runs, q, one, count - taken);
+            let [corrected, weights] = &mut *kept;
             let (done, iterations) = widest(Midpoints {
                 system,
                 stopping: method.stopping,
@@ -61,15 +52,12 @@ where
                 reciprocals,
                 clock: clock.after(taken),
                 steps,
-                has_shift: !vanishes,
                 q,
-                origin: ahead,
-                increment: other,
+                increment,
                 corrected,
                 point,
                 gradient,
                 weights,
-                shift,
                 history,
                 place: &mut place,
             });
@@ -88,18 +76,15 @@ where
     for (lane, run) in runs.iter_mut().enumerate() {
         read_lane(lane, q, run.q);
         for (entry, packs) in history.iter().enumerate() {
-            read_lane(lane, packs, &mut run.memory.history.ring_mut()[entry]);
+            read_lane(lane, packs, &mut run.memory.carried.history.ring_mut()[entry]);
         }
-        run.memory.history.set_place(place);
-        if taken % 2 == 1 {
-            run.memory.defect.iter_mut().for_each(|c| *c = 0.0 - *c);
-        }
+        run.memory.carried.history.set_place(place);
         run.statistics.steps += taken;
     }
     taken
 }
 
-/// Some steps with σ = ½: s ← −½h K⁻¹∇H(q0 + ½K⁻¹c0 + ½s), q1 = q0 + K⁻¹c0 + s.
+/// Some steps with σ = ½: s ← −½h K⁻¹∇H(q0 + ½s), q1 = q0 + s.
 struct Midpoints<'a, const W: usize, S: System> {
     system: &'a S,
     stopping: Stopping,
@@ -107,9 +92,7 @@ struct Midpoints<'a, const W: usize, S: System> {
     reciprocals: &'a Packed<W, S>,
     clock: Clock<f64>,
     steps: u64,
-    has_shift: bool,
     q: &'a mut Packed<W, S>,
-    origin: &'a mut Packed<W, S>,
     increment: &'a mut Packed<W, S>,
     /// The increment that is to take its place.
     corrected: &'a mut Packed<W, S>,
@@ -117,7 +100,6 @@ struct Midpoints<'a, const W: usize, S: System> {
     gradient: &'a mut Packed<W, S>,
     /// In which the iteration judges coordinates.
     weights: &'a mut Packed<W, S>,
-    shift: &'a mut Packed<W, S>,
     history: &'a mut [Packed<W, S>; DEPTH],
     /// Where the next increment goes in the history.
     place: &'a mut usize,
@@ -146,7 +128,6 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     fn take_sizes(&mut self) {
         for block in sizes::blocks(self.system) {
             let of = |k: usize| Scalar::abs(self.q[k]) + Scalar::abs(self.increment[k]);
-            let larger = |a: Lanes<W>, b: Lanes<W>| Lanes::choose(b, Comparison::Greater, a, b, a);
             let size = block.clone().map(of).fold(Lanes::all(0.0), larger);
             let weight = Lanes::all(1.0) / (size + Lanes::all(smallest_normal::<f64>()));
             self.weights[block].fill(weight);
@@ -156,15 +137,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     /// Takes a step and returns the iterations; nothing has moved if there is none that all runs agree on.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) -> Option<[u64; W]> {
-        let half = Lanes::all(0.5);
         extrapolate(self.history, *self.place, self.increment);
-        if self.has_shift {
-            for ((origin, &q), &shift) in self.origin.iter_mut().zip(self.q.iter()).zip(self.shift.iter()) {
-                *origin = q + half * shift;
-            }
-        } else {
-            self.origin.copy_from_slice(self.q);
-        }
         let mut convergence = Convergences::fixed_point(self.stopping, self.budget);
         let time = self.clock.after(number);
         let time = Lanes::all(time.time() + 0.5 * time.step_size());
@@ -179,16 +152,13 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
                 Verdict::GiveUp => return None,
             }
         }
-        for ((next, &q), (&shift, &s)) in
-            self.point.iter_mut().zip(self.q.iter()).zip(self.shift.iter().zip(self.increment.iter()))
-        {
-            *next = q + if self.has_shift { shift + s } else { s };
+        for ((next, &q), &s) in self.point.iter_mut().zip(self.q.iter()).zip(self.increment.iter()) {
+            *next = q + s;
         }
         if !(all_finite(self.increment) && all_finite(self.point)) {
             return None;
         }
         self.q.copy_from_slice(self.point);
-        self.shift.iter_mut().for_each(|shift| *shift = -*shift);
         self.history[*self.place].copy_from_slice(self.increment);
         *self.place = (*self.place + 1) % DEPTH;
         Some(convergence.iterations())
@@ -198,10 +168,8 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn iterate(&mut self, time: Lanes<W>, active: Lanes<W>) -> Lanes<W> {
         let half = Lanes::all(0.5);
-        for ((point, &origin), &s) in
-            self.point.iter_mut().zip(self.origin.iter()).zip(self.increment.iter())
-        {
-            *point = origin + half * s;
+        for ((point, &q), &s) in self.point.iter_mut().zip(self.q.iter()).zip(self.increment.iter()) {
+            *point = q + half * s;
         }
         self.system.hamiltonian_gradient(self.point, time, self.gradient);
         let mut correction = Lanes::all(0.0);
@@ -218,7 +186,6 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
 }
 
 /// As [`norm::larger`](crate::scalar::norm::larger).
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn larger<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
     Lanes::choose(b, Comparison::Greater, a, b, a)
 }

@@ -1,4 +1,4 @@
-//! The parasitic mode, measured: what of the second differences of a run alternates from step to step.
+//! The parasitic mode, measured while a run goes on: what of the second differences of a run alternates from step to step.
 //!
 //! D_k = q_{k−1} − 2q_k + q_{k+1}. On an alternating part (−1)ᵏa, D_{k−1} − 2D_k + D_{k+1} is 16a, and
 //! D_{k−1} + 2D_k + D_{k+1} is nothing; on a smooth motion the second is 4h²q̈. The mode is compared with a
@@ -168,47 +168,32 @@ impl<S: System, T: Real> Monitor<S, T> {
         self.period
     }
 
-    /// Takes note of the point before the next step, if it is one of those that are looked at.
+    /// Looks at the point before the next step, if it is one of those that are looked at, and returns the number
+    /// of steps that may be taken before this is to be done again.
     ///
     /// # Errors
     /// [`StepFailure::ParasiticMode`] if the run is lost.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn look(&mut self, q: &[T]) -> Result<(), StepFailure> {
-        if (self.steps + KEPT as u64) & (self.period - 1) > KEPT as u64 {
-            Ok(())
-        } else {
-            self.look_closely(q)
+    pub(super) fn look(&mut self, q: &[T]) -> Result<u64, StepFailure> {
+        let (position, kept) = (self.steps & (self.period - 1), KEPT as u64);
+        if position > 0 && position + kept < self.period {
+            return Ok(self.period - kept - position);
         }
-    }
-
-    /// The number of steps from now before which no point is looked at.
-    pub(super) fn steps_unseen(&self) -> u64 {
-        let position = (self.steps + KEPT as u64) & (self.period - 1);
-        if position > KEPT as u64 { self.period - position } else { 0 }
-    }
-
-    /// [`look`](Self::look) as the blocks of the explicit scheme have it. Returns the number of steps to the
-    /// next look.
-    ///
-    /// # Errors
-    /// As there.
-    pub(super) fn look_before_leaps(&mut self, q: &[T]) -> Result<u64, StepFailure> {
-        if self.steps & (self.period - 1) == 0 {
-            self.examine(self.steps, q)?;
-        }
-        let position = self.steps & (self.period - 1);
-        if position + (KEPT as u64) < self.period {
-            return Ok(self.period - KEPT as u64 - position);
-        }
-        self.note(self.steps, q);
-        Ok(1)
+        self.look_closely(q)
     }
 
     #[inline(never)]
-    fn look_closely(&mut self, q: &[T]) -> Result<(), StepFailure> {
-        let verdict = if self.steps & (self.period - 1) == 0 { self.examine(self.steps, q) } else { Ok(()) };
+    fn look_closely(&mut self, q: &[T]) -> Result<u64, StepFailure> {
+        if self.steps & (self.period - 1) == 0 {
+            self.examine(self.steps, q)?;
+        }
+        // What was measured may have set another period.
+        let (position, kept) = (self.steps & (self.period - 1), KEPT as u64);
+        if position + kept < self.period {
+            return Ok(self.period - kept - position);
+        }
         self.note(self.steps, q);
-        verdict
+        Ok(1)
     }
 
     /// Keeps point number `step`.
