@@ -26,7 +26,7 @@ use crate::{Real, Scalar, Sink, System, Vector, Weights};
 pub use flow_on_q::FlowOnQ;
 pub use hamilton::HamiltonsEquations;
 pub(crate) use stages::{AtStages, Slopes, StageWork, weigh};
-pub use stages::{FirstOrderInLanes, InLanes, OneByOne, StageEvaluation};
+pub use stages::{Evaluation, FirstOrderInLanes, InLanes, OneByOne, StageEvaluation};
 
 /// A point y, or its velocity: `K` vectors of the space.
 #[derive(Clone, Debug)]
@@ -135,6 +135,7 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// # Errors
     /// [`StepFailure::Singular`] where Ω or the mass matrix is singular, [`StepFailure::NotConverged`] where
     /// no velocity belongs to the momentum.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate(
         equations: &mut Self::Equations,
         system: &S,
@@ -142,21 +143,27 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         t: T,
         slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
-    /// Sets `out` to entry `part` of X(`y`, `t`), from a guess `slope` of it: the velocity that belongs to
-    /// the momentum, or the force at the velocity of `slope`.
+    ) -> Result<(), StepFailure> {
+        Self::guess(equations, slope);
+        for part in 0..y.len() {
+            Self::evaluate_part(equations, system, part, y, t, slope, statistics)?;
+        }
+        Ok(())
+    }
+    /// Sets the velocity of `slope` to the last one within the step, if it is needed as a guess.
+    fn guess(_equations: &Self::Equations, _slope: &mut Self::Point<T>) {}
+    /// Sets entry `part` of `slope`, a guess of X(`y`, `t`), to that of X: to the velocity that belongs to the
+    /// momentum, or to the force at the velocity of `slope`.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
-    #[allow(clippy::too_many_arguments)]
     fn evaluate_part(
         equations: &mut Self::Equations,
         system: &S,
         part: usize,
         y: &Self::Point<T>,
         t: T,
-        slope: &Self::Point<T>,
-        out: &mut Vector<S, T>,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
     /// Whether the force depends on velocities, so that it is evaluated again where these have converged.

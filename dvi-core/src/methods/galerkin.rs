@@ -10,10 +10,8 @@
 //! D₂)L_d, which rounds less.
 
 mod coefficients;
-mod eliminated;
+mod displaced;
 mod evaluation;
-mod fitted;
-mod general;
 mod interior;
 mod lagrangian;
 mod memory;

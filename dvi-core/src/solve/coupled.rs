@@ -1,6 +1,6 @@
 //! Newton's method for several vectors of unknowns at once.
 
-use super::{Convergence, Due, Stopping, iterate, sizes};
+use super::{Convergence, Due, Judge, Stopping, iterate, sizes};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::{CoupledSolver, NodeSum, linear};
@@ -9,6 +9,10 @@ use crate::{Coupled, Real, System, Vector};
 
 /// Equations rᵣ = 0 for the vectors from [`NodeSum::FIRST`] to `COUNT`, with their matrix as a sum over nodes.
 pub(crate) trait CoupledEquations<const COUNT: usize, S: System, T: Real>: NodeSum<COUNT, T> {
+    /// How many iterations bring one more order of derivatives, where numbers carry them: one, if the matrix is
+    /// exact.
+    const PER_ORDER: usize = 1;
+
     /// The vectors, with those before the first unknown one.
     fn unknowns(&mut self) -> &mut [Vector<S, T>; COUNT];
 
@@ -21,6 +25,22 @@ pub(crate) trait CoupledEquations<const COUNT: usize, S: System, T: Real>: NodeS
         residuals: &mut [Vector<S, T>; COUNT],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
+
+    /// Takes the corrections from the unknowns, and returns the size of the largest.
+    ///
+    /// # Errors
+    /// Those of what leads too far.
+    fn correct(
+        &mut self,
+        system: &S,
+        weights: &[T],
+        corrections: &[Vector<S, T>; COUNT],
+    ) -> Result<T, StepFailure> {
+        let unknowns = self.unknowns().iter_mut().zip(corrections).skip(Self::FIRST);
+        Ok(unknowns.fold(T::lift(0.0), |largest, (unknown, change)| {
+            norm::larger(largest, sizes::reduce(system, weights, unknown, change))
+        }))
+    }
 }
 
 /// Improves the unknowns that stand in `equations`, increments of `q`, until r = 0. What comes with `residuals` is
@@ -37,7 +57,8 @@ pub(crate) fn solve_coupled<const COUNT: usize, S: System, T: Real, E: CoupledEq
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let convergence = Convergence::new(stopping, stopping.max_iterations);
+    let mut convergence = Convergence::new(stopping, stopping.max_iterations);
+    convergence.course().more *= E::PER_ORDER;
     iterate(convergence, statistics, |due, statistics| {
         due.prepare_all(system, weights, q, &mut equations.unknowns()[E::FIRST..]);
         equations.evaluate(residuals, statistics)?;
@@ -48,11 +69,7 @@ pub(crate) fn solve_coupled<const COUNT: usize, S: System, T: Real, E: CoupledEq
             return linear::residual_of_nodes(equations, weights, residuals, sums);
         }
         solver.solve(equations, weights, residuals)?;
-        let mut correction = T::lift(0.0);
-        for (unknown, change) in equations.unknowns().iter_mut().zip(&*residuals).skip(E::FIRST) {
-            correction = norm::larger(correction, sizes::reduce(system, weights, unknown, change));
-        }
-        Ok(correction)
+        equations.correct(system, weights, residuals)
     })?;
     equations.unknowns()[E::FIRST..].iter().try_for_each(|unknown| norm::finite(unknown))
 }

@@ -43,28 +43,16 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         y.0[0].copy_from_slice(q);
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate(
-        equations: &mut FlowOnQ<S, T>,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-        slope: &mut Self::Point<T>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        equations.field.evaluate(system, &y.0[0], t, &mut slope.0[0], statistics)
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_part(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
         _part: usize,
         y: &Self::Point<T>,
         t: T,
-        _slope: &Self::Point<T>,
-        out: &mut Vector<S, T>,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        equations.field.evaluate(system, &y.0[0], t, out, statistics)
+        equations.field.evaluate(system, &y.0[0], t, &mut slope.0[0], statistics)
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]) {

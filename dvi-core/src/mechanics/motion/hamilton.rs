@@ -157,22 +157,10 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate(
-        equations: &mut HamiltonsEquations<S, T>,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-        slope: &mut Self::Point<T>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let ([q, p], [velocity, force]) = (&y.0, &mut slope.0);
+    fn guess(equations: &HamiltonsEquations<S, T>, slope: &mut Self::Point<T>) {
         if let Velocities::Varying(Transform { latest, .. }) = &equations.inverse {
-            velocity.copy_from_slice(latest);
+            slope.0[0].copy_from_slice(latest);
         }
-        equations.inverse.velocity(system, q, p, t, velocity)?;
-        system.force(q, velocity, t, force);
-        statistics.gradients += 1;
-        Ok(())
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_part(
@@ -181,16 +169,14 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         part: usize,
         y: &Self::Point<T>,
         t: T,
-        slope: &Self::Point<T>,
-        out: &mut Vector<S, T>,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let ([q, p], [velocity, _]) = (&y.0, &slope.0);
+        let ([q, p], [velocity, force]) = (&y.0, &mut slope.0);
         if part == 0 {
-            out.copy_from_slice(velocity);
-            return equations.inverse.velocity(system, q, p, t, out);
+            return equations.inverse.velocity(system, q, p, t, velocity);
         }
-        system.force(q, velocity, t, out);
+        system.force(q, velocity, t, force);
         statistics.gradients += 1;
         Ok(())
     }

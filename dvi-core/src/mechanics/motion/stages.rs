@@ -7,7 +7,7 @@ use super::{EquationsOf, FirstOrder, Motion, PackedOf, PointOf};
 use crate::error::StepFailure;
 use crate::mechanics::vector_field::LaneWork;
 use crate::scalar::lanes::{read_lane, write_lane};
-use crate::scalar::simd::{Task, widest};
+use crate::scalar::simd::widest_if;
 use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
 use crate::{Real, Scalar, Space, System, Vector};
@@ -139,8 +139,29 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for AtSt
     }
 }
 
+/// For which instructions steps are compiled.
+pub trait Evaluation {
+    /// Runs `steps`, a closure that is `#[cfg_attr(not(debug_assertions), inline(always))]` where it is
+    /// written.
+    fn run<R>(steps: impl FnOnce() -> R) -> R;
+}
+
+impl Evaluation for OneByOne {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<R>(steps: impl FnOnce() -> R) -> R {
+        steps()
+    }
+}
+
+impl Evaluation for InLanes {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<R>(steps: impl FnOnce() -> R) -> R {
+        widest_if(true, steps)
+    }
+}
+
 /// How the equations of motion are evaluated at the `W` stages of a step.
-pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real>: Evaluation {
     /// Renews an entry of the slopes by that of X at all stages, as [`FirstOrder::evaluate_part`] does at
     /// one.
     ///
@@ -153,9 +174,6 @@ pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real
         slopes: &mut Slopes<'_, W, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
-
-    /// Runs a step.
-    fn run<K: Task>(step: K) -> K::Output;
 }
 
 impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation<W, S, T> for OneByOne {
@@ -168,11 +186,6 @@ impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         one_by_one(equations, at, work, slopes, statistics)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<K: Task>(step: K) -> K::Output {
-        step.run()
     }
 }
 
@@ -188,11 +201,6 @@ impl<const W: usize, S: System<Kind: FirstOrderInLanes<W, S, T>>, T: Real> Stage
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         S::Kind::evaluate_in_lanes(equations, at, work, slopes, statistics)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<K: Task>(step: K) -> K::Output {
-        widest(step)
     }
 }
 
@@ -227,7 +235,7 @@ pub(super) fn one_by_one<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: R
     slopes: &mut Slopes<'_, W, S, T>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let StageWork { point, slope, vector, gradient, .. } = work;
+    let StageWork { point, slope, gradient, .. } = work;
     for stage in 0..W {
         for (to, from) in [(&mut *point, at.y), (&mut *slope, &*slopes.slopes)] {
             for (to, from) in to.iter_mut().zip(from.iter()) {
@@ -235,8 +243,8 @@ pub(super) fn one_by_one<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: R
             }
         }
         let t = at.t.0[stage];
-        S::Kind::evaluate_part(equations, at.system, slopes.part, point, t, slope, vector, statistics)?;
-        write_lane(stage, vector, gradient);
+        S::Kind::evaluate_part(equations, at.system, slopes.part, point, t, slope, statistics)?;
+        write_lane(stage, &slope[slopes.part], gradient);
     }
     slopes.renew_all(gradient);
     Ok(())

@@ -15,7 +15,8 @@ use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::{Lobatto, MOST};
 use crate::scalar::norm::reported;
 use crate::space::elimination;
-use crate::{Real, Scalar};
+use crate::{Real, Scalar, Weights};
+use core::ops::{Deref, DerefMut};
 
 /// sin u and what multiplies the new point count as zero below this.
 const RESONANCE: f64 = 1e-4;
@@ -30,9 +31,9 @@ pub(super) struct Coefficients<const NODES: usize, T> {
     u: T,
     pub(super) weights: [T; NODES],
     /// φ
-    pub(super) point: [[T; NODES]; NODES],
+    point: [[T; NODES]; NODES],
     /// ψ
-    pub(super) velocity: [[T; NODES]; NODES],
+    velocity: [[T; NODES]; NODES],
     /// b and B of each node.
     left: [[T; 2]; NODES],
     /// Entry (r, k): Σⱼ wⱼ ψ̂ⱼᵣ ψⱼₖ, which M/h multiplies.
@@ -101,11 +102,56 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         if r == NODES - 1 { self.left[j] } else { [self.point[j][r], self.velocity[j][r]] }
     }
 
-    /// The same times the weight of the node.
+    /// Sets `point` to qʲ of node `j`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn weighted_direction(&self, j: usize, r: usize) -> [T; 2] {
-        let (w, [point, velocity]) = (self.weights[j], self.direction(j, r));
-        [w * point, w * velocity]
+    pub(super) fn set_point<V: DerefMut<Target = [T]>>(&self, j: usize, x: &[V; NODES], point: &mut [T]) {
+        for i in 0..point.len() {
+            point[i] = weighted(&self.point[j], x, i, T::lift(0.0));
+        }
+    }
+
+    /// The same, and `velocity` to q̇ʲ, in a step of length `h`.
+    pub(super) fn place<V: DerefMut<Target = [T]>>(
+        &self,
+        j: usize,
+        h: T,
+        x: &[V; NODES],
+        [point, velocity]: [&mut [T]; 2],
+    ) {
+        let per_h = T::lift(1.0) / h;
+        self.set_point(j, x, point);
+        for i in 0..velocity.len() {
+            velocity[i] = per_h * weighted(&self.velocity[j], x, i, T::lift(0.0));
+        }
+    }
+
+    /// Adds what node `j` contributes to the derivatives of L_d in all directions, from those of L there.
+    pub(super) fn add<V: DerefMut<Target = [T]>>(
+        &self,
+        j: usize,
+        h: T,
+        [l_q, l_v]: [&[T]; 2],
+        derivatives: &mut [V; NODES],
+    ) {
+        for (r, derivative) in derivatives.iter_mut().enumerate() {
+            let [by_point, by_velocity] = self.direction(j, r).map(|along| self.weights[j] * along);
+            for i in 0..derivative.len() {
+                derivative[i] += h * by_point * l_q[i] + by_velocity * l_v[i];
+            }
+        }
+    }
+
+    /// The weights of the second derivatives of L at node `j` in that of L_d in direction `r` by x_`k`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn second(&self, j: usize, h: T, r: usize, k: usize) -> Weights<T> {
+        let [by_point, by_velocity] = self.direction(j, r).map(|along| self.weights[j] * along);
+        let (phi, psi) = (self.point[j][k], self.velocity[j][k]);
+        Weights {
+            qq: h * by_point * phi,
+            qv: by_point * psi,
+            vq: by_velocity * phi,
+            vv: by_velocity * psi / h,
+        }
     }
 
     /// Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − z φ̂ⱼᵣ φⱼₖ)
@@ -139,6 +185,12 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         // The Schur complement of the displacements is the reciprocal of the last entry of the inverse.
         Some(-T::lift(1.0) / self.inverse[n][n])
     }
+}
+
+/// `from` + Σₖ `row`ₖ xₖ of coordinate `i`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn weighted<T: Real>(row: &[T], x: &[impl Deref<Target = [T]>], i: usize, from: T) -> T {
+    row.iter().zip(x).fold(from, |sum, (&factor, x)| sum + factor * x[i])
 }
 
 #[cfg(test)]

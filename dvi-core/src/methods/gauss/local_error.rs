@@ -29,9 +29,7 @@
 use super::memory::{Path, first_part};
 use crate::error::StepFailure;
 use crate::mechanics::motion::{AtStages, FirstOrder, Slopes, StageEvaluation};
-use crate::methods::Clock;
 use crate::methods::collocation::packs::{combine, sum};
-use crate::methods::collocation::steps::Steps;
 use crate::methods::tolerance::{Tolerance, in_units_of};
 use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
@@ -54,19 +52,13 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
-        let mut error = T::lift(0.0);
-        E::run(Steps::new(
-            Clock::new(t, h),
-            1,
+        E::run(
             #[inline]
-            |interval| {
-                self.evaluate_defects::<E>(system, interval, statistics)?;
-                error = self.estimate([h, usual], tolerance)?;
-                Ok(())
+            || {
+                self.evaluate_defects::<E>(system, [t, h], statistics)?;
+                self.estimate([h, usual], tolerance)
             },
-        ))
-        .1?;
-        Ok(error)
+        )
     }
 
     /// Sets `increment` to the defect at the start of the step, and `slopes` to those at the other extrema,

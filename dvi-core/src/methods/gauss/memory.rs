@@ -198,8 +198,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         summation: Summation,
         system: &S,
         q: &mut Vector<S, T>,
-        t: T,
-        h: T,
+        [t, h]: [T; 2],
     ) -> Result<(), StepFailure> {
         let Self { equations, completed, last, slopes, terms, y, rest, increment, next, .. } = self;
         for part in 0..y.len() {
