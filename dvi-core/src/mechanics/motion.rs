@@ -25,7 +25,7 @@ use crate::{Real, Scalar, Sink, System, Vector, Weights};
 
 pub use flow_on_q::FlowOnQ;
 pub use hamilton::HamiltonsEquations;
-pub(crate) use stages::{AtStages, Slopes, StageWork, weigh};
+pub(crate) use stages::{AtStages, StageWork, weigh};
 pub use stages::{Evaluation, FirstOrderInLanes, InLanes, OneByOne, StageEvaluation};
 
 /// A point y, or its velocity: `K` vectors of the space.
@@ -135,7 +135,6 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// # Errors
     /// [`StepFailure::Singular`] where Ω or the mass matrix is singular, [`StepFailure::NotConverged`] where
     /// no velocity belongs to the momentum.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate(
         equations: &mut Self::Equations,
         system: &S,
@@ -152,8 +151,8 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     }
     /// Sets the velocity of `slope` to the last one within the step, if it is needed as a guess.
     fn guess(_equations: &Self::Equations, _slope: &mut Self::Point<T>) {}
-    /// Sets entry `part` of `slope`, a guess of X(`y`, `t`), to that of X: to the velocity that belongs to the
-    /// momentum, or to the force at the velocity of `slope`.
+    /// Sets entry `part` of `slope`, a guess of X(`y`, `t`), to that of X: to the velocity that belongs to
+    /// the momentum, or to the force at the velocity of `slope`.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
@@ -188,19 +187,21 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         system: &S,
         at: [&[T]; 2],
         interval: [T; 2],
-        work: &mut [Vector<S, T>; 2],
+        work: [&mut [T]; 2],
         sink: &mut K,
     );
-    /// Whether Ω has kept its orientation at a point within a step.
+    /// Whether Ω, of a degenerate system, has kept its orientation at a point within a step.
     ///
     /// # Errors
     /// [`StepFailure::Orientation`].
     fn compare(
-        equations: &mut Self::Equations,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-    ) -> Result<(), StepFailure>;
+        _equations: &mut Self::Equations,
+        _system: &S,
+        _y: &Self::Point<T>,
+        _t: T,
+    ) -> Result<(), StepFailure> {
+        Ok(())
+    }
     /// Moves to `y`, the end of a step; all but `q` is kept here.
     ///
     /// # Errors
@@ -213,15 +214,17 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         q: &mut Vector<S, T>,
         t: T,
     ) -> Result<(), StepFailure>;
-    /// Sets `v` to the velocity at the present point, if states carry one.
+    /// Sets `v` to the velocity at the present point; states of degenerate systems carry none.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
     fn velocity(
-        equations: &Self::Equations,
-        system: &S,
-        q: &Vector<S, T>,
-        t: T,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure>;
+        _equations: &Self::Equations,
+        _system: &S,
+        _q: &Vector<S, T>,
+        _t: T,
+        _v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        Ok(())
+    }
 }

@@ -142,9 +142,33 @@ where
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
+        let GaussMemory { ladder, path } = memory;
+        // Where Newton's method stands by, a fixed point that is slow is left to it.
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
         E::run(
             #[cfg_attr(not(debug_assertions), inline(always))]
-            || self.take(system, memory, q, [t, h], statistics),
+            || {
+                ladder.solve(
+                    &mut (path, q),
+                    statistics,
+                    #[cfg_attr(not(debug_assertions), inline(always))]
+                    |(path, q), statistics| {
+                        let mut guess = Guess::Continued;
+                        loop {
+                            match self.attempt(system, path, q, [t, h], (guess, budget), statistics) {
+                                Err(_) if guess == Guess::Continued && !path.is_first() => {
+                                    guess = Guess::Constant;
+                                }
+                                result => return result,
+                            }
+                        }
+                    },
+                    |(path, q), newton, guess, statistics| {
+                        newton.solve(system, path, (q, [t, h]), guess, self.stopping, statistics)?;
+                        path.arrive(0, self.summation, system, q, [t, h])
+                    },
+                )
+            },
         )
     }
 
@@ -183,44 +207,7 @@ where
 }
 
 impl<const STAGES: usize, E> Gauss<STAGES, E> {
-    /// Takes a step from t to t + h.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<S, T: Real>(
-        &self,
-        system: &S,
-        memory: &mut GaussMemory<STAGES, S, T>,
-        q: &mut Vector<S, T>,
-        interval: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>
-    where
-        S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
-        E: StageEvaluation<STAGES, S, T>,
-    {
-        let GaussMemory { ladder, path } = memory;
-        // Where Newton's method stands by, a fixed point that is slow is left to it.
-        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        ladder.solve(
-            &mut (path, q),
-            statistics,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            |(path, q), statistics| {
-                let mut guess = Guess::Continued;
-                loop {
-                    match self.attempt(system, path, q, interval, (guess, budget), statistics) {
-                        Err(_) if guess == Guess::Continued && !path.is_first() => guess = Guess::Constant,
-                        result => return result,
-                    }
-                }
-            },
-            |(path, q), newton, guess, statistics| {
-                newton.solve(system, path, (q, interval), guess, self.stopping, statistics)?;
-                path.arrive(0, self.summation, system, q, interval)
-            },
-        )
-    }
-
-    /// The same by the fixed point, with stages that begin at a guess.
+    /// Takes a step from t to t + h by the fixed point, with stages that begin at a guess.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn attempt<S, T: Real>(
         &self,
@@ -253,7 +240,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         if S::Kind::HAS_VELOCITY_FORCES {
             // Those of the last iteration belong to the velocities before it.
             path.reach(0);
-            path.evaluate_part::<E>(1, system, t, h, statistics)?;
+            path.evaluate_part::<E>(1, system, [t, h], statistics)?;
         }
         path.displace(h);
         path.arrive(memory::first_part::<S, T>(&path.equations), summation, system, q, [t, h])
@@ -291,12 +278,12 @@ where
             if !S::Kind::OF_SECOND_ORDER {
                 path.reach((part + 1) % path.y.len());
             }
-            path.evaluate_part::<E>(part, system, *t, *h, statistics)?;
+            path.evaluate_part::<E>(part, system, [*t, *h], statistics)?;
         }
         if let Some(change) = path.place(*h) {
             return Ok(change);
         }
         path.reach(1 % path.y.len());
-        path.evaluate_part::<E>(0, system, *t, *h, statistics)
+        path.evaluate_part::<E>(0, system, [*t, *h], statistics)
     }
 }

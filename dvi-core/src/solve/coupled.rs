@@ -7,10 +7,11 @@ use crate::space::{CoupledSolver, NodeSum, linear};
 use crate::state::Statistics;
 use crate::{Coupled, Real, System, Vector};
 
-/// Equations rᵣ = 0 for the vectors from [`NodeSum::FIRST`] to `COUNT`, with their matrix as a sum over nodes.
+/// Equations rᵣ = 0 for the vectors from [`NodeSum::FIRST`] to `COUNT`, with their matrix as a sum over
+/// nodes.
 pub(crate) trait CoupledEquations<const COUNT: usize, S: System, T: Real>: NodeSum<COUNT, T> {
-    /// How many iterations bring one more order of derivatives, where numbers carry them: one, if the matrix is
-    /// exact.
+    /// How many iterations bring one more order of derivatives, where numbers carry them: one, if the matrix
+    /// is exact.
     const PER_ORDER: usize = 1;
 
     /// The vectors, with those before the first unknown one.
@@ -43,8 +44,11 @@ pub(crate) trait CoupledEquations<const COUNT: usize, S: System, T: Real>: NodeS
     }
 }
 
-/// Improves the unknowns that stand in `equations`, increments of `q`, until r = 0. What comes with `residuals` is
-/// storage.
+/// Room for the residuals, and for weights and sums.
+type Storage<'a, const COUNT: usize, S, T> = (&'a mut [Vector<S, T>; COUNT], &'a mut [Vector<S, T>; 2]);
+
+/// Improves the unknowns that stand in `equations`, increments of `q`, until r = 0. What comes with
+/// `residuals` is storage.
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`], or those of the
@@ -53,7 +57,7 @@ pub(crate) fn solve_coupled<const COUNT: usize, S: System, T: Real, E: CoupledEq
     equations: &mut E,
     (system, q): (&S, &[T]),
     solver: &mut Coupled<COUNT, S, T>,
-    (residuals, [weights, sums]): (&mut [Vector<S, T>; COUNT], &mut [Vector<S, T>; 2]),
+    (residuals, [weights, sums]): Storage<'_, COUNT, S, T>,
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {

@@ -13,52 +13,17 @@
 //! contains the oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0
 //! at the end and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
 
-use super::coefficients::{Coefficients, weighted};
+use super::coefficients::{Fit, weighted};
 use crate::discrete::frequency::{FrequencyIn, Local};
-use crate::discrete::{Interval, NodeWork, Rule};
+use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::phase::PhasePoint;
-use crate::methods::collocation::lobatto::Lobatto;
 use crate::scalar::norm;
 use crate::solve::{Convergence, CoupledEquations, Stopping, iterate, sizes};
 use crate::space::{NodeSum, Sink, scratch};
 use crate::state::Statistics;
-use crate::{NondegenerateLagrangian, Real, System, Vector, Weights};
-
-/// The coefficients for the frequency of a step.
-#[derive(Debug)]
-pub(super) struct Fit<const NODES: usize, S: System, T: Real> {
-    rule: Lobatto<NODES>,
-    differentiation: [[f64; NODES]; NODES],
-    pub(super) coefficients: Coefficients<NODES, T>,
-    /// The frequencies at both ends of the step.
-    ends: [Local<S, T>; 2],
-}
-
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real> Fit<NODES, S, T> {
-    /// For steps of length `h`, as far as the frequency is known before them.
-    ///
-    /// # Errors
-    /// Those of [`Coefficients::new`].
-    pub(super) fn new<F: FrequencyIn<T>>(system: &S, frequency: &F, h: T) -> Result<Self, StepFailure> {
-        let (rule, reading) = (Lobatto::new(), frequency.reading());
-        let differentiation = rule.differentiation();
-        let u = if reading.is_none() { frequency.fixed() * h } else { T::lift(0.0) };
-        let coefficients = Coefficients::new(&rule, &differentiation, u)?;
-        let ends = [Local::new(system, reading), Local::new(system, reading)];
-        Ok(Self { rule, differentiation, coefficients, ends })
-    }
-
-    /// Makes the coefficients those for `u` = ωh, if they are not.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn to(&mut self, u: T) -> Result<(), StepFailure> {
-        if !self.coefficients.is_for(u) {
-            self.coefficients = Coefficients::new(&self.rule, &self.differentiation, u)?;
-        }
-        Ok(())
-    }
-}
+use crate::{Lagrangian, NondegenerateLagrangian, Real, System, Vector, Weights};
 
 /// A step from the point `phase` has, whose coordinates are the first of the unknowns.
 pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
@@ -68,7 +33,9 @@ pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) phase: &'a PhasePoint<S, T>,
     /// M, if it is constant.
     pub(super) mass: Option<&'a Mass<S, T>>,
-    pub(super) fit: &'a mut Fit<NODES, S, T>,
+    pub(super) fit: &'a mut Fit<NODES, T>,
+    /// The frequencies at both ends.
+    pub(super) ends: &'a mut [Local<S, T>; 2],
     /// q0, the displacements of the interior nodes, and Δ.
     pub(super) unknowns: &'a mut [Vector<S, T>; NODES],
     /// Work space.
@@ -80,8 +47,8 @@ pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
 impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
     Displaced<'_, NODES, S, F, T>
 {
-    /// Solves the equations by the fixed point over M, in up to `budget` iterations. What comes with `residuals`
-    /// is storage.
+    /// Solves the equations by the fixed point over M, in up to `budget` iterations. What comes with
+    /// `residuals` is storage.
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
@@ -91,22 +58,17 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         (stopping, budget): (Stopping, usize),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        // Of another L steps are Newton's.
-        let (true, Some(mass)) = (S::SEPARABLE, self.mass) else { return Err(StepFailure::NO_MATRIX) };
-        let convergence = Convergence::fixed_point(stopping, budget);
-        iterate(convergence, statistics, |due, statistics| {
+        let Some(mass) = self.mass else { return Err(StepFailure::NO_MATRIX) };
+        iterate(Convergence::fixed_point(stopping, budget), statistics, |due, statistics| {
             let (start, unknowns) = self.unknowns.split_at_mut(1);
             due.prepare_all(self.system, weights, &start[0], unknowns);
-            self.evaluate(residuals, statistics)?;
-            for residual in &mut residuals[1..] {
-                mass.displace(self.interval.h, residual, &mut self.node.velocity);
-                residual.copy_from_slice(&self.node.velocity);
-            }
+            self.differentiate(Self::FIRST, residuals, statistics)?;
+            residuals[1..].iter_mut().for_each(|residual| mass.solve_in_place(residual));
             let (mut largest, inverse) = (T::lift(0.0), &self.fit.coefficients.inverse);
             let change = &mut self.node.velocity;
             for (unknown, row) in self.unknowns.iter_mut().zip(inverse).skip(1) {
                 for i in 0..change.len() {
-                    change[i] = weighted(&row[1..], &residuals[1..], i, T::lift(0.0));
+                    change[i] = self.interval.h * weighted(&row[1..], &residuals[1..], i, T::lift(0.0));
                 }
                 largest = norm::larger(largest, sizes::reduce(self.system, weights, unknown, change));
             }
@@ -116,9 +78,8 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     }
 
     /// The coefficients for the frequency at the current unknowns.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn read_frequency(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Self { system, frequency, interval, phase, mass, fit, unknowns, node, .. } = self;
+        let Self { system, frequency, interval, phase, mass, fit, ends, unknowns, node, .. } = self;
         let (false, Some(mass), Some(_)) = (F::UNFITTED, mass, frequency.reading()) else {
             return fit.to(frequency.fixed() * interval.h);
         };
@@ -130,51 +91,75 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         }
         system.force(end, &[], interval.time(T::lift(1.0)), force);
         statistics.gradients += 1;
-        let [first, last] = &mut fit.ends;
+        let [first, last] = &mut **ends;
         first.evaluate(*frequency, mass, q, velocity, &phase.force)?;
         last.evaluate(*frequency, mass, end, velocity, force)?;
         let omega = T::lift(0.5) * (first.omega + last.omega);
         fit.to(omega * interval.h)
     }
 
-    /// Adds the forces at the nodes but for the last, which is in none of the unknowns' equations, and M Kx/h.
-    fn add_forces(
+    /// Sets `residuals` from the `first`, of which that of the ends is (D₁ + D₂)L_d; of a separable L, but
+    /// for the force at the end.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn differentiate(
+        &mut self,
+        first: usize,
+        residuals: &mut [Vector<S, T>; NODES],
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        self.read_frequency(statistics)?;
+        if S::SEPARABLE
+            && let Some(mass) = self.mass
+        {
+            self.set_forces(mass, first, residuals, statistics);
+            return Ok(());
+        }
+        let (step, x) = ((self.system, self.interval), &*self.unknowns);
+        self.fit.differentiate(step, x, self.node, residuals, statistics);
+        for (residual, &p) in residuals[NODES - 1].iter_mut().zip(self.phase.p.iter()) {
+            *residual += p;
+        }
+        Ok(())
+    }
+
+    /// The same by the forces at the nodes but for the last, and M Kx/h.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn set_forces(
         &mut self,
         mass: &Mass<S, T>,
+        first: usize,
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) {
-        let (per_h, Coefficients { kinetic, .. }) = (T::lift(1.0) / self.interval.h, &self.fit.coefficients);
-        for (residual, row) in residuals.iter_mut().zip(kinetic) {
-            let sum = &mut self.node.velocity;
-            for i in 0..sum.len() {
-                sum[i] = weighted(row, self.unknowns, i, T::lift(0.0));
-            }
-            mass.multiply_add(per_h, sum, residual);
+        let Self { system, interval, phase, fit, unknowns, node, .. } = self;
+        let (h, coefficients, last) = (interval.h, &fit.coefficients, NODES - 1);
+        let begin = h * coefficients.weights[0];
+        for i in 0..phase.p.len() {
+            residuals[0][i] = begin * phase.force[i];
+            residuals[last][i] = phase.p[i] + residuals[0][i];
         }
-        for j in 0..NODES - 1 {
-            if j > 0 {
-                let NodeWork { point, gradient, .. } = &mut *self.node;
-                self.fit.coefficients.set_point(j, self.unknowns, point);
-                let t = self.interval.time(T::lift(self.fit.rule.nodes()[j]));
-                self.system.force(point, &[], t, gradient);
-                statistics.gradients += 1;
-            }
-            let force = if j > 0 { &self.node.gradient } else { &self.phase.force };
-            let Coefficients { weights, .. } = &self.fit.coefficients;
-            for (r, residual) in residuals.iter_mut().enumerate() {
-                let [along, _] = self.fit.coefficients.direction(j, r);
-                // A force moves the displacement of its own node only.
-                if r == 0 || r == j || r == NODES - 1 {
-                    let by = self.interval.h * weights[j] * along;
-                    residual.iter_mut().zip(force.iter()).for_each(|(residual, &f)| *residual += by * f);
-                }
+        for j in 1..last {
+            coefficients.set_point(j, unknowns, &mut node.point);
+            system.force(&node.point, &[], fit.time(*interval, j), &mut node.gradient);
+            let ([both, _], [left, _]) = (coefficients.direction(j, 0), coefficients.direction(j, last));
+            for i in 0..node.gradient.len() {
+                let impulse = h * coefficients.weights[j] * node.gradient[i];
+                residuals[j][i] = impulse;
+                residuals[last][i] += left * impulse;
+                residuals[0][i] += both * impulse;
             }
         }
+        for (residual, row) in residuals.iter_mut().zip(&coefficients.kinetic).skip(first) {
+            for i in 0..node.velocity.len() {
+                node.velocity[i] = weighted(row, &unknowns[..], i, T::lift(0.0));
+            }
+            mass.multiply_add(T::lift(1.0) / h, &node.velocity, residual);
+        }
+        statistics.gradients += (NODES - 2) as u64;
     }
 
     fn time(&self) -> T {
-        self.interval.time(T::lift(self.fit.rule.nodes()[self.j]))
+        self.fit.time(self.interval, self.j)
     }
 }
 
@@ -185,29 +170,12 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         self.unknowns
     }
 
-    /// The first of `residuals` is (D₁ + D₂)L_d; of a separable L, but for the force at the end.
     fn evaluate(
         &mut self,
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.read_frequency(statistics)?;
-        residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
-        if let (true, Some(mass)) = (S::SEPARABLE, self.mass) {
-            self.add_forces(mass, residuals, statistics);
-        } else {
-            for j in 0..NODES {
-                self.place(j);
-                let (t, NodeWork { point, velocity, gradient, momentum }) = (self.time(), &mut *self.node);
-                self.system.gradient(point, velocity, t, gradient, momentum);
-                self.fit.coefficients.add(j, self.interval.h, [gradient, momentum], residuals);
-            }
-            statistics.gradients += NODES as u64;
-        }
-        for (residual, &p) in residuals[NODES - 1].iter_mut().zip(self.phase.p.iter()) {
-            *residual += p;
-        }
-        Ok(())
+        self.differentiate(Self::FIRST, residuals, statistics)
     }
 }
 
@@ -216,7 +184,6 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
 {
     const FIRST: usize = 1;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, j: usize) {
         self.j = j;
         let NodeWork { point, velocity, .. } = &mut *self.node;
@@ -227,9 +194,12 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         self.phase.p[i]
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
-        self.fit.coefficients.second(self.j, self.interval.h, r, k)
+        let (h, coefficients) = (self.interval.h, &self.fit.coefficients);
+        let [by_point, by_velocity] = coefficients.weighted_direction(self.j, r);
+        let [phi, psi] = coefficients.slopes(self.j, k);
+        let vv = by_velocity * psi / h;
+        Weights { qq: h * by_point * phi, qv: by_point * psi, vq: by_velocity * phi, vv }
     }
 
     const MIXED_ARE_TRANSPOSED: bool = !S::FORCED;
@@ -241,18 +211,27 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         self.system.linearize(point, velocity, t, w, gradient, momentum, vq);
     }
 
-    // Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what
-    // is read, and evaluates once what the three have in common.
-    #[inline(never)]
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>) {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        let (system, t) = (self.system, self.time());
-        let NodeWork { point, velocity, gradient, momentum } = &mut *self.node;
-        scratch!(l_q = system, *gradient);
-        scratch!(l_v = system, *momentum);
-        system.linearize(point, velocity, t, Weights { qq: one, ..none }, l_q, l_v, qq);
-        system.linearize(point, velocity, t, Weights { qv: one, ..none }, l_q, l_v, qv);
-        system.linearize(point, velocity, t, Weights { vv: one, ..none }, l_q, l_v, vv);
+        second_derivatives((self.system, self.time()), self.node, qq, qv, vv);
     }
+}
+
+/// Adds the second derivatives of L where `node` is.
+// Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what is
+// read, and evaluates once what the three have in common.
+#[inline(never)]
+pub(super) fn second_derivatives<S: Lagrangian<T>, T: Real>(
+    (system, t): (&S, T),
+    NodeWork { point, velocity, gradient, momentum }: &mut NodeWork<S, T>,
+    qq: &mut impl Sink<T>,
+    qv: &mut impl Sink<T>,
+    vv: &mut impl Sink<T>,
+) {
+    let (zero, one) = (T::lift(0.0), T::lift(1.0));
+    let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+    scratch!(l_q = system, *gradient);
+    scratch!(l_v = system, *momentum);
+    system.linearize(point, velocity, t, Weights { qq: one, ..none }, l_q, l_v, qq);
+    system.linearize(point, velocity, t, Weights { qv: one, ..none }, l_q, l_v, qv);
+    system.linearize(point, velocity, t, Weights { vv: one, ..none }, l_q, l_v, vv);
 }

@@ -1,7 +1,5 @@
 //! How the forces at the interior nodes are evaluated: one by one, or in the lanes of packs.
 
-use core::fmt::Debug;
-
 use super::interior::Interior;
 use crate::mechanics::motion::{Evaluation, InLanes, OneByOne};
 use crate::memory::Memory;
@@ -16,7 +14,7 @@ use crate::{NondegenerateLagrangian, Real, System, Vector};
 )]
 pub trait NodeEvaluation<const NODES: usize, S: System, T: Real>: Evaluation {
     /// The interior nodes.
-    type Interior: Memory<T> + Debug;
+    type Interior: Memory<T>;
 }
 
 impl<const NODES: usize, S: System, T: Real> NodeEvaluation<NODES, S, T> for OneByOne {
@@ -34,7 +32,7 @@ macro_rules! in_lanes {
 in_lanes!(4 2, 5 4, 6 4, 7 8, 8 8, 9 8);
 
 /// How the forces at up to `W` nodes are evaluated.
-pub trait NodeForces<const W: usize, S: System, T: Real>: Debug {
+pub trait NodeForces<const W: usize, S: System, T: Real> {
     /// Sets the first `count` lanes of `forces` to those at `places` and `times`; `work` is storage.
     fn evaluate(
         system: &S,

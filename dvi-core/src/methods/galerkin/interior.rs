@@ -13,7 +13,6 @@
 //! before, continued. Each interior node has a lane in packs of `W` ≥ S − 2; what stands in the others does
 //! not count.
 
-use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 
 use super::evaluation::NodeForces;
@@ -32,6 +31,7 @@ use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Space, System, Vector};
 
 /// The interior nodes of a step, and what the step before leaves to it.
+#[derive(Debug)]
 pub struct Interior<const NODES: usize, const W: usize, S: System, T: Real, E> {
     nystrom: Nystrom<W, T>,
     weights: Lanes<W, T>,
@@ -67,12 +67,6 @@ impl<const NODES: usize, const W: usize, S: System, T: Real, E> Memory<T> for In
     lasting!(T; packs completed, numbers first, number last);
 }
 
-impl<const NODES: usize, const W: usize, S: System, T: Real, E> Debug for Interior<NODES, W, S, T, E> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Interior").field("completed", &self.completed).finish_non_exhaustive()
-    }
-}
-
 /// Where a step begins, and how long it is.
 #[derive(Debug)]
 pub struct Departure<'a, S: System, T: Real> {
@@ -84,17 +78,18 @@ pub struct Departure<'a, S: System, T: Real> {
 }
 
 /// The interior nodes of a step.
-pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Debug + Sized {
+pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Sized {
     /// Of the Lobatto rule.
     fn new(system: &S) -> Self;
     /// Forgets the last step: the next one begins with the force at its start.
     fn forget(&mut self);
     /// Remembers the forces of a completed step of length `h`.
     fn remember(&mut self, h: T);
-    /// Sets the displacements and Δ, which stand behind q0, to those that the forces of the step before lead to.
+    /// Sets the displacements and Δ, which stand behind q0, to those that the forces of the step before lead
+    /// to.
     fn guess(&mut self, at: &Departure<'_, S, T>, unknowns: &mut [Vector<S, T>; NODES]);
-    /// Finds the positions by the fixed point, in up to so many iterations, and sets Δ, and p1 − p0 but for the
-    /// kick at the end.
+    /// Finds the positions by the fixed point, in up to so many iterations, and sets Δ, and p1 − p0 but for
+    /// the kick at the end.
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`].
@@ -105,8 +100,8 @@ pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Deb
         increments: [&mut Vector<S, T>; 2],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
-    /// Puts the nodes where the `unknowns` are, q0, the displacements and Δ, and sets `impulse` to p1 − p0 but
-    /// for the kick at the end.
+    /// Puts the nodes where the `unknowns` are, q0, the displacements and Δ, and sets `impulse` to p1 − p0
+    /// but for the kick at the end.
     fn visit(
         &mut self,
         at: &Departure<'_, S, T>,
@@ -335,10 +330,16 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             }
         }
         let nodes = nystrom.nodes;
-        let from = |k: usize| {
-            let small = Lanes::all(phase.left_out_of_q(k)) + nodes * Lanes::all(kick[k]);
-            (q[k], small + nodes * Lanes::all(drift[k]))
-        };
-        nystrom.place(Self::COUNT, displacements, from, sizes, [places, renewed])
+        nystrom.place(
+            Self::COUNT,
+            displacements,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |k| {
+                let small = Lanes::all(phase.left_out_of_q(k)) + nodes * Lanes::all(kick[k]);
+                (q[k], small + nodes * Lanes::all(drift[k]))
+            },
+            sizes,
+            [places, renewed],
+        )
     }
 }

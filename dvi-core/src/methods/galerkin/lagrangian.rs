@@ -1,37 +1,36 @@
 //! The discrete Lagrangian, stationary in the displacements: its derivatives, and the second ones by
 //! eliminating these.
 //!
-//! With the unknowns x of a [step](super::displaced), the δ of the interior nodes among them, and H the matrix
-//! of its equations, ∂L_d/∂δ = 0 gives
+//! With the unknowns x of a [step](super::displaced), the δ of the interior nodes among them, and H the
+//! matrix of its equations, ∂L_d/∂δ = 0 gives
 //!
 //! (D₁ + D₂)L_d = r₀      D₁L_d = r_{s−1}      H* = H − H_δ H_δδ⁻¹ H^δ
 //!
-//! where H* is what is left of H, in columns by q0 at the same Δ, D₁ + D₂, and by Δ, D₂, once the displacements
-//! have been [eliminated](crate::space::linear::blocks).
+//! where H* is what is left of H, in columns by q0 at the same Δ, D₁ + D₂, and by Δ, D₂, once the
+//! displacements have been [eliminated](crate::space::linear::blocks).
 
 use super::Galerkin;
-use super::coefficients::Coefficients;
+use super::coefficients::Fit;
+use super::displaced::second_derivatives;
 use crate::discrete::frequency::{FrequencyIn, GivenFrequency};
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Rule, Span, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::linear_of_all;
 use crate::memory::Aside;
-use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
 use crate::space::linear::{self, blocks};
 use crate::space::lines;
-use crate::space::sink::{Sink, Transposed};
+use crate::space::sink::{Places, Sink, Transposed};
 use crate::state::Statistics;
-use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, System, Vector};
+use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// The discrete Lagrangian with interior displacements, and the storage that it needs.
 #[derive(Debug)]
 pub struct GalerkinLagrangian<const NODES: usize, S: System, F, T: Real = f64> {
     method: Galerkin<NODES, F>,
-    rule: Lobatto<NODES>,
-    differentiation: [[f64; NODES]; NODES],
+    fit: Fit<NODES, T>,
     storage: Storage<NODES, S, T>,
 }
 
@@ -45,6 +44,10 @@ struct Storage<const NODES: usize, S: System, T: Real> {
     /// In which iterations judge coordinates.
     weights: Vector<S, T>,
     blocks: Aside<[[Matrix<S, T>; NODES]; NODES]>,
+    /// Second derivatives of L at a node: by q and q, q and v, v and q, v and v.
+    second: [Matrix<S, T>; 4],
+    /// What a direction makes of them: by q and by v.
+    rows: [Matrix<S, T>; 2],
     permutation: Permutation<S>,
     node: NodeWork<S, T>,
 }
@@ -53,8 +56,7 @@ struct Storage<const NODES: usize, S: System, T: Real> {
 struct Path<'a, const NODES: usize, S, T> {
     system: &'a S,
     interval: Interval<T>,
-    rule: &'a Lobatto<NODES>,
-    coefficients: Coefficients<NODES, T>,
+    fit: &'a Fit<NODES, T>,
 }
 
 impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T> {
@@ -74,35 +76,48 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
         }
     }
 
-    fn time(&self, j: usize) -> T {
-        self.interval.time(T::lift(self.rule.nodes()[j]))
-    }
-
     /// Sets the derivatives along all directions.
     fn differentiate(&self, storage: &mut Storage<NODES, S, T>, statistics: &mut Statistics) {
         let Storage { unknowns, residuals, node, .. } = storage;
-        let (h, NodeWork { point, velocity, gradient, momentum }) = (self.interval.h, node);
-        residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
-        for j in 0..NODES {
-            self.coefficients.place(j, h, unknowns, [point, velocity]);
-            self.system.gradient(point, velocity, self.time(j), gradient, momentum);
-            self.coefficients.add(j, h, [gradient, momentum], residuals);
-        }
-        statistics.gradients += NODES as u64;
+        self.fit.differentiate((self.system, self.interval), unknowns, node, residuals, statistics);
         residuals[..Self::LAST].rotate_left(1);
     }
 
     /// Sets the blocks of second derivatives.
-    fn linearize(&self, Storage { unknowns, blocks, node, .. }: &mut Storage<NODES, S, T>) {
-        let (h, NodeWork { point, velocity, gradient, momentum }) = (self.interval.h, node);
-        blocks.iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
+    fn linearize(&self, storage: &mut Storage<NODES, S, T>) {
+        let Storage { unknowns, blocks, second, rows, node, .. } = storage;
+        let (zero, one, h) = (T::lift(0.0), T::lift(1.0), self.interval.h);
+        let per_h = one / h;
+        blocks.iter_mut().flatten().for_each(|block| block.fill(zero));
         for j in 0..NODES {
-            self.coefficients.place(j, h, unknowns, [point, velocity]);
+            self.fit.coefficients.place(j, h, unknowns, [&mut node.point, &mut node.velocity]);
+            second.iter_mut().for_each(|derivative| derivative.fill(zero));
+            let (t, [qq, qv, vq, vv]) = (self.fit.time(self.interval, j), &mut *second);
+            let mut mixed = Places(|row, column, entry| {
+                qv.add(column, row, entry);
+                if !S::FORCED {
+                    vq.add(row, column, entry);
+                }
+            });
+            second_derivatives((self.system, t), node, &mut Transposed(qq), &mut mixed, &mut Transposed(vv));
+            if S::FORCED {
+                let NodeWork { point, velocity, gradient, momentum } = &mut *node;
+                let weights = Weights { qq: zero, qv: zero, vq: one, vv: zero };
+                let sink = &mut Transposed(vq);
+                self.system.linearize(point, velocity, t, weights, gradient, momentum, sink);
+            }
+            let ([qq, qv, vq, vv], [by_q, by_v]) = (&*second, &mut *rows);
             for (r, row) in blocks.iter_mut().enumerate() {
+                let [phi, psi] = self.fit.coefficients.weighted_direction(j, Self::unknown(r));
+                for i in 0..by_q.len() {
+                    by_q[i] = h * phi * qq[i] + psi * vq[i];
+                    by_v[i] = phi * qv[i] + per_h * psi * vv[i];
+                }
                 for (k, block) in row.iter_mut().enumerate() {
-                    let weights = self.coefficients.second(j, h, Self::unknown(r), Self::unknown(k));
-                    let (t, mut transposed) = (self.time(j), Transposed(block));
-                    self.system.linearize(point, velocity, t, weights, gradient, momentum, &mut transposed);
+                    let [phi, psi] = self.fit.coefficients.slopes(j, Self::unknown(k));
+                    for i in 0..block.len() {
+                        block[i] += phi * by_q[i] + psi * by_v[i];
+                    }
                 }
             }
         }
@@ -127,7 +142,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
             if *due == Due::Residual {
                 return Self::residual(storage);
             }
-            let Storage { unknowns, residuals, weights, blocks, permutation, node } = &mut *storage;
+            let Storage { unknowns, residuals, weights, blocks, permutation, node, .. } = &mut *storage;
             residuals.iter().try_for_each(|residual| norm::finite(residual))?;
             let units = (&weights[..], &mut node.point[..]);
             blocks::eliminate(blocks, permutation, units, residuals, 0..Self::INTERIOR)?;
@@ -196,10 +211,9 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>
         ends: Ends<'a, T>,
         statistics: &mut Statistics,
     ) -> Result<Settled<'a, NODES, S, T>, StepFailure> {
-        let Self { method, rule, differentiation, storage } = self;
-        let u = method.frequency.fixed() * interval.h;
-        let coefficients = Coefficients::new(rule, differentiation, u)?;
-        let path = Path { system, interval, rule, coefficients };
+        let Self { method, fit, storage } = self;
+        fit.to(method.frequency.fixed() * interval.h)?;
+        let path = Path { system, interval, fit };
         storage.unknowns.iter_mut().for_each(|unknown| unknown.fill(T::lift(0.0)));
         storage.unknowns[0].copy_from_slice(ends.q0);
         storage.unknowns[NODES - 1].copy_from_slice(ends.delta);
@@ -291,17 +305,19 @@ where
     }
 
     fn discrete_lagrangian(&self, system: &S) -> GalerkinLagrangian<NODES, S, F, T> {
-        let (space, rule) = (system.space(), Lobatto::new());
+        let space = system.space();
         let blocks: [[_; NODES]; NODES] = core::array::from_fn(|_| core::array::from_fn(|_| space.matrix()));
         let storage = Storage {
             unknowns: space.vectors(),
             residuals: space.vectors(),
             weights: space.vector(),
             blocks: blocks.into(),
+            second: core::array::from_fn(|_| space.matrix()),
+            rows: core::array::from_fn(|_| space.matrix()),
             permutation: space.permutation(),
             node: NodeWork::new(system),
         };
-        GalerkinLagrangian { method: self.clone(), differentiation: rule.differentiation(), rule, storage }
+        GalerkinLagrangian { method: self.clone(), fit: Fit::new(), storage }
     }
 }
 

@@ -1,10 +1,10 @@
 //! What a run with interior displacements carries from step to step.
 
 use super::Galerkin;
-use super::displaced::Fit;
+use super::coefficients::Fit;
 use super::interior::InteriorNodes;
 use crate::discrete::NodeWork;
-use crate::discrete::frequency::FrequencyIn;
+use crate::discrete::frequency::{FrequencyIn, Local};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::mechanics::phase::{Inertial, PhasePoint};
@@ -33,7 +33,9 @@ pub(super) struct Path<const NODES: usize, S: System, T: Real, I> {
     pub(super) interior: Option<I>,
     /// Elsewhere, their displacements.
     pub(super) displacements: Option<Displacements<NODES, S, T>>,
-    pub(super) fit: Fit<NODES, S, T>,
+    pub(super) fit: Fit<NODES, T>,
+    /// The frequencies at both ends of the step.
+    pub(super) ends: [Local<S, T>; 2],
     /// q0, the displacements of the interior nodes, and Δ.
     pub(super) unknowns: [Vector<S, T>; NODES],
     /// (D₁ + D₂)L_d, ∂L_d/∂δ of the interior nodes, and p0 + D₁L_d; then the corrections of the unknowns.
@@ -85,13 +87,15 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     /// Of a run from (q, v, t), whose steps have the length h.
     ///
     /// # Errors
-    /// [`StartError::Unsupported`] where Newton's matrix is too large for the stack; [`StartError::Starter`].
+    /// Those of [`Galerkin::validate`]; [`StartError::Unsupported`] where Newton's matrix is too large for
+    /// the stack; [`StartError::Starter`].
     pub(super) fn new<F: FrequencyIn<T>, E>(
         method: &Galerkin<NODES, F, E>,
         system: &S,
         [q, v]: [&[T]; 2],
         [t, h]: [T; 2],
     ) -> Result<Self, StartError> {
+        method.validate::<S, T>(system)?;
         let solver = match method.solver.in_numbers::<T>() {
             // Any L has no fixed point.
             Solver::Automatic if !S::SEPARABLE => Solver::Newton,
@@ -104,17 +108,22 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
         }
         let (space, eliminates) = (system.space(), S::SEPARABLE && F::UNFITTED);
         let histories = || Displacements { nodes: core::array::from_fn(|_| History::new(system, None)) };
-        let path = Path {
+        let reading = method.frequency.reading();
+        let mut path = Path {
             phase: PhasePoint::new(system, q, v, t, method.summation)?,
             inertial: Inertial::new(system, q, v, t)?,
             interior: eliminates.then(|| I::new(system)),
             displacements: (!eliminates).then(histories),
-            fit: Fit::new(system, &method.frequency, h).map_err(StartError::Starter)?,
+            fit: Fit::new(),
+            ends: [Local::new(system, reading), Local::new(system, reading)],
             unknowns: space.vectors(),
             residuals: space.vectors(),
             weights: space.vectors(),
             node: NodeWork::new(system),
         };
+        if reading.is_none() {
+            path.fit.to(method.frequency.fixed() * h).map_err(StartError::Starter)?;
+        }
         let ladder = Ladder::new(solver, || newton_matrix(system, [q, v], t, solver.storing()));
         Ok(Self { ladder, path })
     }

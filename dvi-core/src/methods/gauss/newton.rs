@@ -8,8 +8,9 @@
 //! not see them.
 
 use super::memory::Path;
+use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::motion::{FirstOrder, Motion, PointOf, weigh};
+use crate::mechanics::motion::{FirstOrder, Motion, StageWork, weigh};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::Aside;
 use crate::methods::collocation::Collocation;
@@ -35,15 +36,8 @@ pub(super) struct NewtonStages<const STAGES: usize, S: System<Kind: Motion<S, T>
     residuals: [Vector<S, T>; STAGES],
     /// In which the iteration judges coordinates, and work space.
     weights: [Vector<S, T>; 2],
-    at: Stage<S, T>,
-}
-
-/// Work space.
-#[derive(Debug)]
-struct Stage<S: System<Kind: Motion<S, T>>, T: Real> {
-    point: PointOf<S, T>,
-    slope: PointOf<S, T>,
-    derivatives: [Vector<S, T>; 2],
+    /// One stage.
+    node: NodeWork<S, T>,
 }
 
 /// How a run is solved.
@@ -78,17 +72,16 @@ pub(super) fn storage<const STAGES: usize, S, T: Real>(
 where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
 {
-    let space = system.space();
-    let [point, mut slope]: [PointOf<S, T>; 2] = S::Kind::points(system);
+    let (space, mut node) = (system.space(), NodeWork::new(system));
     // States of degenerate systems may have no velocities.
-    slope[0][..v.len()].copy_from_slice(v);
+    node.velocity[..v.len()].copy_from_slice(v);
     let storage = NewtonStages {
-        solver: coupled_by_second_derivatives(system, [q, &slope[0]], t, STAGES, storing),
+        solver: coupled_by_second_derivatives(system, [q, &node.velocity], t, STAGES, storing),
         tableau: Collocation::gauss(),
         increments: space.vectors(),
         residuals: space.vectors(),
         weights: space.vectors(),
-        at: Stage { point, slope, derivatives: space.vectors() },
+        node,
     };
     #[cfg(feature = "alloc")]
     let storage = Aside::new(storage);
@@ -112,7 +105,7 @@ where
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { solver, tableau, increments, residuals, weights, at } = self;
+        let Self { solver, tableau, increments, residuals, weights, node } = self;
         S::Kind::gather(&mut path.equations, q, &mut path.y);
         match guess {
             Guess::Extrapolated => {
@@ -127,22 +120,33 @@ where
         }
         let extrapolated = guess == Guess::Extrapolated;
         let tolerance = stopping.tolerance;
-        let mut stages =
-            Stages { system, tableau, path, increments, at, t, h, stage: 0, extrapolated, tolerance };
+        let mut stages = Stages {
+            system,
+            tableau,
+            path,
+            increments,
+            node,
+            t,
+            h,
+            per_h: T::lift(1.0) / h,
+            stage: 0,
+            extrapolated,
+            tolerance,
+        };
         solve_coupled(&mut stages, (system, q), solver, (residuals, weights), stopping, statistics)?;
         stages.evaluate(residuals, statistics)?;
-        let Stage { point, slope, .. } = at;
-        for stage in 0..STAGES {
-            for part in 0..path.y.len() {
-                read_lane(stage, &path.stages[part], &mut point[part]);
-                read_lane(stage, &path.slopes[part], &mut slope[part]);
+        let Path { equations, coefficients, slopes, stages, work: StageWork { point, slope, .. }, .. } =
+            path;
+        for (stage, &c) in coefficients.c.0.iter().enumerate() {
+            for part in 0..stages.len() {
+                read_lane(stage, &stages[part], &mut point[part]);
+                read_lane(stage, &slopes[part], &mut slope[part]);
                 norm::finite(&slope[part])?;
             }
-            let time = t + path.coefficients.c.0[stage] * h;
-            S::Kind::compare(&mut path.equations, system, point, time)?;
+            let time = t + c * h;
+            S::Kind::compare(equations, system, point, time)?;
             // The velocity of the last stage leads to that at the end of the step.
             if S::Kind::HAS_VELOCITY_FORCES && stage + 1 == STAGES {
-                let equations = &mut path.equations;
                 S::Kind::evaluate_part(equations, system, 0, point, time, slope, statistics)?;
             }
         }
@@ -150,15 +154,17 @@ where
     }
 }
 
-/// The equations of a step from t of length h, and the matrix ∂rᵢ/∂Wₖ, in which a node of the sum is a stage.
+/// The equations of a step from t of length h, and the matrix ∂rᵢ/∂Wₖ, in which a node of the sum is a
+/// stage.
 struct Stages<'a, const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     system: &'a S,
     tableau: &'a Collocation<STAGES>,
     path: &'a mut Path<STAGES, S, T>,
     increments: &'a mut [Vector<S, T>; STAGES],
-    at: &'a mut Stage<S, T>,
+    node: &'a mut NodeWork<S, T>,
     t: T,
     h: T,
+    per_h: T,
     stage: usize,
     /// Whether this is the guess still, and extrapolated.
     extrapolated: bool,
@@ -172,9 +178,8 @@ where
     /// Goes to a stage, and returns its time.
     fn go_to(&mut self, stage: usize) -> T {
         self.stage = stage;
-        let Stage { point, slope, .. } = &mut *self.at;
-        read_lane(stage, &self.path.stages[0], &mut point[0]);
-        read_lane(stage, &self.path.slopes[0], &mut slope[0]);
+        read_lane(stage, &self.path.stages[0], &mut self.node.point);
+        read_lane(stage, &self.path.slopes[0], &mut self.node.velocity);
         self.time()
     }
 
@@ -183,8 +188,8 @@ where
     }
 
     fn linearize(&mut self, weights: Weights<T>, sink: &mut impl Sink<T>) {
-        let (time, Stage { point, slope, derivatives: [l_q, l_v] }) = (self.time(), &mut *self.at);
-        self.system.linearize(&point[0], &slope[0], time, weights, l_q, l_v, sink);
+        let (time, NodeWork { point, velocity, gradient, momentum }) = (self.time(), &mut *self.node);
+        self.system.linearize(point, velocity, time, weights, gradient, momentum, sink);
     }
 
     /// The largest Σⱼ aᵢⱼ xⱼ.
@@ -200,8 +205,8 @@ impl<const STAGES: usize, S, T: Real> CoupledEquations<STAGES, S, T> for Stages<
 where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
 {
-    /// A matrix that is known to half of the digits alone brings one order in an iteration, and does not double
-    /// it.
+    /// A matrix that is known to half of the digits alone brings one order in an iteration, and does not
+    /// double it.
     const PER_ORDER: usize = 2;
 
     fn unknowns(&mut self) -> &mut [Vector<S, T>; STAGES] {
@@ -216,14 +221,14 @@ where
     ) -> Result<(), StepFailure> {
         let weights = Lanes::all(self.h) * self.path.coefficients.b;
         for (n, slope) in self.path.slopes[0].iter_mut().enumerate() {
-            *slope = Lanes(self.increments.each_ref().map(|increment| increment[n] / self.h));
+            *slope = Lanes(self.increments.each_ref().map(|increment| self.per_h * increment[n]));
         }
         weigh(|_| weights, &self.path.slopes[0], &mut self.path.terms[0]);
         self.path.reach(0);
         for (stage, residual) in residuals.iter_mut().enumerate() {
             let time = self.go_to(stage);
-            let Stage { point, slope, derivatives: [force, _] } = &mut *self.at;
-            S::Kind::residual(self.system, [&point[0], &slope[0]], time, force, residual);
+            let NodeWork { point, velocity, gradient: force, .. } = &mut *self.node;
+            S::Kind::residual(self.system, [point, velocity], time, force, residual);
             self.path.slopes[1..].iter_mut().for_each(|slopes| write_lane(stage, force, slopes));
         }
         statistics.gradients += STAGES as u64;
@@ -241,9 +246,9 @@ where
     }
 
     /// # Errors
-    /// [`StepFailure::NotConverged`] where a coordinate of a stage is now less far from the start of the step
-    /// than it has been from here: from a guess that is worse than none Newton's method may find another
-    /// solution, far away.
+    /// [`StepFailure::NotConverged`] where a coordinate of a stage is now less far from the start of the
+    /// step than it has been from here: from a guess that is worse than none Newton's method may find
+    /// another solution, far away.
     fn correct(
         &mut self,
         _system: &S,
@@ -284,7 +289,8 @@ where
         let (j, h) = (self.stage, self.h);
         let a = |i: usize, k: usize| h * T::lift(self.tableau.a[i][k]);
         let Weights { qq, qv, vq, vv } = S::Kind::newton_weights([r == j, j == k], [a(r, j), a(j, k)]);
-        Weights { qq: qq / h, qv: qv / h, vq: vq / h, vv: vv / h }
+        let per_h = self.per_h;
+        Weights { qq: per_h * qq, qv: per_h * qv, vq: per_h * vq, vv: per_h * vv }
     }
 
     fn momentum_by_position(&mut self, vq: &mut impl Sink<T>) {
@@ -298,7 +304,7 @@ where
         self.linearize(Weights { qq: one, ..none }, qq);
         self.linearize(Weights { qv: one, ..none }, qv);
         let interval = [self.time(), self.h];
-        let Stage { point, slope, derivatives } = &mut *self.at;
-        S::Kind::newton_matrix(self.system, [&point[0], &slope[0]], interval, derivatives, vv);
+        let NodeWork { point, velocity, gradient, momentum } = &mut *self.node;
+        S::Kind::newton_matrix(self.system, [point, velocity], interval, [gradient, momentum], vv);
     }
 }
