@@ -177,10 +177,10 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// the motion there: ∂L/∂v, from which p is still to be subtracted, and p'; of a degenerate system Ωv −
     /// ∇H − ∂α/∂t, and ∇H + ∂α/∂t.
     fn residual(system: &S, at: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]);
-    /// The weights of the second derivatives at stage j in that of the residual of stage r along the
-    /// velocity of stage k, where each stage has its own p: for whether r = j and j = k, and h aᵣⱼ and h
-    /// aⱼₖ. That of L_vv is the weight of [`newton_matrix`](Self::newton_matrix).
-    fn newton_weights(is: [bool; 2], by: [T; 2]) -> Weights<T>;
+    /// The weights of the second derivatives at stage j in that of the residual of stage r along h times the
+    /// velocity of stage k, where each stage has its own p: for whether r = j and j = k, aᵣⱼ and aⱼₖ, and h
+    /// and 1/h. That of L_vv is the weight of [`newton_matrix`](Self::newton_matrix).
+    fn newton_weights(is: [bool; 2], by: [T; 2], lengths: [T; 2]) -> Weights<T>;
     /// Adds what stands beside L_qq, L_qv and L_vq in that derivative, at (q, v), t of a step of length h:
     /// L_vv, or the rate of Dα.
     fn newton_matrix<K: Sink<T>>(

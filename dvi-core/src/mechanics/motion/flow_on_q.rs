@@ -61,9 +61,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         }
         system.one_form_jacobian(q, t, -one, one, &mut Product { x: v, sum: residual });
     }
-    fn newton_weights([of_row, of_column]: [bool; 2], [_, after]: [T; 2]) -> Weights<T> {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let omega = if of_column { one } else { zero };
+    fn newton_weights([of_row, of_column]: [bool; 2], [_, after]: [T; 2], [_, per_h]: [T; 2]) -> Weights<T> {
+        let zero = T::lift(0.0);
+        let omega = if of_column { per_h } else { zero };
         if of_row {
             Weights { qq: after, qv: omega, vq: -omega, vv: -after }
         } else {

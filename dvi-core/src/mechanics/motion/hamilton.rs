@@ -188,13 +188,17 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]) {
         system.gradient(q, v, t, force, residual);
     }
-    fn newton_weights([of_row, of_column]: [bool; 2], [before, after]: [T; 2]) -> Weights<T> {
+    fn newton_weights(
+        [of_row, of_column]: [bool; 2],
+        [before, after]: [T; 2],
+        [h, per_h]: [T; 2],
+    ) -> Weights<T> {
         let if_so = |is: bool, weight: T| if is { weight } else { T::lift(0.0) };
         Weights {
-            qq: -before * after,
+            qq: -h * before * after,
             qv: if_so(of_column, -before),
             vq: if_so(of_row, after),
-            vv: if_so(of_row && of_column, T::lift(1.0)),
+            vv: if_so(of_row && of_column, per_h),
         }
     }
     fn newton_matrix<K: Sink<T>>(

@@ -286,11 +286,9 @@ where
     }
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
-        let (j, h) = (self.stage, self.h);
-        let a = |i: usize, k: usize| h * T::lift(self.tableau.a[i][k]);
-        let Weights { qq, qv, vq, vv } = S::Kind::newton_weights([r == j, j == k], [a(r, j), a(j, k)]);
-        let per_h = self.per_h;
-        Weights { qq: per_h * qq, qv: per_h * qv, vq: per_h * vq, vv: per_h * vv }
+        let j = self.stage;
+        let a = |i: usize, k: usize| T::lift(self.tableau.a[i][k]);
+        S::Kind::newton_weights([r == j, j == k], [a(r, j), a(j, k)], [self.h, self.per_h])
     }
 
     fn momentum_by_position(&mut self, vq: &mut impl Sink<T>) {
