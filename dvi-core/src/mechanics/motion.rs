@@ -25,8 +25,8 @@ use crate::{Real, Scalar, Sink, System, Vector, Weights};
 
 pub use flow_on_q::FlowOnQ;
 pub use hamilton::HamiltonsEquations;
-pub(crate) use stages::{AtStages, Slopes, StageWork, weigh};
-pub use stages::{FirstOrderInLanes, InLanes, OneByOne, StageEvaluation};
+pub(crate) use stages::{AtStages, StageWork, weigh};
+pub use stages::{Evaluation, FirstOrderInLanes, InLanes, OneByOne, StageEvaluation};
 
 /// A point y, or its velocity: `K` vectors of the space.
 #[derive(Clone, Debug)]
@@ -142,21 +142,27 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         t: T,
         slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
-    /// Sets `out` to entry `part` of X(`y`, `t`), from a guess `slope` of it: the velocity that belongs to
-    /// the momentum, or the force at the velocity of `slope`.
+    ) -> Result<(), StepFailure> {
+        Self::guess(equations, slope);
+        for part in 0..y.len() {
+            Self::evaluate_part(equations, system, part, y, t, slope, statistics)?;
+        }
+        Ok(())
+    }
+    /// Sets the velocity of `slope` to the last one within the step, if it is needed as a guess.
+    fn guess(_equations: &Self::Equations, _slope: &mut Self::Point<T>) {}
+    /// Sets entry `part` of `slope`, a guess of X(`y`, `t`), to that of X: to the velocity that belongs to
+    /// the momentum, or to the force at the velocity of `slope`.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
-    #[allow(clippy::too_many_arguments)]
     fn evaluate_part(
         equations: &mut Self::Equations,
         system: &S,
         part: usize,
         y: &Self::Point<T>,
         t: T,
-        slope: &Self::Point<T>,
-        out: &mut Vector<S, T>,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
     /// Whether the force depends on velocities, so that it is evaluated again where these have converged.
@@ -171,29 +177,31 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     /// the motion there: ∂L/∂v, from which p is still to be subtracted, and p'; of a degenerate system Ωv −
     /// ∇H − ∂α/∂t, and ∇H + ∂α/∂t.
     fn residual(system: &S, at: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]);
-    /// The weights of the second derivatives at stage j in that of the residual of stage r along the
-    /// velocity of stage k, where each stage has its own p: for whether r = j and j = k, and h aᵣⱼ and h
-    /// aⱼₖ. That of L_vv is the weight of [`newton_matrix`](Self::newton_matrix).
-    fn newton_weights(is: [bool; 2], by: [T; 2]) -> Weights<T>;
+    /// The weights of the second derivatives at stage j in that of the residual of stage r along h times the
+    /// velocity of stage k, where each stage has its own p: for whether r = j and j = k, aᵣⱼ and aⱼₖ, and h
+    /// and 1/h. That of L_vv is the weight of [`newton_matrix`](Self::newton_matrix).
+    fn newton_weights(is: [bool; 2], by: [T; 2], lengths: [T; 2]) -> Weights<T>;
     /// Adds what stands beside L_qq, L_qv and L_vq in that derivative, at (q, v), t of a step of length h:
     /// L_vv, or the rate of Dα.
     fn newton_matrix<K: Sink<T>>(
         system: &S,
         at: [&[T]; 2],
         interval: [T; 2],
-        work: &mut [Vector<S, T>; 2],
+        work: [&mut [T]; 2],
         sink: &mut K,
     );
-    /// Whether Ω has kept its orientation at a point within a step.
+    /// Whether Ω, of a degenerate system, has kept its orientation at a point within a step.
     ///
     /// # Errors
     /// [`StepFailure::Orientation`].
     fn compare(
-        equations: &mut Self::Equations,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-    ) -> Result<(), StepFailure>;
+        _equations: &mut Self::Equations,
+        _system: &S,
+        _y: &Self::Point<T>,
+        _t: T,
+    ) -> Result<(), StepFailure> {
+        Ok(())
+    }
     /// Moves to `y`, the end of a step; all but `q` is kept here.
     ///
     /// # Errors
@@ -206,15 +214,17 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
         q: &mut Vector<S, T>,
         t: T,
     ) -> Result<(), StepFailure>;
-    /// Sets `v` to the velocity at the present point, if states carry one.
+    /// Sets `v` to the velocity at the present point; states of degenerate systems carry none.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
     fn velocity(
-        equations: &Self::Equations,
-        system: &S,
-        q: &Vector<S, T>,
-        t: T,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure>;
+        _equations: &Self::Equations,
+        _system: &S,
+        _q: &Vector<S, T>,
+        _t: T,
+        _v: &mut Vector<S, T>,
+    ) -> Result<(), StepFailure> {
+        Ok(())
+    }
 }

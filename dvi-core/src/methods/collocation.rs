@@ -13,7 +13,6 @@
 
 pub(super) mod lobatto;
 pub(super) mod packs;
-pub(super) mod steps;
 
 /// The largest number of stages.
 pub(super) const MOST: usize = 8;
@@ -127,13 +126,6 @@ impl<const S: usize> Collocation<S> {
         };
         [core::array::from_fn(values), core::array::from_fn(integrals)]
     }
-
-    /// Entry (i, j): the j-th Lagrange polynomial at 1 + cᵢ, to continue a polynomial through the stages
-    /// into the next step.
-    pub(super) fn continuation(&self) -> [[f64; S]; S] {
-        let (within, beyond) = (self.c.map(legendre), self.c.map(|c| legendre(1.0 + c)));
-        core::array::from_fn(|i| core::array::from_fn(|j| self.b[j] * sum::<S>(&within[j], &beyond[i])))
-    }
 }
 
 #[cfg(test)]
@@ -191,22 +183,5 @@ mod tests {
         check::<6>();
         check::<7>();
         check::<8>();
-    }
-
-    #[test]
-    fn continuation_reproduces_polynomials_of_the_stages() {
-        let tableau = Collocation::<3>::gauss();
-        let cubic_free = |x: f64| 2.0 - x + 3.0 * x * x;
-        for (row, c) in tableau.continuation().iter().zip(tableau.c) {
-            let value: f64 = row.iter().zip(tableau.c).map(|(l, c)| l * cubic_free(c)).sum();
-            assert!((value - cubic_free(1.0 + c)).abs() < 1e-12);
-        }
-        // The coefficients of eight stages are as large as 10⁵.
-        let tableau = Collocation::<8>::gauss();
-        let of_degree_7 = |x: f64| (x - 0.25).powi(7);
-        for (row, c) in tableau.continuation().iter().zip(tableau.c) {
-            let value: f64 = row.iter().zip(tableau.c).map(|(l, c)| l * of_degree_7(c)).sum();
-            assert!((value - of_degree_7(1.0 + c)).abs() < 1e-10);
-        }
     }
 }

@@ -9,11 +9,10 @@
 //! solves p0 = −D₁L_d(q0, q1) together with ∂L_d/∂δ = 0 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ +
 //! D₂)L_d, which rounds less.
 
+mod attempt;
 mod coefficients;
-mod eliminated;
+mod displaced;
 mod evaluation;
-mod fitted;
-mod general;
 mod interior;
 mod lagrangian;
 mod memory;

@@ -25,8 +25,7 @@ use core::marker::PhantomData;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvaluation};
 use crate::methods::collocation::MOST;
-use crate::methods::collocation::steps::Steps;
-use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, Tolerance, VariableStep};
+use crate::methods::{Carries, Method, PreservedForm, Scheme, Tolerance, VariableStep};
 use crate::solve::{Convergence, Due, Iteration, Ladder, Solver, Stopping, repeat};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -143,21 +142,34 @@ where
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.take_several::<S, T>(system, memory, q, Clock::new(t, h), 1, statistics).1
-    }
-
-    fn steps(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        clock: Clock<T>,
-        count: u64,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let (taken, result) = self.take_several::<S, T>(system, memory, q, clock, count, statistics);
-        statistics.steps += taken;
-        result
+        let GaussMemory { ladder, path } = memory;
+        // Where Newton's method stands by, a fixed point that is slow is left to it.
+        let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
+        E::run(
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            || {
+                ladder.solve(
+                    &mut (path, q),
+                    statistics,
+                    #[cfg_attr(not(debug_assertions), inline(always))]
+                    |(path, q), statistics| {
+                        let mut guess = Guess::Continued;
+                        loop {
+                            match self.attempt(system, path, q, [t, h], (guess, budget), statistics) {
+                                Err(_) if guess == Guess::Continued && !path.is_first() => {
+                                    guess = Guess::Constant;
+                                }
+                                result => return result,
+                            }
+                        }
+                    },
+                    |(path, q), newton, guess, statistics| {
+                        newton.solve(system, path, (q, [t, h]), guess, self.stopping, statistics)?;
+                        path.arrive(0, self.summation, system, q, [t, h])
+                    },
+                )
+            },
+        )
     }
 
     fn velocity(
@@ -195,60 +207,7 @@ where
 }
 
 impl<const STAGES: usize, E> Gauss<STAGES, E> {
-    /// Takes up to `count` steps, and returns how many have succeeded.
-    fn take_several<S, T: Real>(
-        &self,
-        system: &S,
-        memory: &mut GaussMemory<STAGES, S, T>,
-        q: &mut Vector<S, T>,
-        clock: Clock<T>,
-        count: u64,
-        statistics: &mut Statistics,
-    ) -> (u64, Result<(), StepFailure>)
-    where
-        S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
-        E: StageEvaluation<STAGES, S, T>,
-    {
-        E::run(Steps::new(
-            clock,
-            count,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            |interval| self.take(system, memory, q, interval, statistics),
-        ))
-    }
-
-    /// Takes a step from t to t + h.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<S, T: Real>(
-        &self,
-        system: &S,
-        memory: &mut GaussMemory<STAGES, S, T>,
-        q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>
-    where
-        S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
-        E: StageEvaluation<STAGES, S, T>,
-    {
-        let tried = if memory.ladder.tries_fixed_point() {
-            // Where Newton's method stands by, a fixed point that is slow is left to it.
-            let budget = memory.ladder.budget(self.stopping.max_iterations, 24 + q.len());
-            let (path, mut guess) = (&mut memory.path, Guess::Continued);
-            loop {
-                match self.attempt(system, path, q, [t, h], (guess, budget), statistics) {
-                    Ok(()) => return Ok(()),
-                    Err(_) if guess == Guess::Continued && !path.is_first() => guess = Guess::Constant,
-                    failed => break failed,
-                }
-            }
-        } else {
-            Err(StepFailure::NO_MATRIX)
-        };
-        memory.step_by_newton(tried, system, q, [t, h], (self.stopping, self.summation), statistics)
-    }
-
-    /// The same by the fixed point, with stages that begin at a guess.
+    /// Takes a step from t to t + h by the fixed point, with stages that begin at a guess.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn attempt<S, T: Real>(
         &self,
@@ -281,10 +240,10 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         if S::Kind::HAS_VELOCITY_FORCES {
             // Those of the last iteration belong to the velocities before it.
             path.reach(0);
-            path.evaluate_part::<E>(1, system, t, h, statistics)?;
+            path.evaluate_part::<E>(1, system, [t, h], statistics)?;
         }
         path.displace(h);
-        path.arrive(memory::first_part::<S, T>(&path.equations), summation, system, q, t, h)
+        path.arrive(memory::first_part::<S, T>(&path.equations), summation, system, q, [t, h])
     }
 }
 
@@ -313,16 +272,18 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Self { system, path, t, h, .. } = self;
-        if S::Kind::OF_SECOND_ORDER {
-            return path.improve_places::<E>(system, *t, *h, statistics);
-        }
         // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates
         // that are in place.
         for part in (1..path.y.len()).rev() {
-            path.reach((part + 1) % path.y.len());
-            path.evaluate_part::<E>(part, system, *t, *h, statistics)?;
+            if !S::Kind::OF_SECOND_ORDER {
+                path.reach((part + 1) % path.y.len());
+            }
+            path.evaluate_part::<E>(part, system, [*t, *h], statistics)?;
+        }
+        if let Some(change) = path.place(*h) {
+            return Ok(change);
         }
         path.reach(1 % path.y.len());
-        path.evaluate_part::<E>(0, system, *t, *h, statistics)
+        path.evaluate_part::<E>(0, system, [*t, *h], statistics)
     }
 }

@@ -1,7 +1,7 @@
 //! The widest SIMD instructions that the processor has, chosen when a program runs.
 
 /// Something to do. What is not inlined is compiled for the instructions that all processors have.
-pub trait Task {
+pub(crate) trait Task {
     /// What comes of it.
     type Output;
     /// Does it. Implementations are `#[cfg_attr(not(debug_assertions), inline(always))]`.

@@ -1,14 +1,19 @@
 //! Newton's method for several vectors of unknowns at once.
 
-use super::{Convergence, Due, Stopping, iterate, sizes};
+use super::{Convergence, Due, Judge, Stopping, iterate, sizes};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::{CoupledSolver, NodeSum, linear};
 use crate::state::Statistics;
 use crate::{Coupled, Real, System, Vector};
 
-/// Equations rᵣ = 0 for the vectors from [`NodeSum::FIRST`] to `COUNT`, with their matrix as a sum over nodes.
+/// Equations rᵣ = 0 for the vectors from [`NodeSum::FIRST`] to `COUNT`, with their matrix as a sum over
+/// nodes.
 pub(crate) trait CoupledEquations<const COUNT: usize, S: System, T: Real>: NodeSum<COUNT, T> {
+    /// How many iterations bring one more order of derivatives, where numbers carry them: one, if the matrix
+    /// is exact.
+    const PER_ORDER: usize = 1;
+
     /// The vectors, with those before the first unknown one.
     fn unknowns(&mut self) -> &mut [Vector<S, T>; COUNT];
 
@@ -21,10 +26,29 @@ pub(crate) trait CoupledEquations<const COUNT: usize, S: System, T: Real>: NodeS
         residuals: &mut [Vector<S, T>; COUNT],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
+
+    /// Takes the corrections from the unknowns, and returns the size of the largest.
+    ///
+    /// # Errors
+    /// Those of what leads too far.
+    fn correct(
+        &mut self,
+        system: &S,
+        weights: &[T],
+        corrections: &[Vector<S, T>; COUNT],
+    ) -> Result<T, StepFailure> {
+        let unknowns = self.unknowns().iter_mut().zip(corrections).skip(Self::FIRST);
+        Ok(unknowns.fold(T::lift(0.0), |largest, (unknown, change)| {
+            norm::larger(largest, sizes::reduce(system, weights, unknown, change))
+        }))
+    }
 }
 
-/// Improves the unknowns that stand in `equations`, increments of `q`, until r = 0. What comes with `residuals` is
-/// storage.
+/// Room for the residuals, and for weights and sums.
+type Storage<'a, const COUNT: usize, S, T> = (&'a mut [Vector<S, T>; COUNT], &'a mut [Vector<S, T>; 2]);
+
+/// Improves the unknowns that stand in `equations`, increments of `q`, until r = 0. What comes with
+/// `residuals` is storage.
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`], or those of the
@@ -33,11 +57,12 @@ pub(crate) fn solve_coupled<const COUNT: usize, S: System, T: Real, E: CoupledEq
     equations: &mut E,
     (system, q): (&S, &[T]),
     solver: &mut Coupled<COUNT, S, T>,
-    (residuals, [weights, sums]): (&mut [Vector<S, T>; COUNT], &mut [Vector<S, T>; 2]),
+    (residuals, [weights, sums]): Storage<'_, COUNT, S, T>,
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let convergence = Convergence::new(stopping, stopping.max_iterations);
+    let mut convergence = Convergence::new(stopping, stopping.max_iterations);
+    convergence.course().more *= E::PER_ORDER;
     iterate(convergence, statistics, |due, statistics| {
         due.prepare_all(system, weights, q, &mut equations.unknowns()[E::FIRST..]);
         equations.evaluate(residuals, statistics)?;
@@ -48,11 +73,7 @@ pub(crate) fn solve_coupled<const COUNT: usize, S: System, T: Real, E: CoupledEq
             return linear::residual_of_nodes(equations, weights, residuals, sums);
         }
         solver.solve(equations, weights, residuals)?;
-        let mut correction = T::lift(0.0);
-        for (unknown, change) in equations.unknowns().iter_mut().zip(&*residuals).skip(E::FIRST) {
-            correction = norm::larger(correction, sizes::reduce(system, weights, unknown, change));
-        }
-        Ok(correction)
+        equations.correct(system, weights, residuals)
     })?;
     equations.unknowns()[E::FIRST..].iter().try_for_each(|unknown| norm::finite(unknown))
 }

@@ -14,7 +14,7 @@ use crate::{Real, Scalar, System};
 
 /// What an iteration does first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Due {
+pub(crate) enum Due {
     Nothing,
     /// It takes sizes.
     Sizes,

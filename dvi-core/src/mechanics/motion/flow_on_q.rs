@@ -1,6 +1,6 @@
 //! Ω q' = ∇H + ∂α/∂t, on Q.
 
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, Slopes, StageWork};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
@@ -38,20 +38,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
             orientation: FormOrientation::new(system, q, t),
         })
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather(_equations: &mut FlowOnQ<S, T>, q: &Vector<S, T>, y: &mut Self::Point<T>) {
         y.0[0].copy_from_slice(q);
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate(
-        equations: &mut FlowOnQ<S, T>,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-        slope: &mut Self::Point<T>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        equations.field.evaluate(system, &y.0[0], t, &mut slope.0[0], statistics)
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_part(
@@ -60,13 +48,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         _part: usize,
         y: &Self::Point<T>,
         t: T,
-        _slope: &Self::Point<T>,
-        out: &mut Vector<S, T>,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        equations.field.evaluate(system, &y.0[0], t, out, statistics)
+        equations.field.evaluate(system, &y.0[0], t, &mut slope.0[0], statistics)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]) {
         let one = T::lift(1.0);
         system.flow_source(q, t, force);
@@ -75,9 +61,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         }
         system.one_form_jacobian(q, t, -one, one, &mut Product { x: v, sum: residual });
     }
-    fn newton_weights([of_row, of_column]: [bool; 2], [_, after]: [T; 2]) -> Weights<T> {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let omega = if of_column { one } else { zero };
+    fn newton_weights([of_row, of_column]: [bool; 2], [_, after]: [T; 2], [_, per_h]: [T; 2]) -> Weights<T> {
+        let zero = T::lift(0.0);
+        let omega = if of_column { per_h } else { zero };
         if of_row {
             Weights { qq: after, qv: omega, vq: -omega, vv: -after }
         } else {
@@ -90,7 +76,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         system: &S,
         [q, v]: [&[T]; 2],
         [t, h]: [T; 2],
-        [later, _]: &mut [Vector<S, T>; 2],
+        [later, _]: [&mut [T]; 2],
         sink: &mut K,
     ) {
         if S::AFFINE {
@@ -104,7 +90,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         system.one_form_jacobian(q, t, -per_time, zero, sink);
         system.one_form_jacobian(later, t + difference, per_time, zero, sink);
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compare(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
@@ -113,7 +98,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         equations.orientation.compare(system, &y.0[0], t).map(drop)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn arrive(
         equations: &mut FlowOnQ<S, T>,
         system: &S,
@@ -127,15 +111,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         q.copy_from_slice(arrival);
         Ok(())
     }
-    fn velocity(
-        _equations: &FlowOnQ<S, T>,
-        _system: &S,
-        _q: &Vector<S, T>,
-        _t: T,
-        _v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
-        Ok(())
-    }
 }
 
 impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Degenerate
@@ -147,11 +122,11 @@ where
         equations: &mut FlowOnQ<S, T>,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        slopes: &mut Slopes<'_, W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let renew = |j, renewed| slopes.renew(j, renewed);
-        equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work.of_field(), renew, statistics)
+        let set = |j, velocity| out[j] = velocity;
+        equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work.of_field(), set, statistics)
     }
 }
 

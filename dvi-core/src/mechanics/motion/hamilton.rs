@@ -1,7 +1,7 @@
 //! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
 
 use super::stages::one_by_one;
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, Slopes, StageWork};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
@@ -147,7 +147,6 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         };
         Ok(HamiltonsEquations { p, inverse })
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather(equations: &mut HamiltonsEquations<S, T>, q: &Vector<S, T>, y: &mut Self::Point<T>) {
         let [coordinates, momenta] = &mut y.0;
         coordinates.copy_from_slice(q);
@@ -156,23 +155,10 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             latest.copy_from_slice(velocity);
         }
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate(
-        equations: &mut HamiltonsEquations<S, T>,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-        slope: &mut Self::Point<T>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let ([q, p], [velocity, force]) = (&y.0, &mut slope.0);
+    fn guess(equations: &HamiltonsEquations<S, T>, slope: &mut Self::Point<T>) {
         if let Velocities::Varying(Transform { latest, .. }) = &equations.inverse {
-            velocity.copy_from_slice(latest);
+            slope.0[0].copy_from_slice(latest);
         }
-        equations.inverse.velocity(system, q, p, t, velocity)?;
-        system.force(q, velocity, t, force);
-        statistics.gradients += 1;
-        Ok(())
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate_part(
@@ -181,16 +167,14 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         part: usize,
         y: &Self::Point<T>,
         t: T,
-        slope: &Self::Point<T>,
-        out: &mut Vector<S, T>,
+        slope: &mut Self::Point<T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let ([q, p], [velocity, _]) = (&y.0, &slope.0);
+        let ([q, p], [velocity, force]) = (&y.0, &mut slope.0);
         if part == 0 {
-            out.copy_from_slice(velocity);
-            return equations.inverse.velocity(system, q, p, t, out);
+            return equations.inverse.velocity(system, q, p, t, velocity);
         }
-        system.force(q, velocity, t, out);
+        system.force(q, velocity, t, force);
         statistics.gradients += 1;
         Ok(())
     }
@@ -201,38 +185,31 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
             Velocities::Uniform(_) | Velocities::Varying(_) => None,
         }
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]) {
         system.gradient(q, v, t, force, residual);
     }
-    fn newton_weights([of_row, of_column]: [bool; 2], [before, after]: [T; 2]) -> Weights<T> {
+    fn newton_weights(
+        [of_row, of_column]: [bool; 2],
+        [before, after]: [T; 2],
+        [h, per_h]: [T; 2],
+    ) -> Weights<T> {
         let if_so = |is: bool, weight: T| if is { weight } else { T::lift(0.0) };
         Weights {
-            qq: -before * after,
+            qq: -h * before * after,
             qv: if_so(of_column, -before),
             vq: if_so(of_row, after),
-            vv: if_so(of_row && of_column, T::lift(1.0)),
+            vv: if_so(of_row && of_column, per_h),
         }
     }
     fn newton_matrix<K: Sink<T>>(
         system: &S,
         [q, v]: [&[T]; 2],
         [t, _]: [T; 2],
-        [l_q, l_v]: &mut [Vector<S, T>; 2],
+        [l_q, l_v]: [&mut [T]; 2],
         sink: &mut K,
     ) {
         system.linearize(q, v, t, Weights::mass(), l_q, l_v, sink);
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn compare(
-        _equations: &mut HamiltonsEquations<S, T>,
-        _system: &S,
-        _y: &Self::Point<T>,
-        _t: T,
-    ) -> Result<(), StepFailure> {
-        Ok(())
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn arrive(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,
@@ -283,33 +260,32 @@ where
         equations: &mut HamiltonsEquations<S, T>,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        slopes: &mut Slopes<'_, W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let [q, p] = &at.y.0;
-        if slopes.part == 1 {
-            let [velocity, force] = &mut slopes.slopes.0;
-            at.system.force(q, velocity, at.t, force);
-            slopes.renewed();
+        if at.part == 1 {
+            at.system.force(q, at.velocity, at.t, out);
             statistics.gradients += W as u64;
             return Ok(());
         }
         let Velocities::Uniform(uniform) = &equations.inverse else {
-            return one_by_one(equations, at, work, slopes, statistics);
+            return one_by_one(equations, at, work, out, statistics);
         };
         let Some(reciprocals) = uniform.mass.reciprocals() else {
-            return one_by_one(equations, at, work, slopes, statistics);
+            return one_by_one(equations, at, work, out, statistics);
         };
         if <S as NondegenerateLagrangian<T>>::CONSTANT_MASS {
-            for (j, (&p, &reciprocal)) in p.iter().zip(reciprocals).enumerate() {
-                slopes.renew(j, p * Lanes::all(reciprocal));
+            for ((velocity, &p), &reciprocal) in out.iter_mut().zip(p.iter()).zip(reciprocals) {
+                *velocity = p * Lanes::all(reciprocal);
             }
             return Ok(());
         }
-        let StageWork { gradient: linear, entries: rest, .. } = work;
-        at.system.conjugate_momentum(q, rest, at.t, linear);
-        for (j, ((&p, &a), &reciprocal)) in p.iter().zip(linear.iter()).zip(reciprocals).enumerate() {
-            slopes.renew(j, (p - a) * Lanes::all(reciprocal));
+        // A velocity of zero.
+        let StageWork { entries: rest, .. } = work;
+        at.system.conjugate_momentum(q, rest, at.t, out);
+        for ((velocity, &p), &reciprocal) in out.iter_mut().zip(p.iter()).zip(reciprocals) {
+            *velocity = (p - *velocity) * Lanes::all(reciprocal);
         }
         Ok(())
     }

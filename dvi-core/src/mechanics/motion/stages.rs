@@ -1,16 +1,14 @@
 //! The equations of motion at all stages of a step, of which each has a lane: evaluated one by one, or in
 //! the lanes.
 
-use core::fmt;
-
 use super::{EquationsOf, FirstOrder, Motion, PackedOf, PointOf};
 use crate::error::StepFailure;
 use crate::mechanics::vector_field::LaneWork;
+use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
-use crate::scalar::simd::{Task, widest};
-use crate::scalar::{Lanes, norm};
+use crate::scalar::simd::widest_if;
 use crate::state::Statistics;
-use crate::{Real, Scalar, Space, System, Vector};
+use crate::{Real, Space, System, Vector};
 
 /// Stages are evaluated one by one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,10 +19,11 @@ pub struct OneByOne;
 pub struct InLanes;
 
 /// What the evaluation of stages works with.
+#[derive(Debug)]
 pub struct StageWork<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     /// One stage.
-    point: PointOf<S, T>,
-    slope: PointOf<S, T>,
+    pub(crate) point: PointOf<S, T>,
+    pub(crate) slope: PointOf<S, T>,
     vector: Vector<S, T>,
     /// All stages: forces or ∇H, or X itself.
     pub(super) gradient: Vector<S, Lanes<W, T>>,
@@ -47,59 +46,16 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> 
     }
 }
 
-impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for StageWork<W, S, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("StageWork").finish_non_exhaustive()
-    }
-}
-
-/// What is evaluated at the stages: X in the points `y` at the times `t`.
+/// Where an entry of X is evaluated: in the points `y` at the times `t`.
+#[derive(Debug)]
 pub struct AtStages<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     pub(crate) system: &'a S,
-    pub(crate) y: &'a PackedOf<S, T, Lanes<W, T>>,
-    pub(crate) t: Lanes<W, T>,
-}
-
-/// The slopes of the stages, a guess of X, of which an evaluation renews entry `part`.
-pub struct Slopes<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
-    /// K.
-    pub(crate) slopes: &'a mut PackedOf<S, T, Lanes<W, T>>,
-    /// L = h b K of this entry.
-    pub(crate) terms: &'a mut Vector<S, Lanes<W, T>>,
+    /// Which entry.
     pub(crate) part: usize,
-    /// h b.
-    pub(crate) weights: Lanes<W, T>,
-    /// The units of changes.
-    pub(crate) units: &'a [T],
-    /// The largest changes of a velocity so far, of each stage first, as the stages are beside one another.
-    pub(crate) changes: [T; W],
-}
-
-impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> Slopes<'_, W, S, T> {
-    /// Renews number `j`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn renew(&mut self, j: usize, renewed: Lanes<W, T>) {
-        let (slope, unit) = (&mut self.slopes[self.part][j], self.units[j]);
-        for stage in 0..W {
-            let change = Scalar::abs(renewed.0[stage] - slope.0[stage]) * unit;
-            self.changes[stage] = norm::larger(self.changes[stage], change);
-        }
-        *slope = renewed;
-        self.terms[j] = self.weights * renewed;
-    }
-
-    /// Takes over that the entry has been renewed in its place, where nothing is asked of its changes.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn renewed(&mut self) {
-        weigh(|_| self.weights, &self.slopes[self.part], self.terms);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn renew_all(&mut self, renewed: &[Lanes<W, T>]) {
-        for (j, &renewed) in renewed.iter().enumerate() {
-            self.renew(j, renewed);
-        }
-    }
+    pub(crate) y: &'a PackedOf<S, T, Lanes<W, T>>,
+    /// The velocities there, or a guess of them.
+    pub(crate) velocity: &'a Vector<S, Lanes<W, T>>,
+    pub(crate) t: Lanes<W, T>,
 }
 
 /// Sets `terms`ₖ to `weights`(k) times `packs`ₖ. The loop is one over blocks, because over single packs the
@@ -127,22 +83,30 @@ pub(crate) fn weigh<const W: usize, T: Real>(
 /// How many packs are taken at once.
 const BLOCK: usize = 4;
 
-impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for Slopes<'_, W, S, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Slopes").field("part", &self.part).finish_non_exhaustive()
+/// For which instructions steps are compiled.
+pub trait Evaluation {
+    /// Runs `steps`, a closure that is `#[cfg_attr(not(debug_assertions), inline(always))]` where it is
+    /// written.
+    fn run<R>(steps: impl FnOnce() -> R) -> R;
+}
+
+impl Evaluation for OneByOne {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<R>(steps: impl FnOnce() -> R) -> R {
+        steps()
     }
 }
 
-impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for AtStages<'_, W, S, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("AtStages").field("t", &self.t).finish_non_exhaustive()
+impl Evaluation for InLanes {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<R>(steps: impl FnOnce() -> R) -> R {
+        widest_if(true, steps)
     }
 }
 
 /// How the equations of motion are evaluated at the `W` stages of a step.
-pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
-    /// Renews an entry of the slopes by that of X at all stages, as [`FirstOrder::evaluate_part`] does at
-    /// one.
+pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real>: Evaluation {
+    /// Sets `out` to an entry of X at all stages, as [`FirstOrder::evaluate_part`] does at one.
     ///
     /// # Errors
     /// As there, of the first stage that fails.
@@ -150,12 +114,9 @@ pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real
         equations: &mut EquationsOf<S, T>,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        slopes: &mut Slopes<'_, W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
-
-    /// Runs a step.
-    fn run<K: Task>(step: K) -> K::Output;
 }
 
 impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation<W, S, T> for OneByOne {
@@ -164,15 +125,10 @@ impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation
         equations: &mut EquationsOf<S, T>,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        slopes: &mut Slopes<'_, W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        one_by_one(equations, at, work, slopes, statistics)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<K: Task>(step: K) -> K::Output {
-        step.run()
+        one_by_one(equations, at, work, out, statistics)
     }
 }
 
@@ -184,15 +140,10 @@ impl<const W: usize, S: System<Kind: FirstOrderInLanes<W, S, T>>, T: Real> Stage
         equations: &mut EquationsOf<S, T>,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        slopes: &mut Slopes<'_, W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        S::Kind::evaluate_in_lanes(equations, at, work, slopes, statistics)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<K: Task>(step: K) -> K::Output {
-        widest(step)
+        S::Kind::evaluate_in_lanes(equations, at, work, out, statistics)
     }
 }
 
@@ -211,7 +162,7 @@ pub trait FirstOrderInLanes<const W: usize, S: System, T: Real>: FirstOrder<S, T
         equations: &mut EquationsOf<S, T>,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
-        slopes: &mut Slopes<'_, W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
@@ -224,20 +175,17 @@ pub(super) fn one_by_one<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: R
     equations: &mut EquationsOf<S, T>,
     at: &AtStages<'_, W, S, T>,
     work: &mut StageWork<W, S, T>,
-    slopes: &mut Slopes<'_, W, S, T>,
+    out: &mut Vector<S, Lanes<W, T>>,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let StageWork { point, slope, vector, gradient, .. } = work;
+    let StageWork { point, slope, .. } = work;
     for stage in 0..W {
-        for (to, from) in [(&mut *point, at.y), (&mut *slope, &*slopes.slopes)] {
-            for (to, from) in to.iter_mut().zip(from.iter()) {
-                read_lane(stage, from, to);
-            }
+        for (to, from) in point.iter_mut().zip(at.y.iter()) {
+            read_lane(stage, from, to);
         }
-        let t = at.t.0[stage];
-        S::Kind::evaluate_part(equations, at.system, slopes.part, point, t, slope, vector, statistics)?;
-        write_lane(stage, vector, gradient);
+        read_lane(stage, at.velocity, &mut slope[0]);
+        S::Kind::evaluate_part(equations, at.system, at.part, point, at.t.0[stage], slope, statistics)?;
+        write_lane(stage, &slope[at.part], out);
     }
-    slopes.renew_all(gradient);
     Ok(())
 }

@@ -60,11 +60,9 @@ pub(in crate::methods) struct Lobatto<const S: usize> {
 }
 
 impl<const S: usize> Rule for Lobatto<S> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn nodes(&self) -> &[f64] {
         &self.c
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn weights(&self) -> &[f64] {
         &self.b
     }

@@ -80,16 +80,26 @@ impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
         [places, renewed]: [&mut [Lanes<STAGES, T>]; 2],
     ) -> T {
         combine(&self.nu[..count], displacements, from, renewed);
-        let mut changes = [T::lift(0.0); STAGES];
-        for ((place, &renewed), &weight) in places.iter_mut().zip(renewed.iter()).zip(weights) {
-            for stage in 0..STAGES {
-                let change = Scalar::abs(renewed.0[stage] - place.0[stage]) * weight;
-                changes[stage] = norm::larger(changes[stage], change);
-            }
-            *place = renewed;
-        }
-        largest_of(changes)
+        replace(weights, places, renewed)
     }
+}
+
+/// Sets packs to new ones, and returns the largest change of a number in units of `weights`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(in crate::methods) fn replace<const STAGES: usize, T: Real>(
+    weights: &[T],
+    packs: &mut [Lanes<STAGES, T>],
+    new: &[Lanes<STAGES, T>],
+) -> T {
+    let mut changes = [T::lift(0.0); STAGES];
+    for ((pack, &new), &weight) in packs.iter_mut().zip(new).zip(weights) {
+        for stage in 0..STAGES {
+            let change = Scalar::abs(new.0[stage] - pack.0[stage]) * weight;
+            changes[stage] = norm::larger(changes[stage], change);
+        }
+        *pack = new;
+    }
+    largest_of(changes)
 }
 
 /// The sum over stages.
@@ -100,7 +110,7 @@ pub(in crate::methods) fn sum<T: Real>(stages: &[T]) -> T {
 
 /// The largest of a few numbers that are not negative, by halves, which do not wait for one another.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(in crate::methods) fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
+fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
     let mut count = N;
     while count > 1 {
         let half = count.div_ceil(2);

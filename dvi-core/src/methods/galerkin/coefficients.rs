@@ -8,20 +8,81 @@
 //! interior node, and that of q0, (b, B), for p0 + D₁L_d. Direction 0 moves both ends and gives (D₁ +
 //! D₂)L_d.
 
-use crate::discrete::Rule;
 use crate::discrete::basis::Bases;
 use crate::discrete::frequency;
+use crate::discrete::{Interval, NodeWork, Rule};
 use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::{Lobatto, MOST};
 use crate::scalar::norm::reported;
 use crate::space::elimination;
-use crate::{Real, Scalar};
+use crate::state::Statistics;
+use crate::{Lagrangian, Real, Scalar, Vector};
+use core::ops::{Deref, DerefMut};
 
 /// sin u and what multiplies the new point count as zero below this.
 const RESONANCE: f64 = 1e-4;
 
 /// How many unknowns there are at most.
 const UNKNOWNS: usize = MOST - 1;
+
+/// The coefficients for the frequency and the length of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fit<const NODES: usize, T> {
+    pub(super) rule: Lobatto<NODES>,
+    differentiation: [[f64; NODES]; NODES],
+    pub(super) coefficients: Coefficients<NODES, T>,
+}
+
+impl<const NODES: usize, T: Real> Fit<NODES, T> {
+    /// Those of linear interpolation.
+    pub(super) fn new() -> Self {
+        let rule = Lobatto::new();
+        let differentiation = rule.differentiation();
+        let (coefficients, _) = Coefficients::at(&rule, &differentiation, T::lift(0.0));
+        Self { rule, differentiation, coefficients }
+    }
+
+    /// Makes the coefficients those for `u` = ωh, if they are not.
+    ///
+    /// # Errors
+    /// Those of [`Coefficients::new`].
+    pub(super) fn to(&mut self, u: T) -> Result<(), StepFailure> {
+        if self.coefficients.u != u {
+            self.coefficients = Coefficients::new(&self.rule, &self.differentiation, u)?;
+        }
+        Ok(())
+    }
+
+    /// Sets the derivatives of L_d in all directions at the unknowns `x` of a step of any L. `node` is
+    /// storage.
+    pub(super) fn differentiate<S: Lagrangian<T>>(
+        &self,
+        (system, interval): (&S, Interval<T>),
+        x: &[Vector<S, T>; NODES],
+        node: &mut NodeWork<S, T>,
+        derivatives: &mut [Vector<S, T>; NODES],
+        statistics: &mut Statistics,
+    ) {
+        let NodeWork { point, velocity, gradient, momentum } = node;
+        derivatives.iter_mut().for_each(|derivative| derivative.fill(T::lift(0.0)));
+        for j in 0..NODES {
+            self.coefficients.place(j, interval.h, x, [point, velocity]);
+            system.gradient(point, velocity, self.time(interval, j), gradient, momentum);
+            for (r, derivative) in derivatives.iter_mut().enumerate() {
+                let [by_point, by_velocity] = self.coefficients.weighted_direction(j, r);
+                for i in 0..derivative.len() {
+                    derivative[i] += interval.h * by_point * gradient[i] + by_velocity * momentum[i];
+                }
+            }
+        }
+        statistics.gradients += NODES as u64;
+    }
+
+    /// The time of node `j`.
+    pub(super) fn time(&self, interval: Interval<T>, j: usize) -> T {
+        interval.time(T::lift(self.rule.nodes()[j]))
+    }
+}
 
 /// The coefficients for one frequency and step.
 #[derive(Clone, Copy, Debug)]
@@ -30,9 +91,9 @@ pub(super) struct Coefficients<const NODES: usize, T> {
     u: T,
     pub(super) weights: [T; NODES],
     /// φ
-    pub(super) point: [[T; NODES]; NODES],
+    point: [[T; NODES]; NODES],
     /// ψ
-    pub(super) velocity: [[T; NODES]; NODES],
+    velocity: [[T; NODES]; NODES],
     /// b and B of each node.
     left: [[T; 2]; NODES],
     /// Entry (r, k): Σⱼ wⱼ ψ̂ⱼᵣ ψⱼₖ, which M/h multiplies.
@@ -43,8 +104,22 @@ pub(super) struct Coefficients<const NODES: usize, T> {
 
 impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
     /// For u = ωh, where `a` is the matrix of `rule` that differentiates.
-    #[inline]
-    pub(super) fn new(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
+    ///
+    /// # Errors
+    /// [`StepFailure::Resonance`] where there is no step, and [`StepFailure::Frequency`].
+    fn new(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
+        let (new, [sinc, cosine_sum]) = Self::at(rule, a, u);
+        let small = T::lift(RESONANCE);
+        if Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small {
+            return Ok(new);
+        }
+        frequency::defined(u)?;
+        let u = reported(u);
+        Err(StepFailure::Resonance { u, sine: u * reported(sinc), cosine_sum: reported(cosine_sum) })
+    }
+
+    /// The same beside sin u/u and what multiplies the new point.
+    fn at(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> (Self, [T; 2]) {
         let (zero, one, last) = (T::lift(0.0), T::lift(1.0), NODES - 1);
         let none = [[zero; NODES]; NODES];
         let mut new = Self {
@@ -74,38 +149,46 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
                 new.kinetic[r][k] = new.sum(r, k, zero);
             }
         }
-        let (sinc, small) = (nodes.sinc(), T::lift(RESONANCE));
+        let sinc = nodes.sinc();
         let cosine_sum = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
-        let determined = Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small;
-        if !determined {
-            frequency::defined(u)?;
-            let u = reported(u);
-            return Err(StepFailure::Resonance {
-                u,
-                sine: u * reported(sinc),
-                cosine_sum: reported(cosine_sum),
-            });
-        }
-        Ok(new)
-    }
-
-    /// Whether these are the coefficients for u = ωh.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn is_for(&self, u: T) -> bool {
-        self.u == u
+        (new, [sinc, cosine_sum])
     }
 
     /// φ̂ and ψ̂ of direction `r` at node `j`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn direction(&self, j: usize, r: usize) -> [T; 2] {
         if r == NODES - 1 { self.left[j] } else { [self.point[j][r], self.velocity[j][r]] }
     }
 
+    /// Sets `point` to qʲ of node `j`.
+    pub(super) fn set_point<V: DerefMut<Target = [T]>>(&self, j: usize, x: &[V; NODES], point: &mut [T]) {
+        for i in 0..point.len() {
+            point[i] = weighted(&self.point[j], x, i, T::lift(0.0));
+        }
+    }
+
+    /// The same, and `velocity` to q̇ʲ, in a step of length `h`.
+    pub(super) fn place<V: DerefMut<Target = [T]>>(
+        &self,
+        j: usize,
+        h: T,
+        x: &[V; NODES],
+        [point, velocity]: [&mut [T]; 2],
+    ) {
+        let per_h = T::lift(1.0) / h;
+        self.set_point(j, x, point);
+        for i in 0..velocity.len() {
+            velocity[i] = per_h * weighted(&self.velocity[j], x, i, T::lift(0.0));
+        }
+    }
+
     /// The same times the weight of the node.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn weighted_direction(&self, j: usize, r: usize) -> [T; 2] {
-        let (w, [point, velocity]) = (self.weights[j], self.direction(j, r));
-        [w * point, w * velocity]
+        self.direction(j, r).map(|along| self.weights[j] * along)
+    }
+
+    /// φ and ψ of unknown `k` at node `j`.
+    pub(super) fn slopes(&self, j: usize, k: usize) -> [T; 2] {
+        [self.point[j][k], self.velocity[j][k]]
     }
 
     /// Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − z φ̂ⱼᵣ φⱼₖ)
@@ -139,6 +222,11 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         // The Schur complement of the displacements is the reciprocal of the last entry of the inverse.
         Some(-T::lift(1.0) / self.inverse[n][n])
     }
+}
+
+/// `from` + Σₖ `row`ₖ xₖ of coordinate `i`.
+pub(super) fn weighted<T: Real>(row: &[T], x: &[impl Deref<Target = [T]>], i: usize, from: T) -> T {
+    row.iter().zip(x).fold(from, |sum, (&factor, x)| sum + factor * x[i])
 }
 
 #[cfg(test)]

@@ -1,13 +1,10 @@
 //! How the forces at the interior nodes are evaluated: one by one, or in the lanes of packs.
 
-use core::fmt::Debug;
-
 use super::interior::Interior;
-use crate::mechanics::motion::{InLanes, OneByOne};
+use crate::mechanics::motion::{Evaluation, InLanes, OneByOne};
 use crate::memory::Memory;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
-use crate::scalar::simd::{Task, widest};
 use crate::{NondegenerateLagrangian, Real, System, Vector};
 
 /// In which packs the interior nodes of a step stand.
@@ -15,9 +12,9 @@ use crate::{NondegenerateLagrangian, Real, System, Vector};
     message = "the forces of {NODES} nodes cannot be evaluated in lanes",
     label = "lanes are for 4 to 9 nodes"
 )]
-pub trait NodeEvaluation<const NODES: usize, S: System, T: Real> {
+pub trait NodeEvaluation<const NODES: usize, S: System, T: Real>: Evaluation {
     /// The interior nodes.
-    type Interior: Memory<T> + Debug;
+    type Interior: Memory<T>;
 }
 
 impl<const NODES: usize, S: System, T: Real> NodeEvaluation<NODES, S, T> for OneByOne {
@@ -35,7 +32,7 @@ macro_rules! in_lanes {
 in_lanes!(4 2, 5 4, 6 4, 7 8, 8 8, 9 8);
 
 /// How the forces at up to `W` nodes are evaluated.
-pub trait NodeForces<const W: usize, S: System, T: Real>: Debug {
+pub trait NodeForces<const W: usize, S: System, T: Real> {
     /// Sets the first `count` lanes of `forces` to those at `places` and `times`; `work` is storage.
     fn evaluate(
         system: &S,
@@ -45,9 +42,6 @@ pub trait NodeForces<const W: usize, S: System, T: Real>: Debug {
         forces: &mut [Lanes<W, T>],
         work: [&mut Vector<S, T>; 2],
     );
-
-    /// Runs steps.
-    fn run<K: Task>(steps: K) -> K::Output;
 }
 
 impl<const W: usize, S: NondegenerateLagrangian<T>, T: Real> NodeForces<W, S, T> for OneByOne {
@@ -66,11 +60,6 @@ impl<const W: usize, S: NondegenerateLagrangian<T>, T: Real> NodeForces<W, S, T>
             write_lane(lane, force, forces);
         }
     }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<K: Task>(steps: K) -> K::Output {
-        steps.run()
-    }
 }
 
 impl<const W: usize, S: NondegenerateLagrangian<Lanes<W, T>>, T: Real> NodeForces<W, S, T> for InLanes {
@@ -84,10 +73,5 @@ impl<const W: usize, S: NondegenerateLagrangian<Lanes<W, T>>, T: Real> NodeForce
         _work: [&mut Vector<S, T>; 2],
     ) {
         system.force(places, &[], times, forces);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<K: Task>(steps: K) -> K::Output {
-        widest(steps)
     }
 }

@@ -13,25 +13,25 @@
 //! before, continued. Each interior node has a lane in packs of `W` ≥ S − 2; what stands in the others does
 //! not count.
 
-use core::fmt::{self, Debug};
 use core::marker::PhantomData;
 
 use super::evaluation::NodeForces;
-use crate::discrete::Rule as _;
+use crate::discrete::{Interval, Rule as _};
+use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::motion::weigh;
 use crate::mechanics::phase::PhasePoint;
 use crate::memory::{Memory, lasting};
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::collocation::packs::{Nystrom, combine, continuation, sum};
-use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
-use crate::scalar::simd::Task;
-use crate::solve::Due;
+use crate::scalar::{Lanes, norm};
+use crate::solve::{Convergence, Stopping, iterate};
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Space, System, Vector};
 
 /// The interior nodes of a step, and what the step before leaves to it.
+#[derive(Debug)]
 pub struct Interior<const NODES: usize, const W: usize, S: System, T: Real, E> {
     nystrom: Nystrom<W, T>,
     weights: Lanes<W, T>,
@@ -46,6 +46,8 @@ pub struct Interior<const NODES: usize, const W: usize, S: System, T: Real, E> {
     first: Vector<S, T>,
     /// The length of that step; zero before the first, and after a jump.
     last: T,
+    /// The force where this step begins, and those inside.
+    start: Vector<S, T>,
     forces: Vector<S, Lanes<W, T>>,
     /// L, of these forces, and h M⁻¹L.
     terms: Vector<S, Lanes<W, T>>,
@@ -65,59 +67,48 @@ impl<const NODES: usize, const W: usize, S: System, T: Real, E> Memory<T> for In
     lasting!(T; packs completed, numbers first, number last);
 }
 
-impl<const NODES: usize, const W: usize, S: System, T: Real, E> Debug for Interior<NODES, W, S, T, E> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Interior").field("completed", &self.completed).finish_non_exhaustive()
-    }
-}
-
-/// Where a step begins and how long it is.
+/// Where a step begins, and how long it is.
 #[derive(Debug)]
 pub struct Departure<'a, S: System, T: Real> {
+    pub(super) system: &'a S,
+    pub(super) interval: Interval<T>,
     pub(super) q: &'a [T],
     pub(super) phase: &'a PhasePoint<S, T>,
     pub(super) mass: &'a Mass<S, T>,
-    pub(super) h: T,
 }
 
 /// The interior nodes of a step.
-pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Debug + Sized {
+pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Sized {
     /// Of the Lobatto rule.
     fn new(system: &S) -> Self;
-    /// The impulse of the force at an end of a step of length `h`.
-    fn end_impulse(&self, h: T, force: T) -> T;
     /// Forgets the last step: the next one begins with the force at its start.
     fn forget(&mut self);
-    /// Remembers the forces of a completed step of length `h` that began with the force `first`.
-    fn remember(&mut self, h: T, first: &[T]);
-    /// Continues the forces of the step before and moves the nodes by them.
-    fn depart(&mut self, at: &Departure<'_, S, T>);
-    /// Evaluates the forces at all nodes once and moves these, and returns the largest change of a position
-    /// in units of the coordinates.
-    fn improve(
+    /// Remembers the forces of a completed step of length `h`.
+    fn remember(&mut self, h: T);
+    /// Sets the displacements and Δ, which stand behind q0, to those that the forces of the step before lead
+    /// to.
+    fn guess(&mut self, at: &Departure<'_, S, T>, unknowns: &mut [Vector<S, T>; NODES]);
+    /// Finds the positions by the fixed point, in up to so many iterations, and sets Δ, and p1 − p0 but for
+    /// the kick at the end.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`].
+    fn solve(
         &mut self,
-        system: &S,
         at: &Departure<'_, S, T>,
-        t: T,
-        due: &mut Due,
+        limits: (Stopping, usize),
+        increments: [&mut Vector<S, T>; 2],
         statistics: &mut Statistics,
-    ) -> T;
-    /// Puts the nodes where the `unknowns` say, q0, the displacements and Δ, and evaluates the forces there,
-    /// in a step of length h from t.
+    ) -> Result<(), StepFailure>;
+    /// Puts the nodes where the `unknowns` are, q0, the displacements and Δ, and sets `impulse` to p1 − p0
+    /// but for the kick at the end.
     fn visit(
         &mut self,
-        system: &S,
+        at: &Departure<'_, S, T>,
         unknowns: &[Vector<S, T>; NODES],
-        interval: [T; 2],
+        impulse: &mut [T],
         statistics: &mut Statistics,
     );
-    /// The change of coordinate `k`, and that of its momentum but for the kicks.
-    fn increments(&self, k: usize) -> [T; 2];
-    /// Coordinate `k` of a node that is inside, from 1, less that of the straight path from `q` by
-    /// `increment`.
-    fn displacement(&self, node: usize, k: usize, q: T, increment: T) -> T;
-    /// Runs steps.
-    fn run<K: Task>(steps: K) -> K::Output;
 }
 
 impl<const NODES: usize, const W: usize, S, T: Real, E> InteriorNodes<NODES, S, T>
@@ -149,6 +140,7 @@ where
             completed: [packs()],
             first: system.space().vector(),
             last: T::lift(0.0),
+            start: system.space().vector(),
             forces: packs(),
             terms: packs(),
             displacements: packs(),
@@ -162,54 +154,62 @@ where
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn end_impulse(&self, h: T, force: T) -> T {
-        h * self.end * force
-    }
-
     fn forget(&mut self) {
         self.last = T::lift(0.0);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn remember(&mut self, h: T, first: &[T]) {
+    fn remember(&mut self, h: T) {
         self.completed[0].copy_from_slice(&self.forces);
-        self.first.copy_from_slice(first);
+        self.first.copy_from_slice(&self.start);
         self.last = h;
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn depart(&mut self, at: &Departure<'_, S, T>) {
-        let Departure { phase, mass, h, .. } = *at;
-        self.continue_forces(&phase.force, h);
-        mass.displace(h, &phase.p, &mut self.drift);
-        let [impulse, _] = &mut self.work;
-        for (k, impulse) in impulse.iter_mut().enumerate() {
-            *impulse = h * self.end * phase.force[k] + phase.left_out_of_p(k);
+    fn guess(&mut self, at: &Departure<'_, S, T>, unknowns: &mut [Vector<S, T>; NODES]) {
+        self.depart(at);
+        for (k, &q) in at.q.iter().enumerate() {
+            let delta = self.increment(k);
+            unknowns[NODES - 1][k] = delta;
+            for node in 0..Self::COUNT {
+                unknowns[node + 1][k] = (self.places[k].0[node] - q) - self.nystrom.nodes.0[node] * delta;
+            }
         }
-        mass.displace(h, impulse, &mut self.kick);
-        self.place(at);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(
+    fn solve(
         &mut self,
-        system: &S,
         at: &Departure<'_, S, T>,
-        t: T,
-        due: &mut Due,
+        (stopping, budget): (Stopping, usize),
+        [delta, impulse]: [&mut Vector<S, T>; 2],
         statistics: &mut Statistics,
-    ) -> T {
-        due.prepare_places(system, &mut self.sizes, at.q, &mut self.places);
-        self.evaluate(system, [t, at.h], statistics);
-        self.place(at)
+    ) -> Result<(), StepFailure> {
+        self.depart(at);
+        // The momentum is that of the forces before the last correction, whose size counts, and not that of
+        // the next one alone.
+        let convergence = Convergence::fixed_point(stopping.exhaustive(), budget);
+        iterate(
+            convergence,
+            statistics,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |due, statistics| {
+                due.prepare_places(at.system, &mut self.sizes, at.q, &mut self.places);
+                self.evaluate(at, statistics);
+                Ok(self.place(at))
+            },
+        )?;
+        for (k, delta) in delta.iter_mut().enumerate() {
+            *delta = self.increment(k);
+        }
+        self.set_impulse(at.interval.h, impulse);
+        norm::finite(delta)
     }
 
     fn visit(
         &mut self,
-        system: &S,
+        at: &Departure<'_, S, T>,
         unknowns: &[Vector<S, T>; NODES],
-        interval: [T; 2],
+        impulse: &mut [T],
         statistics: &mut Statistics,
     ) {
         for (k, place) in self.places.iter_mut().enumerate() {
@@ -219,23 +219,8 @@ where
                 place.0[lane] = straight + unknowns[node + 1][k];
             }
         }
-        self.evaluate(system, interval, statistics);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn increments(&self, k: usize) -> [T; 2] {
-        let forced = self.nystrom.beta * self.displacements[k];
-        let displaced = self.drift[k] + (sum(&forced.0[..Self::COUNT]) + self.kick[k]);
-        [displaced, sum(&self.terms[k].0[..Self::COUNT])]
-    }
-
-    fn displacement(&self, node: usize, k: usize, q: T, increment: T) -> T {
-        (self.places[k].0[node - 1] - q) - self.nystrom.nodes.0[node - 1] * increment
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<K: Task>(steps: K) -> K::Output {
-        E::run(steps)
+        self.evaluate(at, statistics);
+        self.set_impulse(at.interval.h, impulse);
     }
 }
 
@@ -245,18 +230,49 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
     /// How many nodes there are inside.
     const COUNT: usize = NODES - 2;
 
-    /// Evaluates the forces at the nodes of a step of length h from t.
+    /// Continues the forces of the step before, and moves the nodes by them.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate(&mut self, system: &S, [t, h]: [T; 2], statistics: &mut Statistics)
+    fn depart(&mut self, at: &Departure<'_, S, T>) {
+        let Departure { interval: Interval { h, .. }, phase, mass, .. } = *at;
+        self.continue_forces(&phase.force, h);
+        self.start.copy_from_slice(&phase.force);
+        mass.displace(h, &phase.p, &mut self.drift);
+        let [impulse, _] = &mut self.work;
+        for (k, impulse) in impulse.iter_mut().enumerate() {
+            *impulse = h * self.end * phase.force[k] + phase.left_out_of_p(k);
+        }
+        mass.displace(h, impulse, &mut self.kick);
+        self.place(at);
+    }
+
+    /// Evaluates the forces at the nodes.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluate(&mut self, at: &Departure<'_, S, T>, statistics: &mut Statistics)
     where
         E: NodeForces<W, S, T>,
     {
         let Self { nystrom, weights, forces, terms, places, work: [place, force], .. } = self;
+        let Interval { t, h } = at.interval;
         let times = Lanes::all(t) + nystrom.nodes * Lanes::all(h);
-        E::evaluate(system, Self::COUNT, places, times, forces, [place, force]);
+        E::evaluate(at.system, Self::COUNT, places, times, forces, [place, force]);
         statistics.gradients += Self::COUNT as u64;
         let by = Lanes::all(h) * *weights;
         weigh(|_| by, forces, terms);
+    }
+
+    /// The change of coordinate `k`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn increment(&self, k: usize) -> T {
+        let forced = self.nystrom.beta * self.displacements[k];
+        self.drift[k] + (sum(&forced.0[..Self::COUNT]) + self.kick[k])
+    }
+
+    /// Sets `impulse` to the first kick and the impulses of the nodes, in a step of length `h`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn set_impulse(&self, h: T, impulse: &mut [T]) {
+        for ((impulse, &force), terms) in impulse.iter_mut().zip(self.start.iter()).zip(self.terms.iter()) {
+            *impulse = h * self.end * force + sum(&terms.0[..Self::COUNT]);
+        }
     }
 
     /// Continues the polynomial through the forces of the step before into a step of length `h`, where the
@@ -301,7 +317,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
     /// coordinates.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, at: &Departure<'_, S, T>) -> T {
-        let Departure { q, phase, mass, h } = *at;
+        let Departure { interval: Interval { h, .. }, q, phase, mass, .. } = *at;
         let Self { nystrom, terms, displacements, places, renewed, drift, kick, work, sizes, .. } = self;
         if let Some(reciprocals) = mass.reciprocals() {
             weigh(|k| Lanes::all(h * reciprocals[k]), terms, displacements);
@@ -314,10 +330,16 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             }
         }
         let nodes = nystrom.nodes;
-        let from = |k: usize| {
-            let small = Lanes::all(phase.left_out_of_q(k)) + nodes * Lanes::all(kick[k]);
-            (q[k], small + nodes * Lanes::all(drift[k]))
-        };
-        nystrom.place(Self::COUNT, displacements, from, sizes, [places, renewed])
+        nystrom.place(
+            Self::COUNT,
+            displacements,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |k| {
+                let small = Lanes::all(phase.left_out_of_q(k)) + nodes * Lanes::all(kick[k]);
+                (q[k], small + nodes * Lanes::all(drift[k]))
+            },
+            sizes,
+            [places, renewed],
+        )
     }
 }

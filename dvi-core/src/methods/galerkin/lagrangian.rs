@@ -1,28 +1,28 @@
 //! The discrete Lagrangian, stationary in the displacements: its derivatives, and the second ones by
 //! eliminating these.
 //!
-//! With the directions q0 (b, B), q1 (b̄, B̄) and δ of each interior node, and H the second derivatives of
-//! h Σⱼ wⱼ L(qʲ, q̇ʲ) along them, ∂L_d/∂δ = 0 gives
+//! With the unknowns x of a [step](super::displaced), the δ of the interior nodes among them, and H the
+//! matrix of its equations, ∂L_d/∂δ = 0 gives
 //!
-//! DᵢL_d = ∂ᵢ(h Σ w L)      DᵢDₖL_d = Hᵢₖ − Hᵢδ Hδδ⁻¹ Hδₖ
+//! (D₁ + D₂)L_d = r₀      D₁L_d = r_{s−1}      H* = H − H_δ H_δδ⁻¹ H^δ
 //!
-//! which are the blocks of q0 and q1 that are left once those of the displacements have been
-//! [eliminated](crate::space::linear::blocks).
+//! where H* is what is left of H, in columns by q0 at the same Δ, D₁ + D₂, and by Δ, D₂, once the
+//! displacements have been [eliminated](crate::space::linear::blocks).
 
 use super::Galerkin;
-use super::coefficients::Coefficients;
+use super::coefficients::Fit;
+use super::displaced::second_derivatives;
 use crate::discrete::frequency::{FrequencyIn, GivenFrequency};
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Rule, Span, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::linear_of_all;
 use crate::memory::Aside;
-use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
 use crate::space::linear::{self, blocks};
 use crate::space::lines;
-use crate::space::sink::{Sink, Transposed};
+use crate::space::sink::{Places, Sink, Transposed};
 use crate::state::Statistics;
 use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
@@ -30,20 +30,24 @@ use crate::{Linear, Matrix, Permutation, Real, RegularLagrangian, Scalar, Space,
 #[derive(Debug)]
 pub struct GalerkinLagrangian<const NODES: usize, S: System, F, T: Real = f64> {
     method: Galerkin<NODES, F>,
-    rule: Lobatto<NODES>,
-    differentiation: [[f64; NODES]; NODES],
+    fit: Fit<NODES, T>,
     storage: Storage<NODES, S, T>,
 }
 
-/// The interior displacements, then two entries that are not used; derivatives along these, q0 and q1; and
-/// the blocks of second derivatives, transposed.
+/// The unknowns of a step; derivatives along δ of the interior nodes, along both ends, and along q0; and the
+/// blocks of second derivatives, in columns by δ, q0 at the same Δ, and Δ, transposed.
 #[derive(Debug)]
 struct Storage<const NODES: usize, S: System, T: Real> {
-    displacements: [Vector<S, T>; NODES],
+    /// q0, the displacements of the interior nodes, and Δ.
+    unknowns: [Vector<S, T>; NODES],
     residuals: [Vector<S, T>; NODES],
     /// In which iterations judge coordinates.
     weights: Vector<S, T>,
     blocks: Aside<[[Matrix<S, T>; NODES]; NODES]>,
+    /// Second derivatives of L at a node: by q and q, q and v, v and q, v and v.
+    second: [Matrix<S, T>; 4],
+    /// What a direction makes of them: by q and by v.
+    rows: [Matrix<S, T>; 2],
     permutation: Permutation<S>,
     node: NodeWork<S, T>,
 }
@@ -52,87 +56,68 @@ struct Storage<const NODES: usize, S: System, T: Real> {
 struct Path<'a, const NODES: usize, S, T> {
     system: &'a S,
     interval: Interval<T>,
-    ends: Ends<'a, T>,
-    rule: &'a Lobatto<NODES>,
-    coefficients: Coefficients<NODES, T>,
+    fit: &'a Fit<NODES, T>,
 }
 
 impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T> {
-    /// How many displacements there are, and the numbers of the directions q0 and q1.
+    /// How many displacements there are, and what stands behind them.
     const INTERIOR: usize = NODES - 2;
-    const LEFT: usize = NODES - 2;
-    const RIGHT: usize = NODES - 1;
+    const BOTH: usize = NODES - 2;
+    const LAST: usize = NODES - 1;
 
-    /// φ̂ and ψ̂ at node `j` of a direction.
-    fn along(&self, j: usize, direction: usize) -> [T; 2] {
-        if direction == Self::LEFT {
-            self.coefficients.direction(j, NODES - 1)
+    /// The unknown of a column, and the direction of a row.
+    fn unknown(column: usize) -> usize {
+        if column == Self::BOTH {
+            0
+        } else if column == Self::LAST {
+            Self::LAST
         } else {
-            let column = if direction == Self::RIGHT { NODES - 1 } else { direction + 1 };
-            [self.coefficients.point[j][column], self.coefficients.velocity[j][column]]
-        }
-    }
-
-    fn time(&self, j: usize) -> T {
-        self.interval.time(T::lift(self.rule.nodes()[j]))
-    }
-
-    /// Sets `point` to qʲ and `velocity` to q̇ʲ of node `j`.
-    fn place(&self, j: usize, displacements: &[Vector<S, T>; NODES], node: &mut NodeWork<S, T>) {
-        let Coefficients { point: phi, velocity: psi, .. } = &self.coefficients;
-        let (Ends { q0, delta }, per_h) = (self.ends, T::lift(1.0) / self.interval.h);
-        for i in 0..q0.len() {
-            let [mut point, mut velocity] =
-                [phi, psi].map(|factor| factor[j][0] * q0[i] + factor[j][NODES - 1] * delta[i]);
-            for (k, displacement) in displacements.iter().enumerate().take(Self::INTERIOR) {
-                point += phi[j][k + 1] * displacement[i];
-                velocity += psi[j][k + 1] * displacement[i];
-            }
-            node.point[i] = point;
-            node.velocity[i] = per_h * velocity;
+            column + 1
         }
     }
 
     /// Sets the derivatives along all directions.
     fn differentiate(&self, storage: &mut Storage<NODES, S, T>, statistics: &mut Statistics) {
-        let Storage { displacements, residuals, node, .. } = storage;
-        for residual in residuals.iter_mut() {
-            residual.fill(T::lift(0.0));
-        }
-        for j in 0..NODES {
-            self.place(j, displacements, node);
-            let NodeWork { point, velocity, gradient, momentum } = &mut *node;
-            self.system.gradient(point, velocity, self.time(j), gradient, momentum);
-            statistics.gradients += 1;
-            for (direction, residual) in residuals.iter_mut().enumerate() {
-                let [phi, psi] =
-                    self.along(j, direction).map(|factor| self.coefficients.weights[j] * factor);
-                for i in 0..residual.len() {
-                    residual[i] += self.interval.h * phi * gradient[i] + psi * momentum[i];
-                }
-            }
-        }
+        let Storage { unknowns, residuals, node, .. } = storage;
+        self.fit.differentiate((self.system, self.interval), unknowns, node, residuals, statistics);
+        residuals[..Self::LAST].rotate_left(1);
     }
 
     /// Sets the blocks of second derivatives.
-    fn linearize(&self, Storage { displacements, blocks, node, .. }: &mut Storage<NODES, S, T>) {
-        let h = self.interval.h;
-        blocks.iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
+    fn linearize(&self, storage: &mut Storage<NODES, S, T>) {
+        let Storage { unknowns, blocks, second, rows, node, .. } = storage;
+        let (zero, one, h) = (T::lift(0.0), T::lift(1.0), self.interval.h);
+        let per_h = one / h;
+        blocks.iter_mut().flatten().for_each(|block| block.fill(zero));
         for j in 0..NODES {
-            self.place(j, displacements, node);
-            let NodeWork { point, velocity, gradient, momentum } = &mut *node;
+            self.fit.coefficients.place(j, h, unknowns, [&mut node.point, &mut node.velocity]);
+            second.iter_mut().for_each(|derivative| derivative.fill(zero));
+            let (t, [qq, qv, vq, vv]) = (self.fit.time(self.interval, j), &mut *second);
+            let mut mixed = Places(|row, column, entry| {
+                qv.add(column, row, entry);
+                if !S::FORCED {
+                    vq.add(row, column, entry);
+                }
+            });
+            second_derivatives((self.system, t), node, &mut Transposed(qq), &mut mixed, &mut Transposed(vv));
+            if S::FORCED {
+                let NodeWork { point, velocity, gradient, momentum } = &mut *node;
+                let weights = Weights { qq: zero, qv: zero, vq: one, vv: zero };
+                let sink = &mut Transposed(vq);
+                self.system.linearize(point, velocity, t, weights, gradient, momentum, sink);
+            }
+            let ([qq, qv, vq, vv], [by_q, by_v]) = (&*second, &mut *rows);
             for (r, row) in blocks.iter_mut().enumerate() {
-                let [phi, psi] = self.along(j, r).map(|factor| self.coefficients.weights[j] * factor);
+                let [phi, psi] = self.fit.coefficients.weighted_direction(j, Self::unknown(r));
+                for i in 0..by_q.len() {
+                    by_q[i] = h * phi * qq[i] + psi * vq[i];
+                    by_v[i] = phi * qv[i] + per_h * psi * vv[i];
+                }
                 for (k, block) in row.iter_mut().enumerate() {
-                    let [point_slope, velocity_slope] = self.along(j, k);
-                    let weights = Weights {
-                        qq: h * phi * point_slope,
-                        qv: phi * velocity_slope,
-                        vq: psi * point_slope,
-                        vv: psi * velocity_slope / h,
-                    };
-                    let (t, mut transposed) = (self.time(j), Transposed(block));
-                    self.system.linearize(point, velocity, t, weights, gradient, momentum, &mut transposed);
+                    let [phi, psi] = self.fit.coefficients.slopes(j, Self::unknown(k));
+                    for i in 0..block.len() {
+                        block[i] += phi * by_q[i] + psi * by_v[i];
+                    }
                 }
             }
         }
@@ -145,46 +130,43 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        for displacement in &mut storage.displacements {
-            displacement.fill(T::lift(0.0));
-        }
-        let q0 = self.ends.q0;
         let convergence = Convergence::new(stopping, stopping.max_iterations);
         iterate(convergence, statistics, |due, statistics| {
-            let Storage { weights, displacements, .. } = &mut *storage;
-            due.prepare_all(self.system, weights, q0, &mut displacements[..Self::INTERIOR]);
+            let Storage { unknowns, weights, .. } = &mut *storage;
+            let (q0, rest) = unknowns.split_at_mut(1);
+            due.prepare_all(self.system, weights, &q0[0], &mut rest[..Self::INTERIOR]);
             self.differentiate(storage, statistics);
             self.linearize(storage);
-            statistics.linearizations += 1;
+            statistics.linearizations += NODES as u64;
             statistics.factorisations += 1;
             if *due == Due::Residual {
-                return Self::residual(storage, q0);
+                return Self::residual(storage);
             }
-            let Storage { displacements, residuals, weights, blocks, permutation, node } = &mut *storage;
+            let Storage { unknowns, residuals, weights, blocks, permutation, node, .. } = &mut *storage;
             residuals.iter().try_for_each(|residual| norm::finite(residual))?;
             let units = (&weights[..], &mut node.point[..]);
             blocks::eliminate(blocks, permutation, units, residuals, 0..Self::INTERIOR)?;
-            let mut correction = T::lift(0.0);
-            for (displacement, change) in displacements.iter_mut().zip(residuals.iter()).take(Self::INTERIOR)
-            {
-                correction =
-                    norm::larger(correction, sizes::reduce(self.system, weights, displacement, change));
-            }
-            Ok(correction)
+            let corrections = unknowns[1..Self::LAST].iter_mut().zip(residuals.iter());
+            Ok(corrections.fold(T::lift(0.0), |largest, (displacement, change)| {
+                norm::larger(largest, sizes::reduce(self.system, weights, displacement, change))
+            }))
         })
     }
 
     /// The residuals of the displacements, relative in each row to Σ |A| times the sizes of what it is
     /// multiplied by (Oettli & Prager 1964).
     #[cold]
-    fn residual(storage: &Storage<NODES, S, T>, q0: &[T]) -> Result<T, StepFailure> {
-        let Storage { displacements, residuals, blocks, .. } = storage;
+    fn residual(
+        Storage { unknowns, residuals, blocks, .. }: &Storage<NODES, S, T>,
+    ) -> Result<T, StepFailure> {
+        let (q0, displacements) = (&unknowns[0], &unknowns[1..Self::LAST]);
         let mut largest = T::lift(0.0);
         for (row, residual) in blocks.iter().zip(residuals).take(Self::INTERIOR) {
             let of = |i: usize| {
                 let mut sum = T::lift(0.0);
-                for (block, displacement) in row.iter().zip(displacements).take(Self::INTERIOR) {
-                    for ((column, &q), &x) in lines(block, q0.len()).zip(q0).zip(displacement.iter()) {
+                for (block, displacement) in row.iter().zip(displacements) {
+                    for ((column, &q), &x) in lines(block, q0.len()).zip(q0.iter()).zip(displacement.iter())
+                    {
                         sum += Scalar::abs(column[i]) * (Scalar::abs(q) + Scalar::abs(x));
                     }
                 }
@@ -196,7 +178,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
         Ok(largest)
     }
 
-    /// Leaves the second derivatives of L_d in the blocks of q0 and q1.
+    /// Leaves the second derivatives of L_d in the last two rows and columns of blocks.
     fn complement(&self, storage: &mut Storage<NODES, S, T>) -> Result<(), StepFailure> {
         self.linearize(storage);
         let Storage { residuals, weights, blocks, permutation, node, .. } = storage;
@@ -210,11 +192,11 @@ impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Path<'_, NODES, S, T>
 /// A path that is stationary in the displacements.
 type Settled<'a, const NODES: usize, S, T> = (Path<'a, NODES, S, T>, &'a mut Storage<NODES, S, T>);
 
-/// Adds a block that is stored transposed.
-fn add_block<T: Real, K: Sink<T>>(transposed: &[T], n: usize, sink: &mut K) {
+/// Adds a block that is stored transposed, or subtracts it.
+fn add_block<T: Real, K: Sink<T>>(transposed: &[T], factor: f64, n: usize, sink: &mut K) {
     for (column, entries) in lines(transposed, n).enumerate() {
         for (row, &entry) in entries.iter().enumerate() {
-            sink.add(row, column, entry);
+            sink.add(row, column, T::lift(factor) * entry);
         }
     }
 }
@@ -229,10 +211,12 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>
         ends: Ends<'a, T>,
         statistics: &mut Statistics,
     ) -> Result<Settled<'a, NODES, S, T>, StepFailure> {
-        let Self { method, rule, differentiation, storage } = self;
-        let u = method.frequency.fixed() * interval.h;
-        let coefficients = Coefficients::new(rule, differentiation, u)?;
-        let path = Path { system, interval, ends, rule, coefficients };
+        let Self { method, fit, storage } = self;
+        fit.to(method.frequency.fixed() * interval.h)?;
+        let path = Path { system, interval, fit };
+        storage.unknowns.iter_mut().for_each(|unknown| unknown.fill(T::lift(0.0)));
+        storage.unknowns[0].copy_from_slice(ends.q0);
+        storage.unknowns[NODES - 1].copy_from_slice(ends.delta);
         path.settle(storage, method.stopping, statistics)?;
         Ok((path, storage))
     }
@@ -255,10 +239,10 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Di
     ) -> Result<(), StepFailure> {
         let (path, storage) = self.settled(system, interval, ends, statistics)?;
         path.differentiate(storage, statistics);
-        let [left, right] = [NODES - 2, NODES - 1].map(|direction| &storage.residuals[direction]);
+        let [both, left] = [NODES - 2, NODES - 1].map(|direction| &storage.residuals[direction]);
         for i in 0..d1.len() {
             d1[i] += left[i];
-            sum[i] += left[i] + right[i];
+            sum[i] += both[i];
         }
         Ok(())
     }
@@ -272,11 +256,11 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Di
     ) -> Result<(), StepFailure> {
         let (path, storage) = self.settled(system, interval, ends, statistics)?;
         path.differentiate(storage, statistics);
-        for (d1, &left) in d1.iter_mut().zip(storage.residuals[NODES - 2].iter()) {
+        for (d1, &left) in d1.iter_mut().zip(storage.residuals[NODES - 1].iter()) {
             *d1 += left;
         }
         path.complement(storage)?;
-        add_block(&storage.blocks[NODES - 2][NODES - 1], d1.len(), sink);
+        add_block(&storage.blocks[NODES - 1][NODES - 1], 1.0, d1.len(), sink);
         Ok(())
     }
 }
@@ -292,11 +276,17 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Tw
         let n = ends.q0.len();
         let (path, storage) = self.settled(system, interval, ends, &mut Statistics::default())?;
         path.complement(storage)?;
-        let [left, right] = [NODES - 2, NODES - 1];
-        for (row, column, sink) in
-            [(left, left, d11), (left, right, d12), (right, left, d21), (right, right, d22)]
-        {
-            add_block(&storage.blocks[row][column], n, sink);
+        // Of rows (D₁ + D₂)L_d and D₁L_d, in columns by q0 at the same Δ, and by Δ.
+        let [both, last] = [NODES - 2, NODES - 1];
+        let [b00, b01, b10, b11] = [(both, both), (both, last), (last, both), (last, last)]
+            .map(|(row, column)| &storage.blocks[row][column]);
+        add_block(b11, 1.0, n, d12);
+        for (sink, terms) in [
+            (d11, &[(b10, 1.0), (b11, -1.0)][..]),
+            (d22, &[(b01, 1.0), (b11, -1.0)]),
+            (d21, &[(b00, 1.0), (b01, -1.0), (b10, -1.0), (b11, 1.0)]),
+        ] {
+            terms.iter().for_each(|&(block, sign)| add_block(block, sign, n, sink));
         }
         Ok(())
     }
@@ -315,17 +305,19 @@ where
     }
 
     fn discrete_lagrangian(&self, system: &S) -> GalerkinLagrangian<NODES, S, F, T> {
-        let (space, rule) = (system.space(), Lobatto::new());
+        let space = system.space();
         let blocks: [[_; NODES]; NODES] = core::array::from_fn(|_| core::array::from_fn(|_| space.matrix()));
         let storage = Storage {
-            displacements: space.vectors(),
+            unknowns: space.vectors(),
             residuals: space.vectors(),
             weights: space.vector(),
             blocks: blocks.into(),
+            second: core::array::from_fn(|_| space.matrix()),
+            rows: core::array::from_fn(|_| space.matrix()),
             permutation: space.permutation(),
             node: NodeWork::new(system),
         };
-        GalerkinLagrangian { method: self.clone(), differentiation: rule.differentiation(), rule, storage }
+        GalerkinLagrangian { method: self.clone(), fit: Fit::new(), storage }
     }
 }
 

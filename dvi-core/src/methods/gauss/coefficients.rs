@@ -79,7 +79,7 @@ impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
         let nystrom = Nystrom { nu: columns(nu), beta, nodes };
         Self {
             mu: columns(tableau.mu),
-            continuation: columns(tableau.continuation()),
+            continuation: continuation(&lagrange, c, T::lift(1.0)),
             lagrange,
             b,
             c,

@@ -28,10 +28,8 @@
 
 use super::memory::{Path, first_part};
 use crate::error::StepFailure;
-use crate::mechanics::motion::{AtStages, FirstOrder, Slopes, StageEvaluation};
-use crate::methods::Clock;
+use crate::mechanics::motion::{AtStages, FirstOrder, StageEvaluation};
 use crate::methods::collocation::packs::{combine, sum};
-use crate::methods::collocation::steps::Steps;
 use crate::methods::tolerance::{Tolerance, in_units_of};
 use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
@@ -54,19 +52,13 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
-        let mut error = T::lift(0.0);
-        E::run(Steps::new(
-            Clock::new(t, h),
-            1,
+        E::run(
             #[inline]
-            |interval| {
-                self.evaluate_defects::<E>(system, interval, statistics)?;
-                error = self.estimate([h, usual], tolerance)?;
-                Ok(())
+            || {
+                self.evaluate_defects::<E>(system, [t, h], statistics)?;
+                self.estimate([h, usual], tolerance)
             },
-        ))
-        .1?;
-        Ok(error)
+        )
     }
 
     /// Sets `increment` to the defect at the start of the step, and `slopes` to those at the other extrema,
@@ -79,19 +71,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.set_velocities();
-        let Self {
-            equations,
-            coefficients,
-            completed,
-            slopes,
-            terms,
-            stages,
-            y,
-            increment,
-            weights: units,
-            work,
-            ..
-        } = self;
+        let Self { equations, coefficients, completed, slopes, stages, renewed, y, increment, work, .. } =
+            self;
         let (extrema, first) = (&coefficients.extrema, first_part::<S, T>(equations));
         S::Kind::evaluate(equations, system, y, t, increment, statistics)?;
         for part in 0..first {
@@ -104,10 +85,10 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             combine(&integrals, &completed[part], |k| (y[part][k], zero), &mut stages[part]);
         }
         for part in first..y.len() {
-            let at = AtStages { system, y: &*stages, t: Lanes::all(t) + extrema.c * Lanes::all(h) };
-            let (terms, changes) = (&mut terms[part], [T::lift(0.0); STAGES]);
-            let mut renewed = Slopes { slopes, terms, part, weights: zero, units, changes };
-            E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
+            let t = Lanes::all(t) + extrema.c * Lanes::all(h);
+            let at = AtStages { system, part, y: &*stages, velocity: &slopes[0], t };
+            E::evaluate_part(equations, &at, work, renewed, statistics)?;
+            slopes[part].copy_from_slice(renewed);
         }
         for part in 0..y.len() {
             for (start, slopes) in increment[part].iter_mut().zip(completed[part].iter()) {

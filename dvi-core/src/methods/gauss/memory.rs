@@ -6,10 +6,10 @@ use super::coefficients::Coefficients;
 use super::newton::NewtonStages;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
-    AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, Slopes, StageEvaluation, StageWork, weigh,
+    AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, StageEvaluation, StageWork, weigh,
 };
 use crate::memory::{Aside, Memory, lasting};
-use crate::methods::collocation::packs::{combine, largest_of, sum};
+use crate::methods::collocation::packs::{combine, replace, sum};
 use crate::scalar::Lanes;
 use crate::solve::{Due, Ladder};
 use crate::state::Statistics;
@@ -48,6 +48,8 @@ pub(super) struct Path<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
     /// L, of these slopes.
     pub(super) terms: StagesOf<STAGES, S, T>,
     pub(super) stages: StagesOf<STAGES, S, T>,
+    /// New slopes, where changes of the old ones count.
+    pub(super) renewed: Vector<S, Lanes<STAGES, T>>,
     /// Where the step begins, its increment, and where it ends.
     pub(super) y: PointOf<S, T>,
     pub(super) increment: PointOf<S, T>,
@@ -94,6 +96,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             slopes,
             terms,
             stages,
+            renewed: system.space().vector(),
             y,
             increment,
             next,
@@ -162,18 +165,24 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         &mut self,
         part: usize,
         system: &S,
-        t: T,
-        h: T,
+        [t, h]: [T; 2],
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
-        let Self { equations, coefficients, slopes, terms, stages, weights: units, work, .. } = self;
-        let times = Lanes::all(t) + coefficients.c * Lanes::all(h);
-        let at = AtStages { system, y: &*stages, t: times };
+        let Self { equations, coefficients, slopes, terms, stages, renewed, weights: units, work, .. } =
+            self;
+        let (velocity, forces) = slopes.split_at_mut(1);
+        let t = Lanes::all(t) + coefficients.c * Lanes::all(h);
+        let at = AtStages { system, part, y: &*stages, velocity: &velocity[0], t };
         let weights = Lanes::all(h) * coefficients.b;
-        let changes = [T::lift(0.0); STAGES];
-        let mut renewed = Slopes { slopes, terms: &mut terms[part], part, weights, units, changes };
-        E::evaluate_part(equations, &at, work, &mut renewed, statistics)?;
-        Ok(largest_of(renewed.changes))
+        if part > 0 {
+            let force = &mut forces[part - 1];
+            E::evaluate_part(equations, &at, work, force, statistics)?;
+            weigh(|_| weights, force, &mut terms[part]);
+            return Ok(T::lift(0.0));
+        }
+        E::evaluate_part(equations, &at, work, renewed, statistics)?;
+        weigh(|_| weights, renewed, &mut terms[0]);
+        Ok(replace(units, &mut velocity[0], renewed))
     }
 
     /// Does what is `due` before an iteration from `q`.
@@ -198,8 +207,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         summation: Summation,
         system: &S,
         q: &mut Vector<S, T>,
-        t: T,
-        h: T,
+        [t, h]: [T; 2],
     ) -> Result<(), StepFailure> {
         let Self { equations, completed, last, slopes, terms, y, rest, increment, next, .. } = self;
         for part in 0..y.len() {

@@ -1,24 +1,24 @@
-//! Newton's method for the velocities V of all stages at once, with Qᵢ = q + h Σⱼ aᵢⱼ Vⱼ:
+//! Newton's method for the increments W = hV of all stages at once, with Qᵢ = q + Σⱼ aᵢⱼ Wⱼ:
 //!
 //! rᵢ = ∂L/∂v(Qᵢ, Vᵢ) − p − h Σⱼ aᵢⱼ Fⱼ = 0,   F = ∂L/∂q(Q, V)      of a regular system
 //! rᵢ = Ω(Qᵢ) Vᵢ − ∇H(Qᵢ) − ∂α/∂t = 0                                of a degenerate one
 //!
-//! Corrections are measured by what they do to the stages, h Σⱼ aᵢⱼ δVⱼ: where forces are stiff, the
-//! velocities have the rounding errors of positions times (hA)⁻¹, which is 273/h of eight stages, and a step
-//! does not see them.
+//! Corrections are measured by what they do to the stages, Σⱼ aᵢⱼ δWⱼ: where forces are stiff, the
+//! increments have the rounding errors of positions times A⁻¹, which is 273 of eight stages, and a step does
+//! not see them.
 
-use super::memory::{GaussMemory, Path};
+use super::memory::Path;
+use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::motion::{FirstOrder, Motion, PointOf, weigh};
+use crate::mechanics::motion::{FirstOrder, Motion, StageWork, weigh};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::Aside;
 use crate::methods::collocation::Collocation;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::{Lanes, norm};
-use crate::solve::{Convergence, Due, Guess, Judge, Solver, Stopping, iterate};
-use crate::space::{CoupledSolver, NodeSum, Sink, Storing, linear};
+use crate::solve::{CoupledEquations, Guess, Solver, Stopping, solve_coupled};
+use crate::space::{NodeSum, Sink, Storing};
 use crate::state::Statistics;
-use crate::state::summation::Summation;
 use crate::{Coupled, Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// A matrix of fixed size is made on the stack, where threads have two megabytes, and without optimisation
@@ -30,14 +30,14 @@ const MOST_BYTES: usize = 1 << 17;
 pub(super) struct NewtonStages<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     solver: Coupled<STAGES, S, T>,
     tableau: Collocation<STAGES>,
+    /// W
+    increments: [Vector<S, T>; STAGES],
     /// The residuals, and then the corrections.
     residuals: [Vector<S, T>; STAGES],
-    /// What a residual is made of.
-    sums: Vector<S, T>,
+    /// In which the iteration judges coordinates, and work space.
+    weights: [Vector<S, T>; 2],
     /// One stage.
-    point: PointOf<S, T>,
-    slope: PointOf<S, T>,
-    derivatives: [Vector<S, T>; 2],
+    node: NodeWork<S, T>,
 }
 
 /// How a run is solved.
@@ -72,68 +72,40 @@ pub(super) fn storage<const STAGES: usize, S, T: Real>(
 where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
 {
-    let [point, mut slope]: [PointOf<S, T>; 2] = S::Kind::points(system);
+    let (space, mut node) = (system.space(), NodeWork::new(system));
     // States of degenerate systems may have no velocities.
-    slope[0][..v.len()].copy_from_slice(v);
-    let solver = coupled_by_second_derivatives(system, [q, &slope[0]], t, STAGES, storing);
-    let (residuals, sums) = (system.space().vectors(), system.space().vector());
-    let derivatives = system.space().vectors();
-    let storage =
-        NewtonStages { solver, tableau: Collocation::gauss(), residuals, sums, point, slope, derivatives };
+    node.velocity[..v.len()].copy_from_slice(v);
+    let storage = NewtonStages {
+        solver: coupled_by_second_derivatives(system, [q, &node.velocity], t, STAGES, storing),
+        tableau: Collocation::gauss(),
+        increments: space.vectors(),
+        residuals: space.vectors(),
+        weights: space.vectors(),
+        node,
+    };
     #[cfg(feature = "alloc")]
     let storage = Aside::new(storage);
     storage
-}
-
-impl<const STAGES: usize, S, T: Real> GaussMemory<STAGES, S, T>
-where
-    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
-{
-    /// Takes a step from t to t + h, if Newton's method stands by the fixed point, which has been `tried` or
-    /// is not to be.
-    ///
-    /// # Errors
-    /// Those of Newton's method, or else of the fixed point.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn step_by_newton(
-        &mut self,
-        tried: Result<(), StepFailure>,
-        system: &S,
-        q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
-        (stopping, summation): (Stopping, Summation),
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let Self { ladder, path } = self;
-        ladder.solve(
-            &mut (path, q),
-            statistics,
-            |_, _| tried,
-            |(path, q), newton, guess, statistics| {
-                newton.solve(system, path, q, [t, h], guess, stopping, statistics)?;
-                path.arrive(0, summation, system, q, t, h)
-            },
-        )
-    }
 }
 
 impl<const STAGES: usize, S, T: Real> NewtonStages<STAGES, S, T>
 where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
 {
-    /// Finds the slopes of the step from `q`.
-    #[allow(clippy::too_many_arguments)]
+    /// Finds the slopes and stages of the step from `q`.
+    ///
+    /// # Errors
+    /// As [`solve_coupled`], or what is found at a stage.
     pub(super) fn solve(
         &mut self,
         system: &S,
         path: &mut Path<STAGES, S, T>,
-        q: &Vector<S, T>,
-        [t, h]: [T; 2],
+        (q, [t, h]): (&Vector<S, T>, [T; 2]),
         guess: Guess,
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
+        let Self { solver, tableau, increments, residuals, weights, node } = self;
         S::Kind::gather(&mut path.equations, q, &mut path.y);
         match guess {
             Guess::Extrapolated => {
@@ -142,72 +114,125 @@ where
             }
             Guess::Zero => path.slopes[0].fill(Lanes::all(T::lift(0.0))),
         }
-        let mut extrapolated = guess == Guess::Extrapolated;
-        let mut convergence = Convergence::new(stopping, stopping.max_iterations);
-        // A matrix that is known to half of the digits alone brings one order of derivatives in an
-        // iteration, and does not double it.
-        convergence.course().more *= 2;
-        iterate(convergence, statistics, |due, statistics| {
-            due.prepare_slopes(system, &mut path.weights, (q, h), &mut path.slopes[0]);
-            self.differentiate(system, path, [t, h], statistics)?;
-            statistics.linearizations += STAGES as u64;
-            statistics.factorisations += 1;
-            let Self { solver, tableau, residuals, sums, point, slope, derivatives } = self;
-            let at = [&mut point[0], &mut slope[0]];
-            // Those of coordinates over h.
-            let weights = &*path.weights;
-            let mut matrix = Linearized { system, tableau, path, at, derivatives, t, h, stage: 0 };
-            if *due == Due::Residual {
-                return linear::residual_of_nodes(&mut matrix, weights, residuals, sums);
-            }
-            solver.solve(&mut matrix, weights, residuals)?;
-            let (correction, was_farther) = self.correct(path, h);
-            // From a guess that is worse than none Newton's method may find another solution, far away.
-            if core::mem::take(&mut extrapolated) && was_farther {
-                let (correction, tolerance) = (norm::reported(correction), stopping.tolerance);
-                return Err(StepFailure::NotConverged { iterations: 1, correction, tolerance });
-            }
-            Ok(correction)
-        })?;
-        self.differentiate(system, path, [t, h], statistics)?;
-        let Self { point, slope, derivatives: [velocity, _], .. } = self;
-        for (stage, &c) in path.coefficients.c.0.iter().enumerate() {
-            for part in 0..path.y.len() {
-                read_lane(stage, &path.stages[part], &mut point[part]);
-                read_lane(stage, &path.slopes[part], &mut slope[part]);
+        for (stage, increment) in increments.iter_mut().enumerate() {
+            read_lane(stage, &path.slopes[0], increment);
+            increment.iter_mut().for_each(|w| *w *= h);
+        }
+        let extrapolated = guess == Guess::Extrapolated;
+        let tolerance = stopping.tolerance;
+        let mut stages = Stages {
+            system,
+            tableau,
+            path,
+            increments,
+            node,
+            t,
+            h,
+            per_h: T::lift(1.0) / h,
+            stage: 0,
+            extrapolated,
+            tolerance,
+        };
+        solve_coupled(&mut stages, (system, q), solver, (residuals, weights), stopping, statistics)?;
+        stages.evaluate(residuals, statistics)?;
+        let Path { equations, coefficients, slopes, stages, work: StageWork { point, slope, .. }, .. } =
+            path;
+        for (stage, &c) in coefficients.c.0.iter().enumerate() {
+            for part in 0..stages.len() {
+                read_lane(stage, &stages[part], &mut point[part]);
+                read_lane(stage, &slopes[part], &mut slope[part]);
                 norm::finite(&slope[part])?;
             }
             let time = t + c * h;
-            S::Kind::compare(&mut path.equations, system, point, time)?;
+            S::Kind::compare(equations, system, point, time)?;
             // The velocity of the last stage leads to that at the end of the step.
             if S::Kind::HAS_VELOCITY_FORCES && stage + 1 == STAGES {
-                let equations = &mut path.equations;
-                S::Kind::evaluate_part(equations, system, 0, point, time, slope, velocity, statistics)?;
+                S::Kind::evaluate_part(equations, system, 0, point, time, slope, statistics)?;
             }
         }
         Ok(())
     }
+}
 
-    /// Places the stages by their velocities, and sets forces and residuals.
-    fn differentiate(
+/// The equations of a step from t of length h, and the matrix ∂rᵢ/∂Wₖ, in which a node of the sum is a
+/// stage.
+struct Stages<'a, const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+    system: &'a S,
+    tableau: &'a Collocation<STAGES>,
+    path: &'a mut Path<STAGES, S, T>,
+    increments: &'a mut [Vector<S, T>; STAGES],
+    node: &'a mut NodeWork<S, T>,
+    t: T,
+    h: T,
+    per_h: T,
+    stage: usize,
+    /// Whether this is the guess still, and extrapolated.
+    extrapolated: bool,
+    tolerance: f64,
+}
+
+impl<const STAGES: usize, S, T: Real> Stages<'_, STAGES, S, T>
+where
+    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
+{
+    /// Goes to a stage, and returns its time.
+    fn go_to(&mut self, stage: usize) -> T {
+        self.stage = stage;
+        read_lane(stage, &self.path.stages[0], &mut self.node.point);
+        read_lane(stage, &self.path.slopes[0], &mut self.node.velocity);
+        self.time()
+    }
+
+    fn time(&self) -> T {
+        self.t + self.path.coefficients.c.0[self.stage] * self.h
+    }
+
+    fn linearize(&mut self, weights: Weights<T>, sink: &mut impl Sink<T>) {
+        let (time, NodeWork { point, velocity, gradient, momentum }) = (self.time(), &mut *self.node);
+        self.system.linearize(point, velocity, time, weights, gradient, momentum, sink);
+    }
+
+    /// The largest Σⱼ aᵢⱼ xⱼ.
+    fn displacement(&self, x: [T; STAGES]) -> T {
+        self.tableau.a.iter().fold(T::lift(0.0), |largest, row| {
+            let sum = row.iter().zip(x).fold(T::lift(0.0), |sum, (&a, x)| sum + T::lift(a) * x);
+            norm::larger(largest, Scalar::abs(sum))
+        })
+    }
+}
+
+impl<const STAGES: usize, S, T: Real> CoupledEquations<STAGES, S, T> for Stages<'_, STAGES, S, T>
+where
+    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
+{
+    /// A matrix that is known to half of the digits alone brings one order in an iteration, and does not
+    /// double it.
+    const PER_ORDER: usize = 2;
+
+    fn unknowns(&mut self) -> &mut [Vector<S, T>; STAGES] {
+        self.increments
+    }
+
+    /// Sets slopes and stages too.
+    fn evaluate(
         &mut self,
-        system: &S,
-        path: &mut Path<STAGES, S, T>,
-        [t, h]: [T; 2],
+        residuals: &mut [Vector<S, T>; STAGES],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { residuals, point, slope, derivatives: [force, _], .. } = self;
-        let weights = Lanes::all(h) * path.coefficients.b;
-        weigh(|_| weights, &path.slopes[0], &mut path.terms[0]);
-        path.reach(0);
+        let weights = Lanes::all(self.h) * self.path.coefficients.b;
+        for (n, slope) in self.path.slopes[0].iter_mut().enumerate() {
+            *slope = Lanes(self.increments.each_ref().map(|increment| self.per_h * increment[n]));
+        }
+        weigh(|_| weights, &self.path.slopes[0], &mut self.path.terms[0]);
+        self.path.reach(0);
         for (stage, residual) in residuals.iter_mut().enumerate() {
-            read_lane(stage, &path.stages[0], &mut point[0]);
-            read_lane(stage, &path.slopes[0], &mut slope[0]);
-            let time = t + path.coefficients.c.0[stage] * h;
-            S::Kind::residual(system, [&point[0], &slope[0]], time, force, residual);
-            path.slopes[1..].iter_mut().for_each(|slopes| write_lane(stage, force, slopes));
+            let time = self.go_to(stage);
+            let NodeWork { point, velocity, gradient: force, .. } = &mut *self.node;
+            S::Kind::residual(self.system, [point, velocity], time, force, residual);
+            self.path.slopes[1..].iter_mut().for_each(|slopes| write_lane(stage, force, slopes));
         }
         statistics.gradients += STAGES as u64;
+        let path = &mut *self.path;
         for part in 1..path.y.len() {
             weigh(|_| weights, &path.slopes[part], &mut path.terms[part]);
             path.reach(part);
@@ -217,60 +242,35 @@ where
                 }
             }
         }
-        residuals.iter().try_for_each(|residual| norm::finite(residual))
+        Ok(())
     }
 
-    /// Subtracts the corrections, and returns the largest change of a coordinate of a stage in its unit, and
-    /// whether a coordinate has changed by more than what it is away from the start of the step now.
-    fn correct(&self, path: &mut Path<STAGES, S, T>, h: T) -> (T, bool) {
-        let (zero, mut correction, mut was_farther) = (T::lift(0.0), T::lift(0.0), false);
-        // The largest h Σⱼ aᵢⱼ vⱼ.
-        let displacement = |v: [T; STAGES]| {
-            self.tableau.a.iter().fold(zero, |largest, row| {
-                let sum = row.iter().zip(v).fold(zero, |sum, (&a, v)| sum + T::lift(a) * v);
-                norm::larger(largest, Scalar::abs(h * sum))
-            })
-        };
-        for (n, slope) in path.slopes[0].iter_mut().enumerate() {
-            let changes = self.residuals.each_ref().map(|change| change[n]);
-            *slope -= Lanes(changes);
-            let change = displacement(changes);
-            was_farther |= change > displacement(slope.0);
-            correction = norm::larger(correction, change * path.weights[n] / Scalar::abs(h));
+    /// # Errors
+    /// [`StepFailure::NotConverged`] where a coordinate of a stage is now less far from the start of the
+    /// step than it has been from here: from a guess that is worse than none Newton's method may find
+    /// another solution, far away.
+    fn correct(
+        &mut self,
+        _system: &S,
+        weights: &[T],
+        corrections: &[Vector<S, T>; STAGES],
+    ) -> Result<T, StepFailure> {
+        let (mut largest, mut was_farther) = (T::lift(0.0), false);
+        for (n, &weight) in weights.iter().enumerate() {
+            self.increments.iter_mut().zip(corrections).for_each(|(w, change)| w[n] -= change[n]);
+            let change = self.displacement(corrections.each_ref().map(|change| change[n]));
+            was_farther |= change > self.displacement(self.increments.each_ref().map(|w| w[n]));
+            largest = norm::larger(largest, change * weight);
         }
-        (correction, was_farther)
+        if core::mem::take(&mut self.extrapolated) && was_farther {
+            let (correction, tolerance) = (norm::reported(largest), self.tolerance);
+            return Err(StepFailure::NotConverged { iterations: 1, correction, tolerance });
+        }
+        Ok(largest)
     }
 }
 
-/// The matrix ∂rᵢ/∂Vₖ at the present stages; a node of the sum is a stage.
-struct Linearized<'a, const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
-    system: &'a S,
-    tableau: &'a Collocation<STAGES>,
-    path: &'a Path<STAGES, S, T>,
-    /// Q and V of a stage.
-    at: [&'a mut Vector<S, T>; 2],
-    derivatives: &'a mut [Vector<S, T>; 2],
-    t: T,
-    h: T,
-    stage: usize,
-}
-
-impl<const STAGES: usize, S, T: Real> Linearized<'_, STAGES, S, T>
-where
-    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
-{
-    fn time(&self) -> T {
-        self.t + self.path.coefficients.c.0[self.stage] * self.h
-    }
-
-    fn linearize(&mut self, weights: Weights<T>, sink: &mut impl Sink<T>) {
-        let time = self.time();
-        let Self { system, at: [point, velocity], derivatives: [l_q, l_v], .. } = self;
-        system.linearize(point, velocity, time, weights, l_q, l_v, sink);
-    }
-}
-
-impl<const STAGES: usize, S, T: Real> NodeSum<STAGES, T> for Linearized<'_, STAGES, S, T>
+impl<const STAGES: usize, S, T: Real> NodeSum<STAGES, T> for Stages<'_, STAGES, S, T>
 where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
 {
@@ -278,10 +278,7 @@ where
     const MIXED_ARE_TRANSPOSED: bool = !S::FORCED;
 
     fn place(&mut self, j: usize) {
-        self.stage = j;
-        let [point, velocity] = &mut self.at;
-        read_lane(j, &self.path.stages[0], point);
-        read_lane(j, &self.path.slopes[0], velocity);
+        self.go_to(j);
     }
 
     fn given(&self, _i: usize) -> T {
@@ -290,8 +287,8 @@ where
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
         let j = self.stage;
-        let a = |i: usize, k: usize| self.h * T::lift(self.tableau.a[i][k]);
-        S::Kind::newton_weights([r == j, j == k], [a(r, j), a(j, k)])
+        let a = |i: usize, k: usize| T::lift(self.tableau.a[i][k]);
+        S::Kind::newton_weights([r == j, j == k], [a(r, j), a(j, k)], [self.h, self.per_h])
     }
 
     fn momentum_by_position(&mut self, vq: &mut impl Sink<T>) {
@@ -305,7 +302,7 @@ where
         self.linearize(Weights { qq: one, ..none }, qq);
         self.linearize(Weights { qv: one, ..none }, qv);
         let interval = [self.time(), self.h];
-        let Self { system, at: [point, velocity], derivatives, .. } = self;
-        S::Kind::newton_matrix(*system, [point, velocity], interval, derivatives, vv);
+        let NodeWork { point, velocity, gradient, momentum } = &mut *self.node;
+        S::Kind::newton_matrix(self.system, [point, velocity], interval, [gradient, momentum], vv);
     }
 }

@@ -9,11 +9,9 @@
 //! symplectic in the arithmetic (Antoñana, Makazaga & Murua 2025).
 
 use super::memory::Path;
-use crate::error::StepFailure;
-use crate::mechanics::motion::{FirstOrder, StageEvaluation, weigh};
+use crate::mechanics::motion::{FirstOrder, weigh};
 use crate::methods::collocation::packs::{combine, sum};
 use crate::scalar::Lanes;
-use crate::state::Statistics;
 use crate::{Real, System};
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
@@ -38,20 +36,6 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             (y[0][k], small + nodes * Lanes::all(by * y[1][k]))
         };
         Some(nystrom.place(STAGES, displacements, from, weights, [places, renewed]))
-    }
-
-    /// For equations of second order: evaluates the forces at all stages once and moves them, and returns
-    /// the largest change of a position.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn improve_places<E: StageEvaluation<STAGES, S, T>>(
-        &mut self,
-        system: &S,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<T, StepFailure> {
-        self.evaluate_part::<E>(1, system, t, h, statistics)?;
-        self.place(h).ok_or(StepFailure::NO_MATRIX)
     }
 
     /// Sets the increment of the coordinates, if the equations are of second order.
