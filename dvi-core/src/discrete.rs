@@ -23,7 +23,7 @@ pub(crate) mod quadrature;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
+use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::sink::Sink;
 use crate::space::{LinearEquations, LinearSolver, Storing, linear};
 use crate::state::Statistics;
@@ -128,8 +128,7 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let convergence = Convergence::new(stopping, stopping.max_iterations);
-    iterate(convergence, statistics, |due, statistics| {
+    newton(stopping, statistics, |due, statistics| {
         due.prepare(system, weights, q0, delta);
         statistics.linearizations += 1;
         statistics.factorisations += 1;

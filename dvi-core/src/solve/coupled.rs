@@ -1,6 +1,6 @@
 //! Newton's method for several vectors of unknowns at once.
 
-use super::{Convergence, Due, Stopping, iterate, sizes};
+use super::{Due, Stopping, newton, sizes};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::{CoupledSolver, NodeSum, linear};
@@ -37,8 +37,7 @@ pub(crate) fn solve_coupled<const COUNT: usize, S: System, T: Real, E: CoupledEq
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let convergence = Convergence::new(stopping, stopping.max_iterations);
-    iterate(convergence, statistics, |due, statistics| {
+    newton(stopping, statistics, |due, statistics| {
         due.prepare_all(system, weights, q, &mut equations.unknowns()[E::FIRST..]);
         equations.evaluate(residuals, statistics)?;
         residuals[E::FIRST..].iter().try_for_each(|residual| norm::finite(residual))?;
