@@ -16,14 +16,14 @@ use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep};
-use crate::solve::Stopping;
+use crate::solve::{Convergence, Stopping};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Vector};
 use refinement::Refinement;
 use rows::{fill, named};
 use stride::Point;
-use work::{Look, Work, constrain};
+use work::{Work, constrain};
 
 /// RATTLE (Andersen 1983), for [`Separable`] systems with constraints: the step of
 /// [`Constrained`](crate::methods::Constrained) around
@@ -131,7 +131,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         system.force(q, &[], t, &mut place.force);
         mass.multiply_add(T::lift(1.0), v, &mut place.p);
         work.place.measure(&mass);
-        work.align((system, &mass), t, Look::Close).map_err(StartError::Starter)?;
+        work.align::<Convergence<T>>((system, &mass), t).map_err(StartError::Starter)?;
         let Work { place, gram, .. } = &mut work;
         fill(gram, [&place.rows, &place.solved], &place.squares);
         gram.factor().map_err(named).map_err(StartError::Starter)?;

@@ -5,12 +5,13 @@
 //! across the constraints. What is left of the constraints is taken away once more then, from a momentum
 //! that is small already.
 
-use super::work::{Look, Work};
+use super::work::Work;
 use crate::error::StepFailure;
 use crate::mechanics::constraints::residuals::Residuals;
 use crate::mechanics::constraints::scales::{balance, scale_coordinates};
 use crate::mechanics::constraints::{At, Augmented, Multipliers};
 use crate::mechanics::mass::Mass;
+use crate::solve::Convergence;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Scalar, Separable, Space, Vector};
 
 /// What it needs.
@@ -57,7 +58,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
                 return residuals.admit(system, At { q, t }, v);
             }
             impulse.copy_from_slice(&impulses.last);
-            self.align((system, mass), t, Look::Close)?;
+            self.align::<Convergence<T>>((system, mass), t)?;
             for (sum, &before) in self.impulses.last.iter_mut().zip(impulse.iter()) {
                 *sum += before;
             }

@@ -1,13 +1,14 @@
 //! Where a run is, and how it takes a step: many with a quick look at each, in registers, or one with a
 //! close look.
 
-use super::work::{Look, Place, Step, Work};
+use super::work::{Begin, Place, Work};
 use super::{Rattle, RattleMemory};
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
 use crate::methods::Clock;
 use crate::methods::constrained::Impulses;
 use crate::scalar::norm;
+use crate::solve::{Convergence, Guess, Quick, from_either_guess};
 use crate::state::Statistics;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
 
@@ -77,7 +78,7 @@ impl Rattle {
         statistics: &mut Statistics,
     ) -> Option<u64> {
         let RattleMemory { point, mass, .. } = memory;
-        let (h, stopping, look) = (clock.step_size(), self.stopping, Look::Quick);
+        let (h, stopping) = (clock.step_size(), self.stopping);
         let (mut at, mut from, mut work) = (q.clone(), Point::new(system), Work::new(system));
         from.restore(point);
         // The last impulse is the guess: of the first step, as if that one had been as long.
@@ -86,10 +87,13 @@ impl Rattle {
         let (mut taken, mut iterations) = (0, 0);
         while taken < count {
             let (t, q, here) = (clock.after(taken).time(), &at, &from.here);
-            let step = Step { system, mass, is_metric: S::DIAGONAL_MASS, q, here, t, h, stopping, look };
+            let is_metric = S::DIAGONAL_MASS;
+            let trusts_pivot = is_metric && system.multipliers().dimension() == 1;
+            let begin = Begin { system, mass, is_metric, trusts_pivot, q, here, t, h, stopping };
             work.guess(T::lift(1.0), &from.impulses.first);
             let mut of_step = Statistics::default();
-            if work.shake(&step, &mut of_step).is_err() || work.rattle(&step).is_err() {
+            let shaken = work.shake::<Quick<T>>(&begin, &mut of_step);
+            if shaken.and_then(|()| work.rattle::<Quick<T>>(&begin)).is_err() {
                 break;
             }
             from.follow(&mut at, &work);
@@ -118,19 +122,19 @@ impl Rattle {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let RattleMemory { point, mass, is_metric, refinement, work } = memory;
-        let (here, stopping, look) = (&point.here, self.stopping, Look::Close);
-        let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping, look };
-        let (zero, mut ratio) = (T::lift(0.0), point.ratio(h));
+        let (here, stopping, trusts_pivot) = (&point.here, self.stopping, false);
+        let is_metric = *is_metric;
+        let begin = Begin { system, mass, is_metric, trusts_pivot, q, here, t, h, stopping };
         // Newton's method finds the nearest of several solutions: from the last impulse, and else from none.
-        work.guess(ratio, &point.impulses.first);
-        while let Err(failure) = work.shake(&step, statistics) {
-            if ratio == zero {
-                return Err(failure);
-            }
-            ratio = zero;
+        from_either_guess(|guess| {
+            let ratio = match guess {
+                Guess::Extrapolated => point.ratio(h),
+                Guess::Zero => T::lift(0.0),
+            };
             work.guess(ratio, &point.impulses.first);
-        }
-        work.rattle(&step)?;
+            work.shake::<Convergence<T>>(&begin, statistics)
+        })?;
+        work.rattle::<Convergence<T>>(&begin)?;
         statistics.gradients += 1;
         if let Some(refinement) = refinement {
             work.refine(system, mass, t + h, refinement)?;
