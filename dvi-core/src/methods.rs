@@ -8,6 +8,7 @@
 //! Around others: [`Composition`], [`EnergyLimit`], and [`General`] for a discrete Lagrangian that has no
 //! method.
 
+mod before;
 mod collocation;
 mod composition;
 mod constrained;

@@ -73,7 +73,8 @@ where
     /// Any [`StepFailure`]; the run is then anywhere.
     pub(super) fn take(mut self) -> Result<(), StepFailure> {
         self.memory.count = 0;
-        self.look_here()?;
+        self.look(T::lift(0.0))?;
+        self.look_on();
         while let Some((surface, s)) = self.seek_impact()? {
             match self.arrive(surface, s)? {
                 Arrival::Impact => self.collide(surface, s)?,
@@ -82,10 +83,7 @@ where
             }
         }
         // The flight that has no impact is the one to the end of the step.
-        match (self.is_at_wall, self.method.collision) {
-            (true, Collision::Variational) => self.settle(self.left),
-            (false, _) | (true, Collision::Reflection) => Ok(()),
-        }
+        self.settle(self.left)
     }
 
     /// A rate of change along the run, which may go back in time.
@@ -93,19 +91,10 @@ where
         if self.h < T::lift(0.0) { -rate } else { rate }
     }
 
-    /// The gaps at the beginning of the step.
-    fn look_here(&mut self) -> Result<(), StepFailure> {
-        let Self { method, system, memory, q, t, .. } = self;
-        method.scheme.velocity_in_flight(system, &memory.inner, q, *t, &mut memory.v)?;
-        memory.here.look(system, q, &memory.v, *t)
-    }
-
     /// Flies for the time `s` and looks at the gaps there.
     fn try_flight(&mut self, s: T) -> Result<(), StepFailure> {
         self.fly(s)?;
-        let Self { method, system, memory, q, t, .. } = self;
-        method.scheme.velocity_in_flight(system, &memory.inner, q, *t + s, &mut memory.v)?;
-        memory.there.look(system, q, &memory.v, *t + s)
+        self.look(s)
     }
 
     /// Flies to a surface, and says what happens there. Where the end of a flight has jumped across the
