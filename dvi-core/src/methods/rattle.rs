@@ -15,6 +15,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
+use crate::methods::constrained::Impulses;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep};
 use crate::solve::{Convergence, Stopping};
 use crate::space::SquareMatrix;
@@ -75,13 +76,15 @@ pub struct RattleMemory<S: ConstrainedSystem, T: Real> {
     mass: Mass<S, T>,
     /// Whether M is diagonal and positive.
     is_metric: bool,
+    /// Whether the determinant of G M⁻¹ Gᵀ is positive where the run begins.
+    is_positive: bool,
     /// If coordinates are light against the others.
     refinement: Option<Refinement<S, T>>,
     work: Work<S, T>,
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for RattleMemory<S, T> {
-    lasting!(T; part point);
+    lasting!(T; part point, flag is_positive);
 }
 
 impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
@@ -93,13 +96,13 @@ impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
     /// The Lagrange multipliers λ of the last step: see
     /// [`ConstrainedMemory::multipliers`](crate::methods::ConstrainedMemory::multipliers).
     pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
-        self.point.impulses.over(self.point.last_step)
+        self.point.here.impulses.over(self.point.last_step)
     }
 
     /// The impulses of the last step: see
     /// [`ConstrainedMemory::impulses`](crate::methods::ConstrainedMemory::impulses).
     pub fn impulses(&self) -> [&[T]; 2] {
-        [&self.point.impulses.first, &self.point.impulses.last]
+        [&self.point.here.impulses.first, &self.point.here.impulses.last]
     }
 }
 
@@ -135,15 +138,16 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         let Work { place, gram, .. } = &mut work;
         fill(gram, [&place.rows, &place.solved], &place.squares);
         gram.factor().map_err(named).map_err(StartError::Starter)?;
-        place.is_positive = gram.is_positive();
+        let is_positive = gram.is_positive();
         let mut refinement = Refinement::for_light_coordinates(system, [q, v], t);
         if let Some(refinement) = &mut refinement {
             work.refine(system, &mass, t, refinement).map_err(StartError::Starter)?;
         }
         let mut point = Point::new(system);
         point.here.restore(&work.place);
+        point.here.impulses = Impulses::new(system);
         let is_metric = mass.reciprocals().is_some_and(|all| all.iter().all(|&one| one > T::lift(0.0)));
-        Ok(RattleMemory { point, mass, is_metric, refinement, work })
+        Ok(RattleMemory { point, mass, is_metric, is_positive, refinement, work })
     }
 
     #[inline]

@@ -113,9 +113,17 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         }
     }
 
+    /// Goes to the part `c` of a step, at time `t`, with the velocity and ∂L/∂v alone, of a separable L.
+    #[inline]
+    pub(super) fn drift(&mut self, system: &S, path: Path<'_, T>, t: T, c: T) {
+        self.swing(system, path, c);
+        let NodeWork { point, velocity, momentum, .. } = &mut self.work;
+        system.conjugate_momentum(point, velocity, t, momentum);
+    }
+
     /// Sets the velocity at the part `c` of a step, and how it varies.
     #[inline]
-    pub(super) fn swing(&mut self, system: &S, path: Path<'_, T>, c: T) {
+    fn swing(&mut self, system: &S, path: Path<'_, T>, c: T) {
         for block in blocks(system) {
             match block.factor {
                 Factor::Line => self.swing_on_line(block, path),
@@ -288,19 +296,6 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         let places = || blocks(system).flat_map(Block::velocities);
         for (row, column) in places().flat_map(|row| places().map(move |column| (row, column))) {
             between.add(row, column, weight * mass[row * dimension + column]);
-        }
-    }
-
-    /// Sets ∂L/∂v to M v.
-    #[inline]
-    pub(super) fn set_momentum(&mut self, system: &S, mass: &Matrix<S, T>) {
-        let NodeWork { velocity, momentum, .. } = &mut self.work;
-        let dimension = velocity.len();
-        let places = || blocks(system).flat_map(Block::velocities);
-        for row in places() {
-            let of_row = &mass[row * dimension..];
-            momentum[row] =
-                places().fold(T::lift(0.0), |sum, column| sum + of_row[column] * velocity[column]);
         }
     }
 

@@ -189,9 +189,8 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
         }
         for [c, weight] in nodes(self.rule, self.interval.h) {
             let forces = match self.mass {
-                Some(mass) => {
-                    node.swing(system, path, c);
-                    node.set_momentum(system, mass);
+                Some(_) => {
+                    node.drift(system, path, self.interval.time(c), c);
                     Forces::Without
                 }
                 None => {
@@ -241,8 +240,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S
             return;
         };
         for [c, weight] in self.drifts() {
-            node.swing(system, path, c);
-            node.set_momentum(system, mass);
+            node.drift(system, path, self.interval.time(c), c);
             node.add_kinetic(system, mass, weight, entries);
             node.bend(system, path, [c, weight], Forces::Without, entries);
             node.project_momentum(system, weight, residual);

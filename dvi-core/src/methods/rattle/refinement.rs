@@ -51,15 +51,15 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         Refinement { residuals, impulse }: &mut Refinement<S, T>,
     ) -> Result<(), StepFailure> {
         loop {
-            let Self { q, place, vector: v, impulses, .. } = self;
+            let Self { q, place, vector: v, .. } = self;
             mass.solve(&place.p, v);
             residuals.evaluate(system, At { q, t }, v, |j| Scalar::abs(v[j]));
             if residuals.are_settled() {
                 return residuals.admit(system, At { q, t }, v);
             }
-            impulse.copy_from_slice(&impulses.last);
+            impulse.copy_from_slice(&place.impulses.last);
             self.align::<Convergence<T>>((system, mass), t)?;
-            for (sum, &before) in self.impulses.last.iter_mut().zip(impulse.iter()) {
+            for (sum, &before) in self.place.impulses.last.iter_mut().zip(impulse.iter()) {
                 *sum += before;
             }
         }

@@ -33,8 +33,8 @@ pub(super) struct Place<S: ConstrainedSystem, T: Real> {
     pub(super) solved: Rows<S, T>,
     /// The products of both, row by row: the diagonal of G M⁻¹ Gᵀ.
     pub(super) squares: Multipliers<S, T>,
-    /// Whether the determinant of that matrix is positive, as it is along a run if it is where that begins.
-    pub(super) is_positive: bool,
+    /// Those of the step that has led there.
+    pub(super) impulses: Impulses<S, T>,
 }
 
 /// The end of a step as it is being found.
@@ -42,7 +42,6 @@ pub(super) struct Place<S: ConstrainedSystem, T: Real> {
 pub(super) struct Work<S: ConstrainedSystem, T: Real> {
     pub(super) q: Vector<S, T>,
     pub(super) place: Place<S, T>,
-    pub(super) impulses: Impulses<S, T>,
     /// A displacement, or a velocity.
     pub(super) vector: Vector<S, T>,
     /// In which the iteration judges coordinates.
@@ -55,7 +54,7 @@ pub(super) struct Work<S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
-    lasting!(T; numbers p, numbers force, vectors rows, vectors solved, numbers squares, flag is_positive);
+    lasting!(T; numbers p, numbers force, vectors rows, vectors solved, numbers squares, part impulses);
 }
 
 impl<S: ConstrainedSystem, T: Real> Place<S, T> {
@@ -63,8 +62,8 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let rows = || system.multipliers().array(vector);
-        let squares = system.multipliers().vector();
-        Self { p: vector(), force: vector(), rows: rows(), solved: rows(), squares, is_positive: true }
+        let (squares, impulses) = (system.multipliers().vector(), Impulses::new(system));
+        Self { p: vector(), force: vector(), rows: rows(), solved: rows(), squares, impulses }
     }
 }
 
@@ -79,7 +78,6 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
         Self {
             q: vector(),
             place: Place::new(system),
-            impulses: Impulses::new(system),
             vector: vector(),
             weights: vector(),
             of_impulse: T::lift(0.0),
@@ -91,7 +89,7 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
     /// Sets the guess of ι0 to `ratio` times `last`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess(&mut self, ratio: T, last: &[T]) {
-        for (impulse, &last) in self.impulses.first.iter_mut().zip(last) {
+        for (impulse, &last) in self.place.impulses.first.iter_mut().zip(last) {
             *impulse = ratio * last;
         }
     }
@@ -105,6 +103,8 @@ pub(super) struct Begin<'a, S: ConstrainedSystem, T: Real> {
     pub(super) mass: &'a Mass<S, T>,
     /// Whether M is diagonal and positive, so that the length of a displacement is known.
     pub(super) is_metric: bool,
+    /// Whether the determinant of G M⁻¹ Gᵀ is positive, as it is along a run if it is where that begins.
+    pub(super) is_positive: bool,
     /// Whether the pivots of Newton's method say enough of how far the gradient of the only constraint has
     /// turned, which is looked at quickly then. Such a pivot is the product of the gradients before and after
     /// the step, in the metric of M. It is held against half the square of the first, so that what the last
@@ -143,7 +143,7 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
     rows: &Rows<S, T>,
     [q1, p, v]: [&[T]; 3],
 ) -> Result<(), StepFailure> {
-    let Begin { mass, is_metric, trusts_pivot, here, h, .. } = *begin;
+    let Begin { mass, is_metric, is_positive, trusts_pivot, here, h, .. } = *begin;
     let length = (is_metric && S::AUTONOMOUS).then(|| dot(p, v));
     for (constraint, (row, solved)) in rows.iter().zip(here.solved.iter()).enumerate() {
         let square = here.squares[constraint];
@@ -160,7 +160,7 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
     if rows.len() > 1 {
         fill(gram, [rows, &here.solved], &here.squares);
         gram.factor().map_err(named)?;
-        if gram.is_positive() != here.is_positive {
+        if gram.is_positive() != is_positive {
             return Err(StepFailure::Branch);
         }
     }
@@ -176,37 +176,37 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Begin { system, mass, q, here, t, h, stopping, .. } = *begin;
-        let Self { q: q1, place, impulses: Impulses { first, .. }, vector, .. } = self;
+        let Self { q: q1, place: Place { p, impulses: Impulses { first, .. }, .. }, vector, .. } = self;
         let (t1, half) = (t + h, T::lift(0.5) * h);
-        for ((p, &p0), &f) in place.p.iter_mut().zip(here.p.iter()).zip(here.force.iter()) {
+        for ((p, &p0), &f) in p.iter_mut().zip(here.p.iter()).zip(here.force.iter()) {
             *p = p0 + half * f;
         }
         first.iter_mut().for_each(|impulse| *impulse *= h);
-        mass.displace(h, &place.p, vector);
+        mass.displace(h, p, vector);
         combine(&here.solved, first, vector);
         for ((q1, &q), &delta) in q1.iter_mut().zip(q).zip(vector.iter()) {
             *q1 = q + delta;
         }
         let judge = J::of(Course::new(stopping, stopping.max_iterations));
         repeat(judge, statistics, Newton { begin, work: self })?;
-        let Self { q: q1, place, impulses: Impulses { first, .. }, vector, values, gram, .. } = self;
+        let Self { q: q1, place, vector, values, gram, .. } = self;
         constrain(system, q1, t1, values, &mut place.rows);
         place.measure(mass);
-        let reciprocal = T::lift(1.0) / h;
+        let (reciprocal, Place { p, rows, impulses: Impulses { first, .. }, .. }) =
+            (T::lift(1.0) / h, place);
         first.iter_mut().for_each(|impulse| *impulse *= reciprocal);
-        combine(&here.rows, first, &mut place.p);
-        mass.solve(&place.p, vector);
-        let is_here = is_on_branch(begin, gram, &place.rows, [q1, &place.p, vector]);
+        combine(&here.rows, first, p);
+        mass.solve(p, vector);
+        let is_here = is_on_branch(begin, gram, rows, [q1, p, vector]);
         is_here.map_err(|failure| norm::finite(q1).err().unwrap_or(failure))
     }
 
     /// Sets p1, with its velocity along the constraints, and ι1.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn rattle<J: Judge<T>>(&mut self, begin: &Begin<'_, S, T>) -> Result<(), StepFailure> {
-        let Begin { system, mass, here, t, h, .. } = *begin;
+        let Begin { system, mass, t, h, .. } = *begin;
         let (t1, half) = (t + h, T::lift(0.5) * h);
         let Self { q, place, .. } = self;
-        place.is_positive = here.is_positive;
         system.force(q, &[], t1, &mut place.force);
         for (p, &f) in place.p.iter_mut().zip(place.force.iter()) {
             *p += half * f;
@@ -221,8 +221,8 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         (system, mass): (&S, &Mass<S, T>),
         t: T,
     ) -> Result<(), StepFailure> {
-        let Self { q, place, impulses, vector: v, values, gram, .. } = self;
-        let Place { p, rows, solved, squares, .. } = place;
+        let Self { q, place, vector: v, values, gram, .. } = self;
+        let Place { p, rows, solved, squares, impulses, .. } = place;
         if S::AUTONOMOUS {
             // G M⁻¹p, with the rows of G M⁻¹, which are here.
             for (value, solved) in values.iter_mut().zip(solved.iter()) {
@@ -272,8 +272,8 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Begin { system, q: q0, here, t, h, trusts_pivot, .. } = *self.begin;
-        let Work { q, place: Place { rows, .. }, impulses, vector, weights, of_impulse, values, gram } =
-            &mut *self.work;
+        let Work { q, place, vector, weights, of_impulse, values, gram } = &mut *self.work;
+        let Place { rows, impulses, .. } = place;
         constrain(system, q, t + h, values, rows);
         if *due == Due::Residual {
             return residual([q0, q], values, rows);
