@@ -19,6 +19,7 @@ mod gauss;
 mod general;
 mod geodesic;
 mod impacts;
+mod kicks;
 #[cfg(feature = "random")]
 mod langevin;
 mod newmark;

@@ -148,7 +148,6 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Impulses<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         Self { first: system.multipliers().vector(), last: system.multipliers().vector() }
     }

@@ -6,10 +6,10 @@
 //! h ι0 is found by Newton's method, whose matrix is G(q1) M⁻¹ G(q0)ᵀ, and ι1 from linear equations with
 //! G(q1) M⁻¹ G(q1)ᵀ.
 
+mod arrival;
 mod refinement;
 mod rows;
 mod stride;
-mod work;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::{self, Among};
@@ -21,10 +21,10 @@ use crate::solve::{Convergence, Stopping};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Vector};
+use arrival::{Arrival, constrain};
 use refinement::Refinement;
 use rows::{fill, named};
 use stride::Point;
-use work::{Work, constrain};
 
 /// RATTLE (Andersen 1983), for [`Separable`] systems with constraints: the step of
 /// [`Constrained`](crate::methods::Constrained) around
@@ -80,7 +80,7 @@ pub struct RattleMemory<S: ConstrainedSystem, T: Real> {
     is_positive: bool,
     /// If coordinates are light against the others.
     refinement: Option<Refinement<S, T>>,
-    work: Work<S, T>,
+    work: Arrival<S, T>,
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for RattleMemory<S, T> {
@@ -127,15 +127,15 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         self.stopping.validate()?;
         consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
-        let mut work = Work::new(system);
-        let Work { q: at, place, values, .. } = &mut work;
+        let mut work = Arrival::new(system);
+        let Arrival { q: at, place, values, .. } = &mut work;
         at.copy_from_slice(q);
         constrain(system, q, t, values, &mut place.rows);
         system.force(q, &[], t, &mut place.force);
         mass.multiply_add(T::lift(1.0), v, &mut place.p);
         work.place.measure(&mass);
         work.align::<Convergence<T>>((system, &mass), t).map_err(StartError::Starter)?;
-        let Work { place, gram, .. } = &mut work;
+        let Arrival { place, gram, .. } = &mut work;
         fill(gram, [&place.rows, &place.solved], &place.squares);
         gram.factor().map_err(named).map_err(StartError::Starter)?;
         let is_positive = gram.is_positive();

@@ -21,8 +21,8 @@ use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
 use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{self, Block, blocks, vector};
-use crate::scalar::norm;
-use crate::scalar::norm::reported;
+use crate::methods::kicks::kick;
+use crate::scalar::norm::{self, reported};
 use crate::solve::{Guess, Stopping, from_either_guess};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
@@ -57,13 +57,6 @@ fn impulses<R: Rule, T: Real>(rule: &R, h: T) -> [T; 2] {
     nodes(rule, h).fold([T::lift(0.0); 2], |[first, last], [c, weight]| {
         if c == T::lift(0.0) { [first + weight, last] } else { [first, last + weight] }
     })
-}
-
-/// Adds `weight` f to p.
-fn kick<T: Real>(p: &mut [T], weight: T, force: &[T]) {
-    for (p, &force) in p.iter_mut().zip(force) {
-        *p += weight * force;
-    }
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {

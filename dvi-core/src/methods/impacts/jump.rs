@@ -189,7 +189,7 @@ where
         event.q.copy_from_slice(self.q);
         self.memory.count += 1;
         self.memory.total += 1;
-        self.look(T::lift(0.0))?;
+        self.set_velocity(T::lift(0.0))?;
         self.look_on();
         let Self { system, memory, q, t, .. } = self;
         let ImpactsMemory { here, there, wall, work, v, .. } = &mut **memory;

@@ -32,7 +32,7 @@ const ROUNDINGS: f64 = 64.0;
 const OFF: f64 = 1e4;
 
 /// What happens where a flight comes to a surface.
-enum Arrival {
+enum Meeting {
     Impact,
     /// Nothing: a long flight whose velocity leads away from the surface already.
     Turn,
@@ -77,9 +77,9 @@ where
         self.look_on();
         while let Some((surface, s)) = self.seek_impact()? {
             match self.arrive(surface, s)? {
-                Arrival::Impact => self.collide(surface, s)?,
-                Arrival::Turn => self.divide(surface, s)?,
-                Arrival::Jump => {}
+                Meeting::Impact => self.collide(surface, s)?,
+                Meeting::Turn => self.divide(surface, s)?,
+                Meeting::Jump => {}
             }
         }
         // The flight that has no impact is the one to the end of the step.
@@ -103,19 +103,19 @@ where
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`] if a flight without such a jump does not end at the surface.
-    fn arrive(&mut self, surface: usize, s: T) -> Result<Arrival, StepFailure> {
+    fn arrive(&mut self, surface: usize, s: T) -> Result<Meeting, StepFailure> {
         self.try_flight(s)?;
         let size = self.rounding(surface, s);
         let gap = Scalar::abs(self.memory.there.gap[surface]);
         if gap <= T::lift(OFF) * size {
             let is_turned = self.along(self.memory.there.rate[surface]) >= T::lift(0.0);
             self.settle(s)?;
-            return Ok(if is_turned { Arrival::Turn } else { Arrival::Impact });
+            return Ok(if is_turned { Meeting::Turn } else { Meeting::Impact });
         }
         let may_jump = self.method.collision == Collision::Variational;
         if self.is_at_wall && may_jump && !self.memory.wall.is_grazing {
             self.memory.wall.mark_grazing();
-            return Ok(Arrival::Jump);
+            return Ok(Meeting::Jump);
         }
         let [correction, tolerance] = [gap, T::lift(OFF) * size].map(reported);
         Err(StepFailure::NotConverged { iterations: ITERATIONS, correction, tolerance })

@@ -5,7 +5,7 @@
 //! across the constraints. What is left of the constraints is taken away once more then, from a momentum
 //! that is small already.
 
-use super::work::Work;
+use super::arrival::Arrival;
 use crate::error::StepFailure;
 use crate::mechanics::constraints::residuals::Residuals;
 use crate::mechanics::constraints::scales::{balance, scale_coordinates};
@@ -40,7 +40,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Refinement<S, T> {
     }
 }
 
-impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
+impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Arrival<S, T> {
     /// Aligns the momentum until the constraints are kept.
     #[cold]
     pub(super) fn refine(

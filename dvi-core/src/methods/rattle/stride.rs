@@ -1,7 +1,7 @@
 //! Where a run is, and how it takes a step: many with a quick look at each, in registers, or one with a
 //! close look.
 
-use super::work::{Begin, Place, Work};
+use super::arrival::{Arrival, Begin, Place};
 use super::{Rattle, RattleMemory};
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
@@ -23,13 +23,11 @@ impl<S: ConstrainedSystem, T: Real> Memory<T> for Point<S, T> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Point<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         Self { here: Place::new(system), last_step: T::lift(0.0) }
     }
 
     /// The impulse of a step of length `h` is guessed to be so many times that of the last one.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn ratio(&self, h: T) -> T {
         let zero = T::lift(0.0);
         if self.last_step == zero { zero } else { h / self.last_step }
@@ -42,7 +40,6 @@ const SHORT: usize = 64;
 
 impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
     /// Whether steps may be taken on the stack. All but the last two questions are answered when compiled.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn strides(&self, system: &S) -> bool
     where
         S: HolonomicLagrangian<T>,
@@ -70,7 +67,7 @@ impl Rattle {
         let RattleMemory { point, mass, is_positive, .. } = memory;
         let (is_metric, is_positive) = (S::DIAGONAL_MASS, *is_positive);
         let (h, stopping) = (clock.step_size(), self.stopping);
-        let (mut at, mut from, mut work) = (q.clone(), Point::new(system), Work::new(system));
+        let (mut at, mut from, mut work) = (q.clone(), Point::new(system), Arrival::new(system));
         from.restore(point);
         // The last impulse is the guess: of the first step, as if that one had been as long.
         let ratio = from.ratio(h);

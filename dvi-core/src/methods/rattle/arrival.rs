@@ -9,6 +9,7 @@ use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
 use crate::methods::constrained::Impulses;
+use crate::methods::kicks::kick;
 use crate::scalar::norm;
 use crate::solve::{Course, Due, Iteration, Judge, Stopping, repeat, sizes};
 use crate::space::sink::Places;
@@ -39,7 +40,7 @@ pub(super) struct Place<S: ConstrainedSystem, T: Real> {
 
 /// The end of a step as it is being found.
 #[derive(Debug)]
-pub(super) struct Work<S: ConstrainedSystem, T: Real> {
+pub(super) struct Arrival<S: ConstrainedSystem, T: Real> {
     pub(super) q: Vector<S, T>,
     pub(super) place: Place<S, T>,
     /// A displacement, or a velocity.
@@ -58,7 +59,6 @@ impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Place<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let rows = || system.multipliers().array(vector);
@@ -67,8 +67,7 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     }
 }
 
-impl<S: ConstrainedSystem, T: Real> Work<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+impl<S: ConstrainedSystem, T: Real> Arrival<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let m = system.multipliers().dimension();
@@ -87,7 +86,6 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
     }
 
     /// Sets the guess of ι0 to `ratio` times `last`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess(&mut self, ratio: T, last: &[T]) {
         for (impulse, &last) in self.place.impulses.first.iter_mut().zip(last) {
             *impulse = ratio * last;
@@ -119,7 +117,6 @@ pub(super) struct Begin<'a, S: ConstrainedSystem, T: Real> {
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Place<S, T> {
     /// Sets M⁻¹Gᵀ and the diagonal of G M⁻¹ Gᵀ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn measure(&mut self, mass: &Mass<S, T>) {
         let Self { rows, solved, squares, .. } = self;
         for ((row, solved), square) in rows.iter().zip(solved.iter_mut()).zip(squares.iter_mut()) {
@@ -167,7 +164,7 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
     Ok(())
 }
 
-impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
+impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Arrival<S, T> {
     /// Sets q1, which is on the constraints, ι0 and the momentum between both ends, from the guess of ι0.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn shake<J: Judge<T>>(
@@ -188,7 +185,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
             *q1 = q + delta;
         }
         let judge = J::of(Course::new(stopping, stopping.max_iterations));
-        repeat(judge, statistics, Newton { begin, work: self })?;
+        repeat(judge, statistics, Newton { begin, arrival: self })?;
         let Self { q: q1, place, vector, values, gram, .. } = self;
         constrain(system, q1, t1, values, &mut place.rows);
         place.measure(mass);
@@ -208,9 +205,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         let (t1, half) = (t + h, T::lift(0.5) * h);
         let Self { q, place, .. } = self;
         system.force(q, &[], t1, &mut place.force);
-        for (p, &f) in place.p.iter_mut().zip(place.force.iter()) {
-            *p += half * f;
-        }
+        kick(&mut place.p, half, &place.force);
         self.align::<J>((system, mass), t1)
     }
 
@@ -256,23 +251,23 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
 /// Newton's method for q1 and h ι0: M⁻¹Gᵀ times that is a displacement.
 struct Newton<'a, 's, S: ConstrainedSystem, T: Real> {
     begin: &'a Begin<'s, S, T>,
-    work: &'a mut Work<S, T>,
+    arrival: &'a mut Arrival<S, T>,
 }
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
-        let Self { begin: Begin { system, q, here, .. }, work } = self;
-        due.prepare_end(*system, &mut work.weights, q, &mut work.q);
+        let Self { begin: Begin { system, q, here, .. }, arrival } = self;
+        due.prepare_end(*system, &mut arrival.weights, q, &mut arrival.q);
         if let [only] = &here.solved[..] {
-            work.of_impulse = sizes::size_of(*system, &work.weights, only);
+            arrival.of_impulse = sizes::size_of(*system, &arrival.weights, only);
         }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Begin { system, q: q0, here, t, h, trusts_pivot, .. } = *self.begin;
-        let Work { q, place, vector, weights, of_impulse, values, gram } = &mut *self.work;
+        let Arrival { q, place, vector, weights, of_impulse, values, gram } = &mut *self.arrival;
         let Place { rows, impulses, .. } = place;
         constrain(system, q, t + h, values, rows);
         if *due == Due::Residual {
@@ -314,7 +309,6 @@ fn residual<T: Real, V: Deref<Target = [T]>>(
 }
 
 /// Sets `g` and the rows of G at (`q`, `t`).
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn constrain<S: HolonomicLagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
