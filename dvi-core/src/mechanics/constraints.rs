@@ -43,10 +43,9 @@ pub trait Constraints<S: System, T: Real>: Kind {
     /// Whether positions are constrained.
     const OF_POSITIONS: bool;
 
-    /// A at (`q`, `t`): Aᵀλ is the force of the constraints. What `out` is set to has no meaning.
+    /// A at (`q`, `t`): Aᵀλ is the force of the constraints. Of those of positions `out` is set to g, and has
+    /// no meaning else.
     fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K);
-    /// What vanishes at a position, and A.
-    fn of_position<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K);
     /// What vanishes at the end of a step, with its derivative by Δ. `work` is storage for a point and a
     /// velocity.
     fn of_step<K: Sink<T>>(
