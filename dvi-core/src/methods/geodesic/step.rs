@@ -23,12 +23,11 @@ use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{self, Block, blocks, vector};
 use crate::methods::kicks::kick;
 use crate::scalar::norm::{self, reported};
-use crate::solve::{Guess, Stopping, from_either_guess};
+use crate::solve::{Stopping, from_either_guess};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
-use crate::state::rates::Rates;
 use crate::system::{CoordinateBlock, Factor};
-use crate::{ManifoldLagrangian, Matrix, Real, Scalar, System, Vector};
+use crate::{ManifoldLagrangian, Matrix, Real, Scalar, System};
 
 /// Where a step begins, and what is integrated along it.
 struct Begin<'a, S: System, R, T: Real> {
@@ -80,9 +79,11 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
         let mass = kicks.as_ref().map(|kicks| &kicks.mass);
         let begin = Begin { system, rule, interval, q, p: p0, mass };
         from_either_guess(|guess| {
-            set_displacement(rates, h, guess, &mut arrival.displacement);
-            tangents.solve(&begin, system, &mut arrival.displacement, stopping, statistics)?;
-            check_angles(system, &arrival.displacement)
+            let displacement = &mut arrival.displacement;
+            rates.guess(h, guess, [&mut *displacement]);
+            displacement.iter_mut().for_each(|displacement| *displacement *= h);
+            tangents.solve(&begin, system, displacement, stopping, statistics)?;
+            check_angles(system, displacement)
         })?;
         // The determinant of the equations has the sign of that of a short step.
         let is_odd = h < T::lift(0.0) && tangents.residual.len() % 2 == 1;
@@ -123,18 +124,6 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
         p.copy_from_slice(&arrival.p);
         rates.push(h, [&arrival.displacement]);
     }
-}
-
-/// Sets `displacement` to the guess. Inlined, it would take registers from the iterations.
-#[inline(never)]
-fn set_displacement<S: System, T: Real>(
-    rates: &Rates<S, T>,
-    h: T,
-    guess: Guess,
-    displacement: &mut Vector<S, T>,
-) {
-    rates.guess(h, guess, [&mut *displacement]);
-    displacement.iter_mut().for_each(|displacement| *displacement *= h);
 }
 
 /// Beyond half a turn a geodesic is not the shortest way.

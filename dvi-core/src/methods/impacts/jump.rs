@@ -159,6 +159,7 @@ where
             mem::swap(before, start);
         }
         start.keep(inner, q);
+        self.look_on();
     }
 
     /// Divides the step at a surface from which the velocity leads away, after a flight of length `s`.
@@ -167,7 +168,6 @@ where
     /// [`StepFailure::Accumulation`] where that goes on and on.
     pub(super) fn divide(&mut self, surface: usize, s: T) -> Result<(), StepFailure> {
         self.begin_flight(s);
-        self.look_on();
         self.is_at_wall = false;
         self.turns += 1;
         if self.turns > MOST { Err(self.accumulation(surface)) } else { Ok(()) }
@@ -190,7 +190,6 @@ where
         self.memory.count += 1;
         self.memory.total += 1;
         self.set_velocity(T::lift(0.0))?;
-        self.look_on();
         let Self { system, memory, q, t, .. } = self;
         let ImpactsMemory { here, there, wall, work, v, .. } = &mut **memory;
         let rate = here.rate[surface];

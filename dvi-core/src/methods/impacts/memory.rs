@@ -157,11 +157,6 @@ impl<S: UnilateralLagrangian<T>, T: Real> Gaps<S, T> {
 }
 
 impl<S: UnilateralLagrangian<T>, T: Real> Wall<S, T> {
-    /// Makes the jump that of a reflection.
-    pub(super) fn mark_grazing(&mut self) {
-        (self.is_grazing, self.impulse) = (true, self.reflection);
-    }
-
     fn new(system: &S) -> Self {
         let ([gradient, direction, v], zero) = (system.space().vectors(), T::lift(0.0));
         Self {

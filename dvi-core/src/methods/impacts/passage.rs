@@ -31,15 +31,6 @@ const ROUNDINGS: f64 = 64.0;
 /// solved to some.
 const OFF: f64 = 1e4;
 
-/// What happens where a flight comes to a surface.
-enum Meeting {
-    Impact,
-    /// Nothing: a long flight whose velocity leads away from the surface already.
-    Turn,
-    /// Nothing: the flight is to be taken once more.
-    Jump,
-}
-
 /// A step that is being taken.
 pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real, const MOST: usize> {
     pub(super) method: &'a Impacts<M, MOST>,
@@ -76,11 +67,7 @@ where
         self.look(T::lift(0.0))?;
         self.look_on();
         while let Some((surface, s)) = self.seek_impact()? {
-            match self.arrive(surface, s)? {
-                Meeting::Impact => self.collide(surface, s)?,
-                Meeting::Turn => self.divide(surface, s)?,
-                Meeting::Jump => {}
-            }
+            self.arrive(surface, s)?;
         }
         // The flight that has no impact is the one to the end of the step.
         self.settle(self.left)
@@ -97,25 +84,27 @@ where
         self.look(s)
     }
 
-    /// Flies to a surface, and says what happens there. Where the end of a flight has jumped across the
-    /// surface with its length, as the impulse that keeps the discrete energy may, the flight begins with a
-    /// reflection from now on.
+    /// Flies to a surface, and begins another flight there: behind an impact, or where the velocity leads away
+    /// from the surface already, as it may after a long one, without. Where the end of a flight has jumped
+    /// across the surface with its length, as the impulse that keeps the discrete energy may, it begins with
+    /// a reflection from now on, and is to be taken once more.
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`] if a flight without such a jump does not end at the surface.
-    fn arrive(&mut self, surface: usize, s: T) -> Result<Meeting, StepFailure> {
+    fn arrive(&mut self, surface: usize, s: T) -> Result<(), StepFailure> {
         self.try_flight(s)?;
         let size = self.rounding(surface, s);
         let gap = Scalar::abs(self.memory.there.gap[surface]);
         if gap <= T::lift(OFF) * size {
             let is_turned = self.along(self.memory.there.rate[surface]) >= T::lift(0.0);
             self.settle(s)?;
-            return Ok(if is_turned { Meeting::Turn } else { Meeting::Impact });
+            return if is_turned { self.divide(surface, s) } else { self.collide(surface, s) };
         }
         let may_jump = self.method.collision == Collision::Variational;
         if self.is_at_wall && may_jump && !self.memory.wall.is_grazing {
-            self.memory.wall.mark_grazing();
-            return Ok(Meeting::Jump);
+            let wall = &mut self.memory.wall;
+            (wall.is_grazing, wall.impulse) = (true, wall.reflection);
+            return Ok(());
         }
         let [correction, tolerance] = [gap, T::lift(OFF) * size].map(reported);
         Err(StepFailure::NotConverged { iterations: ITERATIONS, correction, tolerance })

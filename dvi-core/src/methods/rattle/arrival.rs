@@ -2,7 +2,7 @@
 
 use core::ops::Deref;
 
-use super::rows::{NEUTRAL, admit, combine, dot, fill, least, named, reduce, solve};
+use super::rows::{NEUTRAL, admit, combine, dot, fill, least, named, solve};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::Multipliers;
 use crate::mechanics::constraints::turning::is_along;
@@ -234,10 +234,10 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Arrival<S, T> {
         } else {
             solve(gram, [rows, solved], squares, values)?;
         }
-        reduce(rows, values, p);
         for (impulse, &value) in impulses.last.iter_mut().zip(values.iter()) {
             *impulse = -value;
         }
+        combine(rows, &impulses.last, p);
         if let [square] = squares[..] {
             if !J::NAMES && square > least() {
                 return Ok(());

@@ -22,15 +22,6 @@ pub(super) fn combine<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T]
     }
 }
 
-/// Takes Σ `factors`ₖ `rows`ₖ from `sum`.
-pub(super) fn reduce<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
-    for (row, &factor) in rows.iter().zip(factors) {
-        for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
-            *sum -= factor * entry;
-        }
-    }
-}
-
 /// a·b, from the last entry to the first: of three entries the compiler then packs the first two, as it does
 /// elsewhere.
 pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
