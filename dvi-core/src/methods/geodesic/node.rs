@@ -222,49 +222,46 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         sink: &mut K,
     ) {
         for block in blocks(system) {
-            match block.factor {
-                Factor::Line => {}
-                Factor::Rotation => {
-                    let change = match forces {
-                        Forces::Of => self.bend_of_rotation(block, path, c),
-                        Forces::Without => {
-                            let momentum = vector(&self.work.momentum, block) / path.h;
-                            -Series::mean_inverse(-vector(path.displacement, block)).derivative(&momentum)
-                        }
-                    };
-                    for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
-                        sink.add(block.slot + row, block.slot + column, weight * change[(row, column)]);
-                    }
-                }
+            let change = match block.factor {
+                Factor::Line => continue,
+                Factor::Rotation => self.bend_of_rotation(block, path, c, forces),
                 Factor::Sphere => {
                     let force = match forces {
                         Forces::Of => vector(&self.work.gradient, block),
                         Forces::Without => Vector3::zeros(),
                     };
                     let momentum = vector(&self.work.momentum, block) / path.h;
-                    let change = path.circle(block).bend(c, [force, momentum]);
-                    for (row, column) in (0..2).flat_map(|row| (0..2).map(move |column| (row, column))) {
-                        sink.add(block.slot + row, block.slot + column, weight * change[row][column]);
-                    }
+                    path.circle(block).bend(c, [force, momentum]).fixed_resize::<3, 3>(T::lift(0.0))
+                }
+            };
+            for row in 0..block.dimension() {
+                for column in 0..block.dimension() {
+                    sink.add(block.slot + row, block.slot + column, weight * change[(row, column)]);
                 }
             }
         }
     }
 
-    fn bend_of_rotation(&self, block: Block, Path { q, displacement, h }: Path<'_, T>, c: T) -> Matrix3<T> {
-        let (start, u) = (rotation::matrix(&q[block.places()]), vector(displacement, block));
+    fn bend_of_rotation(
+        &self,
+        block: Block,
+        Path { q, displacement, h }: Path<'_, T>,
+        c: T,
+        forces: Forces,
+    ) -> Matrix3<T> {
+        let u = vector(displacement, block);
+        let (inverse, momentum) = (Series::mean_inverse(-u), vector(&self.work.momentum, block) / h);
+        let Forces::Of = forces else { return -inverse.derivative(&momentum) };
         let (mean, exp) = (Series::mean(u * c), Series::exp(u * c));
-        let here = start * exp.matrix();
+        let here = rotation::matrix(&q[block.places()]) * exp.matrix();
         let m = here.transpose() * rotation::matrix(&self.work.gradient[block.places()]);
-        let (torque, momentum) = (rotation::torque(&m), vector(&self.work.momentum, block));
-        let inverse = Series::mean_inverse(-u);
+        let torque = rotation::torque(&m);
         let turned = Series::mean(u * -c).matrix() * c;
         let carried = inverse.matrix() * mean.matrix() * c - exp.matrix();
-        let sum = momentum / h + mean.of(&torque) * c;
         carried * rotation::torque_change(&m) * turned
             + inverse.matrix() * mean.derivative(&torque) * (c * c)
             - exp.derivative(&torque) * c
-            - inverse.derivative(&sum)
+            - inverse.derivative(&(momentum + mean.of(&torque) * c))
     }
 
     /// Evaluates L with its derivatives, and adds `weight` times the second ones, by the first point and the
