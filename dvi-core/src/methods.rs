@@ -7,6 +7,7 @@
 //! [`RungeKutta`] on the equations of motion. With friction and noise, for regular systems: `Langevin`.
 //! Around others: [`Composition`] and [`EnergyLimit`].
 
+mod before;
 mod collocation;
 mod composition;
 mod constrained;
@@ -16,6 +17,7 @@ mod galerkin;
 mod gauss;
 mod geodesic;
 mod impacts;
+mod kicks;
 #[cfg(feature = "random")]
 mod langevin;
 mod newmark;

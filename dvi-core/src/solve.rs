@@ -142,6 +142,19 @@ pub(crate) fn repeat<T: Real>(
     result
 }
 
+/// Newton's method: iterates until a correction counts as the last. `improve` is as [`Iteration::improve`].
+///
+/// # Errors
+/// As [`iterate`].
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn newton<T: Real>(
+    stopping: Stopping,
+    statistics: &mut Statistics,
+    improve: impl FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>,
+) -> Result<(), StepFailure> {
+    iterate(Convergence::new(stopping, stopping.max_iterations), statistics, improve)
+}
+
 /// Attempts a step from what the last steps let expect, and from zero where that fails: where steps are long,
 /// extrapolation is off, or leads to another branch.
 ///

@@ -22,7 +22,7 @@ use crate::error::StepFailure;
 use crate::mechanics::Span;
 use crate::mechanics::legendre;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
+use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::sink::{Places, TransposedProduct};
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
@@ -43,10 +43,9 @@ pub trait Constraints<S: System, T: Real>: Kind {
     /// Whether positions are constrained.
     const OF_POSITIONS: bool;
 
-    /// A at (`q`, `t`): Aᵀλ is the force of the constraints. What `out` is set to has no meaning.
+    /// A at (`q`, `t`): Aᵀλ is the force of the constraints. Of those of positions `out` is set to g, and has
+    /// no meaning else.
     fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K);
-    /// What vanishes at a position, and A.
-    fn of_position<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K);
     /// What vanishes at the end of a step, with its derivative by Δ. `work` is storage for a point and a
     /// velocity.
     fn of_step<K: Sink<T>>(
@@ -213,18 +212,11 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         impulse.fill(T::lift(0.0));
         // With an L that is quadratic in v the equations are linear.
         if S::QUADRATIC {
-            self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
+            self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         } else {
-            let stopping = Stopping::default();
-            let convergence = Convergence::new(stopping, stopping.max_iterations);
-            iterate(convergence, &mut Statistics::default(), |due, _| {
+            newton(Stopping::default(), &mut Statistics::default(), |due, _| {
                 due.prepare_alone(system, &mut self.weights, v);
-                if *due == Due::Residual {
-                    return self.residual_of_tangent(system, at, Tangent { p, v, impulse, work });
-                }
-                self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
-                let (change, _) = self.parts(v.len());
-                Ok(sizes::largest(&self.weights, change))
+                self.improve_tangent(*due, system, at, Tangent { p, v, impulse, work })
             })?;
         }
         self.refine_tangent(system, at, Tangent { p, v, impulse, work })?;
@@ -247,47 +239,30 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             if residuals.are_settled() {
                 return residuals.admit(system, at, v);
             }
-            self.improve_tangent(system, at, Tangent { p, v, impulse, work })?;
+            self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         }
     }
 
-    /// The residual of the iterate, relative to what it is made of.
-    #[cold]
-    fn residual_of_tangent(
+    /// One iteration: the size of the correction of the velocity or, where that is due, of the residual.
+    fn improve_tangent(
         &mut self,
+        due: Due,
         system: &S,
         at: At<'_, T>,
         Tangent { p, v, impulse, work }: Tangent<'_, T>,
     ) -> Result<T, StepFailure> {
-        let (p, v, n) = (&*p, &*v, v.len());
-        let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };
-        let (multipliers, active) = (&*impulse, impulse.len());
-        let lower = OfVelocity { system, at, v };
-        let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
-        let size = |j: usize| if j < n { v[j] } else { multipliers[j - n] };
-        self.residual(equations, size, |i| if i < n { p[i] } else { T::lift(0.0) })
-    }
-
-    /// One iteration.
-    fn improve_tangent(
-        &mut self,
-        system: &S,
-        at: At<'_, T>,
-        Tangent { p, v, impulse, work }: Tangent<'_, T>,
-    ) -> Result<(), StepFailure> {
+        let n = v.len();
         let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };
         let lower = OfVelocity { system, at, v };
         let (multipliers, active) = (&*impulse, impulse.len());
         let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
+        if due == Due::Residual {
+            let size = |j: usize| if j < n { v[j] } else { multipliers[j - n] };
+            return self.residual(equations, size, |i| if i < n { p[i] } else { T::lift(0.0) });
+        }
         self.solve(equations, T::lift(1.0))?;
-        let (change, of_impulse) = self.parts(v.len());
-        for (v, &change) in v.iter_mut().zip(change) {
-            *v -= change;
-        }
-        for (impulse, &change) in impulse.iter_mut().zip(of_impulse) {
-            *impulse -= change;
-        }
-        Ok(())
+        self.reduce(v, impulse);
+        Ok(sizes::largest(&self.weights, self.parts(n).0))
     }
 
     /// Adds Gᵀι at a point to a momentum.

@@ -6,7 +6,7 @@
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
+use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
@@ -60,9 +60,7 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         if is_quadratic {
             return norm::finite(v);
         }
-        let stopping = Stopping::default();
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        iterate(convergence, &mut Statistics::default(), |due, _| {
+        newton(Stopping::default(), &mut Statistics::default(), |due, _| {
             due.prepare_alone(system, &mut self.weights, v);
             if *due == Due::Residual {
                 let Self { correction, l_q, weights, .. } = self;

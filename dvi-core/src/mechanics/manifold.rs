@@ -48,6 +48,11 @@ impl Block {
         self.at..self.at + 3
     }
 
+    /// Its tangent vectors in that basis.
+    pub(crate) fn slots(self) -> Range<usize> {
+        self.slot..self.slot + self.dimension()
+    }
+
     /// The number of its tangent vectors.
     pub(crate) fn dimension(self) -> usize {
         self.factor.dimension(self.coordinates)

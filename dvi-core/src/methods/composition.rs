@@ -9,6 +9,7 @@ use crate::memory::{Memory, lasting};
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
+use crate::methods::before::Before;
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, System, Vector};
@@ -153,8 +154,7 @@ impl<M> Composition<M> {
 #[derive(Debug)]
 pub struct CompositionMemory<I, V> {
     inner: I,
-    checkpoint: I,
-    q: V,
+    before: Before<I, V>,
 }
 
 impl<I, V> CompositionMemory<I, V> {
@@ -196,7 +196,7 @@ impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for Composition<M> {
 impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition<M> {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let begin = || self.method.begin(system, q, v, t, h);
-        Ok(CompositionMemory { inner: begin()?, checkpoint: begin()?, q: q.clone() })
+        Ok(CompositionMemory { inner: begin()?, before: Before { inner: begin()?, q: q.clone() } })
     }
 
     #[inline]
@@ -209,15 +209,13 @@ impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composit
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let CompositionMemory { inner, checkpoint, q: before } = memory;
-        before.copy_from_slice(q);
-        checkpoint.restore(inner);
+        let CompositionMemory { inner, before } = memory;
+        before.keep(inner, q);
         let mut elapsed = 0.0;
         for gamma in self.table.steps() {
             let (begin, length) = (t + T::lift(elapsed) * h, T::lift(gamma) * h);
             if let Err(failure) = self.method.step(system, inner, q, begin, length, statistics) {
-                q.copy_from_slice(before);
-                inner.restore(checkpoint);
+                before.go_back(inner, q);
                 return Err(failure);
             }
             elapsed += gamma;

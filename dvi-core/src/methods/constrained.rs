@@ -18,7 +18,7 @@ use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
-use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
+use crate::solve::{Due, Guess, Stopping, from_either_guess, newton, sizes};
 use crate::state::Statistics;
 use crate::state::rates::is_similar;
 use crate::system::start::evaluate;
@@ -99,10 +99,7 @@ impl<M> Constrained<M> {
 /// Where a constrained run is, what its next step is guessed from, and work space.
 #[derive(Debug)]
 pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
-    p: Vector<S, T>,
-    /// The velocity at the current point.
-    v: Vector<S, T>,
-    impulses: Impulses<S, T>,
+    here: Place<S, T>,
     /// Δ − h v0 of the last step, and h.
     bend: Vector<S, T>,
     last_step: T,
@@ -117,15 +114,19 @@ pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
     arrival: Arrival<S, T>,
 }
 
+/// The momentum and the velocity at a point of a run, and the impulses of the step that has led there.
+#[derive(Debug)]
+struct Place<S: ConstrainedSystem, T: Real> {
+    p: Vector<S, T>,
+    v: Vector<S, T>,
+    impulses: Impulses<S, T>,
+}
+
 /// The impulses of the constraints at both ends of a step.
 #[derive(Debug)]
 pub(super) struct Impulses<S: ConstrainedSystem, T: Real> {
     pub(super) first: Multipliers<S, T>,
     pub(super) last: Multipliers<S, T>,
-}
-
-impl<S: ConstrainedSystem, T: Real> Memory<T> for Impulses<S, T> {
-    lasting!(T; numbers first, numbers last);
 }
 
 /// The end of a step as it is being found.
@@ -135,14 +136,18 @@ struct Arrival<S: ConstrainedSystem, T: Real> {
     /// In which the iteration judges coordinates.
     weights: Vector<S, T>,
     q: Vector<S, T>,
-    p: Vector<S, T>,
-    v: Vector<S, T>,
-    impulses: Impulses<S, T>,
+    place: Place<S, T>,
     work: Vector<S, T>,
 }
 
+impl<S: ConstrainedSystem, T: Real> Place<S, T> {
+    fn new(system: &S) -> Self {
+        let [p, v] = system.space().vectors();
+        Self { p, v, impulses: Impulses::new(system) }
+    }
+}
+
 impl<S: ConstrainedSystem, T: Real> Impulses<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         Self { first: system.multipliers().vector(), last: system.multipliers().vector() }
     }
@@ -158,26 +163,34 @@ impl<S: ConstrainedSystem, T: Real> Impulses<S, T> {
 impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
     /// The discrete momentum at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
-        &self.p
+        &self.here.p
     }
 
     /// The Lagrange multipliers λ of the last step, one for each constraint, so that G(q)ᵀλ is the force of
     /// the constraints. With a symmetric rule they are those in the middle of the step, to order h². Zero
     /// before the first.
     pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
-        self.impulses.over(self.last_step)
+        self.here.impulses.over(self.last_step)
     }
 
     /// The impulses G(q)ᵀι of the constraints at the beginning and at the end of the last step, as numbers
     /// ι, one for each constraint.
     pub fn impulses(&self) -> [&[T]; 2] {
-        let Impulses { first, last } = &self.impulses;
+        let Impulses { first, last } = &self.here.impulses;
         [first, last]
     }
 }
 
+impl<S: ConstrainedSystem, T: Real> Memory<T> for Impulses<S, T> {
+    lasting!(T; numbers first, numbers last);
+}
+
+impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
+    lasting!(T; numbers p, numbers v, part impulses);
+}
+
 impl<S: ConstrainedSystem, L, T: Real> Memory<T> for ConstrainedMemory<S, L, T> {
-    lasting!(T; numbers p, numbers v, part impulses, numbers bend, number last_step, part solver, parts gradients, parts orientation);
+    lasting!(T; part here, numbers bend, number last_step, part solver, parts gradients, parts orientation);
 }
 
 impl<M: Scheme> Scheme for Constrained<M> {
@@ -196,8 +209,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Carries<S
     type Memory = ConstrainedMemory<S, M::DiscreteLagrangian, T>;
 }
 
-/// One step: where it begins, and how long it is.
-struct Step<'a, S, T> {
+/// Where a step begins, and how it is solved.
+struct Begin<'a, S, T> {
     system: &'a S,
     interval: Interval<T>,
     q: &'a [T],
@@ -208,7 +221,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     /// Sets Δ to a guess: that of the velocity, bent as in the step before. Newton's method finds the
     /// nearest of several solutions, so that no guess is extrapolated far.
     fn guess(&mut self, h: T, guess: Guess) {
-        let Self { v, bend, impulses, last_step, arrival, .. } = self;
+        let Self { here: Place { v, impulses, .. }, bend, last_step, arrival, .. } = self;
         let ratio = match guess {
             Guess::Extrapolated if is_similar(h, *last_step) => h / *last_step,
             Guess::Extrapolated | Guess::Zero => T::lift(0.0),
@@ -216,19 +229,18 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         for ((delta, &v), &bend) in arrival.increment.iter_mut().zip(v.iter()).zip(bend.iter()) {
             *delta = h * v + ratio * ratio * bend;
         }
-        for (impulse, &last) in arrival.impulses.first.iter_mut().zip(impulses.first.iter()) {
+        for (impulse, &last) in arrival.place.impulses.first.iter_mut().zip(impulses.first.iter()) {
             *impulse = ratio * last;
         }
     }
 
-    /// Improves Δ and ι0 until q1 is on the constraints.
-    fn solve(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Step { system, interval, q, stopping } = *step;
-        let Self { p, l_d, solver, is_positive, gradients, arrival, .. } = self;
-        let Arrival { increment, weights, q: next, work, impulses: Impulses { first: impulse, .. }, .. } =
-            arrival;
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        iterate(convergence, statistics, |due, statistics| {
+    /// Improves Δ and ι0 until q1 is on the constraints, and on the branch of the motion.
+    fn solve(&mut self, begin: &Begin<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Begin { system, interval, q, stopping } = *begin;
+        let Self { here: Place { p, .. }, l_d, solver, is_positive, gradients, arrival, .. } = self;
+        let Arrival { increment, weights, q: next, place, work } = arrival;
+        let impulse = &mut place.impulses.first;
+        newton(stopping, statistics, |due, statistics| {
             due.prepare(system, weights, q, increment);
             statistics.linearizations += 1;
             statistics.factorisations += 1;
@@ -247,33 +259,30 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
                 return solver.residual(equations, size, of);
             }
             solver.solve(equations, Scalar::abs(interval.h))?;
-            let (change, of_impulse) = solver.parts(q.len());
-            for (impulse, &change) in impulse.iter_mut().zip(of_impulse) {
-                *impulse -= change;
-            }
-            Ok(sizes::reduce(system, weights, increment, change))
+            solver.reduce(increment, impulse);
+            Ok(sizes::largest(weights, solver.parts(q.len()).0))
         })?;
-        reach(q, increment, next);
+        for ((next, &q), &delta) in next.iter_mut().zip(q).zip(increment.iter()) {
+            *next = q + delta;
+        }
         norm::finite(next)?;
         // On the way from a step of no length the determinant of its equations changes its sign where
         // solutions meet.
-        let is_odd = (if interval.h > T::lift(0.0) { q.len() + impulse.len() } else { 0 }) % 2 == 1;
+        let is_odd = interval.h > T::lift(0.0) && (q.len() + impulse.len()) % 2 == 1;
         if solver.is_positive() != (*is_positive ^ is_odd) {
             return Err(StepFailure::Branch);
         }
-        match gradients {
-            Some(gradients) => {
-                gradients.check(system, q, increment, At { q: next, t: interval.time(T::lift(1.0)) })
-            }
-            None => Ok(()),
-        }
+        gradients.as_mut().map_or(Ok(()), |gradients| {
+            gradients.check(system, q, increment, At { q: next, t: interval.time(T::lift(1.0)) })
+        })
     }
 
     /// Finds p1 = p0 + (D₁ + D₂)L_d + G(q0)ᵀι0 + G(q1)ᵀι1 and v1.
-    fn arrive(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Step { system, interval, q, .. } = *step;
-        let Self { p: p0, l_d, solver, arrival, orientation, .. } = self;
-        let Arrival { increment, q: next, p, v, impulses: Impulses { first, last }, work, .. } = arrival;
+    fn arrive(&mut self, begin: &Begin<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Begin { system, interval, q, .. } = *begin;
+        let Self { here: Place { p: p0, .. }, l_d, solver, arrival, orientation, .. } = self;
+        let Arrival { increment, q: next, place, work, .. } = arrival;
+        let Place { p, v, impulses: Impulses { first, last } } = place;
         p.fill(T::lift(0.0));
         work.fill(T::lift(0.0));
         let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
@@ -287,33 +296,21 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         statistics.linearizations += 1;
         statistics.factorisations += 1;
         solver.tangent(system, at, Tangent { p, v, impulse: last, work })?;
-        match orientation {
-            Some(orientation) => orientation.check(system, next, v, at.t),
-            None => Ok(()),
-        }
+        orientation.as_mut().map_or(Ok(()), |orientation| orientation.check(system, next, v, at.t))
     }
 
     /// Moves to the end of the step.
     fn keep(&mut self, q: &mut [T], h: T) {
-        let Self { p, v, impulses, bend, last_step, gradients, arrival, .. } = self;
-        for ((bend, &delta), &v) in bend.iter_mut().zip(arrival.increment.iter()).zip(v.iter()) {
+        let Self { here, bend, last_step, gradients, arrival, .. } = self;
+        for ((bend, &delta), &v) in bend.iter_mut().zip(arrival.increment.iter()).zip(here.v.iter()) {
             *bend = delta - h * v;
         }
         if let Some(gradients) = gradients {
             gradients.keep();
         }
         q.copy_from_slice(&arrival.q);
-        p.copy_from_slice(&arrival.p);
-        v.copy_from_slice(&arrival.v);
-        impulses.restore(&arrival.impulses);
+        here.restore(&arrival.place);
         *last_step = h;
-    }
-}
-
-/// Sets `q1` to q0 + Δ.
-fn reach<T: Real>(q: &[T], increment: &[T], q1: &mut [T]) {
-    for ((q1, &q), &delta) in q1.iter_mut().zip(q).zip(increment) {
-        *q1 = q + delta;
     }
 }
 
@@ -324,45 +321,25 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
         self.scheme.admit_inside()?;
         evaluate(system, q, v, t)?;
         consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;
-        let vector = || system.space().vector();
-        let [mut p, mut velocity, mut work]: [Vector<S, T>; 3] = system.space().vectors();
-        system.gradient(q, v, t, &mut work, &mut p);
+        let [bend, increment, weights, next, mut work] = system.space().vectors();
+        let (mut here, mut solver) = (Place::new(system), ConstraintSolver::new(system, q, v, t));
+        let Place { p, v: velocity, impulses: Impulses { last: impulse, .. } } = &mut here;
+        system.gradient(q, v, t, &mut work, p);
         velocity.copy_from_slice(v);
-        let (mut solver, mut impulses) = (ConstraintSolver::new(system, q, v, t), Impulses::new(system));
-        let Impulses { last: impulse, .. } = &mut impulses;
-        let tangent = Tangent { p: &mut p, v: &mut velocity, impulse, work: &mut work };
+        let tangent = Tangent { p, v: velocity, impulse, work: &mut work };
         solver.tangent(system, At { q, t }, tangent).map_err(StartError::Starter)?;
         impulse.fill(T::lift(0.0));
-        let is_positive = solver.is_positive();
-        let orientation = if S::CONSTANT_MASS {
-            None
-        } else {
-            Some(MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?)
-        };
-        let arrival = Arrival {
-            increment: vector(),
-            weights: vector(),
-            q: vector(),
-            p: vector(),
-            v: vector(),
-            impulses: Impulses::new(system),
-            work,
-        };
-        let gradients =
-            <S::Kind as Constraints<S, T>>::OF_POSITIONS.then(|| Gradients::new(system, At { q, t }, v));
-        let (l_d, bend, last_step) = (self.scheme.discrete_lagrangian(system), vector(), T::lift(0.0));
+        let orientation = (!S::CONSTANT_MASS).then(|| MassOrientation::new(system, q, v, t));
         Ok(ConstrainedMemory {
-            p,
-            v: velocity,
-            impulses,
+            here,
             bend,
-            last_step,
-            gradients,
-            is_positive,
-            orientation,
-            l_d,
+            last_step: T::lift(0.0),
+            gradients: S::Kind::OF_POSITIONS.then(|| Gradients::new(system, At { q, t }, v)),
+            is_positive: solver.is_positive(),
+            orientation: orientation.transpose().map_err(StartError::Starter)?,
+            l_d: self.scheme.discrete_lagrangian(system),
             solver,
-            arrival,
+            arrival: Arrival { increment, weights, q: next, place: Place::new(system), work },
         })
     }
 
@@ -375,13 +352,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let step = Step { system, interval: Interval { t, h }, q, stopping: self.stopping };
-        memory.guess(h, Guess::Extrapolated);
-        if memory.solve(&step, statistics).is_err() {
-            memory.guess(h, Guess::Zero);
-            memory.solve(&step, statistics)?;
-        }
-        memory.arrive(&step, statistics)?;
+        let begin = Begin { system, interval: Interval { t, h }, q, stopping: self.stopping };
+        from_either_guess(|guess| {
+            memory.guess(h, guess);
+            memory.solve(&begin, statistics)
+        })?;
+        memory.arrive(&begin, statistics)?;
         memory.keep(q, h);
         Ok(())
     }
@@ -394,7 +370,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
         _t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        v.copy_from_slice(&memory.v);
+        v.copy_from_slice(&memory.here.v);
         Ok(())
     }
 }

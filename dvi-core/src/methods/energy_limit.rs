@@ -6,8 +6,8 @@
 
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::VariationalMethod;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, Tolerance, VariableStep};
+use crate::methods::before::Before;
+use crate::methods::{Carries, Method, PreservedForm, Scheme, Tolerance, VariableStep, VariationalMethod};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::TimeTransform;
@@ -35,8 +35,7 @@ pub struct EnergyLimit<M> {
 #[derive(Debug)]
 pub struct EnergyLimitMemory<I, V, T> {
     inner: I,
-    checkpoint: I,
-    q: V,
+    before: Before<I, V>,
     v: V,
     start: T,
 }
@@ -84,9 +83,8 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
             return Err(StartError::Parameter { name: "limit", value, range });
         }
         let begin = || self.method.begin(system, q, v, t, h);
-        let v_storage = system.space().vector();
-        let start = watched(system, q, v, t);
-        Ok(EnergyLimitMemory { inner: begin()?, checkpoint: begin()?, q: q.clone(), v: v_storage, start })
+        let (start, before) = (watched(system, q, v, t), Before { inner: begin()?, q: q.clone() });
+        Ok(EnergyLimitMemory { inner: begin()?, before, v: system.space().vector(), start })
     }
 
     fn step(
@@ -98,9 +96,8 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let EnergyLimitMemory { inner, checkpoint, q: before, v, start } = memory;
-        before.copy_from_slice(q);
-        checkpoint.restore(inner);
+        let EnergyLimitMemory { inner, before, v, start } = memory;
+        before.keep(inner, q);
         self.method.step(system, inner, q, t, h, statistics)?;
         let verdict = self.method.velocity(system, inner, q, t + h, v).and_then(|()| {
             let now = watched(system, q, if S::REGULAR { v } else { &[] }, t + h);
@@ -110,8 +107,7 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
             if within { Ok(()) } else { Err(StepFailure::Energy { start, now, limit: self.limit }) }
         });
         if verdict.is_err() {
-            q.copy_from_slice(before);
-            inner.restore(checkpoint);
+            before.go_back(inner, q);
         }
         verdict
     }

@@ -7,13 +7,13 @@
 //! moving frame of the body the discrete Euler–Lagrange equations of a rotation are those of Euler and
 //! Poincaré (Marsden, Pekarsky & Shkoller 1999).
 
-mod kicks;
-mod legendre;
+mod covectors;
 mod memory;
 mod node;
-mod orientation;
 mod step;
+mod tangents;
 
+use crate::discrete::Interval;
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Trapezoid};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::manifold;
@@ -23,12 +23,14 @@ use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::system::ManifoldSystem;
 use crate::system::start::evaluate;
-use crate::{ManifoldLagrangian, Real, Space, Vector};
+use crate::{ManifoldLagrangian, Real, Space, Vector, Weights};
 
-use legendre::{Legendre, momentum, rates};
+use covectors::{force, momentum};
+use memory::Kicks;
+use step::has_spheres;
+use tangents::{Equations, Legendre, TangentMass};
+
 pub use memory::GeodesicMemory;
-use memory::{Kicks, Work};
-use orientation::TangentMass;
 
 /// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, beside
 /// numbers.
@@ -135,23 +137,26 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         manifold::check(system, [q, v])?;
         manifold::admit_numbers(system, v)?;
         let [mut seed, mut l_q, mut l_v]: [Vector<S, T>; 3] = system.space().vectors();
-        rates(system, q, v, &mut seed);
+        momentum(system, q, v, &mut seed);
         system.gradient(q, v, t, &mut l_q, &mut l_v);
         let mut memory = GeodesicMemory::new(system, seed);
         momentum(system, q, &l_v, &mut memory.p);
         manifold::lift(system, q, &mut memory.lifted);
-        let Work { node, matrix, residual, weights, .. } = &mut memory.work;
-        let mut legendre = Legendre { node, matrix, residual, weights };
-        legendre.linearize(system, [q, v, &memory.p], t).map_err(StartError::Starter)?;
-        memory.is_positive = memory.work.matrix.is_positive();
-        if !S::CONSTANT_MASS || kicks::has_spheres::<S, T>() {
-            let orientation = TangentMass::new(system, &mut memory.work.node, [q, v], t);
+        let legendre = Legendre { system, q, p: &memory.p, t };
+        let tangents = &mut memory.tangents;
+        legendre.linearize(v, tangents, &mut Statistics::default());
+        tangents.matrix.factor().map_err(StartError::Starter)?;
+        memory.is_positive = tangents.matrix.is_positive();
+        if !S::CONSTANT_MASS || has_spheres::<S, T>() {
+            let orientation = TangentMass::new(system, &mut tangents.node, [q, v], t);
             memory.orientation = Some(orientation.map_err(StartError::Starter)?);
         }
         if S::SEPARABLE && self.rule.interior_nodes() == 0 {
-            let mut force = system.space().vector();
-            kicks::force(system, q, t, &mut force);
-            memory.kicks = Some(Kicks { mass: kicks::mass(system, q, v, t), force });
+            let (mut mass, mut f0) = (system.space().matrix(), system.space().vector());
+            system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut mass);
+            system.force(q, &[], t, &mut f0);
+            force(system, q, &mut f0);
+            memory.kicks = Some(Kicks { mass, force: f0 });
         }
         Ok(memory)
     }
@@ -165,7 +170,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        memory.solve(&self.rule, (system, q), [t, h], self.stopping, statistics)?;
+        memory.solve(&self.rule, (system, q), Interval { t, h }, self.stopping, statistics)?;
         memory.keep(q, h);
         Ok(())
     }
@@ -179,15 +184,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         memory.rates.extrapolate([v]);
-        let Work { mut node, mut matrix, mut residual, .. } = Work::new(system);
-        let mut weights = system.tangent().vector();
-        let mut legendre = Legendre {
-            node: &mut node,
-            matrix: &mut matrix,
-            residual: &mut residual,
-            weights: &mut weights,
-        };
-        legendre.solve(system, [q, &memory.p], t, v)
+        Legendre { system, q, p: &memory.p, t }.solve(v)
     }
 }
 

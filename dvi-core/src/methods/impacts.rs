@@ -7,7 +7,6 @@ mod memory;
 mod passage;
 
 use crate::error::{StartError, StepFailure};
-use crate::memory::Memory;
 use crate::methods::{Carries, FreeFlight, Method, PreservedForm, Scheme};
 use crate::state::Statistics;
 use crate::system::start::evaluate;
@@ -191,15 +190,14 @@ impl<S: UnilateralLagrangian<T>, T: Real, M: FreeFlight<S, T>, const MOST: usize
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let counts = [memory.total, memory.grazing];
-        memory.start.set(&memory.inner, q);
+        memory.start.keep(&memory.inner, q);
         memory.is_divided = false;
         let (left, is_at_wall, is_there, turns) = (h, false, true, 0);
         let passage =
             Passage { method: self, system, memory, q, statistics, t, left, h, is_at_wall, is_there, turns };
         passage.take().inspect_err(|_| {
             let begin = if memory.is_divided { &memory.before } else { &memory.start };
-            memory.inner.restore(&begin.inner);
-            q.copy_from_slice(&begin.q);
+            begin.go_back(&mut memory.inner, q);
             memory.count = 0;
             [memory.total, memory.grazing] = counts;
         })

@@ -16,6 +16,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::mechanics::mass_root::MassRoot;
 use crate::memory::{Memory, lasting};
+use crate::methods::kicks::kick;
 use crate::methods::{Carries, Method, PreservedForm, Scheme};
 use crate::scalar::norm;
 use crate::state::Statistics;
@@ -76,24 +77,16 @@ pub struct Langevin {
 pub struct LangevinMemory<S: System, T: Real> {
     p: Vector<S, T>,
     force: Vector<S, T>,
-    /// Work space: the force at the end of a step.
-    next_force: Vector<S, T>,
     /// The number of the step, which is that of the stream of noise.
     step: u64,
     generator: ChaCha8Rng,
     mass: Mass<S, T>,
     /// If there is noise.
     root: Option<MassRoot<S, T>>,
-    work: Work<S, T>,
-}
-
-/// The point that a step moves, and vectors that are written before they are read.
-#[derive(Debug)]
-struct Work<S: System, T: Real> {
-    q: Vector<S, T>,
-    p: Vector<S, T>,
-    velocity: Vector<S, T>,
-    noise: Vector<S, T>,
+    /// q, p and F at the end of a step.
+    end: [Vector<S, T>; 3],
+    /// A velocity or normal numbers, and noise.
+    work: [Vector<S, T>; 2],
 }
 
 impl<S: System, T: Real> Memory<T> for LangevinMemory<S, T> {
@@ -104,49 +97,6 @@ impl<S: System, T: Real> LangevinMemory<S, T> {
     /// p = M v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
         &self.p
-    }
-}
-
-impl<S: Separable<T>, T: Real> Work<S, T> {
-    /// Adds `by` F to the momentum.
-    fn kick(&mut self, force: &[T], by: T) {
-        for (p, &force) in self.p.iter_mut().zip(force) {
-            *p += by * force;
-        }
-    }
-
-    /// Adds `by` M⁻¹p to the position.
-    fn drift(&mut self, mass: &Mass<S, T>, by: T) {
-        mass.solve(&self.p, &mut self.velocity);
-        for (q, &velocity) in self.q.iter_mut().zip(self.velocity.iter()) {
-            *q += by * velocity;
-        }
-    }
-
-    /// Friction and noise over a time `h`, with normal numbers from `generator`.
-    fn exchange(
-        &mut self,
-        bath: &Langevin,
-        root: Option<&MassRoot<S, T>>,
-        h: T,
-        generator: &mut ChaCha8Rng,
-    ) {
-        let kept = Scalar::exp(T::lift(-bath.friction) * h);
-        let Some(root) = root else {
-            self.p.iter_mut().for_each(|p| *p *= kept);
-            return;
-        };
-        // 1 − c² without its cancellation.
-        let lost = -Scalar::exp_m1(T::lift(-2.0 * bath.friction) * h);
-        let gained = Scalar::sqrt(T::lift(bath.temperature) * lost);
-        for number in self.velocity.iter_mut() {
-            let drawn: f64 = StandardNormal.sample(generator);
-            *number = T::lift(drawn);
-        }
-        root.multiply(&self.velocity, &mut self.noise);
-        for (p, &noise) in self.p.iter_mut().zip(self.noise.iter()) {
-            *p = kept * *p + gained * noise;
-        }
     }
 }
 
@@ -162,6 +112,33 @@ impl Langevin {
             return Err(StartError::Unsupported { option: "a negative step", reason });
         }
         Ok(())
+    }
+
+    /// Friction and noise over a time `h`, with normal numbers from `generator`.
+    fn exchange<S: Separable<T>, T: Real>(
+        &self,
+        p: &mut [T],
+        root: Option<&MassRoot<S, T>>,
+        h: T,
+        generator: &mut ChaCha8Rng,
+        [normal, noise]: &mut [Vector<S, T>; 2],
+    ) {
+        let kept = Scalar::exp(T::lift(-self.friction) * h);
+        let Some(root) = root else {
+            p.iter_mut().for_each(|p| *p *= kept);
+            return;
+        };
+        // 1 − c² without its cancellation.
+        let lost = -Scalar::exp_m1(T::lift(-2.0 * self.friction) * h);
+        let gained = Scalar::sqrt(T::lift(self.temperature) * lost);
+        for number in normal.iter_mut() {
+            let drawn: f64 = StandardNormal.sample(generator);
+            *number = T::lift(drawn);
+        }
+        root.multiply(normal, noise);
+        for (p, &noise) in p.iter_mut().zip(noise.iter()) {
+            *p = kept * *p + gained * noise;
+        }
     }
 }
 
@@ -185,17 +162,16 @@ impl<S: System, T: Real> Carries<S, T> for Langevin {
 impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin {
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(h)?;
-        let vector = || system.space().vector();
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
         let has_noise = self.friction > 0.0 && self.temperature > 0.0;
         let root =
             has_noise.then(|| MassRoot::new(system, &mass).map_err(StartError::Starter)).transpose()?;
-        let (mut p, mut force) = (vector(), vector());
+        let [mut p, mut force] = system.space().vectors();
         mass.multiply_add(T::lift(1.0), v, &mut p);
         system.force(q, &[], t, &mut force);
-        let work = Work { q: vector(), p: vector(), velocity: vector(), noise: vector() };
-        let (generator, next_force) = (ChaCha8Rng::seed_from_u64(self.seed), vector());
-        Ok(LangevinMemory { p, force, next_force, step: 0, generator, mass, root, work })
+        let (end, work) = (system.space().vectors(), system.space().vectors());
+        let generator = ChaCha8Rng::seed_from_u64(self.seed);
+        Ok(LangevinMemory { p, force, step: 0, generator, mass, root, end, work })
     }
 
     fn step(
@@ -207,23 +183,25 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin 
         h: T,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let LangevinMemory { p, force, next_force, step, generator, mass, root, work } = memory;
+        let LangevinMemory { p, force, step, generator, mass, root, end: [q1, p1, f1], work } = memory;
         let half = T::lift(0.5) * h;
-        work.q.copy_from_slice(q);
-        work.p.copy_from_slice(p);
-        work.kick(force, half);
-        work.drift(mass, half);
+        q1.copy_from_slice(q);
+        p1.copy_from_slice(p);
+        kick(p1, half, force);
+        mass.solve(p1, &mut work[0]);
+        kick(q1, half, &work[0]);
         generator.set_stream(*step);
         generator.set_word_pos(0);
-        work.exchange(self, root.as_ref(), h, generator);
-        work.drift(mass, half);
-        system.force(&work.q, &[], t + h, next_force);
+        self.exchange(p1, root.as_ref(), h, generator, work);
+        mass.solve(p1, &mut work[0]);
+        kick(q1, half, &work[0]);
+        system.force(q1, &[], t + h, f1);
         statistics.gradients += 1;
-        work.kick(next_force, half);
-        norm::finite(&work.q).and(norm::finite(&work.p))?;
-        q.copy_from_slice(&work.q);
-        p.copy_from_slice(&work.p);
-        force.copy_from_slice(next_force);
+        kick(p1, half, f1);
+        norm::finite(q1).and(norm::finite(p1))?;
+        q.copy_from_slice(q1);
+        p.copy_from_slice(p1);
+        force.copy_from_slice(f1);
         *step += 1;
         Ok(())
     }

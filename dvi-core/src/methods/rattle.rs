@@ -6,24 +6,25 @@
 //! h ι0 is found by Newton's method, whose matrix is G(q1) M⁻¹ G(q0)ᵀ, and ι1 from linear equations with
 //! G(q1) M⁻¹ G(q1)ᵀ.
 
+mod arrival;
 mod refinement;
 mod rows;
 mod stride;
-mod work;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
+use crate::methods::constrained::Impulses;
 use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep};
-use crate::solve::Stopping;
+use crate::solve::{Convergence, Stopping};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Vector};
+use arrival::{Arrival, constrain};
 use refinement::Refinement;
 use rows::{fill, named};
 use stride::Point;
-use work::{Look, Work, constrain};
 
 /// RATTLE (Andersen 1983), for [`Separable`] systems with constraints: the step of
 /// [`Constrained`](crate::methods::Constrained) around
@@ -75,13 +76,15 @@ pub struct RattleMemory<S: ConstrainedSystem, T: Real> {
     mass: Mass<S, T>,
     /// Whether M is diagonal and positive.
     is_metric: bool,
+    /// Whether the determinant of G M⁻¹ Gᵀ is positive where the run begins.
+    is_positive: bool,
     /// If coordinates are light against the others.
     refinement: Option<Refinement<S, T>>,
-    work: Work<S, T>,
+    work: Arrival<S, T>,
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for RattleMemory<S, T> {
-    lasting!(T; part point);
+    lasting!(T; part point, flag is_positive);
 }
 
 impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
@@ -93,13 +96,13 @@ impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
     /// The Lagrange multipliers λ of the last step: see
     /// [`ConstrainedMemory::multipliers`](crate::methods::ConstrainedMemory::multipliers).
     pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
-        self.point.impulses.over(self.point.last_step)
+        self.point.here.impulses.over(self.point.last_step)
     }
 
     /// The impulses of the last step: see
     /// [`ConstrainedMemory::impulses`](crate::methods::ConstrainedMemory::impulses).
     pub fn impulses(&self) -> [&[T]; 2] {
-        [&self.point.impulses.first, &self.point.impulses.last]
+        [&self.point.here.impulses.first, &self.point.here.impulses.last]
     }
 }
 
@@ -124,26 +127,27 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
         self.stopping.validate()?;
         consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
-        let mut work = Work::new(system);
-        let Work { q: at, place, values, .. } = &mut work;
+        let mut work = Arrival::new(system);
+        let Arrival { q: at, place, values, .. } = &mut work;
         at.copy_from_slice(q);
         constrain(system, q, t, values, &mut place.rows);
         system.force(q, &[], t, &mut place.force);
         mass.multiply_add(T::lift(1.0), v, &mut place.p);
         work.place.measure(&mass);
-        work.align((system, &mass), t, Look::Close).map_err(StartError::Starter)?;
-        let Work { place, gram, .. } = &mut work;
+        work.align::<Convergence<T>>((system, &mass), t).map_err(StartError::Starter)?;
+        let Arrival { place, gram, .. } = &mut work;
         fill(gram, [&place.rows, &place.solved], &place.squares);
         gram.factor().map_err(named).map_err(StartError::Starter)?;
-        place.is_positive = gram.is_positive();
+        let is_positive = gram.is_positive();
         let mut refinement = Refinement::for_light_coordinates(system, [q, v], t);
         if let Some(refinement) = &mut refinement {
             work.refine(system, &mass, t, refinement).map_err(StartError::Starter)?;
         }
         let mut point = Point::new(system);
         point.here.restore(&work.place);
+        point.here.impulses = Impulses::new(system);
         let is_metric = mass.reciprocals().is_some_and(|all| all.iter().all(|&one| one > T::lift(0.0)));
-        Ok(RattleMemory { point, mass, is_metric, refinement, work })
+        Ok(RattleMemory { point, mass, is_metric, is_positive, refinement, work })
     }
 
     #[inline]

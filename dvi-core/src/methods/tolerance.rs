@@ -33,20 +33,17 @@ impl Tolerance {
     }
 
     /// What is allowed in a coordinate of this size.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of_coordinate<T: Real>(self, size: T) -> T {
         T::lift(self.absolute) + T::lift(self.relative) * size
     }
 
     /// What is allowed in a momentum, where the largest has this size.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of_momentum<T: Real>(self, size: T) -> T {
         T::lift(self.relative) * size
     }
 }
 
 /// max |xⱼ|/wⱼ, where `allowed`(j) = wⱼ; no error is within every tolerance, also that of zero.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn in_units_of<T: Real>(errors: &[T], allowed: impl Fn(usize) -> T) -> T {
     let zero = T::lift(0.0);
     errors.iter().enumerate().fold(zero, |largest, (j, &error)| {

@@ -1,6 +1,6 @@
 //! Newton's method for the increment of a step.
 
-use super::{Convergence, Due, Stopping, iterate, sizes};
+use super::{Due, Stopping, newton, sizes};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::{LinearEquations, LinearSolver, Sink, linear};
@@ -53,8 +53,7 @@ pub(crate) fn solve_by_newton<S: System, T: Real>(
     stopping: Stopping,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    let convergence = Convergence::new(stopping, stopping.max_iterations);
-    iterate(convergence, statistics, |due, statistics| {
+    newton(stopping, statistics, |due, statistics| {
         due.prepare(system, weights, q0, delta);
         statistics.linearizations += 1;
         statistics.factorisations += 1;

@@ -169,3 +169,24 @@ fn steps_by_kicks_are_those_of_the_general_equations() {
         assert_eq!((by_kicks.statistics().gradients, by_kicks.statistics().linearizations), (50, 0));
     }
 }
+
+/// A body on a spring, of whose coordinates the first rests where it is zero.
+#[lagrangian(
+    coordinates(x[2], R: SO3),
+    lagrangian = (1.0 + 0.2 * x[1].powi(2)) * (dot(x[0]).powi(2) + dot(x[1]).powi(2)) / 2.0
+        + (omega(R)[0].powi(2) + 2.0 * omega(R)[1].powi(2) + 3.0 * omega(R)[2].powi(2)) / 2.0
+        - x[0].powi(2) - x[1].powi(4) - R[2][2] * x[1],
+)]
+struct Sprung;
+
+/// Of an array the largest coordinate is the unit of all.
+#[test]
+fn a_number_that_rests_at_zero_beside_a_rotation_is_no_task_of_its_own() {
+    let R = rotations::exp([0.3, 0.0, 0.0]);
+    let start: SprungState = SprungState { x: [0.0, 1.3], R, dot_x: [0.0, 0.2], omega_R: [0.1, 0.2, 3.0] };
+    let mut run = Integrator::new(&Sprung, Geodesic::midpoint(), 0.02, start).expect("begins");
+    let begin = run.energy();
+    run.take_steps(500).expect("short steps");
+    assert_eq!(run.state().x[0], 0.0);
+    assert!((run.energy() - begin).abs() < 1e-2, "{:e}", run.energy() - begin);
+}

@@ -1,7 +1,7 @@
 //! Whether a state is on the constraints, and the state on them that is near another one.
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::constraints::residuals::ROUNDINGS;
+use crate::mechanics::constraints::residuals::{ROUNDINGS, farthest};
 use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{
     At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, OfVelocity,
@@ -66,7 +66,7 @@ impl<'a, S: ConstrainedLagrangian<T>, T: Real> Projection<'a, S, T> {
     }
 }
 
-/// What vanishes at a position.
+/// What vanishes at a position, of constraints of positions.
 struct OfPosition<'a, S, T> {
     system: &'a S,
     at: At<'a, T>,
@@ -74,7 +74,7 @@ struct OfPosition<'a, S, T> {
 
 impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfPosition<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        S::Kind::of_position(self.system, self.at.q, self.at.t, c, sink);
+        S::Kind::forces(self.system, self.at.q, self.at.t, c, sink);
         Ok(())
     }
 }
@@ -91,15 +91,7 @@ fn worst<S: ConstrainedLagrangian<T>, T: Real>(
         &mut values,
         &mut Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j)),
     )?;
-    let mut worst = None;
-    for (constraint, (&value, &size)) in values.iter().zip(sizes.iter()).enumerate() {
-        let (value, size) = (reported(value), reported(size));
-        let off = if value.is_finite() { value.abs() / size } else { f64::INFINITY };
-        if off > 1.0 && worst.is_none_or(|(_, _, known)| off > known) {
-            worst = Some((constraint, value, off));
-        }
-    }
-    Ok(worst.map(|(constraint, value, _)| (constraint, value)))
+    Ok(farthest(&values, &sizes, 1.0))
 }
 
 /// Where a state stands, which says how exact it is: what velocities are rounded relative to besides

@@ -12,9 +12,6 @@ impl<S: HolonomicLagrangian<T>, T: Real> Constraints<S, T> for Holonomic {
     fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K) {
         system.constraint_jacobian(q, t, out, sink);
     }
-    fn of_position<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K) {
-        system.constraint_jacobian(q, t, out, sink);
-    }
     fn of_step<K: Sink<T>>(
         system: &S,
         Span { interval, ends: Ends { q0, delta }, .. }: Span<'_, S, T>,

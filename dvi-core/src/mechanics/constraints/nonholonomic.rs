@@ -14,9 +14,6 @@ impl<S: NonholonomicLagrangian<T>, T: Real> Constraints<S, T> for Nonholonomic {
         // A does not depend on the velocity.
         system.velocity_constraint_jacobian(q, q, t, [T::lift(0.0), T::lift(1.0)], out, sink);
     }
-    fn of_position<K: Sink<T>>(_system: &S, _q: &[T], _t: T, out: &mut [T], _sink: &mut K) {
-        out.fill(T::lift(0.0));
-    }
     fn of_step<K: Sink<T>>(
         system: &S,
         Span { interval, ends: Ends { q0, delta }, .. }: Span<'_, S, T>,

@@ -16,6 +16,20 @@ use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 /// A state may be off the constraints by so many rounding errors.
 pub(super) const ROUNDINGS: f64 = 1e4;
 
+/// The constraint whose value is farthest from zero, of those that are by more than `limit` times their size,
+/// and the value.
+pub(super) fn farthest<T: Real>(values: &[T], sizes: &[T], limit: f64) -> Option<(usize, f64)> {
+    let values =
+        values.iter().zip(sizes).map(|(&value, &size)| (reported(value), reported(size))).enumerate();
+    let off = values.map(|(constraint, (value, size))| {
+        (constraint, value, if value.is_finite() { value.abs() / size } else { f64::INFINITY })
+    });
+    // The first of several.
+    let farther =
+        |known: (usize, f64, f64), other: (usize, f64, f64)| if other.2 > known.2 { other } else { known };
+    off.filter(|(_, _, off)| *off > limit).reduce(farther).map(|(constraint, value, _)| (constraint, value))
+}
+
 /// What is left of the constraints of a velocity.
 #[derive(Debug)]
 pub(crate) struct Residuals<S: ConstrainedSystem, T: Real> {
@@ -98,16 +112,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
             return None;
         }
         self.widen(system, at, v);
-        let rounding = ROUNDINGS * reported(T::default_epsilon());
-        let mut worst: Option<(usize, f64, f64)> = None;
-        for (constraint, (&value, &size)) in self.values.iter().zip(self.sizes.iter()).enumerate() {
-            let (value, size) = (reported(value), reported(size));
-            let off = if value.is_nan() { f64::INFINITY } else { value.abs() / size };
-            if off > rounding && worst.is_none_or(|(_, _, known)| off > known) {
-                worst = Some((constraint, value, off));
-            }
-        }
-        worst.map(|(constraint, value, _)| (constraint, value))
+        farthest(&self.values, &self.sizes, ROUNDINGS * reported(T::default_epsilon()))
     }
 
     /// Lets sizes know of the rounding of coordinates and of the time.

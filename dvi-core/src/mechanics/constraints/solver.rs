@@ -188,6 +188,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         self.solution.split_at(n)
     }
 
+    /// Takes the solution from unknowns and multipliers.
+    pub(crate) fn reduce(&self, x: &mut [T], multipliers: &mut [T]) {
+        let unknowns = x.iter_mut().chain(multipliers);
+        unknowns.zip(self.solution.iter()).for_each(|(unknown, &change)| *unknown -= change);
+    }
+
     /// Work space with a number for each constraint.
     pub(super) fn values(&mut self, n: usize) -> &mut [T] {
         &mut self.solution[n..]

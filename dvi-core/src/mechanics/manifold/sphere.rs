@@ -1,6 +1,6 @@
 //! Unit vectors: S².
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Vector3};
 
 use crate::{Real, Scalar};
 
@@ -45,7 +45,7 @@ impl<T: Real> GreatCircle<T> {
 
     /// How D₁L_d at the part `c`, along the circle and across, changes with the end of the circle, where
     /// ∂L/∂q and ∂L/∂v/h there are the same: the directions along and across turn with it.
-    pub(crate) fn bend(&self, c: T, [l_q, l_v]: [Vector3<T>; 2]) -> [[T; 2]; 2] {
+    pub(crate) fn bend(&self, c: T, [l_q, l_v]: [Vector3<T>; 2]) -> Matrix2<T> {
         let (one, zero, theta) = (T::lift(1.0), T::lift(0.0), self.angle);
         let (rest, here, end) = (one - c, self.at(c), self.at(one));
         let far = self.at(rest);
@@ -61,20 +61,16 @@ impl<T: Real> GreatCircle<T> {
             .map(|direction| [direction.dot(&l_q), direction.dot(&l_v)]);
         let by_length = c * rest * outward[0] + (one - c - c) * outward[1] + c * rest * theta * along[1];
         let turned = c * Scalar::sinc(c * theta);
-        [
-            [
-                by_length,
-                (a - rest * here.cosine) * per_theta * across[0]
-                    + ((here.cosine - b) * per_theta + rest * here.sine) * across[1],
-            ],
-            [
-                b_slope * across[1] - a_slope * across[0],
-                (a * here.cosine - rest) * per_theta * along[0]
-                    + a * turned * outward[0]
-                    + (one - b * here.cosine) * per_theta * along[1]
-                    + (rest - b * turned) * outward[1],
-            ],
-        ]
+        Matrix2::new(
+            by_length,
+            (a - rest * here.cosine) * per_theta * across[0]
+                + ((here.cosine - b) * per_theta + rest * here.sine) * across[1],
+            b_slope * across[1] - a_slope * across[0],
+            (a * here.cosine - rest) * per_theta * along[0]
+                + a * turned * outward[0]
+                + (one - b * here.cosine) * per_theta * along[1]
+                + (rest - b * turned) * outward[1],
+        )
     }
 
     /// s(1) − s0.

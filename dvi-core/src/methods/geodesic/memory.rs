@@ -1,17 +1,11 @@
 //! What a run along geodesics carries, and work space.
 
-use super::node::Node;
-use super::orientation::TangentMass;
+use super::tangents::{TangentMass, Tangents};
 use crate::memory::{Memory, lasting};
 use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
 use crate::system::ManifoldSystem;
 use crate::{ManifoldLagrangian, Matrix, Real, Space, System, Vector};
-
-/// A square matrix over the tangent vectors.
-pub(super) type Square<S, T> = <<S as ManifoldSystem>::Tangent as Space>::Square<T>;
-/// A number for each tangent vector.
-type Tangent<S, T> = <<S as ManifoldSystem>::Tangent as Space>::Vector<T>;
 
 /// The momentum of a run of [`Geodesic`](super::Geodesic), what its next step is guessed from, and work
 /// space.
@@ -32,7 +26,8 @@ pub struct GeodesicMemory<S: ManifoldSystem, T: Real> {
     pub(super) is_positive: bool,
     /// Storage for p at the beginning of a drift.
     pub(super) p0: Vector<S, T>,
-    pub(super) work: Work<S, T>,
+    pub(super) tangents: Tangents<S, T>,
+    pub(super) arrival: Arrival<S, T>,
 }
 
 /// What a step by kicks needs of L.
@@ -50,7 +45,7 @@ impl<S: System, T: Real> Memory<T> for Kicks<S, T> {
 
 /// The end of a step as it is being found.
 #[derive(Debug)]
-pub(super) struct Work<S: ManifoldSystem, T: Real> {
+pub(super) struct Arrival<S: System, T: Real> {
     pub(super) displacement: Vector<S, T>,
     /// Of what is carried of the coordinates.
     pub(super) increment: Vector<S, T>,
@@ -61,48 +56,23 @@ pub(super) struct Work<S: ManifoldSystem, T: Real> {
     pub(super) p: Vector<S, T>,
     /// The force there, where kicks are steps.
     pub(super) force: Vector<S, T>,
-    pub(super) residual: Tangent<S, T>,
-    /// In which the iteration judges tangent vectors.
-    pub(super) weights: Tangent<S, T>,
-    pub(super) matrix: Square<S, T>,
-    pub(super) node: Node<S, T>,
-}
-
-impl<S: ManifoldLagrangian<T>, T: Real> Work<S, T> {
-    pub(super) fn new(system: &S) -> Self {
-        let vector = || system.space().vector();
-        let dimension = system.tangent().dimension();
-        let all = |visit: &mut dyn FnMut(usize, usize)| {
-            (0..dimension).for_each(|row| (0..dimension).for_each(|column| visit(row, column)));
-        };
-        Self {
-            displacement: vector(),
-            increment: vector(),
-            lifted: vector(),
-            q: vector(),
-            v: vector(),
-            p: vector(),
-            force: vector(),
-            residual: system.tangent().vector(),
-            weights: system.tangent().vector(),
-            matrix: system.tangent().square(all),
-            node: Node::new(system),
-        }
-    }
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
-    pub(super) fn new(system: &S, rates: Vector<S, T>) -> Self {
+    pub(super) fn new(system: &S, seed: Vector<S, T>) -> Self {
+        let space = system.space();
+        let [p, lifted, p0, displacement, increment, next, q, v, p1, force] = space.vectors();
         Self {
-            p: system.space().vector(),
-            rates: Rates::new(system, [rates]),
-            lifted: system.space().vector(),
+            p,
+            rates: Rates::new(system, [seed]),
+            lifted,
             carried: Carried::new(system, Summation::Compensated),
             kicks: None,
             orientation: None,
             is_positive: true,
-            p0: system.space().vector(),
-            work: Work::new(system),
+            p0,
+            tangents: Tangents::new(system),
+            arrival: Arrival { displacement, increment, lifted: next, q, v, p: p1, force },
         }
     }
 

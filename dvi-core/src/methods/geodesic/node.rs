@@ -11,7 +11,7 @@ use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{Block, blocks, rotation, set, vector};
 use crate::space::Sink;
 use crate::system::Factor;
-use crate::{ManifoldLagrangian, Real, Scalar, Space, System};
+use crate::{ManifoldLagrangian, Matrix, Real, Scalar, Space, System, Weights};
 
 /// Three numbers for each coordinate: how it varies with the tangent vectors of its block.
 type Rows<S, T> = <<S as System>::Space as Space>::Array<[T; 3]>;
@@ -29,11 +29,11 @@ pub(super) struct Node<S: System, T: Real> {
     pub(super) work: NodeWork<S, T>,
     /// With the first point of the step, where the last one is held, and the sign changed: what D₁L_d is
     /// made with.
-    pub(super) first: Variation<S, T>,
+    first: Variation<S, T>,
     /// With the displacement.
-    pub(super) displacement: Variation<S, T>,
+    displacement: Variation<S, T>,
     /// The first tangent vector of the block of each coordinate, and how many the block has.
-    pub(super) tangents: <S::Space as Space>::Array<[usize; 2]>,
+    tangents: <S::Space as Space>::Array<[usize; 2]>,
 }
 
 impl<S: System, T: Real> Variation<S, T> {
@@ -77,7 +77,6 @@ pub(super) struct Path<'a, T> {
 
 impl<T: Real> Path<'_, T> {
     /// The great circle of a unit vector.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn circle(&self, block: Block) -> GreatCircle<T> {
         GreatCircle::new(vector(self.q, block), vector(self.displacement, block))
     }
@@ -114,9 +113,17 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         }
     }
 
+    /// Goes to the part `c` of a step, at time `t`, with the velocity and ∂L/∂v alone, of a separable L.
+    #[inline]
+    pub(super) fn drift(&mut self, system: &S, path: Path<'_, T>, t: T, c: T) {
+        self.swing(system, path, c);
+        let NodeWork { point, velocity, momentum, .. } = &mut self.work;
+        system.conjugate_momentum(point, velocity, t, momentum);
+    }
+
     /// Sets the velocity at the part `c` of a step, and how it varies.
     #[inline]
-    pub(super) fn swing(&mut self, system: &S, path: Path<'_, T>, c: T) {
+    fn swing(&mut self, system: &S, path: Path<'_, T>, c: T) {
         for block in blocks(system) {
             match block.factor {
                 Factor::Line => self.swing_on_line(block, path),
@@ -127,7 +134,6 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// Δ/h
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn swing_on_line(&mut self, block: Block, Path { displacement, h, .. }: Path<'_, T>) {
         let (zero, per_h) = (T::lift(0.0), T::lift(1.0) / h);
         for i in block.places() {
@@ -148,7 +154,6 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// ω = u/h. With R0 by η, where R1 is held, δu = −J(u)⁻¹η.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn swing_on_rotations(&mut self, block: Block, Path { displacement, h, .. }: Path<'_, T>) {
         let (u, per_h) = (vector(displacement, block), T::lift(1.0) / h);
         let inverse = Series::mean_inverse(u).matrix();
@@ -171,7 +176,6 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// γ'(c)/h, with tangent vectors along the circle and across.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn swing_on_sphere(&mut self, block: Block, path: Path<'_, T>, c: T) {
         let circle = path.circle(block);
         let (here, rest) = (circle.at(c), circle.at(T::lift(1.0) - c));
@@ -218,53 +222,90 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         sink: &mut K,
     ) {
         for block in blocks(system) {
-            match block.factor {
-                Factor::Line => {}
-                Factor::Rotation => {
-                    let change = match forces {
-                        Forces::Of => self.bend_of_rotation(block, path, c),
-                        Forces::Without => {
-                            let momentum = vector(&self.work.momentum, block) / path.h;
-                            -Series::mean_inverse(-vector(path.displacement, block)).derivative(&momentum)
-                        }
-                    };
-                    for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
-                        sink.add(block.slot + row, block.slot + column, weight * change[(row, column)]);
-                    }
-                }
+            let change = match block.factor {
+                Factor::Line => continue,
+                Factor::Rotation => self.bend_of_rotation(block, path, c, forces),
                 Factor::Sphere => {
                     let force = match forces {
                         Forces::Of => vector(&self.work.gradient, block),
                         Forces::Without => Vector3::zeros(),
                     };
                     let momentum = vector(&self.work.momentum, block) / path.h;
-                    let change = path.circle(block).bend(c, [force, momentum]);
-                    for (row, column) in (0..2).flat_map(|row| (0..2).map(move |column| (row, column))) {
-                        sink.add(block.slot + row, block.slot + column, weight * change[row][column]);
-                    }
+                    path.circle(block).bend(c, [force, momentum]).fixed_resize::<3, 3>(T::lift(0.0))
+                }
+            };
+            for row in 0..block.dimension() {
+                for column in 0..block.dimension() {
+                    sink.add(block.slot + row, block.slot + column, weight * change[(row, column)]);
                 }
             }
         }
     }
 
-    fn bend_of_rotation(&self, block: Block, Path { q, displacement, h }: Path<'_, T>, c: T) -> Matrix3<T> {
-        let (start, u) = (rotation::matrix(&q[block.places()]), vector(displacement, block));
+    fn bend_of_rotation(
+        &self,
+        block: Block,
+        Path { q, displacement, h }: Path<'_, T>,
+        c: T,
+        forces: Forces,
+    ) -> Matrix3<T> {
+        let u = vector(displacement, block);
+        let (inverse, momentum) = (Series::mean_inverse(-u), vector(&self.work.momentum, block) / h);
+        let Forces::Of = forces else { return -inverse.derivative(&momentum) };
         let (mean, exp) = (Series::mean(u * c), Series::exp(u * c));
-        let here = start * exp.matrix();
+        let here = rotation::matrix(&q[block.places()]) * exp.matrix();
         let m = here.transpose() * rotation::matrix(&self.work.gradient[block.places()]);
-        let (torque, momentum) = (rotation::torque(&m), vector(&self.work.momentum, block));
-        let inverse = Series::mean_inverse(-u);
+        let torque = rotation::torque(&m);
         let turned = Series::mean(u * -c).matrix() * c;
         let carried = inverse.matrix() * mean.matrix() * c - exp.matrix();
-        let sum = momentum / h + mean.of(&torque) * c;
         carried * rotation::torque_change(&m) * turned
             + inverse.matrix() * mean.derivative(&torque) * (c * c)
             - exp.derivative(&torque) * c
-            - inverse.derivative(&sum)
+            - inverse.derivative(&(momentum + mean.of(&torque) * c))
+    }
+
+    /// Evaluates L with its derivatives, and adds `weight` times the second ones, by the first point and the
+    /// displacement.
+    pub(super) fn add_second_derivatives<K: Sink<T>>(&mut self, system: &S, t: T, weight: T, sink: &mut K) {
+        let Self { work: NodeWork { point, velocity, gradient, momentum }, first, displacement, tangents } =
+            self;
+        let zero = T::lift(0.0);
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let all = [
+            ([By::Point, By::Point], Weights { qq: weight, ..none }),
+            ([By::Velocity, By::Velocity], Weights { vv: weight, ..none }),
+            ([By::Point, By::Velocity], Weights { qv: weight, ..none }),
+            ([By::Velocity, By::Point], Weights { vq: weight, ..none }),
+        ];
+        // Where M is constant, positions and velocities do not mix.
+        let mixed = if S::CONSTANT_MASS { 2 } else { 4 };
+        for (by, weights) in &all[..mixed] {
+            let mut between = Between::<S, T, K>::new(first, displacement, tangents, *by, sink);
+            system.linearize(point, velocity, t, *weights, gradient, momentum, &mut between);
+        }
+    }
+
+    /// Adds `weight` times the second derivatives of ½ v·M v.
+    pub(super) fn add_kinetic<K: Sink<T>>(&self, system: &S, mass: &Matrix<S, T>, weight: T, sink: &mut K) {
+        let Self { work, first, displacement, tangents } = self;
+        let mut between = Between::<S, T, K>::new(first, displacement, tangents, [By::Velocity; 2], sink);
+        let dimension = work.velocity.len();
+        let places = || blocks(system).flat_map(Block::velocities);
+        for (row, column) in places().flat_map(|row| places().map(move |column| (row, column))) {
+            between.add(row, column, weight * mass[row * dimension + column]);
+        }
+    }
+
+    /// Adds the mass matrix of the tangent vectors at a point, and leaves ∂L/∂v.
+    pub(super) fn add_mass<K: Sink<T>>(&mut self, system: &S, [q, v]: [&[T]; 2], t: T, sink: &mut K) {
+        self.rest(system, q, v);
+        let Self { work: NodeWork { point, velocity, gradient, momentum }, first, tangents, .. } = self;
+        let mut between = Between::<S, T, K>::new(first, first, tangents, [By::Velocity; 2], sink);
+        system.linearize(point, velocity, t, Weights::mass(), gradient, momentum, &mut between);
     }
 
     /// Makes the tangent vectors at a point those of its velocities: for p = ∂L/∂v.
-    pub(super) fn rest(&mut self, system: &S, q: &[T], v: &[T]) {
+    fn rest(&mut self, system: &S, q: &[T], v: &[T]) {
         let one = T::lift(1.0);
         self.work.point.copy_from_slice(q);
         self.work.velocity.copy_from_slice(v);
@@ -314,14 +355,14 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
 
 /// Which of the derivatives of L an entry is of.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum By {
+enum By {
     Point,
     Velocity,
 }
 
 /// Passes the entries of a matrix over the coordinates on as those of Aᵀ M B, where the rows of A and B are
 /// variations.
-pub(super) struct Between<'a, S: System, T: Real, K> {
+struct Between<'a, S: System, T: Real, K> {
     left: &'a [[T; 3]],
     right: &'a [[T; 3]],
     tangents: &'a <S::Space as Space>::Array<[usize; 2]>,
@@ -330,7 +371,7 @@ pub(super) struct Between<'a, S: System, T: Real, K> {
 
 impl<'a, S: System, T: Real, K> Between<'a, S, T, K> {
     /// From variations of the first point to those `with`, into `sink`.
-    pub(super) fn new(
+    fn new(
         first: &'a Variation<S, T>,
         with: &'a Variation<S, T>,
         tangents: &'a <S::Space as Space>::Array<[usize; 2]>,

@@ -1,362 +1,236 @@
 //! One step along a geodesic: p0 = −D₁L_d for the displacement, and what it leads to.
+//!
+//! Where L = ½ v·M v − V(q, t) and the nodes of the rule are at the two ends, the step is a kick, a drift
+//! along a geodesic, a kick,
+//!
+//! p½ = p0 + h w0 f0      p½ = −D₁K_d for the displacement      p1 = D₂K_d + h w1 f1
+//!
+//! with the forces f as p is, the torque in the body of a rotation and s × ∂L/∂s of a unit vector, and K_d
+//! the discrete Lagrangian of ½ v·M v. It is the general step, because there the forces of the first end do
+//! not depend on the displacement, and those of the last do no work where the last point is held. It
+//! evaluates one force.
 
 use nalgebra::Vector3;
 
-use super::kicks;
-use super::legendre::velocity;
-use super::memory::{GeodesicMemory, Kicks, Work};
-use super::node::{Between, By, Forces, Node, Path};
-use crate::discrete::NodeWork;
+use super::covectors::{depart, force, increment_of, push, subtract_momentum, velocity};
+use super::memory::{Arrival, GeodesicMemory, Kicks};
+use super::node::{Forces, Path};
+use super::tangents::{Equations, Tangents};
 use crate::discrete::quadrature::Rule;
+use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
-use crate::mechanics::manifold::series::Series;
 use crate::mechanics::manifold::sphere::GreatCircle;
-use crate::mechanics::manifold::{self, Block, blocks, quaternion, rotation, set, vector};
-use crate::scalar::norm;
-use crate::scalar::norm::reported;
-use crate::solve::{Convergence, Due, Guess, Stopping, iterate, sizes};
-use crate::space::{Sink, SquareMatrix};
+use crate::mechanics::manifold::{self, Block, blocks, vector};
+use crate::methods::kicks::kick;
+use crate::scalar::norm::{self, reported};
+use crate::solve::{Stopping, from_either_guess};
+use crate::space::SquareMatrix;
 use crate::state::Statistics;
-use crate::state::rates::Rates;
-use crate::state::summation::Carried;
-use crate::system::{Factor, ManifoldSystem};
-use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Vector, Weights};
+use crate::system::{CoordinateBlock, Factor};
+use crate::{ManifoldLagrangian, Matrix, Real, Scalar, System};
 
-/// One step: where it begins, and how long it is.
-pub(super) struct Step<'a, S, T> {
-    pub(super) system: &'a S,
-    pub(super) q: &'a [T],
-    pub(super) p: &'a [T],
-    pub(super) t: T,
-    pub(super) h: T,
+/// Where a step begins, and what is integrated along it.
+struct Begin<'a, S: System, R, T: Real> {
+    system: &'a S,
+    rule: &'a R,
+    interval: Interval<T>,
+    q: &'a [T],
+    p: &'a [T],
+    /// M, where L is ½ v·M v alone.
+    mass: Option<&'a Matrix<S, T>>,
+}
+
+/// Whether a coordinate of `S` is a unit vector. Without these what a drift needs is the same at all its
+/// nodes.
+pub(super) fn has_spheres<S: ManifoldLagrangian<T>, T: Real>() -> bool {
+    S::REPORT.coordinates.iter().any(|&CoordinateBlock { factor, .. }| factor == Factor::Sphere)
 }
 
 /// The nodes cⱼ of a rule with h wⱼ.
-pub(super) fn nodes<R: Rule, T: Real>(rule: &R, h: T) -> impl Iterator<Item = [T; 2]> {
+fn nodes<R: Rule, T: Real>(rule: &R, h: T) -> impl Iterator<Item = [T; 2]> {
     rule.nodes().iter().zip(rule.weights()).map(move |(&c, &weight)| [T::lift(c), h * T::lift(weight)])
+}
+
+/// The weights h w of the two ends.
+fn impulses<R: Rule, T: Real>(rule: &R, h: T) -> [T; 2] {
+    nodes(rule, h).fold([T::lift(0.0); 2], |[first, last], [c, weight]| {
+        if c == T::lift(0.0) { [first + weight, last] } else { [first, last + weight] }
+    })
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
     /// Finds the end of a step from time t, of length h.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solve<R: Rule>(
         &mut self,
         rule: &R,
         (system, q): (&S, &[T]),
-        [t, h]: [T; 2],
+        interval: Interval<T>,
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Self { p, rates, lifted, carried, kicks, orientation, is_positive, p0, work } = self;
-        let impulses = kicks::weights(rule, h);
+        let Self { p, rates, lifted, carried, kicks, orientation, is_positive, p0, tangents, arrival } =
+            self;
+        let (h, end) = (interval.h, interval.time(T::lift(1.0)));
+        let [first, last] = impulses(rule, h);
         p0.copy_from_slice(p);
         if let Some(Kicks { force, .. }) = kicks {
-            kicks::kick(p0, impulses[0], force);
+            kick(p0, first, force);
         }
-        let step = Step { system, q, p: p0, t, h };
-        let mut attempt = |guess| {
-            begin(rates, h, guess, &mut work.displacement);
-            work.solve(&step, stopping, statistics, |work, statistics| match kicks {
-                None => work.linearize(&step, rule, statistics),
-                Some(Kicks { mass, .. }) => work.linearize_drift(&step, rule, mass),
-            })
-        };
-        attempt(Guess::Extrapolated).or_else(|_| attempt(Guess::Zero))?;
-        work.check_branch(system, *is_positive, h)?;
-        work.arrive(&step, lifted, carried);
-        match kicks {
-            None => work.balance(&step, rule, statistics),
-            Some(Kicks { mass, .. }) => {
-                work.balance_drift(&step, rule, mass);
-                kicks::force(system, &work.q, t + h, &mut work.force);
-                statistics.gradients += 1;
-                kicks::kick(&mut work.p, impulses[1], &work.force);
-            }
+        let mass = kicks.as_ref().map(|kicks| &kicks.mass);
+        let begin = Begin { system, rule, interval, q, p: p0, mass };
+        from_either_guess(|guess| {
+            let displacement = &mut arrival.displacement;
+            rates.guess(h, guess, [&mut *displacement]);
+            displacement.iter_mut().for_each(|displacement| *displacement *= h);
+            tangents.solve(&begin, system, displacement, stopping, statistics)?;
+            check_angles(system, displacement)
+        })?;
+        // The determinant of the equations has the sign of that of a short step.
+        let is_odd = h < T::lift(0.0) && tangents.residual.len() % 2 == 1;
+        if tangents.matrix.is_positive() != (*is_positive ^ is_odd) {
+            return Err(StepFailure::Branch);
         }
-        norm::finite(&work.q).and(norm::finite(&work.p))?;
-        work.displacement.iter_mut().for_each(|displacement| *displacement /= h);
+        let Arrival { displacement, increment, lifted: next, q: q1, v, p: p1, force: f1 } = arrival;
+        for block in blocks(system) {
+            increment_of(block, begin.path(displacement), lifted, increment);
+        }
+        carried.add(lifted, increment, next);
+        manifold::lower(system, next, q1);
+        begin.balance(displacement, tangents, p1, statistics);
+        if kicks.is_some() {
+            system.force(q1, &[], end, f1);
+            force(system, q1, f1);
+            statistics.gradients += 1;
+            kick(p1, last, f1);
+        }
+        norm::finite(q1).and(norm::finite(p1))?;
+        displacement.iter_mut().for_each(|displacement| *displacement /= h);
         if let Some(orientation) = orientation {
-            let Work { node, displacement, q, v, .. } = work;
             v.copy_from_slice(displacement);
-            velocity(system, q, v);
-            orientation.check(system, node, [q, v], t + h)?;
+            velocity(system, q1, v);
+            orientation.check(system, &mut tangents.node, [q1, v], end)?;
         }
         Ok(())
     }
 
     /// Moves to the end of the step.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn keep(&mut self, q: &mut [T], h: T) {
-        let Self { p, rates, lifted, carried, kicks, work, .. } = self;
+        let Self { p, rates, lifted, carried, kicks, arrival, .. } = self;
         if let Some(Kicks { force, .. }) = kicks {
-            force.copy_from_slice(&work.force);
+            force.copy_from_slice(&arrival.force);
         }
-        carried.advance(lifted, &work.increment, &work.lifted);
-        q.copy_from_slice(&work.q);
-        p.copy_from_slice(&work.p);
-        rates.push(h, [&work.displacement]);
+        carried.advance(lifted, &arrival.increment, &arrival.lifted);
+        q.copy_from_slice(&arrival.q);
+        p.copy_from_slice(&arrival.p);
+        rates.push(h, [&arrival.displacement]);
     }
 }
 
-impl<S: ManifoldLagrangian<T>, T: Real> Work<S, T> {
-    /// Improves the displacement until p0 = −D₁L_d, whose residual and derivative `linearize` sets.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn solve(
-        &mut self,
-        step: &Step<'_, S, T>,
-        stopping: Stopping,
-        statistics: &mut Statistics,
-        mut linearize: impl FnMut(&mut Self, &mut Statistics),
-    ) -> Result<(), StepFailure> {
-        let convergence = Convergence::new(stopping, stopping.max_iterations);
-        iterate(convergence, statistics, |due, statistics| {
-            self.prepare(due, step);
-            linearize(self, statistics);
-            statistics.factorisations += 1;
-            self.matrix.factor()?;
-            self.matrix.solve(&mut self.residual);
-            self.correct(step);
-            norm::finite(&self.displacement)?;
-            Ok(sizes::largest(&self.weights, &self.residual))
-        })?;
-        self.check_angles(step.system)
+/// Beyond half a turn a geodesic is not the shortest way.
+fn check_angles<S: ManifoldLagrangian<T>, T: Real>(
+    system: &S,
+    displacement: &[T],
+) -> Result<(), StepFailure> {
+    let half = T::lift(core::f64::consts::PI);
+    let blocks = blocks(system).filter(|block| block.factor != Factor::Line);
+    let far =
+        blocks.map(|block| (block, vector(displacement, block).norm())).find(|(_, angle)| *angle >= half);
+    // That an angle is a number was seen where it was solved for.
+    match far {
+        Some((block, angle)) => Err(StepFailure::HalfTurn { block: block.name, angle: reported(angle) }),
+        None => Ok(()),
+    }
+}
+
+impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
+    fn path<'b>(&'b self, displacement: &'b [T]) -> Path<'b, T> {
+        Path { q: self.q, displacement, h: self.interval.h }
     }
 
-    /// Does what is `due` before an iteration. Angles are judged as they are.
-    fn prepare(&mut self, due: &mut Due, step: &Step<'_, S, T>) {
-        if core::mem::replace(due, Due::Nothing) == Due::Sizes {
-            set_weights(step.system, &mut self.weights, |block| match block.factor {
-                Factor::Line => {
-                    let place = block.places().start;
-                    Scalar::abs(step.q[place]) + Scalar::abs(self.displacement[place])
-                }
-                Factor::Rotation | Factor::Sphere => T::lift(1.0),
-            });
-        }
+    /// The nodes of a drift with their weights.
+    fn drifts(&self) -> impl Iterator<Item = [T; 2]> {
+        let once = (!has_spheres::<S, T>()).then(|| [T::lift(0.0), self.interval.h]);
+        let each = has_spheres::<S, T>().then(|| nodes(self.rule, self.interval.h));
+        once.into_iter().chain(each.into_iter().flatten())
     }
 
-    /// Takes the residual, which is a correction now, from the displacement.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn correct(&mut self, step: &Step<'_, S, T>) {
-        for block in blocks(step.system) {
-            correct(block, &self.residual, &mut self.displacement, |displacement, [along, across]| {
-                let circle = GreatCircle::new(vector(step.q, block), displacement);
-                circle.axis * (circle.angle - along) + circle.direction * across
-            });
-        }
-    }
-
-    /// Sets the residual to −D₁L_d − p0 and the matrix to its derivative.
-    pub(super) fn linearize<R: Rule>(
-        &mut self,
-        step: &Step<'_, S, T>,
-        rule: &R,
+    /// Sets `p` to the momentum at the end of the displacement.
+    fn balance(
+        &self,
+        displacement: &[T],
+        Tangents { node, .. }: &mut Tangents<S, T>,
+        p: &mut [T],
         statistics: &mut Statistics,
     ) {
-        statistics.linearizations += rule.nodes().len() as u64;
-        let Self { node, matrix, residual, displacement, .. } = self;
-        let path = Path { q: step.q, displacement, h: step.h };
+        let (system, path) = (self.system, self.path(displacement));
+        for block in blocks(system) {
+            depart(block, path, self.p, p);
+        }
+        if self.mass.is_some() && !has_spheres::<S, T>() {
+            return;
+        }
+        for [c, weight] in nodes(self.rule, self.interval.h) {
+            let forces = match self.mass {
+                Some(_) => {
+                    node.drift(system, path, self.interval.time(c), c);
+                    Forces::Without
+                }
+                None => {
+                    node.place(system, path, c);
+                    let NodeWork { point, velocity, gradient, momentum } = &mut node.work;
+                    system.gradient(point, velocity, self.interval.time(c), gradient, momentum);
+                    statistics.gradients += 1;
+                    Forces::Of
+                }
+            };
+            for block in blocks(system) {
+                push(block, path, &node.work, [c, weight], forces, p);
+            }
+        }
+    }
+}
+
+impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S, R, T> {
+    /// Angles are judged as they are.
+    fn size(&self, block: Block, displacement: &[T]) -> T {
+        match block.factor {
+            Factor::Line => block.places().fold(T::lift(0.0), |largest, place| {
+                norm::larger(largest, Scalar::abs(self.q[place]) + Scalar::abs(displacement[place]))
+            }),
+            Factor::Rotation | Factor::Sphere => T::lift(1.0),
+        }
+    }
+
+    /// The residual is −D₁L_d − p0.
+    fn linearize(&self, displacement: &[T], tangents: &mut Tangents<S, T>, statistics: &mut Statistics) {
+        let (system, path) = (self.system, self.path(displacement));
+        let Tangents { node, residual, matrix, .. } = tangents;
         residual.fill(T::lift(0.0));
-        for block in blocks(step.system) {
-            subtract_momentum(block, step.p, residual, || path.circle(block));
+        for block in blocks(system) {
+            subtract_momentum(block, self.p, residual, || path.circle(block));
         }
         let entries = matrix.cleared();
-        for [c, weight] in nodes(rule, step.h) {
-            node.place(step.system, path, c);
-            node.second_derivatives(step.system, step.t + c * step.h, weight, entries);
-            node.bend(step.system, path, [c, weight], Forces::Of, entries);
-            node.project_force(weight, residual);
-            node.project_momentum(step.system, weight, residual);
-        }
-    }
-
-    /// Sets what is carried of the coordinates, and these, at the end of the displacement.
-    pub(super) fn arrive(&mut self, step: &Step<'_, S, T>, lifted: &[T], carried: &Carried<S, T>) {
-        let path = Path { q: step.q, displacement: &self.displacement, h: step.h };
-        for block in blocks(step.system) {
-            increment_of(block, path, lifted, &mut self.increment);
-        }
-        carried.add(lifted, &self.increment, &mut self.lifted);
-        manifold::lower(step.system, &self.lifted, &mut self.q);
-    }
-
-    /// Sets the momentum at the end of the displacement.
-    pub(super) fn balance<R: Rule>(&mut self, step: &Step<'_, S, T>, rule: &R, statistics: &mut Statistics) {
-        let Self { node, displacement, p, .. } = self;
-        let path = Path { q: step.q, displacement, h: step.h };
-        for block in blocks(step.system) {
-            depart(block, path, step.p, p);
-        }
-        for [c, weight] in nodes(rule, step.h) {
-            node.place(step.system, path, c);
-            let NodeWork { point, velocity, gradient, momentum } = &mut node.work;
-            step.system.gradient(point, velocity, step.t + c * step.h, gradient, momentum);
-            statistics.gradients += 1;
-            for block in blocks(step.system) {
-                push(block, path, &node.work, [c, weight], p);
+        let Some(mass) = self.mass else {
+            statistics.linearizations += self.rule.nodes().len() as u64;
+            for [c, weight] in nodes(self.rule, self.interval.h) {
+                node.place(system, path, c);
+                node.add_second_derivatives(system, self.interval.time(c), weight, entries);
+                node.bend(system, path, [c, weight], Forces::Of, entries);
+                node.project_force(weight, residual);
+                node.project_momentum(system, weight, residual);
             }
+            return;
+        };
+        for [c, weight] in self.drifts() {
+            node.drift(system, path, self.interval.time(c), c);
+            node.add_kinetic(system, mass, weight, entries);
+            node.bend(system, path, [c, weight], Forces::Without, entries);
+            node.project_momentum(system, weight, residual);
         }
     }
 
-    /// Whether the equations of the step have the determinant of a short one, by its sign.
-    ///
-    /// # Errors
-    /// [`StepFailure::Branch`].
-    pub(super) fn check_branch(&self, system: &S, is_positive: bool, h: T) -> Result<(), StepFailure> {
-        let is_odd = h < T::lift(0.0) && system.tangent().dimension() % 2 == 1;
-        if self.matrix.is_positive() == (is_positive ^ is_odd) { Ok(()) } else { Err(StepFailure::Branch) }
-    }
-
-    /// Beyond half a turn a geodesic is not the shortest way.
-    fn check_angles(&self, system: &S) -> Result<(), StepFailure> {
-        let turned = |block: &Block| vector(&self.displacement, *block).norm();
-        let half = T::lift(core::f64::consts::PI);
-        let blocks = blocks(system).filter(|block| block.factor != Factor::Line);
-        let far = blocks.map(|block| (block, turned(&block))).find(|(_, angle)| *angle >= half);
-        // That an angle is a number was seen where it was solved for.
-        match far {
-            Some((block, angle)) => Err(StepFailure::HalfTurn { block: block.name, angle: reported(angle) }),
-            None => Ok(()),
-        }
-    }
-}
-
-impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
-    /// Evaluates L with its derivatives, and adds `weight` times the second ones, by the first point and the
-    /// displacement.
-    fn second_derivatives<K: Sink<T>>(&mut self, system: &S, t: T, weight: T, sink: &mut K) {
-        let Self { work: NodeWork { point, velocity, gradient, momentum }, first, displacement, tangents } =
-            self;
-        let zero = T::lift(0.0);
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        let all = [
-            ([By::Point, By::Point], Weights { qq: weight, ..none }),
-            ([By::Velocity, By::Velocity], Weights { vv: weight, ..none }),
-            ([By::Point, By::Velocity], Weights { qv: weight, ..none }),
-            ([By::Velocity, By::Point], Weights { vq: weight, ..none }),
-        ];
-        // Where M is constant, positions and velocities do not mix.
-        let mixed = if S::CONSTANT_MASS { 2 } else { 4 };
-        for (by, weights) in &all[..mixed] {
-            let mut between = Between::<S, T, K>::new(first, displacement, tangents, *by, sink);
-            system.linearize(point, velocity, t, *weights, gradient, momentum, &mut between);
-        }
-    }
-}
-
-/// Sets the weights of all entries of each block to one over its size.
-pub(super) fn set_weights<S: ManifoldSystem, T: Real>(
-    system: &S,
-    weights: &mut [T],
-    size: impl Fn(&Block) -> T,
-) {
-    for block in blocks(system) {
-        weights[block.slot..block.slot + block.dimension()].fill(sizes::weight_of(size(&block)));
-    }
-}
-
-/// Subtracts a momentum from the residual, of a unit vector in the directions of a circle.
-pub(super) fn subtract_momentum<T: Real>(
-    block: Block,
-    p: &[T],
-    residual: &mut [T],
-    circle: impl FnOnce() -> GreatCircle<T>,
-) {
-    let slots = block.slot..block.slot + block.dimension();
-    match block.factor {
-        Factor::Line | Factor::Rotation => {
-            for (residual, &p) in residual[slots].iter_mut().zip(&p[block.places()]) {
-                *residual -= p;
-            }
-        }
-        Factor::Sphere => {
-            // With the turning s × p, p·d = (s × p)·n and p·n = −(s × p)·d.
-            let (circle, turning) = (circle(), vector(p, block));
-            residual[block.slot] -= turning.dot(&circle.axis);
-            residual[block.slot + 1] += turning.dot(&circle.direction);
-        }
-    }
-}
-
-/// Subtracts a correction in tangent vectors from `numbers`; `on_sphere` does it for a unit vector.
-pub(super) fn correct<T: Real>(
-    block: Block,
-    correction: &[T],
-    numbers: &mut [T],
-    on_sphere: impl FnOnce(Vector3<T>, [T; 2]) -> Vector3<T>,
-) {
-    let correction = &correction[block.slot..block.slot + block.dimension()];
-    match block.factor {
-        Factor::Line | Factor::Rotation => {
-            for (number, &change) in numbers[block.places()].iter_mut().zip(correction) {
-                *number -= change;
-            }
-        }
-        Factor::Sphere => {
-            let corrected = on_sphere(vector(numbers, block), [correction[0], correction[1]]);
-            set(numbers, block, corrected);
-        }
-    }
-}
-
-/// Sets what a displacement adds to what is carried of the coordinates.
-fn increment_of<T: Real>(block: Block, path: Path<'_, T>, lifted: &[T], increment: &mut [T]) {
-    match block.factor {
-        Factor::Line => increment[block.places()].copy_from_slice(&path.displacement[block.places()]),
-        Factor::Rotation => {
-            let turn = rotation::increment(&quaternion(lifted, block), vector(path.displacement, block));
-            increment[block.places()][..4].copy_from_slice(turn.coords.as_slice());
-        }
-        Factor::Sphere => set(increment, block, path.circle(block).increment()),
-    }
-}
-
-/// Sets `p` to p0, seen from the end of the step.
-pub(super) fn depart<T: Real>(block: Block, path: Path<'_, T>, p0: &[T], p: &mut [T]) {
-    match block.factor {
-        Factor::Line | Factor::Sphere => p[block.places()].copy_from_slice(&p0[block.places()]),
-        Factor::Rotation => {
-            p[block.places()].fill(T::lift(0.0));
-            let back = Series::exp(-vector(path.displacement, block));
-            set(p, block, back.of(&vector(p0, block)));
-        }
-    }
-}
-
-/// Sets `displacement` to the guess. Inlined, it would take registers from the iterations.
-#[inline(never)]
-fn begin<S: System, T: Real>(rates: &Rates<S, T>, h: T, guess: Guess, displacement: &mut Vector<S, T>) {
-    rates.guess(h, guess, [&mut *displacement]);
-    displacement.iter_mut().for_each(|displacement| *displacement *= h);
-}
-
-/// Adds what L at a node does to the momentum in the step, as it is seen from there.
-fn push<S: System, T: Real>(
-    block: Block,
-    path: Path<'_, T>,
-    work: &NodeWork<S, T>,
-    [c, weight]: [T; 2],
-    p: &mut [T],
-) {
-    let NodeWork { point, velocity, gradient, momentum } = work;
-    match block.factor {
-        Factor::Line => {
-            for i in block.places() {
-                p[i] += weight * gradient[i];
-            }
-        }
-        Factor::Rotation => {
-            let here = rotation::matrix(&point[block.places()]);
-            let torque = rotation::torque(&(here.transpose() * rotation::matrix(&gradient[block.places()])));
-            let rest = Series::exp(vector(path.displacement, block) * (c - T::lift(1.0)));
-            let sum = vector(p, block) + rest.of(&torque) * weight;
-            set(p, block, sum);
-        }
-        Factor::Sphere => {
-            let torque: Vector3<T> = vector(point, block).cross(&vector(gradient, block))
-                + vector(velocity, block).cross(&vector(momentum, block));
-            let sum = vector(p, block) + torque * weight;
-            set(p, block, sum);
-        }
+    fn corrected(&self, block: Block, displacement: Vector3<T>, [along, across]: [T; 2]) -> Vector3<T> {
+        let circle = GreatCircle::new(vector(self.q, block), displacement);
+        circle.axis * (circle.angle - along) + circle.direction * across
     }
 }

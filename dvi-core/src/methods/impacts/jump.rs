@@ -1,11 +1,12 @@
 //! The jump of the momentum at an impact, p⁺ = p⁻ + λ ∂g/∂q, and the flight behind it.
 
+use core::mem;
+
 use super::Collision;
 use super::memory::{ImpactsMemory, Wall};
 use super::passage::Passage;
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::StepFailure;
-use crate::memory::Memory;
 use crate::methods::FreeFlight;
 use crate::scalar::norm::reported;
 use crate::space::sink::Places;
@@ -48,18 +49,22 @@ where
     M: FreeFlight<S, T>,
     T: Real,
 {
-    /// Goes back to where the flight begins and jumps by λ.
-    fn depart(&mut self, lambda: T) {
-        let Self { method, memory, q, is_there, .. } = self;
+    /// Goes back to where the flight begins.
+    fn go_back(&mut self) {
+        let Self { memory, q, is_there, .. } = self;
         *is_there = false;
-        let ImpactsMemory { inner, start, wall, impulse, v, .. } = &mut **memory;
-        inner.restore(&start.inner);
-        q.copy_from_slice(&start.q);
+        memory.start.go_back(&mut memory.inner, q);
+    }
+
+    /// Goes back there and jumps by λ.
+    fn jump(&mut self, lambda: T) {
+        self.go_back();
+        let ImpactsMemory { inner, wall, impulse, v, .. } = &mut *self.memory;
         for (j, (impulse, v)) in impulse.iter_mut().zip(v.iter_mut()).enumerate() {
             *impulse = lambda * wall.gradient[j];
             *v = wall.v[j] + lambda * wall.direction[j];
         }
-        method.scheme.kick(inner, impulse, v);
+        self.method.scheme.kick(inner, impulse, v);
     }
 
     fn advance(&mut self, s: T) -> Result<(), StepFailure> {
@@ -70,42 +75,66 @@ where
         method.scheme.fly(system, &mut memory.inner, q, [*t, s], statistics)
     }
 
+    /// Sets `v` to the velocity at the present point, after a flight of length `s`.
+    fn set_velocity(&mut self, s: T) -> Result<(), StepFailure> {
+        let Self { method, system, memory, q, t, .. } = self;
+        let ImpactsMemory { inner, v, .. } = &mut **memory;
+        method.scheme.velocity_in_flight(system, inner, q, *t + s, v)
+    }
+
+    /// Looks at the gaps there, and leaves the velocity in `v`.
+    pub(super) fn look(&mut self, s: T) -> Result<(), StepFailure> {
+        self.set_velocity(s)?;
+        let Self { system, memory, q, t, .. } = self;
+        let ImpactsMemory { there, v, .. } = &mut **memory;
+        there.look(*system, q, v, *t + s)
+    }
+
+    /// Makes the gaps that were looked at last those at the beginning of a flight.
+    pub(super) fn look_on(&mut self) {
+        let ImpactsMemory { here, there, .. } = &mut *self.memory;
+        mem::swap(here, there);
+    }
+
     /// Flies for the time `s` from where the flight begins.
     pub(super) fn fly(&mut self, s: T) -> Result<(), StepFailure> {
         if self.is_at_wall {
             self.balance(s)?;
-            self.depart(self.memory.wall.impulse);
-        } else if !core::mem::take(&mut self.is_there) {
-            let Self { memory, q, .. } = self;
-            let ImpactsMemory { inner, start, .. } = &mut **memory;
-            inner.restore(&start.inner);
-            q.copy_from_slice(&start.q);
+            self.jump(self.memory.wall.impulse);
+        } else if !mem::take(&mut self.is_there) {
+            self.go_back();
         }
         self.advance(s)
     }
 
-    /// The same for the flight that the run takes, so that the jump at its beginning is recorded.
+    /// The same for the flight that the run takes, where the run is already unless its length decides on the
+    /// jump at its beginning, which is recorded.
     pub(super) fn settle(&mut self, s: T) -> Result<(), StepFailure> {
         if !self.is_at_wall || self.method.collision == Collision::Reflection {
-            return self.fly(s);
+            return Ok(());
         }
         self.balance(s)?;
-        let lambda = self.memory.wall.impulse;
-        self.depart(lambda);
-        let Self { method, system, memory, q, t, .. } = self;
-        let ImpactsMemory { inner, wall, events, count, grazing, .. } = &mut **memory;
-        if let Some(event) = events.get_mut(count.saturating_sub(1)) {
-            event.impulse = lambda;
-            method.scheme.velocity_in_flight(system, inner, q, *t, &mut event.v)?;
-        }
-        *grazing += u64::from(wall.is_grazing);
+        let &Wall { impulse, is_grazing, .. } = &self.memory.wall;
+        self.jump(impulse);
+        self.set_velocity(T::lift(0.0))?;
+        self.record(impulse);
+        self.memory.grazing += u64::from(is_grazing);
         self.advance(s)
+    }
+
+    /// Records the jump by λ, behind which the velocity is in `v`.
+    fn record(&mut self, lambda: T) {
+        let ImpactsMemory { events, count, v, .. } = &mut *self.memory;
+        if let Some(event) = events.iter_mut().take(*count).last() {
+            event.impulse = lambda;
+            event.v.copy_from_slice(v);
+        }
     }
 
     /// E_d of the flight of length `s` to the present point; of a short one the energy there.
     fn energy(&mut self, s: T) -> Result<T, StepFailure> {
         let Self { method, system, memory, q, t, h, .. } = self;
-        let ImpactsMemory { inner, start, delta, work, v, .. } = &mut **memory;
+        let ImpactsMemory { start, delta, work, .. } = &mut **memory;
         if Scalar::abs(s) > T::lift(SHORT) * Scalar::abs(*h) {
             for (delta, (&q1, &q0)) in delta.iter_mut().zip(q.iter().zip(start.q.iter())) {
                 *delta = q1 - q0;
@@ -117,8 +146,8 @@ where
                 return Ok(energy);
             }
         }
-        method.scheme.velocity_in_flight(system, inner, q, *t + s, v)?;
-        Ok(system.energy(q, v, *t + s))
+        self.set_velocity(s)?;
+        Ok(self.system.energy(self.q, &self.memory.v, self.t + s))
     }
 
     /// Begins a flight at the present point, at the end of one of length `s`.
@@ -126,10 +155,11 @@ where
         let Self { memory, q, t, left, .. } = self;
         (*t, *left) = (*t + s, *left - s);
         let ImpactsMemory { inner, before, start, is_divided, .. } = &mut **memory;
-        if !core::mem::replace(is_divided, true) {
-            core::mem::swap(before, start);
+        if !mem::replace(is_divided, true) {
+            mem::swap(before, start);
         }
-        start.set(inner, q);
+        start.keep(inner, q);
+        self.look_on();
     }
 
     /// Divides the step at a surface from which the velocity leads away, after a flight of length `s`.
@@ -138,33 +168,35 @@ where
     /// [`StepFailure::Accumulation`] where that goes on and on.
     pub(super) fn divide(&mut self, surface: usize, s: T) -> Result<(), StepFailure> {
         self.begin_flight(s);
-        let Self { memory, t, is_at_wall, turns, .. } = self;
-        let ImpactsMemory { here, there, .. } = &mut **memory;
-        here.gap.copy_from_slice(&there.gap);
-        here.rate.copy_from_slice(&there.rate);
-        *is_at_wall = false;
-        *turns += 1;
-        if *turns > MOST {
-            return Err(StepFailure::Accumulation { surface, impacts: MOST, time: reported(*t) });
-        }
-        Ok(())
+        self.is_at_wall = false;
+        self.turns += 1;
+        if self.turns > MOST { Err(self.accumulation(surface)) } else { Ok(()) }
+    }
+
+    fn accumulation(&self, surface: usize) -> StepFailure {
+        StepFailure::Accumulation { surface, impacts: MOST, time: reported(self.t) }
     }
 
     /// Arrives at a surface after a flight of length `s`, and prepares the jump.
     pub(super) fn collide(&mut self, surface: usize, s: T) -> Result<(), StepFailure> {
         let energy = self.energy(s)?;
         self.begin_flight(s);
-        let Self { method, system, memory, q, t, is_at_wall, .. } = self;
-        *is_at_wall = true;
-        let ImpactsMemory { inner, here, there, wall, events, count, total, work, .. } = &mut **memory;
-        let Some(event) = events.get_mut(*count) else {
-            return Err(StepFailure::Accumulation { surface, impacts: MOST, time: reported(*t) });
+        self.is_at_wall = true;
+        let Some(event) = self.memory.events.get_mut(self.memory.count) else {
+            return Err(self.accumulation(surface));
         };
-        (event.surface, event.time) = (surface, *t);
-        event.q.copy_from_slice(q);
-        *count += 1;
-        *total += 1;
-        method.scheme.velocity_in_flight(system, inner, q, *t, &mut wall.v)?;
+        (event.surface, event.time) = (surface, self.t);
+        event.q.copy_from_slice(self.q);
+        self.memory.count += 1;
+        self.memory.total += 1;
+        self.set_velocity(T::lift(0.0))?;
+        let Self { system, memory, q, t, .. } = self;
+        let ImpactsMemory { here, there, wall, work, v, .. } = &mut **memory;
+        let rate = here.rate[surface];
+        if !rate.is_finite() {
+            return Err(StepFailure::Gap { surface, value: reported(rate) });
+        }
+        wall.v.copy_from_slice(v);
         wall.gradient.fill(T::lift(0.0));
         let mut row = Places(|row: usize, j: usize, entry: T| {
             if row == surface {
@@ -172,11 +204,6 @@ where
             }
         });
         system.gap_jacobian(q, *t, &mut there.gap, &mut row);
-        here.look(system, q, &wall.v, *t)?;
-        let rate = here.rate[surface];
-        if !rate.is_finite() {
-            return Err(StepFailure::Gap { surface, value: reported(rate) });
-        }
         wall.speed = wall.gradient.iter().zip(wall.v.iter()).fold(rate, |sum, (&g, &v)| sum - g * v);
         wall.direction.fill(T::lift(0.0));
         wall.energy = energy;
@@ -203,52 +230,47 @@ where
             let compression = self.impulse_for(surface, [rate, zero])?;
             let ([first, _], [least, _]) = (self.behind(surface, zero)?, self.behind(surface, compression)?);
             let energy = least + restitution * restitution * (first - least);
-            self.impulse_to(surface, energy, compression * (T::lift(1.0) + restitution))?
+            let guess = compression * (T::lift(1.0) + restitution);
+            self.improve(surface, guess, |_, [value, rate]| (energy - value) / rate)?
         };
         let [_, rate_behind] = self.behind(surface, lambda)?;
-        let ImpactsMemory { here, there, wall, events, count, v, .. } = &mut *self.memory;
-        here.rate.copy_from_slice(&there.rate);
+        self.look_on();
+        let ImpactsMemory { wall, v, .. } = &mut *self.memory;
         for (direction, (&behind, &before)) in wall.direction.iter_mut().zip(v.iter().zip(wall.v.iter())) {
             *direction = if lambda == zero { zero } else { (behind - before) / lambda };
         }
         (wall.reflection, wall.impulse, wall.rate) = (lambda, lambda, rate_behind);
         wall.is_grazing = false;
-        if let Some(event) = events.get_mut(count.saturating_sub(1)) {
-            event.impulse = lambda;
-            event.v.copy_from_slice(v);
-        }
+        self.record(lambda);
         Ok(())
     }
 
-    /// The impulse near `lambda` behind which W is `energy`, by Newton's method.
-    fn impulse_to(&mut self, surface: usize, energy: T, mut lambda: T) -> Result<T, StepFailure> {
-        for _ in 0..ITERATIONS {
-            let [value, rate] = self.behind(surface, lambda)?;
-            let change = (energy - value) / rate;
-            if !change.is_finite() {
-                break;
-            }
-            lambda += change;
-            if Scalar::abs(change) <= T::lift(4.0) * T::default_epsilon() * Scalar::abs(lambda) {
-                break;
-            }
-        }
-        Ok(lambda)
-    }
-
-    /// The impulse that turns the rate of change of a gap from one value to another.
+    /// The impulse that turns the rate of change of a gap from one value to another, by the secant method.
     fn impulse_for(&mut self, surface: usize, [rate, wanted]: [T; 2]) -> Result<T, StepFailure> {
         let Self { system, memory, q, t, .. } = self;
         let ImpactsMemory { wall, work, .. } = &mut **memory;
-        let mut lambda = inertia(*system, &wall.gradient, [q, &wall.v], *t, work) * (wanted - rate);
+        let lambda = inertia(*system, &wall.gradient, [q, &wall.v], *t, work) * (wanted - rate);
         let mut before = [T::lift(0.0), rate];
-        for _ in 0..ITERATIONS {
-            let [_, behind] = self.behind(surface, lambda)?;
+        self.improve(surface, lambda, |lambda, [_, behind]| {
             let change = (wanted - behind) * (lambda - before[0]) / (behind - before[1]);
+            before = [lambda, behind];
+            change
+        })
+    }
+
+    /// Improves an impulse until the `change` of it, from what is [`behind`](Self::behind) it, is rounding.
+    fn improve(
+        &mut self,
+        surface: usize,
+        mut lambda: T,
+        mut change: impl FnMut(T, [T; 2]) -> T,
+    ) -> Result<T, StepFailure> {
+        for _ in 0..ITERATIONS {
+            let behind = self.behind(surface, lambda)?;
+            let change = change(lambda, behind);
             if !change.is_finite() {
                 break;
             }
-            before = [lambda, behind];
             lambda += change;
             if Scalar::abs(change) <= T::lift(4.0) * T::default_epsilon() * Scalar::abs(lambda) {
                 break;
@@ -260,17 +282,15 @@ where
     /// W(λ), and the rate of change of the gap behind a jump by λ; the velocity there is left in `v`, the
     /// rates of all gaps in `there`.
     fn behind(&mut self, surface: usize, lambda: T) -> Result<[T; 2], StepFailure> {
-        self.depart(lambda);
-        let Self { method, system, memory, q, t, .. } = self;
-        let ImpactsMemory { inner, there, wall, v, .. } = &mut **memory;
-        method.scheme.velocity_in_flight(system, inner, q, *t, v)?;
-        there.look(system, q, v, *t)?;
-        Ok([system.energy(q, v, *t) + lambda * wall.speed, there.rate[surface]])
+        self.jump(lambda);
+        self.look(T::lift(0.0))?;
+        let ImpactsMemory { there, wall, v, .. } = &*self.memory;
+        Ok([self.system.energy(self.q, v, self.t) + lambda * wall.speed, there.rate[surface]])
     }
 
     /// By how much the discrete energy of a flight of length `s` behind a jump by λ is off.
     fn defect(&mut self, s: T, lambda: T) -> Result<T, StepFailure> {
-        self.depart(lambda);
+        self.jump(lambda);
         self.advance(s)?;
         let energy = self.energy(s)?;
         let wall = &self.memory.wall;

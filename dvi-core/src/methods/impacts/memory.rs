@@ -5,6 +5,7 @@ use core::fmt;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::Multipliers;
 use crate::memory::{Memory, lasting};
+use crate::methods::before::Before;
 use crate::scalar::norm::reported;
 use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Scalar, Space, State, System, UnilateralLagrangian, Vector};
@@ -77,9 +78,9 @@ pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real, const MOST: usize> {
     /// At the present point, or at the end of the flight at hand.
     pub(super) inner: I,
     /// Where the step at hand began, if it has been divided.
-    pub(super) before: Place<S, I, T>,
+    pub(super) before: Before<I, Vector<S, T>>,
     /// Where the flight at hand begins, before the jump of the momentum there.
-    pub(super) start: Place<S, I, T>,
+    pub(super) start: Before<I, Vector<S, T>>,
     /// Gaps at the beginning and at the end of the flight at hand; behind the jump, where there is one.
     pub(super) here: Gaps<S, T>,
     pub(super) there: Gaps<S, T>,
@@ -99,13 +100,6 @@ pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real, const MOST: usize> {
     pub(super) impulse: Vector<S, T>,
     pub(super) delta: Vector<S, T>,
     pub(super) work: [Vector<S, T>; 2],
-}
-
-/// A point of a run.
-#[derive(Debug)]
-pub(super) struct Place<S: System, I, T: Real> {
-    pub(super) inner: I,
-    pub(super) q: Vector<S, T>,
 }
 
 /// The gap functions at a point, and their rates of change there.
@@ -138,13 +132,6 @@ pub(super) struct Wall<S: System, T: Real> {
     pub(super) is_grazing: bool,
 }
 
-impl<S: System, I: Memory<T>, T: Real> Place<S, I, T> {
-    pub(super) fn set(&mut self, inner: &I, q: &[T]) {
-        self.inner.restore(inner);
-        self.q.copy_from_slice(q);
-    }
-}
-
 impl<S: UnilateralLagrangian<T>, T: Real> Gaps<S, T> {
     fn new(system: &S) -> Self {
         Self { gap: system.multipliers().vector(), rate: system.multipliers().vector() }
@@ -170,18 +157,13 @@ impl<S: UnilateralLagrangian<T>, T: Real> Gaps<S, T> {
 }
 
 impl<S: UnilateralLagrangian<T>, T: Real> Wall<S, T> {
-    /// Makes the jump that of a reflection.
-    pub(super) fn mark_grazing(&mut self) {
-        (self.is_grazing, self.impulse) = (true, self.reflection);
-    }
-
     fn new(system: &S) -> Self {
-        let (vector, zero) = (|| system.space().vector(), T::lift(0.0));
+        let ([gradient, direction, v], zero) = (system.space().vectors(), T::lift(0.0));
         Self {
-            gradient: vector(),
+            gradient,
             speed: zero,
-            direction: vector(),
-            v: vector(),
+            direction,
+            v,
             reflection: zero,
             rate: zero,
             energy: zero,
@@ -198,27 +180,29 @@ impl<S: UnilateralLagrangian<T>, I, T: Real, const MOST: usize> ImpactsMemory<S,
         q: &Vector<S, T>,
         mut inner: impl FnMut() -> Result<I, StartError>,
     ) -> Result<Self, StartError> {
-        let (vector, zero) = (|| system.space().vector(), T::lift(0.0));
-        let (before, start) =
-            (Place { inner: inner()?, q: q.clone() }, Place { inner: inner()?, q: q.clone() });
-        let event = |_| Impact { surface: 0, time: zero, impulse: zero, q: vector(), v: vector() };
+        let event = || {
+            let [q, v] = system.space().vectors();
+            Impact { surface: 0, time: T::lift(0.0), impulse: T::lift(0.0), q, v }
+        };
+        let mut point = || inner().map(|inner| Before { inner, q: q.clone() });
+        let [v, impulse, delta, l_q, l_v] = system.space().vectors();
         Ok(Self {
+            before: point()?,
+            start: point()?,
             inner: inner()?,
-            before,
-            start,
             here: Gaps::new(system),
             there: Gaps::new(system),
             row: system.multipliers().vector(),
             wall: Wall::new(system),
-            events: core::array::from_fn(event),
+            events: core::array::from_fn(|_| event()),
             is_divided: false,
             count: 0,
             total: 0,
             grazing: 0,
-            v: vector(),
-            impulse: vector(),
-            delta: vector(),
-            work: [vector(), vector()],
+            v,
+            impulse,
+            delta,
+            work: [l_q, l_v],
         })
     }
 }

@@ -31,15 +31,6 @@ const ROUNDINGS: f64 = 64.0;
 /// solved to some.
 const OFF: f64 = 1e4;
 
-/// What happens where a flight comes to a surface.
-enum Arrival {
-    Impact,
-    /// Nothing: a long flight whose velocity leads away from the surface already.
-    Turn,
-    /// Nothing: the flight is to be taken once more.
-    Jump,
-}
-
 /// A step that is being taken.
 pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real, const MOST: usize> {
     pub(super) method: &'a Impacts<M, MOST>,
@@ -73,19 +64,13 @@ where
     /// Any [`StepFailure`]; the run is then anywhere.
     pub(super) fn take(mut self) -> Result<(), StepFailure> {
         self.memory.count = 0;
-        self.look_here()?;
+        self.look(T::lift(0.0))?;
+        self.look_on();
         while let Some((surface, s)) = self.seek_impact()? {
-            match self.arrive(surface, s)? {
-                Arrival::Impact => self.collide(surface, s)?,
-                Arrival::Turn => self.divide(surface, s)?,
-                Arrival::Jump => {}
-            }
+            self.arrive(surface, s)?;
         }
         // The flight that has no impact is the one to the end of the step.
-        match (self.is_at_wall, self.method.collision) {
-            (true, Collision::Variational) => self.settle(self.left),
-            (false, _) | (true, Collision::Reflection) => Ok(()),
-        }
+        self.settle(self.left)
     }
 
     /// A rate of change along the run, which may go back in time.
@@ -93,40 +78,33 @@ where
         if self.h < T::lift(0.0) { -rate } else { rate }
     }
 
-    /// The gaps at the beginning of the step.
-    fn look_here(&mut self) -> Result<(), StepFailure> {
-        let Self { method, system, memory, q, t, .. } = self;
-        method.scheme.velocity_in_flight(system, &memory.inner, q, *t, &mut memory.v)?;
-        memory.here.look(system, q, &memory.v, *t)
-    }
-
     /// Flies for the time `s` and looks at the gaps there.
     fn try_flight(&mut self, s: T) -> Result<(), StepFailure> {
         self.fly(s)?;
-        let Self { method, system, memory, q, t, .. } = self;
-        method.scheme.velocity_in_flight(system, &memory.inner, q, *t + s, &mut memory.v)?;
-        memory.there.look(system, q, &memory.v, *t + s)
+        self.look(s)
     }
 
-    /// Flies to a surface, and says what happens there. Where the end of a flight has jumped across the
-    /// surface with its length, as the impulse that keeps the discrete energy may, the flight begins with a
-    /// reflection from now on.
+    /// Flies to a surface, and begins another flight there: behind an impact or, where the velocity leads
+    /// away from the surface already, as it may after a long one, without. Where the end of a flight has jumped
+    /// across the surface with its length, as the impulse that keeps the discrete energy may, it begins
+    /// with a reflection from now on, and is to be taken once more.
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`] if a flight without such a jump does not end at the surface.
-    fn arrive(&mut self, surface: usize, s: T) -> Result<Arrival, StepFailure> {
+    fn arrive(&mut self, surface: usize, s: T) -> Result<(), StepFailure> {
         self.try_flight(s)?;
         let size = self.rounding(surface, s);
         let gap = Scalar::abs(self.memory.there.gap[surface]);
         if gap <= T::lift(OFF) * size {
             let is_turned = self.along(self.memory.there.rate[surface]) >= T::lift(0.0);
             self.settle(s)?;
-            return Ok(if is_turned { Arrival::Turn } else { Arrival::Impact });
+            return if is_turned { self.divide(surface, s) } else { self.collide(surface, s) };
         }
         let may_jump = self.method.collision == Collision::Variational;
         if self.is_at_wall && may_jump && !self.memory.wall.is_grazing {
-            self.memory.wall.mark_grazing();
-            return Ok(Arrival::Jump);
+            let wall = &mut self.memory.wall;
+            (wall.is_grazing, wall.impulse) = (true, wall.reflection);
+            return Ok(());
         }
         let [correction, tolerance] = [gap, T::lift(OFF) * size].map(reported);
         Err(StepFailure::NotConverged { iterations: ITERATIONS, correction, tolerance })

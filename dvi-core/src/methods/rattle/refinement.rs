@@ -5,12 +5,13 @@
 //! across the constraints. What is left of the constraints is taken away once more then, from a momentum
 //! that is small already.
 
-use super::work::{Look, Work};
+use super::arrival::Arrival;
 use crate::error::StepFailure;
 use crate::mechanics::constraints::residuals::Residuals;
 use crate::mechanics::constraints::scales::{balance, scale_coordinates};
 use crate::mechanics::constraints::{At, Augmented, Multipliers};
 use crate::mechanics::mass::Mass;
+use crate::solve::Convergence;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Scalar, Separable, Space, Vector};
 
 /// What it needs.
@@ -39,7 +40,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Refinement<S, T> {
     }
 }
 
-impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
+impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Arrival<S, T> {
     /// Aligns the momentum until the constraints are kept.
     #[cold]
     pub(super) fn refine(
@@ -50,15 +51,15 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         Refinement { residuals, impulse }: &mut Refinement<S, T>,
     ) -> Result<(), StepFailure> {
         loop {
-            let Self { q, place, vector: v, impulses, .. } = self;
+            let Self { q, place, vector: v, .. } = self;
             mass.solve(&place.p, v);
             residuals.evaluate(system, At { q, t }, v, |j| Scalar::abs(v[j]));
             if residuals.are_settled() {
                 return residuals.admit(system, At { q, t }, v);
             }
-            impulse.copy_from_slice(&impulses.last);
-            self.align((system, mass), t, Look::Close)?;
-            for (sum, &before) in self.impulses.last.iter_mut().zip(impulse.iter()) {
+            impulse.copy_from_slice(&place.impulses.last);
+            self.align::<Convergence<T>>((system, mass), t)?;
+            for (sum, &before) in self.place.impulses.last.iter_mut().zip(impulse.iter()) {
                 *sum += before;
             }
         }

@@ -14,7 +14,6 @@ use crate::{Real, Scalar};
 pub(super) const NEUTRAL: f64 = -0.0;
 
 /// Adds Σ `factors`ₖ `rows`ₖ to `sum`.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn combine<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
     for (row, &factor) in rows.iter().zip(factors) {
         for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
@@ -23,33 +22,20 @@ pub(super) fn combine<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T]
     }
 }
 
-/// Takes Σ `factors`ₖ `rows`ₖ from `sum`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn reduce<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
-    for (row, &factor) in rows.iter().zip(factors) {
-        for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
-            *sum -= factor * entry;
-        }
-    }
-}
-
 /// a·b, from the last entry to the first: of three entries the compiler then packs the first two, as it does
 /// elsewhere.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).rev().fold(T::lift(NEUTRAL), |sum, (&a, &b)| sum + a * b)
 }
 
 /// One over the length of a gradient with this square: constraints have units of their own, and may be
 /// compared where their gradients are as long as one.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn scale<T: Real>(square: T) -> T {
     weight_of(Scalar::sqrt(Scalar::abs(square)))
 }
 
 /// Sets a matrix to A Bᵀ, where A and B have these rows, times the scales of constraints whose gradients
 /// have these `squares`.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
     [a, b]: [&[V]; 2],
@@ -69,7 +55,6 @@ pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
 ///
 /// # Errors
 /// [`StepFailure::RedundantConstraint`] and [`StepFailure::UndefinedConstraint`].
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
     rows: [&[V]; 2],
@@ -88,7 +73,6 @@ pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
 }
 
 /// A pivot is larger.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn least<T: Real>() -> T {
     T::default_epsilon() * T::lift(LEAST)
 }
@@ -97,7 +81,6 @@ pub(super) fn least<T: Real>() -> T {
 ///
 /// # Errors
 /// As [`solve`].
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn admit<T: Real>(pivot: T) -> Result<(), StepFailure> {
     if Scalar::abs(pivot) > least() { Ok(()) } else { Err(named(norm::singular(pivot, 0))) }
 }

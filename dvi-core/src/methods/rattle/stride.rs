@@ -1,13 +1,13 @@
 //! Where a run is, and how it takes a step: many with a quick look at each, in registers, or one with a
 //! close look.
 
-use super::work::{Look, Place, Step, Work};
+use super::arrival::{Arrival, Begin, Place};
 use super::{Rattle, RattleMemory};
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
 use crate::methods::Clock;
-use crate::methods::constrained::Impulses;
 use crate::scalar::norm;
+use crate::solve::{Convergence, Guess, Quick, from_either_guess};
 use crate::state::Statistics;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
 
@@ -16,32 +16,21 @@ use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vect
 pub(super) struct Point<S: ConstrainedSystem, T: Real> {
     pub(super) here: Place<S, T>,
     pub(super) last_step: T,
-    pub(super) impulses: Impulses<S, T>,
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Point<S, T> {
-    lasting!(T; part here, number last_step, part impulses);
+    lasting!(T; part here, number last_step);
 }
 
 impl<S: ConstrainedSystem, T: Real> Point<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
-        Self { here: Place::new(system), last_step: T::lift(0.0), impulses: Impulses::new(system) }
+        Self { here: Place::new(system), last_step: T::lift(0.0) }
     }
 
     /// The impulse of a step of length `h` is guessed to be so many times that of the last one.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn ratio(&self, h: T) -> T {
         let zero = T::lift(0.0);
         if self.last_step == zero { zero } else { h / self.last_step }
-    }
-
-    /// Moves to the end of a step.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn follow(&mut self, q: &mut Vector<S, T>, work: &Work<S, T>) {
-        q.copy_from_slice(&work.q);
-        self.here.restore(&work.place);
-        self.impulses.restore(&work.impulses);
     }
 }
 
@@ -51,7 +40,6 @@ const SHORT: usize = 64;
 
 impl<S: ConstrainedSystem, T: Real> RattleMemory<S, T> {
     /// Whether steps may be taken on the stack. All but the last two questions are answered when compiled.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn strides(&self, system: &S) -> bool
     where
         S: HolonomicLagrangian<T>,
@@ -76,23 +64,28 @@ impl Rattle {
         (clock, count): (Clock<T>, u64),
         statistics: &mut Statistics,
     ) -> Option<u64> {
-        let RattleMemory { point, mass, .. } = memory;
-        let (h, stopping, look) = (clock.step_size(), self.stopping, Look::Quick);
-        let (mut at, mut from, mut work) = (q.clone(), Point::new(system), Work::new(system));
+        let RattleMemory { point, mass, is_positive, .. } = memory;
+        let (is_metric, is_positive) = (S::DIAGONAL_MASS, *is_positive);
+        let (h, stopping) = (clock.step_size(), self.stopping);
+        let (mut at, mut from, mut work) = (q.clone(), Point::new(system), Arrival::new(system));
         from.restore(point);
         // The last impulse is the guess: of the first step, as if that one had been as long.
         let ratio = from.ratio(h);
-        from.impulses.first.iter_mut().for_each(|impulse| *impulse *= ratio);
+        from.here.impulses.first.iter_mut().for_each(|impulse| *impulse *= ratio);
+        let trusts_pivot = is_metric && system.multipliers().dimension() == 1;
         let (mut taken, mut iterations) = (0, 0);
         while taken < count {
             let (t, q, here) = (clock.after(taken).time(), &at, &from.here);
-            let step = Step { system, mass, is_metric: S::DIAGONAL_MASS, q, here, t, h, stopping, look };
-            work.guess(T::lift(1.0), &from.impulses.first);
+            let begin =
+                Begin { system, mass, is_metric, is_positive, trusts_pivot, q, here, t, h, stopping };
+            work.guess(T::lift(1.0), &from.here.impulses.first);
             let mut of_step = Statistics::default();
-            if work.shake(&step, &mut of_step).is_err() || work.rattle(&step).is_err() {
+            let shaken = work.shake::<Quick<T>>(&begin, &mut of_step);
+            if shaken.and_then(|()| work.rattle::<Quick<T>>(&begin)).is_err() {
                 break;
             }
-            from.follow(&mut at, &work);
+            at.copy_from_slice(&work.q);
+            from.here.restore(&work.place);
             iterations += of_step.iterations;
             taken += 1;
         }
@@ -117,25 +110,26 @@ impl Rattle {
         [t, h]: [T; 2],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let RattleMemory { point, mass, is_metric, refinement, work } = memory;
-        let (here, stopping, look) = (&point.here, self.stopping, Look::Close);
-        let step = Step { system, mass, is_metric: *is_metric, q, here, t, h, stopping, look };
-        let (zero, mut ratio) = (T::lift(0.0), point.ratio(h));
+        let RattleMemory { point, mass, is_metric, is_positive, refinement, work } = memory;
+        let (here, stopping, trusts_pivot) = (&point.here, self.stopping, false);
+        let (is_metric, is_positive) = (*is_metric, *is_positive);
+        let begin = Begin { system, mass, is_metric, is_positive, trusts_pivot, q, here, t, h, stopping };
         // Newton's method finds the nearest of several solutions: from the last impulse, and else from none.
-        work.guess(ratio, &point.impulses.first);
-        while let Err(failure) = work.shake(&step, statistics) {
-            if ratio == zero {
-                return Err(failure);
-            }
-            ratio = zero;
-            work.guess(ratio, &point.impulses.first);
-        }
-        work.rattle(&step)?;
+        from_either_guess(|guess| {
+            let ratio = match guess {
+                Guess::Extrapolated => point.ratio(h),
+                Guess::Zero => T::lift(0.0),
+            };
+            work.guess(ratio, &point.here.impulses.first);
+            work.shake::<Convergence<T>>(&begin, statistics)
+        })?;
+        work.rattle::<Convergence<T>>(&begin)?;
         statistics.gradients += 1;
         if let Some(refinement) = refinement {
             work.refine(system, mass, t + h, refinement)?;
         }
-        point.follow(q, work);
+        q.copy_from_slice(&work.q);
+        point.here.restore(&work.place);
         point.last_step = h;
         Ok(())
     }

@@ -2,15 +2,16 @@
 
 use core::ops::Deref;
 
-use super::rows::{NEUTRAL, admit, combine, dot, fill, least, named, reduce, solve};
+use super::rows::{NEUTRAL, admit, combine, dot, fill, least, named, solve};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::Multipliers;
 use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
 use crate::methods::constrained::Impulses;
+use crate::methods::kicks::kick;
 use crate::scalar::norm;
-use crate::solve::{Convergence, Course, Due, Iteration, Judge, Quick, Stopping, repeat, sizes};
+use crate::solve::{Course, Due, Iteration, Judge, Stopping, repeat, sizes};
 use crate::space::sink::Places;
 use crate::space::{SquareMatrix, linear};
 use crate::state::Statistics;
@@ -33,16 +34,15 @@ pub(super) struct Place<S: ConstrainedSystem, T: Real> {
     pub(super) solved: Rows<S, T>,
     /// The products of both, row by row: the diagonal of G M⁻¹ Gᵀ.
     pub(super) squares: Multipliers<S, T>,
-    /// Whether the determinant of that matrix is positive, as it is along a run if it is where that begins.
-    pub(super) is_positive: bool,
+    /// Those of the step that has led there.
+    pub(super) impulses: Impulses<S, T>,
 }
 
 /// The end of a step as it is being found.
 #[derive(Debug)]
-pub(super) struct Work<S: ConstrainedSystem, T: Real> {
+pub(super) struct Arrival<S: ConstrainedSystem, T: Real> {
     pub(super) q: Vector<S, T>,
     pub(super) place: Place<S, T>,
-    pub(super) impulses: Impulses<S, T>,
     /// A displacement, or a velocity.
     pub(super) vector: Vector<S, T>,
     /// In which the iteration judges coordinates.
@@ -55,21 +55,19 @@ pub(super) struct Work<S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
-    lasting!(T; numbers p, numbers force, vectors rows, vectors solved, numbers squares, flag is_positive);
+    lasting!(T; numbers p, numbers force, vectors rows, vectors solved, numbers squares, part impulses);
 }
 
 impl<S: ConstrainedSystem, T: Real> Place<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let rows = || system.multipliers().array(vector);
-        let squares = system.multipliers().vector();
-        Self { p: vector(), force: vector(), rows: rows(), solved: rows(), squares, is_positive: true }
+        let (squares, impulses) = (system.multipliers().vector(), Impulses::new(system));
+        Self { p: vector(), force: vector(), rows: rows(), solved: rows(), squares, impulses }
     }
 }
 
-impl<S: ConstrainedSystem, T: Real> Work<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+impl<S: ConstrainedSystem, T: Real> Arrival<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let m = system.multipliers().dimension();
@@ -79,7 +77,6 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
         Self {
             q: vector(),
             place: Place::new(system),
-            impulses: Impulses::new(system),
             vector: vector(),
             weights: vector(),
             of_impulse: T::lift(0.0),
@@ -89,51 +86,37 @@ impl<S: ConstrainedSystem, T: Real> Work<S, T> {
     }
 
     /// Sets the guess of ι0 to `ratio` times `last`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess(&mut self, ratio: T, last: &[T]) {
-        for (impulse, &last) in self.impulses.first.iter_mut().zip(last) {
+        for (impulse, &last) in self.place.impulses.first.iter_mut().zip(last) {
             *impulse = ratio * last;
         }
     }
 }
 
-/// How closely a step is looked at. What it computes is the same.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Look {
-    /// All that may fail is looked at where it arises, and has a name.
-    Close,
-    /// What passes would pass a close look too, except that numbers may not be finite: no later step makes
-    /// finite ones of these. What does not pass may, and has no name.
-    Quick,
-}
-
-/// One step: where it begins, how long it is, and how closely it is looked at.
-pub(super) struct Step<'a, S: ConstrainedSystem, T: Real> {
+/// Where a step begins, and how long it is. A judge that gives no names looks at it quickly: what passes
+/// would pass a close look too, except that numbers may not be finite, of which no later step makes finite
+/// ones. What does not pass may, and is looked at closely then.
+pub(super) struct Begin<'a, S: ConstrainedSystem, T: Real> {
     pub(super) system: &'a S,
     pub(super) mass: &'a Mass<S, T>,
     /// Whether M is diagonal and positive, so that the length of a displacement is known.
     pub(super) is_metric: bool,
+    /// Whether the determinant of G M⁻¹ Gᵀ is positive, as it is along a run if it is where that begins.
+    pub(super) is_positive: bool,
+    /// Whether the pivots of Newton's method say enough of how far the gradient of the only constraint has
+    /// turned, which is looked at quickly then. Such a pivot is the product of the gradients before and after
+    /// the step, in the metric of M. It is held against half the square of the first, so that what the last
+    /// correction changes of it does not matter.
+    pub(super) trusts_pivot: bool,
     pub(super) q: &'a [T],
     pub(super) here: &'a Place<S, T>,
     pub(super) t: T,
     pub(super) h: T,
     pub(super) stopping: Stopping,
-    pub(super) look: Look,
-}
-
-impl<S: ConstrainedSystem, T: Real> Step<'_, S, T> {
-    /// Whether the pivots of Newton's method say enough of how far the gradient has turned. Such a pivot is
-    /// the product of the gradients before and after the step, in the metric of M. It is held against half
-    /// the square of the first, so that what the last correction changes of it does not matter.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn trusts_pivot(&self) -> bool {
-        self.look == Look::Quick && self.is_metric && self.system.multipliers().dimension() == 1
-    }
 }
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Place<S, T> {
     /// Sets M⁻¹Gᵀ and the diagonal of G M⁻¹ Gᵀ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn measure(&mut self, mass: &Mass<S, T>) {
         let Self { rows, solved, squares, .. } = self;
         for ((row, solved), square) in rows.iter().zip(solved.iter_mut()).zip(squares.iter_mut()) {
@@ -152,17 +135,17 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Place<S, T> {
 /// [`StepFailure::Turned`] and [`StepFailure::Branch`].
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
-    step: &Step<'_, S, T>,
+    begin: &Begin<'_, S, T>,
     gram: &mut Gram<S, T>,
     rows: &Rows<S, T>,
     [q1, p, v]: [&[T]; 3],
 ) -> Result<(), StepFailure> {
-    let Step { mass, is_metric, here, h, .. } = *step;
+    let Begin { mass, is_metric, is_positive, trusts_pivot, here, h, .. } = *begin;
     let length = (is_metric && S::AUTONOMOUS).then(|| dot(p, v));
     for (constraint, (row, solved)) in rows.iter().zip(here.solved.iter()).enumerate() {
         let square = here.squares[constraint];
         // What is no number is no turn by less than a right angle either.
-        let is_small = step.trusts_pivot() || dot(row, solved) * square > T::lift(0.0);
+        let is_small = trusts_pivot || dot(row, solved) * square > T::lift(0.0);
         // Where a displacement may be rounding, both ends of it have one size; that of the first would be
         // evaluated in every step, as nothing in the loop around this changes it.
         let along = |length| is_along(dot(solved, p), square, length, || mass.squared(q1) / (h * h));
@@ -174,71 +157,67 @@ fn is_on_branch<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
     if rows.len() > 1 {
         fill(gram, [rows, &here.solved], &here.squares);
         gram.factor().map_err(named)?;
-        if gram.is_positive() != here.is_positive {
+        if gram.is_positive() != is_positive {
             return Err(StepFailure::Branch);
         }
     }
     Ok(())
 }
 
-impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
+impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Arrival<S, T> {
     /// Sets q1, which is on the constraints, ι0 and the momentum between both ends, from the guess of ι0.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn shake(
+    pub(super) fn shake<J: Judge<T>>(
         &mut self,
-        step: &Step<'_, S, T>,
+        begin: &Begin<'_, S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Step { system, mass, q, here, t, h, stopping, .. } = *step;
-        let Self { q: q1, place, impulses: Impulses { first, .. }, vector, .. } = self;
+        let Begin { system, mass, q, here, t, h, stopping, .. } = *begin;
+        let Self { q: q1, place: Place { p, impulses: Impulses { first, .. }, .. }, vector, .. } = self;
         let (t1, half) = (t + h, T::lift(0.5) * h);
-        for ((p, &p0), &f) in place.p.iter_mut().zip(here.p.iter()).zip(here.force.iter()) {
+        for ((p, &p0), &f) in p.iter_mut().zip(here.p.iter()).zip(here.force.iter()) {
             *p = p0 + half * f;
         }
         first.iter_mut().for_each(|impulse| *impulse *= h);
-        mass.displace(h, &place.p, vector);
+        mass.displace(h, p, vector);
         combine(&here.solved, first, vector);
-        add(q, vector, q1);
-        let (budget, newton) = (stopping.max_iterations, Newton { step, work: self });
-        match step.look {
-            Look::Quick => repeat(Quick::of(Course::new(stopping, budget)), statistics, newton)?,
-            Look::Close => repeat(Convergence::new(stopping, budget), statistics, newton)?,
+        for ((q1, &q), &delta) in q1.iter_mut().zip(q).zip(vector.iter()) {
+            *q1 = q + delta;
         }
-        let Self { q: q1, place, impulses: Impulses { first, .. }, vector, values, gram, .. } = self;
+        let judge = J::of(Course::new(stopping, stopping.max_iterations));
+        repeat(judge, statistics, Newton { begin, arrival: self })?;
+        let Self { q: q1, place, vector, values, gram, .. } = self;
         constrain(system, q1, t1, values, &mut place.rows);
         place.measure(mass);
-        let reciprocal = T::lift(1.0) / h;
+        let (reciprocal, Place { p, rows, impulses: Impulses { first, .. }, .. }) =
+            (T::lift(1.0) / h, place);
         first.iter_mut().for_each(|impulse| *impulse *= reciprocal);
-        combine(&here.rows, first, &mut place.p);
-        mass.solve(&place.p, vector);
-        let is_here = is_on_branch(step, gram, &place.rows, [q1, &place.p, vector]);
+        combine(&here.rows, first, p);
+        mass.solve(p, vector);
+        let is_here = is_on_branch(begin, gram, rows, [q1, p, vector]);
         is_here.map_err(|failure| norm::finite(q1).err().unwrap_or(failure))
     }
 
     /// Sets p1, with its velocity along the constraints, and ι1.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn rattle(&mut self, step: &Step<'_, S, T>) -> Result<(), StepFailure> {
-        let Step { system, mass, here, t, h, .. } = *step;
+    pub(super) fn rattle<J: Judge<T>>(&mut self, begin: &Begin<'_, S, T>) -> Result<(), StepFailure> {
+        let Begin { system, mass, t, h, .. } = *begin;
         let (t1, half) = (t + h, T::lift(0.5) * h);
         let Self { q, place, .. } = self;
-        place.is_positive = here.is_positive;
         system.force(q, &[], t1, &mut place.force);
-        for (p, &f) in place.p.iter_mut().zip(place.force.iter()) {
-            *p += half * f;
-        }
-        self.align((system, mass), t1, step.look)
+        kick(&mut place.p, half, &place.force);
+        self.align::<J>((system, mass), t1)
     }
 
     /// Makes the velocity of p at q one along the constraints, which have been measured.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn align(
+    pub(super) fn align<J: Judge<T>>(
         &mut self,
         (system, mass): (&S, &Mass<S, T>),
         t: T,
-        look: Look,
     ) -> Result<(), StepFailure> {
-        let Self { q, place, impulses, vector: v, values, gram, .. } = self;
-        let Place { p, rows, solved, squares, .. } = place;
+        let Self { q, place, vector: v, values, gram, .. } = self;
+        let Place { p, rows, solved, squares, impulses, .. } = place;
         if S::AUTONOMOUS {
             // G M⁻¹p, with the rows of G M⁻¹, which are here.
             for (value, solved) in values.iter_mut().zip(solved.iter()) {
@@ -255,12 +234,12 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
         } else {
             solve(gram, [rows, solved], squares, values)?;
         }
-        reduce(rows, values, p);
         for (impulse, &value) in impulses.last.iter_mut().zip(values.iter()) {
             *impulse = -value;
         }
+        combine(rows, &impulses.last, p);
         if let [square] = squares[..] {
-            if look == Look::Quick && square > least() {
+            if !J::NAMES && square > least() {
                 return Ok(());
             }
             admit(square)?;
@@ -271,30 +250,30 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Work<S, T> {
 
 /// Newton's method for q1 and h ι0: M⁻¹Gᵀ times that is a displacement.
 struct Newton<'a, 's, S: ConstrainedSystem, T: Real> {
-    step: &'a Step<'s, S, T>,
-    work: &'a mut Work<S, T>,
+    begin: &'a Begin<'s, S, T>,
+    arrival: &'a mut Arrival<S, T>,
 }
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
-        let Self { step: Step { system, q, here, .. }, work } = self;
-        due.prepare_end(*system, &mut work.weights, q, &mut work.q);
+        let Self { begin: Begin { system, q, here, .. }, arrival } = self;
+        due.prepare_end(*system, &mut arrival.weights, q, &mut arrival.q);
         if let [only] = &here.solved[..] {
-            work.of_impulse = sizes::size_of(*system, &work.weights, only);
+            arrival.of_impulse = sizes::size_of(*system, &arrival.weights, only);
         }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Step { system, here, t, h, .. } = *self.step;
-        let Work { q, place: Place { rows, .. }, impulses, vector, weights, of_impulse, values, gram } =
-            &mut *self.work;
+        let Begin { system, q: q0, here, t, h, trusts_pivot, .. } = *self.begin;
+        let Arrival { q, place, vector, weights, of_impulse, values, gram } = &mut *self.arrival;
+        let Place { rows, impulses, .. } = place;
         constrain(system, q, t + h, values, rows);
         if *due == Due::Residual {
-            return residual(self.step.q, q, values, rows.iter());
+            return residual([q0, q], values, rows);
         }
-        if self.step.trusts_pivot() {
+        if trusts_pivot {
             let pivot = dot(&rows[0], &here.solved[0]);
             let is_small = pivot > T::lift(0.5) * here.squares[0];
             if !is_small {
@@ -304,7 +283,7 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
         } else {
             solve(gram, [rows, &here.solved], &here.squares, values)?;
         }
-        reduce_all(&mut impulses.first, values);
+        impulses.first.iter_mut().zip(values.iter()).for_each(|(impulse, &change)| *impulse -= change);
         vector.fill(T::lift(NEUTRAL));
         combine(&here.solved, values, vector);
         let size = sizes::reduce(system, weights, q, vector);
@@ -315,21 +294,21 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Iteration<T> for Newton<
 /// How far q1 is off the constraints, g in `values`, relative to Σⱼ |Gⱼ| (|qⱼ| + |q1ⱼ|) for each of them
 /// (Oettli & Prager 1964).
 #[cold]
-fn residual<'a, T: Real, V: Deref<Target = [T]> + 'a>(
-    q: &[T],
-    q1: &[T],
+fn residual<T: Real, V: Deref<Target = [T]>>(
+    [q, q1]: [&[T]; 2],
     values: &[T],
-    rows: impl Iterator<Item = &'a V>,
+    rows: &[V],
 ) -> Result<T, StepFailure> {
-    let size = |j: usize| Scalar::abs(q[j]) + Scalar::abs(q1[j]);
-    let sum = |row: &[T]| {
-        row.iter().enumerate().fold(T::lift(0.0), |sum, (j, &entry)| sum + Scalar::abs(entry) * size(j))
-    };
-    linear::relative(values.iter().copied().zip(rows.map(|row| sum(row))))
+    let sizes = rows.iter().map(|row| {
+        let terms = row.iter().zip(q.iter().zip(q1));
+        terms.fold(T::lift(0.0), |sum, (&entry, (&q, &q1))| {
+            sum + Scalar::abs(entry) * (Scalar::abs(q) + Scalar::abs(q1))
+        })
+    });
+    linear::relative(values.iter().copied().zip(sizes))
 }
 
 /// Sets `g` and the rows of G at (`q`, `t`).
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn constrain<S: HolonomicLagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
@@ -339,20 +318,4 @@ pub(super) fn constrain<S: HolonomicLagrangian<T>, T: Real>(
 ) {
     rows.iter_mut().for_each(|row| row.fill(T::lift(NEUTRAL)));
     system.constraint_jacobian(q, t, g, &mut Places(|k: usize, j: usize, entry| rows[k][j] += entry));
-}
-
-/// Sets `sum` to q + Δ.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn add<T: Real>(q: &[T], displacement: &[T], sum: &mut [T]) {
-    for ((sum, &q), &delta) in sum.iter_mut().zip(q).zip(displacement) {
-        *sum = q + delta;
-    }
-}
-
-/// Takes `change` from `x`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn reduce_all<T: Real>(x: &mut [T], change: &[T]) {
-    for (x, &change) in x.iter_mut().zip(change) {
-        *x -= change;
-    }
 }

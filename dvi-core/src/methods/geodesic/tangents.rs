@@ -1,0 +1,189 @@
+//! Equations with an unknown for each tangent vector: how they are solved, those for the velocity of a
+//! momentum, and the orientation of their matrix.
+
+use core::mem;
+
+use nalgebra::Vector3;
+
+use super::covectors::{subtract_momentum, velocity};
+use super::node::Node;
+use crate::error::StepFailure;
+use crate::mechanics::manifold::sphere::GreatCircle;
+use crate::mechanics::manifold::{Block, blocks, set, vector};
+use crate::mechanics::orientation::keep;
+use crate::memory::{Memory, lasting};
+use crate::scalar::norm;
+use crate::solve::{Due, Stopping, newton, sizes};
+use crate::space::SquareMatrix;
+use crate::space::inertia::{Inertia, inertia};
+use crate::state::Statistics;
+use crate::system::{Factor, ManifoldSystem};
+use crate::{ManifoldLagrangian, Real, Space};
+
+/// A number for each tangent vector.
+type Tangent<S, T> = <<S as ManifoldSystem>::Tangent as Space>::Vector<T>;
+
+/// Work space for linearised equations.
+#[derive(Debug)]
+pub(super) struct Tangents<S: ManifoldSystem, T: Real> {
+    pub(super) node: Node<S, T>,
+    pub(super) residual: Tangent<S, T>,
+    pub(super) matrix: <S::Tangent as Space>::Square<T>,
+    /// In which an iteration judges tangent vectors.
+    weights: Tangent<S, T>,
+}
+
+/// Equations for a displacement or a velocity, with a place for each coordinate.
+pub(super) trait Equations<S: ManifoldSystem, T: Real> {
+    /// The size of a block, in which its corrections are judged.
+    fn size(&self, block: Block, unknown: &[T]) -> T;
+
+    /// Sets the residual, and the matrix to its derivative.
+    fn linearize(&self, unknown: &[T], tangents: &mut Tangents<S, T>, statistics: &mut Statistics);
+
+    /// A unit vector's `unknown` without a correction along its great circle and across.
+    fn corrected(&self, block: Block, unknown: Vector3<T>, correction: [T; 2]) -> Vector3<T>;
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
+    pub(super) fn new(system: &S) -> Self {
+        let dimension = system.tangent().dimension();
+        let all = |visit: &mut dyn FnMut(usize, usize)| {
+            (0..dimension).for_each(|row| (0..dimension).for_each(|column| visit(row, column)));
+        };
+        Self {
+            node: Node::new(system),
+            residual: system.tangent().vector(),
+            matrix: system.tangent().square(all),
+            weights: system.tangent().vector(),
+        }
+    }
+
+    /// Improves the unknown by Newton's method.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
+    pub(super) fn solve(
+        &mut self,
+        equations: &impl Equations<S, T>,
+        system: &S,
+        unknown: &mut [T],
+        stopping: Stopping,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        newton(stopping, statistics, |due, statistics| {
+            // Nothing else is done: an iterate that no longer improves is judged by its next correction.
+            if mem::replace(due, Due::Nothing) == Due::Sizes {
+                for block in blocks(system) {
+                    self.weights[block.slots()].fill(sizes::weight_of(equations.size(block, unknown)));
+                }
+            }
+            equations.linearize(unknown, self, statistics);
+            statistics.factorisations += 1;
+            self.matrix.factor()?;
+            self.matrix.solve(&mut self.residual);
+            for block in blocks(system) {
+                let change = &self.residual[block.slots()];
+                if block.factor == Factor::Sphere {
+                    let corrected =
+                        equations.corrected(block, vector(unknown, block), [change[0], change[1]]);
+                    set(unknown, block, corrected);
+                } else {
+                    unknown[block.places()].iter_mut().zip(change).for_each(|(x, &change)| *x -= change);
+                }
+            }
+            norm::finite(unknown)?;
+            Ok(sizes::largest(&self.weights, &self.residual))
+        })
+    }
+}
+
+/// ∂L/∂v = p for the velocity at a point, as covectors of the manifold.
+pub(super) struct Legendre<'a, S, T> {
+    pub(super) system: &'a S,
+    pub(super) q: &'a [T],
+    pub(super) p: &'a [T],
+    pub(super) t: T,
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> Legendre<'_, S, T> {
+    /// Improves `v`, which begins as rates of displacement, until ∂L/∂v = p.
+    ///
+    /// # Errors
+    /// As [`Tangents::solve`].
+    pub(super) fn solve(&self, v: &mut [T]) -> Result<(), StepFailure> {
+        velocity(self.system, self.q, v);
+        let mut tangents = Tangents::new(self.system);
+        tangents.solve(self, self.system, v, Stopping::default(), &mut Statistics::default())
+    }
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> Equations<S, T> for Legendre<'_, S, T> {
+    fn size(&self, block: Block, v: &[T]) -> T {
+        norm::largest(&v[block.places()])
+    }
+
+    fn linearize(&self, v: &[T], tangents: &mut Tangents<S, T>, _statistics: &mut Statistics) {
+        let Self { system, q, p, t } = *self;
+        let Tangents { node, residual, matrix, .. } = tangents;
+        node.add_mass(system, [q, v], t, matrix.cleared());
+        residual.fill(T::lift(0.0));
+        for block in blocks(system) {
+            subtract_momentum(block, p, residual, || at_rest(block, q));
+        }
+        node.project_momentum(system, T::lift(1.0), residual);
+    }
+
+    fn corrected(&self, block: Block, v: Vector3<T>, [along, across]: [T; 2]) -> Vector3<T> {
+        let circle = at_rest(block, self.q);
+        v - circle.direction * along - circle.axis * across
+    }
+}
+
+/// The directions at a unit vector that stays where it is.
+fn at_rest<T: Real>(block: Block, q: &[T]) -> GreatCircle<T> {
+    GreatCircle::new(vector(q, block), Vector3::zeros())
+}
+
+/// Whether the mass matrix of the tangent vectors keeps its orientation from step to step, as in
+/// [`MassOrientation`](crate::mechanics::orientation::MassOrientation): that at the end of the last step, and
+/// storage.
+#[derive(Debug)]
+pub(super) struct TangentMass<S: ManifoldSystem, T: Real> {
+    inertia: Inertia<T>,
+    matrix: <S::Tangent as Space>::Matrix<T>,
+    removed: Tangent<S, T>,
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> TangentMass<S, T> {
+    /// At (`q`, `v`, `t`).
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`].
+    pub(super) fn new(system: &S, node: &mut Node<S, T>, at: [&[T]; 2], t: T) -> Result<Self, StepFailure> {
+        let (mut matrix, mut removed) = (system.tangent().matrix(), system.tangent().vector());
+        node.add_mass(system, at, t, &mut matrix);
+        Ok(Self { inertia: inertia(&mut matrix, &mut removed)?, matrix, removed })
+    }
+
+    /// Compares the matrix at the end of a step with the last, and keeps it.
+    ///
+    /// # Errors
+    /// [`StepFailure::Singular`] and [`StepFailure::Orientation`]; the last is kept then.
+    pub(super) fn check(
+        &mut self,
+        system: &S,
+        node: &mut Node<S, T>,
+        at: [&[T]; 2],
+        t: T,
+    ) -> Result<(), StepFailure> {
+        let Self { inertia: last, matrix, removed } = self;
+        matrix.fill(T::lift(0.0));
+        node.add_mass(system, at, t, matrix);
+        keep(last, inertia(matrix, removed)?)
+    }
+}
+
+impl<S: ManifoldSystem, T: Real> Memory<T> for TangentMass<S, T> {
+    lasting!(T; part inertia);
+}
