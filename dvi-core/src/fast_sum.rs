@@ -89,6 +89,7 @@ mod packs;
 mod polynomials;
 mod quantity;
 mod refinement;
+mod shares;
 mod singular;
 mod spot_check;
 mod subspace;
@@ -115,23 +116,21 @@ use crate::{PairSum, Space, State};
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum FastSumError {
-    /// Not to such a tolerance.
-    #[error(transparent)]
-    Tolerance(#[from] ToleranceError),
+    /// The sum over pairs cannot be had to such a tolerance.
+    #[error(
+        "the tolerance of a fast sum is to be between {least:e} and {largest:e}, and it is {tolerance:e}",
+        largest = LARGEST
+    )]
+    #[non_exhaustive]
+    Tolerance {
+        /// What was asked for.
+        tolerance: f64,
+        /// The least one, in so many dimensions.
+        least: f64,
+    },
     /// The formulas of the system read a parameter that is not there.
     #[error(transparent)]
     Index(#[from] IndexError),
-}
-
-/// The sum over pairs cannot be had to such a tolerance.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("the tolerance of a fast sum is to be between {least:e} and {largest:e}, and it is {tolerance:e}", largest = LARGEST)]
-#[non_exhaustive]
-pub struct ToleranceError {
-    /// What was asked for.
-    pub tolerance: f64,
-    /// The least one, in so many dimensions.
-    pub least: f64,
 }
 
 /// In space the matrices for less would take more than a gigabyte.
@@ -202,13 +201,13 @@ impl<'s, S: PairSum<f64, D>, const D: usize> FastSum<'s, S, D> {
     /// bodies fill a thin strip. For other systems than these, ask [`measured_error`](Self::measured_error).
     ///
     /// # Errors
-    /// [`ToleranceError`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`IndexError`] as
+    /// [`FastSumError::Tolerance`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`FastSumError::Index`] as
     /// of [`check`](crate::System::check).
     pub fn new(system: &'s S, tolerance: f64) -> Result<Self, FastSumError> {
         system.check()?;
         let least = if D > 2 { LEAST_IN_SPACE } else { LEAST };
         if !(least..=LARGEST).contains(&tolerance) {
-            return Err(ToleranceError { tolerance, least }.into());
+            return Err(FastSumError::Tolerance { tolerance, least });
         }
         let (order, least) = calibrated::<D>(tolerance);
         let inner = RefCell::new((Expansion::new(order, least), Work::new(tolerance)));

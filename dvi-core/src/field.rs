@@ -45,7 +45,7 @@ pub use axis::{Axis, AxisError};
 #[cfg(feature = "alloc")]
 pub use spline::{Spline, SplineError};
 #[cfg(feature = "alloc")]
-pub use table::{Column, Grid, Table, TableError};
+pub use table::{Grid, Table, TableError};
 
 use crate::Scalar;
 

@@ -12,11 +12,11 @@ use super::moments::{Moments, Sources};
 use super::neighbours::{Nearby, Neighbours};
 use super::packs::{LANES, Pack};
 use super::quantity::{Gradient, Quantity};
+use super::shares::share;
 use super::spot_check;
 use super::transfer::{Transfer, offsets};
 use super::tree::{NotFinite, Tree};
 use crate::PairSum;
-use crate::threads::share;
 
 /// A cube with no more bodies is not divided: near bodies then take about as long as far cubes.
 const FEW: usize = 64;

@@ -26,7 +26,7 @@ use crate::system::start::evaluate;
 use crate::{ManifoldLagrangian, Real, Space, Vector};
 
 use legendre::{Legendre, momentum, rates};
-pub use memory::GeodesicMemory;
+use memory::GeodesicMemory;
 use memory::{Kicks, Work};
 use orientation::TangentMass;
 

@@ -26,7 +26,7 @@ use crate::solve::{Convergence, Guess, Judge, Quick, Stopping};
 use crate::state::Statistics;
 use crate::state::rates::Rates;
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
-pub use gauss::{OneStepGauss, OneStepGaussMemory};
+pub use gauss::OneStepGauss;
 use split::{Split, copy_x, is_x};
 use stage::{Rule, Stage, Step};
 

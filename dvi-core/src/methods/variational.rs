@@ -28,8 +28,7 @@ use crate::{Linear, NondegenerateLagrangian, Real, RegularLagrangian, System, Ve
 
 use coefficients::Coefficients;
 use lagrangian::Interpolated;
-pub use lagrangian::QuadratureLagrangian;
-pub use memory::VariationalMemory;
+use memory::VariationalMemory;
 
 /// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

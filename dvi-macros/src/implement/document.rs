@@ -125,7 +125,7 @@ impl Account {
                 Factor::Rotation => quote!(Rotation),
                 Factor::Sphere => quote!(Sphere),
             };
-            quote!(#krate::CoordinateBlock { name: #name, size: #size, factor: #krate::system::Factor::#factor })
+            quote!(#krate::__private::CoordinateBlock { name: #name, size: #size, factor: #krate::__private::Factor::#factor })
         });
         let lines = formulas.iter().map(|(name, text)| quote!(#krate::Formula { name: #name, text: #text }));
         let residual = operation_list(emitter, &programs.gradient.operations());

@@ -203,8 +203,8 @@ where
     /// rounding of the time. Nothing is allocated. The present time takes no step.
     ///
     /// # Errors
-    /// [`StepFailure::Unreachable`] if `t` is past, in the direction of [the next
-    /// step](super::ErrorControlMemory::next_step), or not finite; the run can go on to another time.
+    /// [`StepFailure::Unreachable`] if `t` is past, in the direction of the next
+    /// step, or not finite; the run can go on to another time.
     /// [`StepError`] of the first step that fails; the run stays at the last good state.
     pub fn advance_to(&mut self, t: T) -> Result<(), StepError> {
         let now = self.time();
