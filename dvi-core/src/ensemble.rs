@@ -95,8 +95,8 @@ use rounds::{Checkpoints, Rounds, Work};
 use settings::{Settings, Systems};
 
 pub use draws::{Draw, Draws};
-pub use error::{Difference, EnsembleError, MergeError};
-pub use member::{Energy, Member, Outcome};
+pub use error::{EnsembleError, MergeError};
+pub use member::{Member, Outcome};
 #[cfg(feature = "mpi")]
 pub use ranks::RanksError;
 pub use results::Results;

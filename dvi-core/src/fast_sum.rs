@@ -108,7 +108,7 @@ use self::expansion::Expansion;
 use self::packs::Pack;
 use self::quantity::{Gradient, Potential};
 use self::transfer::larger;
-use self::work::Work;
+use self::work::{Operations, Work};
 use crate::error::{IndexError, LengthError};
 use crate::{PairSum, Space, State};
 
@@ -137,16 +137,6 @@ pub enum FastSumError {
 const LEAST_IN_SPACE: f64 = 1e-6;
 const LEAST: f64 = 1e-10;
 const LARGEST: f64 = 1e-2;
-
-/// What an evaluation of the forces takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Operations {
-    /// Ordered pairs of bodies that are summed one by one. A sum over all pairs has n(n − 1).
-    pub pairs: u64,
-    /// Multiplications in the matrices between groups of bodies.
-    pub products: u64,
-}
 
 /// A system like `S`, in which a sum over all pairs of bodies is computed by the fast multipole method.
 ///
@@ -259,7 +249,9 @@ where
         })
     }
 
-    /// What an evaluation of the forces takes at a state; nothing where a coordinate is no number.
+    /// What an evaluation of the forces takes at a state: the `pairs` of bodies that are summed one by one, of
+    /// which all bodies have n(n − 1), and the `products` in the matrices between groups of bodies. Nothing
+    /// where a coordinate is no number.
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.

@@ -153,10 +153,9 @@ pub use scalar::{Parameter, Real, Scalar, Varied};
 pub use space::RunTime;
 pub use space::{Fixed, Sink, Space};
 pub use system::{
-    AffineOneForm, ConstrainedSystem, DegenerateLagrangian, DegeneratePairSum, Entry, Formula,
-    HolonomicLagrangian, Lagrangian, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian,
-    NonholonomicLagrangian, OperationCount, PairSum, ProperlyDegenerate, QuadraticInVelocity,
-    RegularLagrangian, RegularPairSum, Report, Separable, State, System, TimeTransformed,
-    UnilateralLagrangian, Vector, Weights,
+    AffineOneForm, ConstrainedSystem, DegenerateLagrangian, DegeneratePairSum, HolonomicLagrangian,
+    Lagrangian, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, NonholonomicLagrangian,
+    PairSum, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Separable,
+    State, System, TimeTransformed, UnilateralLagrangian, Vector, Weights,
 };
 pub(crate) use system::{Coupled, Linear, Matrix, Permutation, Square};

@@ -18,7 +18,7 @@ pub(crate) mod phase;
 mod span;
 mod vector_field;
 
-pub use at_state::{AtState, AtTime};
+pub use at_state::AtState;
 pub use motion::{FirstOrder, InLanes, Rates};
 pub use on_constraints::OnConstraints;
 pub use span::{Ends, Interval, Span};

@@ -29,6 +29,7 @@ mod sigma_family;
 mod step;
 mod together;
 mod tolerance;
+mod two_point;
 mod variational;
 mod walk;
 
@@ -62,6 +63,7 @@ pub use sigma_family::{ParasiticMode, Sigma, Start};
 pub(crate) use together::Companion;
 pub use together::InStep;
 pub use tolerance::Tolerance;
+pub(crate) use two_point::TwoPoint;
 pub use variational::{Fitting, Variational};
 
 /// The geometric structure that every step of a method preserves, up to rounding.
@@ -249,22 +251,6 @@ pub(crate) fn one_by_one<S: Lagrangian<T>, T: Real, M: Method<S, T> + ?Sized>(
         statistics.steps += 1;
     }
     Ok(())
-}
-
-/// A method whose run is determined by two consecutive points.
-pub trait TwoPoint<S: Lagrangian<T>, T: Real>: Method<S, T> {
-    /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
-    ///
-    /// # Errors
-    /// As [`Method::begin`].
-    fn begin_between(
-        &self,
-        system: &S,
-        q0: &Vector<S, T>,
-        q1: &Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<Self::Memory, StartError>;
 }
 
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,

@@ -1,7 +1,6 @@
 //! What generated code calls. Not part of the interface.
 
-pub use crate::error::Argument;
-pub use crate::name::Factor;
+pub use crate::name::{Argument, Factor};
 pub use crate::scalar::comparison::Comparison;
 pub use crate::scalar::number::Number;
 pub use crate::scalar::pack::{
@@ -12,7 +11,7 @@ pub use crate::scalar::pairs::{are_many, halves};
 pub use crate::space::room::FewInPlace;
 pub use crate::system::kind::{Degenerate, Holonomic, Manifold, Nonholonomic, Regular, Unilateral};
 pub use crate::system::packable::{Packable, Packing, Shared};
-pub use crate::system::report::CoordinateBlock;
+pub use crate::system::report::{CoordinateBlock, Entry, Formula, OperationCount};
 pub use crate::system::stand_in::StandIn;
 
 use crate::error::{IndexError, LengthError, OutsideError};

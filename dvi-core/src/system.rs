@@ -47,7 +47,7 @@ pub use nonholonomic::NonholonomicLagrangian;
 pub(crate) use packable::Packable;
 pub use pair_sum::{DegeneratePairSum, PairSum, RegularPairSum};
 pub(crate) use report::CoordinateBlock;
-pub use report::{Entry, Formula, OperationCount, Report};
+pub use report::Report;
 pub use unilateral::UnilateralLagrangian;
 
 /// A point, velocity or covector of the space of `S`.

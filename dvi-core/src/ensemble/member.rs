@@ -26,7 +26,8 @@ pub struct Member {
     pub iterations: u64,
     /// The last good state, in the order of [`System::names`].
     pub state: Vec<f64>,
-    /// Its energy.
+    /// Its energy at the `first` and the `last` look, and the `largest_error` |E − E₀| of all, at each
+    /// [`stride`](super::Ensemble::stride); not a number if one was not.
     pub energy: Energy,
     /// The first and the last value of each declared momentum.
     pub momenta: Vec<[f64; 2]>,
