@@ -5,7 +5,6 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::discrete::Rule;
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_tests::zoo::manifold::{COUPLED, Coupled, CoupledState, FREE, TOP, coupled, cross, dot, tilted};

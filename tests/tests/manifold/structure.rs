@@ -1,7 +1,6 @@
 //! What the steps keep: manifolds, momenta, the canonical form; and that they can be taken back.
 
 use dvi_core::discrete::Rule;
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
