@@ -23,7 +23,7 @@ mod work;
 
 pub use alternating::AlternatingComponent;
 pub use convergence::convergence_order;
-pub use hessian::DiscreteHessian;
+use hessian::DiscreteHessian;
 pub use lyapunov::LyapunovExponent;
 pub use section::{Crossing, Direction, Section};
 pub use tangent::TangentMap;

@@ -50,7 +50,6 @@ mod sizes;
 mod smallest_numbers;
 mod splines;
 mod structure;
-mod tables;
 mod time_transform;
 mod together;
 mod together_parameters;
