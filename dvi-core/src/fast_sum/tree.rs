@@ -214,7 +214,6 @@ fn interval(places: &[f64]) -> Result<(f64, f64), NotFinite> {
 }
 
 /// Bit b of coordinate a becomes bit D b + a.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn interleaved<const D: usize>(cell: [u32; D]) -> u64 {
     let mut key = 0;
     for (axis, place) in cell.into_iter().enumerate() {
@@ -224,7 +223,6 @@ fn interleaved<const D: usize>(cell: [u32; D]) -> u64 {
 }
 
 /// Bit b becomes bit D b: halves of the bits are moved apart, then halves of these.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn spread<const D: usize>(place: u32) -> u64 {
     let mut bits = u64::from(place);
     for shift in [16, 8, 4, 2, 1] {

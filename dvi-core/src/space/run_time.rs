@@ -39,7 +39,6 @@ impl<T> DerefMut for RunTimeMatrix<T> {
 }
 
 impl<T: Scalar> Sink<T> for RunTimeMatrix<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.entries[row * self.dimension + column] += entry;
     }

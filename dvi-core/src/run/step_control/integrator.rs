@@ -302,7 +302,6 @@ impl<T: Real> VariableClock<T> {
         Self { sum: start, rest: T::lift(0.0) }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance(&mut self, h: T) {
         let sum = self.sum + h;
         self.rest += if Scalar::abs(self.sum) >= Scalar::abs(h) {
@@ -313,7 +312,6 @@ impl<T: Real> VariableClock<T> {
         self.sum = sum;
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self) -> T {
         self.sum + self.rest
     }
