@@ -23,9 +23,9 @@ mod work;
 
 pub use alternating::AlternatingComponent;
 pub use convergence::convergence_order;
-pub use hessian::DiscreteHessian;
+use hessian::DiscreteHessian;
 pub use lyapunov::LyapunovExponent;
-pub use section::{Crossing, CrossingOf, Direction, Section};
+pub use section::{Crossing, Direction, Section};
 pub use tangent::TangentMap;
 pub use two_point::TwoPointTangentMap;
 pub use work::Work;

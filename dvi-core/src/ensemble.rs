@@ -64,6 +64,7 @@
 mod draws;
 mod error;
 mod file;
+mod fingerprint;
 mod group;
 mod growth;
 mod lanes;
@@ -94,8 +95,8 @@ use rounds::{Checkpoints, Rounds, Work};
 use settings::{Settings, Systems};
 
 pub use draws::{Draw, Draws};
-pub use error::{Difference, EnsembleError, MergeError};
-pub use member::{Energy, Member, Outcome};
+pub use error::{EnsembleError, MergeError};
+pub use member::{Member, Outcome};
 #[cfg(feature = "mpi")]
 pub use ranks::RanksError;
 pub use results::Results;
@@ -216,7 +217,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     }
 
     /// Takes `W` members at a time in lanes, as [`Together`] does: members of systems that are equal, or
-    /// [differ in parameters of a generic type](crate::system::Packable) only, which are neighbours in their
+    /// differ in parameters of a [generic type](crate::Parameter) only, which are neighbours in their
     /// shard. It is faster, and the results are the same, as long as systems that are equal by `==` do the
     /// same: 0.0 and −0.0 are equal.
     pub fn in_lanes<const W: usize>(mut self) -> Self

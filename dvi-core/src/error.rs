@@ -4,7 +4,7 @@ mod step;
 
 use thiserror::Error;
 
-use crate::name::{Along, Name};
+use crate::name::{Along, Argument, Name};
 
 pub use step::{StepError, StepFailure};
 
@@ -56,22 +56,14 @@ pub struct IndexError {
     if *.value > *.bound { "most" } else { "least" }
 )]
 pub struct OutsideError {
-    /// The argument that leaves the [domain](crate::ScalarField::domain).
+    /// The argument that leaves the [domain](crate::ScalarField::domain): the name of the `function`, and the
+    /// `number` of the argument, counted from 1.
     pub argument: &'static Argument,
     /// Its value.
     pub value: f64,
     /// The end of the domain that it has passed; if the value is not a number, the least value that it may
     /// have.
     pub bound: f64,
-}
-
-/// An argument of a function that formulas call.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Argument {
-    /// The function, by the name that the formulas call it by.
-    pub function: &'static str,
-    /// Which of its arguments, counted from 1.
-    pub number: usize,
 }
 
 /// A run that cannot begin.

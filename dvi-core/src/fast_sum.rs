@@ -89,6 +89,7 @@ mod packs;
 mod polynomials;
 mod quantity;
 mod refinement;
+mod shares;
 mod singular;
 mod spot_check;
 mod subspace;
@@ -107,7 +108,7 @@ use self::expansion::Expansion;
 use self::packs::Pack;
 use self::quantity::{Gradient, Potential};
 use self::transfer::larger;
-use self::work::Work;
+use self::work::{Operations, Work};
 use crate::error::{IndexError, LengthError};
 use crate::{PairSum, Space, State};
 
@@ -115,39 +116,27 @@ use crate::{PairSum, Space, State};
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum FastSumError {
-    /// Not to such a tolerance.
-    #[error(transparent)]
-    Tolerance(#[from] ToleranceError),
+    /// The sum over pairs cannot be had to such a tolerance.
+    #[error(
+        "the tolerance of a fast sum is to be between {least:e} and {largest:e}, and it is {tolerance:e}",
+        largest = LARGEST
+    )]
+    #[non_exhaustive]
+    Tolerance {
+        /// What was asked for.
+        tolerance: f64,
+        /// The least one, in so many dimensions.
+        least: f64,
+    },
     /// The formulas of the system read a parameter that is not there.
     #[error(transparent)]
     Index(#[from] IndexError),
-}
-
-/// The sum over pairs cannot be had to such a tolerance.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("the tolerance of a fast sum is to be between {least:e} and {largest:e}, and it is {tolerance:e}", largest = LARGEST)]
-#[non_exhaustive]
-pub struct ToleranceError {
-    /// What was asked for.
-    pub tolerance: f64,
-    /// The least one, in so many dimensions.
-    pub least: f64,
 }
 
 /// In space the matrices for less would take more than a gigabyte.
 const LEAST_IN_SPACE: f64 = 1e-6;
 const LEAST: f64 = 1e-10;
 const LARGEST: f64 = 1e-2;
-
-/// What an evaluation of the forces takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Operations {
-    /// Ordered pairs of bodies that are summed one by one. A sum over all pairs has n(n − 1).
-    pub pairs: u64,
-    /// Multiplications in the matrices between groups of bodies.
-    pub products: u64,
-}
 
 /// A system like `S`, in which a sum over all pairs of bodies is computed by the fast multipole method.
 ///
@@ -202,13 +191,13 @@ impl<'s, S: PairSum<f64, D>, const D: usize> FastSum<'s, S, D> {
     /// bodies fill a thin strip. For other systems than these, ask [`measured_error`](Self::measured_error).
     ///
     /// # Errors
-    /// [`ToleranceError`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`IndexError`] as
+    /// [`FastSumError::Tolerance`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`FastSumError::Index`] as
     /// of [`check`](crate::System::check).
     pub fn new(system: &'s S, tolerance: f64) -> Result<Self, FastSumError> {
         system.check()?;
         let least = if D > 2 { LEAST_IN_SPACE } else { LEAST };
         if !(least..=LARGEST).contains(&tolerance) {
-            return Err(ToleranceError { tolerance, least }.into());
+            return Err(FastSumError::Tolerance { tolerance, least });
         }
         let (order, least) = calibrated::<D>(tolerance);
         let inner = RefCell::new((Expansion::new(order, least), Work::new(tolerance)));
@@ -260,7 +249,9 @@ where
         })
     }
 
-    /// What an evaluation of the forces takes at a state; nothing where a coordinate is no number.
+    /// What an evaluation of the forces takes at a state: the `pairs` of bodies that are summed one by one, of
+    /// which all bodies have n(n − 1), and the `products` in the matrices between groups of bodies. Nothing
+    /// where a coordinate is no number.
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.

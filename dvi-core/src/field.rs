@@ -4,24 +4,14 @@
 //! function as one of its fields, of a type that implements [`ScalarField`], and its formulas call the field
 //! by its name. The attribute differentiates through the call by the chain rule.
 //!
-//! With the feature `alloc` there are functions of that kind: a [`Spline`] through the values of a table on
-//! a grid, which has one [`Axis`] for each variable, and a [`Table`] that reads the values from text.
+//! With the feature `alloc` there is one: a [`Spline`] through the values of a table on a grid, which has one
+//! [`Axis`] for each variable.
 //!
 //! ```
-//! use dvi_core::field::{Axis, Expansion, ScalarField, Spline, Table};
+//! use dvi_core::field::{Axis, Expansion, ScalarField, Spline};
 //!
-//! let text = "
-//!     height, speed
-//!          0,   0.0
-//!         10,   3.0
-//!         20,   4.0
-//!         30,   4.5
-//!         50,   5.0
-//! ";
-//! let table = Table::read(text)?;
-//! let grid = table.grid(["height"])?;
-//! let [height] = grid.points();
-//! let speed = Spline::new([Axis::new(height)?], &grid.values("speed")?)?;
+//! let height = Axis::new(&[0.0, 10.0, 20.0, 30.0, 50.0])?;
+//! let speed = Spline::new([height], &[0.0, 3.0, 4.0, 4.5, 5.0])?;
 //!
 //! let there: Expansion<1> = speed.expansion([20.0]);
 //! assert!((there.value - 4.0).abs() < 1e-12 && there.gradient[0] > 0.0);
@@ -37,15 +27,11 @@ mod basis;
 mod interpolation;
 #[cfg(feature = "alloc")]
 mod spline;
-#[cfg(feature = "alloc")]
-mod table;
 
 #[cfg(feature = "alloc")]
 pub use axis::{Axis, AxisError};
 #[cfg(feature = "alloc")]
 pub use spline::{Spline, SplineError};
-#[cfg(feature = "alloc")]
-pub use table::{Column, Grid, Table, TableError};
 
 use crate::Scalar;
 

@@ -148,14 +148,14 @@ mod threads;
 pub use dvi_macros::{degenerate_lagrangian, lagrangian};
 pub use error::{IndexError, LengthError, OutsideError};
 pub use field::ScalarField;
-pub use scalar::{Comparison, Number, Parameter, Real, Scalar, Varied};
-pub use space::{Fixed, FixedMatrix, FixedVector, Sink, Space};
+pub use scalar::{Parameter, Real, Scalar, Varied};
 #[cfg(feature = "alloc")]
-pub use space::{RunTime, RunTimeMatrix};
+pub use space::RunTime;
+pub use space::{Fixed, Sink, Space};
 pub use system::{
-    AffineOneForm, ConstrainedSystem, CoordinateBlock, Coupled, DegenerateLagrangian, DegeneratePairSum,
-    Entry, Formula, HolonomicLagrangian, Lagrangian, Linear, ManifoldLagrangian, ManifoldSystem, Matrix,
-    NondegenerateLagrangian, NonholonomicLagrangian, OperationCount, PairSum, Permutation,
-    ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Separable, Square,
+    AffineOneForm, ConstrainedSystem, DegenerateLagrangian, DegeneratePairSum, HolonomicLagrangian,
+    Lagrangian, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, NonholonomicLagrangian,
+    PairSum, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Separable,
     State, System, TimeTransformed, UnilateralLagrangian, Vector, Weights,
 };
+pub(crate) use system::{Coupled, Linear, Matrix, Permutation, Square};

@@ -10,7 +10,7 @@ pub(crate) mod manifold;
 pub(crate) mod mass;
 #[cfg(feature = "random")]
 pub(crate) mod mass_root;
-pub mod motion;
+pub(crate) mod motion;
 mod on_constraints;
 pub(crate) mod orientation;
 pub(crate) mod pattern;
@@ -18,8 +18,8 @@ pub(crate) mod phase;
 mod span;
 mod vector_field;
 
-pub use at_state::{AtState, AtTime};
-pub use constraints::{ConstrainedLagrangian, Constraints};
+pub use at_state::AtState;
+pub use motion::{FirstOrder, InLanes, Rates};
 pub use on_constraints::OnConstraints;
 pub use span::{Ends, Interval, Span};
 pub use vector_field::VectorField;

@@ -41,25 +41,28 @@ use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, System, Vector};
 
-pub use composition::{Composition, CompositionMemory};
-pub use constrained::{Constrained, ConstrainedMemory};
-pub use energy_limit::{EnergyLimit, EnergyLimitMemory};
+pub use composition::Composition;
+pub use constrained::Constrained;
+pub use energy_limit::EnergyLimit;
 pub use flight::FreeFlight;
-pub use galerkin::{Galerkin, GalerkinLagrangian, GalerkinMemory};
-pub use gauss::{Gauss, GaussMemory};
-pub use geodesic::{Geodesic, GeodesicMemory};
-pub use impacts::{Collision, Impact, Impacts, ImpactsMemory};
+pub use galerkin::Galerkin;
+pub use gauss::Gauss;
+pub use geodesic::Geodesic;
+pub use impacts::{Collision, Impact, Impacts};
 #[cfg(feature = "random")]
-pub use langevin::{Langevin, LangevinMemory};
-pub use newmark::{Newmark, NewmarkMemory};
-pub use one_step::{OneStep, OneStepGauss, OneStepGaussMemory, OneStepMemory};
-pub use projected::{Projected, ProjectedMemory};
-pub use rattle::{Rattle, RattleMemory};
-pub use runge_kutta::{RungeKutta, RungeKuttaMemory};
-pub use sigma_family::{ParasiticMode, Sigma, SigmaMemory, Start};
-pub use together::{Companion, InStep};
+pub use langevin::Langevin;
+pub use newmark::Newmark;
+pub use one_step::{OneStep, OneStepGauss};
+pub use projected::Projected;
+pub use rattle::Rattle;
+pub use runge_kutta::RungeKutta;
+pub(crate) use sigma_family::SigmaMemory;
+pub use sigma_family::{ParasiticMode, Sigma, Start};
+#[cfg(feature = "alloc")]
+pub(crate) use together::Companion;
+pub use together::InStep;
 pub use tolerance::Tolerance;
-pub use variational::{Fitting, QuadratureLagrangian, Variational, VariationalMemory};
+pub use variational::{Fitting, Variational};
 
 /// The geometric structure that every step of a method preserves, up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

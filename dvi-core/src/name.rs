@@ -63,6 +63,15 @@ impl fmt::Display for Name {
     }
 }
 
+/// An argument of a function that formulas call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Argument {
+    /// The function, by the name that the formulas call it by.
+    pub function: &'static str,
+    /// Which of its arguments, counted from 1.
+    pub number: usize,
+}
+
 /// " along `x[3]`", or nothing.
 pub(crate) struct Along<'a>(pub(crate) &'a Option<Name>);
 

@@ -1,13 +1,17 @@
 //! What generated code calls. Not part of the interface.
 
-pub use crate::Number;
-pub use crate::error::Argument;
+pub use crate::name::{Argument, Factor};
+pub use crate::scalar::comparison::Comparison;
+pub use crate::scalar::number::Number;
 pub use crate::scalar::pack::{
     Sums, Waiting, add_to, all, first_unturned, load, packs, parameters, past_unturned, subtract_from,
     whole, widest,
 };
 pub use crate::scalar::pairs::{are_many, halves};
-pub use crate::system::packable::{Packing, Shared};
+pub use crate::space::room::FewInPlace;
+pub use crate::system::kind::{Degenerate, Holonomic, Manifold, Nonholonomic, Regular, Unilateral};
+pub use crate::system::packable::{Packable, Packing, Shared};
+pub use crate::system::report::{CoordinateBlock, Entry, Formula, OperationCount};
 pub use crate::system::stand_in::StandIn;
 
 use crate::error::{IndexError, LengthError, OutsideError};

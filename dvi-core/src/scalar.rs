@@ -6,10 +6,11 @@
 //! The solvers, which must decide, ask for [`Real`].
 
 pub(crate) mod blocks;
+pub(crate) mod comparison;
 mod error_function;
 pub(crate) mod lanes;
 pub(crate) mod norm;
-mod number;
+pub(crate) mod number;
 pub(crate) mod pack;
 pub(crate) mod pairs;
 pub(crate) mod passes;
@@ -21,21 +22,10 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use nalgebra::RealField;
 
+pub(crate) use comparison::Comparison;
 pub use lanes::Lanes;
-pub use number::{Number, Parameter, Varied};
-
-/// How an `if` of a formula compares its two sides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Comparison {
-    /// `a < b`
-    Less,
-    /// `a <= b`
-    LessOrEqual,
-    /// `a > b`
-    Greater,
-    /// `a >= b`
-    GreaterOrEqual,
-}
+pub use number::{Parameter, Varied};
+pub use simd::widest_if;
 
 macro_rules! scalar {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {

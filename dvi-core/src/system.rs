@@ -12,16 +12,17 @@
 //! order of the declared coordinates, unless a function says that one may be empty; the integrators of
 //! this crate pass no others.
 
+mod affine;
 mod constrained;
 mod holonomic;
-mod kind;
+pub(crate) mod kind;
 mod manifold;
 pub(crate) mod names;
 mod nondegenerate;
 mod nonholonomic;
 pub(crate) mod packable;
 mod pair_sum;
-mod report;
+pub(crate) mod report;
 pub(crate) mod stand_in;
 pub(crate) mod start;
 mod unilateral;
@@ -32,33 +33,35 @@ use crate::error::{IndexError, LengthError, OutsideError, StartError};
 use crate::space::sink::Sink;
 use crate::{Real, Scalar, Space};
 
-pub use crate::name::{Factor, Name};
+pub(crate) use crate::name::Factor;
+pub use crate::name::Name;
 pub use crate::space::Weights;
+pub use affine::AffineOneForm;
 pub use constrained::ConstrainedSystem;
 pub use holonomic::HolonomicLagrangian;
-pub use kind::{
-    Degenerate, Holonomic, Kind, Manifold, Nonholonomic, Regular, Smooth, Unconstrained, Unilateral,
-};
+pub(crate) use kind::{Degenerate, Holonomic, Kind, Manifold, Nonholonomic, Regular, Unilateral};
+pub use kind::{Smooth, Unconstrained};
 pub use manifold::{ManifoldLagrangian, ManifoldSystem};
 pub use nondegenerate::{NondegenerateLagrangian, QuadraticInVelocity, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
-pub use packable::Packable;
+pub(crate) use packable::Packable;
 pub use pair_sum::{DegeneratePairSum, PairSum, RegularPairSum};
-pub use report::{CoordinateBlock, Entry, Formula, OperationCount, Report};
+pub(crate) use report::CoordinateBlock;
+pub use report::Report;
 pub use unilateral::UnilateralLagrangian;
 
 /// A point, velocity or covector of the space of `S`.
 pub type Vector<S, T> = <<S as System>::Space as Space>::Vector<T>;
 /// A square matrix over the space of `S`.
-pub type Matrix<S, T> = <<S as System>::Space as Space>::Matrix<T>;
+pub(crate) type Matrix<S, T> = <<S as System>::Space as Space>::Matrix<T>;
 /// A square matrix over the space of `S` that is solved with.
-pub type Square<S, T> = <<S as System>::Space as Space>::Square<T>;
+pub(crate) type Square<S, T> = <<S as System>::Space as Space>::Square<T>;
 /// What solves linear equations over the space of `S`.
-pub type Linear<S, T> = <<S as System>::Space as Space>::Linear<T>;
+pub(crate) type Linear<S, T> = <<S as System>::Space as Space>::Linear<T>;
 /// What solves linear equations for several vectors over the space of `S`.
-pub type Coupled<const NODES: usize, S, T> = <<S as System>::Space as Space>::Coupled<NODES, T>;
+pub(crate) type Coupled<const NODES: usize, S, T> = <<S as System>::Space as Space>::Coupled<NODES, T>;
 /// A row permutation over the space of `S`.
-pub type Permutation<S> = <<S as System>::Space as Space>::Permutation;
+pub(crate) type Permutation<S> = <<S as System>::Space as Space>::Permutation;
 
 /// A state with named coordinates, as users see it: (q, v) for a regular system, q for a degenerate one.
 ///
@@ -354,11 +357,3 @@ pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
     /// along it.
     fn place(&self, coordinate: usize) -> usize;
 }
-
-/// A system whose α is affine in q with constant coefficients. The attribute implements it where
-/// [`AFFINE`](DegenerateLagrangian::AFFINE) holds.
-#[diagnostic::on_unimplemented(
-    message = "the one-form of `{Self}` is not affine in the coordinates",
-    label = "Dα is not one constant matrix"
-)]
-pub trait AffineOneForm<T: Scalar = f64>: DegenerateLagrangian<T> {}

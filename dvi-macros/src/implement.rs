@@ -260,12 +260,12 @@ pub(crate) fn kind(
     is_on_manifold: bool,
 ) -> TokenStream {
     match (kind, constrained) {
-        (Kind::Degenerate, _) => quote!(#krate::system::Degenerate),
-        (Kind::Regular, None) if is_on_manifold => quote!(#krate::system::Manifold),
-        (Kind::Regular, None) => quote!(#krate::system::Regular),
-        (Kind::Regular, Some(Constrained::Positions)) => quote!(#krate::system::Holonomic),
-        (Kind::Regular, Some(Constrained::Velocities)) => quote!(#krate::system::Nonholonomic),
-        (Kind::Regular, Some(Constrained::Gaps)) => quote!(#krate::system::Unilateral),
+        (Kind::Degenerate, _) => quote!(#krate::__private::Degenerate),
+        (Kind::Regular, None) if is_on_manifold => quote!(#krate::__private::Manifold),
+        (Kind::Regular, None) => quote!(#krate::__private::Regular),
+        (Kind::Regular, Some(Constrained::Positions)) => quote!(#krate::__private::Holonomic),
+        (Kind::Regular, Some(Constrained::Velocities)) => quote!(#krate::__private::Nonholonomic),
+        (Kind::Regular, Some(Constrained::Gaps)) => quote!(#krate::__private::Unilateral),
     }
 }
 

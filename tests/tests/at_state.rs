@@ -2,7 +2,7 @@
 //! equations of motion put together from hyper-dual evaluations of L alone.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use dvi_core::mechanics::motion::Rates;
+use dvi_core::mechanics::Rates;
 use dvi_core::prelude::*;
 use dvi_core::{Scalar, Space};
 use dvi_tests::configurations::quasi_periodic;

@@ -104,3 +104,89 @@ fn imports_of_the_core_run_upwards() {
             .is_superset(&["a", "b", "e", "f"].map(str::to_owned).into_iter().collect())
     );
 }
+
+/// Every path after `crate::` in the code of a file, with the groups of `use` multiplied out.
+fn paths_of(text: &str) -> BTreeSet<String> {
+    /// Reads one path or group up to where it ends, below `prefix`.
+    fn read<'t>(prefix: &str, mut text: &'t str, paths: &mut BTreeSet<String>) -> &'t str {
+        let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+        let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
+        let path = format!("{prefix}{}", &text[..end]);
+        text = &text[end..];
+        let Some(mut rest) = text.strip_prefix('{') else {
+            paths.insert(path);
+            return text;
+        };
+        loop {
+            rest = rest.trim_start().trim_start_matches(',').trim_start();
+            match rest.strip_prefix('}') {
+                Some(after) => return after,
+                None => rest = read(&path, rest, paths),
+            }
+            // `a as b`
+            rest =
+                rest.trim_start().strip_prefix("as ").map_or(rest, |name| name.trim_start_matches(is_part));
+        }
+    }
+    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let code: String =
+        code.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+    let mut paths = BTreeSet::new();
+    for rest in code.split("crate::").skip(1) {
+        read("", rest, &mut paths);
+    }
+    paths
+}
+
+/// The names that `pub use`, `pub mod` and `pub` items make of a file: what users of the crate can name.
+fn public_names(text: &str) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for rest in text.split("\npub ").skip(1) {
+        let (word, rest) = rest.split_once(' ').unwrap_or((rest, ""));
+        if word == "use" {
+            let list = rest.split(';').next().unwrap_or_default();
+            let list =
+                list.rsplit_once("::{").map_or_else(|| list.rsplit("::").next(), |(_, list)| Some(list));
+            let words = list.unwrap_or_default().split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            names.extend(words.filter(|word| !word.is_empty()).map(str::to_owned));
+        } else {
+            names.extend(rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).next().map(str::to_owned));
+        }
+    }
+    names
+}
+
+/// Rooms that users could have written: they see of the core what users see.
+#[test]
+fn some_rooms_know_public_items_only() {
+    /// A macro that writes `Debug` of errors.
+    const BESIDES: [&str; 1] = ["error::said"];
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dvi-core/src");
+    let of = |name: &str| public_names(&fs::read_to_string(source.join(name)).expect("a file"));
+    let root = of("lib.rs");
+    let is_public = |path: &str| match path.split("::").collect::<Vec<_>>()[..] {
+        [name] => root.contains(name),
+        [room, name, ..] => root.contains(room) && of(&format!("{room}.rs")).contains(name),
+        [] => false,
+    };
+    let mut found = Vec::new();
+    for room in ["ensemble", "fast_sum", "field"] {
+        for path in [files(&source.join(room)), vec![source.join(format!("{room}.rs"))]].concat() {
+            for name in paths_of(&fs::read_to_string(&path).expect("a file")) {
+                let is_own = name.split("::").next() == Some(room);
+                if !is_own && !BESIDES.contains(&name.as_str()) && !is_public(&name) {
+                    found.push(format!("{} imports {name}", path.display()));
+                }
+            }
+        }
+    }
+    assert_eq!(found, Vec::<String>::new());
+    // The test sees what there is.
+    assert_eq!(
+        paths_of("use crate::a::{B, c::{D as E, F}};\ncrate::g::h!(x);"),
+        ["a::B", "a::c::D", "a::c::F", "g::h"].map(str::to_owned).into_iter().collect()
+    );
+    assert!(
+        is_public("scalar::Lanes") && !is_public("scalar::simd::widest") && !is_public("threads::share")
+    );
+}

@@ -1,7 +1,7 @@
 //! Packs of numbers: formulas on them are those on their lanes, and Gauss collocation with its stages in
 //! lanes is Gauss collocation, bit for bit.
 
-use dvi_core::mechanics::motion::{InLanes, StageEvaluation};
+use dvi_core::mechanics::InLanes;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
@@ -234,7 +234,7 @@ fn stages_of_dual_numbers_go_into_lanes() -> Outcome {
     use num_dual::Dual64;
     fn slope<E>(method: Gauss<4, E>) -> Result<Dual64, Box<dyn core::error::Error>>
     where
-        E: StageEvaluation<4, Kepler, Dual64> + Copy,
+        Gauss<4, E>: Method<Kepler, Dual64>,
     {
         let number = |x: f64| Dual64::from(x);
         let start =

@@ -49,7 +49,6 @@ mod sizes;
 mod smallest_numbers;
 mod splines;
 mod structure;
-mod tables;
 mod time_transform;
 mod together;
 mod together_parameters;

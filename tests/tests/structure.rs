@@ -2,7 +2,7 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::DegenerateLagrangian;
-use dvi_core::diagnostics::{AlternatingComponent, DiscreteHessian};
+use dvi_core::diagnostics::AlternatingComponent;
 use dvi_core::discrete::Interval;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
@@ -118,8 +118,9 @@ fn second_derivatives_of_the_discrete_lagrangian_agree_with_hyper_dual_numbers()
     let (q0, q1) = ([1.3, 1.6], [1.35, 1.52]);
     let system = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let (sigma, h) = (0.3, 0.1);
-    let mut hessian = DiscreteHessian::new(&system, &Sigma::new(sigma));
-    hessian.evaluate(&system, Interval { t: 0.0, h }, &q0, &q1)?;
+    let mut map = TangentMap::new(&system, &Sigma::new(sigma));
+    map.evaluate(&system, Interval { t: 0.0, h }, &q0, &q1)?;
+    let hessian = map.hessian();
     for (matrix, first, second) in [(&hessian.d11, 0, 0), (&hessian.d12, 0, 2), (&hessian.d22, 2, 2)] {
         for i in 0..2 {
             for j in 0..2 {
@@ -246,9 +247,10 @@ fn the_tangent_map_agrees_with_differences_of_steps() -> Outcome {
             images.push([dq0.to_vec(), difference]);
         }
         // The two-form again, with columns that owe nothing to second derivatives of the system.
-        let [mut before, mut after] = [0, 1].map(|_| DiscreteHessian::new(&system, run.method()));
+        let [mut before, mut after] = [0, 1].map(|_| TangentMap::new(&system, run.method()));
         before.evaluate(&system, Interval { t: 0.0, h }, &q0, &q1)?;
         after.evaluate(&system, Interval { t: h, h }, &q1, &q2)?;
+        let [before, after] = [&before, &after].map(|map| map.hessian());
         let form =
             |u: &[f64], d: &[f64], w: &[f64]| -> f64 { (0..64).map(|k| u[k / 8] * d[k] * w[k % 8]).sum() };
         for (a, u) in images.iter().enumerate() {

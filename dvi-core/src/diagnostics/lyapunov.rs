@@ -118,14 +118,14 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S
     }
 
     /// All that the next step depends on.
-    #[cfg(feature = "ensembles")]
-    pub(crate) fn save(&self) -> alloc::vec::Vec<T> {
+    #[cfg(feature = "alloc")]
+    pub fn save(&self) -> alloc::vec::Vec<T> {
         [&[self.growth, self.elapsed], &self.dq[..], &self.dp[..]].concat()
     }
 
     /// Takes over what [`save`](Self::save) has listed, if there are as many numbers.
-    #[cfg(feature = "ensembles")]
-    pub(crate) fn load(&mut self, saved: &[T]) -> Option<()> {
+    #[cfg(feature = "alloc")]
+    pub fn load(&mut self, saved: &[T]) -> Option<()> {
         let (&[growth, elapsed], perturbation) = saved.split_first_chunk()?;
         let (dq, dp) = perturbation.split_at_checked(self.dq.len())?;
         if dp.len() != self.dp.len() {

@@ -28,7 +28,7 @@ pub enum Direction {
 
 impl Direction {
     /// Whether a function that goes from `a` to `b` crosses zero in this direction.
-    pub(crate) fn crosses<T: Real>(self, a: T, b: T) -> bool {
+    pub fn crosses<T: Real>(self, a: T, b: T) -> bool {
         let zero = T::lift(0.0);
         match self {
             Self::Rising => a < zero && b >= zero,
@@ -48,8 +48,7 @@ pub struct Crossing<S, T> {
 }
 
 /// A [`Crossing`] of a run `R`.
-pub type CrossingOf<R> =
-    Crossing<<<R as Run>::System as System>::State<<R as Run>::Scalar>, <R as Run>::Scalar>;
+type CrossingOf<R> = Crossing<<<R as Run>::System as System>::State<<R as Run>::Scalar>, <R as Run>::Scalar>;
 
 /// The crossings of a run with g(q) = 0, as an iterator that takes as many steps as it must.
 ///

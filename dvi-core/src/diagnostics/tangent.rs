@@ -50,7 +50,10 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T
         elimination::factor(&mut self.factors, &mut self.permutation)
     }
 
-    /// The second derivatives of L_d for the step.
+    /// The second derivatives of L_d for the step, `d11`, `d12`, `d21` and `d22`, row-major; on a system with
+    /// forces, those of D₁L_d + F⁻ and D₂L_d + F⁺. `d12`, with row i for q0ⁱ and column j for q1ʲ, is the
+    /// matrix of the two-form D₁D₂ dq0 ∧ dq1 on Q×Q that each step preserves (Marsden & West 2001, section
+    /// 1.3.2; Rowley & Marsden 2002, eq. 17).
     pub fn hessian(&self) -> &DiscreteHessian<S, L, T> {
         &self.hessian
     }

@@ -60,7 +60,7 @@ pub enum EnsembleError {
     Foreign {
         /// The file.
         path: PathBuf,
-        /// What differs.
+        /// What differs: `what` it is, what is `expected` and what is `found`.
         difference: Difference,
     },
     /// A member cannot go on from its checkpoint.
@@ -107,7 +107,7 @@ pub enum MergeError {
     Foreign {
         /// The shard.
         shard: Shard,
-        /// What differs.
+        /// What differs: `what` it is, what is `expected` and what is `found`.
         difference: Difference,
     },
     /// A member occurs more than once.

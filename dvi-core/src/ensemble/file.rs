@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Shard;
 use super::error::EnsembleError;
+use super::fingerprint::Fingerprint;
 use super::group::Slot;
 use super::plan::Plan;
-use crate::state::fingerprint::Fingerprint;
 
 /// Begins each file; after it stand the length and the fingerprint of the content, then the content.
 const MARK: &[u8] = b"dvi ensemble checkpoint 2\n";

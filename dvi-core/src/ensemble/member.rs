@@ -7,8 +7,7 @@ use std::vec::Vec;
 use super::settings::Settings;
 use crate::methods::Method;
 use crate::run::{Integrator, Run};
-use crate::system::names::entries;
-use crate::{Lagrangian, Space, State, System};
+use crate::{Lagrangian, System};
 
 /// The record of one member.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -27,7 +26,8 @@ pub struct Member {
     pub iterations: u64,
     /// The last good state, in the order of [`System::names`].
     pub state: Vec<f64>,
-    /// Its energy.
+    /// Its energy at the `first` and the `last` look, and the `largest_error` |E − E₀| of all, at each
+    /// [`stride`](super::Ensemble::stride); not a number if one was not.
     pub energy: Energy,
     /// The first and the last value of each declared momentum.
     pub momenta: Vec<[f64; 2]>,
@@ -116,15 +116,14 @@ impl Seen {
         exponent: Option<f64>,
         outcome: Outcome,
     ) -> Member {
-        let (q, statistics) = (run.q(), run.statistics());
         let last_momenta = run.momenta().map(|(_, value)| plain(value));
         Member {
             number,
             outcome,
             time: run.time(),
-            steps: statistics.steps,
-            iterations: statistics.iterations,
-            state: run.stepper().with_velocity(run.time(), |v| flat(run.system(), q, v)),
+            steps: run.steps(),
+            iterations: run.statistics().iterations,
+            state: flat(run.system(), &run.state()),
             energy: self.energy.with(run.energy()),
             momenta: self.first_momenta.into_iter().zip(last_momenta).map(Into::into).collect(),
             exponent: exponent.map(plain),
@@ -149,11 +148,6 @@ impl Member {
         state: &S::State<f64>,
         error: String,
     ) -> Self {
-        let (mut q, mut v) = (system.space().vector(), system.space().vector());
-        if state.write(|block| system.block_len(block), &mut q, &mut v).is_err() {
-            q.fill(f64::NAN);
-            v.fill(f64::NAN);
-        }
         let none = f64::NAN;
         Self {
             number,
@@ -161,7 +155,7 @@ impl Member {
             time: 0.0,
             steps: 0,
             iterations: 0,
-            state: flat(system, &q, &v),
+            state: flat(system, state),
             energy: Energy { first: none, last: none, largest_error: none },
             momenta: S::REPORT.momenta.iter().map(|_| [none; 2]).collect(),
             exponent: None,
@@ -170,12 +164,12 @@ impl Member {
     }
 }
 
-/// The entries of a state, in the order of the names.
-fn flat<S: System>(system: &S, q: &[f64], v: &[f64]) -> Vec<f64> {
-    entries(system)
-        .map(|(name, place)| if name.is_velocity { v[place] } else { q[place] })
-        .map(plain)
-        .collect()
+/// The entries of a state, in the order of the names; no numbers if it does not have the right shape.
+fn flat<S: System>(system: &S, state: &S::State<f64>) -> Vec<f64> {
+    match system.values(state) {
+        Ok(values) => values.map(plain).collect(),
+        Err(_) => system.names().map(|_| f64::NAN).collect(),
+    }
 }
 
 /// The number, or the one bit pattern that stands for all that are none: which of them an operation yields

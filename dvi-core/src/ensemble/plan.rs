@@ -9,11 +9,9 @@ use std::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use super::error::{Difference, EnsembleError};
-use super::member::plain;
+use super::fingerprint::Fingerprint;
 use super::settings::{Settings, Systems};
 use crate::methods::Method;
-use crate::state::fingerprint::Fingerprint;
-use crate::system::start::is_length;
 use crate::{Lagrangian, Space, State};
 
 /// A fact that not every ensemble knows: then it is empty, and belongs to all.
@@ -40,7 +38,8 @@ impl Plan {
     ) -> Result<Self, EnsembleError> {
         let Settings { h, stride, ref states, ref section, .. } = *settings;
         let names = names(settings)?;
-        if !is_length(h) {
+        // Below the smallest number that has all digits, 1/h may be infinite.
+        if !h.is_finite() || h.abs() < f64::MIN_POSITIVE {
             return Err(EnsembleError::Step { h });
         }
         if stride == 0 {
@@ -164,22 +163,4 @@ fn fingerprints<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>)
     }
     let texts = settings.texts.map_or_else(String::new, |_| texts.to_string());
     [starts.to_string(), systems.to_string(), texts]
-}
-
-impl Fingerprint {
-    fn text(&mut self, text: &str) {
-        self.bytes(text.as_bytes());
-        // No text has this byte, so that two of them are told from one.
-        self.bytes(&[0xff]);
-    }
-
-    fn number(&mut self, x: f64) {
-        self.word(plain(x).to_bits());
-    }
-}
-
-impl fmt::Display for Fingerprint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:016x}", self.value())
-    }
 }

@@ -1,13 +1,13 @@
 //! Initial conditions and parameters from a table with named columns.
 
 use std::borrow::ToOwned;
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
 use thiserror::Error;
 
-use crate::system::names::entries;
 use crate::{Lagrangian, Space, State};
 
 crate::error::said!(TableError);
@@ -129,7 +129,11 @@ impl Table {
     /// As of [`column`](Self::column).
     pub fn states<S: Lagrangian>(&self, system: &S) -> Result<Vec<S::State<f64>>, TableError> {
         let mut columns = Vec::new();
-        for (name, index) in entries(system) {
+        // Coordinates come first, so that a block is met at its first coordinate; its velocities stand there.
+        let mut blocks = BTreeMap::new();
+        for (number, name) in system.names().enumerate() {
+            let first = *blocks.entry(name.block).or_insert(number);
+            let index = first + name.index.unwrap_or(0);
             columns.push((self.place(&name.to_string())?, name.is_velocity, index));
         }
         let state = |row| {

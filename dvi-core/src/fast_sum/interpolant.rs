@@ -6,7 +6,7 @@ use super::basis::{self, Basis};
 use super::matrix::padded;
 use super::packs::LANES;
 use super::transfer::larger;
-use crate::scalar::simd::widest_if;
+use crate::scalar::widest_if;
 
 /// The coefficients of K(|u − v + 2t|²).
 #[derive(Clone, Debug)]

@@ -12,11 +12,11 @@ use super::neighbours::add_reactions;
 use super::packs::{LANES, Pack, add_before};
 use super::polynomials::coordinates;
 use super::quantity::Quantity;
+use super::shares::Part;
 use super::subspace::{Subspace, number};
 use super::transfer::Transfer;
 use super::tree::Tree;
-use crate::scalar::simd::widest_if;
-use crate::threads::Part;
+use crate::scalar::widest_if;
 
 /// What acts on the cubes of a level.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use core::ops::Range;
 use nalgebra::DMatrix;
 
 use super::packs::{LANES, Pack, load};
-use crate::scalar::simd::widest_if;
+use crate::scalar::widest_if;
 
 /// A matrix, column by column, of which each has zeros behind it up to a whole number of packs.
 #[derive(Clone, Debug, Default)]

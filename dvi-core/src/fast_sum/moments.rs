@@ -8,10 +8,10 @@ use super::expansion::{Expansion, Row};
 use super::matrix::{Batch, Ends, VECTORS};
 use super::packs::{LANES, Pack, add_lanes, load_before};
 use super::polynomials::coordinates;
+use super::shares::Part;
 use super::subspace::{Subspace, number};
 use super::tree::{Cube, Tree};
-use crate::scalar::simd::widest_if;
-use crate::threads::Part;
+use crate::scalar::widest_if;
 
 /// What moments are made of.
 #[derive(Clone, Copy, Debug)]

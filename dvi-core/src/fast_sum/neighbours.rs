@@ -10,10 +10,10 @@ use core::ops::Range;
 use super::lists::{Lists, Pair, on};
 use super::packs::{LANES, Pack, add_before, add_lanes, load, load_before};
 use super::quantity::Quantity;
+use super::shares::Part;
 use super::tree::{Cube, Tree};
 use crate::scalar::Lanes;
-use crate::scalar::simd::widest_if;
-use crate::threads::Part;
+use crate::scalar::widest_if;
 
 /// What acts nearby.
 #[derive(Debug)]

@@ -11,7 +11,7 @@ use super::quantity::Quantity;
 use super::transfer::larger;
 use crate::Scalar;
 use crate::scalar::Lanes;
-use crate::scalar::simd::widest_if;
+use crate::scalar::widest_if;
 
 /// Bodies whose sums are checked, at equal distances in the order of the tree: so they are from all regions.
 const BODIES: usize = 8;

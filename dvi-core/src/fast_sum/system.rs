@@ -5,12 +5,11 @@
 use super::FastSum;
 use super::packs::Pack;
 use crate::error::{IndexError, OutsideError};
-use crate::space::sink::Sink;
 use crate::system::TimeTransform;
 use crate::{
     AffineOneForm, DegenerateLagrangian, DegeneratePairSum, Lagrangian, NondegenerateLagrangian, PairSum,
     ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Scalar, Separable,
-    System, Weights,
+    Sink, System, Weights,
 };
 
 #[diagnostic::do_not_recommend]

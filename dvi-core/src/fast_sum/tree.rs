@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::packs::LANES;
-use crate::threads;
+use super::shares;
 
 /// Bits of a place along each axis: 2^LEVELS cubes along an edge of the largest.
 const LEVELS: u32 = 20;
@@ -82,7 +82,7 @@ impl<const D: usize> Tree<D> {
         }
         let cells = f64::from(1_u32 << LEVELS) / exp2(self.edge);
         let corner = self.corner;
-        threads::each(&mut self.order, |(key, body)| {
+        shares::each(&mut self.order, |(key, body)| {
             *key = interleaved::<D>(core::array::from_fn(|axis| {
                 let cell = ((places[axis][*body as usize] - corner[axis]) * cells) as u32;
                 cell.min((1 << LEVELS) - 1)
@@ -90,7 +90,7 @@ impl<const D: usize> Tree<D> {
         });
         // Nothing to do where bodies did not move.
         if !self.order.is_sorted() {
-            threads::sort(&mut self.order);
+            shares::sort(&mut self.order);
         }
         self.divide(few);
         Ok(())
@@ -214,7 +214,6 @@ fn interval(places: &[f64]) -> Result<(f64, f64), NotFinite> {
 }
 
 /// Bit b of coordinate a becomes bit D b + a.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn interleaved<const D: usize>(cell: [u32; D]) -> u64 {
     let mut key = 0;
     for (axis, place) in cell.into_iter().enumerate() {
@@ -224,7 +223,6 @@ fn interleaved<const D: usize>(cell: [u32; D]) -> u64 {
 }
 
 /// Bit b becomes bit D b: halves of the bits are moved apart, then halves of these.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn spread<const D: usize>(place: u32) -> u64 {
     let mut bits = u64::from(place);
     for shift in [16, 8, 4, 2, 1] {

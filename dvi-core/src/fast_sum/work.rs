@@ -3,7 +3,6 @@
 
 use alloc::vec::Vec;
 
-use super::Operations;
 use super::expansion::Expansion;
 use super::lists::{Lists, on, pairs};
 use super::locals::{Actions, Locals};
@@ -12,11 +11,21 @@ use super::moments::{Moments, Sources};
 use super::neighbours::{Nearby, Neighbours};
 use super::packs::{LANES, Pack};
 use super::quantity::{Gradient, Quantity};
+use super::shares::share;
 use super::spot_check;
 use super::transfer::{Transfer, offsets};
 use super::tree::{NotFinite, Tree};
 use crate::PairSum;
-use crate::threads::share;
+
+/// What an evaluation of the forces takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Operations {
+    /// Ordered pairs of bodies that are summed one by one. A sum over all pairs has n(n − 1).
+    pub pairs: u64,
+    /// Multiplications in the matrices between groups of bodies.
+    pub products: u64,
+}
 
 /// A cube with no more bodies is not divided: near bodies then take about as long as far cubes.
 const FEW: usize = 64;

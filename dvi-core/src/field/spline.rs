@@ -166,7 +166,6 @@ impl<const D: usize, const DEGREE: usize> Spline<D, DEGREE> {
     }
 
     /// 0, or not a number where `T` cannot hold the place of each coefficient.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn if_countable<T: Scalar>(&self) -> T {
         // An odd number can be held if and only if all smaller ones can.
         let odd = (self.coefficients.len() | 1) as f64;

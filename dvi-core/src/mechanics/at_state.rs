@@ -36,7 +36,7 @@ pub struct AtTime<'a, S, T = f64> {
 /// the state has the wrong length, a coordinate is not finite, or energy or first derivatives of L are not
 /// finite there.
 pub trait AtState<T: Real = f64>: Lagrangian<T> + Sized {
-    /// The system at time `t`.
+    /// The system at time `t`, of which the same is asked by `vector_field`, `energy` and `lagrangian`.
     fn at_time(&self, t: T) -> AtTime<'_, Self, T> {
         AtTime { system: self, t }
     }

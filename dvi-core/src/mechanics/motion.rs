@@ -23,10 +23,10 @@ use crate::state::Statistics;
 use crate::system::Kind;
 use crate::{Real, Scalar, Sink, System, Vector, Weights};
 
-pub use flow_on_q::FlowOnQ;
-pub use hamilton::HamiltonsEquations;
+use stages::FirstOrderInLanes;
 pub(crate) use stages::{AtStages, StageWork, weigh};
-pub use stages::{Evaluation, FirstOrderInLanes, InLanes, OneByOne, StageEvaluation};
+pub use stages::InLanes;
+pub(crate) use stages::{Evaluation, OneByOne, StageEvaluation};
 
 /// A point y, or its velocity: `K` vectors of the space.
 #[derive(Clone, Debug)]
@@ -101,11 +101,11 @@ pub trait Motion<S: System, T: Real>: Kind {
 }
 
 /// The equations of motion of `S` with their storage.
-pub type EquationsOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Equations;
+pub(crate) type EquationsOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Equations;
 /// A point y of the equations of motion of `S`, or its velocity.
-pub type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point<T>;
+pub(crate) type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point<T>;
 /// The same in packs of type `P`, of numbers of type `T`.
-pub type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point<P>;
+pub(crate) type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point<P>;
 
 /// The equations of motion of a system `S`, y' = X(y, t), in the arithmetic of `T`.
 ///

@@ -25,9 +25,6 @@ use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
 use evaluation::NodeEvaluation;
 
-pub use lagrangian::GalerkinLagrangian;
-pub use memory::GalerkinMemory;
-
 /// The discrete Lagrangian of the Lobatto rule with `S` nodes, 3 ≤ `S` ≤ 9, stationary in displacements of
 /// the interior nodes.
 ///

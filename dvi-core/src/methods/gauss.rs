@@ -33,7 +33,7 @@ use crate::{Lagrangian, Real, System, Vector};
 
 use memory::{Guess, Path};
 
-pub use memory::GaussMemory;
+use memory::GaussMemory;
 
 /// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 8, of order 2`S`, on the equations of motion y' = X(y, t).
 ///

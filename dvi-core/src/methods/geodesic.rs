@@ -30,7 +30,7 @@ use memory::Kicks;
 use step::has_spheres;
 use tangents::{Equations, Legendre, TangentMass};
 
-pub use memory::GeodesicMemory;
+use memory::GeodesicMemory;
 
 /// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, beside
 /// numbers.

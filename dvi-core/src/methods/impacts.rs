@@ -11,7 +11,8 @@ use crate::methods::{Carries, FreeFlight, Method, PreservedForm, Scheme};
 use crate::state::Statistics;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, UnilateralLagrangian, Vector};
-pub use memory::{Impact, ImpactsMemory};
+pub use memory::Impact;
+use memory::ImpactsMemory;
 use passage::Passage;
 
 /// What is kept at an impact, beside the components of the momentum along the surface.

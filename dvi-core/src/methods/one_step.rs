@@ -24,7 +24,7 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Judge, Quick, Stopping, from_either_guess};
 use crate::state::Statistics;
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
-pub use gauss::{OneStepGauss, OneStepGaussMemory};
+pub use gauss::OneStepGauss;
 use split::{Split, copy_x, is_x};
 use stage::{Rule, Stage, Step};
 

@@ -28,7 +28,7 @@ use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
-pub use memory::SigmaMemory;
+pub(crate) use memory::SigmaMemory;
 pub use parasitic_mode::ParasiticMode;
 pub use start::Start;
 

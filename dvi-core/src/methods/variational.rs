@@ -25,9 +25,8 @@ use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
-pub use lagrangian::QuadratureLagrangian;
 use lagrangian::{Interpolated, read};
-pub use memory::VariationalMemory;
+use memory::VariationalMemory;
 
 /// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -190,7 +190,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Integrator<'_, S, Sigma<T>, T> {
         Ok(Some(along.fold(momentum, |sum, (&c, &xi)| sum + c * xi)))
     }
 
-    /// The parasitic mode as it was measured last: see [`SigmaMemory::parasitic_mode`].
+    /// The parasitic mode as it was measured last: see [`ParasiticMode`].
     pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
         self.stepper.memory.parasitic_mode()
     }

@@ -23,11 +23,11 @@ use crate::system::start::is_length;
 use crate::{Lagrangian, Real};
 
 pub use controlled::ControlledRun;
-pub use energy_momentum::{EnergyMomentum, EnergyMomentumMemory};
-pub use error_control::{ErrorControl, ErrorControlMemory};
+pub use energy_momentum::EnergyMomentum;
+pub use error_control::ErrorControl;
 pub use integrator::ControlledIntegrator;
-pub use osculating::{CentreSpeed, Osculating, OsculatingMemory};
-pub use reversible::{Density, Power, Reversible, ReversibleMemory};
+pub use osculating::{CentreSpeed, Osculating};
+pub use reversible::{Density, Power, Reversible};
 
 /// A rule for the length of each step of a run on `S`.
 ///

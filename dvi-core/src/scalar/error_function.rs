@@ -11,7 +11,8 @@
 
 use core::f64::consts::{FRAC_2_SQRT_PI, PI};
 
-use crate::{Comparison, Scalar};
+use crate::Scalar;
+use crate::scalar::Comparison;
 
 /// Terms of the power series: the first that is left out is below 10⁻²⁰.
 const TERMS: usize = 20;

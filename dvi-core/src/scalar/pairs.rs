@@ -21,7 +21,7 @@ const LEAST: usize = 4096;
 const LEAST_FROM_OUTSIDE: usize = 300_000;
 
 /// Whether the pairs of `bodies` are taken in [`halves`].
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub fn are_many(bodies: usize) -> bool {
     bodies >= MANY
 }

@@ -36,10 +36,25 @@ pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     task.run()
 }
 
-/// Runs `body`, a closure that is `#[cfg_attr(not(debug_assertions), inline(always))]` where it is written;
-/// compiled as by [`widest`] if it is `worth_it`.
+/// Runs `body`, if it is `worth_it` compiled for the widest instructions that the processor has: for loops
+/// over [lanes](crate::scalar::Lanes). The results are the same on every processor.
+///
+/// The closure is to be `#[inline(always)]` where it is written, and so is what it calls: what is not inlined
+/// is compiled for the instructions that all processors have. Without the feature `simd`, and where
+/// `dvi-core` has debug assertions, all of it is.
+///
+/// ```
+/// use dvi_core::scalar::{Lanes, widest_if};
+///
+/// let numbers: Vec<Lanes<8>> = (0..100).map(|i| Lanes([f64::from(i); 8])).collect();
+/// let mut squares = numbers.clone();
+/// widest_if(numbers.len() > 16, #[inline(always)] || {
+///     squares.iter_mut().for_each(|x| *x = *x * *x);
+/// });
+/// assert_eq!(squares[99].0, [9801.0; 8]);
+/// ```
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
+pub fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
     struct Body<F>(F);
 
     impl<R, F: FnOnce() -> R> Task for Body<F> {

@@ -4,7 +4,8 @@
 //! For |x| ≤ 2 it is the power series, beyond that the recursion from λ₋₁ = cos x, which loses digits
 //! near 0. Both are evaluated and one is chosen, so that there is no branch for lanes to diverge on.
 
-use crate::{Comparison, Scalar};
+use crate::Scalar;
+use crate::scalar::Comparison;
 
 /// Terms of the power series: the first that is left out is below 10⁻²⁰ for |x| ≤ 2.
 const TERMS: usize = 14;

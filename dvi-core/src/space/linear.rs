@@ -19,8 +19,8 @@ use crate::scalar::norm;
 use crate::space::sink::Places;
 #[cfg(feature = "alloc")]
 use crate::space::sink::Scaled;
-use crate::space::square::SquareMatrix;
-use crate::space::{Fixed, FixedSquare, FixedVector, InPlace, Room, Sink, Space};
+use crate::space::square::{FixedSquare, SquareMatrix};
+use crate::space::{Fixed, FixedVector, InPlace, Room, Sink, Space};
 
 use crate::space::Weights;
 #[cfg(feature = "alloc")]
@@ -30,8 +30,8 @@ use crate::{Real, Scalar};
 use krylov::Krylov;
 
 #[cfg(feature = "alloc")]
-pub use coupled::RunTimeCoupled;
-pub use coupled::{CoupledSolver, FixedCoupled, NodeSum};
+pub(crate) use coupled::RunTimeCoupled;
+pub(crate) use coupled::{CoupledSolver, FixedCoupled, NodeSum};
 
 /// A system of linear equations A x = b that can be evaluated as often as it is asked for.
 pub trait LinearEquations<T> {

@@ -31,7 +31,6 @@ pub trait RowMatrix<T>: Sink<T> + Memory<T> + Debug {
 pub struct FullRows<A>(pub(crate) A);
 
 impl<T: Scalar, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Sink<T> for FullRows<A> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.0[row][column] += entry;
     }
@@ -56,15 +55,12 @@ impl<T: Copy, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Memory<T> fo
 impl<T: Scalar, V: DerefMut<Target = [T]> + Debug, A: DerefMut<Target = [V]> + Debug> RowMatrix<T>
     for FullRows<A>
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn clear(&mut self) {
         self.0.iter_mut().for_each(|row| row.fill(T::lift(0.0)));
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T {
         weighted(&self.0[k], &other.0[k], weights.iter().copied())
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn times(&self, k: usize, x: &[T]) -> T {
         self.0[k].iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x)
     }

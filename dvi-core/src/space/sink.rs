@@ -2,8 +2,8 @@
 //!
 //! Generated second derivatives go entry by entry to a [`Sink`]: into a matrix of this crate
 //! ([`Space`](crate::Space)), into a slice ([`Dense`]), into the product with a vector, for which no matrix
-//! is stored ([`Product`], [`TransposedProduct`]), or, for the pattern, to a function that is told where
-//! they stand ([`Places`]). An entry may come in several parts, which a sink adds.
+//! is stored (`Product`, `TransposedProduct`), or, for the pattern, to a function that is told where
+//! they stand (`Places`). An entry may come in several parts, which a sink adds.
 
 use crate::Scalar;
 
@@ -38,11 +38,11 @@ impl<T: Scalar> Sink<T> for Dense<'_, T> {
 
 /// Adds A x to a vector.
 #[derive(Debug)]
-pub struct Product<'a, T> {
+pub(crate) struct Product<'a, T> {
     /// x
-    pub x: &'a [T],
+    pub(crate) x: &'a [T],
     /// What A x is added to.
-    pub sum: &'a mut [T],
+    pub(crate) sum: &'a mut [T],
 }
 
 impl<T: Scalar> Sink<T> for Product<'_, T> {
@@ -56,11 +56,11 @@ impl<T: Scalar> Sink<T> for Product<'_, T> {
 
 /// Adds Aᵀ x to a vector.
 #[derive(Debug)]
-pub struct TransposedProduct<'a, T> {
+pub(crate) struct TransposedProduct<'a, T> {
     /// x
-    pub x: &'a [T],
+    pub(crate) x: &'a [T],
     /// What Aᵀ x is added to.
-    pub sum: &'a mut [T],
+    pub(crate) sum: &'a mut [T],
 }
 
 impl<T: Scalar> Sink<T> for TransposedProduct<'_, T> {
@@ -74,9 +74,9 @@ impl<T: Scalar> Sink<T> for TransposedProduct<'_, T> {
 
 /// Calls a function with row, column and entry: to find the pattern of a matrix, for instance.
 #[derive(Debug)]
-pub struct Places<F>(
+pub(crate) struct Places<F>(
     /// The function.
-    pub F,
+    pub(crate) F,
 );
 
 impl<T, F: FnMut(usize, usize, T)> Sink<T> for Places<F> {

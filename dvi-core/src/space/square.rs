@@ -38,7 +38,7 @@ pub(crate) use layout::Layout;
 #[cfg(feature = "alloc")]
 pub(crate) use ordering::Pattern;
 #[cfg(feature = "alloc")]
-pub use run_time::RunTimeSquare;
+pub(crate) use run_time::RunTimeSquare;
 
 /// A square matrix A that is filled entry by entry and then solved with. Its storage is chosen when it is
 /// made.

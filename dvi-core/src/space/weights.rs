@@ -17,7 +17,6 @@ pub struct Weights<T> {
 
 impl<T: Real> Weights<T> {
     /// Those that leave the mass matrix, ∂²L/∂v∂v.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn mass() -> Self {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         Self { qq: zero, qv: zero, vq: zero, vv: one }

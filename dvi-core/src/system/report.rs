@@ -56,19 +56,21 @@ pub struct Entry {
 pub struct Report {
     /// The name of the struct.
     pub system: &'static str,
-    /// The coordinates in the order in which flat slices hold them.
+    /// The coordinates in the order in which flat slices hold them: each block has a `name`, a `size` as it is
+    /// written, empty for a single coordinate, and a `factor`, where it lives.
     pub coordinates: &'static [CoordinateBlock],
     /// The names of the declared momenta.
     pub momenta: &'static [&'static str],
-    /// The formulas: as declared, and as differentiated.
+    /// The formulas, as declared and as differentiated, each with a `name`, such as `∂H/∂x[i]`, and a `text`.
     pub formulas: &'static [Formula],
     /// Statements on the structure, a sentence each: linear or nonlinear α, explicit or implicit steps.
     pub structure: &'static [&'static str],
-    /// Operations of the residual (first derivatives of L).
+    /// Operations of the residual (first derivatives of L), for each nest of `loops`: `additions`,
+    /// `multiplications`, `divisions` and `calls` in one pass.
     pub residual: &'static [OperationCount],
     /// Operations of the residual and the exact Jacobian together.
     pub jacobian: &'static [OperationCount],
-    /// The sparsity of the Jacobian.
+    /// The sparsity of the Jacobian: sets of entries, each in a `row` and a `column`, for all passes of `loops`.
     pub sparsity: &'static [Entry],
 }
 

@@ -375,10 +375,12 @@ fn steps_are_solved_as_far_as_forces_are_known() {
 fn tolerances_out_of_range_are_errors() {
     let blobs = blobs(3, 0.0);
     for tolerance in [0.0, -1.0, 1e-11, 0.1, f64::NAN, f64::INFINITY] {
-        let Err(FastSumError::Tolerance(error)) = FastSum::<_, 2>::new(&blobs, tolerance) else {
+        let Err(error @ FastSumError::Tolerance { tolerance: found, .. }) =
+            FastSum::<_, 2>::new(&blobs, tolerance)
+        else {
             panic!("{tolerance:e} is taken");
         };
-        assert_eq!(error.tolerance.to_bits(), tolerance.to_bits());
+        assert_eq!(found.to_bits(), tolerance.to_bits());
         assert!(error.to_string().contains("between 1e-10 and 1e-2"), "{error}");
     }
 }

@@ -90,7 +90,7 @@ impl Function<'_> {
                 };
                 let [left, right, then, otherwise] =
                     [left, right, then, otherwise].map(|part| self.signed(*part));
-                quote!(#scalar::choose(#left, #krate::Comparison::#relation, #right, #then, #otherwise))
+                quote!(#scalar::choose(#left, #krate::__private::Comparison::#relation, #right, #then, #otherwise))
             }
             Instruction::Reduce(..) => {
                 let name = name(register);

@@ -125,9 +125,11 @@ impl Account {
                 Factor::Rotation => quote!(Rotation),
                 Factor::Sphere => quote!(Sphere),
             };
-            quote!(#krate::CoordinateBlock { name: #name, size: #size, factor: #krate::system::Factor::#factor })
+            quote!(#krate::__private::CoordinateBlock { name: #name, size: #size, factor: #krate::__private::Factor::#factor })
         });
-        let lines = formulas.iter().map(|(name, text)| quote!(#krate::Formula { name: #name, text: #text }));
+        let lines = formulas
+            .iter()
+            .map(|(name, text)| quote!(#krate::__private::Formula { name: #name, text: #text }));
         let residual = operation_list(emitter, &programs.gradient.operations());
         let jacobian = operation_list(emitter, &programs.linearize.operations());
         let sparsity = sparsity(emitter, programs);
@@ -190,7 +192,7 @@ fn operation_list(emitter: &Emitter<'_>, operations: &[Operations]) -> TokenStre
         let loops = print_loops(&count.loops, emitter.model);
         let Operations { additions, multiplications, divisions, calls, .. } = count;
         quote! {
-            #krate::OperationCount {
+            #krate::__private::OperationCount {
                 loops: #loops, additions: #additions, multiplications: #multiplications,
                 divisions: #divisions, calls: #calls,
             }
@@ -216,6 +218,6 @@ fn sparsity(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     }
     let entries = places
         .iter()
-        .map(|[row, column, loops]| quote!(#krate::Entry { row: #row, column: #column, loops: #loops }));
+        .map(|[row, column, loops]| quote!(#krate::__private::Entry { row: #row, column: #column, loops: #loops }));
     quote!(&[#(#entries),*])
 }

@@ -58,7 +58,7 @@ fn as_one(krate: &Path, item: &ItemStruct) -> TokenStream {
     quote! {
         #[automatically_derived]
         #allow
-        impl #impl_generics #krate::system::Packable<__W> for #name #type_generics #where_clause {
+        impl #impl_generics #krate::__private::Packable<__W> for #name #type_generics #where_clause {
             type Packed = Self;
             fn packed<__R>(__systems: &[&Self; __W], __f: impl ::core::ops::FnOnce(&Self) -> __R) -> __R {
                 __f(__systems[0])
@@ -103,7 +103,7 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
         #[automatically_derived]
         #allow
         #[allow(deprecated)]
-        impl<#(#constants,)* const __W: ::core::primitive::usize> #krate::system::Packable<__W> for #name #of_numbers
+        impl<#(#constants,)* const __W: ::core::primitive::usize> #krate::__private::Packable<__W> for #name #of_numbers
         where #(#bounds),*
         {
             type Packed = #name #of_packs;

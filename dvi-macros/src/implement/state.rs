@@ -55,7 +55,7 @@ pub(super) fn space_of(emitter: &Emitter<'_>, sizes: &[Index]) -> (TokenStream, 
         }
     }
     let fixed = |blocks: TokenStream, size: TokenStream, singles: usize| {
-        let space = quote!(#krate::Fixed<#blocks, { #size }, #singles, #krate::space::FewInPlace>);
+        let space = quote!(#krate::Fixed<#blocks, { #size }, #singles, #krate::__private::FewInPlace>);
         (space, quote!(#krate::Fixed::new()))
     };
     match names.as_slice() {

@@ -4,7 +4,7 @@
 #![allow(non_snake_case)]
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use dvi_core::methods::Method;
+use dvi_core::discrete::Rule;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_tests::zoo::manifold::{COUPLED, Coupled, CoupledState, FREE, TOP, coupled, cross, dot, tilted};
@@ -87,10 +87,7 @@ fn a_system_of_all_kinds_keeps_its_angular_momentum() {
 }
 
 /// R p_R + p_s + x × p_x
-fn angular_momentum<M>(run: &Integrator<'_, Coupled, Geodesic<M>, f64>) -> [f64; 3]
-where
-    Geodesic<M>: Method<Coupled, f64, Memory = dvi_core::methods::GeodesicMemory<Coupled, f64>>,
-{
+fn angular_momentum(run: &Integrator<'_, Coupled, Geodesic<impl Rule>, f64>) -> [f64; 3] {
     let (p, CoupledState { R, x, .. }) = (run.memory().p(), run.state());
     let part = |at: usize| [p[at], p[at + 1], p[at + 2]];
     let (body, rod, centre) = (rotations::apply(&R, part(0)), part(9), cross(x, part(12)));

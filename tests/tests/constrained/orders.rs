@@ -50,7 +50,7 @@ macro_rules! of_order {
 /// The end of the motion by Gauss of order eight in short steps.
 fn end<S>(system: &S, start: S::State<f64>) -> Result<S::State<f64>, Box<dyn core::error::Error>>
 where
-    S: Lagrangian + System<Kind: dvi_core::mechanics::motion::FirstOrder<S, f64>>,
+    S: Lagrangian + System<Kind: dvi_core::mechanics::FirstOrder<S, f64>>,
 {
     let mut run = Integrator::new(system, Gauss::<4>::new(), TIME / 1000.0, start)?;
     run.take_steps(1000)?;

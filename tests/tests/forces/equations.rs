@@ -152,7 +152,7 @@ fn the_energy_changes_by_the_work_of_the_forces() -> Outcome {
     where
         S: ByHand<N>
             + Lagrangian
-            + System<Kind: dvi_core::mechanics::motion::Rates<S, f64> + dvi_core::system::Smooth>,
+            + System<Kind: dvi_core::mechanics::Rates<S, f64> + dvi_core::system::Smooth>,
         M: Method<S, f64>,
     {
         let mut run = Integrator::new(system, method, 2.0 / steps as f64, S::state(S::start()))?;

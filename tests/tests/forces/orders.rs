@@ -2,7 +2,7 @@
 
 use approx::abs_diff_eq;
 use dvi_core::discrete::Constant;
-use dvi_core::mechanics::motion::Rates;
+use dvi_core::mechanics::Rates;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;

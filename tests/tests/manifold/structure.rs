@@ -1,6 +1,6 @@
 //! What the steps keep: manifolds, momenta, the canonical form; and that they can be taken back.
 
-use dvi_core::methods::Method;
+use dvi_core::discrete::Rule;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
@@ -32,7 +32,7 @@ fn symmetric_steps_can_be_taken_back() {
 /// A step from (R exp(ε η̂), 𝕀(ω + ε δω)): R1ᵀδR1 as a vector, and δp1.
 fn body_step(
     body: Body,
-    method: impl Method<Body, Dual64, Memory = dvi_core::methods::GeodesicMemory<Body, Dual64>>,
+    method: Geodesic<impl Rule>,
     h: f64,
     [eta, change]: [[f64; 3]; 2],
 ) -> [[f64; 3]; 3] {

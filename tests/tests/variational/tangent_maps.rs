@@ -5,7 +5,6 @@ use super::Outcome;
 use super::equations::{Omega, discrete_lagrangian};
 use super::phase_space::Start;
 use approx::abs_diff_eq;
-use dvi_core::diagnostics::DiscreteHessian;
 use dvi_core::discrete::{FrequencyIn, GivenFrequency, Interval, Rule, TwiceDifferentiable};
 use dvi_core::methods::VariationalMethod;
 use dvi_core::prelude::*;
@@ -30,8 +29,9 @@ fn check<
     let mut run = Integrator::new_at(system, method, t, h, state)?;
     run.advance()?;
     let (interval, q1) = (Interval { t, h }, run.q());
-    let mut hessian = DiscreteHessian::new(system, &method);
-    hessian.evaluate(system, interval, q, q1)?;
+    let mut map = TangentMap::new(system, &method);
+    map.evaluate(system, interval, q, q1)?;
+    let hessian = map.hessian();
     for (matrix, first, second) in [(&hessian.d11, 0, 0), (&hessian.d12, 0, n), (&hessian.d22, n, n)] {
         for k in 0..n * n {
             let (i, j) = (first + k / n, second + k % n);
@@ -46,8 +46,6 @@ fn check<
             assert!(error < 1e-13, "{}, {method:?}, ({i}, {j}): {} {expected}", S::REPORT.system, matrix[k]);
         }
     }
-    let mut map = TangentMap::new(system, &method);
-    map.evaluate(system, interval, q, q1)?;
     let defect = map.symplectic_defect(system);
     assert!(defect < 1e-12, "{}, {method:?}: {defect:e}", S::REPORT.system);
     Ok(())

@@ -96,7 +96,6 @@ const ROUNDING: f64 = 1e-12;
 /// Whether a displacement makes an angle of at most 45° with a constraint that does not move: |G Δ|² ≤ ½
 /// |G|²|Δ|², from its product G Δ with the gradient, |G|², |Δ|² and, where that is needed, |q|², in the
 /// metric of the mass matrix. A rod that turns by an angle makes half that angle.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_along<T: Real>(product: T, square: T, length: T, size: impl FnOnce() -> T) -> bool {
     // Twice the square of the part of Δ that is across the constraint.
     let across = product * product / (T::lift(0.5) * square);

@@ -203,8 +203,8 @@ where
     /// rounding of the time. Nothing is allocated. The present time takes no step.
     ///
     /// # Errors
-    /// [`StepFailure::Unreachable`] if `t` is past, in the direction of [the next
-    /// step](super::ErrorControlMemory::next_step), or not finite; the run can go on to another time.
+    /// [`StepFailure::Unreachable`] if `t` is past, in the direction of the next
+    /// step, or not finite; the run can go on to another time.
     /// [`StepError`] of the first step that fails; the run stays at the last good state.
     pub fn advance_to(&mut self, t: T) -> Result<(), StepError> {
         let now = self.time();
@@ -302,7 +302,6 @@ impl<T: Real> VariableClock<T> {
         Self { sum: start, rest: T::lift(0.0) }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance(&mut self, h: T) {
         let sum = self.sum + h;
         self.rest += if Scalar::abs(self.sum) >= Scalar::abs(h) {
@@ -313,7 +312,6 @@ impl<T: Real> VariableClock<T> {
         self.sum = sum;
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self) -> T {
         self.sum + self.rest
     }

@@ -14,10 +14,10 @@ use crate::error::StepFailure;
 use crate::memory::Aside;
 use crate::space::Weights;
 #[cfg(feature = "alloc")]
-use crate::space::lines;
-#[cfg(feature = "alloc")]
 use crate::space::sink::Places;
-use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room, lines_mut};
+use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room};
+#[cfg(feature = "alloc")]
+use crate::space::{lines, lines_mut};
 use crate::{Real, Scalar, Sink, Space};
 
 /// A matrix of blocks, one row of blocks for each equation r and one column for each unknown vector k: a sum

@@ -54,7 +54,6 @@ impl<T: Scalar> RunTimeSquare<T> {
 }
 
 impl<T: Scalar> Sink<T> for RunTimeSquare<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         match &mut self.0 {
             Storage::Dense(matrix, _) => matrix.add(row, column, entry),

@@ -1,0 +1,179 @@
+//! A space whose dimension is known at compile time.
+//!
+//! A fixed space is `BLOCKS` blocks of `N` coordinates, `SINGLES` of which have one coordinate only. Stable
+//! Rust can write `[[T; N]; BLOCKS]` where it cannot yet write `[T; (BLOCKS - SINGLES) * N + SINGLES]`, so
+//! that is the storage in a value, and the entries beyond the dimension are never seen.
+
+use core::fmt::Debug;
+use core::marker::PhantomData;
+use core::ops::{Deref, DerefMut};
+
+use super::linear::{FixedCoupled, FixedSolver, Storing};
+use super::rows::FullRows;
+use super::square::FixedSquare;
+use super::{InPlace, Room, Sink, Space, Store};
+use crate::{Real, Scalar};
+
+/// A space of `BLOCKS` blocks of `N` coordinates, of which `SINGLES` have one coordinate only:
+/// (`BLOCKS` − `SINGLES`) `N` + `SINGLES` coordinates. `R` says where vectors and matrices are kept.
+///
+/// Of systems with attributes, those of up to twelve coordinates are on the stack where sizes are literals,
+/// and those of up to eight where one is a const generic. All others are on the heap. Without the feature
+/// `alloc` there is none: all are on the stack, more than 64 coordinates do not compile, and neither does,
+/// beside single coordinates, an `N` of zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Fixed<const BLOCKS: usize, const N: usize, const SINGLES: usize = 0, R = InPlace>(PhantomData<R>);
+
+impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Fixed<BLOCKS, N, SINGLES, R> {
+    /// The space.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    pub(super) const DIMENSION: usize = {
+        assert!(SINGLES <= BLOCKS, "more single coordinates than blocks");
+        let dimension = (BLOCKS - SINGLES) * N + SINGLES;
+        assert!(
+            dimension <= BLOCKS * N || R::LARGEST < usize::MAX,
+            "an array of coordinates beside single ones needs one entry at least"
+        );
+        assert!(
+            dimension <= 64 || cfg!(feature = "alloc"),
+            "more than 64 coordinates need a heap: switch on the feature `alloc` of `dvi-core`"
+        );
+        dimension
+    };
+}
+
+/// The vector of a [`Fixed`] space.
+#[derive(Clone, Debug)]
+pub struct FixedVector<
+    T: Clone + Debug,
+    const BLOCKS: usize,
+    const N: usize,
+    const SINGLES: usize = 0,
+    R: Room = InPlace,
+>(R::Vector<T, BLOCKS, N>);
+
+/// The matrix of a [`Fixed`] space.
+#[derive(Clone, Debug)]
+pub struct FixedMatrix<
+    T: Clone + Debug,
+    const BLOCKS: usize,
+    const N: usize,
+    const SINGLES: usize = 0,
+    R: Room = InPlace,
+>(R::Matrix<T, BLOCKS, N>);
+
+impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Deref
+    for FixedVector<T, BLOCKS, N, SINGLES, R>
+{
+    type Target = [T];
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn deref(&self) -> &[T] {
+        self.0.entries(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
+    }
+}
+
+impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
+    for FixedVector<T, BLOCKS, N, SINGLES, R>
+{
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn deref_mut(&mut self) -> &mut [T] {
+        self.0.entries_mut(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
+    }
+}
+
+impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Deref
+    for FixedMatrix<T, BLOCKS, N, SINGLES, R>
+{
+    type Target = [T];
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn deref(&self) -> &[T] {
+        let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
+        self.0.entries(dimension * dimension)
+    }
+}
+
+impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
+    for FixedMatrix<T, BLOCKS, N, SINGLES, R>
+{
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn deref_mut(&mut self) -> &mut [T] {
+        let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
+        self.0.entries_mut(dimension * dimension)
+    }
+}
+
+impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Sink<T>
+    for FixedMatrix<T, BLOCKS, N, SINGLES, R>
+{
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        self[row * Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION + column] += entry;
+    }
+}
+
+impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
+    for Fixed<BLOCKS, N, SINGLES, R>
+{
+    const ON_STACK: bool = Self::DIMENSION <= R::LARGEST;
+    type Vector<T: Scalar> = FixedVector<T, BLOCKS, N, SINGLES, R>;
+    type Local<T: Scalar> = R::Local<T, BLOCKS, N>;
+    type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N, SINGLES, R>;
+    type Square<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES, R>;
+    type Linear<T: Real> = FixedSolver<T, BLOCKS, N, SINGLES, R>;
+    type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>;
+    type Array<E: Clone + Debug> = FixedVector<E, BLOCKS, N, SINGLES, R>;
+    type Rows<C: Space, T: Scalar> = FullRows<C::Array<FixedVector<T, BLOCKS, N, SINGLES, R>>>;
+    type Permutation = FixedVector<usize, BLOCKS, N, SINGLES, R>;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn dimension(self) -> usize {
+        Self::DIMENSION
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn vector<T: Scalar>(self) -> Self::Vector<T> {
+        FixedVector(Store::new(Self::DIMENSION, || T::lift(0.0)))
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> FixedVector<E, BLOCKS, N, SINGLES, R> {
+        FixedVector(Store::new(Self::DIMENSION, of))
+    }
+    fn rows<C: Space, T: Scalar>(
+        self,
+        over: C,
+        _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Rows<C, T> {
+        FullRows(over.array(|| self.vector()))
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
+        FixedMatrix(Store::new(Self::DIMENSION * Self::DIMENSION, || T::lift(0.0)))
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
+        FixedSquare::new(self)
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn linear<T: Real>(
+        self,
+        _storing: Storing,
+        _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Linear<T> {
+        FixedSolver::new(self)
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn coupled<const NODES: usize, T: Real>(
+        self,
+        _unknown: usize,
+        _storing: Storing,
+        _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Coupled<NODES, T> {
+        FixedCoupled::new(self)
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn permutation(self) -> Self::Permutation {
+        FixedVector(Store::new(Self::DIMENSION, || 0))
+    }
+}

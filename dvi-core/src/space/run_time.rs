@@ -1,0 +1,110 @@
+//! A space whose dimension is known at run time only.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::fmt::Debug;
+use core::ops::{Deref, DerefMut};
+
+use super::linear::{RunTimeCoupled, RunTimeSolver, Storing};
+use super::rows::SparseRows;
+use super::square::RunTimeSquare;
+use super::{Sink, Space};
+use crate::{Real, Scalar};
+
+/// A space whose dimension is known at run time only; its storage is on the heap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RunTime {
+    /// The number of coordinates.
+    pub dimension: usize,
+}
+
+/// The matrix of a [`RunTime`] space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunTimeMatrix<T> {
+    entries: Vec<T>,
+    dimension: usize,
+}
+
+impl<T> Deref for RunTimeMatrix<T> {
+    type Target = [T];
+    fn deref(&self) -> &[T] {
+        &self.entries
+    }
+}
+
+impl<T> DerefMut for RunTimeMatrix<T> {
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.entries
+    }
+}
+
+impl<T: Scalar> Sink<T> for RunTimeMatrix<T> {
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        self.entries[row * self.dimension + column] += entry;
+    }
+}
+
+impl RunTime {
+    /// Reads a block of a state whose length the run knows; generated code does.
+    #[doc(hidden)]
+    pub fn read_block<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> Vec<T> {
+        let start = *at;
+        *at += len;
+        flat[start..*at].to_vec()
+    }
+}
+
+impl Space for RunTime {
+    const ON_STACK: bool = false;
+    type Vector<T: Scalar> = Vec<T>;
+    type Local<T: Scalar> = Vec<T>;
+    type Matrix<T: Scalar> = RunTimeMatrix<T>;
+    type Square<T: Real> = RunTimeSquare<T>;
+    type Linear<T: Real> = RunTimeSolver<T>;
+    type Coupled<const NODES: usize, T: Real> = RunTimeCoupled<T>;
+    type Array<E: Clone + Debug> = Vec<E>;
+    type Rows<C: Space, T: Scalar> = SparseRows<T>;
+    type Permutation = Vec<usize>;
+
+    fn dimension(self) -> usize {
+        self.dimension
+    }
+    fn vector<T: Scalar>(self) -> Self::Vector<T> {
+        vec![T::lift(0.0); self.dimension]
+    }
+    fn array<E: Clone + Debug>(self, mut of: impl FnMut() -> E) -> Vec<E> {
+        (0..self.dimension).map(|_| of()).collect()
+    }
+    fn rows<C: Space, T: Scalar>(
+        self,
+        over: C,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> SparseRows<T> {
+        SparseRows::new(over.dimension(), entries)
+    }
+    fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
+        let Self { dimension } = self;
+        RunTimeMatrix { entries: vec![T::lift(0.0); dimension * dimension], dimension }
+    }
+    fn square<T: Real>(self, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
+        RunTimeSquare::new(self, entries)
+    }
+    fn linear<T: Real>(
+        self,
+        storing: Storing,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Linear<T> {
+        RunTimeSolver::new(self.dimension, storing, entries)
+    }
+    fn coupled<const NODES: usize, T: Real>(
+        self,
+        unknown: usize,
+        storing: Storing,
+        entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
+    ) -> Self::Coupled<NODES, T> {
+        RunTimeCoupled::new(self, unknown, storing, entries)
+    }
+    fn permutation(self) -> Self::Permutation {
+        vec![0; self.dimension]
+    }
+}
