@@ -3,8 +3,7 @@
 use approx::abs_diff_eq;
 use dvi_core::ScalarField;
 use dvi_core::field::{Axis, Spline, Table, TableError};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use dvi_tests::Outcome;
 
 /// What is said of a table, or of the grid of its columns 1 and 2 with the values of column 3.
 fn message(text: &str) -> String {
