@@ -1,14 +1,13 @@
 //! Steps of a method on flat coordinates, in any numbers, and what they do to neighbouring points.
 
-use core::error::Error;
-
 use dvi_core::methods::Method;
 use dvi_core::state::Statistics;
 use dvi_core::{Lagrangian, Real, Space};
 use nalgebra::DMatrix;
 use num_dual::Dual64;
 
-use crate::larger;
+use crate::Outcome;
+pub use crate::apart;
 
 /// The flat coordinates after steps of length `h` from `t` on.
 ///
@@ -20,7 +19,7 @@ pub fn stepped<S: Lagrangian<T>, T: Real, M: Method<S, T>>(
     q0: &[T],
     [t, h]: [f64; 2],
     steps: u64,
-) -> Result<Vec<T>, Box<dyn Error>> {
+) -> Outcome<Vec<T>> {
     let mut q = system.space().vector();
     q.copy_from_slice(q0);
     let mut memory = method.begin(system, &q, &[], T::lift(t), T::lift(h))?;
@@ -32,11 +31,6 @@ pub fn stepped<S: Lagrangian<T>, T: Real, M: Method<S, T>>(
     Ok(q.to_vec())
 }
 
-/// The largest difference of two entries.
-pub fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
-}
-
 /// The matrix of the derivative of a function of q with `rows` values, by dual numbers.
 ///
 /// # Errors
@@ -44,8 +38,8 @@ pub fn apart(a: &[f64], b: &[f64]) -> f64 {
 pub fn jacobian(
     q: &[f64],
     rows: usize,
-    f: impl Fn(&[Dual64]) -> Result<Vec<Dual64>, Box<dyn Error>>,
-) -> Result<DMatrix<f64>, Box<dyn Error>> {
+    f: impl Fn(&[Dual64]) -> Outcome<Vec<Dual64>>,
+) -> Outcome<DMatrix<f64>> {
     let mut matrix = DMatrix::zeros(rows, q.len());
     for column in 0..q.len() {
         let seeded = q.iter().enumerate().map(|(i, &x)| Dual64::new(x, if i == column { 1.0 } else { 0.0 }));

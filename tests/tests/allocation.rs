@@ -5,21 +5,23 @@ use dvi_core::field::{Axis, ScalarField, Spline};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
-use dvi_tests::configurations;
-use dvi_tests::systems::{
-    LotkaVolterra, LotkaVolterraState, ManyVortices, ManyVorticesState, PointVortices, PointVorticesState,
-};
-use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
+use dvi_tests::schemes;
+use dvi_tests::systems::{ManyVortices, ManyVorticesState, PointVortices, PointVorticesState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
 
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;
 
-/// Allocations of a hundred steps.
-fn of_steps(mut advance: impl FnMut()) -> u64 {
+/// Allocations of what is done.
+fn blocks(act: &mut impl FnMut()) -> u64 {
     let before = dhat::HeapStats::get().total_blocks;
-    (0..100).for_each(|_| advance());
+    act();
     dhat::HeapStats::get().total_blocks - before
+}
+
+/// Of a hundred steps.
+fn of_steps(mut advance: impl FnMut()) -> u64 {
+    blocks(&mut || (0..100).for_each(|_| advance()))
 }
 
 macro_rules! assert_none {
@@ -171,16 +173,6 @@ fn of_vortices(method: Sigma, n: usize) -> f64 {
     (dhat::HeapStats::get().total_bytes - before) as f64
 }
 
-/// A one-form in class, of run-time size.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| (y[j] + y[j].powi(3) / 6.0 + x[j] * y[(j + 1) % n] / 8.0) * d(x[j])),
-    hamiltonian = sum(0..n, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0),
-)]
-struct Borne {
-    n: usize,
-}
-
 macro_rules! assert_linear {
     ($($method:expr),+ $(,)?) => {$(
         let [short, long] = [1000, 4000].map(|n| of_chain($method, n));
@@ -194,17 +186,21 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     let counted = of_steps(|| drop(std::hint::black_box(vec![0_u8; 16])));
     assert_eq!(counted, 100, "the counter counts");
 
+    // The thread of the test harness allocates now and then; steps that allocate do so every time.
+    for case in schemes::all() {
+        let mut run = case.run().expect("starts");
+        let mut few = || (0..case.subject.steps / 4).for_each(|_| run.advance().expect("steps"));
+        assert_eq!((0..3).map(|_| blocks(&mut few)).min(), Some(0), "{case:?}");
+    }
+    for case in schemes::fused() {
+        let mut run = case.run().expect("starts");
+        let mut few = || (0..10).for_each(|_| run.advance().expect("steps"));
+        assert_eq!((0..3).map(|_| blocks(&mut few)).min(), Some(0), "{case:?}");
+    }
+
     let newton = |sigma: f64| Sigma { solver: Solver::Newton, ..Sigma::new(sigma) };
     let summation = Summation::Compensated;
     let compensated = Sigma { summation, ..Sigma::midpoint() };
-    let (vortices, start) = configurations::leapfrogging();
-    let many = ManyVortices { gamma: vortices.gamma.to_vec() };
-    let many_start = ManyVorticesState { x: start.x.to_vec(), y: start.y.to_vec() };
-    assert_none!(vortices, start, Sigma::leapfrog(), Sigma::midpoint(), newton(0.5), Sigma::new(1.0));
-    assert_none!(many, many_start, Sigma::leapfrog(), Sigma::midpoint(), newton(0.5), Sigma::new(1.0));
-    let gauss_by_newton = Gauss { solver: Solver::Newton, ..Gauss::<2>::new() };
-    assert_none!(many, many_start, RungeKutta::classical(), Gauss::<3>::new(), gauss_by_newton, compensated);
-
     // Of a fixed size for which the stack is too small.
     let eleven = |f: fn(f64) -> f64| core::array::from_fn(|j| f(std::f64::consts::TAU * j as f64 / 11.0));
     let vortices_11 = PointVortices::<11> { gamma: [1.0; 11] };
@@ -219,33 +215,6 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     );
     assert_none!(vortices_11, start_11, Projected::symmetric(), compensated);
 
-    let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
-    let prey_start = LotkaVolterraState { x: 1.0, y: 1.0 };
-    assert_none!(prey, prey_start, Sigma::midpoint(), newton(0.5), RungeKutta::heun(), Gauss::<2>::new());
-
-    let one_sided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
-    let one_sided_start = OneSidedState { x: 1.0, y: 1.0 };
-    assert_none!(
-        one_sided,
-        one_sided_start,
-        OneStep::midpoint(),
-        OneStep::scheme_b(),
-        OneStepGauss::<3>::new(),
-        Projected::symmetric()
-    );
-    let ring = Borne { n: 3 };
-    let ring_start = BorneState { x: vec![0.3, -0.4, 0.2], y: vec![0.5, 0.1, -0.3] };
-    assert_none!(ring, ring_start, OneStep::trapezoid(), OneStep::scheme_a(), OneStepGauss::<2>::new());
-    assert_none!(ring, ring_start, Projected::standard(), Projected::symmetric());
-
-    let (rods, rods_start) = links(5);
-    assert_none!(
-        rods,
-        rods_start,
-        Rattle::default(),
-        Constrained::new(Variational::midpoint()),
-        Composition::triple_jump(Constrained::new(Variational::trapezoid()))
-    );
     let balls = Balls { m: vec![1.0, 2.0, 0.5] };
     let balls_start = BallsState { x: vec![0.5, 3.0, 6.0], dot_x: vec![0.0, -3.0, 2.0] };
     assert_none!(
@@ -281,7 +250,6 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     let fitted = || Variational::simpson().phase_fitted(Radial(Reading::Averaged));
     let kepler = Kepler { mu: 1.0 };
     let kepler_start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
-    assert_none!(kepler, kepler_start, Variational { summation, ..Variational::trapezoid() });
     let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
     let chain_start =
         RunTimeChainState { q: vec![0.1, 0.5, -0.2], wall: 0.3, dot_q: vec![0.3, 0.1, -0.4], dot_wall: 0.2 };
@@ -294,20 +262,7 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     assert_none_controlled!(chain, chain_start, by_error, Gauss::<2>::new());
     assert_none_controlled!(chain, chain_start, reversible, Variational::trapezoid(), fitted());
     assert_none_controlled!(chain, chain_start, osculating, Variational::trapezoid(), fitted());
-    assert_none!(
-        chain,
-        chain_start,
-        Galerkin::<4>::new(),
-        Galerkin { solver: Solver::Newton, ..Galerkin::<5>::new() },
-        Galerkin::<9>::new().in_lanes(),
-        Galerkin { solver: Solver::Newton, ..Galerkin::<9>::new() },
-        Galerkin::<3>::new().phase_fitted(Radial(Reading::Averaged)),
-        Newmark::new(0.25),
-        Newmark { solver: Solver::Newton, ..Newmark::new(0.25) },
-        Gauss::<2>::new(),
-        RungeKutta::classical(),
-        Langevin { friction: 0.3, temperature: 0.1, seed: 1 },
-    );
+    assert_none!(chain, chain_start, Langevin { friction: 0.3, temperature: 0.1, seed: 1 });
 
     // Friction stores no matrix where the mass matrix is diagonal and constant.
     let fixed_point = Variational { solver: Solver::FixedPoint, ..Variational::midpoint() };

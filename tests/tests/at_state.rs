@@ -5,13 +5,12 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::mechanics::Rates;
 use dvi_core::prelude::*;
 use dvi_core::{Scalar, Space};
+use dvi_tests::Outcome;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::*;
 use nalgebra::{DMatrix, DVector};
 use num_dual::HyperDual64;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// L(q, v, t) and its derivatives by the arguments `first` and `second`, counted through q, v and t:
 /// [L, ∂₁L, ∂₂L, ∂₁∂₂L].

@@ -4,11 +4,9 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_examples::models::Orbit;
-use dvi_tests::larger;
+use dvi_tests::Outcome;
 use dvi_tests::zoo::regular::*;
-
-type Failed = Box<dyn core::error::Error>;
-type Outcome = Result<(), Failed>;
+use dvi_tests::{apart, larger};
 
 fn last<S: Lagrangian, M: Method<S, f64>>(
     system: &S,
@@ -16,70 +14,10 @@ fn last<S: Lagrangian, M: Method<S, f64>>(
     start: S::State<f64>,
     time: f64,
     steps: u64,
-) -> Result<Vec<f64>, Failed> {
+) -> Outcome<Vec<f64>> {
     let mut run = Integrator::new(system, method, time / steps as f64, start)?;
     run.take_steps(steps)?;
     Ok(run.q().to_vec())
-}
-
-fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
-}
-
-fn check_order<S: Lagrangian, M: Method<S, f64> + Copy>(
-    system: &S,
-    method: M,
-    start: &S::State<f64>,
-    reference: &[f64],
-    steps: u64,
-) -> Outcome {
-    let mut errors = Vec::new();
-    for steps in [steps, steps * 3 / 2, 2 * steps] {
-        let found = last(system, method, start.clone(), 1.0, steps)?;
-        errors.push((1.0 / steps as f64, apart(&found, reference)));
-    }
-    let (order, name) = (convergence_order(&errors).ok_or("no slope")?, S::REPORT.system);
-    assert!(
-        abs_diff_eq!(order, method.order() as f64, epsilon = 0.3),
-        "{name}, order {}: {order}",
-        method.order()
-    );
-    Ok(())
-}
-
-/// Against the variational method with interior displacements of order eight; Kepler's orbit against its
-/// closed form.
-#[test]
-fn baselines_have_their_orders_on_regular_systems() -> Outcome {
-    macro_rules! check {
-        ($system:expr, $start:expr, $reference:expr, $steps:expr) => {{
-            let (system, start, reference) = (&$system, &$start, &$reference);
-            check_order(system, RungeKutta::midpoint(), start, reference, 1024)?;
-            check_order(system, RungeKutta::heun(), start, reference, 1024)?;
-            check_order(system, RungeKutta::classical(), start, reference, 96)?;
-            check_order(system, Gauss::<1>::new(), start, reference, 64)?;
-            check_order(system, Gauss::<2>::new(), start, reference, 16)?;
-            // Few enough for errors above rounding.
-            check_order(system, Gauss::<3>::new(), start, reference, $steps)?;
-        }};
-    }
-    let orbit = Orbit { e: 0.3 };
-    let at = orbit.pericentre();
-    let start = KeplerState { x: at.x, y: at.y, dot_x: at.dot_x, dot_y: at.dot_y };
-    check!(Kepler { mu: 1.0 }, start, orbit.position(1.0), 12);
-    let fine = Galerkin::<5>::new();
-    let pendulum = DoublePendulum { mass: [1.0, 0.7], length: [0.9, 1.2], g: 3.0 };
-    let start = DoublePendulumState { a: 1.1, b: -0.4, dot_a: 0.8, dot_b: 2.1 };
-    check!(pendulum, start, last(&pendulum, fine, start, 1.0, 256)?, 24);
-    let (fast, start) =
-        (Relativistic { m: 1.5 }, RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 });
-    check!(fast, start, last(&fast, fine, start, 1.0, 256)?, 8);
-    let (growing, start) = (GrowingMass {}, GrowingMassState { x: 0.8, y: 0.4, dot_x: 0.3, dot_y: -0.9 });
-    check!(growing, start, last(&growing, fine, start, 1.0, 256)?, 8);
-    let magnetic = MagneticParticle { m: 1.2, b: 1.0 };
-    let start = MagneticParticleState { x: 0.3, y: -0.2, z: 0.5, dot_x: 1.0, dot_y: 0.4, dot_z: -0.8 };
-    check!(magnetic, start, last(&magnetic, fine, start, 1.0, 256)?, 12);
-    Ok(())
 }
 
 /// Two oscillators of frequency 1 whose velocities are coupled, and beside them dF/dt of F = t x y + x³ y:
@@ -110,66 +48,6 @@ fn momenta_beside_those_of_a_constant_mass_matrix_are_taken_off() -> Outcome {
     check(Gauss::<8>::new().in_lanes(), 10, 1e-12)?;
     check(Gauss { summation: Summation::Compensated, ..Gauss::<4>::new() }, 40, 1e-12)?;
     check(RungeKutta::classical(), 400, 1e-9)
-}
-
-/// A position-dependent mass, so that p = ∂L/∂v is not a multiple of v.
-#[lagrangian(coordinates(x), lagrangian = (1.0 + x * x) * dot(x).powi(2) / 2.0 - x.powi(2) - x.powi(4) / 2.0)]
-struct Heavier;
-
-/// The area dq ∧ dp of a small parallelogram, carried along for a hundred steps, by central differences.
-#[test]
-fn gauss_preserves_area_and_runge_kutta_does_not() -> Outcome {
-    fn image<M: Method<Heavier, f64>>(
-        method: M,
-        q: f64,
-        p: f64,
-    ) -> Result<[f64; 2], Box<dyn core::error::Error>> {
-        let start = HeavierState { x: q, dot_x: p / (1.0 + q * q) };
-        let mut run = Integrator::new(&Heavier, method, 0.3, start)?;
-        run.take_steps(100)?;
-        let HeavierState { x, dot_x } = run.state();
-        Ok([x, (1.0 + x * x) * dot_x])
-    }
-    fn defect<M: Method<Heavier, f64> + Copy>(method: M) -> Result<f64, Box<dyn core::error::Error>> {
-        let (q, p, eps) = (0.8, 0.3, 1e-5);
-        let along = |dq: f64, dp: f64| -> Result<[f64; 2], Box<dyn core::error::Error>> {
-            let (ahead, behind) = (image(method, q + dq, p + dp)?, image(method, q - dq, p - dp)?);
-            Ok([0, 1].map(|i| (ahead[i] - behind[i]) / (2.0 * eps)))
-        };
-        let [a, b] = [along(eps, 0.0)?, along(0.0, eps)?];
-        Ok((a[0] * b[1] - a[1] * b[0] - 1.0).abs())
-    }
-    for (defect, name) in [
-        (defect(Gauss::<1>::new())?, "Gauss 1"),
-        (defect(Gauss::<2>::new())?, "Gauss 2"),
-        (defect(Gauss::<3>::new())?, "Gauss 3"),
-    ] {
-        assert!(defect < 1e-5, "{name}: {defect:e}");
-    }
-    let lost = defect(RungeKutta::classical())?;
-    assert!(lost > 1e-3, "Runge–Kutta: {lost:e}");
-    Ok(())
-}
-
-#[test]
-fn gauss_keeps_the_angular_momentum() -> Outcome {
-    let kepler = Kepler { mu: 1.0 };
-    let start = KeplerState { x: 0.4, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
-    fn drift<M: Method<Kepler, f64>>(
-        method: M,
-        kepler: &Kepler,
-        start: KeplerState,
-    ) -> Result<f64, Box<dyn core::error::Error>> {
-        let mut run = Integrator::new(kepler, method, 0.05, start)?;
-        let before = run.momentum(0).ok_or("no momentum")?;
-        run.take_steps(5000)?;
-        Ok((run.momentum(0).ok_or("no momentum")? - before).abs())
-    }
-    let (kept, lost) =
-        (drift(Gauss::<3>::new(), &kepler, start)?, drift(RungeKutta::classical(), &kepler, start)?);
-    assert!(kept < 1e-13, "{kept:e}");
-    assert!(lost > 1e-5, "{lost:e}");
-    Ok(())
 }
 
 /// A planet of any mass, so that momenta are much larger or smaller than coordinates.
@@ -210,7 +88,7 @@ struct Arc {
 #[test]
 fn a_fixed_point_of_tiny_numbers_ends_no_sooner() -> Outcome {
     fn check<M: Method<Arc, f64>>(method: impl Fn() -> M) -> Outcome {
-        let run = |power: i32| -> Result<(f64, u64), Failed> {
+        let run = |power: i32| -> Outcome<(f64, u64)> {
             let unit = 2.0_f64.powi(power);
             let start = ArcState { arc: unit, dot_arc: -0.2 * unit };
             let system = Arc { r: unit };
@@ -356,7 +234,7 @@ fn gauss_turns_the_oscillator_by_the_pade_approximant() -> Outcome {
 /// Most of one period of Kepler's orbit in 16 steps, against its closed form.
 #[test]
 fn each_stage_of_gauss_gains_digits() -> Outcome {
-    fn error<const S: usize>() -> Result<f64, Box<dyn core::error::Error>> {
+    fn error<const S: usize>() -> Outcome<f64> {
         let orbit = Orbit { e: 0.3 };
         let at = orbit.pericentre();
         let start = KeplerState { x: at.x, y: at.y, dot_x: at.dot_x, dot_y: at.dot_y };

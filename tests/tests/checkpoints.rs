@@ -5,27 +5,13 @@ use dvi_core::error::CheckpointError;
 use dvi_core::methods::{Method, VariableStep};
 use dvi_core::prelude::*;
 use dvi_core::run::{Checkpoint, StepControl};
+use dvi_tests::Outcome;
 use dvi_tests::bits;
-use dvi_tests::configurations::{leapfrogging, quasi_periodic};
+use dvi_tests::configurations::leapfrogging;
 use dvi_tests::systems::*;
-use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
-use dvi_tests::zoo::regular::{self, Kepler, KeplerState, RunTimeChain, RunTimeChainState};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain};
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
-
-/// A mass that depends on the place.
-#[lagrangian(
-    coordinates(r, phi),
-    lagrangian = (dot(r).powi(2) + r * r * dot(phi).powi(2)) / 2.0 + 1.0 / r,
-)]
-#[derive(Clone, Debug)]
-struct Polar;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - 1e6 * x * x / 2.0)]
-#[derive(Clone, Debug)]
-struct Stiff;
 
 /// As a text, and back.
 fn written_and_read(checkpoint: &Checkpoint) -> Result<Checkpoint, serde_json::Error> {
@@ -37,25 +23,6 @@ fn written_and_read(checkpoint: &Checkpoint) -> Result<Checkpoint, serde_json::E
 /// What can be asked of a run, numbers as bits.
 fn asked<R: Run<Scalar = f64>>(run: &R) -> (Vec<u64>, u64, u64, dvi_core::state::Statistics, Checkpoint) {
     (bits(run.q()), run.time().to_bits(), run.energy().to_bits(), run.statistics(), run.checkpoint())
-}
-
-fn check<S, M>(system: &S, method: M, start: S::State<f64>) -> Outcome
-where
-    S: Lagrangian,
-    M: Method<S, f64> + Clone,
-{
-    for before in [0, 1, 5, 30] {
-        let mut run = Integrator::new_at(system, method.clone(), 0.3, 0.05, start.clone())?;
-        run.take_steps(before)?;
-        let checkpoint = written_and_read(&run.checkpoint())?;
-        let mut again = Integrator::resume(system, method.clone(), &checkpoint)?;
-        for _ in 0..3 {
-            assert_eq!(asked(&run), asked(&again), "after {before} steps and some more");
-            run.take_steps(20)?;
-            again.take_steps(20)?;
-        }
-    }
-    Ok(())
 }
 
 fn check_controlled<M, C>(method: M, control: C, start: KeplerState) -> Outcome
@@ -76,77 +43,6 @@ where
         }
     }
     Ok(())
-}
-
-#[test]
-fn degenerate_runs_go_on() -> Outcome {
-    let summation = Summation::Compensated;
-    let (vortices, start) = quasi_periodic();
-    for sigma in [0.0, 0.25, 0.5, 1.0] {
-        for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
-            let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
-            check(&vortices, method, start)?;
-            check(&Curved { kappa: 0.3 }, method, CurvedState { x: 0.4, y: 0.1 })?;
-        }
-    }
-    check(&vortices, Sigma { summation, ..Sigma::midpoint() }, start)?;
-    let start_by = Start::RungeKutta(RungeKutta::heun());
-    check(&vortices, Sigma { summation, start: start_by, ..Sigma::new(0.25) }, start)?;
-    check(&vortices, Gauss::<2>::new(), start)?;
-    check(&vortices, Gauss { solver: Solver::Newton, ..Gauss::<2>::new() }, start)?;
-    check(
-        &Curved { kappa: 0.3 },
-        Gauss { solver: Solver::Newton, ..Gauss::<2>::new() },
-        CurvedState { x: 0.4, y: 0.1 },
-    )?;
-    check(&vortices, RungeKutta::midpoint(), start)?;
-    let prey = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
-    for method in [OneStep::midpoint(), OneStep::trapezoid(), OneStep::scheme_a(), OneStep::scheme_b()] {
-        check(&prey, method, OneSidedState { x: 1.2, y: 0.9 })?;
-    }
-    check(&prey, OneStepGauss::<3>::new(), OneSidedState { x: 1.2, y: 0.9 })?;
-    check(&prey, Projected::symmetric(), OneSidedState { x: 1.2, y: 0.9 })?;
-    check(&vortices, EnergyLimit { method: Sigma::midpoint(), limit: 1.0 }, start)?;
-    // The parasitic mode is watched on as it was.
-    let (pairs, start) = leapfrogging();
-    check(&pairs, Sigma::leapfrog(), start)
-}
-
-#[test]
-fn regular_runs_go_on() -> Outcome {
-    let summation = Summation::Compensated;
-    let planet = KeplerState { x: 0.7, y: 0.2, dot_x: 0.3, dot_y: 1.1 };
-    let particle = PolarState { r: 0.7, phi: 0.2, dot_r: 0.3, dot_phi: 1.1 };
-    for beta in [0.0, 0.25] {
-        check(&KEPLER, Newmark::new(beta), planet)?;
-        check(&KEPLER, EnergyLimit { method: Newmark::new(beta), limit: 1.0 }, planet)?;
-    }
-    check(&KEPLER, Newmark { summation, ..Newmark::new(0.25) }, planet)?;
-    check(&KEPLER, Variational::trapezoid(), planet)?;
-    check(&KEPLER, Variational { summation, ..Variational::trapezoid() }, planet)?;
-    check(&KEPLER, Variational::simpson().phase_fitted(Radial(Reading::Averaged)), planet)?;
-    check(&KEPLER, Variational::simpson().phase_fitted(Constant(1.0)), planet)?;
-    check(&KEPLER, Galerkin::<4>::new(), planet)?;
-    check(&KEPLER, Galerkin { summation, ..Galerkin::<9>::new() }, planet)?;
-    check(&KEPLER, Galerkin { summation, ..Galerkin::<9>::new() }.in_lanes(), planet)?;
-    check(&KEPLER, Galerkin::<6>::new().in_lanes(), planet)?;
-    check(&KEPLER, Galerkin::<6>::new().phase_fitted(Constant(1.0)), planet)?;
-    check(&KEPLER, dvi_core::methods::Composition::kahan_li_6(Variational::trapezoid()), planet)?;
-    check(&Polar, Variational::midpoint(), particle)?;
-    check(&Polar, Galerkin::<3>::new(), particle)?;
-    check(&KEPLER, Gauss::<2>::new(), planet)?;
-    check(&KEPLER, RungeKutta::classical(), planet)?;
-    // The fixed point does not contract, and is tried again after some steps.
-    check(&Stiff, Gauss::<2>::new(), StiffState { x: 0.7, dot_x: 0.2 })?;
-    check(&Polar, Gauss { solver: Solver::Newton, ..Gauss::<2>::new() }, particle)?;
-    check(&Polar, Gauss::<2>::new(), PolarState { dot_phi: 1.9, ..particle })?;
-    check(&Polar, RungeKutta::classical(), particle)?;
-    let fast = regular::RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };
-    check(&regular::Relativistic { m: 1.5 }, Gauss::<3>::new(), fast)?;
-    let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
-    let wave =
-        RunTimeChainState { q: vec![0.1, 0.5, -0.2], wall: 0.3, dot_q: vec![0.3, 0.1, -0.4], dot_wall: 0.2 };
-    check(&chain, Variational::midpoint(), wave)
 }
 
 /// A pendulum, whose steps leave as much of its constraint as their tolerance allows.

@@ -5,6 +5,5 @@ mod light;
 mod orders;
 mod redundant;
 mod starts;
-mod structure;
 
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use dvi_tests::Outcome;

@@ -4,4 +4,4 @@ mod declarations;
 mod nonholonomic;
 mod systems;
 
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use dvi_tests::Outcome;

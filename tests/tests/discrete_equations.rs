@@ -3,136 +3,10 @@
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
-use dvi_core::{DegenerateLagrangian, Lagrangian};
+use dvi_tests::Outcome;
+use dvi_tests::apart;
 use dvi_tests::configurations::quasi_periodic;
-use dvi_tests::larger;
-use dvi_tests::oracle::discrete_lagrangian;
 use dvi_tests::systems::*;
-use num_dual::Dual64;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
-
-fn dual(q: &[f64], direction: Option<usize>) -> Vec<Dual64> {
-    let unit = |i| if Some(i) == direction { 1.0 } else { 0.0 };
-    q.iter().enumerate().map(|(i, &q)| Dual64::new(q, unit(i))).collect()
-}
-
-/// The largest component of the residual of the discrete equations.
-fn residual<S: Lagrangian<Dual64>>(
-    system: &S,
-    sigma: f64,
-    t: f64,
-    h: f64,
-    [q0, q1, q2]: [&[f64]; 3],
-) -> f64 {
-    (0..q0.len())
-        .map(|i| {
-            let left = discrete_lagrangian(system, sigma, t, h, &dual(q0, None), &dual(q1, Some(i)));
-            let right = discrete_lagrangian(system, sigma, t + h, h, &dual(q1, Some(i)), &dual(q2, None));
-            (left.eps + right.eps).abs()
-        })
-        .fold(0.0, larger)
-}
-
-#[track_caller]
-fn check<S: DegenerateLagrangian + Lagrangian<Dual64>>(
-    system: &S,
-    start: S::State<f64>,
-    h: f64,
-    steps: u64,
-    tolerance: f64,
-) -> Outcome {
-    for sigma in [0.0, 0.2, 0.5, 0.7, 1.0] {
-        for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
-            let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
-            let mut run = Integrator::new(system, method, h, start.clone())?;
-            let mut points = vec![run.q().to_vec()];
-            while run.steps() < steps {
-                run.advance()?;
-                points.push(run.q().to_vec());
-            }
-            for (k, window) in points.windows(3).enumerate() {
-                let [q0, q1, q2] = window else { return Err("a window of three".into()) };
-                let found = residual(system, sigma, k as f64 * h, h, [q0, q1, q2]);
-                let name = S::REPORT.system;
-                assert!(found < tolerance, "{name}, sigma = {sigma}, {solver:?}, step {k}: {found:e}");
-            }
-        }
-    }
-    Ok(())
-}
-
-#[test]
-fn matching_affine_form() -> Outcome {
-    let (system, start) = quasi_periodic();
-    check(&system, start, 0.05, 40, 2e-15)
-}
-
-#[test]
-fn run_time_size() -> Outcome {
-    let system = ManyVortices { gamma: vec![1.0, 2.0, -0.5] };
-    let start = ManyVorticesState { x: vec![0.0, 1.0, 0.3], y: vec![0.0, 0.2, 1.5] };
-    check(&system, start, 0.05, 40, 2e-15)
-}
-
-#[test]
-fn dense_affine_form() -> Outcome {
-    let (system, start) = quadratic();
-    check(&system, start, 0.02, 10, 4e-15)
-}
-
-/// Where σ = 0 only reverses the defect, though no coordinate has one conjugate.
-#[test]
-fn dense_antisymmetric_form() -> Outcome {
-    let (mut system, start) = quadratic();
-    let a = system.a;
-    for (i, row) in system.a.iter_mut().enumerate() {
-        for (j, entry) in row.iter_mut().enumerate() {
-            *entry = (a[i][j] - a[j][i]) / 2.0;
-        }
-    }
-    check(&system, start, 0.02, 10, 4e-15)
-}
-
-fn quadratic() -> (Quadratic, QuadraticState) {
-    let system = Quadratic {
-        a: [[0.3, 1.1, -0.4, 0.2], [-0.7, 0.1, 0.5, 0.9], [0.2, -0.6, 0.4, 1.3], [0.8, -0.1, -1.0, -0.2]],
-        s: [[1.0, 0.2, 0.0, 0.1], [0.2, 1.5, -0.3, 0.0], [0.0, -0.3, 0.8, 0.2], [0.1, 0.0, 0.2, 1.2]],
-        quartic: 0.3,
-    };
-    (system, QuadraticState { z: [0.5, -0.3, 0.4, 0.2] })
-}
-
-#[test]
-fn nonlinear_form_with_one_entry_in_a_row() -> Outcome {
-    check(&Curved { kappa: 0.2 }, CurvedState { x: 0.6, y: -0.4 }, 0.05, 20, 4e-15)
-}
-
-#[test]
-fn nonlinear_form_with_diagonal_entries() -> Outcome {
-    let system = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
-    check(&system, LotkaVolterraState { x: 1.3, y: 1.6 }, 0.02, 8, 4e-15)
-}
-
-#[test]
-fn a_form_that_degenerates_at_the_ends_only() -> Outcome {
-    let (system, start) = (SphereForm { gamma: 1.5 }, SphereFormState { phi: 0.4, z: 0.3 });
-    // In this gauge the parasitic mode is multiplied by σ/(1−σ) or its inverse in each step.
-    for (sigma, steps) in [(0.4, 6), (0.5, 30), (0.6, 6)] {
-        let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
-        let mut run = Integrator::new(&system, method, 0.05, start)?;
-        let mut points = vec![run.q().to_vec()];
-        for _ in 0..steps {
-            run.advance()?;
-            points.push(run.q().to_vec());
-        }
-        for window in points.windows(3) {
-            let [q0, q1, q2] = window else { return Err("a window of three".into()) };
-            assert!(residual(&system, sigma, 0.0, 0.05, [q0, q1, q2]) < 2e-15);
-        }
-    }
-    Ok(())
-}
 
 #[test]
 fn sizes_fixed_and_at_run_time_agree() -> Outcome {
@@ -146,7 +20,7 @@ fn sizes_fixed_and_at_run_time_agree() -> Outcome {
             a.advance()?;
             b.advance()?;
         }
-        let apart = a.q().iter().zip(b.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        let apart = dvi_tests::apart(a.q(), b.q());
         assert!(apart < 1e-13, "sigma = {sigma}: {apart:e}");
     }
     Ok(())
@@ -177,7 +51,7 @@ fn a_given_second_point_is_reached() -> Outcome {
         let method = Sigma::new(sigma);
         let mut run = Integrator::from_two_points(&system, method, 0.05, first, exact.state())?;
         run.advance()?;
-        let apart = run.q().iter().zip(exact.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        let apart = dvi_tests::apart(run.q(), exact.q());
         assert!(apart < 4e-15, "sigma = {sigma}: {apart:e}");
     }
     Ok(())
@@ -227,7 +101,28 @@ fn newton_takes_over_where_the_fixed_point_is_slow() -> Outcome {
     }
     assert!(slow.statistics().iterations > 20 * 100);
     assert!(automatic.statistics().factorisations > 100);
-    let apart = slow.q().iter().zip(automatic.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+    let apart = dvi_tests::apart(slow.q(), automatic.q());
     assert!(apart < 1e-10, "{apart:e}");
+    Ok(())
+}
+
+/// q(t) of the flow of α = ½(x dy − y dx) + t dx and H = 2x is y = y0 + 3t, x = x0: (Dα)ᵀ − Dα times q′ is
+/// ∇H + ∂α/∂t.
+#[test]
+fn the_rate_of_the_form_drives_the_flow() -> Outcome {
+    #[degenerate_lagrangian(
+        coordinates(x, y),
+        one_form = (x * d(y) - y * d(x)) / 2.0 + t * d(x),
+        hamiltonian = 2.0 * x,
+    )]
+    struct Ramp {}
+    for (h, sigma) in [0.06, -0.06].into_iter().flat_map(|h| [0.0, 0.3, 0.5, 1.0].map(|sigma| (h, sigma))) {
+        for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
+            let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
+            let mut run = Integrator::new_at(&Ramp {}, method, -0.7, h, RampState { x: 1.0, y: 0.0 })?;
+            run.take_steps(10)?;
+            assert!(apart(run.q(), &[1.0, 30.0 * h]) < 1e-13, "{method:?}, h = {h}: {:?}", run.q());
+        }
+    }
     Ok(())
 }

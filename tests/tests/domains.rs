@@ -5,11 +5,10 @@ use dvi_core::Scalar;
 use dvi_core::methods::{InStep, Method};
 use dvi_core::prelude::*;
 use dvi_core::run::Together;
+use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::systems::{LotkaVolterra, PointVortices};
 use dvi_tests::zoo::regular::Kepler;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// A fall into the end of the domain at x = 0, where the force is finite beyond it: 1/x is known where ln x
 /// is not.
@@ -81,7 +80,7 @@ fn keeps_to_the_domain<S: Lagrangian, M: Method<S, f64>>(
     name: &str,
     (system, start): (&S, StartOf<S>),
     method: impl Fn() -> M,
-) -> Result<usize, Box<dyn core::error::Error>> {
+) -> Outcome<usize> {
     let mut left = 0;
     for number in 1..=40 {
         let begin = || Integrator::new(system, method(), 0.1, start(0.2 + 0.013 * f64::from(number)));

@@ -4,9 +4,8 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::discrete::{Constant, Rule};
 use dvi_core::prelude::*;
-use dvi_tests::larger;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use dvi_tests::Outcome;
+use dvi_tests::{apart, larger};
 
 /// A spring that becomes stiffer.
 #[lagrangian(
@@ -119,7 +118,7 @@ fn it_is_of_second_order_in_the_time() -> Outcome {
         let time = run.time();
         let mut reference = Integrator::new(&Spring, Gauss::<4>::new(), time / 400.0, SPRING)?;
         reference.take_steps(400)?;
-        let off = run.q().iter().zip(reference.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        let off = apart(run.q(), reference.q());
         errors.push((h, off));
     }
     let order = convergence_order(&errors).ok_or("no slope")?;
@@ -213,11 +212,7 @@ struct Particle {
 }
 
 /// The smallest and the largest of `steps` lengths over the first one.
-fn lengths(
-    system: &Particle,
-    [x, dot_x, h]: [f64; 3],
-    steps: usize,
-) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+fn lengths(system: &Particle, [x, dot_x, h]: [f64; 3], steps: usize) -> Outcome<[f64; 2]> {
     let start: ParticleState = ParticleState { x, dot_x };
     let mut run = ControlledIntegrator::new(system, Variational::midpoint(), EnergyMomentum::new(h), start)?;
     let mut found = [1.0_f64; 2];

@@ -6,13 +6,12 @@ use core::f64::consts::{PI, TAU};
 use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
 use dvi_core::run::{ControlledRun, StepControl};
+use dvi_tests::Outcome;
 use dvi_tests::configurations::chaotic;
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::{DoublePendulum, DoublePendulumState, Kepler, KeplerState};
 
 mod rough;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
 const TOLERANCES: [f64; 9] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
@@ -33,7 +32,7 @@ fn errors<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
     start: &S::State<f64>,
     end: f64,
     fine: &[f64],
-) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+) -> Outcome<Vec<f64>> {
     let error = |&tolerance: &f64| {
         let control = ErrorControl::new(tolerance, 0.01);
         let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
@@ -104,8 +103,8 @@ fn estimates<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
     method: M,
     start: &S::State<f64>,
     [end, tolerance]: [f64; 2],
-    fine: impl Fn(S::State<f64>, [f64; 2]) -> Result<Vec<f64>, Box<dyn core::error::Error>>,
-) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+    fine: impl Fn(S::State<f64>, [f64; 2]) -> Outcome<Vec<f64>>,
+) -> Outcome<[f64; 2]> {
     let mut run =
         ControlledIntegrator::new(system, method, ErrorControl::new(tolerance, 0.01), start.clone())?;
     let mut range = [f64::INFINITY, 0.0];
@@ -357,10 +356,7 @@ fn an_energy_limit_lets_the_estimate_through() -> Outcome {
 }
 
 /// The largest errors of the energy in the first and in the last tenth of `periods`.
-fn energy_errors(
-    mut run: impl Run<Scalar = f64>,
-    periods: f64,
-) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+fn energy_errors(mut run: impl Run<Scalar = f64>, periods: f64) -> Outcome<[f64; 2]> {
     let initial = run.energy();
     let mut largest = [0.0; 2];
     while run.time() < periods * TAU {

@@ -5,10 +5,9 @@ mod starts;
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Two equal vortices at distance `d`.
 fn pair(d: f64) -> (PointVortices<2>, PointVorticesState<2>) {

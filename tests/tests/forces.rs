@@ -1,8 +1,6 @@
 //! Forces: orders, discrete equations, momentum maps, tangent maps, power and work, failures.
 
+use dvi_tests::Outcome;
+
 mod declarations;
 mod equations;
-mod orders;
-mod systems;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;

@@ -3,7 +3,6 @@
 mod equations;
 mod failures;
 mod many_nodes;
-mod orders;
 mod oscillator;
 mod structure;
 mod systems;

@@ -4,10 +4,9 @@ use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{ProperlyDegenerate, Space};
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Points in the first quadrant, with logarithms and roots.
 const POINTS: [[f64; 10]; 3] = [

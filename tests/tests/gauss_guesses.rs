@@ -4,9 +4,8 @@
 use dvi_core::field::{Axis, Spline};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::larger;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// A mass in a potential that is known in a table alone.
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - psi(x))]
@@ -15,7 +14,7 @@ struct Tabulated {
 }
 
 /// On [−1, 1]: 2x², with deviations of a hundredth that jump from point to point.
-fn rough() -> Result<Spline<1>, Box<dyn core::error::Error>> {
+fn rough() -> Outcome<Spline<1>> {
     let mut point = 0.0;
     let value = |[x]: [f64; 1]| {
         point += 1.0;
@@ -31,12 +30,7 @@ struct TabulatedFlow {
 }
 
 /// The place at the end of each step of a run in 400 times as many steps of order four.
-fn reference<S: Lagrangian>(
-    system: &S,
-    start: S::State<f64>,
-    h: f64,
-    steps: usize,
-) -> Result<Vec<f64>, Box<dyn core::error::Error>>
+fn reference<S: Lagrangian>(system: &S, start: S::State<f64>, h: f64, steps: usize) -> Outcome<Vec<f64>>
 where
     Gauss<2>: Method<S, f64>,
 {
@@ -58,7 +52,7 @@ fn error<S: Lagrangian, M: Method<S, f64>, L: Method<S, f64>>(
     start: S::State<f64>,
     h: f64,
     reference: &[f64],
-) -> Result<f64, Box<dyn core::error::Error>> {
+) -> Outcome<f64> {
     let mut one_by_one = Integrator::new(system, one_by_one, h, start.clone())?;
     let mut in_lanes = Integrator::new(system, in_lanes, h, start)?;
     let mut largest = 0.0;

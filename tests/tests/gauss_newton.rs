@@ -4,10 +4,9 @@ use approx::{abs_diff_eq, assert_abs_diff_eq, relative_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, Real};
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use num_dual::{Dual2_64, Dual64};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// By what angle a step turns the oscillator of frequency ω, z = ωh: that of the diagonal Padé approximant
 /// N(iz)/N(−iz) of e^(iz) (Hairer & Wanner 1996, theorem IV.3.12).
@@ -85,7 +84,7 @@ fn planets_move_in_metres_and_seconds() -> Outcome {
     }
     // On an ellipse the error is of second order, from the energy and the momentum that it keeps.
     let start = PlanetState { dot_phi: 1.1 * rate, ..start };
-    let after = |steps: u32| -> Result<[f64; 2], Box<dyn core::error::Error>> {
+    let after = |steps: u32| -> Outcome<[f64; 2]> {
         let mut run = Integrator::new(&system, Gauss::<1>::new(), 3.156e7 / f64::from(steps), start)?;
         let (energy, momentum) = (run.energy(), r * r * start.dot_phi);
         run.take_steps(3 * u64::from(steps))?;
@@ -182,7 +181,7 @@ struct Curved {
 /// By the length of the steps, once and twice, against differences of fourth order.
 #[test]
 fn derivatives_of_stiff_steps_converge() -> Outcome {
-    fn after<T: Real, M: Method<Curved, T>>(method: M, h: T) -> Result<T, Box<dyn core::error::Error>> {
+    fn after<T: Real, M: Method<Curved, T>>(method: M, h: T) -> Outcome<T> {
         let start = CurvedState { x: T::lift(0.3), y: T::lift(-0.2) };
         let mut run = Integrator::new(&Curved { k: 60.0 }, method, h, start)?;
         run.take_steps(3)?;

@@ -1,5 +1,7 @@
 //! Runs with impacts.
 
+use dvi_tests::Outcome;
+
 mod ends;
 mod equations;
 mod hidden;
@@ -7,5 +9,3 @@ mod motion;
 mod reference;
 mod several;
 mod structure;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;

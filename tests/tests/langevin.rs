@@ -2,9 +2,8 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use num_dual::Dual64;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Two masses on springs, of which the kinetic energies are coupled.
 #[lagrangian(
@@ -35,7 +34,7 @@ fn mean<S: dvi_core::Separable + RegularLagrangian>(
     (h, steps): (f64, u64),
     start: S::State<f64>,
     read: impl Fn(&S::State<f64>) -> f64,
-) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+) -> Outcome<[f64; 2]> {
     let mut run = Integrator::new(system, method, h, start)?;
     run.take_steps(steps / 100)?;
     let mut parts = Vec::new();

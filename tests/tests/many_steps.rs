@@ -2,11 +2,10 @@
 
 use dvi_core::DegenerateLagrangian;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Compares one run in pieces with one step by step, up to `steps` or the first failure.
 fn check<S: DegenerateLagrangian>(
@@ -15,7 +14,7 @@ fn check<S: DegenerateLagrangian>(
     start: S::State<f64>,
     h: f64,
     steps: u64,
-) -> Result<Option<StepError>, Box<dyn core::error::Error>> {
+) -> Outcome<Option<StepError>> {
     let mut single = Integrator::new(system, method, h, start.clone())?;
     let mut failure = None;
     while single.steps() < steps && failure.is_none() {

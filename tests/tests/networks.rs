@@ -3,7 +3,7 @@
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::larger;
+use dvi_tests::{apart, larger};
 
 /// Masses on springs between each and the two below it.
 #[lagrangian(
@@ -76,7 +76,7 @@ macro_rules! as_by {
             method.solver = solver;
             end(&$system, method, $start)
         });
-        let difference = expected.iter().zip(&found).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        let difference = apart(&expected, &found);
         assert!(difference < 1e-13, "{}: {difference:e}", stringify!($method));
         // With a wrong matrix the iteration would converge, but slowly.
         assert!(iterations <= 40, "{}: {iterations}", stringify!($method));

@@ -1,8 +1,8 @@
 //! Steps on constraints of the velocities.
 
+use dvi_tests::Outcome;
+
 mod drift;
 mod light;
 mod moving;
 mod steps;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;

@@ -2,88 +2,15 @@
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
-use dvi_tests::configurations::{chaotic, leapfrogging};
-use dvi_tests::larger;
+use dvi_tests::Outcome;
+use dvi_tests::apart;
+use dvi_tests::configurations::leapfrogging;
 use dvi_tests::systems::{
-    LotkaVolterra, LotkaVolterraState, Oscillator, OscillatorState, PointVortices, PointVorticesState,
+    LotkaVolterra, LotkaVolterraState, Oscillator, OscillatorState, PointVorticesState,
 };
 
-type Outcome = Result<(), Box<dyn core::error::Error>>;
-
-/// The largest distance of a run from `reference` at `time`.
-fn error<M: dvi_core::methods::Method<PointVortices<4>, f64>>(
-    system: &PointVortices<4>,
-    start: PointVorticesState<4>,
-    method: M,
-    (time, steps): (f64, u64),
-    reference: &[f64],
-) -> Result<f64, Box<dyn core::error::Error>> {
-    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
-    while run.steps() < steps {
-        run.advance()?;
-    }
-    Ok(run.q().iter().zip(reference).map(|(a, b)| (a - b).abs()).fold(0.0, larger))
-}
-
-/// The state at `time`, by Gauss collocation of order six with steps far below those under test.
-fn reference(
-    system: &PointVortices<4>,
-    start: PointVorticesState<4>,
-    time: f64,
-) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
-    let steps = 4096;
-    let mut run = Integrator::new(system, Gauss::<3>::new(), time / steps as f64, start)?;
-    while run.steps() < steps {
-        run.advance()?;
-    }
-    Ok(run.q().to_vec())
-}
-
-fn observed<M: dvi_core::methods::Method<PointVortices<4>, f64> + Copy>(
-    (system, start): (PointVortices<4>, PointVorticesState<4>),
-    method: M,
-    time: f64,
-    steps: [u64; 4],
-) -> Result<f64, Box<dyn core::error::Error>> {
-    let reference = reference(&system, start, time)?;
-    let mut errors = Vec::new();
-    for steps in steps {
-        errors.push((time / steps as f64, error(&system, start, method, (time, steps), &reference)?));
-    }
-    convergence_order(&errors).ok_or_else(|| "no slope".into())
-}
-
-#[test]
-fn every_sigma_is_of_second_order_on_vortices() -> Outcome {
-    for sigma in [0.0, 0.25, (3.0 - 3.0_f64.sqrt()) / 6.0, 0.5, 0.75, 1.0] {
-        for (name, configuration) in [("chaotic", chaotic()), ("leapfrogging", leapfrogging())] {
-            let order = observed(configuration, Sigma::new(sigma), 2.0, [256, 512, 1024, 2048])?;
-            assert!(abs_diff_eq!(order, 2.0, epsilon = 0.02), "sigma = {sigma}, {name}: {order}");
-        }
-    }
-    Ok(())
-}
-
-#[test]
-fn baselines_have_their_orders_on_vortices() -> Outcome {
-    let coarse = [32, 48, 64, 96];
-    let by_newton = Gauss { solver: Solver::Newton, ..Gauss::<3>::new() };
-    for (order, expected, name) in [
-        (observed(chaotic(), RungeKutta::midpoint(), 2.0, [512, 768, 1024, 1536])?, 2.0, "midpoint"),
-        (observed(chaotic(), RungeKutta::heun(), 2.0, [512, 768, 1024, 1536])?, 2.0, "Heun"),
-        (observed(chaotic(), RungeKutta::classical(), 2.0, [128, 192, 256, 384])?, 4.0, "classical"),
-        (observed(chaotic(), Gauss::<1>::new(), 2.0, coarse)?, 2.0, "Gauss 1"),
-        (observed(chaotic(), Gauss::<2>::new(), 2.0, coarse)?, 4.0, "Gauss 2"),
-        (observed(chaotic(), Gauss::<3>::new(), 2.0, [12, 16, 24, 32])?, 6.0, "Gauss 3"),
-        (observed(chaotic(), by_newton, 2.0, [12, 16, 24, 32])?, 6.0, "Gauss 3, Newton"),
-    ] {
-        assert!(abs_diff_eq!(order, expected, epsilon = 0.05), "{name}: {order}");
-    }
-    Ok(())
-}
-
 /// The error of z' = iωz after one unit of time, from two exact points.
-fn oscillator_error(sigma: f64, steps: u64) -> Result<f64, Box<dyn core::error::Error>> {
+fn oscillator_error(sigma: f64, steps: u64) -> Outcome<f64> {
     let system = Oscillator { omega: 1.0 };
     let exact = |t: f64| OscillatorState { x: t.cos(), y: t.sin() };
     // The sign with which time runs follows from Γ y' = ∂H/∂x.
@@ -145,11 +72,7 @@ struct Breathing;
 struct Shaken;
 
 /// The order of `sigma` on a system that depends on time, from the errors of (x, y) at t = ½.
-fn order_in_time<S: DegenerateLagrangian>(
-    system: &S,
-    start: S::State<f64>,
-    sigma: f64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+fn order_in_time<S: DegenerateLagrangian>(system: &S, start: S::State<f64>, sigma: f64) -> Outcome<f64> {
     let mut exact = Integrator::new(system, Gauss::<3>::new(), 0.5 / 512.0, start.clone())?;
     exact.take_steps(512)?;
     let mut errors = Vec::new();
@@ -157,7 +80,7 @@ fn order_in_time<S: DegenerateLagrangian>(
         let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
         let mut run = Integrator::new(system, method, 0.5 / steps as f64, start.clone())?;
         run.take_steps(steps)?;
-        let error = run.q().iter().zip(exact.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        let error = apart(run.q(), exact.q());
         errors.push((1.0 / steps as f64, error));
     }
     convergence_order(&errors).ok_or_else(|| "no slope".into())
@@ -180,7 +103,7 @@ fn where_the_one_form_depends_on_time_the_order_is_one_unless_sigma_is_a_half() 
 }
 
 /// The error of a pendulum at t = 1.
-fn pendulum_order(rule: Quadrature) -> Result<f64, Box<dyn core::error::Error>> {
+fn pendulum_order(rule: Quadrature) -> Outcome<f64> {
     use dvi_tests::zoo::regular::{DrivenOscillator, DrivenOscillatorState};
     let system = DrivenOscillator { depth: 0.3, omega: 2.0 };
     let start = DrivenOscillatorState { x: 0.4, dot_x: 0.9 };
@@ -227,11 +150,7 @@ struct Pendulum {
 
 /// The order of a member of the σ-family, by the third point that it finds to two of the motion: a parasitic
 /// mode that grows from step to step has no time to.
-fn order_of_a_step<S: DegenerateLagrangian>(
-    system: &S,
-    start: S::State<f64>,
-    sigma: f64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+fn order_of_a_step<S: DegenerateLagrangian>(system: &S, start: S::State<f64>, sigma: f64) -> Outcome<f64> {
     let mut errors = Vec::new();
     for h in [0.02, 0.014, 0.01, 0.007] {
         let mut motion = Integrator::new(system, Gauss::<4>::new(), h, start.clone())?;
@@ -240,7 +159,7 @@ fn order_of_a_step<S: DegenerateLagrangian>(
         let mut run = Integrator::from_two_points(system, Sigma::new(sigma), h, start.clone(), second)?;
         motion.advance()?;
         run.take_steps(2)?;
-        let off = run.q().iter().zip(motion.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        let off = apart(run.q(), motion.q());
         errors.push((h, off));
     }
     Ok(convergence_order(&errors).ok_or("no slope")? - 1.0)

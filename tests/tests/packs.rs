@@ -8,6 +8,7 @@ use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
 use dvi_core::{DegenerateLagrangian, Lagrangian, Varied};
+use dvi_tests::Outcome;
 
 const SIZES: core::ops::Range<usize> = 1..45;
 const W: usize = 3;
@@ -277,7 +278,7 @@ fn pairs_of_a_number_that_the_compiler_knows() {
 
 /// A run of many vortices is the same alone and in lanes, step by step.
 #[test]
-fn runs_of_many_vortices() -> Result<(), Box<dyn core::error::Error>> {
+fn runs_of_many_vortices() -> Outcome {
     let n = 21;
     let system = Vortices { gamma: numbers(n, 1).into_iter().map(|gamma| 1.2 + gamma).collect() };
     let places = |seed| VorticesState { x: numbers(n, seed), y: numbers(n, seed + 1) };

@@ -4,9 +4,8 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::Varied;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use num_dual::{Dual3_64, Dual64, HyperDual64};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Springs of stiffness k₀ and k₁, and one between their ends.
 #[lagrangian(
@@ -98,7 +97,7 @@ fn runs_are_differentiated_in_a_circulation() -> Outcome {
             + core::fmt::Debug,
     {
         let (x, y) = (vec![1.0, -0.5, 0.2], vec![0.0, 0.3, -0.9]);
-        let end = |first: f64| -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+        let end = |first: f64| -> Outcome<Vec<f64>> {
             let system = Vortices { n: 3, gamma: &[first, 0.8, -0.4] };
             let start = VorticesState { x: x.clone(), y: y.clone() };
             let mut run = Integrator::new(&system, method.clone(), 0.02, start)?;
@@ -170,7 +169,7 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     assert_abs_diff_eq!(run.q()[0].eps, turned, epsilon = 1e-13);
 
     // Second derivatives, against differences of first ones.
-    let first = |a: f64| -> Result<f64, Box<dyn core::error::Error>> {
+    let first = |a: f64| -> Outcome<f64> {
         let start = WellState { x: one(0.0), dot_x: one(0.0) };
         let system = Well { a: varied(a) };
         let mut run = Integrator::new(&system, Variational::midpoint(), one(h), start)?;
@@ -187,7 +186,7 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     assert!(error.abs() < 1e-8 * expected.abs(), "{} {expected}", run.q()[0].eps1eps2);
 
     // Third derivatives, against differences of second ones.
-    let second = |a: f64| -> Result<f64, Box<dyn core::error::Error>> {
+    let second = |a: f64| -> Outcome<f64> {
         let start = WellState { x: real(0.0), dot_x: real(0.0) };
         let system = Well { a: Varied(HyperDual64::new(a, 1.0, 1.0, 0.0)) };
         let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;

@@ -1,72 +1,19 @@
 //! Projected schemes: orders, what becomes of Ω, reversal, and the scheme that they are where α is affine.
 
-use approx::abs_diff_eq;
 use dvi_core::Real;
-use dvi_core::methods::{Composition, Method, Scheme};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
+use dvi_tests::Outcome;
 use dvi_tests::steps::{apart, jacobian, stepped};
 use dvi_tests::systems::{LotkaVolterra, SphereForm, SphereFormState};
 use dvi_tests::zoo::particles::Mirror;
 use nalgebra::DMatrix;
 use num_dual::Dual64;
 
-type Outcome = Result<(), Box<dyn core::error::Error>>;
-
-/// A form that depends on time, of two bodies whose number is known at run time only.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| ((1.0 + t / 4.0) * y[j] + y[j].powi(3) / 6.0 + x[j] * y[(j + 1) % n] / 8.0) * d(x[j])
-        + 0.2 * x[j].sin() * y[(j + 1) % n] * d(y[j])),
-    hamiltonian = sum(0..n, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0 + (x[(j + 1) % n] - x[j]).powi(4) / 4.0)
-        + x[0] * t.sin(),
-)]
-#[derive(Clone, Debug)]
-struct Ring {
-    n: usize,
-}
-
 const MIRROR: [f64; 4] = [0.4, 0.3, 0.2, 0.5];
-const RING: [f64; 4] = [0.3, -0.4, 0.5, 0.1];
+
 const PREY: LotkaVolterra = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
-
-fn order<S: DegenerateLagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: &M,
-    q0: &[f64],
-    steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>> {
-    let reference = stepped(system, &Gauss::<4>::new(), q0, [0.2, 1.0 / 512.0], 512)?;
-    let mut errors = Vec::new();
-    for steps in [steps, steps * 3 / 2, 2 * steps] {
-        let h = 1.0 / steps as f64;
-        errors.push((h, apart(&stepped(system, method, q0, [0.2, h], steps)?, &reference)));
-    }
-    convergence_order(&errors).ok_or_else(|| "no slope".into())
-}
-
-/// Against Gauss collocation of order eight on q' = X(q).
-#[test]
-fn schemes_have_their_orders() -> Outcome {
-    fn check<S: DegenerateLagrangian>(system: &S, q0: &[f64]) -> Outcome {
-        for method in [Projected::symmetric(), Projected::standard()] {
-            let found = order(system, &method, q0, 64)?;
-            assert!(abs_diff_eq!(found, 2.0, epsilon = 0.1), "{}, {method:?}: {found}", S::REPORT.system);
-        }
-        let method = Composition::suzuki(Projected::symmetric());
-        let found = order(system, &method, q0, 8)?;
-        assert!(
-            abs_diff_eq!(found, method.order() as f64, epsilon = 0.5),
-            "{}, composition: {found}",
-            S::REPORT.system
-        );
-        Ok(())
-    }
-    check(&PREY, &[1.0, 1.0])?;
-    check(&SphereForm { gamma: 1.3 }, &[0.4, 0.3])?;
-    check(&Mirror, &MIRROR)?;
-    check(&Ring { n: 2 }, &RING)
-}
 
 /// a Dα + b (Dα)ᵀ
 fn combined<S: DegenerateLagrangian<T>, T: Real>(system: &S, q: &[T], t: f64, [a, b]: [f64; 2]) -> Vec<T> {
@@ -83,13 +30,7 @@ fn omega<S: DegenerateLagrangian<f64>>(system: &S, q: &[f64], t: f64) -> DMatrix
 }
 
 /// By how much one step, or some, change Ω.
-fn defect<S, M>(
-    system: &S,
-    method: &M,
-    q0: &[f64],
-    h: f64,
-    steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>>
+fn defect<S, M>(system: &S, method: &M, q0: &[f64], h: f64, steps: u64) -> Outcome<f64>
 where
     S: DegenerateLagrangian<Dual64> + DegenerateLagrangian<f64>,
     M: Method<S, Dual64> + Method<S, f64>,
@@ -210,17 +151,6 @@ fn a_step_preserves_the_form_of_its_ends() -> Outcome {
             assert!(lost < 1e-13, "{method:?}, h = {h}: {lost:e}, and {without:e} of Ω");
         }
     }
-    Ok(())
-}
-
-#[test]
-fn the_symmetric_projection_goes_back() -> Outcome {
-    let there = stepped(&Mirror, &Projected::symmetric(), &MIRROR, [0.2, 0.1], 200)?;
-    let back = stepped(&Mirror, &Projected::symmetric(), &there, [20.2, -0.1], 200)?;
-    assert!(apart(&back, &MIRROR) < 1e-12, "{back:?}");
-    let there = stepped(&Mirror, &Projected::standard(), &MIRROR, [0.2, 0.1], 200)?;
-    let back = stepped(&Mirror, &Projected::standard(), &there, [20.2, -0.1], 200)?;
-    assert!(apart(&back, &MIRROR) > 1e-6, "the standard one does not: {back:?}");
     Ok(())
 }
 

@@ -2,6 +2,7 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 
@@ -10,7 +11,7 @@ fn energies<M>(
     (system, state): (PointVortices<4>, PointVorticesState<4>),
     method: M,
     h: f64,
-) -> Result<[f64; 3], Box<dyn core::error::Error>>
+) -> Outcome<[f64; 3]>
 where
     M: dvi_core::methods::Method<PointVortices<4>, f64>,
 {
@@ -31,8 +32,6 @@ fn assert_close(found: [f64; 3], expected: [f64; 3]) {
         assert!(abs_diff_eq!(*found, expected, epsilon = 1e-11), "{found} instead of {expected}");
     }
 }
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 #[test]
 fn initial_energies() -> Outcome {

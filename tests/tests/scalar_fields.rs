@@ -2,6 +2,7 @@
 //! they are evaluated, where they may come from, and what happens where they are not known.
 
 use approx::abs_diff_eq;
+use dvi_tests::Outcome;
 use std::cell::Cell;
 
 use dvi_core::error::OutsideError;
@@ -9,8 +10,6 @@ use dvi_core::field::{Expansion, ScalarField};
 use dvi_core::prelude::*;
 use dvi_core::{Scalar, Space, Weights};
 use num_dual::HyperDual64;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// a sin(kx) e^(−y²) + x²y, with derivatives by hand; it counts its evaluations.
 #[derive(Debug, Default)]

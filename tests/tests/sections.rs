@@ -2,6 +2,7 @@
 
 use approx::abs_diff_eq;
 use core::f64::consts::{FRAC_PI_2, TAU};
+use dvi_tests::Outcome;
 
 use dvi_core::prelude::*;
 use dvi_core::system::Smooth;
@@ -9,8 +10,6 @@ use dvi_tests::configurations::{chaotic, quasi_periodic};
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use dvi_tests::{bits, larger};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// The midpoint rule turns the oscillator by 2 atan(ωh/2) a step: with it, crossings are known as parts of a
 /// step.
@@ -54,10 +53,7 @@ fn crossings_are_located_to_rounding_on_a_step_of_the_method() -> Outcome {
 }
 
 /// The largest error of the first `count` times at which cos t rises through zero.
-fn largest_error<R: Run<System = Planar, Scalar = f64>>(
-    mut run: R,
-    count: usize,
-) -> Result<f64, Box<dyn core::error::Error>> {
+fn largest_error<R: Run<System = Planar, Scalar = f64>>(mut run: R, count: usize) -> Outcome<f64> {
     let mut largest = 0.0;
     for (k, crossing) in Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0])?.take(count).enumerate()
     {
@@ -258,11 +254,7 @@ fn a_section_ends_with_the_failure_of_its_run() -> Outcome {
     Ok(())
 }
 
-fn exponent(
-    (system, start): (PointVortices<4>, PointVorticesState<4>),
-    h: f64,
-    time: f64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+fn exponent((system, start): (PointVortices<4>, PointVorticesState<4>), h: f64, time: f64) -> Outcome<f64> {
     let mut run = Integrator::new(&system, Sigma::midpoint(), h, start)?;
     let mut lyapunov = LyapunovExponent::new(&run);
     assert_eq!(lyapunov.exponent(), None);

@@ -2,8 +2,7 @@
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use dvi_tests::Outcome;
 
 /// α with Ωⱼₖ = bⱼₖ − bₖⱼ, up to the sign, and oscillators that it couples.
 #[degenerate_lagrangian(
@@ -43,7 +42,7 @@ const EXPONENTS: [[i32; 4]; 4] = [[0; 4], [3, -60, 60, 9], [100, 100, -100, -100
 
 #[test]
 fn regular_forms_are_regular_in_any_units() -> Outcome {
-    fn path(system: &Full) -> Result<[f64; 8], Box<dyn core::error::Error>> {
+    fn path(system: &Full) -> Outcome<[f64; 8]> {
         let field = system.vector_field(&system.start())?.q;
         let mut run = Integrator::new(system, RungeKutta::classical(), 0.01, system.start())?;
         run.take_steps(100)?;

@@ -2,8 +2,7 @@
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use dvi_tests::Outcome;
 
 /// A mass x, which the motion takes to zero.
 #[lagrangian(coordinates(x), lagrangian = x * dot(x).powi(2) / 2.0)]
@@ -24,7 +23,7 @@ fn melts<S: RegularLagrangian, M: Method<S, f64> + core::fmt::Debug>(
     method: M,
     h: f64,
     start: S::State<f64>,
-) -> Result<bool, Box<dyn core::error::Error>> {
+) -> Outcome<bool> {
     let name = format!("{method:?}, h = {h}");
     let mut run = Integrator::new(system, method, h, start)?;
     let error = (0..1000).find_map(|_| run.advance().err()).ok_or("no error")?;
@@ -128,7 +127,7 @@ struct Coupled {
 #[test]
 fn regular_masses_are_regular_in_any_units() -> Outcome {
     for r in [0.1, 0.5, 0.9] {
-        let path = |unit: f64| -> Result<[f64; 2], Box<dyn core::error::Error>> {
+        let path = |unit: f64| -> Outcome<[f64; 2]> {
             let system = Coupled { a: unit * unit, r, c: 1.0 / (unit * unit) };
             let start = CoupledState { x: 1.0 / unit, y: unit, dot_x: 0.0, dot_y: 0.0 };
             let field = system.vector_field(&start)?;

@@ -4,10 +4,9 @@
 use approx::abs_diff_eq;
 use dvi_core::Scalar;
 use dvi_core::field::{Axis, AxisError, Expansion, ScalarField, Spline};
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use num_dual::HyperDual64;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Numbers in [0, 1), the same in each run.
 struct Numbers(u64);

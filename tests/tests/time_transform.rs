@@ -6,11 +6,10 @@ use dvi_core::methods::{Composition, Method, Scheme};
 use dvi_core::prelude::*;
 use dvi_core::system::TimeTransform;
 use dvi_core::{ProperlyDegenerate, Space};
+use dvi_tests::Outcome;
 use dvi_tests::steps::{apart, jacobian, stepped};
 use nalgebra::DMatrix;
 use num_dual::Dual64;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// No component of α is affine, and both α and H depend on time.
 #[degenerate_lagrangian(
@@ -68,11 +67,7 @@ fn the_motion_is_that_of_the_untransformed_system() -> Outcome {
     Ok(())
 }
 
-fn order<M: Method<Transformed, f64>>(
-    method: &M,
-    reference: &[f64],
-    steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+fn order<M: Method<Transformed, f64>>(method: &M, reference: &[f64], steps: u64) -> Outcome<f64> {
     let mut errors = Vec::new();
     for steps in [steps, steps * 5 / 4, steps * 3 / 2, 2 * steps] {
         let h = 3.0 / steps as f64;
@@ -109,7 +104,7 @@ fn schemes_have_their_orders() -> Outcome {
 
 #[test]
 fn a_gauge_leaves_the_motion_as_it_is() -> Outcome {
-    let after = |h: f64, steps: u64| -> Result<f64, Box<dyn core::error::Error>> {
+    let after = |h: f64, steps: u64| -> Outcome<f64> {
         let one = stepped(&Transformed, &OneStep::midpoint(), &start()?, [0.0, h], steps)?;
         let other = stepped(&WithGauge, &OneStep::midpoint(), &start()?, [0.0, h], steps)?;
         Ok(apart(&one, &other))
@@ -121,7 +116,7 @@ fn a_gauge_leaves_the_motion_as_it_is() -> Outcome {
 }
 
 /// Ω of α·dq − e dt.
-fn omega(q: &[f64]) -> Result<DMatrix<f64>, Box<dyn core::error::Error>> {
+fn omega(q: &[f64]) -> Outcome<DMatrix<f64>> {
     let d = jacobian(q, q.len(), |q| {
         let (mut point, mut form) = (Transformed.space().vector(), Transformed.space().vector());
         point.copy_from_slice(q);

@@ -6,12 +6,11 @@ use dvi_core::prelude::*;
 use dvi_core::run::Together;
 use dvi_core::scalar::Lanes;
 use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian};
+use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::configurations::{chaotic, quasi_periodic};
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::*;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Takes the steps of `strides` with runs from all `starts`, together in packs of `W` and alone. Returns the
 /// errors.
@@ -21,8 +20,8 @@ fn check<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq 
     h: f64,
     starts: &[S::State<f64>],
     strides: &[u64],
-) -> Result<Vec<Option<StepError>>, Box<dyn core::error::Error>> {
-    let begin = || -> Result<Vec<_>, Box<dyn core::error::Error>> {
+) -> Outcome<Vec<Option<StepError>>> {
+    let begin = || -> Outcome<Vec<_>> {
         let runs = starts.iter().map(|start| Integrator::new(system, method.clone(), h, start.clone()));
         Ok(runs.collect::<Result<_, _>>()?)
     };
@@ -59,7 +58,7 @@ fn in_lanes<S: Lagrangian + PartialEq, M>(
     method: &M,
     h: f64,
     starts: &[S::State<f64>],
-) -> Result<Vec<Option<StepError>>, Box<dyn core::error::Error>>
+) -> Outcome<Vec<Option<StepError>>>
 where
     M: InStep<1, S> + InStep<3, S> + InStep<4, S> + InStep<8, S> + PartialEq + Clone,
 {
@@ -181,7 +180,7 @@ fn runs_that_are_not_in_step_are_taken_alone() -> Outcome {
     let (one, other) = (Kepler { mu: 1.0 }, Kepler { mu: 2.0 });
     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.9 };
     type Run<'a> = Integrator<'a, Kepler, Variational<Unfitted, Trapezoid>>;
-    let begin = || -> Result<[Run<'_>; 6], Box<dyn core::error::Error>> {
+    let begin = || -> Outcome<[Run<'_>; 6]> {
         let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };
         let mut ahead = Integrator::new(&one, Variational::trapezoid(), 0.05, start)?;
         ahead.take_steps(3)?;
@@ -216,7 +215,7 @@ struct Springs {
 #[test]
 fn runs_of_other_sizes_are_taken_alone() -> Outcome {
     let systems = [2, 3, 3, 5].map(|n| Springs { k: vec![1.5; n] });
-    let begin = || -> Result<Vec<_>, Box<dyn core::error::Error>> {
+    let begin = || -> Outcome<Vec<_>> {
         let mut runs = Vec::new();
         for system in &systems {
             let n = system.k.len();

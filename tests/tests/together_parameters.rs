@@ -1,14 +1,13 @@
 //! Runs taken together whose systems have parameters of their own are, bit for bit, the runs alone.
 
 use core::sync::atomic::{AtomicU64, Ordering};
+use dvi_tests::Outcome;
 
 use dvi_core::Scalar;
 use dvi_core::methods::InStep;
 use dvi_core::prelude::*;
 use dvi_core::run::Together;
 use dvi_tests::configurations::quasi_periodic;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Takes steps of a run on each system, together in packs of `W` and alone, and returns how many have
 /// failed.

@@ -1,7 +1,8 @@
 //! The quadrature family for regular Lagrangians.
 
+use dvi_tests::Outcome;
+
 mod barnes;
-mod equations;
 mod failures;
 mod frequencies;
 mod kepler;
@@ -9,5 +10,3 @@ mod oscillator;
 mod phase_space;
 mod structure;
 mod tangent_maps;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;

@@ -24,8 +24,8 @@ use crate::system::Kind;
 use crate::{Real, Scalar, Sink, System, Vector, Weights};
 
 use stages::FirstOrderInLanes;
-pub(crate) use stages::{AtStages, StageWork, weigh};
 pub use stages::InLanes;
+pub(crate) use stages::{AtStages, StageWork, weigh};
 pub(crate) use stages::{Evaluation, OneByOne, StageEvaluation};
 
 /// A point y, or its velocity: `K` vectors of the space.

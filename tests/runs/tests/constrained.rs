@@ -6,11 +6,10 @@
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::zoo::constrained::{Double, DoubleState, Pendulum, PendulumState};
 use dvi_tests::{Numbers, larger};
 use nalgebra::{DMatrix, DVector};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Masses on rods of length one, the first of which is held at one end.
 #[lagrangian(
@@ -89,7 +88,7 @@ fn continued<const N: usize>(m: &[f64; N], start: &Points<N>, v: &Points<N>, h: 
 fn compare<const N: usize, M: Method<Chain<N>, f64> + Clone>(
     method: &M,
     spread: f64,
-) -> Result<[usize; 2], Box<dyn core::error::Error>> {
+) -> Outcome<[usize; 2]> {
     let (mut numbers, mut agree, mut differ) = (Numbers(N as u64), 0, 0);
     for _ in 0..2000 {
         let m: [f64; N] = core::array::from_fn(|_| (spread * numbers.next()).exp());

@@ -3,10 +3,9 @@
 use dvi_core::methods::FreeFlight;
 use dvi_core::prelude::*;
 use dvi_examples::models::{EllipseBilliard, EllipseBilliardState};
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use dvi_tests::zoo::impacts::{Circle, CircleState, Wavy, WavyState};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 fn angular_momentum<M: FreeFlight<Circle, f64>>(method: Impacts<M>) -> Outcome {
     let start: CircleState = CircleState { x: 0.3, y: -0.2, dot_x: 1.1, dot_y: 1.6 };

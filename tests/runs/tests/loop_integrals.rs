@@ -2,6 +2,7 @@
 //! with the derivative along the loop from its Fourier series.
 
 use core::f64::consts::PI;
+use dvi_tests::Outcome;
 
 use dvi_core::mechanics::VectorField;
 use dvi_core::methods::Method;
@@ -12,8 +13,6 @@ use dvi_examples::models::TokamakInClass;
 use dvi_tests::larger;
 use dvi_tests::steps::stepped;
 use dvi_tests::zoo::gauges::OneSided;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 const STEPS: u64 = 3000;
 
@@ -27,12 +26,7 @@ fn ellipse<const N: usize>(count: usize, centre: [f64; N], axes: [f64; N]) -> Ve
 }
 
 /// ∮ Σ ϑᵢ d(xᵢ + shift · x'ᵢ) at time t: exact for what the points resolve.
-fn integral<S: ProperlyDegenerate>(
-    system: &S,
-    points: &[Vec<f64>],
-    t: f64,
-    shift: f64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+fn integral<S: ProperlyDegenerate>(system: &S, points: &[Vec<f64>], t: f64, shift: f64) -> Outcome<f64> {
     let n = system.space().dimension();
     let (mut form, mut rates) = (system.space().vector(), system.space().vector());
     let (mut momenta, mut moved) = (Vec::new(), Vec::new());
@@ -77,7 +71,7 @@ fn change<S: ProperlyDegenerate, M: Method<S, f64>>(
     points: Vec<Vec<f64>>,
     h: f64,
     shift: f64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+) -> Outcome<f64> {
     let before = integral(system, &points, 0.0, shift)?;
     let (mut points, mut largest) = (points, 0.0);
     for part in 0..3 {

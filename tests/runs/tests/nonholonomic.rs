@@ -4,6 +4,7 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::PI;
+use dvi_tests::Outcome;
 
 use dvi_core::prelude::*;
 use dvi_core::space::Sink;
@@ -11,8 +12,6 @@ use dvi_core::{NonholonomicLagrangian, State};
 use dvi_tests::zoo::nonholonomic::Bundle;
 use dvi_tests::{Numbers, larger};
 use nalgebra::{DMatrix, DVector};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// A disc that rolls upright, whose wheel is light.
 #[lagrangian(
@@ -138,7 +137,7 @@ impl Tally {
 
 /// Steps with h up to `longest` of systems whose coefficients are of order one, with masses from e⁻ˢ to eˢ
 /// for a `spread` s.
-fn of_bundles(spread: f64, affine: f64, longest: f64) -> Result<Tally, Box<dyn core::error::Error>> {
+fn of_bundles(spread: f64, affine: f64, longest: f64) -> Outcome<Tally> {
     let (mut tally, mut numbers) = (Tally::default(), Numbers(3));
     for _ in 0..2000 {
         let m = core::array::from_fn(|_| (spread * numbers.next()).exp());
@@ -153,7 +152,7 @@ fn of_bundles(spread: f64, affine: f64, longest: f64) -> Result<Tally, Box<dyn c
 }
 
 /// Steps in which a disc turns by up to three radians.
-fn of_discs(inertia: f64) -> Result<Tally, Box<dyn core::error::Error>> {
+fn of_discs(inertia: f64) -> Outcome<Tally> {
     let (mut tally, mut numbers) = (Tally::default(), Numbers(3));
     for _ in 0..1000 {
         let [x, y, heading, roll] = [0, 1, 2, 3].map(|_| PI * numbers.next());

@@ -4,11 +4,10 @@
 use approx::relative_eq;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 const PREY: OneSided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
 

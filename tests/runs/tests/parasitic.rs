@@ -5,11 +5,10 @@ mod paths;
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
 use dvi_tests::larger;
 use dvi_tests::systems::*;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// The σ of fourth order on linear systems.
 fn fourth_order() -> f64 {
@@ -71,7 +70,7 @@ struct Course {
 fn course<S: DegenerateLagrangian, M: Method<S, f64>>(
     mut run: Integrator<'_, S, M>,
     end: f64,
-) -> Result<Course, Box<dyn core::error::Error>> {
+) -> Outcome<Course> {
     let (initial, mut energy_error, mut error) = (run.energy(), 0.0_f64, None);
     for _ in 0..(end / run.step_size()).round() as u64 {
         error = run.advance().err();

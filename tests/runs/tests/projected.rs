@@ -2,6 +2,7 @@
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use dvi_tests::zoo::particles::{Mirror, MirrorState};
 
@@ -31,7 +32,7 @@ fn the_symmetric_projection_keeps_the_energy_and_the_standard_one_does_not() -> 
 
 /// By order h⁴ per unit of time, where nothing reverses the motion, and by h³ for the standard projection.
 #[test]
-fn energies_drift_by_their_orders() -> Result<(), Box<dyn core::error::Error>> {
+fn energies_drift_by_their_orders() -> Outcome {
     #[degenerate_lagrangian(
         coordinates(phi, j, x, y),
         one_form = (j + 0.3 * x * x + 0.2 * j * y) * d(phi) + (y + 0.1 * y.powi(3) + 0.2 * j * j * x) * d(x)
@@ -39,7 +40,7 @@ fn energies_drift_by_their_orders() -> Result<(), Box<dyn core::error::Error>> {
         hamiltonian = j * j / 2.0 + (x * x + y * y) / 2.0 + 0.1 * j * x + 0.1 * x.powi(3),
     )]
     struct Angle;
-    let drift = |method: Projected, h: f64| -> Result<f64, Box<dyn core::error::Error>> {
+    let drift = |method: Projected, h: f64| -> Outcome<f64> {
         let steps = (8_000.0 / h) as u64;
         let start: AngleState = AngleState { phi: 0.1, j: 0.8, x: 0.3, y: -0.2 };
         let mut run = Integrator::new(&Angle, method, h, start)?;

@@ -3,6 +3,7 @@
 use approx::abs_diff_eq;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::zoo::regular::{
     RestrictedThreeBody, RestrictedThreeBodyForm, RestrictedThreeBodyFormState, RestrictedThreeBodyState,
 };
@@ -20,14 +21,14 @@ fn after<S: Lagrangian, M: Method<S, f64>>(
     method: M,
     parts: u64,
     start: S::State<f64>,
-) -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+) -> Outcome<Vec<f64>> {
     let mut run = Integrator::new(system, method, PERIOD / STEPS as f64, start)?;
     run.take_steps(STEPS / parts)?;
     Ok(system.values(&run.state())?.collect())
 }
 
 #[test]
-fn arenstorfs_orbit_closes() -> Result<(), Box<dyn core::error::Error>> {
+fn arenstorfs_orbit_closes() -> Outcome {
     let system = RestrictedThreeBody { mu: MU };
     let form = RestrictedThreeBodyForm { mu: MU };
     let start = RestrictedThreeBodyState { x: X, y: 0.0, dot_x: 0.0, dot_y: DOT_Y };

@@ -2,17 +2,16 @@
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::configurations::quasi_periodic;
-use dvi_tests::larger;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
+use dvi_tests::{apart, larger};
 
 /// ½ΣΓ|z|², which σ = ½ conserves but for rounding.
 const ANGULAR: usize = 2;
 
 /// The slope of ΣΓ|z|² against the number of the step, by least squares.
-fn drift(method: Sigma, h: f64, steps: u64) -> Result<f64, Box<dyn core::error::Error>> {
+fn drift(method: Sigma, h: f64, steps: u64) -> Outcome<f64> {
     let (system, start) = quasi_periodic();
     let mut run = Integrator::new(&system, method, h, start)?;
     let value = |run: &Integrator<'_, _, Sigma>| 2.0 * run.momentum(ANGULAR).unwrap_or(f64::NAN);
@@ -29,7 +28,7 @@ fn drift(method: Sigma, h: f64, steps: u64) -> Result<f64, Box<dyn core::error::
 
 #[test]
 fn the_fixed_point_leaves_no_bias() -> Outcome {
-    let mean = |tolerance: f64| -> Result<f64, Box<dyn core::error::Error>> {
+    let mean = |tolerance: f64| -> Outcome<f64> {
         let method = Sigma { stopping: Stopping { tolerance, ..Stopping::default() }, ..Sigma::midpoint() };
         let slopes = (0..8).map(|run| drift(method, 0.1 + 0.0003 * f64::from(run), 200_000));
         Ok(slopes.sum::<Result<f64, _>>()? / 8.0)
@@ -51,7 +50,7 @@ fn the_fixed_point_leaves_no_bias() -> Outcome {
 #[derive(Clone, Debug)]
 struct Winding;
 
-fn end<M: Method<Winding, f64>>(method: M, angle: f64) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+fn end<M: Method<Winding, f64>>(method: M, angle: f64) -> Outcome<[f64; 2]> {
     let start = WindingState { x: 1.0, y: 0.3, angle, spin: 1.0 };
     let mut run = Integrator::new(&Winding, method, 0.1, start)?;
     run.take_steps(1000)?;
@@ -60,7 +59,7 @@ fn end<M: Method<Winding, f64>>(method: M, angle: f64) -> Result<[f64; 2], Box<d
 
 fn compare<M: Method<Winding, f64> + Copy + core::fmt::Debug>(method: M) -> Outcome {
     let [small, large] = [end(method, 0.0)?, end(method, 1e9)?];
-    let error = small.iter().zip(large).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+    let error = apart(&small, &large);
     assert!(error < 1e-12, "{method:?}: {error:e}");
     Ok(())
 }
@@ -86,14 +85,14 @@ struct Distant;
 #[test]
 fn a_far_body_does_not_spoil_the_others() -> Outcome {
     fn check<M: Method<Distant, f64> + Copy + core::fmt::Debug>(method: M) -> Outcome {
-        let end = |far| -> Result<[f64; 2], Box<dyn core::error::Error>> {
+        let end = |far| -> Outcome<[f64; 2]> {
             let start = DistantState { x: 1.0, y: 0.3, far, dot_x: 0.2, dot_y: 0.0, dot_far: 1.0 };
             let mut run = Integrator::new(&Distant, method, 0.1, start)?;
             run.take_steps(1000)?;
             Ok([run.q()[0], run.q()[1]])
         };
         let [near, far] = [end(0.3)?, end(1e9)?];
-        let error = near.iter().zip(far).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        let error = apart(&near, &far);
         assert!(error < 2e-12, "{method:?}: {error:e}");
         Ok(())
     }
@@ -108,11 +107,7 @@ fn a_far_body_does_not_spoil_the_others() -> Outcome {
 
 /// max |L − L(0)| over many short steps on a Kepler orbit: the angular momentum is conserved but for
 /// rounding.
-fn angular_error<M: Method<Kepler, f64>>(
-    method: M,
-    h: f64,
-    steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+fn angular_error<M: Method<Kepler, f64>>(method: M, h: f64, steps: u64) -> Outcome<f64> {
     let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
     let mut run = Integrator::new(&Kepler { mu: 1.0 }, method, h, start)?;
     let value = |run: &Integrator<'_, Kepler, M>| run.momentum(0).unwrap_or(f64::NAN);
@@ -159,13 +154,13 @@ fn compensated_sums_round_less() -> Outcome {
 #[test]
 fn compensated_runs_are_the_same_motion() -> Outcome {
     let (system, start) = quasi_periodic();
-    let end = |summation| -> Result<Vec<f64>, Box<dyn core::error::Error>> {
+    let end = |summation| -> Outcome<Vec<f64>> {
         let mut run = Integrator::new(&system, Sigma { summation, ..Sigma::midpoint() }, 0.01, start)?;
         run.take_steps(1000)?;
         Ok(run.q().to_vec())
     };
     let [plain, compensated] = [end(Summation::Plain)?, end(Summation::Compensated)?];
-    let apart = plain.iter().zip(&compensated).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+    let apart = dvi_tests::apart(&plain, &compensated);
     assert!(apart > 0.0 && apart < 1e-12, "{apart:e}");
     for sigma in [0.0, 1.0] {
         let method = Sigma { summation: Summation::Compensated, ..Sigma::new(sigma) };

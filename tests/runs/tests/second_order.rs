@@ -3,10 +3,9 @@
 
 use core::f64::consts::TAU;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::{Gravity, GravityState, Kepler, KeplerState};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Two coupled oscillators of different masses, with a drive.
 #[dvi_core::lagrangian(
@@ -56,7 +55,7 @@ fn it_is_the_method_on_phase_space() -> Outcome {
 }
 
 /// The largest errors of energy and angular momentum over 10⁵ steps, relative to those at the start.
-fn errors(mut run: impl Run<Scalar = f64>, angular: usize) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+fn errors(mut run: impl Run<Scalar = f64>, angular: usize) -> Outcome<[f64; 2]> {
     let initial = [run.energy(), run.momentum(angular).ok_or("declared")?];
     let mut largest = [0.0; 2];
     for _ in 0..10_000 {

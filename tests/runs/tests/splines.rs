@@ -3,10 +3,9 @@
 
 use dvi_core::Scalar;
 use dvi_core::field::{Axis, Expansion, ScalarField, Spline};
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use num_dual::HyperDual64;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Numbers in [0, 1), the same in each run: Weyl's sequence to an irrational number for each dimension.
 fn scattered(k: usize, dimension: usize) -> f64 {

@@ -6,10 +6,9 @@ use core::f64::consts::{PI, TAU};
 use dvi_core::methods::{Method, VariableStep};
 use dvi_core::prelude::*;
 use dvi_core::run::StepControl;
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use dvi_tests::zoo::regular::{Kepler, KeplerState, Relativistic, RelativisticState};
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 const SYSTEM: Kepler = Kepler { mu: 1.0 };
 
@@ -83,7 +82,7 @@ fn the_number_of_steps_is_the_integral_of_the_density() -> Outcome {
 
 #[test]
 fn angular_momentum_is_kept_to_rounding_by_fixed_steps() -> Outcome {
-    fn error<M: Method<Kepler, f64>>(method: M) -> Result<f64, Box<dyn core::error::Error>> {
+    fn error<M: Method<Kepler, f64>>(method: M) -> Outcome<f64> {
         let mut run = Integrator::new(&SYSTEM, method, TAU / 4000.0, pericentre(0.5))?;
         let (initial, mut largest) = (run.momentum(0).ok_or("declared")?, 0.0_f64);
         for _ in 0..400_000 {
@@ -113,7 +112,7 @@ fn there_and_back<S, M, D>(
     start: &S::State<f64>,
     turn: impl Fn(S::State<f64>) -> S::State<f64>,
     steps: usize,
-) -> Result<[f64; 2], Box<dyn core::error::Error>>
+) -> Outcome<[f64; 2]>
 where
     S: RegularLagrangian,
     M: VariableStep<S, f64> + Copy,
@@ -253,7 +252,7 @@ fn steps_by_osculating_circles_keep_to_the_tolerance_in_both_readings() -> Outco
 #[test]
 fn steps_that_are_undone_leave_no_trace() -> Outcome {
     fn check<M: VariableStep<Kepler, f64> + Copy>(method: M) -> Outcome {
-        let run = |first_step, steps| -> Result<_, Box<dyn core::error::Error>> {
+        let run = |first_step, steps| -> Outcome<_> {
             let control = Osculating::new(1e-3, first_step);
             let mut run = ControlledIntegrator::new(&SYSTEM, method, control, pericentre(0.5))?;
             run.advance()?;

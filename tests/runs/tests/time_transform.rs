@@ -3,10 +3,9 @@
 
 use approx::abs_diff_eq;
 use core::f64::consts::TAU;
+use dvi_tests::Outcome;
 
 use dvi_core::prelude::*;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 /// Kepler's problem in its phase space, with steps in proportion to r^(3/2).
 #[degenerate_lagrangian(

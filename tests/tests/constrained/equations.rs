@@ -2,7 +2,6 @@
 //! one.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
 use dvi_tests::zoo::constrained::*;
@@ -127,39 +126,6 @@ pub(crate) fn ring() -> Result<(Ring<5>, RingState<5>), dvi_core::error::StartEr
     Ok((system, state))
 }
 
-/// p0 + D₁L_d + G(q0)ᵀι0 = 0 and p1 = D₂L_d + G(q1)ᵀι1, by the rule written out, and both constraints.
-#[test]
-fn midpoint_equations_by_hand() -> Outcome {
-    let (b, h) = (0.7, 0.1);
-    let system = Charge { b };
-    let start = ChargeState { r: [0.6, 0.0, -0.8], dot_r: [0.4, 1.0, 0.3] };
-    let mut run = Integrator::new(&system, Constrained::new(Variational::midpoint()), h, start)?;
-    for _ in 0..50 {
-        let (q0, p0) = (run.q().to_vec(), run.memory().p().to_vec());
-        run.advance()?;
-        let (q1, p1) = (run.q().to_vec(), run.memory().p().to_vec());
-        let [first, last] = run.memory().impulses().map(|impulse| impulse[0]);
-        let mean: Vec<f64> = (0..3).map(|i| (q0[i] + q1[i]) / 2.0).collect();
-        let v: Vec<f64> = (0..3).map(|i| (q1[i] - q0[i]) / h).collect();
-        let by_q = [b / 2.0 * v[1], -b / 2.0 * v[0], -1.0];
-        let by_v = [v[0] - b / 2.0 * mean[1], v[1] + b / 2.0 * mean[0], v[2]];
-        for i in 0..3 {
-            let left = p0[i] + h / 2.0 * by_q[i] - by_v[i] + 2.0 * q0[i] * first;
-            let right = h / 2.0 * by_q[i] + by_v[i] + 2.0 * q1[i] * last - p1[i];
-            assert!(left.abs() < 1e-13 && right.abs() < 1e-13, "{left:e} {right:e}");
-        }
-        let ChargeState { r, dot_r } = run.state();
-        let on = r.iter().map(|r| r * r).sum::<f64>() - 1.0;
-        let along = r.iter().zip(dot_r).map(|(r, v)| r * v).sum::<f64>();
-        assert!(on.abs() < 1e-15 * 4.0 && along.abs() < 1e-15 * 4.0, "{on:e} {along:e}");
-        let momentum = [dot_r[0] - b / 2.0 * r[1], dot_r[1] + b / 2.0 * r[0], dot_r[2]];
-        for i in 0..3 {
-            assert_abs_diff_eq!(momentum[i], p1[i], epsilon = 1e-14);
-        }
-    }
-    Ok(())
-}
-
 /// Masses, and rods between as many of them as is said.
 #[lagrangian(
     coordinates(x[2]),
@@ -197,34 +163,4 @@ fn without_a_constraint_rattle_is_verlet() -> Outcome {
     let apart: f64 = bound.q()[0] - bound.q()[1];
     assert_abs_diff_eq!(apart, 1.0, epsilon = 1e-15);
     Ok(())
-}
-
-/// A run that is resumed from a checkpoint, or whose step has failed, goes on bit by bit.
-fn check_resumed<S, M>(system: &S, method: M, start: &S::State<f64>) -> Outcome
-where
-    S: HolonomicLagrangian,
-    M: Method<S, f64> + Clone,
-{
-    let mut run = Integrator::new(system, method.clone(), 0.05, start.clone())?;
-    run.take_steps(17)?;
-    let mut resumed = Integrator::resume(system, method, &run.checkpoint())?;
-    for _ in 0..20 {
-        run.advance()?;
-        resumed.advance()?;
-        assert!(system.values(&run.state())?.eq(system.values(&resumed.state())?));
-    }
-    Ok(())
-}
-
-#[test]
-fn runs_go_on_from_checkpoints() -> Outcome {
-    let start = SphericalState { r: [0.6, 0.0, -0.8], dot_r: [0.4, 1.0, 0.3] };
-    check_resumed(&Spherical, Rattle::default(), &start)?;
-    check_resumed(&Spherical, Constrained::new(Variational::midpoint()), &start)?;
-    check_resumed(&Spherical, Composition::triple_jump(Rattle::default()), &start)?;
-    let (links, start) = links(6);
-    check_resumed(&links, Rattle::default(), &start)?;
-    check_resumed(&links, Constrained::new(Variational::simpson()), &start)?;
-    let ring = on_ring(&BeadParameterState { s: 0.4, dot_s: 0.5 });
-    check_resumed(&Bead, Constrained::new(Variational::midpoint()), &ring)
 }

@@ -32,11 +32,7 @@ fn off(system: &Joint, state: &JointState) -> [f64; 2] {
     [larger(g[0].abs(), g[1].abs()), larger(rate[0].abs(), rate[1].abs())]
 }
 
-fn follow<M: Method<Joint, f64>>(
-    system: &Joint,
-    method: M,
-    start: JointState,
-) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+fn follow<M: Method<Joint, f64>>(system: &Joint, method: M, start: JointState) -> Outcome<[f64; 2]> {
     let mut run = Integrator::new(system, method, 1e-3, start)?;
     let mut most = [0.0; 2];
     for _ in 0..1000 {
@@ -111,11 +107,7 @@ struct Slide {
     mass: f64,
 }
 
-fn slide<M: Method<Slide, f64>>(
-    system: &Slide,
-    method: M,
-    start: SlideState,
-) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+fn slide<M: Method<Slide, f64>>(system: &Slide, method: M, start: SlideState) -> Outcome<[f64; 2]> {
     let mut run = Integrator::new(system, method, 1e-2, start)?;
     let mut most = [0.0; 2];
     for _ in 0..1000 {

@@ -3,6 +3,7 @@
 use dvi_core::field::{Axis, Spline};
 use dvi_core::prelude::*;
 use dvi_core::{HolonomicLagrangian, NondegenerateLagrangian, Scalar};
+use dvi_tests::Outcome;
 use num_dual::{DualNum, HyperDual64};
 
 /// `f64` and the dual numbers over it.
@@ -170,7 +171,7 @@ pub(crate) struct Beads<S> {
 }
 
 /// z = x y (1 + x) in the table of a spline.
-pub(crate) fn surface() -> Result<Spline<2>, Box<dyn core::error::Error>> {
+pub(crate) fn surface() -> Outcome<Spline<2>> {
     let axis = || Axis::uniform([-1.0, 1.0], 9);
     let at = |k: usize| -1.0 + 0.25 * k as f64;
     let values: Vec<f64> = (0..81).map(|k| at(k / 9) * at(k % 9) * (1.0 + at(k / 9))).collect();

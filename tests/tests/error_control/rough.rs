@@ -123,7 +123,7 @@ where
         start: &S::State<f64>,
         end: f64,
         exact: &[f64],
-    ) -> Result<f64, Box<dyn core::error::Error>> {
+    ) -> Outcome<f64> {
         let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
         while run.time() + control.longest_step < end {
             run.advance()?;

@@ -5,7 +5,7 @@ use dvi_core::prelude::*;
 use dvi_core::{IndexError, OutsideError, ScalarField};
 
 use super::Outcome;
-use super::systems::{ByHand, Damped, Driven, Harvested, Pendulum, Swirl};
+use dvi_tests::schemes::systems::{Damped, Harvested, Pulled, Swirl, SwirlState};
 
 /// The same forces as a list and one by one, with arrays of run-time size.
 #[lagrangian(
@@ -51,6 +51,17 @@ fn indices_of_forces_are_checked_against_their_arrays() {
     assert_eq!(error, Some(StartError::Index(IndexError { array: "c", index: 2, len: 2 })));
 }
 
+/// A pendulum with friction, driven, in phase space.
+#[degenerate_lagrangian(
+    coordinates(q, p),
+    one_form = p * d(q),
+    hamiltonian = p * p / 2.0 - q.cos(),
+    force(q) = -gamma * p + 0.5 * (2.0 * t).cos(),
+)]
+struct Pendulum {
+    gamma: f64,
+}
+
 #[test]
 fn reports_name_the_forces_and_what_they_mean() {
     let text = Damped::REPORT.to_string();
@@ -63,7 +74,7 @@ fn reports_name_the_forces_and_what_they_mean() {
         assert!(text.contains(line), "{line}\n{text}");
     }
     assert!(text.contains("∂L/∂x + force(x) = "), "{text}");
-    let text = Driven::REPORT.to_string();
+    let text = Pulled::REPORT.to_string();
     assert!(text.contains("force(z[i]) = "), "{text}");
     let text = Pendulum::REPORT.to_string();
     assert!(text.contains("∂H/∂q − force(q) = ") && text.contains("∂H/∂p = "), "{text}");
@@ -90,7 +101,12 @@ fn reports_name_the_forces_and_what_they_mean() {
 #[test]
 fn an_explicit_step_takes_one_evaluation_of_the_forces() -> Outcome {
     let system = Swirl { swirl: 0.4 };
-    let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, Swirl::state(Swirl::start()))?;
+    let mut run = Integrator::new(
+        &system,
+        Variational::trapezoid(),
+        0.1,
+        SwirlState { x: 0.7, y: 0.4, dot_x: -0.2, dot_y: 0.5 },
+    )?;
     run.take_steps(100)?;
     assert_eq!((run.statistics().gradients, run.statistics().iterations), (100, 0));
     Ok(())

@@ -4,104 +4,12 @@
 use approx::abs_diff_eq;
 use dvi_core::discrete::{FrequencyIn, Unfitted};
 use dvi_core::prelude::*;
-use dvi_tests::oracle::{self, displaced_lagrangian};
 use dvi_tests::zoo::regular::*;
-use dvi_tests::{apart, larger, run};
-use nalgebra::DVector;
-use num_dual::Dual64;
+use dvi_tests::{apart, run};
 
-use crate::galerkin::systems::{
-    KEPLER, Outcome, chain, double_pendulum, driven, dual, growing, magnetic, pericentre, relativistic,
-    spherical,
-};
-
-/// The displacements of the interior nodes that make L_d(q0, q1) stationary.
-fn stationary<S: Lagrangian<Dual64>, const NODES: usize>(
-    system: &S,
-    u: f64,
-    [t, h]: [f64; 2],
-    ends: [&[f64]; 2],
-) -> Vec<f64> {
-    let [q0, q1] = ends.map(|q| dual(q, None));
-    let size = q0.len() * (NODES - 2);
-    let gradient = |x: &DVector<f64>| {
-        let of = |i| {
-            displaced_lagrangian::<S, Dual64, NODES>(
-                system,
-                u,
-                [t, h],
-                [&q0, &q1],
-                &dual(x.as_slice(), Some(i)),
-            )
-        };
-        DVector::from_fn(size, |i, _| of(i).eps)
-    };
-    oracle::stationary(size, gradient).expect("a regular matrix")
-}
-
-/// The largest residual of p0 = −D₁L_d and p1 = D₂L_d, from the value of L alone.
-fn check_equations<S: RegularLagrangian + Lagrangian<Dual64>, const NODES: usize>(
-    (system, start): (S, S::State<f64>),
-    omega: f64,
-) -> Outcome {
-    let h = 0.1;
-    for solver in [Solver::Automatic, Solver::Newton] {
-        let method = Galerkin { solver, ..Galerkin::<NODES>::new() }.phase_fitted(Constant(omega));
-        let mut run = Integrator::new(&system, method, h, start.clone())?;
-        for step in 0..4 {
-            let (q0, p0, t) = (run.q().to_vec(), run.memory().p().to_vec(), run.time());
-            run.advance()?;
-            let (q1, p1) = (run.q().to_vec(), run.memory().p().to_vec());
-            let x = stationary::<S, NODES>(&system, omega * h, [t, h], [&q0, &q1]);
-            let value = |a: Option<usize>, b: Option<usize>| {
-                let ends = [&dual(&q0, a)[..], &dual(&q1, b)];
-                displaced_lagrangian::<S, Dual64, NODES>(&system, omega * h, [t, h], ends, &dual(&x, None))
-                    .eps
-            };
-            for i in 0..q0.len() {
-                let residual =
-                    larger((p0[i] + value(Some(i), None)).abs(), (p1[i] - value(None, Some(i))).abs());
-                let size = p0.iter().chain(&p1).fold(1.0, |m: f64, p| larger(m, p.abs()));
-                let name = S::REPORT.system;
-                assert!(
-                    residual < 4e-14 * size / h,
-                    "{name}, {NODES} nodes, {solver:?}, step {step}: {residual:e}"
-                );
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Without a frequency and fitted to one.
-fn check_both<S: RegularLagrangian + Lagrangian<Dual64> + Clone, const NODES: usize>(
-    (system, start): (S, S::State<f64>),
-) -> Outcome {
-    check_equations::<S, NODES>((system.clone(), start.clone()), 0.0)?;
-    check_equations::<S, NODES>((system, start), 1.3)
-}
+use crate::galerkin::systems::{KEPLER, Outcome, pericentre};
 
 // All numbers of nodes on one system, and each kind of system with one of them.
-
-#[test]
-fn steps_of_separable_systems_solve_their_equations() -> Outcome {
-    check_both::<_, 3>((KEPLER, pericentre(0.3)))?;
-    check_both::<_, 4>((KEPLER, pericentre(0.3)))?;
-    check_both::<_, 5>((KEPLER, pericentre(0.3)))?;
-    check_both::<_, 4>(driven())?;
-    check_both::<_, 3>(chain())
-}
-
-#[test]
-fn steps_of_other_systems_solve_their_equations() -> Outcome {
-    check_both::<_, 3>(double_pendulum())?;
-    check_both::<_, 4>(double_pendulum())?;
-    check_both::<_, 5>(double_pendulum())?;
-    check_both::<_, 4>(spherical())?;
-    check_both::<_, 3>(magnetic())?;
-    check_both::<_, 4>(relativistic())?;
-    check_both::<_, 5>(growing())
-}
 
 #[test]
 fn all_solvers_find_the_same_steps() -> Outcome {

@@ -50,7 +50,7 @@ fn failure<S: RegularLagrangian>(
     (system, start): (S, S::State<f64>),
     method: Galerkin<4>,
     h: f64,
-) -> Result<StepFailure, Box<dyn core::error::Error>> {
+) -> Outcome<StepFailure> {
     let mut run = Integrator::new(&system, method, h, start)?;
     for _ in 0..1000 {
         let before = (run.q().to_vec(), run.memory().p().to_vec(), run.steps());

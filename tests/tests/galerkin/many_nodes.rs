@@ -128,25 +128,6 @@ fn lanes_give_the_same_numbers() -> Outcome {
     Ok(())
 }
 
-/// Both find the positions of a step where L_d is stationary, one by its derivatives, and the other by the
-/// matrices of the pair.
-#[test]
-fn newton_and_the_fixed_point_find_the_same_steps() -> Outcome {
-    fn check<const S: usize>() -> Outcome {
-        let by = |solver| run(&KEPLER, Galerkin { solver, ..compensated::<S>() }, pericentre(0.3), 6.0, 40);
-        let (newton, fixed_point) = (by(Solver::Newton)?, by(Solver::FixedPoint)?);
-        assert!(apart(&newton, &fixed_point) < 4e-14, "{S} nodes: {newton:?} {fixed_point:?}");
-        let (system, start) = chain();
-        let by = |solver| run(&system, Galerkin { solver, ..compensated::<S>() }, start.clone(), 6.0, 40);
-        let (newton, fixed_point) = (by(Solver::Newton)?, by(Solver::FixedPoint)?);
-        assert!(apart(&newton, &fixed_point) < 4e-14, "{S} nodes: {newton:?} {fixed_point:?}");
-        Ok(())
-    }
-    check::<3>()?;
-    check::<6>()?;
-    check::<9>()
-}
-
 #[test]
 fn a_step_needs_each_force_once_an_iteration_and_the_last_one_once() -> Outcome {
     let mut nine = Integrator::new(&KEPLER, compensated::<9>().in_lanes(), TAU / 40.0, pericentre(0.3))?;

@@ -1,9 +1,7 @@
 //! The systems and starts of these tests, and runs of them.
 
+pub(crate) use dvi_tests::Outcome;
 use dvi_tests::zoo::regular::*;
-use num_dual::Dual64;
-
-pub(crate) type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 pub(crate) const KEPLER: Kepler = Kepler { mu: 1.0 };
 
@@ -17,24 +15,8 @@ pub(crate) fn double_pendulum() -> (DoublePendulum, DoublePendulumState) {
     (system, DoublePendulumState { a: 1.1, b: -0.4, dot_a: 0.3, dot_b: 0.9 })
 }
 
-pub(crate) fn spherical() -> (SphericalPendulum, SphericalPendulumState) {
-    (
-        SphericalPendulum { g: 1.0 },
-        SphericalPendulumState { theta: 1.2, phi: 0.3, dot_theta: 0.4, dot_phi: 0.8 },
-    )
-}
-
-pub(crate) fn magnetic() -> (MagneticParticle, MagneticParticleState) {
-    let start = MagneticParticleState { x: 0.3, y: -0.2, z: 0.5, dot_x: 0.4, dot_y: 0.7, dot_z: -0.3 };
-    (MagneticParticle { m: 1.0, b: 2.0 }, start)
-}
-
 pub(crate) fn relativistic() -> (Relativistic, RelativisticState) {
     (Relativistic { m: 1.0 }, RelativisticState { x: 0.8, y: 0.1, dot_x: -0.2, dot_y: 0.6 })
-}
-
-pub(crate) fn growing() -> (GrowingMass, GrowingMassState) {
-    (GrowingMass {}, GrowingMassState { x: 0.8, y: -0.6, dot_x: 0.3, dot_y: 0.4 })
 }
 
 pub(crate) fn driven() -> (DrivenOscillator, DrivenOscillatorState) {
@@ -46,9 +28,4 @@ pub(crate) fn chain() -> (RunTimeChain, RunTimeChainState) {
     let start =
         RunTimeChainState { q: vec![0.1, -0.2, 0.4], wall: 0.3, dot_q: vec![0.5, 0.0, -0.1], dot_wall: 0.2 };
     (system, start)
-}
-
-pub(crate) fn dual(x: &[f64], direction: Option<usize>) -> Vec<Dual64> {
-    let unit = |i| if Some(i) == direction { 1.0 } else { 0.0 };
-    x.iter().enumerate().map(|(i, &x)| Dual64::new(x, unit(i))).collect()
 }

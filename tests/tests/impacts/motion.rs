@@ -4,7 +4,7 @@ use approx::abs_diff_eq;
 use dvi_core::discrete::Midpoint;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::larger;
+use dvi_tests::apart;
 use dvi_tests::zoo::impacts::*;
 
 use super::Outcome;
@@ -19,11 +19,11 @@ fn error<S: Lagrangian, M: Method<S, f64>>(
     start: S::State<f64>,
     expected: &[f64],
     steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+) -> Outcome<f64> {
     let mut run = Integrator::new(system, method, TIME / steps as f64, start)?;
     run.take_steps(steps)?;
     let state: Vec<f64> = system.values(&run.state())?.collect();
-    Ok(state.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, larger))
+    Ok(apart(&state, expected))
 }
 
 /// The order over five runs, the coarsest of which has `steps` steps.
@@ -35,7 +35,7 @@ fn order<S: Lagrangian + ByHand<N>, M: Method<S, f64> + Clone, const N: usize>(
     method: &M,
     start: S::State<f64>,
     steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+) -> Outcome<f64> {
     let values: Vec<f64> = system.values(&start)?.collect();
     let (q, v) = values.split_at(N);
     let begin = [q, v].map(|part| core::array::from_fn(|i| part[i]));

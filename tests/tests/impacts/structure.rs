@@ -3,8 +3,8 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::State;
 use dvi_core::prelude::*;
-use dvi_tests::larger;
 use dvi_tests::zoo::impacts::*;
+use dvi_tests::{apart, larger};
 use num_dual::Dual64;
 
 use super::Outcome;
@@ -19,7 +19,7 @@ fn jacobian<S: UnilateralLagrangian<Dual64>>(
     collision: Collision,
     start: [f64; 4],
     h: f64,
-) -> Result<(Columns, usize), Box<dyn core::error::Error>> {
+) -> Outcome<(Columns, usize)> {
     let mut columns = [[0.0; 4]; 4];
     let mut impacts = 0;
     for (column, derivatives) in columns.iter_mut().enumerate() {
@@ -146,7 +146,7 @@ fn a_run_goes_back_the_way_it_came() -> Outcome {
             assert_eq!(back.memory().total(), 2 * forth, "{}", stringify!($method));
             let (found, begun): (Vec<f64>, Vec<f64>) =
                 (system.values(&back.state())?.collect(), system.values(&start)?.collect());
-            let distance = found.iter().zip(&begun).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+            let distance = apart(&found, &begun);
             assert!(distance < 1e-9, "{}: {distance:e}", stringify!($method));
         )+};
     }

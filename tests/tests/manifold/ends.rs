@@ -6,10 +6,9 @@ use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{Weights, rotations};
 use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
+use dvi_tests::Outcome;
 use dvi_tests::zoo::manifold::{Body, BodyState, FREE, UNEVEN};
 use num_dual::Dual64;
-
-type Outcome = Result<(), Box<dyn core::error::Error>>;
 
 fn refused<S: ManifoldLagrangian>(system: &S, state: S::State<f64>) -> (&'static str, f64) {
     match Integrator::new(system, Geodesic::trapezoid(), 0.1, state) {

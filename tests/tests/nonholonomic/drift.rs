@@ -19,7 +19,7 @@ const NEAR: SleighState = SleighState { x: 0.8, y: 0.3, th: 0.4, dot_x: 0.5, dot
 
 /// What the energy has lost after a time of 2500 and of 5000, on the average of four motions: rounding
 /// errors decide what one of them loses.
-fn lost(h: f64) -> Result<[f64; 2], Box<dyn core::error::Error>> {
+fn lost(h: f64) -> Outcome<[f64; 2]> {
     const MOTIONS: u32 = 4;
     let mut mean = [0.0; 2];
     for k in 0..MOTIONS {

@@ -85,7 +85,7 @@ fn order<S: Lagrangian, M: Method<S, f64> + Clone>(
     method: &M,
     [start, end]: [&S::State<f64>; 2],
     (time, steps): (f64, u64),
-) -> Result<f64, Box<dyn core::error::Error>> {
+) -> Outcome<f64> {
     let mut errors = Vec::new();
     for steps in [steps, steps * 5 / 4, steps * 3 / 2, 2 * steps] {
         let h = time / steps as f64;

@@ -38,7 +38,7 @@ fn very_uneven_points() -> Outcome {
 fn growing_distances() -> Outcome {
     let mut numbers = Numbers(17);
     let values: Vec<f64> = (0..40).map(|_| numbers.next()).collect();
-    let mut largest = |factor: f64, is_cubic: bool| -> Result<f64, Box<dyn core::error::Error>> {
+    let mut largest = |factor: f64, is_cubic: bool| -> Outcome<f64> {
         let distances = core::iter::successors(Some(1.0), |distance| Some(distance * factor));
         let sum = |at: &mut f64, distance: f64| Some(core::mem::replace(at, *at + distance));
         let points: Vec<f64> = distances.scan(0.0, sum).take(40).collect();
@@ -82,10 +82,7 @@ fn bowl<const D: usize>(at: [f64; D]) -> Expansion<D> {
 /// half of the digits at least.
 #[test]
 fn close_points_are_met_or_refused() -> Outcome {
-    fn check<const D: usize>(
-        gap: f64,
-        numbers: &mut Numbers,
-    ) -> Result<[bool; 2], Box<dyn core::error::Error>> {
+    fn check<const D: usize>(gap: f64, numbers: &mut Numbers) -> Outcome<[bool; 2]> {
         let count = if D == 1 { 14 } else { 8 };
         let (index, close) =
             (1 + (numbers.next() * (count - 1) as f64) as usize, (numbers.next() * D as f64) as usize);

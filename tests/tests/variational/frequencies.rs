@@ -108,7 +108,7 @@ fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
             Ok(0.1)
         }
     }
-    let end = |tries| -> Result<[f64; 2], Box<dyn core::error::Error>> {
+    let end = |tries| -> Outcome<[f64; 2]> {
         let mut run = ControlledIntegrator::new(&Pair, method, Trying { tries }, start)?;
         run.take_steps(200)?;
         Ok([run.q()[0], run.q()[1]])

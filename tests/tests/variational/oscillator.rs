@@ -44,11 +44,7 @@ fn cosine_sum(rule: &impl Rule, u: f64) -> f64 {
 }
 
 /// The largest error of a run against the solution of q'' = −q that starts like it.
-fn worst<R: Rule>(
-    method: Variational<Constant, R>,
-    u: f64,
-    steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+fn worst<R: Rule>(method: Variational<Constant, R>, u: f64, steps: u64) -> Outcome<f64> {
     let system = Oscillator { omega: 1.0 };
     let mut run = Integrator::new(&system, method, u, OscillatorState { x: 0.3, dot_x: 0.8 })?;
     run.advance()?;

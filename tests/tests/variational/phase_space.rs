@@ -3,6 +3,7 @@
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Space, State};
+use dvi_tests::Outcome;
 use dvi_tests::larger;
 use num_dual::Dual64;
 
@@ -17,7 +18,7 @@ fn along<S: RegularLagrangian<Dual64>, M: Method<S, Dual64>>(
     (q, v): &Start,
     steps: u64,
     direction: usize,
-) -> Result<[Vec<f64>; 2], Box<dyn core::error::Error>> {
+) -> Outcome<[Vec<f64>; 2]> {
     let n = system.space().dimension();
     let dual = |x: &[f64], offset: usize| -> Vec<Dual64> {
         let unit = |i| if i + offset == direction { 1.0 } else { 0.0 };
@@ -41,7 +42,7 @@ pub(super) fn symplectic_defect<S: RegularLagrangian<Dual64>, M: Method<S, Dual6
     h: f64,
     start: &Start,
     steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>> {
+) -> Outcome<f64> {
     let n = start.0.len();
     let mut columns = Vec::new();
     for direction in 0..2 * n {
@@ -57,24 +58,4 @@ pub(super) fn symplectic_defect<S: RegularLagrangian<Dual64>, M: Method<S, Dual6
         }
     }
     Ok(defect)
-}
-
-/// The distance from the start after `steps` steps forward and as many back with −h.
-pub(super) fn return_error<S: RegularLagrangian, M: Method<S, f64> + Clone>(
-    system: &S,
-    method: &M,
-    h: f64,
-    start: &Start,
-    steps: u64,
-) -> Result<f64, Box<dyn core::error::Error>> {
-    let blocks = |block| system.block_len(block);
-    let state = S::State::read(blocks, &start.0, &start.1);
-    let mut forth = Integrator::new(system, method.clone(), h, state)?;
-    forth.take_steps(steps)?;
-    let mut back = Integrator::new_at(system, method.clone(), forth.time(), -h, forth.state())?;
-    back.take_steps(steps)?;
-    let (mut q, mut v) = (start.0.clone(), start.1.clone());
-    back.state().write(blocks, &mut q, &mut v)?;
-    let distance = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - y).abs()).fold(0.0, larger);
-    Ok(larger(distance(&q, &start.0), distance(&v, &start.1)))
 }

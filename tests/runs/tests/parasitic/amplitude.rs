@@ -22,7 +22,7 @@ fn first_amplitude<S: DegenerateLagrangian>(
     method: Sigma,
     h: f64,
     start: &S::State<f64>,
-) -> Result<f64, Box<dyn core::error::Error>> {
+) -> Outcome<f64> {
     let mut run = Integrator::new(system, method, h, start.clone())?;
     let mut sums = vec![0.0; run.q().len()];
     // (−1)ʲ (16 over j)/2¹⁶

@@ -1,0 +1,352 @@
+//! Lagrangians as plain Rust, and what follows from them: momenta, forces, equations of motion, the
+//! motion.
+//!
+//! Nothing of it is generated, so that a mistake of a scheme or of the compiler shows.
+
+use core::cell::OnceCell;
+
+use dvi_core::Lagrangian;
+use dvi_core::mechanics::Rates;
+use dvi_core::prelude::*;
+use nalgebra::{DMatrix, DVector, RealField};
+use num_dual::{Dual64, HyperDual64};
+
+use crate::{larger, state};
+
+/// A Lagrangian in plain Rust, with its forces and constraints.
+pub trait Formula {
+    /// L(q, v, t)
+    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T;
+
+    /// The forces on the first coordinates; there are none on the others.
+    fn force(&self, _q: &[f64], _v: &[f64], _t: f64) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// The holonomic constraints.
+    fn constraints<T: RealField + Copy>(&self, _q: &[T], _t: T) -> Vec<T> {
+        Vec::new()
+    }
+}
+
+/// A [`Formula`] on the numbers that oracles need.
+trait Evaluated {
+    fn dual(&self, q: &[Dual64], v: &[Dual64], t: Dual64) -> Dual64;
+    fn hyper(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> HyperDual64;
+    fn force(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64>;
+    fn constraints(&self, q: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64>;
+}
+
+impl<F: Formula> Evaluated for F {
+    fn dual(&self, q: &[Dual64], v: &[Dual64], t: Dual64) -> Dual64 {
+        self.lagrangian(q, v, t)
+    }
+    fn hyper(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> HyperDual64 {
+        self.lagrangian(q, v, t)
+    }
+    fn force(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
+        Formula::force(self, q, v, t)
+    }
+    fn constraints(&self, q: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64> {
+        Formula::constraints(self, q, t)
+    }
+}
+
+/// Numbers with a derivative of one along one of them.
+pub fn dual(x: &[f64], direction: Option<usize>) -> Vec<Dual64> {
+    let unit = |i| if Some(i) == direction { 1.0 } else { 0.0 };
+    x.iter().enumerate().map(|(i, &x)| Dual64::new(x, unit(i))).collect()
+}
+
+/// Numbers x with derivatives along two directions.
+fn hyper(x: &[f64], one: impl Fn(usize) -> f64, other: impl Fn(usize) -> f64) -> Vec<HyperDual64> {
+    x.iter().enumerate().map(|(i, &x)| HyperDual64::new(x, one(i), other(i), 0.0)).collect()
+}
+
+fn unit(i: usize) -> impl Fn(usize) -> f64 {
+    move |j| if i == j { 1.0 } else { 0.0 }
+}
+
+fn none(_: usize) -> f64 {
+    0.0
+}
+
+/// The largest entry.
+pub fn size(vector: &[f64]) -> f64 {
+    vector.iter().fold(0.0, |size: f64, entry| larger(size, entry.abs()))
+}
+
+/// The largest entry of a + sign·b.
+pub fn defect(a: &[f64], sign: f64, b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |size: f64, (a, b)| larger(size, (a + sign * b).abs()))
+}
+
+/// What the laws know of a system: its formula, and where and when runs begin.
+pub struct Subject {
+    /// Of the system.
+    pub name: &'static str,
+    /// Whether L has velocities in more than a one-form, so that states have velocities.
+    pub regular: bool,
+    /// Coordinates, and velocities if there are any.
+    pub start: [Vec<f64>; 2],
+    /// When runs begin.
+    pub t: f64,
+    /// Steps that are short enough for every scheme.
+    pub h: f64,
+    /// How many of these leave parasites small.
+    pub steps: u32,
+    /// For how long errors are let grow where orders are measured.
+    pub time: f64,
+    formula: &'static dyn Evaluated,
+    field: Box<dyn Fn(f64, &[f64]) -> Result<Vec<f64>, StartError>>,
+    end: OnceCell<Vec<f64>>,
+}
+
+impl core::fmt::Debug for Subject {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl Subject {
+    pub(crate) fn new<S>(system: &'static S, start: [&[f64]; 2], [t, h]: [f64; 2]) -> Self
+    where
+        S: Lagrangian + Formula + System<Kind: Rates<S, f64>>,
+    {
+        let (name, regular, start) = (S::REPORT.system, S::REGULAR, start.map(<[f64]>::to_vec));
+        let n = start[0].len();
+        let field = move |t: f64, values: &[f64]| {
+            let (q, v) = values.split_at(n);
+            let rates = system.at_time(t).vector_field(&state(system, q, v))?;
+            Ok(system.values(&rates)?.collect())
+        };
+        let field = Box::new(field);
+        Self {
+            name,
+            regular,
+            start,
+            t,
+            h,
+            time: 2.0,
+            steps: 80,
+            formula: system,
+            field,
+            end: OnceCell::new(),
+        }
+    }
+
+    /// The rates of change as the library computes them.
+    ///
+    /// # Errors
+    /// Those of the library.
+    pub fn field(&self, t: f64, values: &[f64]) -> Result<Vec<f64>, StartError> {
+        (self.field)(t, values)
+    }
+
+    pub(crate) fn few(self, steps: u32) -> Self {
+        Self { steps, time: 1.0, ..self }
+    }
+
+    /// The number of coordinates.
+    pub fn dimension(&self) -> usize {
+        self.start[0].len()
+    }
+
+    /// L on dual numbers.
+    pub fn lagrangian(&self, q: &[Dual64], v: &[Dual64], t: f64) -> Dual64 {
+        self.formula.dual(q, v, Dual64::from(t))
+    }
+
+    /// L on hyper-dual numbers.
+    pub fn twice(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> HyperDual64 {
+        self.formula.hyper(q, v, t)
+    }
+
+    /// The forces on all coordinates.
+    pub fn force(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
+        let mut forces = self.formula.force(q, v, t);
+        forces.resize(q.len(), 0.0);
+        forces
+    }
+
+    /// Whether there are any.
+    pub fn is_forced(&self) -> bool {
+        let [q, v] = &self.start;
+        self.force(q, v, self.t).iter().any(|&force| force != 0.0)
+    }
+
+    /// Whether the one-form depends on the time.
+    pub fn form_is_driven(&self) -> bool {
+        size(&self.momentum_rates(&self.start[0], &vec![0.0; self.dimension()], self.t)) > 0.0
+    }
+
+    /// Whether L is a one-form with a constant Dα, and a function.
+    pub fn is_affine(&self) -> bool {
+        let n = self.dimension();
+        let rest = vec![0.0; n];
+        let bent = |i: usize, j: usize| {
+            // ∂αᵢ/∂qʲ at two points of a line, and two times.
+            let slope = |by: f64| {
+                let (q, t): (Vec<f64>, _) =
+                    (self.start[0].iter().map(|q| q * by + by).collect(), HyperDual64::from(self.t + by));
+                self.twice(&hyper(&q, none, unit(j)), &hyper(&rest, unit(i), none), t).eps1eps2
+            };
+            (slope(1.0) - slope(0.7)).abs() > 1e-12
+        };
+        !self.regular && !(0..n * n).any(|k| bent(k / n, k % n))
+    }
+
+    /// Variations of coordinates and velocities that keep to the constraints: all of them, without
+    /// these.
+    pub fn directions(&self) -> Vec<Vec<f64>> {
+        let ([q, v], n) = (&self.start, self.dimension());
+        let rows = self.constraint_rows(q, self.t);
+        if rows.nrows() == 0 {
+            let size = n + v.len();
+            return (0..size).map(|i| (0..size).map(unit(i)).collect()).collect();
+        }
+        // Of g and of ġ = G(q)v + ∂g/∂t, whose derivative by q is that of G v.
+        let by = |j: usize| {
+            let moved = |by: f64| -> Vec<f64> { (0..n).map(|i| q[i] + by * unit(j)(i)).collect() };
+            let rate = |by: f64| self.constraint_rates(&moved(by), v, self.t)[1].clone();
+            let (ahead, behind) = (rate(1e-6), rate(-1e-6));
+            ahead.iter().zip(&behind).map(|(a, b)| (a - b) / 2e-6).collect::<Vec<f64>>()
+        };
+        let bent: Vec<Vec<f64>> = (0..n).map(by).collect();
+        let m = rows.nrows();
+        let all = DMatrix::from_fn(2 * m, 2 * n, |k, i| match (k < m, i < n) {
+            (true, true) => rows[(k, i)],
+            (true, false) => 0.0,
+            (false, true) => bent[i][k - m],
+            (false, false) => rows[(k - m, i - n)],
+        });
+        let normal = (&all * all.transpose()).lu();
+        let along = |i: usize| {
+            let unit = DVector::from_fn(2 * n, |j, _| unit(i)(j));
+            let off = normal.solve(&(&all * &unit)).map_or(unit.clone() * f64::NAN, |x| all.transpose() * x);
+            (unit - off).as_slice().to_vec()
+        };
+        (0..2 * n).map(along).collect()
+    }
+
+    /// p = ∂L/∂v
+    pub fn momenta(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
+        let q = dual(q, None);
+        (0..q.len()).map(|i| self.lagrangian(&q, &dual(v, Some(i)), t).eps).collect()
+    }
+
+    /// ∂L/∂q + F
+    pub fn pull(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
+        let (forces, still) = (self.force(q, v, t), dual(v, None));
+        let by = |i: usize| self.lagrangian(&dual(q, Some(i)), &still, t).eps;
+        (0..q.len()).map(|i| by(i) + forces[i]).collect()
+    }
+
+    /// d/dt ∂L/∂v where velocities do not change.
+    pub fn momentum_rates(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
+        let (q, t) = (hyper(q, none, |i| v[i]), HyperDual64::new(t, 0.0, 1.0, 0.0));
+        (0..q.len()).map(|i| self.twice(&q, &hyper(v, unit(i), none), t).eps1eps2).collect()
+    }
+
+    /// The derivative of ∂L/∂v along that of a point.
+    pub fn varied_momenta(&self, q: &[Dual64], v: &[Dual64], t: f64) -> Vec<f64> {
+        let along = |x: &[Dual64], i: Option<usize>| -> Vec<HyperDual64> {
+            let unit = |j| if Some(j) == i { 1.0 } else { 0.0 };
+            x.iter().enumerate().map(|(j, x)| HyperDual64::new(x.re, unit(j), x.eps, 0.0)).collect()
+        };
+        let (point, t) = (along(q, None), HyperDual64::from(t));
+        (0..q.len()).map(|i| self.twice(&point, &along(v, Some(i)), t).eps1eps2).collect()
+    }
+
+    /// The gradients of the constraints, a row for each.
+    pub fn constraint_rows(&self, q: &[f64], t: f64) -> DMatrix<f64> {
+        let n = q.len();
+        let by = |i| self.formula.constraints(&hyper(q, unit(i), none), HyperDual64::from(t));
+        let columns: Vec<Vec<HyperDual64>> = (0..n).map(by).collect();
+        DMatrix::from_fn(columns[0].len(), n, |k, i| columns[i][k].eps1)
+    }
+
+    /// The constraints, and how fast they change: g, ġ and what g̈ is without an acceleration.
+    pub fn constraint_rates(&self, q: &[f64], v: &[f64], t: f64) -> [Vec<f64>; 3] {
+        let (q, t) = (hyper(q, |i| v[i], |i| v[i]), HyperDual64::new(t, 1.0, 1.0, 0.0));
+        let values = self.formula.constraints(&q, t);
+        let of = |read: fn(&HyperDual64) -> f64| values.iter().map(read).collect();
+        [of(|x| x.re), of(|x| x.eps1), of(|x| x.eps1eps2)]
+    }
+
+    /// The rates of change of coordinates and velocities, by d/dt ∂L/∂v = ∂L/∂q + F + Gᵀλ with Gv̇ + ġ =
+    /// 0.
+    pub fn rates(&self, values: &[f64], t: f64) -> Vec<f64> {
+        let n = self.dimension();
+        let q = &values[..n];
+        let (rest, zero) = (vec![0.0; n], HyperDual64::from(t));
+        if !self.regular {
+            // (∂αᵢ/∂qʲ − ∂αⱼ/∂qⁱ) q̇ʲ = −∂H/∂qⁱ − ∂αᵢ/∂t + Fᵢ
+            let by =
+                |i, j| self.twice(&hyper(q, none, unit(j)), &hyper(&rest, unit(i), none), zero).eps1eps2;
+            let slopes = DMatrix::from_fn(n, n, by);
+            let (pull, rate) = (self.pull(q, &rest, t), self.momentum_rates(q, &rest, t));
+            let right = DVector::from_fn(n, |i, _| pull[i] - rate[i]);
+            return solved(&slopes - slopes.transpose(), &right).as_slice().to_vec();
+        }
+        let v = &values[n..];
+        let rows = self.constraint_rows(q, t);
+        let [.., bent] = self.constraint_rates(q, v, t);
+        let (pull, rate, m) = (self.pull(q, v, t), self.momentum_rates(q, v, t), rows.nrows());
+        let still = hyper(q, none, none);
+        let mass = |i, j| self.twice(&still, &hyper(v, unit(i), unit(j)), zero).eps1eps2;
+        let matrix = DMatrix::from_fn(n + m, n + m, |i, j| match (i < n, j < n) {
+            (true, true) => mass(i, j),
+            (true, false) => -rows[(j - n, i)],
+            (false, true) => rows[(i - n, j)],
+            (false, false) => 0.0,
+        });
+        let right = DVector::from_fn(n + m, |i, _| if i < n { pull[i] - rate[i] } else { -bent[i - n] });
+        [v, &solved(matrix, &right).as_slice()[..n]].concat()
+    }
+
+    /// Coordinates and velocities at the end of the time, by extrapolation of Gragg's midpoint rule in
+    /// steps of which errors are far below those of any scheme (Hairer, Nørsett & Wanner 1993, section
+    /// II.9).
+    pub fn end(&self) -> &[f64] {
+        const PARTS: u32 = 64;
+        self.end.get_or_init(|| {
+            let h = self.time / f64::from(PARTS);
+            let begin = DVector::from_vec(self.start.concat());
+            let end =
+                (0..PARTS).fold(begin, |y, part| self.extrapolated(&y, self.t + f64::from(part) * h, h));
+            end.as_slice().to_vec()
+        })
+    }
+
+    fn extrapolated(&self, y: &DVector<f64>, t: f64, h: f64) -> DVector<f64> {
+        const ROWS: usize = 7;
+        let slope = |y: &DVector<f64>, t: f64| DVector::from_vec(self.rates(y.as_slice(), t));
+        let first = slope(y, t);
+        let mut rows: Vec<DVector<f64>> = Vec::new();
+        for k in 0..ROWS {
+            let parts = 2 * (k + 1);
+            let h = h / parts as f64;
+            let (mut before, mut now) = (y.clone(), y + &first * h);
+            for part in 1..parts {
+                let next = &before + slope(&now, t + part as f64 * h) * (2.0 * h);
+                (before, now) = (now, next);
+            }
+            // Aitken and Neville in h², from the last row to the first.
+            let mut entry = now;
+            for j in 0..k {
+                let ratio = ((k + 1) as f64 / (k - j) as f64).powi(2);
+                let better = &entry + (&entry - &rows[j]) / (ratio - 1.0);
+                rows[j] = core::mem::replace(&mut entry, better);
+            }
+            rows.push(entry);
+        }
+        rows.remove(ROWS - 1)
+    }
+}
+
+/// x with Ax = b; no numbers where A is singular.
+fn solved(matrix: DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
+    let none = DVector::from_element(right.len(), f64::NAN);
+    matrix.lu().solve(right).unwrap_or(none)
+}

@@ -1,0 +1,53 @@
+//! A run goes on from its checkpoint, written to a text and read again, and on a memory that is restored
+//! from another, bit by bit as if it had not stopped; and many steps at once are the same steps.
+
+use dvi_core::run::Checkpoint;
+use dvi_core::state::Statistics;
+use dvi_tests::bits;
+use dvi_tests::schemes::case::Written;
+use dvi_tests::schemes::{Case, STIFF, stiff};
+
+use super::{Outcome, ask, of_every_kind};
+
+/// As a text, and back.
+fn written_and_read(checkpoint: &Checkpoint) -> Outcome<Checkpoint> {
+    let read = serde_json::from_str(&serde_json::to_string(checkpoint)?)?;
+    if &read == checkpoint { Ok(read) } else { Err("what is read is not what was written".into()) }
+}
+
+type Asked = (Vec<u64>, u64, (u64, u64, Statistics), Checkpoint);
+
+/// What can be asked of a run, numbers as bits.
+fn asked(run: &dyn Written) -> Asked {
+    (bits(&run.values()), run.time().to_bits(), run.asked(), run.checkpoint())
+}
+
+fn same(run: &dyn Written, other: &dyn Written, what: &str) -> Outcome {
+    if asked(run) == asked(other) { Ok(()) } else { Err(format!("{what} it is another run").into()) }
+}
+
+fn runs_go_on(case: &Case) -> Outcome {
+    let steps = u64::from(case.subject.steps);
+    for before in [0, 1, steps / 2] {
+        let (mut run, mut single) = (case.run()?, case.run()?);
+        run.take_steps(before)?;
+        (0..before).try_for_each(|_| single.advance())?;
+        same(&*run, &*single, &format!("with {before} steps at once"))?;
+        let mut again = case.resume(&written_and_read(&run.checkpoint())?)?;
+        for _ in 0..2 {
+            same(&*run, &*again, &format!("from its checkpoint after {before} steps"))?;
+            run.take_steps(steps / 4)?;
+            again.take_steps(steps / 4)?;
+        }
+        case.goes_on_from_a_copy(before as u32)?;
+    }
+    Ok(())
+}
+
+of_every_kind!(runs_go_on);
+
+/// Where the fixed point does not contract, and is tried again after some steps.
+#[test]
+fn of_stiff_steps() {
+    ask(&stiff(&STIFF), runs_go_on);
+}
