@@ -12,11 +12,6 @@ use std::fmt;
 /// The place of claims that no paper makes; they are counted apart.
 pub const BEYOND: &str = "beyond the paper";
 
-/// The larger of two measured numbers; not a number if one of them is not, so that no bound holds for it.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
-}
-
 /// What a number must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
@@ -68,6 +63,11 @@ pub enum Verdict {
     Undecided,
 }
 
+/// What no paper says.
+pub fn beyond(says: impl Into<String>) -> Claim {
+    Claim::new(BEYOND, says)
+}
+
 impl Claim {
     pub fn new(place: impl Into<String>, says: impl Into<String>) -> Self {
         Self { place: place.into(), says: says.into(), printed: Vec::new(), instead: None }
@@ -86,6 +86,41 @@ impl Claim {
             None => self.printed.push(check),
         }
         self
+    }
+
+    /// The check that a number is at most `high`.
+    pub fn at_most(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, high: f64) -> Self {
+        self.check(quantity, value, Bound::AtMost(high))
+    }
+
+    /// The check that a number is at least `low`.
+    pub fn at_least(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, low: f64) -> Self {
+        self.check(quantity, value, Bound::AtLeast(low))
+    }
+
+    /// The check that a number is between two others.
+    pub fn within(
+        self,
+        quantity: impl Into<String>,
+        value: impl Into<Option<f64>>,
+        [low, high]: [f64; 2],
+    ) -> Self {
+        self.check(quantity, value, Bound::Within(low, high))
+    }
+
+    /// The check that a number is another one, up to a tolerance.
+    pub fn near(
+        self,
+        quantity: impl Into<String>,
+        value: impl Into<Option<f64>>,
+        [target, tolerance]: [f64; 2],
+    ) -> Self {
+        self.check(quantity, value, Bound::Near(target, tolerance))
+    }
+
+    /// Checks of each of some things.
+    pub fn each<I: IntoIterator>(self, things: I, add: impl FnMut(Self, I::Item) -> Self) -> Self {
+        things.into_iter().fold(self, add)
     }
 
     /// What holds where the claim as printed does not; the checks that follow decide on it.

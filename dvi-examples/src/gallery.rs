@@ -33,6 +33,12 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
+impl From<Vec<Claim>> for Outcome {
+    fn from(claims: Vec<Claim>) -> Self {
+        Self { claims, ..Self::default() }
+    }
+}
+
 /// How an experiment ended.
 #[derive(Debug)]
 pub enum Ended {
@@ -58,7 +64,8 @@ pub fn run(
             progress.end(number, "not started");
             return (number, Ended::NotStarted);
         }
-        let job = Job::new(folder.to_owned(), length, progress.start(number), stop);
+        let name = experiments[number].name;
+        let job = Job::new(name, folder.to_owned(), length, progress.start(number), stop);
         let (how, ended) = match ((experiments[number].run)(&job), job.was_interrupted()) {
             (Ok(outcome), false) => ("done", Ended::Complete(outcome)),
             (Ok(outcome), true) => ("interrupted", Ended::Interrupted(outcome)),

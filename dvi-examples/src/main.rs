@@ -10,10 +10,12 @@ mod deviation;
 mod experiments;
 mod gallery;
 mod job;
+mod numbers;
 mod options;
 mod progress;
 mod record;
 mod summary;
+mod vocabulary;
 
 use std::io::Write as _;
 use std::process::ExitCode;
