@@ -14,6 +14,7 @@ mod numbers;
 mod options;
 mod progress;
 mod record;
+mod runs;
 mod summary;
 mod vocabulary;
 

@@ -16,3 +16,4 @@ pub use crate::gallery::Outcome;
 pub use crate::job::Job;
 pub use crate::numbers::*;
 pub use crate::output::Table;
+pub use crate::runs::*;

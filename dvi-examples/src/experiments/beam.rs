@@ -9,7 +9,6 @@
 
 use dvi_core::Separable;
 
-use super::rk4::iterations;
 use crate::models::{Beam, BeamState, Mode, Rod, RodState};
 use crate::vocabulary::*;
 

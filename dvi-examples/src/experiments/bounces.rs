@@ -8,7 +8,7 @@
 
 use dvi_core::discrete::{Trapezoid, Unfitted};
 
-use super::rk4::{rk4, up_to};
+use super::rk4::rk4;
 use crate::models::{Bouncer, BouncerState};
 use crate::vocabulary::*;
 
@@ -302,7 +302,7 @@ fn path() -> Result<Panel> {
         run.advance()?;
         impacts.extend(run.memory().impacts().iter().map(|impact| [impact.q()[0], impact.q()[1]]));
         path.extend(run.memory().impacts().iter().map(|impact| [impact.q()[0], impact.q()[1]]));
-        path.push([run.q()[0], run.q()[1]]);
+        path.push(place(&run));
     }
     let floor = (-60..=60).map(|i| f64::from(i) * 0.025).map(|x| [x, FLOOR.a * x.cos()]).collect();
     Ok(Panel::plane("The path up to *t* = 20", "*x*", "*y*")

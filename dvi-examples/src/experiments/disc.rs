@@ -7,7 +7,7 @@
 
 use dvi_core::discrete::{Midpoint, Unfitted};
 
-use super::rk4::{rk4, rk4_up_to, there_and_back, up_to};
+use super::rk4::{rk4, rk4_up_to};
 use crate::models::{ChaplyginSleigh, ChaplyginSleighState, RollingDisc, RollingDiscState};
 use crate::vocabulary::*;
 
@@ -324,12 +324,7 @@ impl Sleigh {
 /// The places of a disc.
 fn path(disc: &RollingDisc, end: f64) -> Result<Vec<[f64; 2]>> {
     let mut run = Integrator::new(disc, midpoint(), H, begin(disc))?;
-    let mut path = vec![PLACE];
-    for _ in 0..(end / H).round() as u64 {
-        run.advance()?;
-        path.push([run.q()[0], run.q()[1]]);
-    }
-    Ok(path)
+    Ok(course(&mut run, (end / H).round() as u64, place)?)
 }
 
 fn figure(all: &[Line; 5], sleigh: &Sleigh) -> Result<Figure> {

@@ -105,12 +105,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 /// Points of the motion of the spring at multiples of a time.
 fn reference(every: f64) -> Result<Vec<StiffeningSpringState>> {
     let mut run = Integrator::new(&StiffeningSpring {}, Gauss::<4>::new(), every, START)?;
-    let mut states = vec![START];
-    for _ in 0..(COMPARED / every).round() as u64 {
-        run.advance()?;
-        states.push(run.state());
-    }
-    Ok(states)
+    Ok(course(&mut run, (COMPARED / every).round() as u64, |run| run.state())?)
 }
 
 /// By one step from the last point before; not a number beyond the end.
@@ -121,7 +116,7 @@ fn position(states: &[StiffeningSpringState], t: f64) -> [f64; 2] {
     // A rest below zero is one of rounding.
     let rest = (t - index * FINE).max(1e-12);
     let Ok(mut run) = Integrator::new(&system, Gauss::<4>::new(), rest, state) else { return [f64::NAN; 2] };
-    run.advance().map_or([f64::NAN; 2], |()| [run.q()[0], run.q()[1]])
+    run.advance().map_or([f64::NAN; 2], |()| place(&run))
 }
 
 impl Runs {
@@ -149,10 +144,6 @@ impl Runs {
 
 fn square([x, y]: [f64; 2]) -> f64 {
     x * x + y * y
-}
-
-fn place<R: Run<Scalar = f64>>(run: &R) -> [f64; 2] {
-    [run.q()[0], run.q()[1]]
 }
 
 impl Steps {

@@ -37,7 +37,7 @@ where
 {
     let mut run = Integrator::new(field, method, TAU / steps as f64, (x, y).into())?;
     run.take_steps(steps)?;
-    Ok([run.q()[0], run.q()[1]])
+    Ok(place(&run))
 }
 
 /// The same after each of `count` turns.

@@ -3,7 +3,7 @@
 use crate::models::OnManifold;
 use crate::vocabulary::*;
 
-use super::rk4::{rk4, rk4_up_to, up_to};
+use super::rk4::{rk4, rk4_up_to};
 
 /// What a few operations leave that are not repeated: the errors of a matrix of products, or of the square
 /// of a length.

@@ -7,7 +7,7 @@
 
 use dvi_core::discrete::{Midpoint, Trapezoid, Unfitted};
 
-use super::rk4::{Accelerations, iterations, up_to};
+use super::rk4::Accelerations;
 use crate::models::{Links, LinksState};
 use crate::vocabulary::*;
 

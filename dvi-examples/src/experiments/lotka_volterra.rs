@@ -77,7 +77,7 @@ where
     let ended = job.follow(&mut run, steps, |run| {
         note(&mut kept, run.time(), [run.energy() - energy]);
         if run.steps() <= EARLY {
-            path.push([run.q()[0], run.q()[1]]);
+            path.push(place(run));
         }
     });
     let failed = ended.err().map_or(f64::INFINITY, |error| error.step as f64);
@@ -127,7 +127,7 @@ where
 {
     let mut run = Integrator::new(system, Projected::symmetric(), h, START.into())?;
     run.take_steps((10.0 / h).round() as u64)?;
-    Ok([run.q()[0], run.q()[1]])
+    Ok(place(&run))
 }
 
 fn figure(all: &[Motion; 4], end: f64) -> Figure {

@@ -77,7 +77,7 @@ where
     let span = Span { end: steps as f64 * H, early: EARLY as f64 * H, intervals: 100 };
     let kept = job.keep(&mut run, steps, span, |run| {
         if path.len() < 200 {
-            path.push([run.q()[0], run.q()[1]]);
+            path.push(place(run));
         }
         [run.energy() - energy]
     })?;
@@ -96,7 +96,7 @@ fn same_motion() -> Result<Claim> {
     {
         let mut run = Integrator::new(system, method, 20.0 / steps as f64, START.into())?;
         run.take_steps(steps)?;
-        Ok([run.q()[0], run.q()[1]])
+        Ok(place(&run))
     }
     let places = [[1.0, 1.0], [-0.3, 2.0], [0.8, -0.7]];
     let difference = largest(places.map(|q| apart(&omega(&ALONG_X, q), &omega(&SYMMETRIC, q))));
@@ -122,7 +122,7 @@ impl Parasite {
         let (mut amplitudes, mut path) = (vec![], vec![[START.0, START.1]]);
         let ended = job.follow(&mut run, (END / h) as u64, |run| {
             amplitudes.extend(filter.amplitude(run.q()).map(|amplitude| [run.time(), amplitude]));
-            path.push([run.q()[0], run.q()[1]]);
+            path.push(place(run));
         });
         Ok(Self { h, amplitudes, path, ended: ended.err().map(|error| error.step as f64 * h) })
     }

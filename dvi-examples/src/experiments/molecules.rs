@@ -4,7 +4,7 @@
 //! 1994). Steps with springs must be shorter than 2/ω for the fastest vibration of a molecule, ω² = 3k/m,
 //! whatever the chain does; with rods the chain sets the length of the steps.
 
-use super::rk4::{Accelerations, there_and_back, up_to};
+use super::rk4::Accelerations;
 use crate::models::{RigidMolecules, RigidMoleculesState, SpringMolecules};
 use crate::vocabulary::*;
 

@@ -82,35 +82,17 @@ fn circles(method: impl Method<PhasePendulum, f64> + Copy, corners: usize) -> Re
     Ok(circles)
 }
 
-/// Points (x, p) of some hundred steps.
-fn orbit<S: Lagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: M,
-    start: S::State<f64>,
-    place: impl Fn(&Integrator<'_, S, M>) -> [f64; 2],
-) -> Result<Vec<[f64; 2]>> {
-    let mut run = Integrator::new(system, method, H, start)?;
-    let mut orbit = Vec::new();
-    for _ in 0..COMPARED {
-        run.advance()?;
-        orbit.push(place(&run));
-    }
-    Ok(orbit)
-}
-
 fn same_schemes() -> Result<Claim> {
-    fn place<R: Run<Scalar = f64>>(run: &R) -> [f64; 2] {
-        [run.q()[0], run.q()[1]]
-    }
     let (system, start) = (PhasePendulum {}, PhasePendulumState { x: START, p: 0.0 });
-    let trapezoid = orbit(&system, OneStep::trapezoid(), start, |run| place(run))?;
-    let midpoint = orbit(&system, OneStep::midpoint(), start, |run| place(run))?;
-    let gauss = orbit(&system, Gauss::<1>::new(), start, |run| place(run))?;
+    let trapezoid = course(&mut Integrator::new(&system, OneStep::trapezoid(), H, start)?, COMPARED, place)?;
+    let midpoint = course(&mut Integrator::new(&system, OneStep::midpoint(), H, start)?, COMPARED, place)?;
+    let gauss = course(&mut Integrator::new(&system, Gauss::<1>::new(), H, start)?, COMPARED, place)?;
     let start = PendulumState { x: START, dot_x: 0.0 };
-    let verlet =
-        orbit(&Pendulum {}, Variational::trapezoid(), start, |run| [run.q()[0], run.memory().p()[0]])?;
+    let mut run = Integrator::new(&Pendulum {}, Variational::trapezoid(), H, start)?;
+    let verlet = course(&mut run, COMPARED, |run| [run.q()[0], run.memory().p()[0]])?;
     let start = SymmetricPendulumState { x: START, p: 0.0 };
-    let two_step = orbit(&SymmetricPendulum {}, Sigma::midpoint(), start, |run| place(run))?;
+    let mut run = Integrator::new(&SymmetricPendulum {}, Sigma::midpoint(), H, start)?;
+    let two_step = course(&mut run, COMPARED, place)?;
     Ok(beyond("with α = p dx the trapezoidal scheme is leapfrog and the midpoint one is implicit midpoint")
         .at_most(
             "500 steps: trapezoid from Störmer–Verlet on L(x, x')",

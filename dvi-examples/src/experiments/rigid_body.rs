@@ -215,14 +215,8 @@ impl Flips {
 
 /// The states at each step.
 fn states(omega: [f64; 3], h: f64, end: f64) -> Result<Vec<RigidBodyState>> {
-    let start = RigidBody::turning(omega);
-    let mut run = Integrator::new(&BODY, Geodesic::trapezoid(), h, start)?;
-    let mut states = vec![start];
-    for _ in 0..(end / h).round() as u64 {
-        run.advance()?;
-        states.push(run.state());
-    }
-    Ok(states)
+    let mut run = Integrator::new(&BODY, Geodesic::trapezoid(), h, RigidBody::turning(omega))?;
+    Ok(course(&mut run, (end / h).round() as u64, |run| run.state())?)
 }
 
 /// Right and up in the picture, and towards the eye.

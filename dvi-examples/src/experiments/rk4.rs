@@ -1,4 +1,4 @@
-//! The classical Runge–Kutta method, beside which others are set, and what two runs have in common.
+//! The classical Runge–Kutta method, beside which others are set.
 
 use dvi_core::State;
 
@@ -81,49 +81,6 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
         // The lengths are those of the state that was read.
         Ok(self.system.values(&rates).map_or_else(|_| Vec::new(), Iterator::collect))
     }
-}
-
-/// The state of a run after time `end`.
-pub fn up_to<S: Lagrangian>(
-    system: &S,
-    method: impl Method<S, f64>,
-    h: f64,
-    start: S::State<f64>,
-    end: f64,
-) -> Result<S::State<f64>> {
-    let mut run = Integrator::new(system, method, h, start)?;
-    run.take_steps((end / h).round() as u64)?;
-    Ok(run.state())
-}
-
-/// The largest difference of a coordinate or velocity from the start, after steps there and as many back.
-pub fn there_and_back<S: Lagrangian>(
-    system: &S,
-    method: impl Method<S, f64> + Clone,
-    h: f64,
-    start: &S::State<f64>,
-    steps: u64,
-) -> Result<f64> {
-    let mut there = Integrator::new(system, method.clone(), h, start.clone())?;
-    there.take_steps(steps)?;
-    let mut back = Integrator::new_at(system, method, there.time(), -h, there.state())?;
-    back.take_steps(steps)?;
-    let [end, start] =
-        each([&back.state(), start], |state| Ok(system.values(state)?.collect::<Vec<f64>>()))?;
-    Ok(apart(&end, &start))
-}
-
-/// Iterations of a step, on average over so many of them.
-pub fn iterations<S: Lagrangian>(
-    system: &S,
-    method: impl Method<S, f64>,
-    h: f64,
-    start: S::State<f64>,
-    steps: u64,
-) -> Result<f64> {
-    let mut run = Integrator::new(system, method, h, start)?;
-    run.take_steps(steps)?;
-    Ok(run.statistics().iterations as f64 / steps as f64)
 }
 
 #[cfg(test)]

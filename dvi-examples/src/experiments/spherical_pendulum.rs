@@ -5,7 +5,6 @@
 //! takes the chord in place of the arc and finds the force that keeps the length.
 
 use super::geodesics::{FEW_UNITS, Long, flat_energy, panels, reference};
-use super::rk4::up_to;
 use super::shadow::{self, Shadow};
 use super::turnings::{self, Extreme, Sample, Turnings};
 use crate::models::{ConstrainedPendulum, SphericalPendulum, SphericalPendulumState};
@@ -189,11 +188,7 @@ fn order_of_places(arcs: &[Swings; 3], chords: &[Swings; 3]) -> Result<Claim> {
 
 fn figure(all: &[Series<3>; 3], long: Long) -> Result<Figure> {
     let mut run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), H, begin())?;
-    let mut path = vec![[begin().s[0], begin().s[1]]];
-    for _ in 0..(DRAWN / H) as u64 {
-        run.advance()?;
-        path.push([run.q()[0], run.q()[1]]);
-    }
+    let path = course(&mut run, (DRAWN / H) as u64, place)?;
     let radii = PENDULUM.heights(&begin()).extremes().map(|height| (1.0 - height * height).sqrt());
     let grey = Stroke::dashed(SLATE).width(1.0);
     let path = Panel::plane("The path", "*x*", "*y*")

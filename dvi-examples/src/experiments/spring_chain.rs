@@ -13,7 +13,6 @@
 //!
 //! which is 1 + O((hω)⁴) for β = 1/12 only.
 
-use super::rk4::up_to;
 use crate::models::SpringChain;
 use crate::vocabulary::*;
 

@@ -20,7 +20,7 @@ const RADII: [f64; 12] = [0.19, 0.195, 0.198, 0.202, 0.206, 0.209, 0.214, 0.218,
 const RADIUS: f64 = 0.2;
 const H: f64 = 60.0;
 /// Steps of the orbit that is compared: two bounces of the banana.
-const COMPARED: usize = 200;
+const COMPARED: u64 = 200;
 /// Steps of the beginning, with which the energy of the whole is compared.
 const EARLY: u64 = 2000;
 /// The intervals of the grid across the section.
@@ -81,12 +81,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 /// r and u, which go to and fro, along the orbit.
 fn path<S: ProperlyDegenerate>(system: &S, start: S::State<f64>) -> Result<Vec<[f64; 2]>> {
     let mut run = Integrator::new(system, OneStep::midpoint(), H, start)?;
-    let mut path = Vec::with_capacity(COMPARED);
-    for _ in 0..COMPARED {
-        run.advance()?;
-        path.push([run.q()[0], run.q()[3]]);
-    }
-    Ok(path)
+    let path = course(&mut run, COMPARED, |run| [run.q()[0], run.q()[3]])?;
+    Ok(path.into_iter().skip(1).collect())
 }
 
 fn start(r: f64) -> TabulatedTokamakState {

@@ -72,13 +72,8 @@ fn state(species: Species) -> ThreeSpeciesState {
 /// The species at each step.
 fn orbit(start: Species, h: f64, steps: u64) -> Result<Vec<Species>> {
     let mut run = Integrator::new(&ThreeSpecies {}, OneStep::midpoint(), h, state(start))?;
-    let mut orbit = vec![start];
-    for _ in 0..steps {
-        run.advance()?;
-        let ThreeSpeciesState { x, y, w, .. } = run.state();
-        orbit.push([x, y, w.exp() / (x * y)]);
-    }
-    Ok(orbit)
+    let species = |ThreeSpeciesState { x, y, w, .. }: ThreeSpeciesState| [x, y, w.exp() / (x * y)];
+    Ok(course(&mut run, steps, |run| species(run.state()))?)
 }
 
 /// The equations of x, y and z as they are.

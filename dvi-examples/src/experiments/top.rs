@@ -118,11 +118,7 @@ fn shrinks(job: &Job<'_>, long: Long, [energy, defect, ..]: &[Deviation; 4], by_
 fn curve((precession, name): (f64, &str)) -> Result<Panel> {
     let start = Top::leaning(LEANING, [0.0, precession, SPINNING]);
     let mut run = Integrator::new(&TOP, Geodesic::trapezoid(), 2.0 * H, start)?;
-    let mut path = vec![[start.R[2], start.R[5]]];
-    for _ in 0..(DRAWN / (2.0 * H)) as u64 {
-        run.advance()?;
-        path.push([run.q()[2], run.q()[5]]);
-    }
+    let path = course(&mut run, (DRAWN / (2.0 * H)) as u64, |run| [run.q()[2], run.q()[5]])?;
     let radii = TOP.heights(&start).extremes().map(|height| (1.0 - height * height).sqrt());
     let axis = |name: &str| Axis::linear(name).within(-0.9, 0.9);
     let grey = Stroke::dashed(SLATE).width(1.0);
