@@ -51,6 +51,8 @@ pub struct Claim {
     pub printed: Vec<Check>,
     /// What holds if that does not, with its own checks.
     pub instead: Option<(String, Vec<Check>)>,
+    /// What the next checks are of.
+    subject: String,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,7 +72,15 @@ pub fn beyond(says: impl Into<String>) -> Claim {
 
 impl Claim {
     pub fn new(place: impl Into<String>, says: impl Into<String>) -> Self {
-        Self { place: place.into(), says: says.into(), printed: Vec::new(), instead: None }
+        let (place, says) = (place.into(), says.into());
+        Self { place, says, printed: Vec::new(), instead: None, subject: String::new() }
+    }
+
+    /// The quantities of the checks that follow begin with the name of what they are of, without its marks of
+    /// italics, and a colon.
+    pub fn of(mut self, name: impl AsRef<str>) -> Self {
+        self.subject = format!("{}: ", name.as_ref().replace('*', ""));
+        self
     }
 
     /// Adds a check; after [`instead`](Self::instead), to the list of what holds instead.
@@ -80,7 +90,7 @@ impl Claim {
         value: impl Into<Option<f64>>,
         bound: Bound,
     ) -> Self {
-        let check = Check::new(quantity, value, bound);
+        let check = Check::new(self.subject.clone() + &quantity.into(), value, bound);
         match &mut self.instead {
             Some((_, checks)) => checks.push(check),
             None => self.printed.push(check),
@@ -118,9 +128,10 @@ impl Claim {
         self.check(quantity, value, Bound::Near(target, tolerance))
     }
 
-    /// Checks of each of some things.
-    pub fn each<I: IntoIterator>(self, things: I, add: impl FnMut(Self, I::Item) -> Self) -> Self {
-        things.into_iter().fold(self, add)
+    /// Checks of each of some things; a name that these are of is that of the thing only.
+    pub fn each<I: IntoIterator>(self, things: I, mut add: impl FnMut(Self, I::Item) -> Self) -> Self {
+        let subject = self.subject.clone();
+        things.into_iter().fold(self, |claim, thing| Self { subject: subject.clone(), ..add(claim, thing) })
     }
 
     /// What holds where the claim as printed does not; the checks that follow decide on it.

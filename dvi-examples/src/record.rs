@@ -132,7 +132,7 @@ fn rows(part: &Part) -> Vec<Row> {
     }];
     let Outcome { claims, references, notes } = &part.outcome;
     for claim in claims {
-        let Claim { place, says, printed, instead } = claim;
+        let Claim { place, says, printed, instead, .. } = claim;
         let verdict = if part.state == State::Complete { claim.judgement() } else { String::new() };
         rows.push(Row { place: place.clone(), verdict, ..Row::new("claim", says) });
         rows.extend(printed.iter().map(|check| Row::check("check", check)));

@@ -214,12 +214,12 @@ fn claims(job: &Job<'_>, all: &[Measured; 3]) -> Vec<Claim> {
     vec![
         beyond("Gauss collocation of order 16 keeps the energy to rounding errors")
             .each(named(), |claim, (name, of)| {
-                claim.at_most(format!("{name}: smallest max|ΔH|/|H|"), best(of), 1e-14)
+                claim.of(name).at_most("smallest max|ΔH|/|H|", best(of), 1e-14)
             }),
         beyond("for 1e-13 it needs fewer evaluations than Kahan–Li 8").each(
             named().zip([5.0, 2.0, 1.5]),
             |claim, ((name, of), low)| {
-                claim.at_least(format!("{name}: Kahan–Li 8 / Gauss 16"), fewer(of, kahan_li, 1e-13), low)
+                claim.of(name).at_least("Kahan–Li 8 / Gauss 16", fewer(of, kahan_li, 1e-13), low)
             },
         ),
         beyond("with its stages at once it makes many fewer one after another")

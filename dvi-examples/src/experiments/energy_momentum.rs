@@ -221,25 +221,28 @@ fn discrete_energy(all: &All) -> Claim {
     let text = "the steps keep the discrete energy to rounding, and steps of one length up to terms of the second order";
     let bounds = [(1.5e-14, [3.141e-3, 5e-6]), (5e-14, [1.053e-2, 2e-5])];
     beyond(text).each(all.iter().zip(bounds), |claim, ((name, runs), (kept, varies))| {
-        let [width, growth] =
-            [runs[0].mean.discrete().width(), most(runs, |runs| runs.kept.discrete().growth())];
-        let order = order_in_length(runs, |runs| &runs.mean, |steps| steps.discrete().width());
+        let width = |steps: &Steps| steps.discrete().width();
+        let growth = most(runs, |runs| runs.kept.discrete().growth());
         let of_all = most(runs, |runs| runs.kept.discrete().largest);
+        let order = order_in_length(runs, |runs| &runs.mean, width);
         claim
-            .at_most(format!("{name}: largest |E_d − e| of all runs"), of_all, kept)
-            .at_most(format!("{name}: the same over all steps / over the first tenth"), growth, 2.0)
-            .near(format!("{name}, steps of one length: largest difference of two E_d"), width, varies)
-            .near(format!("{name}, steps of one length: order of that in h"), order, [2.0, 0.02])
+            .of(name)
+            .at_most("largest |E_d − e| of all runs", of_all, kept)
+            .at_most("the same over all steps / over the first tenth", growth, 2.0)
+            .of(format!("{name}, steps of one length"))
+            .near("largest difference of two E_d", width(&runs[0].mean), varies)
+            .near("order of that in h", order, [2.0, 0.02])
     })
 }
 
 fn momentum(all: &All) -> Claim {
     beyond("both keep the angular momentum to rounding").each(all, |claim, (name, runs)| {
-        let [kept, mean] =
-            [most(runs, |runs| runs.kept.kept[2].largest), most(runs, |runs| runs.mean.kept[2].largest)];
-        claim.at_most(format!("{name}: largest |l − l(0)| of all runs"), kept, 2e-13).at_most(
-            format!("{name}, steps of one length: the same"),
-            mean,
+        let largest = |of: fn(&Runs) -> &Steps| most(runs, |runs| of(runs).kept[2].largest);
+        let claim =
+            claim.of(name).at_most("largest |l − l(0)| of all runs", largest(|runs| &runs.kept), 2e-13);
+        claim.of(format!("{name}, steps of one length")).at_most(
+            "the same",
+            largest(|runs| &runs.mean),
             2e-13,
         )
     })
@@ -248,66 +251,56 @@ fn momentum(all: &All) -> Claim {
 fn energy(all: &All) -> Claim {
     let text = "the energy at the points of the run varies by terms of the second order, on the spring a little more than with steps of one length, on the orbit a third as much";
     beyond(text).each(all.iter().zip([[1.04, 1.07], [0.3, 0.32]]), |claim, ((name, runs), range)| {
-        let kept = order_in_length(runs, |runs| &runs.kept, |steps| steps.energy().width());
-        let mean = order_in_length(runs, |runs| &runs.mean, |steps| steps.energy().width());
-        let ratio = runs[0].kept.energy().width() / runs[0].mean.energy().width();
-        claim
-            .near(format!("{name}: order of the largest difference of two E in h"), kept, [2.0, 0.02])
-            .near(format!("{name}, steps of one length: the same"), mean, [2.0, 0.02])
-            .within(
-                format!("{name}: largest difference of two E / that with steps of one length"),
-                ratio,
-                range,
-            )
+        let width = |steps: &Steps| steps.energy().width();
+        let kept = order_in_length(runs, |runs| &runs.kept, width);
+        let mean = order_in_length(runs, |runs| &runs.mean, width);
+        let ratio = width(&runs[0].kept) / width(&runs[0].mean);
+        let claim = claim.of(name).near("order of the largest difference of two E in h", kept, [2.0, 0.02]);
+        let claim =
+            claim.of(format!("{name}, steps of one length")).near("the same", mean, [2.0, 0.02]).of(name);
+        claim.within("largest difference of two E / that with steps of one length", ratio, range)
     })
 }
 
 fn lengths(all: &All) -> Claim {
     let known = [(ON_SPRING[0], 1.34, 5e-4), (ON_ORBIT[0], 5.09, 2e-3)];
-    let of = all.iter().zip(known);
-    beyond("the lengths of the steps stay within limits and do not drift").each(
-        of,
-        |claim, ((name, runs), known)| {
-            let ((first, most, drift), [low, high], tenths) =
-                (known, runs[0].kept.kept[3].range(), runs[0].kept.tenths);
-            let quantity = format!("{name}: mean length of the last tenth of the steps / of the first − 1");
-            claim
-                .within(
-                    format!("{name}: smallest length / that of the first step"),
-                    low / first,
-                    [0.999, 1.0],
-                )
-                .near(format!("{name}: largest length / that of the first step"), high / first, [most, 0.01])
-                .near(quantity, tenths[1] / tenths[0] - 1.0, [0.0, drift])
-        },
-    )
+    let text = "the lengths of the steps stay within limits and do not drift";
+    beyond(text).each(all.iter().zip(known), |claim, ((name, runs), (first, most, drift))| {
+        let ([low, high], tenths) = (runs[0].kept.kept[3].range(), runs[0].kept.tenths);
+        let lengthens = tenths[1] / tenths[0] - 1.0;
+        claim
+            .of(name)
+            .within("smallest length / that of the first step", low / first, [0.999, 1.0])
+            .near("largest length / that of the first step", high / first, [most, 0.01])
+            .near("mean length of the last tenth of the steps / of the first − 1", lengthens, [0.0, drift])
+    })
 }
 
 fn accuracy(all: &All, between_references: f64) -> Claim {
     let text = "up to t = 50 the run is closer to the motion than one with as many steps of one length, and farther than one of the same work";
     let references = "spring: largest distance of the reference from one with steps twice as long";
     let bounds = [([0.94, 0.96], 20.0), ([0.3, 0.5], 5.0)];
-    let of = all.iter().zip(bounds);
-    beyond(text).at_most(references, between_references, 1e-12).each(
-        of,
-        |claim, ((name, runs), (closer, farther))| {
-            let Runs { kept, mean, work } = &runs[0];
-            let rate = |steps: &Steps| steps.work_of_a_step() / steps.mean_length();
-            let [ratio, .., shortest] = runs.each_ref().map(|runs| runs.kept.distance / runs.work.distance);
-            let order = order_in_length(runs, |runs| &runs.kept, |steps| steps.distance);
-            let as_many = format!("{name}: largest distance / that with as many steps of one length");
-            let in_a_step =
-                format!("{name}: evaluations of derivatives in a step / in one of steps of one length");
-            let in_a_time = format!("{name}: evaluations in a time, the run of the same work / this one");
-            claim
-                .near(format!("{name}: order of the largest distance in h"), order, [2.0, 0.03])
-                .within(as_many, kept.distance / mean.distance, closer)
-                .at_least(in_a_step, kept.work_of_a_step() / mean.work_of_a_step(), 4.0)
-                .at_most(in_a_time, rate(work) / rate(kept), 1.0)
-                .at_least(format!("{name}: largest distance / that with the same work"), ratio, farther)
-                .at_least(format!("{name}: the same with the shortest first step"), shortest, farther)
-        },
-    )
+    let claim = beyond(text).at_most(references, between_references, 1e-12);
+    claim.each(all.iter().zip(bounds), |claim, ((name, runs), (closer, farther))| {
+        let Runs { kept, mean, work } = &runs[0];
+        let rate = |steps: &Steps| steps.work_of_a_step() / steps.mean_length();
+        let [ratio, .., shortest] = runs.each_ref().map(|runs| runs.kept.distance / runs.work.distance);
+        let order = order_in_length(runs, |runs| &runs.kept, |steps| steps.distance);
+        let closeness = kept.distance / mean.distance;
+        let in_a_step = kept.work_of_a_step() / mean.work_of_a_step();
+        claim
+            .of(name)
+            .near("order of the largest distance in h", order, [2.0, 0.03])
+            .within("largest distance / that with as many steps of one length", closeness, closer)
+            .at_least("evaluations of derivatives in a step / in one of steps of one length", in_a_step, 4.0)
+            .at_most(
+                "evaluations in a time, the run of the same work / this one",
+                rate(work) / rate(kept),
+                1.0,
+            )
+            .at_least("largest distance / that with the same work", ratio, farther)
+            .at_least("the same with the shortest first step", shortest, farther)
+    })
 }
 
 /// A state at which a length is sought, and E_d − e over the lengths.

@@ -117,7 +117,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             lost,
             |claim, run| {
                 let doubled = run.doubled.unwrap_or(f64::INFINITY);
-                claim.at_most(format!("{}: time at which E is twice E(0)", run.name), doubled, 5.0)
+                claim.of(run.name).at_most("time at which E is twice E(0)", doubled, 5.0)
             },
         ),
         orders(job, steps),
@@ -205,10 +205,6 @@ impl Decay {
         }
     }
 
-    fn plain(&self) -> String {
-        self.name.replace('*', "")
-    }
-
     /// The relative deviation of the energy in the first and in the last window, on average over each.
     fn means(&self) -> [f64; 2] {
         let means = self.error.envelope.mean();
@@ -282,21 +278,21 @@ fn defects(
 }
 
 fn follows(job: &Job<'_>, runs: &Runs) -> Claim {
-    let deviates =
-        |run: &Decay| format!("{}: largest relative deviation of E, means over {WINDOW}", run.plain());
-    let too_fast =
-        |run: &Decay| format!("{}: rate of decay of E less that of the motion, in units of γ", run.plain());
+    let deviates = format!("largest relative deviation of E, means over {WINDOW}");
+    let too_fast = "rate of decay of E less that of the motion, in units of γ";
     let bounds = [[0.16, 0.18, 0.065], [0.12, 0.16, 0.025], [0.33, 0.36, 0.075]];
     let rk4 = &runs[3];
     beyond("at h = 0.2 RK4 adds to the decay of the energy as much as friction, and the other methods a small part of that")
         .each(runs.iter().zip(bounds), |claim, (run, [mean, each, rate])| {
             claim
-                .at_most(deviates(run), run.largest_mean(), mean)
-                .at_most(format!("{}: the same at each step", run.plain()), run.error.largest, each)
-                .near(too_fast(run), run.excess(), [0.0, rate])
+                .of(run.name)
+                .at_most(&deviates, run.largest_mean(), mean)
+                .at_most("the same at each step", run.error.largest, each)
+                .near(too_fast, run.excess(), [0.0, rate])
         })
-        .at_least(deviates(rk4), job.only_full(rk4.largest_mean()), 0.9)
-        .at_least(too_fast(rk4), rk4.excess(), 1.0)
+        .of(rk4.name)
+        .at_least(&deviates, job.only_full(rk4.largest_mean()), 0.9)
+        .at_least(too_fast, rk4.excess(), 1.0)
 }
 
 fn control(Measured { reference, conservative, .. }: &Measured) -> Claim {
@@ -308,11 +304,11 @@ fn control(Measured { reference, conservative, .. }: &Measured) -> Claim {
     beyond("without friction the other methods keep their energy, and RK4 at first loses more than friction takes")
         .each(&conservative[..3], |claim, run| {
             let [first, last] = run.means();
-            let quantity = format!("{}: mean E over the last {WINDOW} / over the first − 1", run.plain());
-            claim.near(quantity, (1.0 + last) / (1.0 + first) - 1.0, [0.0, 5e-4])
+            let quantity = format!("mean E over the last {WINDOW} / over the first − 1");
+            claim.of(run.name).near(quantity, (1.0 + last) / (1.0 + first) - 1.0, [0.0, 5e-4])
         })
         .each(&conservative[..2], |claim, run| {
-            claim.at_most(format!("{}: largest |l/l(0) − 1|", run.plain()), run.momentum.largest, 1e-13)
+            claim.of(run.name).at_most("largest |l/l(0) − 1|", run.momentum.largest, 1e-13)
         })
         .at_least(format!("RK4: what it loses of E to t = {BEGINNING} / what friction takes"), own_loss, 1.5)
 }
@@ -328,8 +324,7 @@ fn orders(job: &Job<'_>, steps: &[Runs; 4]) -> Claim {
     let dearest = "four forces in 0.2: largest deviation of E, trapezoid with h = 0.05 / RK4 with h = 0.2";
     beyond("the error of that rate is of second order, with RK4 of the fifth, so that RK4 is behind at long steps and ahead at short ones")
         .each(0..3, |claim, method| {
-            let name = steps[0][method].plain();
-            claim.near(format!("{name}: order of the error of the rate"), order(method), [2.0, 0.1])
+            claim.of(steps[0][method].name).near("order of the error of the rate", order(method), [2.0, 0.1])
         })
         .near("RK4: order of the error of the rate", order(3), [5.0, 0.2])
         .at_least(format!("h = {long}: largest deviation of E, RK4 / midpoint"), worse(1), 5.0)

@@ -198,9 +198,7 @@ fn order_of_positions() -> Result<Claim> {
     ];
     Ok(beyond("the positions are of second order, against RK4 with half the shortest step")
         .at_most("largest distance of the masses of two references", farthest(&fine, &double), 3e-8)
-        .each(orders, |claim, (name, order)| {
-            claim.near(format!("{name}: order at t = 2"), order, [2.0, 0.05])
-        }))
+        .each(orders, |claim, (name, order)| claim.of(name).near("order at t = 2", order, [2.0, 0.05])))
 }
 
 fn work(job: &Job<'_>) -> Result<Claim> {
@@ -220,8 +218,8 @@ fn work(job: &Job<'_>) -> Result<Claim> {
     Ok(beyond(text)
         .each(newton, |claim, (name, all)| {
             claim.each(COUNTED_LINKS.into_iter().zip(all), |claim, (links, iterations)| {
-                let quantity = format!("{name}: iterations of a step with {links} links");
-                claim.near(quantity, job.only_full(iterations), [3.0, 0.15])
+                let quantity = format!("iterations of a step with {links} links");
+                claim.of(name).near(quantity, job.only_full(iterations), [3.0, 0.15])
             })
         })
         .at_most("RATTLE: iterations of a step with 100 links", job.only_full(many), 4.0)

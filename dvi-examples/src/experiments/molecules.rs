@@ -177,9 +177,11 @@ fn trend(both: [&Kept; 2]) -> Claim {
         |claim, Series { name, kept, .. }| {
             let energy = &kept[0];
             let quantity = "mean ΔE in the last tenth of the run less that in the first, over max|ΔE|";
-            claim
-                .at_most(format!("{name}: {quantity}"), energy.drift().abs() / energy.largest, 0.25)
-                .at_most(format!("{name}: max|ΔE| over all / in the first tenth"), energy.growth(), 1.5)
+            claim.of(name).at_most(quantity, energy.drift().abs() / energy.largest, 0.25).at_most(
+                "max|ΔE| over all / in the first tenth",
+                energy.growth(),
+                1.5,
+            )
         },
     )
 }

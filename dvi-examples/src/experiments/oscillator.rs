@@ -190,9 +190,8 @@ fn claims(rows: &[Row], all: &[Errors]) -> Result<Vec<Claim>> {
             .each(rows, |claim, row| {
                 let name = row.name;
                 let weighted = largest(row.recursion.iter().map(|&[u, error]| error * row.condition(u)));
-                let quantity =
-                    format!("{name}: largest error of the recursion times |S sin u|, u = 0.1 … 3");
-                claim.at_most(quantity, weighted, 1e-9)
+                let quantity = "largest error of the recursion times |S sin u|, u = 0.1 … 3";
+                claim.of(name).at_most(quantity, weighted, 1e-9)
             })
             .at_most("all rules: largest error where |S sin u| ≥ 0.1", well_placed(rows), 1e-9),
         beyond("only the positions are: p = s·v with s = uS/sin u").at_most(

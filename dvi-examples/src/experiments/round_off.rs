@@ -160,13 +160,13 @@ fn claims(job: &Job<'_>, pairs: &[Pair; 4]) -> Vec<Claim> {
     vec![
         beyond(growth).each(energies, |claim, (case, [_, compensated])| {
             let exponent = job.only_full(exponent(compensated));
-            claim.within(format!("{}: exponent of growth", case.name), exponent, [0.3, 0.7])
+            claim.of(case.name).within("exponent of growth", exponent, [0.3, 0.7])
         }),
         beyond("with compensated sums they are at most a fifth of those of plain sums").each(
             cases(),
             |claim, (case, [plain, compensated])| {
                 let ratio = plain.last().zip(compensated.last()).map(|(plain, other)| other[1] / plain[1]);
-                claim.at_most(format!("{}: compensated/plain, at the end", case.name), ratio, 0.2)
+                claim.of(case.name).at_most("compensated/plain, at the end", ratio, 0.2)
             },
         ),
     ]

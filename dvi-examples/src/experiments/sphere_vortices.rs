@@ -102,12 +102,9 @@ fn keep(all: &[Kept; 3]) -> Claim {
     let growth = all[2].kept[0].growth();
     beyond(text)
         .each(&all[..2], |claim, Series { name, kept: [energy, moment, _, axial], .. }| {
-            let of = |quantity: &str| format!("{name}: max|Δ{quantity}| over all / over {EARLY} steps");
-            claim.at_most(of("H"), energy.growth(), 1.05).at_most(of("|M|"), moment.growth(), 1.05).at_most(
-                format!("{name}: max|ΔM_z|/|M|"),
-                axial.largest,
-                1e-10,
-            )
+            let of = |quantity: &str| format!("max|Δ{quantity}| over all / over {EARLY} steps");
+            let claim = claim.of(name).at_most(of("H"), energy.growth(), 1.05);
+            claim.at_most(of("|M|"), moment.growth(), 1.05).at_most("max|ΔM_z|/|M|", axial.largest, 1e-10)
         })
         .at_least(format!("RK4: max|ΔH| over all / over {EARLY} steps"), growth, 4.0)
 }

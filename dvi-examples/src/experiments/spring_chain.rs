@@ -126,7 +126,7 @@ fn energy(job: &Job<'_>, newmark: &[Kept; 4]) -> Claim {
         H * OMEGA
     ))
     .each(BETAS.into_iter().zip(energies).zip([0.2, 0.13, 0.06, 1.5e-3]), |claim, (((_, name, _), energy), bound)| {
-        claim.at_most(format!("{name}: largest |ΔE|"), energy.largest, bound)
+        claim.of(name).at_most("largest |ΔE|", energy.largest, bound)
     })
     .at_least("β = 0: largest |ΔE| / that with β = 1/4", ratio, 100.0)
     .at_most("largest |ΔE| over all / in the first hundredth", growth, 1.1)
@@ -160,8 +160,8 @@ fn speeds(job: &Job<'_>, starts: usize) -> Result<Claim> {
     );
     Ok(beyond(text).each(BETAS.into_iter().zip(speeds), |claim, ((beta, name, _), speed)| {
         let expected = (1e4 * expected_speed(beta, H)).round() / 1e4;
-        let quantity = format!("{name}: speed of the exchange / that of the motion");
-        claim.near(quantity, job.only_full(speed), [expected, 0.04])
+        let quantity = "speed of the exchange / that of the motion";
+        claim.of(name).near(quantity, job.only_full(speed), [expected, 0.04])
     }))
 }
 
@@ -217,7 +217,7 @@ fn order_of_coordinates() -> Result<Claim> {
     })?;
     Ok(beyond(format!("the coordinates at t = {ORDER_TIME} are of second order for all β"))
         .each(BETAS.into_iter().zip(orders), |claim, ((_, name, _), order)| {
-            claim.near(format!("{name}: order"), order, [2.0, 0.05])
+            claim.of(name).near("order", order, [2.0, 0.05])
         }))
 }
 

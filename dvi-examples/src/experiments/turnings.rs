@@ -97,12 +97,14 @@ pub fn claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
             ["lowest", "highest"].into_iter().zip(middle.iter().zip(fine)),
             |claim, (name, (middle, fine))| {
                 let predicted = fine.predicted / (fine.h * fine.h);
-                let distance =
-                    format!("{name}: distance from the root, h = {} over h = {}", middle.h, fine.h);
-                let over_square = format!("{name}, h = {}: (height − root)/h²", fine.h);
+                let distance = format!("distance from the root, h = {} over h = {}", middle.h, fine.h);
+                let over_square = fine.mean / (fine.h * fine.h);
                 claim
-                    .at_least(format!("{name}: turnings"), fine.count as f64, 5.0)
-                    .near(over_square, fine.mean / (fine.h * fine.h), [predicted, 0.02 * predicted.abs()])
+                    .of(name)
+                    .at_least("turnings", fine.count as f64, 5.0)
+                    .of(format!("{name}, h = {}", fine.h))
+                    .near("(height − root)/h²", over_square, [predicted, 0.02 * predicted.abs()])
+                    .of(name)
                     .near(distance, middle.mean / fine.mean, [4.0, 0.1])
             },
         )
