@@ -10,7 +10,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result, bail, ensure};
 
 use crate::claim::{Bound, Check, Claim};
-use crate::gallery::{Ended, Outcome};
+use crate::gallery::Outcome;
 use crate::job::Length;
 use crate::output::{Table, number};
 
@@ -37,20 +37,6 @@ pub enum State {
     NotStarted,
     /// With the words of the error.
     Failed(String),
-}
-
-impl Part {
-    /// The part of a run.
-    pub fn of(experiment: &str, length: Length, when: &str, ended: &Ended) -> Self {
-        let (state, outcome) = match ended {
-            Ended::Complete(outcome) => (State::Complete, outcome.clone()),
-            Ended::Interrupted(outcome) => (State::Interrupted, outcome.clone()),
-            Ended::Failed(error) => (State::Failed(format!("{error:#}")), Outcome::default()),
-            Ended::NotStarted => (State::NotStarted, Outcome::default()),
-        };
-        let (experiment, when) = (experiment.to_owned(), when.to_owned());
-        Self { experiment, length, when, state, outcome }
-    }
 }
 
 /// The parts of earlier runs, those of the same experiments replaced by the new ones, in the order of

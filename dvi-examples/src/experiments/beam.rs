@@ -123,7 +123,7 @@ impl Vibration {
         let mut run = Integrator::new(system, method, h, start)?;
         let (begin, mut energy) = (run.energy(), Deviation::new(end, 200, 2.0 * period()));
         let kept = job.follow(&mut run, (end / h).round() as u64, |run| {
-            energy.push(run.time(), run.energy() / begin - 1.0)
+            energy.push(run.time(), run.energy() / begin - 1.0);
         });
         Ok(Self { name, colour, h, energy, lost: kept.err().map(|_| run.time() / period()) })
     }

@@ -141,7 +141,7 @@ impl Scan {
             let steps = (end / h).ceil() as u64;
             job.expect(steps);
             let kept = job.follow(&mut run, steps, |run| {
-                largest = larger(largest, (run.energy() / begin - 1.0).abs())
+                largest = larger(largest, (run.energy() / begin - 1.0).abs());
             });
             Ok([h, if kept.is_err() || !largest.is_finite() { f64::INFINITY } else { largest }])
         };
