@@ -8,9 +8,8 @@
 use dvi_core::discrete::{Trapezoid, Unfitted};
 use rayon::prelude::*;
 
-use crate::models::{
-    EllipseBilliard, EllipseBilliardState, RoundedSquareBilliard, RoundedSquareBilliardState,
-};
+use crate::models::RoundedSquareBilliardState as SquareState;
+use crate::models::{EllipseBilliard, EllipseBilliardState as State, RoundedSquareBilliard as Square};
 use crate::vocabulary::*;
 
 const ELLIPSE: EllipseBilliard = EllipseBilliard { a: 1.25, b: 0.8 };
@@ -53,28 +52,28 @@ fn method(collision: Collision) -> Bouncing {
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let impacts = job.choose(100_000, 500);
     job.expect(3 * u64::from(ORBITS) * impacts);
-    let all = |orbit: &(dyn Fn(u32) -> Result<Orbit> + Sync)| -> Result<Vec<Orbit>> {
+    fn all(orbit: impl Fn(u32) -> Result<Orbit> + Sync + Send) -> Result<Vec<Orbit>> {
         (0..ORBITS).into_par_iter().map(orbit).collect()
-    };
-    let ellipse = all(&|number| Orbit::in_ellipse(job, number, H, impacts))?;
-    let square = all(&|number| Orbit::in_square(job, number, impacts))?;
-    let long = all(&|number| Orbit::in_ellipse(job, number, LONG, impacts))?;
-    let rows =
-        [("ellipse", &ellipse), ("rounded square", &square)].into_iter().flat_map(|(curve, orbits)| {
-            orbits.iter().enumerate().flat_map(move |(orbit, Orbit { section, .. })| {
-                section.iter().take(300).map(move |[angle, along]| ([curve], [orbit as f64, *angle, *along]))
-            })
-        });
+    }
+    let ellipse = all(|number| Orbit::in_ellipse(job, number, H, impacts))?;
+    let square = all(|number| Orbit::in_square(job, number, impacts))?;
+    let long = all(|number| Orbit::in_ellipse(job, number, LONG, impacts))?;
+    let sections = [("ellipse", &ellipse), ("rounded square", &square)];
+    let rows = sections.into_iter().flat_map(|(curve, orbits)| {
+        orbits.iter().enumerate().flat_map(move |(orbit, Orbit { section, .. })| {
+            section.iter().take(300).map(move |[angle, along]| ([curve], [orbit as f64, *angle, *along]))
+        })
+    });
     let table = Table::of(&["curve", "orbit", "angle", "velocity_along"], rows)?;
     job.publish(figure(&ellipse, &square), table)?;
     Ok(vec![in_ellipse(job, &ellipse, &long, impacts), in_square(job, &ellipse, &square)?, laws()?].into())
 }
 
 /// Where an orbit crosses the x axis, and its velocity there.
-fn start(number: u32) -> EllipseBilliardState {
+fn start(number: u32) -> State {
     let part = (f64::from(number) + 0.5) / f64::from(ORBITS);
     let angle = 0.5 * PI * (1.0 - 0.6 * part);
-    EllipseBilliardState { x: 0.95 * part * ELLIPSE.a, y: 0.0, dot_x: angle.cos(), dot_y: angle.sin() }
+    State { x: 0.95 * part * ELLIPSE.a, y: 0.0, dot_x: angle.cos(), dot_y: angle.sin() }
 }
 
 /// The component of `v` along the curve, for the direction `normal` into it.
@@ -92,9 +91,9 @@ impl Orbit {
     }
 
     fn in_square(job: &Job<'_>, number: u32, impacts: u64) -> Result<Self> {
-        let EllipseBilliardState { x, y, dot_x, dot_y } = start(number);
-        let start = RoundedSquareBilliardState { x: x / ELLIPSE.a, y, dot_x, dot_y };
-        let mut run = Integrator::new(&RoundedSquareBilliard, method(Collision::Reflection), H, start)?;
+        let State { x, y, dot_x, dot_y } = start(number);
+        let start = SquareState { x: x / ELLIPSE.a, y, dot_x, dot_y };
+        let mut run = Integrator::new(&Square, method(Collision::Reflection), H, start)?;
         Self::of(job, &mut run, impacts, |x, y| {
             (1.0 - x.powi(4) - y.powi(4), [-4.0 * x.powi(3), -4.0 * y.powi(3)])
         })
@@ -112,7 +111,7 @@ impl Orbit {
             run.advance()?;
             let of_step = run.memory().impacts();
             for impact in of_step {
-                let (x, y) = (impact.q()[0], impact.q()[1]);
+                let [x, y] = [impact.q()[0], impact.q()[1]];
                 let (gap, normal) = curve(x, y);
                 orbit.gap = larger(orbit.gap, gap.abs());
                 if orbit.section.len() < SHOWN {
@@ -163,28 +162,25 @@ fn in_ellipse(job: &Job<'_>, ellipse: &[Orbit], long: &[Orbit], impacts: u64) ->
 }
 
 fn in_square(job: &Job<'_>, ellipse: &[Orbit], square: &[Orbit]) -> Result<Claim> {
-    let start = RoundedSquareBilliardState { x: 0.3, y: 0.1, dot_x: 0.8, dot_y: 0.6 };
+    let start = SquareState { x: 0.3, y: 0.1, dot_x: 0.8, dot_y: 0.6 };
     let method = method(Collision::Variational);
-    let mut run = Integrator::new(&RoundedSquareBilliard, method, H, start)?;
+    let mut run = Integrator::new(&Square, method, H, start)?;
     while run.memory().total() < REVERSED {
         run.advance()?;
     }
     let checkpoint = run.checkpoint().with_step_size(-H);
-    let mut back = Integrator::resume(&RoundedSquareBilliard, method, &checkpoint)?;
+    let mut back = Integrator::resume(&Square, method, &checkpoint)?;
     back.take_steps(run.steps())?;
-    let there_and_back = distance([back.state().x, back.state().y], [start.x, start.y]);
+    let there_and_back = distance(place(&back), [start.x, start.y]);
     let text = "in x⁴ + y⁴ = 1 the energy is kept too, orbits of one energy fill a region of the section, and the way back is the way there";
     let filled = job.only_full(most(square, Orbit::filled));
+    let returned = format!("distance from the start after {REVERSED} impacts there and back");
     Ok(beyond(text)
         .at_most("largest change of the energy", most(square, |orbit| orbit.energy), 1e-12)
         .at_most("largest |g| at an impact", most(square, |orbit| orbit.gap), 1e-14)
         .at_least("squares of the section that one orbit visits", filled, 0.5)
         .at_most("the same in the ellipse", most(ellipse, Orbit::filled), 0.3)
-        .at_most(
-            format!("distance from the start after {REVERSED} impacts there and back"),
-            there_and_back,
-            1e-10,
-        ))
+        .at_most(returned, there_and_back, 1e-10))
 }
 
 /// The largest difference of the states of two runs with the two laws of impact.
@@ -196,7 +192,7 @@ fn laws() -> Result<Claim> {
     while one.memory().total() < COMPARED {
         one.advance()?;
         other.advance()?;
-        largest = larger(largest, distance([one.q()[0], one.q()[1]], [other.q()[0], other.q()[1]]));
+        largest = larger(largest, distance(place(&one), place(&other)));
     }
     let text = format!(
         "between impacts the discrete energy of a free particle is its energy, so that both laws of impact give one orbit, over {COMPARED} \

@@ -87,6 +87,7 @@ fn contenders() -> [Contender; 13] {
 }
 
 /// One method on one orbit.
+#[derive(Default)]
 struct Curve {
     contender: usize,
     e: f64,
@@ -127,13 +128,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 fn curve(job: &Job<'_>, all: &[Contender], contender: usize, e: f64, periods: u64) -> Curve {
     let Contender { name, knobs, run, .. } = &all[contender];
-    let mut curve = Curve { contender, e, courses: Vec::new(), failures: Vec::new() };
+    let (name, mut curve) = (name.replace('*', ""), Curve { contender, e, ..Curve::default() });
     for &knob in *knobs {
         match run((job, Orbit { e }, periods), knob) {
             Ok(course) => curve.courses.push(course),
-            Err(error) => {
-                curve.failures.push(format!("{}, e = {e}, at {knob}: {error}.", name.replace('*', "")));
-            }
+            Err(error) => curve.failures.push(format!("{name}, e = {e}, at {knob}: {error}.")),
         }
     }
     curve
@@ -147,9 +146,7 @@ fn energy(curves: &[Curve], contender: usize) -> Option<f64> {
 
 /// By what fitting divides it: averaged, and variational.
 fn gains(curves: &[Curve]) -> [Option<f64>; 2] {
-    [4, 5].map(|fitted| {
-        energy(curves, 2).zip(energy(curves, fitted)).map(|(simpson, fitted)| simpson / fitted)
-    })
+    [4, 5].map(|fitted| Some(energy(curves, 2)? / energy(curves, fitted)?))
 }
 
 fn claims(curves: &[Curve], leapfrog: &Rival, regular: &Rival, shorter: &Rival) -> Vec<Claim> {
@@ -175,17 +172,14 @@ fn figure(all: &[Contender], curves: &[Curve], periods: u64) -> Figure {
         SHOWN.map(|e| {
             let work = Axis::logarithmic("evaluations of the force per period").within(5.0, 5e4);
             let error = Axis::logarithmic(label).within(1e-15, 10.0);
-            let shown =
-                curves.iter().filter(|curve| curve.e == e && DRAWN.contains(&all[curve.contender].name));
-            Panel::new(format!("{title} error over work, *e* = {e}"), work, error).each(
-                shown,
-                |panel, curve| {
-                    let points: Vec<_> =
-                        curve.courses.iter().map(|course| [course.evaluations, of(course)]).collect();
-                    let Contender { name, stroke, .. } = &all[curve.contender];
-                    panel.line(points.clone(), *stroke).labelled(*name).dots(points, 2.6, stroke.colour())
-                },
-            )
+            let empty = Panel::new(format!("{title} error over work, *e* = {e}"), work, error);
+            let shown = curves.iter().map(|curve| (curve, &all[curve.contender]));
+            let shown = shown.filter(|(curve, method)| curve.e == e && DRAWN.contains(&method.name));
+            empty.each(shown, |panel, (curve, Contender { name, stroke, .. })| {
+                let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
+                let points: Vec<_> = points.collect();
+                panel.line(points.clone(), *stroke).labelled(*name).dots(points, 2.6, stroke.colour())
+            })
         })
     };
     let row =

@@ -47,23 +47,20 @@ type Pair = [Rows; 2];
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(100_000_000, 1_000_000_u64);
     let of_case = |case: &Conserved| (steps as f64 * case.share) as u64;
-    job.expect(CASES.iter().map(|case| 2 * RUNS as u64 * of_case(case)).sum());
-    let all = CASES.iter().flat_map(|case| {
-        let sums = [Summation::Plain, Summation::Compensated].into_iter();
-        sums.flat_map(move |summation| (0..RUNS).map(move |run| (case, summation, run)))
-    });
-    let all: Vec<_> = all.collect();
-    let one =
-        |&(case, summation, run): &(&Conserved, _, _)| (case.errors)(job, summation, run, of_case(case));
-    let errors: Vec<Rows> = all.par_iter().map(one).collect::<Result<_>>()?;
+    job.expect(CASES.iter().map(|case| 2 * RUNS as u64 * (of_case(case) / STRIDE)).sum());
+    // Two sums of each case, and so many runs of each sum.
+    let one = |number: usize| {
+        let (case, run) = (&CASES[number / (2 * RUNS)], number % RUNS);
+        let summation = [Summation::Plain, Summation::Compensated][number / RUNS % 2];
+        (case.errors)(job, summation, run, of_case(case))
+    };
+    let all = (0..2 * RUNS * CASES.len()).into_par_iter().map(one).collect::<Result<Vec<Rows>>>()?;
     let pairs = each([0, 1, 2, 3], |case| {
-        Ok([0, 1].map(|sum| mean(&errors[RUNS * (2 * case + sum)..RUNS * (2 * case + sum + 1)])))
+        Ok([2 * case, 2 * case + 1].map(|sum| mean(&all[RUNS * sum..RUNS * (sum + 1)])))
     })?;
     let rows = CASES.iter().zip(&pairs).flat_map(|(case, pair)| {
-        ["plain", "compensated"]
-            .into_iter()
-            .zip(pair)
-            .flat_map(move |(sums, rows)| rows.iter().map(move |row| ([case.name, sums], *row)))
+        let both = ["plain", "compensated"].into_iter().zip(pair);
+        both.flat_map(move |(sums, rows)| rows.iter().map(move |row| ([case.name, sums], *row)))
     });
     job.publish(figure(&pairs, steps as f64), Table::of(&["quantity", "sums", "steps", "error"], rows)?)?;
     Ok(Outcome { claims: claims(job, &pairs), references: vec![], notes: notes(&pairs) })
@@ -85,12 +82,7 @@ fn follow<R: Run<Scalar = f64>>(
 ) -> Result<Rows> {
     let (initial, mut rows) = (value(&run), Vec::new());
     let (mut squares, mut looks, mut interval) = (0.0, 0_u64, (STRIDE as f64).log10() * PER_DECADE);
-    let mut reported = 0;
-    while run.steps() + STRIDE <= steps {
-        if job.is_stopping() {
-            job.cut_short();
-            break;
-        }
+    job.repeat(steps / STRIDE, || {
         run.take_steps(STRIDE)?;
         let error = (value(&run) - initial) / initial;
         squares += error * error;
@@ -99,12 +91,8 @@ fn follow<R: Run<Scalar = f64>>(
             rows.push([run.steps() as f64, (squares / looks as f64).sqrt()]);
             (squares, looks, interval) = (0.0, 0, interval + 1.0);
         }
-        if run.steps() - reported >= 1_000_000 {
-            job.proceed(run.steps() - reported);
-            reported = run.steps();
-        }
-    }
-    job.proceed(steps - reported);
+        Ok(())
+    })?;
     Ok(rows)
 }
 

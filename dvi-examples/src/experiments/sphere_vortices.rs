@@ -26,12 +26,11 @@ type Paths = [Vec<[f64; 2]>; 3];
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(400_000, 20_000);
     job.expect(3 * steps);
-    let (midpoint, paths) =
-        follow(job, "one step, midpoint", Stroke::solid(BLUE), OneStep::midpoint(), steps)?;
-    let order_4 = "one step, Gauss of order 4";
+    let [by_midpoint, by_gauss] = ["one step, midpoint", "one step, Gauss of order 4"];
+    let (midpoint, paths) = follow(job, by_midpoint, Stroke::solid(BLUE), OneStep::midpoint(), steps)?;
     let all = [
         midpoint,
-        follow(job, order_4, Stroke::solid(SKY), OneStepGauss::<2>::new(), steps)?.0,
+        follow(job, by_gauss, Stroke::solid(SKY), OneStepGauss::<2>::new(), steps)?.0,
         follow(job, "RK4", Stroke::dashed(VERMILLION), RungeKutta::classical(), steps)?.0,
     ];
     let rows = all.iter().flat_map(|Series { name, kept, .. }| {
@@ -67,9 +66,8 @@ fn follow(
     let kept = job.keep(&mut run, steps, span, |run| {
         let moment = moment(&THREE, run.q());
         if run.steps() <= 400 {
-            for (path, [x, y, _]) in paths.iter_mut().zip(THREE.places(run.q())) {
-                path.push([x, y]);
-            }
+            let places = paths.iter_mut().zip(THREE.places(run.q()));
+            places.for_each(|(path, [x, y, _])| path.push([x, y]));
         }
         let axial = (moment[2] - start[2]) / length(start);
         [run.energy() - energy, length(moment) / length(start) - 1.0, direction.turned_to(moment), axial]
@@ -126,7 +124,7 @@ fn precession() -> Result<Claim> {
         .near("Gauss of order 4: order of the angle at t = 400", gauss, [4.0, 0.2]))
 }
 
-/// v turned around an axis by an angle (Rodrigues).
+/// `v` turned around an axis by an angle (Rodrigues).
 fn turned(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let k = axis.map(|x| x / length(axis));
     let cross = [k[1] * v[2] - k[2] * v[1], k[2] * v[0] - k[0] * v[2], k[0] * v[1] - k[1] * v[0]];
@@ -159,25 +157,25 @@ fn pair() -> Result<Claim> {
 
 fn ring() -> Result<Claim> {
     const N: usize = 4;
-    let (z, h, steps) = (0.7f64, 0.5, 100);
+    let (z, steps) = (0.7f64, 100);
     let ring = SphereVortices { gamma: [1.0; N] };
     let angle = |j: usize| TAU * j as f64 / N as f64;
     let radius = (1.0 - z * z).sqrt();
     let start = std::array::from_fn(|j| [radius * angle(j).cos(), radius * angle(j).sin(), z]);
     let rate = (N - 1) as f64 * z / (4.0 * PI * (1.0 - z * z));
-    let mut run = Integrator::new(&ring, OneStep::midpoint(), h, SphereVortices::state(start))?;
+    let mut run = Integrator::new(&ring, OneStep::midpoint(), H, SphereVortices::state(start))?;
     run.take_steps(steps)?;
-    let error = away(ring.places(run.q()), start, [0.0, 0.0, 1.0], rate * h * steps as f64);
+    let error = away(ring.places(run.q()), start, [0.0, 0.0, 1.0], rate * H * steps as f64);
     Ok(beyond("a ring of four vortices around the axis turns as it should, without error of the scheme")
         .at_most("distance from that after 100 steps of h = 0.5", error, 1e-11))
 }
 
 fn figure(all: &[Kept; 3], paths: &Paths, end: f64) -> Figure {
     let (x, y) = (Axis::linear("*x*").within(-1.1, 1.1), Axis::linear("*y*").within(-1.1, 1.75));
-    let lines =
-        paths.iter().zip([BLUE, VERMILLION, GREEN]).zip(THREE.gamma).map(|((path, colour), gamma)| {
-            (format!("Γ = {gamma}"), Stroke::solid(colour).width(1.1), path.clone())
-        });
+    let lines = [BLUE, VERMILLION, GREEN].into_iter().zip(THREE.gamma).zip(paths);
+    let lines = lines.map(|((colour, gamma), path)| {
+        (format!("Γ = {gamma}"), Stroke::solid(colour).width(1.1), path.clone())
+    });
     let seen = Panel::new("Paths, seen from above the pole", x, y)
         .equal()
         .line(circle([0.0; 2], 1.0), Stroke::solid(SLATE).width(1.0))

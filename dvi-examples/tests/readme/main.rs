@@ -9,7 +9,6 @@ macro_rules! said {
     ($($sentence:tt)*) => { $crate::assert_said(&format!($($sentence)*)) };
 }
 
-mod numbers;
 mod sentences;
 
 use std::sync::LazyLock;

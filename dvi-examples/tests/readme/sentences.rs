@@ -1,6 +1,7 @@
 //! What is said of the experiments, in the order of their README.
 
-use crate::numbers::{about, at_most, power};
+use dvi_examples::figure::{at_most, scientific as about};
+
 use crate::of;
 
 #[test]
@@ -146,7 +147,7 @@ fn steps_that_keep_the_discrete_energy_do_what_is_said() {
     let work = both(": evaluations of derivatives in a step / in one of steps of one length");
     let farther = both(": largest distance / that with the same work");
     let least =
-        (measured("smallest E_d − e of lengths up to 4 times the last, by hand") * 1e4).floor() / 10.0;
+        (measured("smallest E_d − e of lengths up to 4 times the last, by hand") * 1e4).floor() / 1e4;
     let steps = measured("steps that it takes");
     said!("E_d changes by at most {} on the spring and {} on the orbit;", kept[0], kept[1]);
     said!("with as many steps of one length it varies by {} and {}.", varies[0], varies[1]);
@@ -174,10 +175,7 @@ fn steps_that_keep_the_discrete_energy_do_what_is_said() {
         farther[0],
         farther[1]
     );
-    said!(
-        "the scheme ends on the spring after {steps} steps: there E_d − e is at least {}",
-        power(least, -3)
-    );
+    said!("the scheme ends on the spring after {steps} steps: there E_d − e is at least {}", about(least));
 }
 
 #[test]
