@@ -187,6 +187,7 @@ fn figure(all: &[Kept; 3], paths: &Paths, end: f64) -> Figure {
     let moment = over_time("Length of the moment", "largest |Δ|*M*||/|*M*| of each interval", 1);
     let turn = over_time("Direction of the moment", "angle around the axis   [rad]", 2);
     let [midpoint, gauss, rk4] = all.each_ref().map(|series| series.kept[0].largest);
+    let (midpoint, gauss, rk4) = (at_most(midpoint), at_most(gauss), scientific(rk4));
     Figure::new(
         "Three point vortices on a sphere",
         format!("*h* = {H}; on the left the one-step midpoint scheme up to *t* = {}", 400.0 * H),
@@ -194,9 +195,6 @@ fn figure(all: &[Kept; 3], paths: &Paths, end: f64) -> Figure {
     .row(430.0, vec![seen, energy.weight(1.4).legend_at(Corner::Beside)])
     .row(300.0, vec![moment.without_legend(), turn.without_legend()])
     .footer(format!(
-        "Largest |Δ*H*| of one step: midpoint {}, Gauss {}. RK4 at the end: {}.",
-        at_most(midpoint),
-        at_most(gauss),
-        scientific(rk4)
+        "Largest |Δ*H*| of one step: midpoint {midpoint}, Gauss {gauss}. RK4 at the end: {rk4}."
     ))
 }
