@@ -12,11 +12,6 @@ use std::fmt;
 /// The place of claims that no paper makes; they are counted apart.
 pub const BEYOND: &str = "beyond the paper";
 
-/// The larger of two measured numbers; not a number if one of them is not, so that no bound holds for it.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
-}
-
 /// What a number must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
@@ -56,6 +51,8 @@ pub struct Claim {
     pub printed: Vec<Check>,
     /// What holds if that does not, with its own checks.
     pub instead: Option<(String, Vec<Check>)>,
+    /// What the next checks are of.
+    subject: String,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,9 +65,22 @@ pub enum Verdict {
     Undecided,
 }
 
+/// What no paper says.
+pub fn beyond(says: impl Into<String>) -> Claim {
+    Claim::new(BEYOND, says)
+}
+
 impl Claim {
     pub fn new(place: impl Into<String>, says: impl Into<String>) -> Self {
-        Self { place: place.into(), says: says.into(), printed: Vec::new(), instead: None }
+        let (place, says) = (place.into(), says.into());
+        Self { place, says, printed: Vec::new(), instead: None, subject: String::new() }
+    }
+
+    /// The quantities of the checks that follow begin with the name of what they are of, without its marks of
+    /// italics, and a colon.
+    pub fn of(mut self, name: impl AsRef<str>) -> Self {
+        self.subject = format!("{}: ", name.as_ref().replace('*', ""));
+        self
     }
 
     /// Adds a check; after [`instead`](Self::instead), to the list of what holds instead.
@@ -80,12 +90,48 @@ impl Claim {
         value: impl Into<Option<f64>>,
         bound: Bound,
     ) -> Self {
-        let check = Check::new(quantity, value, bound);
+        let check = Check::new(self.subject.clone() + &quantity.into(), value, bound);
         match &mut self.instead {
             Some((_, checks)) => checks.push(check),
             None => self.printed.push(check),
         }
         self
+    }
+
+    /// The check that a number is at most `high`.
+    pub fn at_most(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, high: f64) -> Self {
+        self.check(quantity, value, Bound::AtMost(high))
+    }
+
+    /// The check that a number is at least `low`.
+    pub fn at_least(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, low: f64) -> Self {
+        self.check(quantity, value, Bound::AtLeast(low))
+    }
+
+    /// The check that a number is between two others.
+    pub fn within(
+        self,
+        quantity: impl Into<String>,
+        value: impl Into<Option<f64>>,
+        [low, high]: [f64; 2],
+    ) -> Self {
+        self.check(quantity, value, Bound::Within(low, high))
+    }
+
+    /// The check that a number is another one, up to a tolerance.
+    pub fn near(
+        self,
+        quantity: impl Into<String>,
+        value: impl Into<Option<f64>>,
+        [target, tolerance]: [f64; 2],
+    ) -> Self {
+        self.check(quantity, value, Bound::Near(target, tolerance))
+    }
+
+    /// Checks of each of some things; a name that these are of is that of the thing only.
+    pub fn each<I: IntoIterator>(self, things: I, mut add: impl FnMut(Self, I::Item) -> Self) -> Self {
+        let subject = self.subject.clone();
+        things.into_iter().fold(self, |claim, thing| Self { subject: subject.clone(), ..add(claim, thing) })
     }
 
     /// What holds where the claim as printed does not; the checks that follow decide on it.

@@ -3,8 +3,11 @@
 //! An error that stays bounded is as large in the beginning of a run as in all of it; one that drifts is
 //! not.
 
-use crate::claim::larger;
-use crate::figure::Envelope;
+use anyhow::Result;
+
+use crate::figure::{Axis, Envelope, Panel, Stroke};
+use crate::numbers::larger;
+use crate::output::Table;
 
 /// The deviation of one quantity, absolute or relative.
 #[derive(Clone, Debug)]
@@ -42,6 +45,28 @@ impl Deviation {
         self.largest / self.largest_early
     }
 
+    /// The lowest and the highest value; not numbers if one of the values is not.
+    pub fn range(&self) -> [f64; 2] {
+        let rows = self.envelope.rows();
+        let low = -rows.iter().map(|row| -row[1]).fold(f64::NEG_INFINITY, larger);
+        let high = rows.iter().map(|row| row[3]).fold(f64::NEG_INFINITY, larger);
+        if self.largest.is_nan() { [f64::NAN; 2] } else { [low, high] }
+    }
+
+    /// The largest difference of two values.
+    pub fn width(&self) -> f64 {
+        let [low, high] = self.range();
+        high - low
+    }
+
+    /// By how much the mean in the last tenth of the intervals differs from that in the first.
+    pub fn drift(&self) -> f64 {
+        let means = self.envelope.mean();
+        let tenth = (self.envelope.intervals() / 10).max(1).min(means.len());
+        let mean = |part: &[[f64; 2]]| part.iter().map(|[_, mean]| mean).sum::<f64>() / part.len() as f64;
+        mean(&means[means.len() - tenth..]) - mean(&means[..tenth])
+    }
+
     /// The largest magnitude in the last tenth of the intervals, over that in the first.
     pub fn trend(&self) -> f64 {
         let all = self.envelope.magnitude();
@@ -52,6 +77,93 @@ impl Deviation {
         }
         largest(&all[all.len() - tenth..]) / largest(&all[..tenth])
     }
+}
+
+/// How long a run is, when its beginning ends, and in how many intervals it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    pub end: f64,
+    pub early: f64,
+    pub intervals: usize,
+}
+
+impl Span {
+    /// Of several quantities.
+    pub fn deviations<const N: usize>(self) -> [Deviation; N] {
+        std::array::from_fn(|_| Deviation::new(self.end, self.intervals, self.early))
+    }
+}
+
+/// Adds the values of several quantities at time `t`.
+pub fn note<const N: usize>(kept: &mut [Deviation; N], t: f64, values: [f64; N]) {
+    kept.iter_mut().zip(values).for_each(|(deviation, value)| deviation.push(t, value));
+}
+
+/// A run by its name, by the line that figures show it with, and by what it should keep.
+#[derive(Clone, Debug)]
+pub struct Series<const N: usize> {
+    pub name: String,
+    pub stroke: Stroke,
+    pub kept: [Deviation; N],
+}
+
+impl<const N: usize> Series<N> {
+    pub fn new(name: impl Into<String>, stroke: Stroke, kept: [Deviation; N]) -> Self {
+        Self { name: name.into(), stroke, kept }
+    }
+
+    /// What the series is, for [`Panel::lines`], over any points.
+    pub fn line(&self, points: Vec<[f64; 2]>) -> (&str, Stroke, Vec<[f64; 2]>) {
+        (&self.name, self.stroke, points)
+    }
+}
+
+/// A line for each run, for [`Panel::lines`]: the largest magnitude of a quantity in each interval of time.
+pub fn magnitudes<'a, const N: usize>(
+    all: impl IntoIterator<Item = &'a Series<N>>,
+    quantity: usize,
+) -> Vec<(&'a str, Stroke, Vec<[f64; 2]>)> {
+    all.into_iter().map(|series| series.line(series.kept[quantity].envelope.magnitude())).collect()
+}
+
+/// A panel of that up to time `end`.
+pub fn over_time<'a, const N: usize>(
+    [title, label]: [&str; 2],
+    end: f64,
+    [low, high]: [f64; 2],
+    all: impl IntoIterator<Item = &'a Series<N>>,
+    quantity: usize,
+) -> Panel {
+    let axis = Axis::logarithmic(label).within(low, high);
+    Panel::new(title, Axis::time(end), axis).lines(magnitudes(all, quantity))
+}
+
+/// A table with the name of each run, time, and the largest magnitudes of as many quantities as there are
+/// columns.
+pub fn magnitude_table<'a, const N: usize>(
+    columns: &[&str],
+    all: impl IntoIterator<Item = &'a Series<N>>,
+) -> Result<Table> {
+    let quantities = columns.len().saturating_sub(2).min(N);
+    let rows = all.into_iter().flat_map(|Series { name, kept, .. }| {
+        let magnitudes: Vec<_> = kept[..quantities].iter().map(|kept| kept.envelope.magnitude()).collect();
+        let intervals = magnitudes.iter().map(Vec::len).min().unwrap_or(0);
+        (0..intervals).map(move |k| {
+            let time = magnitudes[0][k][0];
+            let numbers = [time].into_iter().chain(magnitudes.iter().map(|of| of[k][1]));
+            ([name], numbers.collect::<Vec<_>>())
+        })
+    });
+    Table::of(columns, rows)
+}
+
+/// Rows of a table: texts, and lowest, mean and highest value of a quantity in each interval of time.
+pub fn ranges<const T: usize>(
+    texts: [&str; T],
+    envelope: &Envelope,
+) -> impl Iterator<Item = ([String; T], [f64; 4])> {
+    let texts = texts.map(str::to_owned);
+    envelope.rows().into_iter().map(move |row| (texts.clone(), row))
 }
 
 #[cfg(test)]

@@ -9,7 +9,9 @@ use rayon::iter::{ParallelBridge as _, ParallelIterator as _};
 
 use crate::claim::{Check, Claim};
 use crate::job::{Job, Length};
+use crate::output::now;
 use crate::progress::Progress;
+use crate::record::{Part, State};
 
 /// One model and one picture.
 #[derive(Clone, Copy, Debug)]
@@ -33,51 +35,50 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
-/// How an experiment ended.
-#[derive(Debug)]
-pub enum Ended {
-    Complete(Outcome),
-    Interrupted(Outcome),
-    NotStarted,
-    Failed(anyhow::Error),
+impl From<Vec<Claim>> for Outcome {
+    fn from(claims: Vec<Claim>) -> Self {
+        Self { claims, ..Self::default() }
+    }
 }
 
-/// Runs the experiments, the longest first, and returns how each has ended, in their order.
+/// Runs the experiments, the longest first, and returns what each has left, in their order.
 pub fn run(
     experiments: &[Experiment],
     folder: &Path,
     length: Length,
     threads: Option<u16>,
     stop: &AtomicBool,
-) -> Result<Vec<Ended>> {
+) -> Result<Vec<Part>> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
     let pool = pool.context("cannot start the threads")?;
     let progress = Progress::new(experiments);
     let one = |number: usize| {
-        if stop.load(Ordering::Relaxed) {
-            progress.end(number, "not started");
-            return (number, Ended::NotStarted);
-        }
-        let job = Job::new(folder.to_owned(), length, progress.start(number), stop);
-        let (how, ended) = match ((experiments[number].run)(&job), job.was_interrupted()) {
-            (Ok(outcome), false) => ("done", Ended::Complete(outcome)),
-            (Ok(outcome), true) => ("interrupted", Ended::Interrupted(outcome)),
-            (Err(error), _) => ("failed", Ended::Failed(error)),
+        let Experiment { name, run, .. } = experiments[number];
+        let ended = |how: &str, state, outcome| {
+            progress.end(number, how);
+            (number, Part { experiment: name.to_owned(), length, when: now(), state, outcome })
         };
-        progress.end(number, how);
-        (number, ended)
+        if stop.load(Ordering::Relaxed) {
+            return ended("not started", State::NotStarted, Outcome::default());
+        }
+        let job = Job::new(name, folder.to_owned(), length, progress.start(number), stop);
+        match (run(&job), job.was_interrupted()) {
+            (Ok(outcome), false) => ended("done", State::Complete, outcome),
+            (Ok(outcome), true) => ended("interrupted", State::Interrupted, outcome),
+            (Err(error), _) => ended("failed", State::Failed(format!("{error:#}")), Outcome::default()),
+        }
     };
     let mut order: Vec<usize> = (0..experiments.len()).collect();
     order.sort_by(|&i, &j| experiments[j].share.total_cmp(&experiments[i].share));
     let finished = AtomicBool::new(false);
-    let mut ended: Vec<(usize, Ended)> = std::thread::scope(|scope| {
+    let mut parts: Vec<(usize, Part)> = std::thread::scope(|scope| {
         scope.spawn(|| progress.watch(|| finished.load(Ordering::Relaxed)));
         let _guard = SetAtEnd(&finished);
         // A bridge hands out one at a time, in this order.
         pool.install(|| order.into_iter().par_bridge().map(one).collect())
     });
-    ended.sort_by_key(|(number, _)| *number);
-    Ok(ended.into_iter().map(|(_, ended)| ended).collect())
+    parts.sort_by_key(|(number, _)| *number);
+    Ok(parts.into_iter().map(|(_, part)| part).collect())
 }
 
 /// Sets a flag when it goes out of scope, also in a panic.
@@ -106,15 +107,16 @@ mod tests {
         let named = |name, run| Experiment { name, title: "", share: 1.0, run };
         let both = [named("a", broken as fn(&Job<'_>) -> _), named("b", quick)];
         let stop = AtomicBool::new(false);
-        let ended = run(&both, Path::new("."), Length::Short, Some(2), &stop).expect("threads");
-        assert!(matches!(&ended[..], [Ended::Failed(_), Ended::Complete(_)]), "{ended:?}");
+        let parts = run(&both, Path::new("."), Length::Short, Some(2), &stop).expect("threads");
+        let states: Vec<_> = parts.into_iter().map(|part| part.state).collect();
+        assert_eq!(states, [State::Failed("no ink".into()), State::Complete]);
     }
 
     #[test]
     fn nothing_starts_after_an_interrupt() {
         let stop = AtomicBool::new(true);
         let one = [Experiment { name: "a", title: "", share: 1.0, run: broken }];
-        let ended = run(&one, Path::new("."), Length::Full, None, &stop).expect("threads");
-        assert!(matches!(&ended[..], [Ended::NotStarted]), "{ended:?}");
+        let parts = run(&one, Path::new("."), Length::Full, None, &stop).expect("threads");
+        assert!(parts.iter().all(|part| part.state == State::NotStarted), "{parts:?}");
     }
 }

@@ -5,8 +5,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Result;
 use dvi_core::error::StepError;
+use dvi_core::prelude::Run;
 use indicatif::ProgressBar;
 
+use crate::deviation::{Deviation, Span, note};
 use crate::figure::Figure;
 use crate::output::Table;
 
@@ -34,6 +36,7 @@ impl Length {
 /// The surroundings of one experiment.
 #[derive(Debug)]
 pub struct Job<'a> {
+    name: &'static str,
     folder: PathBuf,
     length: Length,
     bar: ProgressBar,
@@ -45,8 +48,15 @@ pub struct Job<'a> {
 const CHUNK: u64 = 4096;
 
 impl<'a> Job<'a> {
-    pub fn new(folder: PathBuf, length: Length, bar: ProgressBar, stop: &'a AtomicBool) -> Self {
-        Self { folder, length, bar, stop, cut: AtomicBool::new(false) }
+    /// The surroundings of the experiment of that name.
+    pub fn new(
+        name: &'static str,
+        folder: PathBuf,
+        length: Length,
+        bar: ProgressBar,
+        stop: &'a AtomicBool,
+    ) -> Self {
+        Self { name, folder, length, bar, stop, cut: AtomicBool::new(false) }
     }
 
     /// The first of the two in a full run, the second in a short one.
@@ -58,8 +68,8 @@ impl<'a> Job<'a> {
     }
 
     /// A number that only a full run can measure.
-    pub fn only_full<T>(&self, value: T) -> Option<T> {
-        self.choose(Some(value), None)
+    pub fn only_full(&self, value: impl Into<Option<f64>>) -> Option<f64> {
+        self.choose(value.into(), None)
     }
 
     /// Announces steps for the progress bar to count; best all of an experiment at its beginning.
@@ -104,21 +114,46 @@ impl<'a> Job<'a> {
         Ok(())
     }
 
-    /// Like [`repeat`](Self::repeat), for runs that may be lost: the first failure ends them and is what is
-    /// returned.
-    pub fn repeat_until_lost(
+    /// Takes so many steps of a run, fewer if the user interrupts, and shows the state after each of them to
+    /// `look`.
+    ///
+    /// # Errors
+    /// That of the first step that fails.
+    pub fn follow<R: Run>(
         &self,
-        count: u64,
-        step: impl FnMut() -> Result<(), StepError>,
-    ) -> Option<StepError> {
-        self.repeat(count, step).err()
+        run: &mut R,
+        steps: u64,
+        mut look: impl FnMut(&R),
+    ) -> Result<(), StepError> {
+        self.repeat(steps, || {
+            run.advance()?;
+            look(run);
+            Ok(())
+        })
+    }
+
+    /// How far quantities of a run are from their start in the course of so many steps; `of` returns that
+    /// after each of them.
+    ///
+    /// # Errors
+    /// That of the first step that fails.
+    pub fn keep<R: Run<Scalar = f64>, const N: usize>(
+        &self,
+        run: &mut R,
+        steps: u64,
+        span: Span,
+        mut of: impl FnMut(&R) -> [f64; N],
+    ) -> Result<[Deviation; N], StepError> {
+        let mut kept = span.deviations();
+        self.follow(run, steps, |run| note(&mut kept, run.time(), of(run)))?;
+        Ok(kept)
     }
 
     /// Writes the figure (SVG and PNG) and its data (CSV); the figure of an interrupted run says so.
-    pub fn publish(&self, name: &str, figure: Figure, data: Table) -> Result<()> {
+    pub fn publish(&self, figure: Figure, data: Table) -> Result<()> {
         let figure = if self.was_interrupted() { figure.interrupted() } else { figure };
-        figure.save(&self.folder, name)?;
-        data.save(&self.folder, name)
+        figure.save(&self.folder, self.name)?;
+        data.save(&self.folder, self.name)
     }
 
     /// Whether a series of this experiment was cut short by the user.
@@ -134,7 +169,7 @@ mod tests {
     #[test]
     fn a_series_ends_at_the_interrupt_and_says_so() {
         let stop = AtomicBool::new(false);
-        let job = Job::new(PathBuf::new(), Length::Short, ProgressBar::hidden(), &stop);
+        let job = Job::new("", PathBuf::new(), Length::Short, ProgressBar::hidden(), &stop);
         let mut count = 0;
         let mut step = || {
             count += 1;

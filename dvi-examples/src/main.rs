@@ -10,10 +10,13 @@ mod deviation;
 mod experiments;
 mod gallery;
 mod job;
+mod numbers;
 mod options;
 mod progress;
 mod record;
+mod runs;
 mod summary;
+mod vocabulary;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -25,10 +28,10 @@ use console::Term;
 
 use dvi_examples::{figure, models, output};
 
-use crate::gallery::{Ended, Experiment};
+use crate::gallery::Experiment;
 use crate::job::Length;
 use crate::options::Options;
-use crate::record::Part;
+use crate::record::{Part, State};
 
 static STOP: AtomicBool = AtomicBool::new(false);
 const INTERRUPTED: u8 = 130;
@@ -64,16 +67,13 @@ fn run(options: &Options) -> Result<ExitCode> {
     let length = if options.short { Length::Short } else { Length::Full };
     eprintln!("experiments: {}; results go to {}", chosen.len(), folder.display());
 
-    let ended = gallery::run(&chosen, &folder, length, options.threads, &STOP)?;
-    let results: Vec<_> = chosen.iter().zip(&ended).collect();
-    let when = output::now();
-    let new = results.iter().map(|(experiment, ended)| Part::of(experiment.name, length, &when, ended));
+    let new = gallery::run(&chosen, &folder, length, options.threads, &STOP)?;
     let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
-    let parts = record::merged(record::load(&folder)?, new.collect(), &names);
+    let parts = record::merged(record::load(&folder)?, new.clone(), &names);
     record::save(&folder, &parts)?;
     output::write_whole(&folder.join("summary.md"), summary::markdown(&parts, title).as_bytes())?;
-    say(&format!("\n{}", summary::plain(&results, width())))?;
-    Ok(exit_code(&ended))
+    say(&format!("\n{}", summary::plain(&new, title, width())))?;
+    Ok(exit_code(&new))
 }
 
 /// The title of an experiment.
@@ -96,11 +96,11 @@ fn interrupt() {
     }
 }
 
-fn exit_code(ended: &[Ended]) -> ExitCode {
-    let any = |what: fn(&Ended) -> bool| ended.iter().any(what);
-    if any(|ended| matches!(ended, Ended::Failed(_))) {
+fn exit_code(parts: &[Part]) -> ExitCode {
+    let any = |what: fn(&State) -> bool| parts.iter().any(|part| what(&part.state));
+    if any(|state| matches!(state, State::Failed(_))) {
         ExitCode::FAILURE
-    } else if any(|ended| matches!(ended, Ended::Interrupted(_) | Ended::NotStarted)) {
+    } else if any(|state| *state != State::Complete) {
         ExitCode::from(INTERRUPTED)
     } else {
         ExitCode::SUCCESS

@@ -57,6 +57,13 @@ impl Cell for f64 {
     }
 }
 
+/// Nothing, or a number.
+impl Cell for Option<f64> {
+    fn text(&self) -> String {
+        self.map_or(String::new(), number)
+    }
+}
+
 impl Cell for str {
     fn text(&self) -> String {
         self.to_owned()
@@ -87,6 +94,24 @@ impl Table {
     pub fn new(columns: &[&str]) -> Result<Self> {
         let mut table = Self { columns: columns.len(), writer: csv::Writer::from_writer(Vec::new()) };
         table.row(columns)?;
+        Ok(table)
+    }
+
+    /// A table of rows that have texts first, from which the marks of italics are taken out, and then
+    /// numbers.
+    ///
+    /// # Errors
+    /// If a row has more or fewer cells than there are columns.
+    pub fn of<T, N>(columns: &[&str], rows: impl IntoIterator<Item = (T, N)>) -> Result<Self>
+    where
+        T: IntoIterator<Item: AsRef<str>>,
+        N: IntoIterator<Item: Cell>,
+    {
+        let mut table = Self::new(columns)?;
+        for (texts, numbers) in rows {
+            let texts = texts.into_iter().map(|text| text.as_ref().replace('*', ""));
+            table.row(texts.chain(numbers.into_iter().map(|number| number.text())))?;
+        }
         Ok(table)
     }
 

@@ -10,7 +10,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result, bail, ensure};
 
 use crate::claim::{Bound, Check, Claim};
-use crate::gallery::{Ended, Outcome};
+use crate::gallery::Outcome;
 use crate::job::Length;
 use crate::output::{Table, number};
 
@@ -37,20 +37,6 @@ pub enum State {
     NotStarted,
     /// With the words of the error.
     Failed(String),
-}
-
-impl Part {
-    /// The part of a run.
-    pub fn of(experiment: &str, length: Length, when: &str, ended: &Ended) -> Self {
-        let (state, outcome) = match ended {
-            Ended::Complete(outcome) => (State::Complete, outcome.clone()),
-            Ended::Interrupted(outcome) => (State::Interrupted, outcome.clone()),
-            Ended::Failed(error) => (State::Failed(format!("{error:#}")), Outcome::default()),
-            Ended::NotStarted => (State::NotStarted, Outcome::default()),
-        };
-        let (experiment, when) = (experiment.to_owned(), when.to_owned());
-        Self { experiment, length, when, state, outcome }
-    }
 }
 
 /// The parts of earlier runs, those of the same experiments replaced by the new ones, in the order of
@@ -132,7 +118,7 @@ fn rows(part: &Part) -> Vec<Row> {
     }];
     let Outcome { claims, references, notes } = &part.outcome;
     for claim in claims {
-        let Claim { place, says, printed, instead } = claim;
+        let Claim { place, says, printed, instead, .. } = claim;
         let verdict = if part.state == State::Complete { claim.judgement() } else { String::new() };
         rows.push(Row { place: place.clone(), verdict, ..Row::new("claim", says) });
         rows.extend(printed.iter().map(|check| Row::check("check", check)));

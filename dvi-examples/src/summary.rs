@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use crate::claim::{Check, Claim, Verdict};
-use crate::gallery::{Ended, Experiment, Outcome};
+use crate::gallery::Outcome;
 use crate::job::Length;
 use crate::output::wrapped;
 use crate::record::{Part, State};
@@ -18,8 +18,7 @@ pub fn markdown(parts: &[Part], title: impl Fn(&str) -> &'static str) -> String 
         let of = || parts.iter().filter(|part| part.length == length);
         if of().next().is_some() {
             let count = counted(of().count(), "experiment");
-            let complete = of().filter(|part| part.state == State::Complete).map(|part| &part.outcome);
-            let _ = writeln!(text, "**The {} form**, {count}: {}.\n", length.name(), tally(complete));
+            let _ = writeln!(text, "**The {} form**, {count}: {}.\n", length.name(), tally(of()));
         }
     }
     if parts.iter().any(|part| part.length == Length::Short) {
@@ -92,25 +91,17 @@ fn cell(text: &str) -> String {
 }
 
 /// The summary of a run for a terminal, in lines of at most `width` letters if there is a limit.
-pub fn plain(results: &[(&Experiment, &Ended)], width: Option<usize>) -> String {
+pub fn plain(parts: &[Part], title: impl Fn(&str) -> &'static str, width: Option<usize>) -> String {
     let mut text = String::new();
     let mut line = |indent: usize, words: &str| text += &wrapped(words, indent, width);
-    for (experiment, ended) in results {
-        line(0, &format!("{}: {}", experiment.name, experiment.title));
-        let (outcome, interrupted) = match ended {
-            Ended::Complete(outcome) => (outcome, false),
-            Ended::Interrupted(outcome) => (outcome, true),
-            Ended::NotStarted => {
-                line(2, "interrupted before it started");
-                line(0, "");
-                continue;
-            }
-            Ended::Failed(error) => {
-                line(2, &format!("failed: {error:#}"));
-                line(0, "");
-                continue;
-            }
-        };
+    for Part { experiment, state, outcome, .. } in parts {
+        line(0, &format!("{experiment}: {}", title(experiment)));
+        match state {
+            State::NotStarted => line(2, "interrupted before it started"),
+            State::Failed(error) => line(2, &format!("failed: {error}")),
+            State::Complete | State::Interrupted => {}
+        }
+        let interrupted = *state == State::Interrupted;
         for claim in &outcome.claims {
             entry(&mut line, claim, interrupted);
         }
@@ -120,11 +111,7 @@ pub fn plain(results: &[(&Experiment, &Ended)], width: Option<usize>) -> String 
         }
         line(0, "");
     }
-    let complete = results.iter().filter_map(|(_, ended)| match ended {
-        Ended::Complete(outcome) => Some(outcome),
-        _ => None,
-    });
-    text + &wrapped(&format!("{}.", tally(complete)), 0, width)
+    text + &wrapped(&format!("{}.", tally(parts)), 0, width)
 }
 
 fn entry(line: &mut impl FnMut(usize, &str), claim: &Claim, interrupted: bool) {
@@ -146,8 +133,10 @@ fn entry(line: &mut impl FnMut(usize, &str), claim: &Claim, interrupted: bool) {
 }
 
 /// Claims of the papers, claims beyond them, and regression checks, counted apart.
-pub fn tally<'a>(complete: impl Iterator<Item = &'a Outcome> + Clone) -> String {
-    let claims = complete.clone().flat_map(|outcome| &outcome.claims);
+fn tally<'a>(parts: impl IntoIterator<Item = &'a Part>) -> String {
+    let complete = parts.into_iter().filter(|part| part.state == State::Complete);
+    let outcomes: Vec<&Outcome> = complete.map(|part| &part.outcome).collect();
+    let claims = outcomes.iter().flat_map(|outcome| &outcome.claims);
     let (printed, beyond): (Vec<&Claim>, Vec<&Claim>) = claims.partition(|claim| claim.is_printed());
     let count = |claims: &[&Claim], wanted: fn(&Verdict) -> bool| {
         claims.iter().filter(|claim| wanted(&claim.verdict())).count()
@@ -164,7 +153,7 @@ pub fn tally<'a>(complete: impl Iterator<Item = &'a Outcome> + Clone) -> String 
     let of_papers =
         of(&printed, ["reproduced", "different from what is printed", "not reproduced", "undecided"]);
     let of_ours = of(&beyond, ["true", "different", "false", "undecided"]);
-    let references: Vec<&Check> = complete.flat_map(|outcome| &outcome.references).collect();
+    let references: Vec<&Check> = outcomes.iter().flat_map(|outcome| &outcome.references).collect();
     let judged = listed(&[
         (references.iter().filter(|check| check.passes()).count(), "passed"),
         (references.iter().filter(|check| check.value.is_some() && !check.passes()).count(), "failed"),
@@ -208,14 +197,15 @@ mod tests {
         }
     }
 
-    fn part(ended: &Ended, length: Length) -> Part {
-        Part::of("sample", length, "today", ended)
+    fn part(state: State, length: Length) -> Part {
+        let (experiment, when) = ("sample".to_owned(), "today".to_owned());
+        Part { experiment, length, when, state, outcome: outcome() }
     }
 
     #[test]
     fn both_forms_tell_verdicts_and_numbers() {
-        let ended = Ended::Complete(outcome());
-        let page = markdown(&[part(&ended, Length::Short)], |_| "A sample");
+        let parts = [part(State::Complete, Length::Short)];
+        let page = markdown(&parts, |_| "A sample");
         for wanted in [
             "2 claims of the papers: 1 reproduced, 1 not reproduced; 2 claims beyond them: 1 true, 1 undecided; \
              1 regression check: 1 passed.",
@@ -226,16 +216,14 @@ mod tests {
         ] {
             assert!(page.contains(wanted), "{page}");
         }
-        let sample =
-            Experiment { name: "sample", title: "A sample", share: 1.0, run: |_| Ok(Outcome::default()) };
-        let shown = plain(&[(&sample, &ended)], None);
+        let shown = plain(&parts, |_| "A sample", None);
         assert!(shown.contains("      |x| = 2 (not at most 1)\n"), "{shown}");
     }
 
     #[test]
     fn a_folder_tells_what_made_each_of_its_parts() {
-        let ended = Ended::Complete(outcome());
-        let page = markdown(&[part(&ended, Length::Short), part(&ended, Length::Full)], |_| "A sample");
+        let parts = [Length::Short, Length::Full].map(|length| part(State::Complete, length));
+        let page = markdown(&parts, |_| "A sample");
         assert!(
             page.contains("**The full form**, 1 experiment: ") && page.contains("**The short form**"),
             "{page}"
@@ -244,7 +232,7 @@ mod tests {
 
     #[test]
     fn an_interrupted_experiment_decides_nothing() {
-        let page = markdown(&[part(&Ended::Interrupted(outcome()), Length::Full)], |_| "A sample");
+        let page = markdown(&[part(State::Interrupted, Length::Full)], |_| "A sample");
         assert!(page.contains("| interrupted |") && !page.contains("| reproduced |"), "{page}");
         assert!(page.contains("0 claims of the papers: none decided"), "{page}");
     }

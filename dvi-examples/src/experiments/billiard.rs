@@ -5,25 +5,12 @@
 //! momenta about the foci is a constant of the motion, so that each orbit has a curve in the section
 //! (Birkhoff 1927). In the curve x⁴ + y⁴ = 1 some orbits fill regions of it.
 
-mod claims;
-mod orbit;
-mod picture;
-
-use anyhow::Result;
-use dvi_core::prelude::*;
+use dvi_core::discrete::{Trapezoid, Unfitted};
 use rayon::prelude::*;
 
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
-use crate::models::{EllipseBilliard, RoundedSquareBilliard};
-use orbit::{Orbit, distance_of_laws, there_and_back};
-
-pub const EXPERIMENT: Experiment = Experiment {
-    name: "billiard",
-    title: "Billiards in an ellipse and in a rounded square: sections by impacts",
-    share: 7.0,
-    run,
-};
+use crate::models::RoundedSquareBilliardState as SquareState;
+use crate::models::{EllipseBilliard, EllipseBilliardState as State, RoundedSquareBilliard as Square};
+use crate::vocabulary::*;
 
 const ELLIPSE: EllipseBilliard = EllipseBilliard { a: 1.25, b: 0.8 };
 /// The length of the steps; the particle has speed 1, and crosses the curves in about twenty.
@@ -36,39 +23,199 @@ const ORBITS: u32 = 14;
 const REVERSED: u64 = 12;
 /// The number of impacts up to which runs with both laws are compared.
 const COMPARED: u64 = 1000;
+/// More points than these make figures larger, and no clearer.
+const SHOWN: usize = 3000;
 
-/// All that is measured.
-struct Measured {
+/// One orbit: its impacts as points of the section.
+#[derive(Default)]
+struct Orbit {
+    /// The polar angle of the first impacts, over π, and the component of the velocity along the curve after
+    /// it.
+    section: Vec<[f64; 2]>,
+    /// The largest |gap| at an impact.
+    gap: f64,
+    /// The largest |E − E(0)| at the end of a step, and the same of the product of the angular momenta about
+    /// the foci, in the ellipse.
+    energy: f64,
+    product: f64,
+    /// The largest number of impacts in a step.
+    in_a_step: usize,
     impacts: u64,
-    ellipse: Vec<Orbit>,
-    square: Vec<Orbit>,
-    /// The same orbits in the ellipse by long steps.
-    long: Vec<Orbit>,
-    /// The largest distance of runs in the ellipse with the two laws of impact.
-    of_laws: f64,
-    there_and_back: f64,
 }
 
-fn run(job: &Job<'_>) -> Result<Outcome> {
+type Bouncing = Impacts<Variational<Unfitted, Trapezoid>>;
+
+fn method(collision: Collision) -> Bouncing {
+    Impacts { collision, ..Impacts::new(Variational::trapezoid()) }
+}
+
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let impacts = job.choose(100_000, 500);
     job.expect(3 * u64::from(ORBITS) * impacts);
-    let all = |orbit: &(dyn Fn(u32) -> Result<Orbit> + Sync)| -> Result<Vec<Orbit>> {
+    fn all(orbit: impl Fn(u32) -> Result<Orbit> + Sync + Send) -> Result<Vec<Orbit>> {
         (0..ORBITS).into_par_iter().map(orbit).collect()
-    };
-    let measured = Measured {
-        impacts,
-        ellipse: all(&|number| Orbit::in_ellipse(job, number, H, impacts))?,
-        square: all(&|number| Orbit::in_square(job, number, H, impacts))?,
-        long: all(&|number| Orbit::in_ellipse(job, number, LONG, impacts))?,
-        of_laws: distance_of_laws()?,
-        there_and_back: there_and_back()?,
-    };
-    job.publish(EXPERIMENT.name, picture::figure(&measured), picture::table(&measured)?)?;
-    Ok(Outcome { claims: claims::claims(job, &measured), references: vec![], notes: vec![] })
+    }
+    let ellipse = all(|number| Orbit::in_ellipse(job, number, H, impacts))?;
+    let square = all(|number| Orbit::in_square(job, number, impacts))?;
+    let long = all(|number| Orbit::in_ellipse(job, number, LONG, impacts))?;
+    let sections = [("ellipse", &ellipse), ("rounded square", &square)];
+    let rows = sections.into_iter().flat_map(|(curve, orbits)| {
+        orbits.iter().enumerate().flat_map(move |(orbit, Orbit { section, .. })| {
+            section.iter().take(300).map(move |[angle, along]| ([curve], [orbit as f64, *angle, *along]))
+        })
+    });
+    let table = Table::of(&["curve", "orbit", "angle", "velocity_along"], rows)?;
+    job.publish(figure(&ellipse, &square), table)?;
+    Ok(vec![in_ellipse(job, &ellipse, &long, impacts), in_square(job, &ellipse, &square)?, laws()?].into())
 }
 
-type Method = Impacts<Variational<dvi_core::discrete::Unfitted, dvi_core::discrete::Trapezoid>>;
+/// Where an orbit crosses the x axis, and its velocity there.
+fn start(number: u32) -> State {
+    let part = (f64::from(number) + 0.5) / f64::from(ORBITS);
+    let angle = 0.5 * PI * (1.0 - 0.6 * part);
+    State { x: 0.95 * part * ELLIPSE.a, y: 0.0, dot_x: angle.cos(), dot_y: angle.sin() }
+}
 
-fn method(collision: Collision) -> Method {
-    Impacts { collision, ..Impacts::new(Variational::trapezoid()) }
+/// The component of `v` along the curve, for the direction `normal` into it.
+fn along(v: &[f64], normal: [f64; 2]) -> f64 {
+    (v[0] * normal[1] - v[1] * normal[0]) / normal[0].hypot(normal[1]) / v[0].hypot(v[1])
+}
+
+impl Orbit {
+    fn in_ellipse(job: &Job<'_>, number: u32, h: f64, impacts: u64) -> Result<Self> {
+        let [a2, b2] = [ELLIPSE.a, ELLIPSE.b].map(|half| half * half);
+        let mut run = Integrator::new(&ELLIPSE, method(Collision::Reflection), h, start(number))?;
+        Self::of(job, &mut run, impacts, |x, y| {
+            (1.0 - x * x / a2 - y * y / b2, [-2.0 * x / a2, -2.0 * y / b2])
+        })
+    }
+
+    fn in_square(job: &Job<'_>, number: u32, impacts: u64) -> Result<Self> {
+        let State { x, y, dot_x, dot_y } = start(number);
+        let start = SquareState { x: x / ELLIPSE.a, y, dot_x, dot_y };
+        let mut run = Integrator::new(&Square, method(Collision::Reflection), H, start)?;
+        Self::of(job, &mut run, impacts, |x, y| {
+            (1.0 - x.powi(4) - y.powi(4), [-4.0 * x.powi(3), -4.0 * y.powi(3)])
+        })
+    }
+
+    /// In a curve that is where a function is zero, of which `curve` returns the value and the gradient.
+    fn of<S: UnilateralLagrangian>(
+        job: &Job<'_>,
+        run: &mut Integrator<'_, S, Bouncing>,
+        impacts: u64,
+        curve: impl Fn(f64, f64) -> (f64, [f64; 2]),
+    ) -> Result<Self> {
+        let (energy, product, mut orbit) = (run.energy(), run.momentum(0), Self::default());
+        while orbit.impacts < impacts && !job.is_stopping() {
+            run.advance()?;
+            let of_step = run.memory().impacts();
+            for impact in of_step {
+                let [x, y] = [impact.q()[0], impact.q()[1]];
+                let (gap, normal) = curve(x, y);
+                orbit.gap = larger(orbit.gap, gap.abs());
+                if orbit.section.len() < SHOWN {
+                    orbit.section.push([y.atan2(x) / PI, along(impact.v(), normal)]);
+                }
+            }
+            orbit.in_a_step = orbit.in_a_step.max(of_step.len());
+            orbit.impacts = run.memory().total();
+            orbit.energy = larger(orbit.energy, (run.energy() - energy).abs());
+            if let (Some(now), Some(begin)) = (run.momentum(0), product) {
+                orbit.product = larger(orbit.product, (now - begin).abs());
+            }
+            job.proceed(of_step.len() as u64);
+        }
+        if orbit.impacts < impacts {
+            job.cut_short();
+        }
+        Ok(orbit)
+    }
+
+    /// The part of the squares, twenty in each direction, that the points of the section visit.
+    fn filled(&self) -> f64 {
+        let place = |value: f64| (((value + 1.0) * 10.0) as usize).min(19);
+        let mut visited = [false; 400];
+        for &[angle, along] in &self.section {
+            visited[20 * place(angle) + place(along)] = true;
+        }
+        visited.iter().filter(|&&is_visited| is_visited).count() as f64 / 400.0
+    }
+}
+
+fn most(orbits: &[Orbit], of: impl Fn(&Orbit) -> f64) -> f64 {
+    largest(orbits.iter().map(of))
+}
+
+fn in_ellipse(job: &Job<'_>, ellipse: &[Orbit], long: &[Orbit], impacts: u64) -> Claim {
+    let text = format!(
+        "{ORBITS} orbits in an ellipse keep the product of the angular momenta about its foci over 10⁵ impacts, with steps of length {H} \
+         and with steps of length {LONG}, in which there are several"
+    );
+    beyond(text)
+        .at_least("impacts of each orbit", job.only_full(impacts as f64), 1e5)
+        .at_most("largest change of the product", most(ellipse, |orbit| orbit.product), 1e-11)
+        .at_most("the same by long steps", most(long, |orbit| orbit.product), 1e-11)
+        .at_least("the most impacts in a long step", most(long, |orbit| orbit.in_a_step as f64), 3.0)
+        .at_most("largest change of the energy", most(ellipse, |orbit| orbit.energy), 1e-12)
+        .at_most("largest |g| at an impact", most(ellipse, |orbit| orbit.gap), 1e-14)
+}
+
+fn in_square(job: &Job<'_>, ellipse: &[Orbit], square: &[Orbit]) -> Result<Claim> {
+    let start = SquareState { x: 0.3, y: 0.1, dot_x: 0.8, dot_y: 0.6 };
+    let method = method(Collision::Variational);
+    let mut run = Integrator::new(&Square, method, H, start)?;
+    while run.memory().total() < REVERSED {
+        run.advance()?;
+    }
+    let checkpoint = run.checkpoint().with_step_size(-H);
+    let mut back = Integrator::resume(&Square, method, &checkpoint)?;
+    back.take_steps(run.steps())?;
+    let there_and_back = distance(place(&back), [start.x, start.y]);
+    let text = "in x⁴ + y⁴ = 1 the energy is kept too, orbits of one energy fill a region of the section, and the way back is the way there";
+    let filled = job.only_full(most(square, Orbit::filled));
+    let returned = format!("distance from the start after {REVERSED} impacts there and back");
+    Ok(beyond(text)
+        .at_most("largest change of the energy", most(square, |orbit| orbit.energy), 1e-12)
+        .at_most("largest |g| at an impact", most(square, |orbit| orbit.gap), 1e-14)
+        .at_least("squares of the section that one orbit visits", filled, 0.5)
+        .at_most("the same in the ellipse", most(ellipse, Orbit::filled), 0.3)
+        .at_most(returned, there_and_back, 1e-10))
+}
+
+/// The largest difference of the states of two runs with the two laws of impact.
+fn laws() -> Result<Claim> {
+    let [mut one, mut other] = each([Collision::Variational, Collision::Reflection], |collision| {
+        Ok(Integrator::new(&ELLIPSE, method(collision), H, start(3))?)
+    })?;
+    let mut largest = 0.0;
+    while one.memory().total() < COMPARED {
+        one.advance()?;
+        other.advance()?;
+        largest = larger(largest, distance(place(&one), place(&other)));
+    }
+    let text = format!(
+        "between impacts the discrete energy of a free particle is its energy, so that both laws of impact give one orbit, over {COMPARED} \
+         impacts in the ellipse"
+    );
+    Ok(beyond(text).at_most("largest distance", largest, 1e-8))
+}
+
+fn figure(ellipse: &[Orbit], square: &[Orbit]) -> Figure {
+    let panel = |title: String, orbits: &[Orbit]| {
+        let angle = Axis::linear("polar angle of the impact / π").within(-1.0, 1.0);
+        let velocity = Axis::linear("velocity along the curve").within(-1.0, 1.0);
+        Panel::new(title, angle, velocity).each(orbits.iter().enumerate(), |panel, (number, orbit)| {
+            let colour = SEQUENCE[number * (SEQUENCE.len() - 1) / (ORBITS as usize - 1)];
+            panel.dots(orbit.section.clone(), 0.7, colour)
+        })
+    };
+    let left = panel(format!("Ellipse with half axes {} and {}", ELLIPSE.a, ELLIPSE.b), ellipse);
+    Figure::new(
+        "Billiards in an ellipse and in a rounded square",
+        format!("{ORBITS} orbits of a free particle of speed 1, *h* = {H}: the first 3000 impacts of each."),
+    )
+    .row(470.0, vec![left, panel("*x*⁴ + *y*⁴ = 1".into(), square)])
+    .sequence_key("centre", "edge")
+    .footer("The velocity is the component along the curve after the impact, positive anticlockwise. Colours: where the orbit begins on the *x* axis.")
 }

@@ -5,45 +5,34 @@
 
 use std::collections::HashMap;
 
-use anyhow::Result;
-
 use super::sections::{
-    self, CAVEAT, Crossings, LABELS, LYAPUNOV_STEPS, Scheme, compare, cost, crossings, energy_panel,
-    lyapunov_exponent,
+    self, CAVEAT, Crossings, LABELS, LYAPUNOV_STEPS, Scheme, compare, cost, crossings, lyapunov_exponent,
 };
-use crate::claim::{Bound, Check, Claim};
-use crate::figure::{Anchor, Axis, Corner, Figure, INK, Panel, scientific};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
 use crate::models::{self, Case};
+use crate::vocabulary::*;
 
-pub const EXPERIMENT: Experiment =
-    Experiment { name: "fig5-chaotic", title: "Poincaré sections of a chaotic motion", share: 70.0, run };
-
-const RUNS: [(Scheme, f64); 6] = [
-    (Scheme::Vi2, 0.2),
-    (Scheme::Vi2, 0.5),
-    (Scheme::Vi2, 1.0),
-    (Scheme::Rk4, 0.2),
-    (Scheme::Rk4, 0.5),
-    (Scheme::Rk4, 1.0),
-];
+const RUNS: [(Scheme, f64); 6] = sections::runs([0.2, 0.5, 1.0]);
 
 /// Displacements grow less than this in 2000 units of time on tori, and to 1e10 on chaotic orbits.
 const REGULAR: f64 = 1e5;
 
-fn run(job: &Job<'_>) -> Result<Outcome> {
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e6, 1e5);
     let exact = [(Scheme::Gauss6, 0.4)];
     let accurate = job.choose(1e6, 4e5);
     job.expect(cost(&RUNS, end) + cost(&exact, accurate) + LYAPUNOV_STEPS);
     let case = models::chaotic();
-    let all = compare(job, &case, &RUNS, end)?;
-    let all = all.into_iter().map(|run| to_the_end(job, &case, run)).collect::<Result<Vec<_>>>()?;
-    let exact = compare(job, &case, &exact, accurate)?;
-    let region = Region::around(&exact[0].places());
+    let all = each(compare(job, &case, RUNS, end)?, |run| to_the_end(job, &case, run))?;
+    let [exact] = compare(job, &case, exact, accurate)?;
+    let region = Region::around(&exact.places());
     let exponent = lyapunov_exponent(job, &case)?;
-    job.publish(EXPERIMENT.name, figure(job, &all, &region, end), sections::table(&all)?)?;
+    let titles = [
+        "Chaotic motion of four equal vortices: Poincaré sections of VI2 and RK4",
+        "*R*₂ = 0, d*R*₂/d*t* > 0; stray: the share of crossings outside of the region of accurate orbits",
+    ];
+    let figure = sections::figure(titles, &all, end, |run| panel(job, run, &region))
+        .footer(format!("After Rowley & Marsden 2002, Fig. 5. {CAVEAT}"));
+    job.publish(figure, sections::table(&all)?)?;
     let mut notes = sections::notes(&all);
     notes.push(
         "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes regular, differ \
@@ -61,7 +50,7 @@ fn to_the_end(job: &Job<'_>, case: &Case, mut run: Crossings) -> Result<Crossing
             break;
         }
         job.expect(cost(&[(run.scheme, run.h)], run.end));
-        let other = crossings(job, case, run.scheme, run.h, run.end, labels)?;
+        let other = crossings(job, case, (run.scheme, run.h), run.end, labels)?;
         if other.last() > run.last() {
             run = other;
         }
@@ -69,76 +58,51 @@ fn to_the_end(job: &Job<'_>, case: &Case, mut run: Crossings) -> Result<Crossing
     Ok(run)
 }
 
-fn claims(job: &Job<'_>, all: &[Crossings], region: &Region, exponent: Option<f64>) -> Vec<Claim> {
-    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, rk_large] = all else { return Vec::new() };
+fn claims(job: &Job<'_>, all: &[Crossings; 6], region: &Region, exponent: Option<f64>) -> Vec<Claim> {
+    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, rk_large] = all;
     let outside = |run: &Crossings| region.share_outside(run);
     let share = |run: &Crossings| format!("share of crossings outside of the exact region, {}", run.name());
-    let growth_of_error =
-        |run: &Crossings| format!("max|ΔH| over all / over the first tenth, {}", run.name());
+    let inside = |claim: Claim, run: &Crossings| claim.at_most(share(run), outside(run), 2e-3);
     let growth = |run: &Crossings| format!("late growth of a displacement, {}", run.name());
+    let drift = rk_small.error.last / rk_small.error.largest;
     vec![
-        Claim::new("section 5", "the motion is chaotic").check(
+        Claim::new("section 5", "the motion is chaotic").at_least(
             "largest Lyapunov exponent up to t = 2·10⁴",
             exponent,
-            Bound::AtLeast(0.03),
+            0.03,
         ),
         Claim::new("Fig. 5", "both schemes produce clear sections for h = 0.2")
-            .check(share(vi_small), outside(vi_small), Bound::AtMost(2e-3))
-            .check(share(rk_small), outside(rk_small), Bound::AtMost(2e-3)),
+            .each([vi_small, rk_small], inside),
         Claim::new("Fig. 5", "for h = 0.5 the section of RK4 is blurred")
-            .check(share(rk_middle), job.only_full(outside(rk_middle)), Bound::AtLeast(8e-3))
-            .check(growth_of_error(rk_middle), rk_middle.error.growth(), Bound::AtLeast(5.0)),
+            .at_least(share(rk_middle), job.only_full(outside(rk_middle)), 8e-3)
+            .at_least(rk_middle.growth_name(), rk_middle.error.growth(), 5.0),
         Claim::new("Fig. 5", "the section of VI2 remains crisp for h = 1")
-            .check(share(vi_middle), outside(vi_middle), Bound::AtMost(2e-3))
-            .check(share(vi_large), outside(vi_large), Bound::AtMost(2e-3)),
+            .each([vi_middle, vi_large], inside),
         Claim::new("Fig. 5", "for h = 1 RK4 deviates completely and becomes quasi-periodic")
-            .check(growth(rk_large), job.only_full(rk_large.growth), Bound::AtMost(REGULAR))
-            .check(growth(vi_large), vi_large.growth, Bound::AtLeast(1e8)),
-        Claim::new(
-            "section 5",
-            "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts",
-        )
-        .check(growth_of_error(vi_small), vi_small.error.growth(), Bound::AtMost(1.1))
-        .check(growth_of_error(vi_middle), vi_middle.error.growth(), Bound::AtMost(1.1))
-        .check(growth_of_error(vi_large), vi_large.error.growth(), Bound::AtMost(1.1))
-        .check(
-            "ΔH at the end / max|ΔH|, RK4 at h = 0.2",
-            rk_small.error.last / rk_small.error.largest,
-            Bound::AtLeast(0.98),
-        ),
+            .at_most(growth(rk_large), job.only_full(rk_large.growth), REGULAR)
+            .at_least(growth(vi_large), vi_large.growth, 1e8),
+        sections::stays_close(&all[..3]).at_least("ΔH at the end / max|ΔH|, RK4 at h = 0.2", drift, 0.98),
     ]
 }
 
 /// Brackets around what earlier runs have found.
-fn references(job: &Job<'_>, all: &[Crossings]) -> Vec<Check> {
-    let [_, vi_middle, vi_large, _, rk_middle, rk_large] = all else { return Vec::new() };
-    let error = |run: &Crossings| format!("max|ΔH|, {}", run.name());
+fn references(job: &Job<'_>, all: &[Crossings; 6]) -> Vec<Check> {
+    let [_, vi_middle, vi_large, _, rk_middle, rk_large] = all;
+    let error = |run: &Crossings, value: Option<f64>, bound| {
+        Check::new(format!("max|ΔH|, {}", run.name()), value, bound)
+    };
     let full = |run: &Crossings| job.only_full(run.error.largest);
     vec![
-        Check::new(error(vi_middle), vi_middle.error.largest, Bound::AtMost(4.3e-4)),
-        Check::new(error(vi_large), vi_large.error.largest, Bound::AtMost(1.8e-3)),
-        Check::new(error(rk_middle), full(rk_middle), Bound::Within(0.03, 0.05)),
-        Check::new(error(rk_large), full(rk_large), Bound::Within(0.1, 0.2)),
+        error(vi_middle, Some(vi_middle.error.largest), Bound::AtMost(4.3e-4)),
+        error(vi_large, Some(vi_large.error.largest), Bound::AtMost(1.8e-3)),
+        error(rk_middle, full(rk_middle), Bound::Within(0.03, 0.05)),
+        error(rk_large, full(rk_large), Bound::Within(0.1, 0.2)),
     ]
-}
-
-fn figure(job: &Job<'_>, all: &[Crossings], region: &Region, end: f64) -> Figure {
-    let (schemes_vi, schemes_rk) = all.split_at(3);
-    let row = |runs: &[Crossings]| runs.iter().map(|run| panel(job, run, region)).collect();
-    Figure::new(
-        "Chaotic motion of four equal vortices: Poincaré sections of VI2 and RK4",
-        "*R*₂ = 0, d*R*₂/d*t* > 0; stray: the share of crossings outside of the region of accurate orbits",
-    )
-    .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
-    .row(370.0, row(schemes_vi))
-    .row(370.0, row(schemes_rk))
-    .row(330.0, vec![energy_panel(all, end)])
-    .footer(format!("After Rowley & Marsden 2002, Fig. 5. {CAVEAT}"))
 }
 
 fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
     let axis = |name| Axis::linear(name).within(-2.6, 2.6);
-    let panel = run.panel(axis("*R*₁"), axis("*P*₁"), 0.7);
+    let panel = run.panel((axis("*R*₁"), axis("*P*₁")), 0.7);
     if job.was_interrupted() {
         return panel;
     }
@@ -180,7 +144,7 @@ impl Region {
     fn contains(&self, place: [f64; 2]) -> bool {
         let [i, j] = Self::cell(place);
         let neighbours = (i - 1..=i + 1).flat_map(|i| (j - 1..=j + 1).map(move |j| [i, j]));
-        let close = |&[x, y]: &[f64; 2]| (x - place[0]).hypot(y - place[1]) <= Self::DISTANCE;
+        let close = |&other: &[f64; 2]| distance(other, place) <= Self::DISTANCE;
         neighbours.filter_map(|cell| self.cells.get(&cell)).flatten().any(close)
     }
 

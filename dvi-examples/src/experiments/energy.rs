@@ -6,132 +6,88 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use anyhow::Result;
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
-
-use crate::claim::{Bound, Check, Claim};
-use crate::deviation::Deviation;
-use crate::figure::{Axis, BLUE, Corner, Figure, Panel, Stroke, VERMILLION, at_most, scientific};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
 use crate::models::{self, Case, FourVortices};
-use crate::output::{Table, number};
-
-pub const EXPERIMENT: Experiment = Experiment {
-    name: "fig2-energy",
-    title: "Energy error of two leapfrogging pairs, VE2 against RK2",
-    share: 1.0,
-    run,
-};
+use crate::vocabulary::*;
 
 /// How much of the beginning the right panel shows.
 const CLOSE_UP: f64 = 400.0;
+/// Runs of each scheme that are timed.
+const TIMINGS: u32 = 15;
 
-struct Series {
-    /// H − H(0); the beginning is the first tenth of the time.
+/// What a run leaves of H − H(0).
+struct Motion {
+    /// The beginning is the first tenth of the time.
     error: Deviation,
     beginning: Vec<[f64; 2]>,
-    /// H − H(0) at t = 10⁴ and t = 5·10⁴, if the run gets there.
+    /// At t = 10⁴ and t = 5·10⁴, if the run gets there.
     landmarks: [Option<f64>; 2],
     evaluations: u64,
 }
 
-fn run(job: &Job<'_>) -> Result<Outcome> {
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(2e5, 2e4);
     job.expect((end / 2.0) as u64 + end as u64);
-    let ve2 = series(job, starting_with_rk2(), 2.0, end)?;
-    let rk2 = series(job, RungeKutta::midpoint(), 1.0, end)?;
-    job.publish(EXPERIMENT.name, figure(&ve2, &rk2, end), table(&ve2, &rk2)?)?;
+    let ve2 = follow(job, starting_with_rk2(), 2.0, end)?;
+    let rk2 = follow(job, RungeKutta::midpoint(), 1.0, end)?;
+    let rows = ranges(["VE2 h=2"], &ve2.error.envelope).chain(ranges(["RK2 h=1"], &rk2.error.envelope));
+    let table = Table::of(&["scheme", "t", "lowest", "mean", "highest"], rows)?;
+    job.publish(figure(&ve2, &rk2, end), table)?;
     // A time is no number that two runs share: short runs, which are compared, do without.
     let times = job.choose(Some(()), None).map(|()| time_ratios(job)).transpose()?;
-    let claims = claims(job, &ve2, &rk2, times);
-    Ok(Outcome { claims, references: references(job, &ve2, &rk2), notes: vec![] })
-}
-
-fn series(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f64) -> Result<Series> {
-    let Case { vortices, start } = models::leapfrogging();
-    let mut run = Integrator::new(&vortices, method, h, start)?;
-    let initial = run.energy();
-    let mut series = Series {
-        error: Deviation::new(end, 500, 0.1 * end),
-        beginning: vec![[0.0, 0.0]],
-        landmarks: [None; 2],
-        evaluations: 0,
-    };
-    let steps = (end / h) as u64;
-    job.repeat(steps, || {
-        run.advance()?;
-        series.note(run.time(), run.energy() - initial);
-        Ok(())
-    })?;
-    series.evaluations = run.statistics().gradients;
-    Ok(series)
-}
-
-impl Series {
-    /// Until when the figure shows the run, to an interval.
-    fn reached(&self) -> f64 {
-        self.error.envelope.end()
-    }
-
-    fn note(&mut self, t: f64, error: f64) {
-        self.error.push(t, error);
-        if t <= CLOSE_UP {
-            self.beginning.push([t, error]);
-        }
-        for (landmark, time) in self.landmarks.iter_mut().zip([1e4, 5e4]) {
-            if t == time {
-                *landmark = Some(error);
-            }
-        }
-    }
-}
-
-fn claims(job: &Job<'_>, ve2: &Series, rk2: &Series, times: Option<[f64; 2]>) -> Vec<Claim> {
-    let grown = rk2.landmarks[0].zip(rk2.landmarks[1]).map(|(early, late)| late / early);
-    let drift = Claim::new("Fig. 2", "RK2 shows a secular drift in the Hamiltonian")
-        .check("ΔH of RK2 at t = 5·10⁴ / at t = 10⁴", grown, Bound::AtLeast(3.0))
-        // Rounding breaks the mirror symmetry at t ≈ 54000, and runs of this scheme differ from there on.
-        .check(
-            "ΔH of RK2 at the end / max|ΔH| of VE2",
-            job.only_full(rk2.error.last / ve2.error.largest),
-            Bound::AtLeast(10.0),
-        );
-    let bounded =
-        Claim::new("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value, t ≤ 2·10⁵")
-            .check(
-                "max|ΔH| over all / over the first tenth",
-                job.only_full(ve2.error.growth()),
-                Bound::AtMost(1.02),
-            );
-    let [read, bulk] = [0, 1].map(|i| times.map(|times| times[i]));
-    let [when_read, in_bulk] = ["every state read", "every hundredth state read"]
-        .map(|how| format!("time of RK2 / time of VE2, {how}, least of {TIMINGS} runs each"));
-    let cost = Claim::new("section 5", "RK2 takes approximately four times the computational time of VE2")
-        .check(&when_read, read, Bound::Near(4.0, 1.0))
-        .check(&in_bulk, bulk, Bound::Near(4.0, 1.0))
-        .instead(
-            "it takes four times the evaluations of ∇H; the ratio of times depends on how often the states are read",
-        )
-        .check(when_read, read, Bound::AtLeast(1.2))
-        .check(in_bulk, bulk, Bound::AtLeast(2.0))
-        .check("evaluations of ∇H, RK2 / VE2", rk2.evaluations as f64 / ve2.evaluations as f64, Bound::Near(4.0, 0.01));
-    vec![bounded, drift, cost]
-}
-
-/// Numbers of independent programs.
-fn references(job: &Job<'_>, ve2: &Series, rk2: &Series) -> Vec<Check> {
-    vec![
+    // Numbers of independent programs.
+    let references = vec![
         Check::new("max|ΔH| of VE2", job.only_full(ve2.error.largest), Bound::Near(3.268_824e-3, 1e-8)),
         Check::new("ΔH of RK2 at t = 10⁴", rk2.landmarks[0], Bound::Near(8.510_481_2e-3, 1e-9)),
         Check::new("ΔH of RK2 at t = 5·10⁴", rk2.landmarks[1], Bound::Near(0.035_429_685, 1e-8)),
         Check::new("ΔH of RK2 at t = 2·10⁵", job.only_full(rk2.error.last), Bound::Within(0.05, 0.13)),
-    ]
+    ];
+    Ok(Outcome { claims: claims(job, &ve2, &rk2, times), references, notes: vec![] })
 }
 
-/// Runs of each scheme that are timed.
-const TIMINGS: u32 = 15;
+fn follow(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f64) -> Result<Motion> {
+    let Case { vortices, start } = models::leapfrogging();
+    let mut run = Integrator::new(&vortices, method, h, start)?;
+    let (initial, mut error) = (run.energy(), Deviation::new(end, 500, 0.1 * end));
+    let (mut beginning, mut landmarks) = (vec![[0.0, 0.0]], [None; 2]);
+    job.follow(&mut run, (end / h) as u64, |run| {
+        let (t, change) = (run.time(), run.energy() - initial);
+        error.push(t, change);
+        if t <= CLOSE_UP {
+            beginning.push([t, change]);
+        }
+        for (landmark, _) in landmarks.iter_mut().zip([1e4, 5e4]).filter(|(_, time)| t == *time) {
+            *landmark = Some(change);
+        }
+    })?;
+    Ok(Motion { error, beginning, landmarks, evaluations: run.statistics().gradients })
+}
+
+fn claims(job: &Job<'_>, ve2: &Motion, rk2: &Motion, times: Option<[f64; 2]>) -> Vec<Claim> {
+    let grown = rk2.landmarks[0].zip(rk2.landmarks[1]).map(|(early, late)| late / early);
+    let [read, bulk] = [0, 1].map(|i| times.map(|times| times[i]));
+    let [when_read, in_bulk] = ["every state read", "every hundredth state read"]
+        .map(|how| format!("time of RK2 / time of VE2, {how}, least of {TIMINGS} runs each"));
+    let evaluations = rk2.evaluations as f64 / ve2.evaluations as f64;
+    let growth = job.only_full(ve2.error.growth());
+    // Rounding breaks the mirror symmetry at t ≈ 54000, and runs of RK2 differ from there on.
+    let over = job.only_full(rk2.error.last / ve2.error.largest);
+    vec![
+        Claim::new("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value, t ≤ 2·10⁵")
+            .at_most("max|ΔH| over all / over the first tenth", growth, 1.02),
+        Claim::new("Fig. 2", "RK2 shows a secular drift in the Hamiltonian")
+            .at_least("ΔH of RK2 at t = 5·10⁴ / at t = 10⁴", grown, 3.0)
+            .at_least("ΔH of RK2 at the end / max|ΔH| of VE2", over, 10.0),
+        Claim::new("section 5", "RK2 takes approximately four times the computational time of VE2")
+            .near(&when_read, read, [4.0, 1.0])
+            .near(&in_bulk, bulk, [4.0, 1.0])
+            .instead(
+                "it takes four times the evaluations of ∇H; the ratio of times depends on how often the states are read",
+            )
+            .at_least(when_read, read, 1.2)
+            .at_least(in_bulk, bulk, 2.0)
+            .near("evaluations of ∇H, RK2 / VE2", evaluations, [4.0, 0.01]),
+    ]
+}
 
 /// The time that RK2 takes for the run of Fig. 2 over the time that VE2 takes: each state being read, and
 /// none.
@@ -168,7 +124,7 @@ fn starting_with_rk2() -> Sigma {
     Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::leapfrog() }
 }
 
-fn figure(ve2: &Series, rk2: &Series, end: f64) -> Figure {
+fn figure(ve2: &Motion, rk2: &Motion, end: f64) -> Figure {
     let energy = || Axis::linear("*H*(*t*) − *H*(0)   [Γ²]");
     let time = || Axis::linear("time *t*   [*L*²/Γ]");
     let whole = Panel::new("The whole run (range and mean)", time().within(0.0, end), energy())
@@ -187,21 +143,11 @@ fn figure(ve2: &Series, rk2: &Series, end: f64) -> Figure {
         "Two leapfrogging pairs: the error of the Hamiltonian, VE2 against RK2 at half the step",
         format!(
             "max|Δ*H*| up to *t* = {}: VE2 {}, RK2 {}; VE2 takes one evaluation of ∇*H* per step, RK2 two",
-            scientific(ve2.reached()),
+            scientific(ve2.error.envelope.end()),
             at_most(ve2.error.largest),
             at_most(rk2.error.largest)
         ),
     )
     .row(430.0, vec![whole, beginning])
     .footer("After Rowley & Marsden 2002, Fig. 2. Γ and *L*: units of circulation and length.")
-}
-
-fn table(ve2: &Series, rk2: &Series) -> Result<Table> {
-    let mut table = Table::new(&["scheme", "t", "lowest", "mean", "highest"])?;
-    for (name, series) in [("VE2 h=2", ve2), ("RK2 h=1", rk2)] {
-        for [t, low, mean, high] in series.error.envelope.rows() {
-            table.row([name.to_owned(), number(t), number(low), number(mean), number(high)])?;
-        }
-    }
-    Ok(table)
 }

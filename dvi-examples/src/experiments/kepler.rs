@@ -1,14 +1,10 @@
 //! Runs on Kepler orbits, as the experiments on them measure them.
 
-use crate::claim::larger;
-use std::f64::consts::TAU;
+use anyhow::ensure;
+use dvi_core::methods::VariableStep;
 
-use anyhow::{Result, ensure};
-use dvi_core::methods::{Method, VariableStep};
-use dvi_core::prelude::*;
-
-use crate::job::Job;
 use crate::models::{Kepler, Orbit};
+use crate::vocabulary::*;
 
 /// A run on a Kepler orbit, with fixed or with controlled steps.
 pub trait KeplerRun: Run<System = Kepler, Scalar = f64> {}
@@ -89,39 +85,38 @@ pub fn compare(job: &Job<'_>, run: &mut impl KeplerRun, orbit: Orbit, periods: u
     Ok(Course { position, ..course })
 }
 
+/// A run with controlled steps from the pericentre.
+type Controlled<M, C> = Result<ControlledIntegrator<'static, Kepler, M, C>, StartError>;
+
 /// A run with steps by (23), as printed.
-pub fn osculating<M: VariableStep<Kepler, f64>>(
-    method: M,
-    orbit: Orbit,
-    tolerance: f64,
-) -> Result<ControlledIntegrator<'static, Kepler, M, Osculating>, StartError> {
+pub fn osculating<M>(method: M, orbit: Orbit, tolerance: f64) -> Controlled<M, Osculating>
+where
+    M: VariableStep<Kepler, f64>,
+{
     let control = Osculating { tolerance, first_step: 1e-4, centre: CentreSpeed::AsPrinted };
     ControlledIntegrator::new(&Kepler {}, method, control, orbit.pericentre())
 }
 
 /// A run with steps by (23), v_o read per unit of arc length.
-pub fn per_arc_length<M: VariableStep<Kepler, f64>>(
-    method: M,
-    orbit: Orbit,
-    tolerance: f64,
-) -> Result<ControlledIntegrator<'static, Kepler, M, Osculating>, StartError> {
+pub fn per_arc_length<M>(method: M, orbit: Orbit, tolerance: f64) -> Controlled<M, Osculating>
+where
+    M: VariableStep<Kepler, f64>,
+{
     ControlledIntegrator::new(&Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())
 }
 
 /// A run with `steps` steps of the same length per period.
-pub fn fixed<M: Method<Kepler, f64>>(
-    method: M,
-    orbit: Orbit,
-    steps: f64,
-) -> Result<Integrator<'static, Kepler, M>, StartError> {
+pub fn fixed<M>(method: M, orbit: Orbit, steps: f64) -> Result<Integrator<'static, Kepler, M>, StartError>
+where
+    M: Method<Kepler, f64>,
+{
     Integrator::new(&Kepler {}, method, TAU / steps, orbit.pericentre())
 }
 
 /// A run with steps in proportion to r^(3/2), about 1/ε of them per radian of the motion in the mean.
-pub fn reversible<M: VariableStep<Kepler, f64>>(
-    method: M,
-    orbit: Orbit,
-    epsilon: f64,
-) -> Result<ControlledIntegrator<'static, Kepler, M, Reversible>, StartError> {
+pub fn reversible<M>(method: M, orbit: Orbit, epsilon: f64) -> Controlled<M, Reversible>
+where
+    M: VariableStep<Kepler, f64>,
+{
     ControlledIntegrator::new(&Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())
 }

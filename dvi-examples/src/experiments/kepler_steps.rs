@@ -5,26 +5,19 @@
 //! the same? The answer depends on what is compared: the rule of the reference, and whether both runs choose
 //! their steps by (23), as printed, or keep them fixed. Each reading is shown.
 
-use crate::claim::larger;
-use anyhow::{Context as _, Result};
 use dvi_core::discrete::{FrequencyIn, Unfitted};
-use dvi_core::prelude::*;
 use rayon::prelude::*;
 
 use super::kepler::{Course, fixed, follow, osculating};
-use crate::claim::{BEYOND, Bound, Check, Claim};
-use crate::figure::{Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, Panel, SLATE, Stroke, VERMILLION};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
 use crate::models::Orbit;
-use crate::output::{Table, number};
-
-pub const EXPERIMENT: Experiment =
-    Experiment { name: "kepler-steps", title: "One third of the steps, in each reading", share: 25.0, run };
+use crate::vocabulary::*;
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];
 /// The eccentricity of the paper.
 const HIGH: f64 = 0.95;
+const THIRD: f64 = 1.0 / 3.0;
+/// Of a factor 1000, down to 10⁻⁴.
+const BISECTIONS: u32 = 17;
 
 /// How the steps of a run are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,10 +55,7 @@ fn finenesses(steps: Steps, e: f64) -> [f64; 3] {
     }
 }
 
-/// Of a factor 1000, down to 10⁻⁴.
-const BISECTIONS: u32 = 17;
-
-fn run(job: &Job<'_>) -> Result<Outcome> {
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let count = job.choose(3, 2);
     let eccentricities = job.choose(&ECCENTRICITIES[..], &ECCENTRICITIES[3..]);
     let mut cases = Vec::new();
@@ -77,19 +67,21 @@ fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(cases.len() as u64 * (1 + 3 * u64::from(BISECTIONS + 1)));
     let compared = cases.into_par_iter().map(|(steps, e, fineness)| compare(job, steps, e, fineness));
     let compared: Vec<Comparison> = compared.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-    job.publish(EXPERIMENT.name, figure(&compared), table(&compared)?)?;
+    let columns = ["steps", "e", "reference", "energy_error", "fitted", "linear", "ratio"];
+    let rows = compared.iter().map(|c| {
+        let how = if c.steps == Steps::Fixed { "fixed" } else { "controlled" };
+        ([how, &c.e.to_string(), c.reference].map(str::to_owned), [c.energy, c.fitted, c.linear, c.ratio()])
+    });
+    job.publish(figure(&compared), Table::of(&columns, rows)?)?;
     Ok(Outcome { claims: claims(&compared), references: references(&compared), notes: notes(&compared) })
 }
 
 fn compare(job: &Job<'_>, steps: Steps, e: f64, fineness: f64) -> Result<Vec<Comparison>> {
-    let fitted = match steps {
-        Steps::Fixed => {
-            course(job, steps, Curvature(Reading::Variational), Quadrature::simpson(), e, fineness)
-        }
-        Steps::Controlled => {
-            course(job, steps, Curvature(Reading::LeftFrozen), Quadrature::simpson(), e, fineness)
-        }
+    let reading = match steps {
+        Steps::Fixed => Reading::Variational,
+        Steps::Controlled => Reading::LeftFrozen,
     };
+    let fitted = course(job, steps, Curvature(reading), Quadrature::simpson(), e, fineness);
     let fitted = fitted.with_context(|| format!("the phase-fitted run at e = {e}"))?;
     let needed = |&(reference, rule, _): &(&'static str, Quadrature, Colour)| {
         let linear = steps_for(job, fitted.energy, fineness, |fineness| {
@@ -147,8 +139,6 @@ struct Ratios {
     above: usize,
 }
 
-const THIRD: f64 = 1.0 / 3.0;
-
 /// The ratios with the given choice of steps, at the given eccentricity, against midpoint and trapezoid or,
 /// if `simpson`, against linear Simpson; `None` if there are none.
 fn ratios(all: &[Comparison], steps: Steps, e: f64, simpson: bool) -> Option<Ratios> {
@@ -157,154 +147,119 @@ fn ratios(all: &[Comparison], steps: Steps, e: f64, simpson: bool) -> Option<Rat
     let ratios: Vec<f64> = all.iter().filter(is_asked).map(Comparison::ratio).collect();
     (!ratios.is_empty()).then(|| Ratios {
         least: ratios.iter().copied().fold(f64::INFINITY, f64::min),
-        most: ratios.iter().copied().fold(0.0, larger),
+        most: largest(ratios.iter().copied()),
         count: ratios.len(),
         above: ratios.iter().filter(|&&ratio| ratio > THIRD).count(),
     })
 }
 
 fn claims(all: &[Comparison]) -> Vec<Claim> {
-    let of = |steps, e, simpson| ratios(all, steps, e, simpson);
-    let printed = of(Steps::Controlled, HIGH, false);
-    let lower = of(Steps::Controlled, 0.8, false);
-    let fixed = of(Steps::Fixed, HIGH, false);
-    let simpson = of(Steps::Fixed, HIGH, true);
-    let low = of(Steps::Fixed, 0.2, true);
-    let most = |ratios: Option<Ratios>| ratios.map(|ratios| ratios.most);
-    let least = |ratios: Option<Ratios>| ratios.map(|ratios| ratios.least);
-    let third = Bound::AtMost(THIRD);
+    let most = |steps, e, simpson| ratios(all, steps, e, simpson).map(|ratios| ratios.most);
+    let least = |steps, e, simpson| ratios(all, steps, e, simpson).map(|ratios| ratios.least);
+    let above =
+        ratios(all, Steps::Controlled, HIGH, false).map(|ratios| ratios.above as f64 / ratios.count as f64);
+    let [printed, fixed] = [Steps::Controlled, Steps::Fixed];
+    let two = "against midpoint and trapezoid";
     vec![
         Claim::new("section 5", "at e = 0.95, close to one third of the steps of a method of the same order")
-            .check("(23) as printed, against midpoint and trapezoid: smallest ratio", least(printed), Bound::AtLeast(0.25))
-            .check("the same: largest ratio", most(printed), Bound::AtMost(0.42)),
+            .at_least(format!("(23) as printed, {two}: smallest ratio"), least(printed, HIGH, false), 0.25)
+            .at_most("the same: largest ratio", most(printed, HIGH, false), 0.42),
         Claim::new("section 7", "less than one third of the steps")
-            .check("(23) as printed, e = 0.95, against midpoint and trapezoid: largest ratio", most(printed), third)
+            .at_most(format!("(23) as printed, e = 0.95, {two}: largest ratio"), most(printed, HIGH, false), THIRD)
             .instead(
                 "with (23) as printed most ratios are above one third; with fixed steps all are below it, against \
                  midpoint and trapezoid; against linear Simpson none is at e = 0.95",
             )
-            .check(
-                "(23) as printed, e = 0.95: share of the ratios above one third",
-                printed.map(|ratios| ratios.above as f64 / ratios.count as f64),
-                Bound::AtLeast(0.5),
-            )
-            .check("fixed steps, e = 0.95, against midpoint and trapezoid: largest ratio", most(fixed), third)
-            .check("fixed steps, e = 0.95, against linear Simpson: smallest ratio", least(simpson), Bound::AtLeast(THIRD)),
-        Claim::new(BEYOND, "what is saved depends on the orbit")
-            .check("(23) as printed, e = 0.8, against midpoint and trapezoid: largest ratio", most(lower), Bound::AtLeast(1.0))
-            .check("fixed steps, e = 0.2, against linear Simpson: largest ratio", most(low), third),
+            .at_least("(23) as printed, e = 0.95: share of the ratios above one third", above, 0.5)
+            .at_most(format!("fixed steps, e = 0.95, {two}: largest ratio"), most(fixed, HIGH, false), THIRD)
+            .at_least("fixed steps, e = 0.95, against linear Simpson: smallest ratio", least(fixed, HIGH, true), THIRD),
+        beyond("what is saved depends on the orbit")
+            .at_least(format!("(23) as printed, e = 0.8, {two}: largest ratio"), most(printed, 0.8, false), 1.0)
+            .at_most("fixed steps, e = 0.2, against linear Simpson: largest ratio", most(fixed, 0.2, true), THIRD),
     ]
 }
 
 /// Brackets around what earlier runs have found.
 fn references(all: &[Comparison]) -> Vec<Check> {
-    let check = |steps: Steps, e: f64, simpson: bool, [low, high]: [f64; 2]| {
+    let checks = [
+        (Steps::Controlled, HIGH, false, [0.28, 0.42]),
+        (Steps::Controlled, 0.8, false, [0.2, 1.1]),
+        (Steps::Controlled, HIGH, true, [0.45, 0.92]),
+        (Steps::Fixed, HIGH, false, [0.27, 0.32]),
+        (Steps::Fixed, HIGH, true, [0.45, 0.55]),
+        (Steps::Fixed, 0.2, true, [0.15, 0.25]),
+    ];
+    let check = |(steps, e, simpson, [low, high]): (Steps, f64, bool, [f64; 2])| {
         let how = if steps == Steps::Fixed { "fixed steps" } else { "(23) as printed" };
         let against = if simpson { "linear Simpson" } else { "midpoint and trapezoid" };
         let ratios = ratios(all, steps, e, simpson);
-        let name = |which: &str| format!("{how}, e = {e}, against {against}: {which} ratio");
-        let bound = Bound::Within(low, high);
-        [
-            Check::new(name("smallest"), ratios.map(|r| r.least), bound),
-            Check::new(name("largest"), ratios.map(|r| r.most), bound),
-        ]
+        [("smallest", ratios.map(|r| r.least)), ("largest", ratios.map(|r| r.most))].map(|(which, ratio)| {
+            let name = format!("{how}, e = {e}, against {against}: {which} ratio");
+            Check::new(name, ratio, Bound::Within(low, high))
+        })
     };
-    let checks = [
-        check(Steps::Controlled, HIGH, false, [0.28, 0.42]),
-        check(Steps::Controlled, 0.8, false, [0.2, 1.1]),
-        check(Steps::Controlled, HIGH, true, [0.45, 0.92]),
-        check(Steps::Fixed, HIGH, false, [0.27, 0.32]),
-        check(Steps::Fixed, HIGH, true, [0.45, 0.55]),
-        check(Steps::Fixed, 0.2, true, [0.15, 0.25]),
-    ];
-    checks.into_iter().flatten().collect()
+    checks.into_iter().flat_map(check).collect()
 }
 
 fn notes(all: &[Comparison]) -> Vec<String> {
     let line = |c: &Comparison| {
-        let how = if c.steps == Steps::Fixed {
-            "fixed steps, (19) in the discrete Lagrangian"
-        } else {
-            "(23) as printed, (19) left-frozen"
+        let how = match c.steps {
+            Steps::Fixed => "fixed steps, (19) in the discrete Lagrangian",
+            Steps::Controlled => "(23) as printed, (19) left-frozen",
         };
+        let Comparison { e, reference, energy, fitted, linear, .. } = c;
+        let ratio = c.ratio();
         format!(
-            "e = {}, {how}, max|ΔE| = {:.2e}: {:.0} steps per period against {:.0} of {}: {:.3}.",
-            c.e,
-            c.energy,
-            c.fitted,
-            c.linear,
-            c.reference,
-            c.ratio()
+            "e = {e}, {how}, max|ΔE| = {energy:.2e}: {fitted:.0} steps per period against {linear:.0} of {reference}: {ratio:.3}."
         )
     };
     all.iter().filter(|c| c.e == HIGH).map(line).collect()
 }
 
-/// What was found against midpoint and trapezoid at the eccentricity of the paper.
-fn subtitle(all: &[Comparison]) -> String {
-    let told = |name: &str, steps: Steps| {
-        let found = ratios(all, steps, HIGH, false).map(|Ratios { least, most, count, above }| {
-            format!("{name} {least:.3} to {most:.3}, {above} of {count} above one third")
-        });
-        found.unwrap_or_default()
-    };
-    let (printed, fixed) = (told("with (23)", Steps::Controlled), told("with fixed steps", Steps::Fixed));
-    format!("Ratios at *e* = {HIGH}, against midpoint and trapezoid: {printed}; {fixed}")
-}
-
 fn figure(all: &[Comparison]) -> Figure {
-    let steps = Panel::new(
-        format!("Steps over one period, *e* = {HIGH}, both with (23)"),
-        Axis::logarithmic("max|*E* − *E*(0)|"),
-        Axis::logarithmic("steps"),
-    );
     let of = |reference: &'static str, steps: Steps| {
         all.iter().filter(move |c| c.reference == reference && c.steps == steps)
     };
     let at_high = |reference| of(reference, Steps::Controlled).filter(|c| c.e == HIGH);
     let fitted: Vec<_> = at_high(REFERENCES[0].0).map(|c| [c.energy, c.fitted]).collect();
-    let steps = steps
+    let title = format!("Steps over one period, *e* = {HIGH}, both with (23)");
+    let steps = Panel::new(title, Axis::logarithmic("max|*E* − *E*(0)|"), Axis::logarithmic("steps"))
         .line(fitted.clone(), Stroke::solid(VERMILLION))
         .discs(fitted, VERMILLION, Fill::Solid)
-        .labelled("phase-fitted");
-    let steps = REFERENCES.iter().fold(steps, |panel, &(reference, _, colour)| {
-        let points: Vec<_> = at_high(reference).map(|c| [c.energy, c.linear]).collect();
-        panel
-            .line(points.clone(), Stroke::dashed(colour))
-            .discs(points, colour, Fill::Hollow)
-            .labelled(reference)
-    });
+        .labelled("phase-fitted")
+        .each(REFERENCES, |panel, (reference, _, colour)| {
+            let points: Vec<_> = at_high(reference).map(|c| [c.energy, c.linear]).collect();
+            let line = panel.line(points.clone(), Stroke::dashed(colour));
+            line.discs(points, colour, Fill::Hollow).labelled(reference)
+        });
     let compared = |title: &str, steps: Steps| {
         let e = Axis::names("eccentricity", ECCENTRICITIES.iter().map(f64::to_string).collect());
-        let third = vec![[-0.6, THIRD], [3.6, THIRD]];
-        let panel = Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within(0.0, 1.7))
-            .line(third, Stroke::dashed(SLATE).width(1.2))
-            .labelled("one third");
-        REFERENCES.iter().zip([-0.18, 0.0, 0.18]).fold(panel, |panel, (&(reference, _, colour), aside)| {
-            let place =
-                |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).unwrap_or_default() as f64 + aside;
-            let points = of(reference, steps).map(|c| [place(c.e), c.ratio()]).collect();
-            panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
-        })
+        let place =
+            |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |place| place as f64);
+        Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within(0.0, 1.7))
+            .line(vec![[-0.6, THIRD], [3.6, THIRD]], Stroke::dashed(SLATE).width(1.2))
+            .labelled("one third")
+            .each(
+                REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]),
+                |panel, ((reference, _, colour), aside)| {
+                    let points = of(reference, steps).map(|c| [place(c.e) + aside, c.ratio()]).collect();
+                    panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
+                },
+            )
     };
+    // What was found against midpoint and trapezoid at the eccentricity of the paper.
+    let [printed, fixed] =
+        [("with (23)", Steps::Controlled), ("with fixed steps", Steps::Fixed)].map(|(name, steps)| {
+            let found = ratios(all, steps, HIGH, false).map(|Ratios { least, most, count, above }| {
+                format!("{name} {least:.3} to {most:.3}, {above} of {count} above one third")
+            });
+            found.unwrap_or_else(|| format!("{name} none"))
+        });
+    let controlled = compared("Both with (23) as printed", Steps::Controlled);
     Figure::new(
         "“One third of the steps”: phase-fitted Simpson against linear rules, for equal energy error",
-        subtitle(all),
+        format!("Ratios at *e* = {HIGH}, against midpoint and trapezoid: {printed}; {fixed}"),
     )
-    .row(430.0, vec![
-        steps.legend_at(Corner::TopRight),
-        compared("Both with (23) as printed", Steps::Controlled).legend_at(Corner::TopRight),
-        compared("Both with fixed steps", Steps::Fixed).without_legend(),
-    ])
+    .row(430.0, vec![steps, controlled, compared("Both with fixed steps", Steps::Fixed).without_legend()])
     .footer("After Kosmas & Vlachos, Fig. 2. Frequency (19): left-frozen with (23), in the discrete Lagrangian with fixed steps.")
-}
-
-fn table(all: &[Comparison]) -> Result<Table> {
-    let mut table = Table::new(&["steps", "e", "reference", "energy_error", "fitted", "linear", "ratio"])?;
-    for c in all {
-        let how = if c.steps == Steps::Fixed { "fixed" } else { "controlled" };
-        let numbers = [c.energy, c.fitted, c.linear, c.ratio()].map(number);
-        table.row([how.to_owned(), number(c.e), c.reference.to_owned()].into_iter().chain(numbers))?;
-    }
-    Ok(table)
 }

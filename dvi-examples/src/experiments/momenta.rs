@@ -1,62 +1,71 @@
 //! Which scheme conserves what: the linear impulses ΣΓx and ΣΓy, the angular impulse ΣΓ|z|², its discrete
 //! counterpart J_d = D₂L_d·ξ, and the discrete two-form (Rowley & Marsden 2002, eq. 17 and section 6).
 
-use crate::claim::larger;
-use anyhow::Result;
 use dvi_core::discrete::Interval;
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
 
-use crate::claim::{BEYOND, Bound, Claim};
-use crate::figure::{AMBER, Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, PURPLE, Panel, VERMILLION};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
 use crate::models::{self, Case, FourPoints, FourVortices};
-use crate::output::{Table, number};
-
-pub const EXPERIMENT: Experiment =
-    Experiment { name: "momenta", title: "Conserved quantities, scheme by scheme", share: 1.0, run };
+use crate::vocabulary::*;
 
 const H: f64 = 0.1;
 const STEPS: u64 = 1000;
 /// The index of ΣΓ|z|² among the declared momenta.
 const ANGULAR: usize = 2;
+/// Points of the orbit at which the tangent map of a one-step method is looked at.
+const LOOKS: u64 = 10;
 
-/// The largest deviations of one scheme from the initial values.
-#[derive(Clone, Debug)]
+/// The largest deviations of one scheme from the initial values: ΣΓx, ΣΓy, ΣΓ|z|², J_d of the variational
+/// schemes, and the largest change of the two-form under the tangent map of a step: of the discrete one
+/// (17), of one-step methods Ω.
 struct Drifts {
     scheme: &'static str,
-    /// ΣΓx, ΣΓy, ΣΓ|z|².
-    momenta: [f64; 3],
-    /// J_d, of the variational schemes.
-    discrete: Option<f64>,
-    /// The largest change of the two-form under the tangent map of a step: of the discrete one (17), of
-    /// one-step methods Ω.
-    two_form: Option<f64>,
+    of: [Option<f64>; 5],
 }
 
-fn run(job: &Job<'_>) -> Result<Outcome> {
+/// The quantities with their colours.
+const QUANTITIES: [(&str, Colour); 5] = [
+    ("ΣΓ*x*", BLUE),
+    ("ΣΓ*y*", GREEN),
+    ("ΣΓ|*z*|²", VERMILLION),
+    ("discrete momentum", PURPLE),
+    ("two-form, in a step", AMBER),
+];
+
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(7 * STEPS);
     let case = models::quasi_periodic();
-    let rk = Start::RungeKutta(RungeKutta::midpoint());
-    let quarter = Sigma { start: rk, ..Sigma::new(0.25) };
+    let start = Start::RungeKutta(RungeKutta::midpoint());
+    // What VE2 preserves, it preserves whatever becomes of its parasitic mode.
+    let ve2 = Sigma { start, parasitic_limit: None, ..Sigma::leapfrog() };
     let all = [
         variational(job, &case, "VI2 (σ = ½)", Sigma::midpoint())?,
-        variational(job, &case, "σ = ½, RK2 start", Sigma { start: rk, ..Sigma::midpoint() })?,
-        variational(job, &case, "σ = ¼", quarter)?,
-        // What it preserves, it preserves whatever becomes of its parasitic mode.
-        variational(
-            job,
-            &case,
-            "VE2 (σ = 0)",
-            Sigma { start: rk, parasitic_limit: None, ..Sigma::leapfrog() },
-        )?,
+        variational(job, &case, "σ = ½, RK2 start", Sigma { start, ..Sigma::midpoint() })?,
+        variational(job, &case, "σ = ¼", Sigma { start, ..Sigma::new(0.25) })?,
+        variational(job, &case, "VE2 (σ = 0)", ve2)?,
         baseline(job, &case, "RK2", RungeKutta::midpoint())?,
         baseline(job, &case, "RK4", RungeKutta::classical())?,
         baseline(job, &case, "Gauss, order 4", Gauss::<2>::new())?,
     ];
-    job.publish(EXPERIMENT.name, figure(&all), table(&all)?)?;
-    Ok(Outcome { claims: claims(&all), references: vec![], notes: vec![] })
+    let columns = ["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"];
+    let rows = all.iter().map(|drifts| ([drifts.scheme], drifts.of));
+    job.publish(figure(&all), Table::of(&columns, rows)?)?;
+    Ok(claims(&all).into())
+}
+
+/// The deviations of the momenta.
+fn conserved(
+    job: &Job<'_>,
+    Case { vortices, start }: &Case,
+    method: impl Method<FourVortices, f64>,
+) -> Result<[Option<f64>; 3]> {
+    let mut run = Integrator::new(vortices, method, H, *start)?;
+    let initial: Vec<f64> = run.momenta().map(|(_, value)| value).collect();
+    let mut momenta = [0.0f64; 3];
+    job.follow(&mut run, STEPS, |run| {
+        for ((_, value), (drift, initial)) in run.momenta().zip(momenta.iter_mut().zip(&initial)) {
+            *drift = larger(*drift, (value - initial).abs());
+        }
+    })?;
+    Ok(momenta.map(Some))
 }
 
 fn baseline(
@@ -65,32 +74,9 @@ fn baseline(
     scheme: &'static str,
     method: impl Method<FourVortices, f64> + Copy,
 ) -> Result<Drifts> {
-    let two_form = Some(one_step_defect(case, method)?);
-    Ok(Drifts { two_form, ..conserved(job, case, scheme, method)? })
+    let [x, y, angular] = conserved(job, case, method)?;
+    Ok(Drifts { scheme, of: [x, y, angular, None, Some(one_step_defect(case, method)?)] })
 }
-
-/// The deviations of the momenta.
-fn conserved(
-    job: &Job<'_>,
-    Case { vortices, start }: &Case,
-    scheme: &'static str,
-    method: impl Method<FourVortices, f64>,
-) -> Result<Drifts> {
-    let mut run = Integrator::new(vortices, method, H, *start)?;
-    let initial: Vec<f64> = run.momenta().map(|(_, value)| value).collect();
-    let mut momenta = [0.0f64; 3];
-    job.repeat(STEPS, || {
-        run.advance()?;
-        for ((_, value), (drift, initial)) in run.momenta().zip(momenta.iter_mut().zip(&initial)) {
-            *drift = larger(*drift, (value - initial).abs());
-        }
-        Ok(())
-    })?;
-    Ok(Drifts { scheme, momenta, discrete: None, two_form: None })
-}
-
-/// Points of the orbit at which the tangent map of a one-step method is looked at.
-const LOOKS: u64 = 10;
 
 /// The largest change of the two-form Ω = ΣΓ dx ∧ dy under the tangent map of a step, by finite differences
 /// of fourth order.
@@ -99,6 +85,8 @@ fn one_step_defect(
     method: impl Method<FourVortices, f64> + Copy,
 ) -> Result<f64> {
     const DISPLACEMENT: f64 = 1e-3;
+    let points =
+        |q: [f64; 8]| FourPoints { x: std::array::from_fn(|i| q[i]), y: std::array::from_fn(|i| q[i + 4]) };
     let stepped = |q: [f64; 8]| -> Result<[f64; 8]> {
         let mut run = Integrator::new(vortices, method, H, points(q))?;
         run.advance()?;
@@ -121,23 +109,17 @@ fn one_step_defect(
             }
         }
         let unit = |a: usize| std::array::from_fn(|i| if i == a { 1.0 } else { 0.0 });
-        for a in 0..8 {
-            for b in 0..8 {
-                defect = larger(defect, (form(columns[a], columns[b]) - form(unit(a), unit(b))).abs());
-            }
+        for (a, b) in (0..8).flat_map(|a| (0..8).map(move |b| (a, b))) {
+            defect = larger(defect, (form(columns[a], columns[b]) - form(unit(a), unit(b))).abs());
         }
         orbit.take_steps(STEPS / LOOKS)?;
     }
     Ok(defect)
 }
 
-fn points(q: [f64; 8]) -> FourPoints {
-    FourPoints { x: std::array::from_fn(|i| q[i]), y: std::array::from_fn(|i| q[i + 4]) }
-}
-
 fn variational(job: &Job<'_>, case: &Case, scheme: &'static str, method: Sigma) -> Result<Drifts> {
     let Case { vortices, start } = case;
-    let drifts = conserved(job, case, scheme, method)?;
+    let [x, y, angular] = conserved(job, case, method)?;
     let mut run = Integrator::new(vortices, method, H, *start)?;
     let initial = run.discrete_momentum(ANGULAR)?.unwrap_or(f64::NAN);
     let mut map = TwoPointTangentMap::new(vortices, &method);
@@ -155,77 +137,49 @@ fn variational(job: &Job<'_>, case: &Case, scheme: &'static str, method: Sigma) 
         let now = run.discrete_momentum(ANGULAR)?.unwrap_or(f64::NAN);
         discrete = larger(discrete, (now - initial).abs());
     }
-    Ok(Drifts { discrete: Some(discrete), two_form: Some(two_form), ..drifts })
+    Ok(Drifts { scheme, of: [x, y, angular, Some(discrete), Some(two_form)] })
 }
 
 fn claims(all: &[Drifts; 7]) -> Vec<Claim> {
     let [vi2, started, quarter, ve2, rk2, rk4, gauss] = all;
-    let variational = &all[..4];
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, larger);
-    let linear = largest(&mut all.iter().flat_map(|drifts| [drifts.momenta[0], drifts.momenta[1]]));
-    let discrete = largest(&mut all.iter().filter_map(|drifts| drifts.discrete));
-    let two_form = largest(&mut variational.iter().filter_map(|drifts| drifts.two_form));
-    let angular = |drifts: &Drifts| drifts.momenta[ANGULAR];
+    let most =
+        |all: &[Drifts], quantity: usize| largest(all.iter().filter_map(|drifts| drifts.of[quantity]));
+    let [angular, two_form] = [ANGULAR, 4].map(|quantity| move |drifts: &Drifts| drifts.of[quantity]);
     vec![
-        Claim::new("eq. 17", "the two-form (17) is exactly preserved").check(
+        Claim::new("eq. 17", "the two-form (17) is exactly preserved").at_most(
             "largest change under the tangent map of a step, σ = 0, ¼, ½",
-            two_form,
-            Bound::AtMost(1e-12),
+            most(&all[..4], 4),
+            1e-12,
         ),
         Claim::new("section 6", "the schemes are momentum preserving")
-            .check("largest drift of ΣΓx and ΣΓy, all schemes", linear, Bound::AtMost(1e-12))
-            .check(
-                "largest drift of the discrete momentum J_d, σ = 0, ¼, ½",
-                discrete,
-                Bound::AtMost(1e-11),
-            ),
-        Claim::new(
-            BEYOND,
+            .at_most("largest drift of ΣΓx and ΣΓy, all schemes", larger(most(all, 0), most(all, 1)), 1e-12)
+            .at_most("largest drift of the discrete momentum J_d, σ = 0, ¼, ½", most(all, 3), 1e-11),
+        beyond(
             "the angular impulse ΣΓ|z|² itself is preserved by VI2, and by none of the others of the family",
         )
-        .check("drift, VI2", angular(vi2), Bound::AtMost(1e-11))
-        .check("drift, σ = ½ with RK2 start", angular(started), Bound::AtLeast(1e-9))
-        .check("drift, σ = ¼", angular(quarter), Bound::AtLeast(1e-9))
-        .check("drift, VE2", angular(ve2), Bound::AtLeast(1e-9)),
-        Claim::new(BEYOND, "RK2 and RK4 break the two-form Ω, Gauss's method preserves Ω")
-            .check("largest change of Ω in a step, RK2", rk2.two_form, Bound::AtLeast(1e-9))
-            .check("RK4", rk4.two_form, Bound::AtLeast(1e-9))
-            .check("Gauss, order 4", gauss.two_form, Bound::AtMost(1e-11)),
+        .at_most("drift, VI2", angular(vi2), 1e-11)
+        .at_least("drift, σ = ½ with RK2 start", angular(started), 1e-9)
+        .at_least("drift, σ = ¼", angular(quarter), 1e-9)
+        .at_least("drift, VE2", angular(ve2), 1e-9),
+        beyond("RK2 and RK4 break the two-form Ω, Gauss's method preserves Ω")
+            .at_least("largest change of Ω in a step, RK2", two_form(rk2), 1e-9)
+            .at_least("RK4", two_form(rk4), 1e-9)
+            .at_most("Gauss, order 4", two_form(gauss), 1e-11),
     ]
 }
-
-/// What the figure and the table show of each scheme.
-struct Quantity {
-    name: &'static str,
-    colour: Colour,
-    value: fn(&Drifts) -> Option<f64>,
-}
-
-#[rustfmt::skip]
-const QUANTITIES: [Quantity; 5] = [
-    Quantity { name: "ΣΓ*x*",                  colour: BLUE,       value: |drifts| Some(drifts.momenta[0]) },
-    Quantity { name: "ΣΓ*y*",                  colour: GREEN,      value: |drifts| Some(drifts.momenta[1]) },
-    Quantity { name: "ΣΓ|*z*|²",               colour: VERMILLION, value: |drifts| Some(drifts.momenta[2]) },
-    Quantity { name: "discrete momentum",      colour: PURPLE,     value: |drifts| drifts.discrete },
-    Quantity { name: "two-form, in a step", colour: AMBER,      value: |drifts| drifts.two_form },
-];
 
 fn figure(all: &[Drifts]) -> Figure {
     // Exact conservation has no place on a logarithmic axis.
     const SMALLEST: f64 = 1e-17;
     let names = all.iter().rev().map(|drifts| drifts.scheme.to_owned()).collect();
-    let drift = Axis::logarithmic(
-        "largest deviation from the initial value; of the two-form, largest change in a step",
-    )
-    .within(0.5 * SMALLEST, 10.0);
+    let label = "largest deviation from the initial value; of the two-form, largest change in a step";
+    let drift = Axis::logarithmic(label).within(0.5 * SMALLEST, 10.0);
     let empty = Panel::new("Deviations over 1000 steps", drift, Axis::names("", names));
-    let panel = QUANTITIES.iter().enumerate().fold(empty, |panel, (i, Quantity { name, colour, value })| {
+    let panel = empty.each(QUANTITIES.into_iter().enumerate(), |panel, (i, (name, colour))| {
         let lift = 0.3 - 0.15 * i as f64;
-        let points =
-            all.iter().rev().enumerate().filter_map(|(row, drifts)| {
-                value(drifts).map(|drift| [drift.max(SMALLEST), row as f64 + lift])
-            });
-        panel.discs(points.collect(), *colour, Fill::Solid).labelled(*name)
+        let rows = all.iter().rev().enumerate();
+        let points = rows.filter_map(|(row, drifts)| Some([drifts.of[i]?.max(SMALLEST), row as f64 + lift]));
+        panel.discs(points.collect(), colour, Fill::Solid).labelled(name)
     });
     Figure::new(
         "What is conserved, scheme by scheme: momenta, the discrete momentum, the two-form",
@@ -233,14 +187,4 @@ fn figure(all: &[Drifts]) -> Figure {
     )
     .row(500.0, vec![panel.legend_at(Corner::Beside)])
     .footer("Rowley & Marsden 2002, eq. 17 and section 6. Two-form: (17) for the σ-family, Ω = ΣΓ d*x* ∧ d*y* for one-step methods.")
-}
-
-fn table(all: &[Drifts]) -> Result<Table> {
-    let mut table =
-        Table::new(&["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"])?;
-    for drifts in all {
-        let numbers = QUANTITIES.map(|Quantity { value, .. }| value(drifts).map_or(String::new(), number));
-        table.row([drifts.scheme.to_owned()].into_iter().chain(numbers))?;
-    }
-    Ok(table)
 }

@@ -3,128 +3,89 @@
 //! The exact section is a closed curve. Each run is compared with that curve, computed by Gauss
 //! collocation of order six.
 
-use crate::claim::larger;
-use anyhow::Result;
-
-use super::sections::{
-    self, CAVEAT, Crossings, LYAPUNOV_STEPS, Scheme, compare, cost, energy_panel, lyapunov_exponent,
-};
-use crate::claim::{Bound, Check, Claim};
-use crate::figure::{Axis, Corner, Figure, Panel, SLATE, Stroke, scientific};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
+use super::sections::{self, CAVEAT, Crossings, LYAPUNOV_STEPS, Scheme, compare, cost, lyapunov_exponent};
 use crate::models;
+use crate::vocabulary::*;
 
-pub const EXPERIMENT: Experiment = Experiment {
-    name: "fig4-quasi-periodic",
-    title: "Poincaré sections of a quasi-periodic motion",
-    share: 25.0,
-    run,
-};
+const RUNS: [(Scheme, f64); 6] = sections::runs([0.1, 0.2, 0.5]);
 
-const RUNS: [(Scheme, f64); 6] = [
-    (Scheme::Vi2, 0.1),
-    (Scheme::Vi2, 0.2),
-    (Scheme::Vi2, 0.5),
-    (Scheme::Rk4, 0.1),
-    (Scheme::Rk4, 0.2),
-    (Scheme::Rk4, 0.5),
-];
-
-fn run(job: &Job<'_>) -> Result<Outcome> {
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e5, 4.5e4);
     let exact = [(Scheme::Gauss6, 0.2)];
     job.expect(cost(&RUNS, end) + cost(&exact, 1e5) + LYAPUNOV_STEPS);
     let case = models::quasi_periodic();
-    let all = compare(job, &case, &RUNS, end)?;
-    let exact = compare(job, &case, &exact, 1e5)?;
-    let curve = Curve::through(&exact[0].places());
+    let all = compare(job, &case, RUNS, end)?;
+    let [exact] = compare(job, &case, exact, 1e5)?;
+    let curve = Curve::through(&exact.places());
     let exponent = lyapunov_exponent(job, &case)?;
-    job.publish(EXPERIMENT.name, figure(&all, &curve, end), sections::table(&all)?)?;
-    let references = references(job, &all, left(&all, &curve));
+    job.publish(figure(&all, &curve, end), sections::table(&all)?)?;
+    let references = references(job, &all, &curve);
     Ok(Outcome { claims: claims(&all, &curve, exponent), references, notes: sections::notes(&all) })
 }
 
-fn claims(all: &[Crossings], curve: &Curve, exponent: Option<f64>) -> Vec<Claim> {
-    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = all else { return Vec::new() };
+fn claims(all: &[Crossings; 6], curve: &Curve, exponent: Option<f64>) -> Vec<Claim> {
+    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = all;
     let distance = |run: &Crossings| curve.largest_distance(run);
     let far = |run: &Crossings| format!("largest distance from the exact section, {}", run.name());
-    let growth = |run: &Crossings| format!("max|ΔH| over all / over the first tenth, {}", run.name());
     vec![
-        Claim::new("section 5", "the motion is quasi-periodic").check(
+        Claim::new("section 5", "the motion is quasi-periodic").at_most(
             "largest Lyapunov exponent up to t = 2·10⁴",
             exponent,
-            Bound::AtMost(1e-3),
+            1e-3,
         ),
         Claim::new("Fig. 4", "both schemes give qualitatively correct results for h = 0.1")
-            .check(far(vi_small), distance(vi_small), Bound::AtMost(0.01))
-            .check(far(rk_small), distance(rk_small), Bound::AtMost(0.01)),
+            .each([vi_small, rk_small], |claim, run| claim.at_most(far(run), distance(run), 0.01)),
         Claim::new("Fig. 4", "RK4 gives spurious results for h = 0.2, VI2 does not")
-            .check(far(rk_middle), distance(rk_middle), Bound::AtLeast(0.5))
-            .check(far(vi_middle), distance(vi_middle), Bound::AtMost(0.01))
-            .check(far(vi_large), distance(vi_large), Bound::AtMost(0.01)),
-        Claim::new(
-            "section 5",
-            "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts",
-        )
-        .check(growth(vi_small), vi_small.error.growth(), Bound::AtMost(1.1))
-        .check(growth(vi_middle), vi_middle.error.growth(), Bound::AtMost(1.1))
-        .check(growth(vi_large), vi_large.error.growth(), Bound::AtMost(1.1))
-        .check(growth(rk_small), rk_small.error.growth(), Bound::AtLeast(5.0)),
+            .at_least(far(rk_middle), distance(rk_middle), 0.5)
+            .each([vi_middle, vi_large], |claim, run| claim.at_most(far(run), distance(run), 0.01)),
+        sections::stays_close(&all[..3]).at_least(rk_small.growth_name(), rk_small.error.growth(), 5.0),
     ]
 }
 
 /// Numbers of independent programs.
-fn references(job: &Job<'_>, all: &[Crossings], left: Option<f64>) -> Vec<Check> {
-    let [vi_small, vi_middle, vi_large, rk_small, ..] = all else { return Vec::new() };
-    let error = |run: &Crossings| format!("max|ΔH|, {}", run.name());
+fn references(job: &Job<'_>, all: &[Crossings; 6], curve: &Curve) -> Vec<Check> {
+    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = all;
+    let near = |run: &Crossings, target, tolerance| {
+        Check::new(format!("max|ΔH|, {}", run.name()), run.error.largest, Bound::Near(target, tolerance))
+    };
+    let end = job.only_full(rk_small.error.last);
+    let left = rk_middle.points.iter().find(|&&[_, r1, p1]| curve.distance([r1, p1]) > 0.1);
+    let left = left.map(|point| point[0]);
     vec![
-        Check::new(error(vi_small), vi_small.error.largest, Bound::Near(3.847e-5, 5e-8)),
-        Check::new(error(vi_middle), vi_middle.error.largest, Bound::Near(1.546e-4, 1e-7)),
-        Check::new(error(vi_large), vi_large.error.largest, Bound::Near(1.002e-3, 1e-6)),
-        Check::new(
-            "ΔH at the end, RK4 at h = 0.1",
-            job.only_full(rk_small.error.last),
-            Bound::Near(6.518e-4, 1e-6),
-        ),
+        near(vi_small, 3.847e-5, 5e-8),
+        near(vi_middle, 1.546e-4, 1e-7),
+        near(vi_large, 1.002e-3, 1e-6),
+        Check::new("ΔH at the end, RK4 at h = 0.1", end, Bound::Near(6.518e-4, 1e-6)),
         Check::new("RK4 at h = 0.2 leaves the torus at t", left, Bound::Within(4e4, 4.6e4)),
     ]
 }
 
-/// When RK4 at h = 0.2 leaves the torus.
-fn left(all: &[Crossings], curve: &Curve) -> Option<f64> {
-    let points = &all.get(4)?.points;
-    points.iter().find(|&&[_, r1, p1]| curve.distance([r1, p1]) > 0.1).map(|point| point[0])
-}
-
-fn figure(all: &[Crossings], curve: &Curve, end: f64) -> Figure {
-    let (schemes_vi, schemes_rk) = all.split_at(3);
-    let row = |runs: &[Crossings]| runs.iter().map(|run| panel(run, curve)).collect();
-    Figure::new(
+fn figure(all: &[Crossings; 6], curve: &Curve, end: f64) -> Figure {
+    let titles = [
         "Quasi-periodic motion of four equal vortices: Poincaré sections of VI2 and RK4",
         "*R*₂ = 0, d*R*₂/d*t* > 0; grey line: the exact section; *d*: the largest distance from it",
-    )
-    .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
-    .row(370.0, row(schemes_vi))
-    .row(370.0, row(schemes_rk))
-    .row(330.0, vec![energy_panel(all, end)])
-    .footer(format!("After Rowley & Marsden 2002, Fig. 4. {CAVEAT}"))
+    ];
+    sections::figure(titles, all, end, |run| panel(run, curve))
+        .footer(format!("After Rowley & Marsden 2002, Fig. 4. {CAVEAT}"))
 }
 
 /// Close up where the run stays near the exact curve; else all of it, and a frame around the close-up.
 fn panel(run: &Crossings, curve: &Curve) -> Panel {
     let [[left, right], [low, high]] = curve.frame();
     let caption = format!("*d* = {}", scientific(curve.largest_distance(run)));
-    let exact = curve.closed();
+    let exact = closed(&curve.corners);
     let inside = |[r1, p1]: [f64; 2]| (left..=right).contains(&r1) && (low..=high).contains(&p1);
+    let axes = |r1: [f64; 2], p1: [f64; 2]| {
+        (Axis::linear("*R*₁").within(r1[0], r1[1]), Axis::linear("*P*₁").within(p1[0], p1[1]))
+    };
     if run.places().into_iter().all(inside) {
-        let (r1, p1) = (Axis::linear("*R*₁").within(left, right), Axis::linear("*P*₁").within(low, high));
-        let panel = run.panel(r1, p1, 1.0).below(exact, Stroke::solid(SLATE).width(5.0).opacity(0.25));
+        let panel = run.panel(axes([left, right], [low, high]), 1.0);
+        let panel = panel.below(exact, Stroke::solid(SLATE).width(5.0).opacity(0.25));
         return panel.caption(Corner::TopRight, caption);
     }
     let frame = vec![[left, low], [right, low], [right, high], [left, high], [left, low]];
     // Wide enough for words beside the dots, which stay within 2.4.
-    run.panel(Axis::linear("*R*₁").within(-2.6, 2.6), Axis::linear("*P*₁").within(-2.6, 3.4), 1.0)
+    run.panel(axes([-2.6, 2.6], [-2.6, 3.4]), 1.0)
         .below(exact, Stroke::solid(SLATE).width(3.0).opacity(0.35))
         .line(frame, Stroke::solid(SLATE).width(1.0))
         .caption(Corner::TopLeft, "frame: the close-up above")
@@ -146,11 +107,6 @@ impl Curve {
         Self { corners }
     }
 
-    /// The curve as a line that ends where it begins.
-    fn closed(&self) -> Vec<[f64; 2]> {
-        self.corners.iter().chain(self.corners.first()).copied().collect()
-    }
-
     /// The ranges of both coordinates with a margin.
     fn frame(&self) -> [[f64; 2]; 2] {
         if self.corners.is_empty() {
@@ -166,12 +122,12 @@ impl Curve {
     }
 
     fn distance(&self, point: [f64; 2]) -> f64 {
-        let closed = self.corners.iter().zip(self.corners.iter().cycle().skip(1));
-        closed.map(|(&a, &b)| distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
+        let sides = self.corners.iter().zip(self.corners.iter().cycle().skip(1));
+        sides.map(|(&a, &b)| distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
     }
 
     fn largest_distance(&self, run: &Crossings) -> f64 {
-        run.places().into_iter().map(|place| self.distance(place)).fold(0.0, larger)
+        largest(run.places().into_iter().map(|place| self.distance(place)))
     }
 }
 

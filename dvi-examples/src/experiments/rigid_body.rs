@@ -5,40 +5,26 @@
 //! the body turns over and back, in a period that grows with the logarithm of the nearness to the axis.
 //! Steps along geodesics keep the angular momentum in space, as the motion does.
 
-mod claims;
-mod flips;
-mod picture;
-mod series;
+use dvi_core::rotations;
 
-use anyhow::Result;
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
-
-use crate::claim::larger;
-use crate::experiments::rk4::rk4;
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
+use super::elliptic::Elliptic;
+use super::geodesics::{FEW_UNITS, Long, flat_energy, order_claim, panels};
+use super::shadow::{self, Shadow};
+use super::turnings::crossing;
 use crate::models::{RigidBody, RigidBodyState};
-use flips::{Flips, Wave};
-use series::Series;
-
-pub const EXPERIMENT: Experiment = Experiment {
-    name: "rigid-body",
-    title: "A free body that flips, against elliptic functions",
-    share: 5.0,
-    run,
-};
+use crate::vocabulary::*;
 
 const BODY: RigidBody = RigidBody { inertia: [1.0, 2.0, 3.0] };
 /// Close to the middle axis; the first component is zero where the second is largest.
 const OMEGA: [f64; 3] = [0.0, 1.0, 0.02];
-/// The step of the long runs, and of what is drawn.
+/// The step of the long runs, and of what is drawn, and so many steps from one look at the integrals to the
+/// next.
 const H: f64 = 0.05;
-/// The steps with which flips are timed.
-const FLIP_STEPS: [f64; 3] = [0.1, 0.05, 0.025];
-/// The time at which the order is measured, the steps, and that of the reference.
+const EVERY: u64 = 4;
+/// The steps with which flips are timed and the order is measured, the longest first.
+const STEPS: [f64; 3] = [0.1, 0.05, 0.025];
+/// The time at which the order is measured, and the step of the reference.
 const ORDER_TIME: f64 = 4.0;
-const ORDER_STEPS: [f64; 3] = [0.1, 0.05, 0.025];
 const FINE: f64 = 2e-3;
 /// How long ω₂ is drawn.
 const DRAWN: f64 = 80.0;
@@ -52,102 +38,264 @@ const AROUND: [[f64; 3]; 6] = [
     [0.0, 0.65, 0.5],
     [0.0, 0.85, 0.3],
 ];
+/// From where the sphere is seen: the angle about the third axis, and that above the plane of the others.
+const VIEW: [f64; 2] = [1.05, 0.42];
 
-/// All that is measured.
-struct Measured {
-    steps: u64,
-    geodesic: Series,
-    rk4: Series,
-    wave: Wave,
-    /// For each of [`FLIP_STEPS`].
-    flips: [Flips; 3],
-    /// The largest differences of an entry of R or ω from the reference at [`ORDER_TIME`], for each of
-    /// [`ORDER_STEPS`]: by geodesics, and by their composition of order 4.
-    errors: [[f64; 3]; 2],
-    between_references: f64,
-    /// For each of [`AROUND`] with both signs, once around.
-    polhodes: Vec<Vec<RigidBodyState>>,
-    /// The states at each step of the run that flips.
-    flipping: Vec<RigidBodyState>,
-}
-
-fn run(job: &Job<'_>) -> Result<Outcome> {
-    let steps: u64 = job.choose(1_000_000, 5_000);
-    job.expect(2 * steps / series::EVERY);
-    let wave = Wave::new(&BODY, OMEGA);
-    let periods = job.choose(20.0, 1.5);
-    let [coarse, middle, fine] = FLIP_STEPS.map(|h| Flips::new(&wave, h, periods));
-    let exact = reference(FINE);
-    let errors = [
-        errors(Geodesic::trapezoid(), &exact)?,
-        errors(Composition::suzuki(Geodesic::trapezoid()), &exact)?,
-    ];
-    let measured = Measured {
-        steps,
-        geodesic: Series::geodesic(job, steps)?,
-        rk4: Series::rk4(job, steps)?,
-        wave,
-        flips: [coarse?, middle?, fine?],
-        errors,
-        between_references: difference(&exact, &reference(2.0 * FINE)),
-        polhodes: polhodes()?,
-        flipping: states(OMEGA, H, DRAWN)?,
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
+    let long = Long { steps: job.choose(1_000_000, 5_000), every: EVERY, h: H };
+    job.expect(2 * long.steps / EVERY);
+    let (wave, start) = (Wave::new(&BODY, OMEGA), begin());
+    let before = BODY.momentum_at(&start);
+    let first = rotations::apply(&start.R, before);
+    // E − E(0), |M − M(0)|/|M| in space, max |RᵀR − 1|, and the relative change of |M| in the body.
+    let kept = |state: &RigidBodyState| {
+        let now = BODY.momentum_at(state);
+        let here = rotations::apply(&state.R, now);
+        let away = length([0, 1, 2].map(|k| here[k] - first[k]));
+        let energy = energy(state) - energy(&start);
+        [energy, away / length(first), rotations::defect(&state.R), length(now) / length(before) - 1.0]
     };
-    job.publish(EXPERIMENT.name, picture::figure(&measured), picture::table(&measured)?)?;
-    Ok(Outcome { claims: claims::claims(job, &measured), references: vec![], notes: vec![] })
+    let geodesics = long.along_geodesics(job, "geodesics", BODY, &start, kept)?;
+    let all = [long.by_rk4(job, BODY, &start, kept)?, geodesics];
+    let periods = job.choose(20.0, 1.5);
+    let flips = each(STEPS, |h| Flips::new(&wave, h, periods))?;
+    let columns = ["method", "t", "largest_energy_error", "largest_change_of_momentum", "largest_defect"];
+    job.publish(figure(&all, &wave, long)?, magnitude_table(&columns, &all)?)?;
+    let [rk4, geodesics] = all.each_ref().map(|series| &series.kept);
+    let text = "the energy error of a free body has no trend, and is that of the closed form all the time";
+    Ok(vec![
+        momentum(job, long, geodesics),
+        flips_in_time(job, &wave, &flips),
+        // The largest that h²g makes of it, by the run with the same step.
+        flat_energy(job, beyond(text), "geodesics", &geodesics[0], flips[1].energy.predicted),
+        shadow::claim("free body", &flips.map(|flips| flips.energy)),
+        loses(job, rk4, geodesics),
+        order_claim("a free body", BODY, &start, ORDER_TIME, STEPS, FINE)?,
+    ]
+    .into())
 }
 
 fn begin() -> RigidBodyState {
     RigidBody::turning(OMEGA)
 }
 
-/// The entries of R row by row, and ω.
-fn entries(state: &RigidBodyState) -> [f64; 12] {
-    std::array::from_fn(|i| if i < 9 { state.R[i] } else { state.omega_R[i - 9] })
+fn energy(state: &RigidBodyState) -> f64 {
+    let momentum = BODY.momentum_at(state);
+    momentum.into_iter().zip(state.omega_R).map(|(m, omega)| 0.5 * m * omega).sum()
 }
 
-fn state(y: &[f64; 12]) -> RigidBodyState {
-    RigidBodyState { R: std::array::from_fn(|i| y[i]), omega_R: std::array::from_fn(|i| y[9 + i]) }
+fn momentum(job: &Job<'_>, long: Long, [_, space, defect, body]: &[Deviation; 4]) -> Claim {
+    let text = "a free body keeps its angular momentum in space, in length and in direction, up to errors no larger than a unit of rounding \
+                times the square root of the number of steps; the one in the body keeps its length, and matrices are orthogonal to a few units \
+                of rounding";
+    beyond(text)
+        .at_least("steps", job.only_full(long.steps as f64), 1e6)
+        .at_most("geodesics: largest |M − M(0)|/|M| in space", space.largest, long.random_walk())
+        .at_most("geodesics: largest relative change of |M| in the body", body.largest, long.random_walk())
+        .at_most("geodesics: max|RᵀR − 1|", defect.largest, FEW_UNITS)
 }
 
-fn difference(one: &[f64; 12], other: &[f64; 12]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
+fn flips_in_time(job: &Job<'_>, wave: &Wave, flips: &[Flips; 3]) -> Claim {
+    let text = "a free body that turns about its middle axis flips with the period of the elliptic functions, up to an error of the order h² \
+                that is less than h² of it";
+    let [.., fine] = flips;
+    let away = |flips: &Flips| flips.period / wave.period() - 1.0;
+    let quantity = format!("h = {}: relative error of the period / h²", fine.h);
+    let order = order(flips.iter().map(|flips| (flips.h, flips.error)));
+    beyond(text)
+        .at_least("flips", job.only_full(f64::from(fine.count)), 38.0)
+        .at_most(quantity, away(fine).abs() / (fine.h * fine.h), 1.0)
+        .each(flips.windows(2), |claim, pair| {
+            let quantity = format!("error of the period, h = {} over h = {}", pair[0].h, pair[1].h);
+            claim.near(quantity, away(&pair[0]) / away(&pair[1]), [4.0, 0.1])
+        })
+        .near("ω₂ against sn over a period: order", order, [2.0, 0.05])
 }
 
-/// R and ω at [`ORDER_TIME`], by RK4.
-fn reference(h: f64) -> [f64; 12] {
-    let steps = (ORDER_TIME / h).round() as u64;
-    (0..steps).fold(entries(&begin()), |y, _| rk4(&y, h, |y| BODY.motion(y)))
+fn loses(
+    job: &Job<'_>,
+    [energy, space, defect, body]: &[Deviation; 4],
+    geodesics: &[Deviation; 4],
+) -> Claim {
+    let text = "RK4 on the entries of the matrix loses the angular momentum, the rotation and the energy in proportion to the time, but the \
+                energy by so little that its error is the smaller one all that time";
+    let far = |kept: usize| 1e6 * geodesics[kept].largest;
+    let trend = "last tenth of the time over the first";
+    beyond(text)
+        .at_least("RK4: largest |M − M(0)|/|M| in space", job.only_full(space.largest), far(1))
+        .at_least("RK4: largest relative change of |M| in the body", job.only_full(body.largest), far(3))
+        .at_least("RK4: max|RᵀR − 1|", job.only_full(defect.largest), far(2))
+        .near(format!("RK4: max|RᵀR − 1|, {trend}"), job.only_full(defect.trend()), [10.0, 1.0])
+        .at_most("RK4: max|ΔE|", job.only_full(energy.largest), geodesics[0].largest)
+        .near(format!("RK4: max|ΔE|, {trend}"), job.only_full(energy.trend()), [10.0, 1.0])
 }
 
-fn errors<M: Method<RigidBody, f64> + Clone>(method: M, expected: &[f64; 12]) -> Result<[f64; 3]> {
-    let mut errors = [f64::NAN; 3];
-    for (error, h) in errors.iter_mut().zip(ORDER_STEPS) {
-        let mut run = Integrator::new(&BODY, method.clone(), h, begin())?;
-        run.take_steps((ORDER_TIME / h).round() as u64)?;
-        *error = difference(&entries(&run.state()), expected);
+/// ω₂ = Ω sn(λt + K), which is Ω at t = 0 (Landau & Lifshitz 1976, section 37).
+#[derive(Clone, Copy, Debug)]
+struct Wave {
+    /// Ω
+    amplitude: f64,
+    /// λ
+    rate: f64,
+    functions: Elliptic,
+}
+
+impl Wave {
+    /// Of a body with growing moments that begins with ω₁ = 0, so close to the second axis that I₃ω₃ takes
+    /// it around the third.
+    fn new(body: &RigidBody, omega: [f64; 3]) -> Self {
+        let [a, b, c] = body.inertia;
+        let [_, y, z] = omega.map(|x| x * x);
+        // With M² = I₂²ω₂² + I₃²ω₃² and 2E = I₂ω₂² + I₃ω₃²: M² − 2E I₁, 2E I₃ − M² and M² − 2E I₂, without
+        // differences of large numbers.
+        let above = b * (b - a) * y + c * (c - a) * z;
+        let below = b * (c - b) * y;
+        let apart = c * (c - b) * z;
+        let divisor = (c - b) * above;
+        Self {
+            amplitude: (below / (b * (c - b))).sqrt(),
+            rate: (divisor / (a * b * c)).sqrt(),
+            functions: Elliptic {
+                modulus: ((b - a) * below / divisor).sqrt(),
+                complementary: ((c - a) * apart / divisor).sqrt(),
+            },
+        }
     }
-    Ok(errors)
+
+    /// The time of two flips.
+    fn period(&self) -> f64 {
+        4.0 * self.functions.quarter() / self.rate
+    }
+
+    /// ω₂ at time t.
+    fn at(&self, t: f64) -> f64 {
+        self.amplitude * self.functions.sn(self.rate * t + self.functions.quarter())
+    }
 }
 
-fn length(v: [f64; 3]) -> f64 {
-    v.into_iter().map(|x| x * x).sum::<f64>().sqrt()
+/// The flips between the steps of a run with steps of one length.
+#[derive(Clone, Copy, Debug)]
+struct Flips {
+    h: f64,
+    /// The mean time of two flips.
+    period: f64,
+    /// How often ω₂ changes its sign.
+    count: u32,
+    /// The largest difference of ω₂ from the closed form in the first period.
+    error: f64,
+    energy: Shadow,
+}
+
+impl Flips {
+    fn new(wave: &Wave, h: f64, periods: f64) -> Result<Self> {
+        let start = begin();
+        let mut run = Integrator::new(&BODY, Geodesic::trapezoid(), h, start)?;
+        let mut energy = Shadow::new(h, run.energy(), BODY.shift(&start));
+        let (mut before, mut times, mut error) = ([start.omega_R[1], 0.0], Vec::new(), 0.0);
+        for _ in 0..(periods * wave.period() / h) as u64 {
+            let t = run.time();
+            run.advance()?;
+            let state = run.state();
+            let now = [state.omega_R[1], BODY.acceleration(state.omega_R)[1]];
+            if before[0] * now[0] < 0.0 {
+                times.push(t + h * crossing(before, now, h));
+            }
+            if run.time() < wave.period() {
+                error = larger(error, (now[0] - wave.at(run.time())).abs());
+            }
+            energy.push(run.energy(), BODY.shift(&state));
+            before = now;
+        }
+        let count = times.len();
+        let between = times.last().zip(times.first()).map_or(f64::NAN, |(last, first)| last - first);
+        let period = 2.0 * between / (count as f64 - 1.0);
+        Ok(Self { h, period, count: count as u32, error, energy })
+    }
 }
 
 /// The states at each step.
 fn states(omega: [f64; 3], h: f64, end: f64) -> Result<Vec<RigidBodyState>> {
-    let start = RigidBody::turning(omega);
-    let mut run = Integrator::new(&BODY, Geodesic::trapezoid(), h, start)?;
-    let mut states = vec![start];
-    for _ in 0..(end / h).round() as u64 {
-        run.advance()?;
-        states.push(run.state());
-    }
-    Ok(states)
+    let mut run = Integrator::new(&BODY, Geodesic::trapezoid(), h, RigidBody::turning(omega))?;
+    Ok(course(&mut run, (end / h).round() as u64, |run| run.state())?)
 }
 
-fn polhodes() -> Result<Vec<Vec<RigidBodyState>>> {
-    let both = AROUND.into_iter().flat_map(|omega| [omega, omega.map(|x| -x)]);
-    // Each for once around, or a little more.
-    both.map(|omega| states(omega, 2.0 * H, 22.0 / length(omega))).collect()
+/// Right and up in the picture, and towards the eye.
+fn seen([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let [turn, tilt] = VIEW;
+    let (right, ahead) = (y * turn.cos() - x * turn.sin(), x * turn.cos() + y * turn.sin());
+    [right, z * tilt.cos() - ahead * tilt.sin(), ahead * tilt.cos() + z * tilt.sin()]
+}
+
+/// The directions of the angular momentum in the body, as far as they are in front.
+fn front(states: &[RigidBodyState]) -> Vec<[f64; 2]> {
+    let visible = |[x, y, towards]: [f64; 3]| if towards > 0.0 { [x, y] } else { [f64::NAN; 2] };
+    let direction = |momentum: [f64; 3]| momentum.map(|x| x / length(momentum));
+    states.iter().map(|state| visible(seen(direction(BODY.momentum_at(state))))).collect()
+}
+
+fn sphere(flipping: &[RigidBodyState]) -> Result<Panel> {
+    let axis = || Axis::linear("").within(-1.15, 1.15);
+    let mut panel = Panel::new("Angular momentum in the body", axis(), axis())
+        .equal()
+        .line(circle([0.0; 2], 1.0), Stroke::solid(SLATE).width(1.0));
+    for (k, omega) in AROUND.into_iter().enumerate() {
+        let colour = if k < AROUND.len() / 2 { BLUE } else { GREEN };
+        for start in [omega, omega.map(|x| -x)] {
+            // Once around, or a little more.
+            let path = states(start, 2.0 * H, 22.0 / length(start))?;
+            panel = panel.line(front(&path), Stroke::solid(colour).width(1.2));
+        }
+    }
+    let axes = [("1", [1.0, 0.0, 0.0]), ("2", [0.0, 1.0, 0.0]), ("3", [0.0, 0.0, 1.0])];
+    Ok(panel.line(front(flipping), Stroke::solid(VERMILLION)).each(axes, |panel, (name, end)| {
+        let [x, y, _] = seen(end);
+        panel.dots(vec![[x, y]], 3.0, SLATE).note([x + 0.05, y - 0.1], Anchor::Start, SLATE, name)
+    }))
+}
+
+fn figure(all: &[Series<4>; 2], wave: &Wave, long: Long) -> Result<Figure> {
+    let flipping = states(OMEGA, H, DRAWN)?;
+    let exact = (0..=1600).map(|k| DRAWN * f64::from(k) / 1600.0).map(|t| [t, wave.at(t)]).collect();
+    let steps = flipping.iter().enumerate().step_by(20).map(|(k, state)| [k as f64 * H, state.omega_R[1]]);
+    let omega = Axis::linear("*ω*₂").within(-1.2, 1.5);
+    let middle = Panel::new("The middle component of the angular velocity", Axis::time(DRAWN), omega)
+        .line(exact, Stroke::solid(SLATE).width(1.2))
+        .labelled("elliptic function")
+        .dots(steps.collect(), 2.4, PURPLE)
+        .labelled("every 20th step")
+        .weight(1.7);
+    let quantities = [
+        (0, ["Energy", "largest |*E* − *E*(0)|"], [1e-10, 1e-1]),
+        (1, ["Angular momentum in space", "|*M* − *M*(0)| / |*M*|"], [1e-17, 10.0]),
+        (2, ["Orthogonality", "max |*R*ᵀ*R* − 1|"], [1e-17, 10.0]),
+    ];
+    let ([a, b, c], [x, y, z]) = (BODY.inertia, OMEGA);
+    Ok(Figure::new(
+        "A free body that flips",
+        format!(
+            "Moments of inertia {a}, {b} and {c}; rotation matrices along geodesics of SO(3), trapezoidal rule, *h* = {H}. It begins with \
+             *ω* = ({x}, {y}, {z})."
+        ),
+    )
+    .row(400.0, vec![sphere(&flipping)?, middle])
+    .row(300.0, panels(long.end(), all, &quantities))
+    .footer(format!(
+        "The sphere shows directions of the angular momentum in the body, with the curve that flips in red. Below: {} steps.",
+        scientific(long.steps as f64)
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::geodesics::reference;
+    use super::*;
+
+    #[test]
+    fn the_closed_form_is_the_motion() {
+        let wave = Wave::new(&BODY, OMEGA);
+        let omega = reference(BODY, &begin(), ORDER_TIME, FINE)[10];
+        assert!((wave.at(ORDER_TIME) - omega).abs() < 1e-11);
+        assert!((wave.at(0.0) - OMEGA[1]).abs() < 1e-15);
+        assert!((wave.at(0.5 * wave.period()) + OMEGA[1]).abs() < 1e-13);
+    }
 }

@@ -4,14 +4,9 @@
 //! orbit and errs in the phase alone; regularisation makes the problem an oscillator, which phase fitting
 //! solves exactly.
 
-use crate::claim::larger;
-use std::f64::consts::TAU;
-
-use dvi_core::prelude::*;
-
 use super::kepler::Course;
-use crate::job::Job;
 use crate::models::{LeviCivita, LeviCivitaState, Orbit};
+use crate::vocabulary::*;
 
 /// What a rival has shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,38 +41,41 @@ impl Rival {
     }
 }
 
-/// Takes `steps` steps for each of the periods, each of which counts as one unit of progress.
+/// Takes `steps` steps for each of the periods, each of which counts as one unit of progress, and notes
+/// what each of them returns: the time, the position and the energy.
 fn by_period(
     job: &Job<'_>,
+    orbit: Orbit,
     steps: u32,
     periods: u64,
-    mut step: impl FnMut() -> Result<(), StepError>,
-) -> Result<(), StepError> {
+    mut step: impl FnMut() -> (Clock, [f64; 2], f64),
+) -> Rival {
+    let mut rival = Rival::default();
     for _ in 0..periods {
         if job.is_stopping() {
             job.cut_short();
             break;
         }
-        (0..steps).try_for_each(|_| step())?;
+        for _ in 0..steps {
+            let (clock, position, energy) = step();
+            rival.note(orbit, clock.sum, position, energy);
+        }
         job.proceed(1);
     }
-    Ok(())
+    rival.course.steps = f64::from(steps);
+    rival.course.evaluations = f64::from(steps);
+    rival
 }
 
 /// Leapfrog on Λ = ln(½p² + B) − ln(1/r), B = −E(0), with `steps` steps per period (Mikkola & Tanikawa 1999;
 /// Preto & Tremaine 1999): drift dq = p ds/(½p² + B), dt = ds/(½p² + B), kick dp = −q ds/r².
-pub fn logarithmic_hamiltonian(
-    job: &Job<'_>,
-    orbit: Orbit,
-    steps: u32,
-    periods: u64,
-) -> Result<Rival, StepError> {
+pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Rival {
     let start = orbit.pericentre();
     let (mut q, mut p) = ([start.x, start.y], [start.dot_x, start.dot_y]);
     let (binding, ds) = (0.5, TAU / f64::from(steps));
-    let (mut clock, mut rival) = (Clock::default(), Rival::default());
+    let mut clock = Clock::default();
     // ds = dt/r advances by 2π each period, as the eccentric anomaly does.
-    by_period(job, steps, periods, || {
+    by_period(job, orbit, steps, periods, || {
         let drift = |q: [f64; 2], p: [f64; 2], clock: &mut Clock| {
             let dt = 0.5 * ds / (0.5 * (p[0] * p[0] + p[1] * p[1]) + binding);
             clock.advance(dt);
@@ -88,19 +86,15 @@ pub fn logarithmic_hamiltonian(
         p = [p[0] - kick * q[0], p[1] - kick * q[1]];
         q = drift(q, p, &mut clock);
         let energy = 0.5 * (p[0] * p[0] + p[1] * p[1]) - 1.0 / q[0].hypot(q[1]);
-        rival.note(orbit, clock.sum, q, energy);
-        Ok(())
-    })?;
-    rival.course.steps = f64::from(steps);
-    rival.course.evaluations = f64::from(steps);
-    Ok(rival)
+        (clock, q, energy)
+    })
 }
 
 /// Levi-Civita's regularisation with the phase-fitted recursion, `steps` steps per period.
 ///
 /// Time is the integral of |u|² over the exact oscillation:
 /// ∫|u|² ds = |u|²(h/2 + sin 2ωh/4ω) + |u'/ω|²(h/2 − sin 2ωh/4ω) + u·u' sin²(ωh)/ω², ω = ½.
-pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> anyhow::Result<Rival> {
+pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Result<Rival> {
     const OMEGA: f64 = 0.5;
     let Orbit { e } = orbit;
     let h = TAU / f64::from(steps);
@@ -109,13 +103,13 @@ pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> any
     let mut run = Integrator::new(&LeviCivita {}, method.phase_fitted(Constant(OMEGA)), h, start)?;
     run.advance()?;
     let [mut u, mut next]: [[f64; 2]; 2] = [start.u, [run.q()[0], run.q()[1]]];
-    let (mut clock, mut rival) = (Clock::default(), Rival::default());
+    let mut clock = Clock::default();
     let (sin, cos) = (OMEGA * h).sin_cos();
     let half = (2.0 * OMEGA * h).sin() / (4.0 * OMEGA);
     let square = |x: [f64; 2]| x[0] * x[0] + x[1] * x[1];
     let velocity = |u: [f64; 2], next: [f64; 2]| [0, 1].map(|i| OMEGA * (next[i] - cos * u[i]) / sin);
     let mut du = velocity(u, next);
-    by_period(job, steps, periods, || {
+    Ok(by_period(job, orbit, steps, periods, || {
         clock.advance(
             square(u) * (0.5 * h + half)
                 + square(du) / (OMEGA * OMEGA) * (0.5 * h - half)
@@ -125,10 +119,6 @@ pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> any
         (u, next) = (next, [0, 1].map(|i| 2.0 * cos * next[i] - u[i]));
         du = velocity(u, next);
         let position = [u[0] * u[0] - u[1] * u[1], 2.0 * u[0] * u[1]];
-        rival.note(orbit, clock.sum, position, (2.0 * square(du) - 1.0) / square(u));
-        Ok(())
-    })?;
-    rival.course.steps = f64::from(steps);
-    rival.course.evaluations = f64::from(steps);
-    Ok(rival)
+        (clock, position, (2.0 * square(du) - 1.0) / square(u))
+    }))
 }

@@ -1,5 +1,9 @@
 //! The classical Runge–Kutta method, beside which others are set.
 
+use dvi_core::State;
+
+use crate::vocabulary::*;
+
 /// One step of it.
 pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
     let moved = |by: f64, slope: &[f64; N]| std::array::from_fn(|i| y[i] + by * slope[i]);
@@ -8,4 +12,86 @@ pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; 
     let third = f(&moved(0.5 * h, &second));
     let fourth = f(&moved(h, &third));
     std::array::from_fn(|i| y[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
+}
+
+/// Where it leads from `y` in time `end`.
+pub fn rk4_up_to<const N: usize>(
+    y: [f64; N],
+    end: f64,
+    h: f64,
+    f: impl Fn(&[f64; N]) -> [f64; N],
+) -> [f64; N] {
+    (0..(end / h).round() as u64).fold(y, |y, _| rk4(&y, h, &f))
+}
+
+/// A run of it on what a system with constraints is without them: the equations of motion with the
+/// accelerations at each state.
+///
+/// The forces of the constraints make their second derivative in time vanish, and nothing else. So RK4 keeps
+/// the constraints only up to its error.
+pub struct Accelerations<'a, S> {
+    system: &'a S,
+    h: f64,
+    /// Coordinates and velocities.
+    y: Vec<f64>,
+}
+
+impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
+    pub fn new(system: &'a S, h: f64, start: &S::State<f64>) -> Result<Self> {
+        Ok(Self { system, h, y: system.values(start)?.collect() })
+    }
+
+    pub fn state(&self) -> S::State<f64> {
+        self.read(&self.y)
+    }
+
+    pub fn energy(&self) -> Result<f64, StartError> {
+        self.system.energy_at(&self.state())
+    }
+
+    pub fn step(&mut self) -> Result<(), StartError> {
+        let h = self.h;
+        let first = self.slope(&self.y)?;
+        let second = self.slope(&self.moved(0.5 * h, &first))?;
+        let third = self.slope(&self.moved(0.5 * h, &second))?;
+        let fourth = self.slope(&self.moved(h, &third))?;
+        for (i, y) in self.y.iter_mut().enumerate() {
+            *y += h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]);
+        }
+        Ok(())
+    }
+
+    /// The state after time `end`.
+    pub fn up_to(mut self, end: f64) -> Result<S::State<f64>> {
+        (0..(end / self.h).round() as u64).try_for_each(|_| self.step())?;
+        Ok(self.state())
+    }
+
+    fn moved(&self, h: f64, slope: &[f64]) -> Vec<f64> {
+        self.y.iter().zip(slope).map(|(y, slope)| y + h * slope).collect()
+    }
+
+    fn read(&self, y: &[f64]) -> S::State<f64> {
+        let (q, v) = y.split_at(y.len() / 2);
+        S::State::read(|block| self.system.block_len(block), q, v)
+    }
+
+    fn slope(&self, y: &[f64]) -> Result<Vec<f64>, StartError> {
+        let rates = self.system.vector_field(&self.read(y))?;
+        // The lengths are those of the state that was read.
+        Ok(self.system.values(&rates).map_or_else(|_| Vec::new(), Iterator::collect))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rk4_is_of_fourth_order_on_a_pendulum() {
+        let end = |h: f64| rk4_up_to([1.0, 0.0], 2.0, h, |&[x, v]: &[f64; 2]| [v, -x.sin()]);
+        let exact = end(1e-3);
+        let order = order([0.1, 0.05, 0.025].map(|h| (h, apart(&end(h), &exact))));
+        assert!(order.is_some_and(|order| (order - 4.0).abs() < 0.1), "{order:?}");
+    }
 }

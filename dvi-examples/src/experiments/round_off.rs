@@ -6,23 +6,10 @@
 //! 1937). A plain sum rounds the coordinates, in units of ε|q|; a compensated one the increments, in units
 //! of εh|q'|.
 
-use anyhow::Result;
-use dvi_core::prelude::*;
 use rayon::prelude::*;
 
-use crate::claim::{BEYOND, Bound, Claim};
-use crate::figure::{Axis, BLUE, Corner, Figure, Panel, SLATE, Stroke, VERMILLION, scientific};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
 use crate::models::{self, Case, Kepler, Orbit, Rotation, RotationState, Spring, SpringState};
-use crate::output::{Table, number};
-
-pub const EXPERIMENT: Experiment = Experiment {
-    name: "round-off",
-    title: "Rounding errors of long runs, with plain and with compensated sums",
-    share: 150.0,
-    run,
-};
+use crate::vocabulary::*;
 
 /// [steps, error] in intervals of the logarithm of the steps.
 type Rows = Vec<[f64; 2]>;
@@ -54,34 +41,29 @@ const CASES: [Conserved; 4] = [
     Conserved { name: "Kepler, Verlet",     title: "Angular momentum on a Kepler orbit, Störmer–Verlet", is_energy: false, share: 1.0, errors: kepler },
 ];
 
-/// The root mean square of the relative error over several runs.
-struct Series {
-    case: usize,
-    summation: Summation,
-    rows: Rows,
-}
+/// The root mean square of the relative error over several runs, with plain and with compensated sums.
+type Pair = [Rows; 2];
 
-fn run(job: &Job<'_>) -> Result<Outcome> {
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(100_000_000, 1_000_000_u64);
     let of_case = |case: &Conserved| (steps as f64 * case.share) as u64;
-    job.expect(CASES.iter().map(|case| 2 * RUNS as u64 * of_case(case)).sum());
-    let mut all: Vec<(usize, Summation, usize)> = Vec::new();
-    for case in 0..CASES.len() {
-        for summation in [Summation::Plain, Summation::Compensated] {
-            all.extend((0..RUNS).map(|run| (case, summation, run)));
-        }
-    }
-    let one = |&(case, summation, run): &(usize, Summation, usize)| {
-        (CASES[case].errors)(job, summation, run, of_case(&CASES[case]))
+    job.expect(CASES.iter().map(|case| 2 * RUNS as u64 * (of_case(case) / STRIDE)).sum());
+    // Two sums of each case, and so many runs of each sum.
+    let one = |number: usize| {
+        let (case, run) = (&CASES[number / (2 * RUNS)], number % RUNS);
+        let summation = [Summation::Plain, Summation::Compensated][number / RUNS % 2];
+        (case.errors)(job, summation, run, of_case(case))
     };
-    let errors: Vec<Rows> = all.par_iter().map(one).collect::<Result<_>>()?;
-    let series: Vec<Series> = all
-        .chunks(RUNS)
-        .zip(errors.chunks(RUNS))
-        .map(|(keys, runs)| Series { case: keys[0].0, summation: keys[0].1, rows: mean(runs) })
-        .collect();
-    job.publish(EXPERIMENT.name, figure(&series, steps as f64), table(&series)?)?;
-    Ok(Outcome { claims: claims(job, &series), references: vec![], notes: notes(&series) })
+    let all = (0..2 * RUNS * CASES.len()).into_par_iter().map(one).collect::<Result<Vec<Rows>>>()?;
+    let pairs = each([0, 1, 2, 3], |case| {
+        Ok([2 * case, 2 * case + 1].map(|sum| mean(&all[RUNS * sum..RUNS * (sum + 1)])))
+    })?;
+    let rows = CASES.iter().zip(&pairs).flat_map(|(case, pair)| {
+        let both = ["plain", "compensated"].into_iter().zip(pair);
+        both.flat_map(move |(sums, rows)| rows.iter().map(move |row| ([case.name, sums], *row)))
+    });
+    job.publish(figure(&pairs, steps as f64), Table::of(&["quantity", "sums", "steps", "error"], rows)?)?;
+    Ok(Outcome { claims: claims(job, &pairs), references: vec![], notes: notes(&pairs) })
 }
 
 /// The root of the mean square over runs, as far as all of them have come.
@@ -98,14 +80,9 @@ fn follow<R: Run<Scalar = f64>>(
     steps: u64,
     value: impl Fn(&R) -> f64,
 ) -> Result<Rows> {
-    let (initial, mut rows) = (value(&run), Vec::new());
-    let (mut squares, mut looks, mut interval) = (0.0, 0_u64, (STRIDE as f64).log10() * PER_DECADE);
-    let mut reported = 0;
-    while run.steps() + STRIDE <= steps {
-        if job.is_stopping() {
-            job.cut_short();
-            break;
-        }
+    let (initial, mut rows, mut interval) = (value(&run), Vec::new(), (STRIDE as f64).log10() * PER_DECADE);
+    let (mut squares, mut looks) = (0.0, 0_u64);
+    job.repeat(steps / STRIDE, || {
         run.take_steps(STRIDE)?;
         let error = (value(&run) - initial) / initial;
         squares += error * error;
@@ -114,12 +91,8 @@ fn follow<R: Run<Scalar = f64>>(
             rows.push([run.steps() as f64, (squares / looks as f64).sqrt()]);
             (squares, looks, interval) = (0.0, 0, interval + 1.0);
         }
-        if run.steps() - reported >= 1_000_000 {
-            job.proceed(run.steps() - reported);
-            reported = run.steps();
-        }
-    }
-    job.proceed(steps - reported);
+        Ok(())
+    })?;
     Ok(rows)
 }
 
@@ -163,107 +136,67 @@ fn kepler(job: &Job<'_>, summation: Summation, run: usize, steps: u64) -> Result
     follow(job, run, steps, |run| run.momentum(0).unwrap_or(f64::NAN))
 }
 
-impl Series {
-    /// The exponent of the growth with the number of steps, by least squares.
-    fn exponent(&self) -> Option<f64> {
-        let rows = self.rows.iter().filter(|[n, error]| *n >= FIRST && *error > 0.0);
-        convergence_order(&rows.map(|&[n, error]| (n, error)).collect::<Vec<_>>())
-    }
-
-    fn last(&self) -> Option<[f64; 2]> {
-        self.rows.last().copied()
-    }
+/// The exponent of the growth with the number of steps, by least squares.
+fn exponent(rows: &Rows) -> Option<f64> {
+    order(rows.iter().filter(|[n, error]| *n >= FIRST && *error > 0.0).map(|&[n, error]| (n, error)))
 }
 
-/// The plain and the compensated series of each case.
-fn pairs(series: &[Series]) -> impl Iterator<Item = [&Series; 2]> {
-    series.chunks(2).filter_map(|pair| match pair {
-        [plain, compensated] => Some([plain, compensated]),
-        _ => None,
-    })
+fn claims(job: &Job<'_>, pairs: &[Pair; 4]) -> Vec<Claim> {
+    let cases = || CASES.iter().zip(pairs);
+    let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ steps, as independent ones do";
+    let energies = cases().filter(|(case, _)| case.is_energy);
+    let smaller = beyond("with compensated sums they are at most a fifth of those of plain sums");
+    vec![
+        beyond(growth).each(energies, |claim, (case, [_, compensated])| {
+            let exponent = job.only_full(exponent(compensated));
+            claim.of(case.name).within("exponent of growth", exponent, [0.3, 0.7])
+        }),
+        smaller.each(cases(), |claim, (case, [plain, compensated])| {
+            let ratio = plain.last().zip(compensated.last()).map(|(plain, other)| other[1] / plain[1]);
+            claim.of(case.name).at_most("compensated/plain, at the end", ratio, 0.2)
+        }),
+    ]
 }
 
-fn claims(job: &Job<'_>, series: &[Series]) -> Vec<Claim> {
-    let mut growth = Claim::new(
-        BEYOND,
-        "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ steps, as independent ones do",
-    );
-    let mut gain =
-        Claim::new(BEYOND, "with compensated sums they are at most a fifth of those of plain sums");
-    for [plain, compensated] in pairs(series) {
-        let name = CASES[plain.case].name;
-        let exponent = compensated.exponent().and_then(|exponent| job.only_full(exponent));
-        if CASES[plain.case].is_energy {
-            growth = growth.check(format!("{name}: exponent of growth"), exponent, Bound::Within(0.3, 0.7));
-        }
-        let ratio = plain.last().zip(compensated.last()).map(|(plain, other)| other[1] / plain[1]);
-        gain = gain.check(format!("{name}: compensated/plain, at the end"), ratio, Bound::AtMost(0.2));
-    }
-    vec![growth, gain]
-}
-
-fn notes(series: &[Series]) -> Vec<String> {
-    let mut notes = Vec::new();
-    for [plain, compensated] in pairs(series) {
-        let name = CASES[plain.case].name;
-        let (Some(plain), Some(exponent), Some([n, error])) =
-            (plain.exponent(), compensated.exponent(), compensated.last())
-        else {
-            continue;
-        };
-        let unit = f64::EPSILON * H * n.sqrt();
-        notes.push(format!(
-            "{name}: errors grow as n^{plain:.2} with plain and as n^{exponent:.2} with compensated sums; what is left \
+fn notes(pairs: &[Pair; 4]) -> Vec<String> {
+    let note = |(case, [plain, compensated]): (&Conserved, &Pair)| {
+        let (plain, by_compensation) = (exponent(plain)?, exponent(compensated)?);
+        let &[n, error] = compensated.last()?;
+        Some(format!(
+            "{}: errors grow as n^{plain:.2} with plain and as n^{by_compensation:.2} with compensated sums; what is left \
              after {} steps is {:.2} εh√n.",
+            case.name,
             scientific(n),
-            error / unit
-        ));
-    }
-    notes.push(
-        "What compensation leaves are the roundings of the increments and of the forces in them, each some εh; a plain \
-         sum rounds coordinates, by some ε, and where these roundings do not cancel in the mean, as where an implicit \
-         equation is solved from one side, their sum grows with n and not with √n."
-            .to_owned(),
-    );
-    notes
+            error / (f64::EPSILON * H * n.sqrt())
+        ))
+    };
+    let what_is_left = "What compensation leaves are the roundings of the increments and of the forces in them, each some εh; a plain \
+                        sum rounds coordinates, by some ε, and where these roundings do not cancel in the mean, as where an implicit \
+                        equation is solved from one side, their sum grows with n and not with √n.";
+    CASES.iter().zip(pairs).filter_map(note).chain([what_is_left.to_owned()]).collect()
 }
 
-fn figure(series: &[Series], steps: f64) -> Figure {
-    let panel = |[plain, compensated]: [&Series; 2]| {
+fn figure(pairs: &[Pair; 4], steps: f64) -> Figure {
+    let at = |n: f64| [n, 0.1 * f64::EPSILON * H * n.powf(0.5)];
+    let panel = |(case, [plain, compensated]): (&Conserved, &Pair)| {
         let x = Axis::logarithmic("number of steps *n*").within(100.0, steps);
         let y = Axis::logarithmic("relative error, root mean square").within(1e-17, 1e-10);
-        let guide = |exponent: f64| {
-            let at = |n: f64| 0.1 * f64::EPSILON * H * n.powf(exponent);
-            vec![[100.0, at(100.0)], [steps, at(steps)]]
-        };
-        Panel::new(CASES[plain.case].title, x, y)
-            .line(plain.rows.clone(), Stroke::solid(VERMILLION))
+        Panel::new(case.title, x, y)
+            .line(plain.clone(), Stroke::solid(VERMILLION))
             .labelled("plain sums")
-            .line(compensated.rows.clone(), Stroke::solid(BLUE))
+            .line(compensated.clone(), Stroke::solid(BLUE))
             .labelled("compensated sums")
-            .line(guide(0.5), Stroke::dashed(SLATE).width(1.2))
+            .line(vec![at(100.0), at(steps)], Stroke::dashed(SLATE).width(1.2))
             .labelled("0.1 ε*h*√*n*")
             .legend_at(Corner::TopLeft)
     };
-    let mut panels: Vec<Panel> = pairs(series).map(panel).collect();
-    let below = panels.split_off(2);
+    let panels = || CASES.iter().zip(pairs).map(panel);
     Figure::new(
         "Rounding errors of what a method conserves, *h* = 0.1",
         format!(
             "root mean square over {RUNS} runs from different points, in intervals of the logarithm of *n*"
         ),
     )
-    .row(330.0, panels)
-    .row(330.0, below)
-}
-
-fn table(all: &[Series]) -> Result<Table> {
-    let mut table = Table::new(&["quantity", "sums", "steps", "error"])?;
-    for Series { case, summation, rows } in all {
-        for row in rows {
-            let key = [CASES[*case].name.to_owned(), format!("{summation:?}").to_lowercase()];
-            table.row(key.into_iter().chain(row.map(number)))?;
-        }
-    }
-    Ok(table)
+    .row(330.0, panels().take(2).collect())
+    .row(330.0, panels().skip(2).collect())
 }

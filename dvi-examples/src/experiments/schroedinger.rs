@@ -4,27 +4,10 @@
 //! only (MacKay & Aubry 1994). With α = p·dq the one-step midpoint scheme is the implicit midpoint rule. It
 //! keeps the norm, which is quadratic, and it has the same breathers with another frequency.
 
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::SQRT_2;
 
-use anyhow::Result;
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
-
-use crate::claim::{BEYOND, Bound, Claim, larger};
-use crate::deviation::Deviation;
-use crate::figure::{
-    AMBER, Axis, BLUE, Corner, Envelope, Figure, GREEN, Panel, SLATE, Stroke, VERMILLION, at_most,
-    scientific,
-};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
 use crate::models::{SchroedingerLattice, SchroedingerLatticeState, breather};
-use crate::output::{Table, number};
-
-pub const EXPERIMENT: Experiment =
-    Experiment {
-        name: "breather", title: "A discrete breather of a Schrödinger lattice", share: 11.0, run
-    };
+use crate::vocabulary::*;
 
 const SITES: usize = 15;
 const OMEGA: f64 = 4.0;
@@ -42,32 +25,49 @@ type Amplitudes = [f64; SITES];
 const LATTICE: SchroedingerLattice<SITES> = SchroedingerLattice {};
 
 /// What one run leaves.
-struct Series {
+struct Excitation {
     name: &'static str,
     /// |ψ_n|² at the start and at the end.
     profiles: [Amplitudes; 2],
-    /// (Σ|ψ|²)²/Σ|ψ|⁴ over time: the number of sites that are excited.
-    participation: Envelope,
+    /// (Σ|ψ|²)²/Σ|ψ|⁴ over time: the number of sites that are excited. And the relative changes of the norm
+    /// and of the energy.
+    sites: Deviation,
     norm: Deviation,
     energy: Deviation,
-    most_sites: f64,
 }
 
-fn run(job: &Job<'_>) -> Result<Outcome> {
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let periods = job.choose(10_000, 200);
     job.expect(3 * periods * STEPS);
-    let mut start = breather(OMEGA);
+    let (mut start, mut weak) = (breather(OMEGA), [0.0; SITES]);
     start[SITES / 2] *= EXCESS;
-    let mut weak = [0.0; SITES];
     weak[SITES / 2] = WEAK;
     let all = [
-        series(job, "one step, midpoint", OneStep::midpoint(), start, periods)?,
-        series(job, "RK4", RungeKutta::classical(), start, periods)?,
-        series(job, "weak excitation", OneStep::midpoint(), weak, periods)?,
+        Excitation::new(job, "one step, midpoint", OneStep::midpoint(), start, periods)?,
+        Excitation::new(job, "RK4", RungeKutta::classical(), start, periods)?,
+        Excitation::new(job, "weak excitation", OneStep::midpoint(), weak, periods)?,
     ];
-    let claims = vec![kept(&all), localised(&all), own_breather()?];
-    job.publish(EXPERIMENT.name, figure(&all, periods), table(&all)?)?;
-    Ok(Outcome { claims, references: vec![], notes: vec![] })
+    let rows = all.iter().flat_map(|Excitation { name, sites, norm, energy, .. }| {
+        let of = [("sites", sites), ("ΔN/N", norm), ("ΔH/H", energy)].into_iter();
+        of.flat_map(|(quantity, kept)| ranges([*name, quantity], &kept.envelope))
+    });
+    let table = Table::of(&["series", "quantity", "period", "lowest", "mean", "highest"], rows)?;
+    job.publish(figure(&all, periods), table)?;
+    let [one_step, rk4, weak] = &all;
+    let kept =
+        "the one-step midpoint scheme keeps the norm to rounding errors, and the energy error does not grow";
+    let most = "(Σ|ψ|²)²/Σ|ψ|⁴";
+    Ok(vec![
+        beyond(kept)
+            .at_most("one step: largest relative change of the norm", one_step.norm.largest, 1e-11)
+            .at_least("RK4: largest relative change of the norm", rk4.norm.largest, 1e-3)
+            .at_most("one step: max|ΔH| over all / over 100 periods", one_step.energy.growth(), 1.02),
+        beyond("a breather that is disturbed stays at its site, and a weak excitation spreads")
+            .at_most(format!("breather: most sites {most} that are excited"), one_step.sites.largest, 1.5)
+            .at_least("weak excitation: most sites that are excited", weak.sites.largest, 5.0),
+        own_breather()?,
+    ]
+    .into())
 }
 
 /// ψ = u, real.
@@ -80,149 +80,86 @@ fn densities(q: &[f64]) -> Amplitudes {
     std::array::from_fn(|n| (q[n] * q[n] + q[n + SITES] * q[n + SITES]) / 2.0)
 }
 
-fn series<M: Method<SchroedingerLattice<SITES>, f64>>(
-    job: &Job<'_>,
-    name: &'static str,
-    method: M,
-    start: Amplitudes,
-    periods: u64,
-) -> Result<Series> {
-    let mut run = Integrator::new(&LATTICE, method, H, state(start))?;
-    let sum = |values: &Amplitudes| values.iter().sum::<f64>();
-    let (energy, norm) = (run.energy(), sum(&densities(run.q())));
-    let empty = || Deviation::new(periods as f64, 400, EARLY as f64);
-    let mut series = Series {
-        name,
-        profiles: [densities(run.q()); 2],
-        participation: Envelope::new(periods as f64, 400),
-        norm: empty(),
-        energy: empty(),
-        most_sites: 0.0,
-    };
-    job.repeat(periods * STEPS, || {
-        run.advance()?;
-        let (period, densities) = (run.time() * OMEGA / TAU, densities(run.q()));
-        let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));
-        series.participation.push(period, sites);
-        series.norm.push(period, sum(&densities) / norm - 1.0);
-        series.energy.push(period, run.energy() / energy - 1.0);
-        series.most_sites = larger(series.most_sites, sites);
-        series.profiles[1] = densities;
-        Ok(())
-    })?;
-    Ok(series)
-}
-
-fn kept([one_step, runge_kutta, _]: &[Series; 3]) -> Claim {
-    Claim::new(
-        BEYOND,
-        "the one-step midpoint scheme keeps the norm to rounding errors, and the energy error does not grow",
-    )
-    .check("one step: largest relative change of the norm", one_step.norm.largest, Bound::AtMost(1e-11))
-    .check("RK4: largest relative change of the norm", runge_kutta.norm.largest, Bound::AtLeast(1e-3))
-    .check(
-        "one step: max|ΔH| over all / over 100 periods",
-        one_step.energy.growth(),
-        Bound::AtMost(1.02),
-    )
-}
-
-fn localised([one_step, _, weak]: &[Series; 3]) -> Claim {
-    Claim::new(BEYOND, "a breather that is disturbed stays at its site, and a weak excitation spreads")
-        .check(
-            "breather: most sites (Σ|ψ|²)²/Σ|ψ|⁴ that are excited",
-            one_step.most_sites,
-            Bound::AtMost(1.5),
-        )
-        .check("weak excitation: most sites that are excited", weak.most_sites, Bound::AtLeast(5.0))
+impl Excitation {
+    fn new(
+        job: &Job<'_>,
+        name: &'static str,
+        method: impl Method<SchroedingerLattice<SITES>, f64>,
+        start: Amplitudes,
+        periods: u64,
+    ) -> Result<Self> {
+        let mut run = Integrator::new(&LATTICE, method, H, state(start))?;
+        let sum = |values: &Amplitudes| values.iter().sum::<f64>();
+        let (energy, norm) = (run.energy(), sum(&densities(run.q())));
+        let mut profiles = [densities(run.q()); 2];
+        let mut kept = Span { end: periods as f64, early: EARLY as f64, intervals: 400 }.deviations();
+        job.follow(&mut run, periods * STEPS, |run| {
+            let densities = densities(run.q());
+            let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));
+            let values = [sites, sum(&densities) / norm - 1.0, run.energy() / energy - 1.0];
+            note(&mut kept, run.time() * OMEGA / TAU, values);
+            profiles[1] = densities;
+        })?;
+        let [sites, norm, energy] = kept;
+        Ok(Self { name, profiles, sites, norm, energy })
+    }
 }
 
 /// At the middle of a step the scheme solves ω u = u_{n+1} − 2u_n + u_{n−1} + u³ with ω = (2/h) tan ½θ if it
 /// turns by θ.
 fn own_breather() -> Result<Claim> {
-    const COUNT: u64 = 1000;
     let angle = 2.0 * (OMEGA * H / 2.0).atan();
     let start = breather(OMEGA).map(|u| u / (angle / 2.0).cos());
     let mut run = Integrator::new(&LATTICE, OneStep::midpoint(), H, state(start))?;
     let mut largest = 0.0;
-    for k in 1..=COUNT {
+    for k in 1..=1000 {
         run.advance()?;
-        let (sin, cos) = (angle * k as f64).sin_cos();
+        let (sin, cos) = (angle * f64::from(k)).sin_cos();
         for (n, u) in start.iter().enumerate() {
             let apart = (run.q()[n] - SQRT_2 * u * cos).hypot(run.q()[n + SITES] - SQRT_2 * u * sin);
             largest = larger(largest, apart);
         }
     }
-    Ok(Claim::new(BEYOND, "the scheme has the breathers of the equation, larger by 1/cos ½θ, that turn by θ = 2 arctan ½ωh a step")
-        .check("largest distance from that in 1000 steps", largest, Bound::AtMost(1e-10)))
+    Ok(beyond("the scheme has the breathers of the equation, larger by 1/cos ½θ, that turn by θ = 2 arctan ½ωh a step")
+        .at_most("largest distance from that in 1000 steps", largest, 1e-10))
 }
 
-fn figure(all: &[Series; 3], periods: u64) -> Figure {
-    let [one_step, runge_kutta, weak] = all;
+fn figure([one_step, rk4, weak]: &[Excitation; 3], periods: u64) -> Figure {
     let at_sites = |values: &Amplitudes| -> Vec<[f64; 2]> {
         let place = |n: usize| n as f64 - (SITES / 2) as f64;
         values.iter().enumerate().map(|(n, value)| [place(n), *value]).collect()
     };
-    let profile = Panel::new(
-        "Profile at the start and at the end",
-        Axis::linear("site *n*"),
-        Axis::logarithmic("|*ψ*ₙ|²").within(1e-10, 1e5),
-    )
-    .line(at_sites(&one_step.profiles[0]), Stroke::solid(SLATE).width(4.0).opacity(0.4))
-    .labelled("start")
-    .line(at_sites(&one_step.profiles[1]), Stroke::solid(BLUE))
-    .labelled("one step, midpoint")
-    .line(at_sites(&runge_kutta.profiles[1]), Stroke::dashed(VERMILLION))
-    .labelled("RK4")
-    .line(at_sites(&weak.profiles[1]), Stroke::solid(GREEN))
-    .labelled("weak excitation");
+    let density = Axis::logarithmic("|*ψ*ₙ|²").within(1e-10, 1e5);
+    let profile = Panel::new("Profile at the start and at the end", Axis::linear("site *n*"), density)
+        .lines([
+            ("start", Stroke::solid(SLATE).width(4.0).opacity(0.4), at_sites(&one_step.profiles[0])),
+            ("one step, midpoint", Stroke::solid(BLUE), at_sites(&one_step.profiles[1])),
+            ("RK4", Stroke::dashed(VERMILLION), at_sites(&rk4.profiles[1])),
+            ("weak excitation", Stroke::solid(GREEN), at_sites(&weak.profiles[1])),
+        ]);
     let time = || Axis::linear("time *t*   [periods 2π/*ω*]").within(0.0, periods as f64);
-    let sites = Panel::new(
-        "Excited sites",
-        time(),
-        Axis::linear("(Σ|*ψ*|²)² / Σ|*ψ*|⁴, mean of each interval").within(0.0, SITES as f64),
-    )
-    .line(one_step.participation.mean(), Stroke::solid(BLUE))
-    .labelled("breather")
-    .line(weak.participation.mean(), Stroke::solid(GREEN))
-    .labelled("weak excitation");
-    let errors = Panel::new(
-        "Errors of the norm and of the energy",
-        time(),
-        Axis::logarithmic("largest relative error of each interval").within(1e-16, 10.0),
-    )
-    .line(one_step.energy.envelope.magnitude(), Stroke::solid(BLUE))
-    .labelled("one step: *H*")
-    .line(one_step.norm.envelope.magnitude(), Stroke::dashed(BLUE))
-    .labelled("one step: norm")
-    .line(runge_kutta.energy.envelope.magnitude(), Stroke::solid(VERMILLION))
-    .labelled("RK4: *H*")
-    .line(runge_kutta.norm.envelope.magnitude(), Stroke::dashed(AMBER))
-    .labelled("RK4: norm");
+    let sites = Axis::linear("(Σ|*ψ*|²)² / Σ|*ψ*|⁴, mean of each interval").within(0.0, SITES as f64);
+    let sites = Panel::new("Excited sites", time(), sites).lines([
+        ("breather", Stroke::solid(BLUE), one_step.sites.envelope.mean()),
+        ("weak excitation", Stroke::solid(GREEN), weak.sites.envelope.mean()),
+    ]);
+    let error = Axis::logarithmic("largest relative error of each interval").within(1e-16, 10.0);
+    let errors = Panel::new("Errors of the norm and of the energy", time(), error).lines([
+        ("one step: *H*", Stroke::solid(BLUE), one_step.energy.envelope.magnitude()),
+        ("one step: norm", Stroke::dashed(BLUE), one_step.norm.envelope.magnitude()),
+        ("RK4: *H*", Stroke::solid(VERMILLION), rk4.energy.envelope.magnitude()),
+        ("RK4: norm", Stroke::dashed(AMBER), rk4.norm.envelope.magnitude()),
+    ]);
+    let excess = 100.0 * (EXCESS - 1.0);
     Figure::new(
         "A discrete breather: where it is, and what two methods keep of it",
-        format!("{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by {:.0} % at its centre", 100.0 * (EXCESS - 1.0)),
+        format!("{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by {excess:.0} % at its centre"),
     )
-    .row(380.0, vec![profile.legend_at(Corner::TopLeft), sites.legend_at(Corner::TopRight)])
+    .row(380.0, vec![profile.legend_at(Corner::TopLeft), sites])
     .row(330.0, vec![errors.legend_at(Corner::Beside)])
     .footer(format!(
         "Largest relative change of the norm: one step {}, RK4 {}.",
         at_most(one_step.norm.largest),
-        scientific(runge_kutta.norm.largest)
+        scientific(rk4.norm.largest)
     ))
-}
-
-fn table(all: &[Series; 3]) -> Result<Table> {
-    let mut table = Table::new(&["series", "quantity", "period", "lowest", "mean", "highest"])?;
-    for Series { name, participation, norm, energy, .. } in all {
-        for (quantity, envelope) in
-            [("sites", participation), ("ΔN/N", &norm.envelope), ("ΔH/H", &energy.envelope)]
-        {
-            for row in envelope.rows() {
-                let names = [(*name).to_owned(), quantity.to_owned()];
-                table.row(names.into_iter().chain(row.map(number)))?;
-            }
-        }
-    }
-    Ok(table)
 }

@@ -4,18 +4,10 @@
 //! section is R₂ = 0, dR₂/dt > 0. These pairs are canonical and remove translation and rotation, but the
 //! coordinates that Pullin & Saffman used, and the paper with them, may be others.
 
-use crate::claim::larger;
-use anyhow::Result;
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
 use rayon::prelude::*;
 
-use crate::deviation::Deviation;
-use crate::figure::{Axis, Panel, SEQUENCE, Stroke, thin};
-use crate::figure::{BLUE, Corner, GREEN, VERMILLION};
-use crate::job::Job;
 use crate::models::{Case, FourPoints, FourVortices};
-use crate::output::{Table, number};
+use crate::vocabulary::*;
 
 pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
 
@@ -30,6 +22,12 @@ pub enum Scheme {
     Rk4,
     /// Gauss collocation of order six.
     Gauss6,
+}
+
+/// VI2 and RK4, each with three steps.
+pub const fn runs([small, middle, large]: [f64; 3]) -> [(Scheme, f64); 6] {
+    let (vi2, rk4) = (Scheme::Vi2, Scheme::Rk4);
+    [(vi2, small), (vi2, middle), (vi2, large), (rk4, small), (rk4, middle), (rk4, large)]
 }
 
 /// The section of one run.
@@ -74,30 +72,26 @@ pub fn cost(runs: &[(Scheme, f64)], end: f64) -> u64 {
 }
 
 /// The sections of the same motion by several schemes and steps, up to time `end`.
-pub fn compare(job: &Job<'_>, case: &Case, runs: &[(Scheme, f64)], end: f64) -> Result<Vec<Crossings>> {
-    let one = |&(scheme, h): &(Scheme, f64)| crossings(job, case, scheme, h, end, LABELS[0]);
-    runs.par_iter().map(one).collect()
+pub fn compare<const N: usize>(
+    job: &Job<'_>,
+    case: &Case,
+    runs: [(Scheme, f64); N],
+    end: f64,
+) -> Result<[Crossings; N]> {
+    let all = runs.par_iter().map(|&run| crossings(job, case, run, end, LABELS[0]));
+    all.collect::<Result<Vec<_>>>()?.try_into().ok().context("a section for each run")
 }
 
 /// The section of one run with the vortices in the given order.
 pub fn crossings(
     job: &Job<'_>,
     case: &Case,
-    scheme: Scheme,
-    h: f64,
+    (scheme, h): (Scheme, f64),
     end: f64,
     labels: Labels,
 ) -> Result<Crossings> {
-    let blank = Crossings {
-        scheme,
-        h,
-        end,
-        labels,
-        points: Vec::new(),
-        error: Deviation::new(end, 300, 0.1 * end),
-        growth: f64::NAN,
-        failure: None,
-    };
+    let (error, points) = (Deviation::new(end, 300, 0.1 * end), Vec::new());
+    let blank = Crossings { scheme, h, end, labels, points, error, growth: f64::NAN, failure: None };
     match scheme {
         Scheme::Vi2 => collect(job, case, Sigma::midpoint(), blank),
         Scheme::Rk4 => collect(job, case, RungeKutta::classical(), blank),
@@ -151,15 +145,13 @@ where
     const DISPLACEMENT: f64 = 1e-10;
     let mut displaced = *start;
     displaced.x[0] += DISPLACEMENT;
-    let mut pair =
-        [Integrator::new(vortices, method, h, *start)?, Integrator::new(vortices, method, h, displaced)?];
+    let mut pair = each([*start, displaced], |start| Ok(Integrator::new(vortices, method, h, start)?))?;
     for run in &mut pair {
         while run.time() < 2000.0 {
             run.advance()?;
         }
     }
-    let distances = pair[0].q().iter().zip(pair[1].q()).map(|(a, b)| (a - b).abs());
-    Ok(distances.fold(0.0, larger) / DISPLACEMENT)
+    Ok(apart(pair[0].q(), pair[1].q()) / DISPLACEMENT)
 }
 
 /// What [`lyapunov_exponent`] takes.
@@ -188,6 +180,15 @@ impl Crossings {
         format!("{} at h = {}", self.scheme.name(), self.h)
     }
 
+    /// What the growth of the energy error is called.
+    pub fn growth_name(&self) -> String {
+        format!("max|ΔH| over all / over the first tenth, {}", self.name())
+    }
+
+    fn title(&self) -> String {
+        format!("{}, *h* = {}", self.scheme.name(), self.h)
+    }
+
     /// The time of the last crossing; 0 if there is none.
     pub fn last(&self) -> f64 {
         self.points.last().map_or(0.0, |&[t, ..]| t)
@@ -205,29 +206,44 @@ impl Crossings {
     }
 
     /// A panel with the section, coloured by time.
-    pub fn panel(&self, r1: Axis, p1: Axis, radius: f64) -> Panel {
-        let title = format!("{}, *h* = {}", self.scheme.name(), self.h);
+    pub fn panel(&self, (r1, p1): (Axis, Axis), radius: f64) -> Panel {
         let shown = thin(&self.points, SHOWN);
         let interval = |t: f64| (t / self.end * SEQUENCE.len() as f64) as usize;
-        SEQUENCE.into_iter().enumerate().fold(Panel::new(title, r1, p1).equal(), |panel, (i, colour)| {
+        let colours = SEQUENCE.into_iter().enumerate();
+        Panel::new(self.title(), r1, p1).equal().each(colours, |panel, (i, colour)| {
             let places = shown.iter().filter(|[t, ..]| interval(*t) == i).map(|&[_, r1, p1]| [r1, p1]);
             panel.dots(places.collect(), radius, colour)
         })
     }
 }
 
-/// |H − H(0)| of all runs over time.
-pub fn energy_panel(all: &[Crossings], end: f64) -> Panel {
+/// What the paper says of the energy in both figures, with the checks for VI2.
+pub fn stays_close(vi2: &[Crossings]) -> Claim {
+    let says = "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts";
+    Claim::new("section 5", says)
+        .each(vi2, |claim, run| claim.at_most(run.growth_name(), run.error.growth(), 1.1))
+}
+
+/// The sections of VI2, those of RK4, and |H − H(0)| of all runs over time.
+pub fn figure(
+    [title, subtitle]: [&str; 2],
+    all: &[Crossings; 6],
+    end: f64,
+    panel: impl Fn(&Crossings) -> Panel,
+) -> Figure {
     let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
-    let title = "Largest error of the Hamiltonian in each interval of time";
-    let empty = Panel::new(title, time, Axis::logarithmic("|*H*(*t*) − *H*(0)|   [Γ²]"));
+    let largest = "Largest error of the Hamiltonian in each interval of time";
     let colours = [BLUE, GREEN, VERMILLION].into_iter().cycle();
-    let panel = all.iter().zip(colours).fold(empty, |panel, (run, colour)| {
+    let lines = all.iter().zip(colours).map(|(run, colour)| {
         let stroke = if run.scheme == Scheme::Vi2 { Stroke::solid(colour) } else { Stroke::dashed(colour) };
-        let text = format!("{}, *h* = {}", run.scheme.name(), run.h);
-        panel.line(run.error.envelope.magnitude(), stroke).labelled(text)
+        (run.title(), stroke, run.error.envelope.magnitude())
     });
-    panel.legend_at(Corner::Beside)
+    let energy = Panel::new(largest, time, Axis::logarithmic("|*H*(*t*) − *H*(0)|   [Γ²]")).lines(lines);
+    Figure::new(title, subtitle)
+        .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
+        .row(370.0, all[..3].iter().map(&panel).collect())
+        .row(370.0, all[3..].iter().map(&panel).collect())
+        .row(330.0, vec![energy.legend_at(Corner::Beside)])
 }
 
 /// The section coordinates, and the runs that were relabelled or ended early.
@@ -243,14 +259,11 @@ pub fn notes(all: &[Crossings]) -> Vec<String> {
 
 /// The sections as a table.
 pub fn table(all: &[Crossings]) -> Result<Table> {
-    let mut table = Table::new(&["scheme", "h", "t", "R1", "P1"])?;
-    for section in all {
-        for [t, r1, p1] in thin(&section.points, SHOWN) {
-            let numbers = [section.h, t, r1, p1].map(number);
-            table.row([section.scheme.name().to_owned()].into_iter().chain(numbers))?;
-        }
-    }
-    Ok(table)
+    let rows = all.iter().flat_map(|section| {
+        let points = thin(&section.points, SHOWN).into_iter();
+        points.map(|[t, r1, p1]| ([section.scheme.name()], [section.h, t, r1, p1]))
+    });
+    Table::of(&["scheme", "h", "t", "R1", "P1"], rows)
 }
 
 #[cfg(test)]

@@ -1,9 +1,7 @@
 //! The energy of a run beside what backward error analysis says of it: steps of length h keep E − h²g up to
 //! terms of the order h⁴, for a function g that the model knows.
 
-use dvi_core::prelude::*;
-
-use crate::claim::{BEYOND, Bound, Claim, larger};
+use crate::vocabulary::*;
 
 /// What a run with steps of one length leaves.
 #[derive(Clone, Copy, Debug)]
@@ -38,20 +36,10 @@ pub fn claim(method: &str, runs: &[Shadow]) -> Claim {
         "{method}: backward error analysis gives the energy error in closed form, h² times a function of the state, and the rest is of the \
          order h⁴"
     );
-    let order = |error: fn(&Shadow) -> f64| {
-        convergence_order(&runs.iter().map(|run| (run.h, error(run))).collect::<Vec<_>>())
-    };
+    let order = |error: fn(&Shadow) -> f64| order(runs.iter().map(|run| (run.h, error(run))));
     let ratio = runs.last().map(|run| run.largest / run.predicted);
-    Claim::new(BEYOND, text)
-        .check(format!("{method}: order of max|ΔE|"), order(|run| run.largest), Bound::Near(2.0, 0.05))
-        .check(
-            format!("{method}: max|ΔE| / the predicted one, shortest step"),
-            ratio,
-            Bound::Near(1.0, 0.01),
-        )
-        .check(
-            format!("{method}: order of the largest |ΔE − prediction|"),
-            order(|run| run.rest),
-            Bound::Near(4.0, 0.1),
-        )
+    beyond(text)
+        .near(format!("{method}: order of max|ΔE|"), order(|run| run.largest), [2.0, 0.05])
+        .near(format!("{method}: max|ΔE| / the predicted one, shortest step"), ratio, [1.0, 0.01])
+        .near(format!("{method}: order of the largest |ΔE − prediction|"), order(|run| run.rest), [4.0, 0.1])
 }

@@ -10,27 +10,10 @@
 //! a body goes from one cube to the next. To iterate the stages of a step further than that makes no sense,
 //! and does not end.
 
-mod claims;
-mod picture;
-
-use std::f64::consts::TAU;
-
-use anyhow::Result;
 use dvi_core::fast_sum::FastSum;
-use dvi_core::prelude::*;
 
-use crate::claim::larger;
-use crate::deviation::Deviation;
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
 use crate::models::{ShearLayer, VortexBlobsState};
-
-pub const EXPERIMENT: Experiment = Experiment {
-    name: "shear-layer",
-    title: "A shear layer of vortex blobs that rolls up",
-    share: 150.0,
-    run,
-};
+use crate::vocabulary::*;
 
 /// Of the forces, and of the stages of a step.
 const TOLERANCE: f64 = 1e-6;
@@ -41,83 +24,55 @@ const AMPLITUDE: f64 = 0.01;
 /// Bodies whose forces are compared with sums over all others.
 const COMPARED: usize = 200;
 
-/// What was measured.
-struct Measured {
+/// What was measured while the layer rolls up.
+struct RollUp {
     layer: ShearLayer,
     /// Places of the blobs at the times that the figure shows.
     snapshots: Vec<VortexBlobsState>,
     /// Relative changes of H, ΣΓx and ΣΓy over the sum of |Γ| times the length, and the relative change of
     /// ΣΓ|z|².
-    energy: Deviation,
-    impulse: Deviation,
-    angular: Deviation,
+    kept: [Deviation; 3],
     /// Evaluations of the gradient in a step.
     evaluations: f64,
     /// The error of the forces at the start and at the end.
     errors: [f64; 2],
-    /// For each number of blobs: what an evaluation takes, in pairs of bodies and in products between
-    /// groups.
-    operations: Vec<(u64, u64, u64)>,
-    /// The rate at which small waves grow.
-    rate: f64,
 }
 
-fn run(job: &Job<'_>) -> Result<Outcome> {
-    let rows = job.choose(40, 5);
+/// A number of blobs, and what an evaluation takes, in pairs of bodies and in products between groups.
+type Operations = (u64, u64, u64);
+
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(SHOWN[2]);
-    let measured = Measured {
-        operations: operations(job.choose(&[10, 20, 40, 80], &[5, 10]))?,
-        rate: rate(job.choose(10, 6))?,
-        ..roll_up(job, rows)?
-    };
-    job.publish(EXPERIMENT.name, picture::figure(&measured), picture::table(&measured)?)?;
-    Ok(Outcome { claims: claims::claims(job, &measured), references: vec![], notes: vec![] })
+    let rolled = RollUp::new(job, job.choose(40, 5))?;
+    let rows: &[usize] = job.choose(&[10, 20, 40, 80], &[5, 10]);
+    let operations = rows.iter().map(|&rows| operations(rows)).collect::<Result<Vec<_>>>()?;
+    let kept = ["ΔH/H", "ΔΣΓz", "ΔΣΓ|z|²"].into_iter().zip(&rolled.kept);
+    let kept =
+        kept.flat_map(|(name, kept)| kept.envelope.magnitude().into_iter().map(move |row| ([name], row)));
+    let counts = operations.iter().flat_map(|&(blobs, pairs, products)| {
+        [("pairs", pairs), ("products", products)]
+            .map(|(name, value)| ([name], [blobs as f64, value as f64]))
+    });
+    let table = Table::of(&["quantity", "t_or_blobs", "value"], kept.chain(counts))?;
+    job.publish(figure(&rolled, &operations), table)?;
+    let [energy, impulse, angular] = rolled.kept.each_ref().map(|kept| kept.largest);
+    let [at_start, at_end] = rolled.errors;
+    Ok(vec![
+        waves(job.choose(10, 6))?,
+        beyond("while the layer rolls up, energy and impulses are kept to the tolerance of the sum")
+            .at_most("largest |ΔH|/H", energy, TOLERANCE)
+            .at_most("largest change of ΣΓz / ΣΓ times the length", impulse, TOLERANCE)
+            .at_most("largest relative change of ΣΓ|z|²", angular, TOLERANCE),
+        beyond("the forces on all blobs are those of the sum over all pairs, to the tolerance")
+            .at_most("relative error at the start", at_start, TOLERANCE)
+            .at_most("relative error at the end", at_end, TOLERANCE),
+        cost(job, &operations, rolled.evaluations),
+    ]
+    .into())
 }
 
 fn method() -> Gauss<3> {
     Gauss { stopping: Stopping { tolerance: TOLERANCE / 10.0, ..Stopping::default() }, ..Gauss::new() }
-}
-
-fn roll_up(job: &Job<'_>, rows: usize) -> Result<Measured> {
-    let layer = ShearLayer { rows, amplitude: AMPLITUDE };
-    let (system, start) = (layer.system(), layer.state());
-    let fast = FastSum::new(&system, TOLERANCE)?;
-    let first_error = fast.measured_error(&start, COMPARED)?;
-    let mut run = Integrator::new(&fast, method(), H, start)?;
-    let energy = run.energy();
-    let momenta = impulses(&run);
-    let end = SHOWN[2] as f64 * H;
-    let empty = || Deviation::new(end, SHOWN[2] as usize, end);
-    let mut measured = Measured {
-        layer,
-        snapshots: vec![],
-        energy: empty(),
-        impulse: empty(),
-        angular: empty(),
-        evaluations: 0.0,
-        errors: [first_error, f64::NAN],
-        operations: vec![],
-        rate: f64::NAN,
-    };
-    for step in 1..=SHOWN[2] {
-        if job.is_stopping() {
-            job.cut_short();
-            break;
-        }
-        run.advance()?;
-        job.proceed(1);
-        let now = impulses(&run);
-        let [x, y, angular]: [f64; 3] = std::array::from_fn(|i| (now[i] - momenta[i]).abs());
-        measured.energy.push(run.time(), run.energy() / energy - 1.0);
-        measured.impulse.push(run.time(), larger(x, y) / ShearLayer::LENGTH.powi(2));
-        measured.angular.push(run.time(), angular / momenta[2]);
-        if SHOWN.contains(&step) {
-            measured.snapshots.push(run.state());
-        }
-    }
-    measured.evaluations = run.statistics().gradients as f64 / run.steps() as f64;
-    measured.errors[1] = fast.measured_error(&run.state(), COMPARED)?;
-    Ok(measured)
 }
 
 /// ΣΓx, ΣΓy and ΣΓ|z|².
@@ -126,35 +81,62 @@ fn impulses(run: &impl Run<Scalar = f64>) -> [f64; 3] {
     std::array::from_fn(|_| values.next().unwrap_or(f64::NAN))
 }
 
-/// What an evaluation takes at the start, for layers of so many rows.
-fn operations(rows: &[usize]) -> Result<Vec<(u64, u64, u64)>> {
-    let count = |&rows: &usize| {
+impl RollUp {
+    fn new(job: &Job<'_>, rows: usize) -> Result<Self> {
         let layer = ShearLayer { rows, amplitude: AMPLITUDE };
-        let system = layer.system();
-        let operations = FastSum::<_, 2>::new(&system, TOLERANCE)?.operations(&layer.state())?;
-        Ok((layer.blobs() as u64, operations.pairs, operations.products))
-    };
-    rows.iter().map(count).collect()
+        let (system, start) = (layer.system(), layer.state());
+        let fast = FastSum::new(&system, TOLERANCE)?;
+        let at_start = fast.measured_error(&start, COMPARED)?;
+        let mut run = Integrator::new(&fast, method(), H, start)?;
+        let (energy, momenta, mut snapshots) = (run.energy(), impulses(&run), vec![]);
+        let end = SHOWN[2] as f64 * H;
+        let mut kept = Span { end, early: end, intervals: SHOWN[2] as usize }.deviations();
+        for step in 1..=SHOWN[2] {
+            if job.is_stopping() {
+                job.cut_short();
+                break;
+            }
+            run.advance()?;
+            job.proceed(1);
+            let now = impulses(&run);
+            let [x, y, angular]: [f64; 3] = std::array::from_fn(|i| (now[i] - momenta[i]).abs());
+            let impulse = larger(x, y) / ShearLayer::LENGTH.powi(2);
+            note(&mut kept, run.time(), [run.energy() / energy - 1.0, impulse, angular / momenta[2]]);
+            if SHOWN.contains(&step) {
+                snapshots.push(run.state());
+            }
+        }
+        let evaluations = run.statistics().gradients as f64 / run.steps() as f64;
+        let errors = [at_start, fast.measured_error(&run.state(), COMPARED)?];
+        Ok(Self { layer, snapshots, kept, evaluations, errors })
+    }
 }
 
-/// ln(a(2)/a(1)), where a is the amplitude of small waves on the edges of the layer, in its middle.
-fn rate(rows: usize) -> Result<f64> {
+/// What an evaluation takes at the start, for a layer of so many rows.
+fn operations(rows: usize) -> Result<Operations> {
+    let layer = ShearLayer { rows, amplitude: AMPLITUDE };
+    let system = layer.system();
+    let operations = FastSum::<_, 2>::new(&system, TOLERANCE)?.operations(&layer.state())?;
+    Ok((layer.blobs() as u64, operations.pairs, operations.products))
+}
+
+/// ln(a(2)/a(1)), where a is the amplitude of small waves on the edges of the layer, in its middle, over the
+/// rate of linear theory.
+fn waves(rows: usize) -> Result<Claim> {
     const SMALL: f64 = 1e-4;
-    let states = |amplitude: f64| -> Result<[VortexBlobsState; 2]> {
+    // Two runs that begin with opposite waves have everything else in common.
+    let [up, down] = each([SMALL, -SMALL], |amplitude| {
         let layer = ShearLayer { rows, amplitude };
         let (system, start) = (layer.system(), layer.state());
         let fast = FastSum::<_, 2>::new(&system, TOLERANCE)?;
         let mut run = Integrator::new(&fast, method(), H, start)?;
-        let mut after = |steps| -> Result<VortexBlobsState> {
+        each([5, 5], |steps| {
             run.take_steps(steps)?;
             Ok(run.state())
-        };
-        Ok([after(5)?, after(5)?])
-    };
-    // Two runs that begin with opposite waves have everything else in common.
-    let [up, down] = [states(SMALL)?, states(-SMALL)?];
+        })
+    })?;
     let amplitude = |time: usize| {
-        let (up, down) = (&up[time], &down[time]);
+        let (up, down): (&VortexBlobsState, &VortexBlobsState) = (&up[time], &down[time]);
         let edge = |row: usize| {
             let blobs = (row..up.x.len()).step_by(rows).filter(|&blob| up.x[blob].abs() < 1.0);
             let parts = blobs.fold([0.0; 2], |[sine, cosine], blob| {
@@ -165,5 +147,91 @@ fn rate(rows: usize) -> Result<f64> {
         };
         edge(0) + edge(rows - 1)
     };
-    Ok((amplitude(1) / amplitude(0)).ln())
+    let [k, d, core] = [TAU, ShearLayer::THICKNESS, ShearLayer::CORE];
+    let s = d.hypot(core);
+    let expected = ((-2.0 * k * s).exp() - ((-k * core).exp() - k * (s - core)).powi(2)).sqrt() / (2.0 * d);
+    let rate = (amplitude(1) / amplitude(0)).ln();
+    Ok(beyond("small waves on the layer grow as Rayleigh says").near(
+        "rate from t = 1 to 2 / that of linear theory",
+        rate / expected,
+        [1.0, 0.05],
+    ))
+}
+
+fn cost(job: &Job<'_>, operations: &[Operations], evaluations: f64) -> Claim {
+    let counts =
+        operations.iter().map(|&(blobs, pairs, products)| (blobs as f64, (pairs + products) as f64));
+    let saving = operations
+        .get(2)
+        .map(|&(blobs, pairs, products)| (blobs * (blobs - 1)) as f64 / (pairs + products) as f64);
+    let saved = "100 000 blobs: ordered pairs of all / pairs and products of an evaluation";
+    beyond("from 25 000 to 400 000 blobs, what an evaluation takes grows like their number")
+        .near("power of the number of blobs", job.only_full(order(counts.skip(1))), [1.0, 0.1])
+        .at_least(saved, job.only_full(saving), 30.0)
+        .at_most("evaluations in a step", job.only_full(evaluations), 25.0)
+}
+
+fn figure(rolled: &RollUp, operations: &[Operations]) -> Figure {
+    let n = rolled.layer.blobs();
+    let mut snapshots = rolled.snapshots.iter().zip(SHOWN).zip([1.0, 1.7, 1.0]);
+    let mut next = || {
+        snapshots.next().map(|((state, steps), weight)| snapshot(rolled.layer, state, steps).weight(weight))
+    };
+    let early: Vec<Panel> = next().into_iter().collect();
+    let late: Vec<Panel> = [next(), next()].into_iter().flatten().collect();
+    let shown = [(370.0, early), (560.0, late)].into_iter().filter(|(_, panels)| !panels.is_empty());
+    let figure = Figure::new(
+        format!("A shear layer of {} {:03} vortex blobs rolls up", n / 1000, n % 1000),
+        format!(
+            "Gauss collocation of order 6, *h* = {H}, with a fast sum of tolerance {}",
+            scientific(TOLERANCE)
+        ),
+    )
+    .sequence_key("from below", "from above");
+    let [energy, impulse, angular] = rolled.kept.each_ref().map(|kept| kept.envelope.magnitude());
+    let time = Axis::time(SHOWN[2] as f64 * H);
+    let kept = Panel::new("What is kept", time, Axis::logarithmic("relative change")).lines([
+        ("*H*", Stroke::solid(BLUE), energy),
+        ("ΣΓ*z*", Stroke::solid(GREEN), impulse),
+        ("ΣΓ|*z*|²", Stroke::solid(VERMILLION), angular),
+    ]);
+    let [at_start, at_end] = rolled.errors.map(scientific);
+    shown
+        .fold(figure, |figure, (height, panels)| figure.row(height, panels))
+        .row(330.0, vec![kept.legend_at(Corner::Beside), costs(operations)])
+        .footer(format!(
+            "Velocities differ by 1 across the layer, the waves on it have the length 1. Relative error of the forces: {at_start} at the start, {at_end} at \
+             the end."
+        ))
+}
+
+/// The blobs, in the colours of their rows.
+fn snapshot(layer: ShearLayer, state: &VortexBlobsState, steps: u64) -> Panel {
+    let rows = layer.rows;
+    let radius = if rows > 20 { 0.3 } else { 1.0 };
+    let plane = Panel::plane(format!("*t* = {}", steps as f64 * H), "*x*", "*y*");
+    plane.each(SEQUENCE.into_iter().enumerate(), |plane, (number, colour)| {
+        let blobs = state.x.iter().zip(&state.y).enumerate();
+        let of_colour = blobs.filter(|(blob, _)| blob % rows * SEQUENCE.len() / rows == number);
+        plane.dots(of_colour.map(|(_, (x, y))| [*x, *y]).collect(), radius, colour)
+    })
+}
+
+fn costs(operations: &[Operations]) -> Panel {
+    let per_blob = |of: fn(&Operations) -> u64| -> Vec<[f64; 2]> {
+        operations.iter().map(|counts| [counts.0 as f64, of(counts) as f64 / counts.0 as f64]).collect()
+    };
+    let of_groups = [
+        ("pairs nearby", per_blob(|(_, pairs, _)| *pairs), BLUE),
+        ("products of groups", per_blob(|(.., products)| *products), VERMILLION),
+    ];
+    let axes = (Axis::logarithmic("number of blobs"), Axis::logarithmic("for each blob"));
+    Panel::new("What an evaluation takes for each blob", axes.0, axes.1)
+        .line(per_blob(|(blobs, ..)| blobs * (blobs - 1)), Stroke::solid(SLATE))
+        .labelled("all pairs")
+        .each(of_groups, |panel, (name, points, colour)| {
+            let line = panel.line(points.clone(), Stroke::solid(colour)).labelled(name);
+            line.discs(points, colour, Fill::Solid)
+        })
+        .legend_at(Corner::Beside)
 }

@@ -4,37 +4,21 @@
 //! Steps along great circles stay on the sphere without a projection (Lee, Leok & McClamroch 2009); RATTLE
 //! takes the chord in place of the arc and finds the force that keeps the length.
 
-mod claims;
-mod picture;
-mod series;
-
-use anyhow::Result;
-use dvi_core::error::StepError;
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
-
-use crate::experiments::rk4::rk4;
-use crate::experiments::shadow::Shadow;
-use crate::experiments::turnings::{Extreme, Sample, Turnings};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
+use super::geodesics::{FEW_UNITS, Long, flat_energy, panels, reference};
+use super::shadow::{self, Shadow};
+use super::turnings::{self, Extreme, Sample, Turnings};
 use crate::models::{ConstrainedPendulum, SphericalPendulum, SphericalPendulumState};
-use series::Series;
-
-pub const EXPERIMENT: Experiment = Experiment {
-    name: "spherical-pendulum",
-    title: "A spherical pendulum by unit vectors and by a constraint",
-    share: 18.0,
-    run,
-};
+use crate::vocabulary::*;
 
 const PENDULUM: SphericalPendulum = SphericalPendulum { gravity: 1.0 };
 const CONSTRAINED: ConstrainedPendulum = ConstrainedPendulum { gravity: 1.0 };
 /// The angle from the direction downwards at the start, its rate, and the rate around the vertical.
 const HANGING: f64 = 0.8;
 const RATES: [f64; 2] = [0.3, 0.35];
-/// The step of the long runs, and of what is drawn.
+/// The step of the long runs, and of what is drawn, and so many steps from one look at the integrals to the
+/// next.
 const H: f64 = 0.05;
+const EVERY: u64 = 4;
 /// The steps with which turnings and both methods are compared, the longest first.
 const STEPS: [f64; 3] = [0.1, 0.05, 0.025];
 /// The time at which the order is measured, and the step of the reference.
@@ -51,91 +35,63 @@ struct Swings {
     place: [f64; 3],
 }
 
-/// All that is measured.
-struct Measured {
-    steps: u64,
-    geodesic: Series,
-    rattle: Series,
-    rk4: Series,
-    /// For each of [`STEPS`], by great circles and by RATTLE.
-    swings: [Swings; 3],
-    constrained: [Swings; 3],
-    /// The distances from the reference at [`ORDER_TIME`]: by great circles, by their composition of order
-    /// 4, and by RATTLE.
-    errors: [[f64; 3]; 3],
-    between_references: f64,
-    path: Vec<[f64; 2]>,
-}
-
-fn run(job: &Job<'_>) -> Result<Outcome> {
-    let steps: u64 = job.choose(10_000_000, 8_000);
-    job.expect(3 * steps / series::EVERY);
-    let fine = reference(FINE);
-    let end = job.choose(400.0, 25.0);
-    let [coarse, middle, short] = STEPS;
-    let by_arcs = [arcs(coarse, end)?, arcs(middle, end)?, arcs(short, end)?];
-    let by_chords = [chords(coarse, end)?, chords(middle, end)?, chords(short, end)?];
-    let distances = |swings: &[Swings; 3]| [0, 1, 2].map(|k| distance(swings[k].place, fine));
-    let measured = Measured {
-        steps,
-        geodesic: Series::geodesic(job, steps)?,
-        rattle: Series::rattle(job, steps)?,
-        rk4: Series::rk4(job, steps)?,
-        errors: [distances(&by_arcs), composed(fine)?, distances(&by_chords)],
-        swings: by_arcs,
-        constrained: by_chords,
-        between_references: distance(fine, reference(2.0 * FINE)),
-        path: path()?,
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
+    let long = Long { steps: job.choose(10_000_000, 8_000), every: EVERY, h: H };
+    job.expect(3 * long.steps / EVERY);
+    let before = PENDULUM.heights(&begin());
+    // E − E(0), |s|² − 1, and the relative change of the angular momentum about the vertical.
+    let kept = |state: &SphericalPendulumState| {
+        let now = PENDULUM.heights(state);
+        let length = state.s.iter().map(|x| x * x).sum::<f64>();
+        [now.energy - before.energy, length - 1.0, now.vertical / before.vertical - 1.0]
     };
-    job.publish(EXPERIMENT.name, picture::figure(&measured), picture::table(&measured)?)?;
-    Ok(Outcome { claims: claims::claims(job, &measured), references: vec![], notes: vec![] })
+    let arcs = long.along_geodesics(job, "great circles", PENDULUM, &begin(), kept)?;
+    let mut run =
+        Integrator::new(&CONSTRAINED, Rattle::default(), H, ConstrainedPendulum::state_of(&begin()))?;
+    let rattle = long.watch(
+        job,
+        || {
+            run.take_steps(EVERY)?;
+            Ok(ConstrainedPendulum::on_sphere(&run.state()))
+        },
+        kept,
+    )?;
+    let rattle = Series::new("RATTLE", Stroke::solid(GREEN), rattle);
+    let all = [long.by_rk4(job, PENDULUM, &begin(), kept)?, rattle, arcs];
+    let end = job.choose(400.0, 25.0);
+    let (by_arcs, by_chords) = (each(STEPS, |h| arcs_of(h, end))?, each(STEPS, |h| chords_of(h, end))?);
+    let columns =
+        ["method", "t", "largest_energy_error", "largest_change_of_length", "largest_change_of_momentum"];
+    job.publish(figure(&all, long)?, magnitude_table(&columns, &all)?)?;
+    let [rk4, chords, arcs] = all.each_ref().map(|series| &series.kept);
+    // The largest that h²g makes of it, by the runs with the same step.
+    let [by_arc, by_chord] = [&by_arcs, &by_chords].map(|swings| swings[1].energy.predicted);
+    let flat =
+        beyond("the energy errors of a spherical pendulum have no trend, by great circles and by RATTLE");
+    let flat = flat_energy(job, flat, "great circles", &arcs[0], by_arc);
+    Ok(vec![
+        turnings::claim("a spherical pendulum", by_arcs.each_ref().map(|swings| &swings.extremes)),
+        rounding(job, long, arcs, chords),
+        flat_energy(job, flat, "RATTLE", &chords[0], by_chord),
+        shadow::claim("great circles", &by_arcs.each_ref().map(|swings| swings.energy)),
+        shadow::claim("RATTLE", &by_chords.each_ref().map(|swings| swings.energy)),
+        loses(job, rk4, arcs),
+        order_of_places(&by_arcs, &by_chords)?,
+    ]
+    .into())
 }
 
 fn begin() -> SphericalPendulumState {
     SphericalPendulum::hanging(HANGING, RATES)
 }
 
-fn trapezoid() -> Geodesic<dvi_core::discrete::Trapezoid> {
-    Geodesic::trapezoid()
-}
-
-fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
-    one.into_iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-}
-
-/// s and ṡ.
-fn entries(SphericalPendulumState { s, dot_s }: &SphericalPendulumState) -> [f64; 6] {
-    [s[0], s[1], s[2], dot_s[0], dot_s[1], dot_s[2]]
-}
-
-fn state(y: &[f64; 6]) -> SphericalPendulumState {
-    SphericalPendulumState { s: [y[0], y[1], y[2]], dot_s: [y[3], y[4], y[5]] }
-}
-
-/// s at [`ORDER_TIME`], by RK4.
-fn reference(h: f64) -> [f64; 3] {
-    let steps = (ORDER_TIME / h).round() as u64;
-    let end = (0..steps).fold(entries(&begin()), |y, _| rk4(&y, h, |y| PENDULUM.motion(y)));
-    state(&end).s
-}
-
-/// The distances from the reference by Suzuki's composition of steps along great circles.
-fn composed(expected: [f64; 3]) -> Result<[f64; 3]> {
-    fn after<M: Method<SphericalPendulum, f64>>(method: M, h: f64) -> Result<[f64; 3]> {
-        let mut run = Integrator::new(&PENDULUM, method, h, begin())?;
-        run.take_steps((ORDER_TIME / h).round() as u64)?;
-        Ok(run.state().s)
-    }
-    let mut errors = [f64::NAN; 3];
-    for (error, h) in errors.iter_mut().zip(STEPS) {
-        *error = distance(after(Composition::suzuki(trapezoid()), h)?, expected);
-    }
-    Ok(errors)
+fn distance_of(one: [f64; 3], other: [f64; 3]) -> f64 {
+    length([0, 1, 2].map(|k| one[k] - other[k]))
 }
 
 /// Along great circles.
-fn arcs(h: f64, end: f64) -> Result<Swings> {
-    let mut run = Integrator::new(&PENDULUM, trapezoid(), h, begin())?;
+fn arcs_of(h: f64, end: f64) -> Result<Swings> {
+    let mut run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), h, begin())?;
     let next = || {
         run.advance()?;
         Ok(run.state())
@@ -144,7 +100,7 @@ fn arcs(h: f64, end: f64) -> Result<Swings> {
 }
 
 /// By RATTLE.
-fn chords(h: f64, end: f64) -> Result<Swings> {
+fn chords_of(h: f64, end: f64) -> Result<Swings> {
     let start = ConstrainedPendulum::state_of(&begin());
     let mut run = Integrator::new(&CONSTRAINED, Rattle::default(), h, start)?;
     let next = || {
@@ -179,25 +135,92 @@ impl Swings {
     }
 }
 
-/// The path from above.
-fn path() -> Result<Vec<[f64; 2]>> {
-    let mut run = Integrator::new(&PENDULUM, trapezoid(), H, begin())?;
-    let mut path = vec![[begin().s[0], begin().s[1]]];
-    for _ in 0..(DRAWN / H) as u64 {
-        run.advance()?;
-        path.push([run.q()[0], run.q()[1]]);
-    }
-    Ok(path)
+fn rounding(job: &Job<'_>, long: Long, arcs: &[Deviation; 3], chords: &[Deviation; 3]) -> Claim {
+    let text = "unit vectors have the length one to a few units of rounding for the whole run; the momentum about the vertical is kept up to \
+                errors no larger than a unit of rounding times the square root of the number of steps, and by RATTLE up to what the \
+                errors of the length add up to over the steps";
+    let momentum = "largest relative change of the momentum about the vertical";
+    let (steps, bound) = (long.steps as f64, long.random_walk());
+    beyond(text)
+        .at_least("steps", job.only_full(steps), 1e7)
+        .at_most("great circles: largest ||s|² − 1|", arcs[1].largest, FEW_UNITS)
+        .at_most("RATTLE: largest ||s|² − 1|", chords[1].largest, bound)
+        .at_most(format!("great circles: {momentum}"), arcs[2].largest, bound)
+        .at_most(format!("RATTLE: {momentum}"), chords[2].largest, steps * chords[1].largest)
+}
+
+fn loses(job: &Job<'_>, [energy, length, vertical]: &[Deviation; 3], arcs: &[Deviation; 3]) -> Claim {
+    let text =
+        "RK4 on s and its rate leaves the sphere, and loses energy and momentum in proportion to the time";
+    let over = |kept: usize, factor: f64| factor * arcs[kept].largest;
+    let (momentum, trend) = (job.only_full(vertical.largest), "last tenth of the time over the first");
+    beyond(text)
+        .at_least("RK4: largest ||s|² − 1|", job.only_full(length.largest), over(1, 1e6))
+        .at_least("RK4: largest relative change of the momentum", momentum, over(2, 1e3))
+        .near(format!("RK4: change of the momentum, {trend}"), job.only_full(vertical.trend()), [10.0, 1.0])
+        .at_least("RK4: max|ΔE|", job.only_full(energy.largest), over(0, 10.0))
+        .near(format!("RK4: max|ΔE|, {trend}"), job.only_full(energy.trend()), [10.0, 1.0])
+}
+
+fn order_of_places(arcs: &[Swings; 3], chords: &[Swings; 3]) -> Result<Claim> {
+    let text = "the place of a spherical pendulum is of second order by great circles and by RATTLE, which differ by a term of the order h², and \
+                of fourth by Suzuki's composition";
+    let [fine, double] = [FINE, 2.0 * FINE].map(|h| {
+        let [x, y, z, ..] = reference(PENDULUM, &begin(), ORDER_TIME, h);
+        [x, y, z]
+    });
+    let composed = order_of(STEPS, |h| {
+        let end = up_to(&PENDULUM, Composition::suzuki(Geodesic::trapezoid()), h, begin(), ORDER_TIME)?;
+        Ok((h, distance_of(end.s, fine)))
+    })?;
+    let of = |swings: &[Swings; 3]| {
+        order(STEPS.into_iter().zip(swings).map(|(h, swings)| (h, distance_of(swings.place, fine))))
+    };
+    let both = arcs.iter().zip(chords).map(|(arcs, chords)| distance_of(arcs.place, chords.place));
+    let apart = order(STEPS.into_iter().zip(both));
+    Ok(beyond(text)
+        .at_most("distance of two references", distance_of(fine, double), 1e-9)
+        .near(format!("great circles: order at t = {ORDER_TIME}"), of(arcs), [2.0, 0.05])
+        .near(format!("Suzuki's composition: order at t = {ORDER_TIME}"), composed, [4.0, 0.1])
+        .near(format!("RATTLE: order at t = {ORDER_TIME}"), of(chords), [2.0, 0.05])
+        .near("order of the distance of great circles and RATTLE", apart, [2.0, 0.05]))
+}
+
+fn figure(all: &[Series<3>; 3], long: Long) -> Result<Figure> {
+    let mut run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), H, begin())?;
+    let path = course(&mut run, (DRAWN / H) as u64, place)?;
+    let radii = PENDULUM.heights(&begin()).extremes().map(|height| (1.0 - height * height).sqrt());
+    let grey = Stroke::dashed(SLATE).width(1.0);
+    let path = Panel::plane("The path", "*x*", "*y*")
+        .line(path, Stroke::solid(BLUE).width(1.2))
+        .each(radii, |panel, radius| panel.line(circle([0.0; 2], radius), grey));
+    let energy = [(0, ["Energy", "largest |*E* − *E*(0)|"], [1e-11, 10.0])];
+    let others = [
+        (1, ["Length", "||*s*|² − 1|"], [1e-17, 10.0]),
+        (2, ["Momentum about the vertical", "largest relative change"], [1e-17, 10.0]),
+    ];
+    let energy = panels(long.end(), all, &energy).into_iter().map(|panel| panel.weight(1.4));
+    Ok(Figure::new(
+        "A spherical pendulum",
+        format!("Mass, length and *g* are 1; unit vectors along great circles, trapezoidal rule, and a constraint by RATTLE, *h* = {H}."),
+    )
+    .row(400.0, [path].into_iter().chain(energy).collect())
+    .row(300.0, panels(long.end(), all, &others))
+    .footer(format!(
+        "The path is from above, up to *t* = {DRAWN}; the roots of the cubic are the circles. The others: {} steps.",
+        scientific(long.steps as f64)
+    )))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::models::OnManifold as _;
 
     #[test]
     fn the_integrals_by_hand_are_those_of_the_declarations() {
         let heights = PENDULUM.heights(&begin());
-        let run = Integrator::new(&PENDULUM, trapezoid(), H, begin()).expect("a run");
+        let run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), H, begin()).expect("a run");
         let start = ConstrainedPendulum::state_of(&begin());
         let constrained = Integrator::new(&CONSTRAINED, Rattle::default(), H, start).expect("a run");
         for (energy, vertical) in
@@ -210,9 +233,8 @@ mod tests {
 
     #[test]
     fn the_motion_by_hand_keeps_the_integrals() {
-        let steps = (ORDER_TIME / FINE).round() as u64;
-        let end = (0..steps).fold(entries(&begin()), |y, _| rk4(&y, FINE, |y| PENDULUM.motion(y)));
-        let (before, after) = (PENDULUM.heights(&begin()), PENDULUM.heights(&state(&end)));
+        let end = SphericalPendulum::state(&reference(PENDULUM, &begin(), ORDER_TIME, FINE));
+        let [before, after] = [begin(), end].map(|state| PENDULUM.heights(&state));
         assert!((before.energy - after.energy).abs() < 1e-11);
         assert!((before.vertical - after.vertical).abs() < 1e-11);
     }

@@ -3,103 +3,86 @@
 //! For σ = ½ the region is the closed left half plane. For every other σ it is a part of the imaginary axis,
 //! |λh| < 1/|1 − 2σ|, and nothing beside it: where λ damps, the parasitic root grows.
 
-use crate::claim::larger;
-use anyhow::Result;
-use dvi_core::prelude::*;
 use rayon::prelude::*;
 
-use crate::claim::{Bound, Claim};
-use crate::figure::{Anchor, Axis, BLUE, Corner, Figure, Fill, Panel, SLATE, Stroke, VERMILLION, at_most};
-use crate::gallery::{Experiment, Outcome};
-use crate::job::Job;
 use crate::models::{Linear, LinearState, Rotation, RotationState};
-use crate::output::Table;
-
-pub const EXPERIMENT: Experiment = Experiment {
-    name: "stability",
-    title: "The stability of the σ-family, by running it",
-    share: 20.0,
-    run,
-};
+use crate::vocabulary::*;
 
 /// σ = ½ has no limit and is tested apart.
 #[rustfmt::skip]
 const SIGMAS: [f64; 18] = [
     0.0, 0.1, 0.2, 0.3, 0.4, 0.45, 0.47, 0.48, 0.49, 0.51, 0.52, 0.53, 0.55, 0.6, 0.7, 0.8, 0.9, 1.0,
 ];
-
 /// A mode that grows reaches this size unless it grows more slowly than we resolve; at the limit itself
 /// the growth is linear and does not.
 const LARGE: f64 = 1e8;
-
 /// λh that damp, the first of which is drawn.
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
 /// Steps of the runs with them.
 const FEW: u64 = 1000;
 
-fn run(job: &Job<'_>) -> Result<Outcome> {
+/// Both modes are wanted.
+fn unlimited(sigma: f64) -> Sigma {
+    Sigma { parasitic_limit: None, ..Sigma::new(sigma) }
+}
+
+/// The limit of |λh| on the imaginary axis.
+fn formula(sigma: f64) -> f64 {
+    1.0 / (1.0 - 2.0 * sigma).abs()
+}
+
+pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
     // A bisection takes some 32 runs.
     job.expect(steps * (3 + 32 * SIGMAS.len() as u64) + FEW * (19 * DAMPED.len() + 1) as u64);
     let measured: Vec<[f64; 2]> =
         SIGMAS.par_iter().map(|&sigma| Ok([sigma, limit(job, sigma, steps)?])).collect::<Result<_>>()?;
-    let [once, twice] = [steps, 2 * steps].map(|steps| largest_amplitude(job, 0.5, 1e3, steps));
-    let growth = twice? / once?;
-    let sigmas = SIGMAS.into_iter().chain([0.5]);
-    let damped = sigmas.flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
-    let damped: Vec<Damped> =
-        damped.map(|(sigma, lambda)| Damped::new(job, sigma, lambda)).collect::<Result<_>>()?;
+    let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(job, 0.5, 1e3, steps))?;
+    let damped = SIGMAS.into_iter().chain([0.5]).flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
+    let damped =
+        damped.map(|(sigma, lambda)| Damped::new(job, sigma, lambda)).collect::<Result<Vec<_>>>()?;
     let right = Damped::new(job, 0.5, [0.01, 1.0])?;
-    job.publish(EXPERIMENT.name, figure(&measured, &damped), table(&measured, &damped)?)?;
-    let claims = claims(job, &measured, [growth, right.factor], &damped);
-    Ok(Outcome { claims, references: vec![], notes: vec![] })
+    let columns = ["quantity", "sigma", "lambda_h_real", "lambda_h_imaginary", "measured", "formula"];
+    let limits =
+        measured.iter().map(|&[sigma, limit]| (["limit"], [sigma, 0.0, limit, limit, formula(sigma)]));
+    let growths = damped.iter().map(|&Damped { sigma, lambda: [x, y], factor, .. }| {
+        (["growth per step"], [sigma, x, y, factor, Damped::root(sigma, [x, y])])
+    });
+    job.publish(figure(&measured, &damped), Table::of(&columns, limits.chain(growths))?)?;
+    Ok(claims(job, &measured, [twice / once, right.factor], &damped).into())
 }
 
 /// The largest relative deviation of the limits from 1/|1 − 2σ|.
 fn deviation(measured: &[[f64; 2]]) -> f64 {
-    let deviation = measured.iter().map(|[sigma, limit]| (limit * (1.0 - 2.0 * sigma).abs() - 1.0).abs());
-    deviation.fold(0.0, larger)
+    largest(measured.iter().map(|[sigma, limit]| (limit * (1.0 - 2.0 * sigma).abs() - 1.0).abs()))
 }
 
 fn claims(job: &Job<'_>, measured: &[[f64; 2]], [growth, right]: [f64; 2], damped: &[Damped]) -> Vec<Claim> {
-    let half = || damped.iter().filter(|run| run.sigma == 0.5);
+    let half = damped.iter().filter(|run| run.sigma == 0.5);
     let others = || damped.iter().filter(|run| run.sigma != 0.5);
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, larger);
     let smallest = others().map(|run| run.factor).fold(f64::INFINITY, f64::min);
+    let away = largest(others().map(|run| (run.factor - Damped::root(run.sigma, run.lambda)).abs()));
     let quarter = Damped::root(0.25, DAMPED[0]);
+    let accuracy = job.choose(1e-4, 1e-3);
+    let from_formula = "largest relative deviation of the limit from the formula, 18 values of σ";
+    let smallest_growth = "smallest growth per step of 18 values of σ ≠ ½, five λ with negative real part";
+    let bounded = "largest |z|, five λ with negative real part, both modes of size one";
     vec![
         Claim::new("section 4.1", "stable only when λ is imaginary, with |λh| < 1/|1 − 2σ|")
-            .check(
-                "largest relative deviation of the limit from the formula, 18 values of σ",
-                deviation(measured),
-                Bound::AtMost(job.choose(1e-4, 1e-3)),
-            )
-            .check(
-                "smallest growth per step of 18 values of σ ≠ ½, five λ with negative real part",
-                smallest,
-                Bound::AtLeast(1.0 + 1e-6),
-            )
-            .check(
-                "largest deviation of that growth from the root of the recursion",
-                largest(&mut others().map(|run| (run.factor - Damped::root(run.sigma, run.lambda)).abs())),
-                Bound::AtMost(1e-3),
-            )
-            .check("the root for σ = ¼, λh = −1 + i", quarter, Bound::AtLeast(1.3)),
+            .at_most(from_formula, deviation(measured), accuracy)
+            .at_least(smallest_growth, smallest, 1.0 + 1e-6)
+            .at_most("largest deviation of that growth from the root of the recursion", away, 1e-3)
+            .at_least("the root for σ = ¼, λh = −1 + i", quarter, 1.3),
         Claim::new("section 4.1", "for σ = ½ the region of stability is the closed left half plane")
-            .check("growth of max|z| from step N to step 2N, λh = 1000i", growth, Bound::AtMost(1.001))
-            .check(
-                "largest |z|, five λ with negative real part, both modes of size one",
-                largest(&mut half().map(|run| run.largest)),
-                Bound::AtMost(4.0),
-            )
-            .check("growth per step to the right of it, λh = 0.01 + i", right, Bound::AtLeast(1.001)),
+            .at_most("growth of max|z| from step N to step 2N, λh = 1000i", growth, 1.001)
+            .at_most(bounded, largest(half.map(|run| run.largest)), 4.0)
+            .at_least("growth per step to the right of it, λh = 0.01 + i", right, 1.001),
     ]
 }
 
 /// The largest ω at which runs with h = 1 stay bounded.
 fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
-    let is_stable =
-        |omega: f64| Ok::<_, anyhow::Error>(largest_amplitude(job, sigma, omega, steps)? < LARGE);
+    let is_stable = |omega: f64| anyhow::Ok(largest_amplitude(job, sigma, omega, steps)? < LARGE);
     let (mut low, mut high) = (0.0, 0.5);
     while is_stable(high)? && !job.is_stopping() {
         (low, high) = (high, 2.0 * high);
@@ -116,11 +99,8 @@ fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Resul
     let rotation = Rotation { omega };
     let [first, second] =
         [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
-    // Both modes are wanted.
-    let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
-    let mut run = Integrator::from_two_points(&rotation, method, 1.0, first, second)?;
-    let mut largest = 0.0f64;
-    let mut lost = false;
+    let mut run = Integrator::from_two_points(&rotation, unlimited(sigma), 1.0, first, second)?;
+    let (mut largest, mut lost) = (0.0f64, false);
     job.repeat(steps, || {
         // Once it is large enough to be called unstable, or ended, there is no need to go on to infinity.
         if largest < LARGE && !lost {
@@ -144,22 +124,15 @@ struct Damped {
 impl Damped {
     fn new(job: &Job<'_>, sigma: f64, lambda: [f64; 2]) -> Result<Self> {
         let [real, imaginary] = lambda;
-        let state = |z| LinearState { z, w: [0.0; 2] };
+        let [first, second] = [[1.0, 0.0], [0.0, 1.0]].map(|z| LinearState { z, w: [0.0; 2] });
         let system = Linear { real, imaginary };
-        let mut run = Integrator::from_two_points(
-            &system,
-            Sigma { parasitic_limit: None, ..Sigma::new(sigma) },
-            1.0,
-            state([1.0, 0.0]),
-            state([0.0, 1.0]),
-        )?;
-        let size = |q: &[f64]| q[0].hypot(q[1]);
+        let mut run = Integrator::from_two_points(&system, unlimited(sigma), 1.0, first, second)?;
         let (mut sizes, mut before, mut lost) = (vec![1.0f64], 1.0f64, false);
         job.repeat(FEW, || {
             if before < 1e60 && !lost {
                 lost = run.advance().is_err();
                 // Two points, so that no oscillation is mistaken for decay.
-                let now = size(run.q());
+                let now = run.q()[0].hypot(run.q()[1]);
                 sizes.push(larger(before, now));
                 before = now;
             }
@@ -167,8 +140,7 @@ impl Damped {
         })?;
         let (middle, last) = (sizes.len() / 2, sizes.len() - 1);
         let factor = (sizes[last] / sizes[middle]).powf(1.0 / (last - middle).max(1) as f64);
-        let largest = sizes.into_iter().fold(0.0, larger);
-        Ok(Self { sigma, lambda, factor, largest })
+        Ok(Self { sigma, lambda, factor, largest: largest(sizes) })
     }
 
     /// The larger modulus of the roots of (1 − bλ)ρ² − 2(1 − b)λρ − (1 + bλ) = 0, b = 2σ(1 − σ), h = 1:
@@ -183,68 +155,42 @@ impl Damped {
         let square = [mm[0] + 1.0 - b * b * ll[0], mm[1] - b * b * ll[1]];
         let (r, angle) = (modulus(square).sqrt(), 0.5 * square[1].atan2(square[0]));
         let s = [r * angle.cos(), r * angle.sin()];
-        let plus = modulus([m[0] + s[0], m[1] + s[1]]);
-        let minus = modulus([m[0] - s[0], m[1] - s[1]]);
+        let [plus, minus] = [[m[0] + s[0], m[1] + s[1]], [m[0] - s[0], m[1] - s[1]]].map(modulus);
         larger(plus, minus) / modulus([1.0 - b * x, -b * y])
     }
 }
 
 fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
-    let formula = |sigma: f64| 1.0 / (1.0 - 2.0 * sigma).abs();
     let (bottom, top) = (0.5, 200.0);
     let sigmas = || (0..=1000).map(|i| f64::from(i) / 1000.0);
     let curve: Vec<[f64; 2]> = sigmas().map(|s| [s, formula(s).min(1e6)]).collect();
     let stable = curve.iter().map(|&[sigma, limit]| [sigma, bottom, limit]).collect();
-    let sigma = || Axis::linear("σ").within(-0.02, 1.02);
-    let border = Panel::new(
-        "Imaginary λ: where runs turn from bounded to unbounded",
-        sigma(),
-        Axis::logarithmic("|λ*h*|").within(bottom, top),
-    )
-    .band(stable, BLUE)
-    .line(curve, Stroke::solid(BLUE))
-    .labelled("1/|1 − 2σ|")
-    .discs(measured.to_vec(), VERMILLION, Fill::Hollow)
-    .labelled("measured by bisection")
-    .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
-    .note([0.1, 20.0], Anchor::Middle, SLATE, "unstable")
-    .legend_at(Corner::TopRight);
+    let [sigma, same] = [0, 1].map(|_| Axis::linear("σ").within(-0.02, 1.02));
+    let title = "Imaginary λ: where runs turn from bounded to unbounded";
+    let border = Panel::new(title, sigma, Axis::logarithmic("|λ*h*|").within(bottom, top))
+        .band(stable, BLUE)
+        .line(curve, Stroke::solid(BLUE))
+        .labelled("1/|1 − 2σ|")
+        .discs(measured.to_vec(), VERMILLION, Fill::Hollow)
+        .labelled("measured by bisection")
+        .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
+        .note([0.1, 20.0], Anchor::Middle, SLATE, "unstable");
     let first = damped.iter().filter(|run| run.lambda == DAMPED[0]);
-    let first: Vec<[f64; 2]> = first.map(|run| [run.sigma, run.factor]).collect();
-    let growth = Panel::new(
-        "λ*h* = −1 + i: growth of |*z*| in a step",
-        sigma(),
-        Axis::linear("factor").within(0.8, 3.8),
-    )
-    .line(vec![[0.0, 1.0], [1.0, 1.0]], Stroke::dashed(SLATE).width(1.2))
-    .labelled("neither growth nor decay")
-    .line(sigmas().map(|s| [s, Damped::root(s, DAMPED[0])]).collect(), Stroke::solid(BLUE))
-    .labelled("larger root of the recursion")
-    .discs(first, VERMILLION, Fill::Hollow)
-    .labelled("measured")
-    .legend_at(Corner::TopRight);
+    let factor = Axis::linear("factor").within(0.8, 3.8);
+    let growth = Panel::new("λ*h* = −1 + i: growth of |*z*| in a step", same, factor)
+        .line(vec![[0.0, 1.0], [1.0, 1.0]], Stroke::dashed(SLATE).width(1.2))
+        .labelled("neither growth nor decay")
+        .line(sigmas().map(|s| [s, Damped::root(s, DAMPED[0])]).collect(), Stroke::solid(BLUE))
+        .labelled("larger root of the recursion")
+        .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
+        .labelled("measured");
+    let accuracy = at_most(deviation(measured));
     Figure::new(
         "The stability of the σ-family on *z*' = λ*z*, on the imaginary axis and to the left of it",
         format!(
-            "Found by running the schemes; the limits on the left are those of the formula to {}",
-            at_most(deviation(measured))
+            "Found by running the schemes; the limits on the left are those of the formula to {accuracy}"
         ),
     )
     .row(470.0, vec![border, growth])
     .footer("Rowley & Marsden 2002, section 4.1.")
-}
-
-fn table(measured: &[[f64; 2]], damped: &[Damped]) -> Result<Table> {
-    let mut table =
-        Table::new(&["quantity", "sigma", "lambda_h_real", "lambda_h_imaginary", "measured", "formula"])?;
-    let mut row = |what: &str, numbers: [f64; 5]| {
-        table.row([what.to_owned()].into_iter().chain(numbers.map(crate::output::number)))
-    };
-    for &[sigma, limit] in measured {
-        row("limit", [sigma, 0.0, limit, limit, 1.0 / (1.0 - 2.0 * sigma).abs()])?;
-    }
-    for &Damped { sigma, lambda: [x, y], factor, .. } in damped {
-        row("growth per step", [sigma, x, y, factor, Damped::root(sigma, [x, y])])?;
-    }
-    Ok(table)
 }

@@ -1,7 +1,7 @@
 //! Where a height that goes up and down turns, between the steps of a run.
 
-use crate::claim::{BEYOND, Bound, Claim, larger};
 use crate::models::Heights;
+use crate::vocabulary::*;
 
 /// The turnings of a run with steps of one length.
 #[derive(Clone, Debug)]
@@ -55,9 +55,8 @@ impl Turnings {
 
     /// The extreme of the cubic polynomial through both heights with both rates.
     fn between(&self, before: Sample, after: Sample) -> Turning {
-        let [first, last] = [self.h * before.rate, self.h * after.rate];
-        let rise = after.height - before.height;
-        let (square, cube) = (3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise);
+        let [first, square, cube] =
+            hermite([before.height, before.rate], [after.height, after.rate], self.h);
         let root = (square * square - 3.0 * cube * first).max(0.0).sqrt();
         let s = first / (first.signum() * root - square);
         Turning {
@@ -77,7 +76,7 @@ impl Turnings {
                 h: self.h,
                 count: found.len(),
                 mean: mean(&|turning| turning.height - root),
-                largest: found.iter().map(|turning| (turning.height - root).abs()).fold(0.0, larger),
+                largest: largest(found.iter().map(|turning| (turning.height - root).abs())),
                 predicted: mean(&energy) / heights.stiffness(root),
             }
         })
@@ -90,49 +89,49 @@ pub fn claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
     let text = format!(
         "{what} goes up and down between the roots of its cubic, up to a multiple of h², which follows from the energy error in closed form"
     );
-    let claim = ["lowest", "highest"].into_iter().enumerate().fold(
-        Claim::new(BEYOND, text),
-        |claim, (side, name)| {
-            let (middle, fine) = (&middle[side], &fine[side]);
-            let predicted = fine.predicted / (fine.h * fine.h);
-            claim
-                .check(format!("{name}: turnings"), fine.count as f64, Bound::AtLeast(5.0))
-                .check(
-                    format!("{name}, h = {}: (height − root)/h²", fine.h),
-                    fine.mean / (fine.h * fine.h),
-                    Bound::Near(predicted, 0.02 * predicted.abs()),
-                )
-                .check(
-                    format!("{name}: distance from the root, h = {} over h = {}", middle.h, fine.h),
-                    middle.mean / fine.mean,
-                    Bound::Near(4.0, 0.1),
-                )
-        },
-    );
     let [low, high] = coarse;
     let square = low.h * low.h;
-    claim.check(
-        format!("h = {}: largest distance of a turning from its root / h²", low.h),
-        larger(low.largest, high.largest) / square,
-        Bound::AtMost(1.1 * larger(low.predicted.abs(), high.predicted.abs()) / square),
-    )
+    let bound = 1.1 * larger(low.predicted.abs(), high.predicted.abs()) / square;
+    beyond(text)
+        .each(
+            ["lowest", "highest"].into_iter().zip(middle.iter().zip(fine)),
+            |claim, (name, (middle, fine))| {
+                let predicted = fine.predicted / (fine.h * fine.h);
+                let distance = format!("distance from the root, h = {} over h = {}", middle.h, fine.h);
+                let over_square = fine.mean / (fine.h * fine.h);
+                claim
+                    .of(name)
+                    .at_least("turnings", fine.count as f64, 5.0)
+                    .of(format!("{name}, h = {}", fine.h))
+                    .near("(height − root)/h²", over_square, [predicted, 0.02 * predicted.abs()])
+                    .of(name)
+                    .near(distance, middle.mean / fine.mean, [4.0, 0.1])
+            },
+        )
+        .at_most(
+            format!("h = {}: largest distance of a turning from its root / h²", low.h),
+            larger(low.largest, high.largest) / square,
+            bound,
+        )
+}
+
+/// The coefficients of s, s² and s³ in the cubic polynomial through two values with their rates, a step of
+/// length `h` apart, for s from 0 to 1.
+fn hermite(before: [f64; 2], after: [f64; 2], h: f64) -> [f64; 3] {
+    let [first, last] = [h * before[1], h * after[1]];
+    let rise = after[0] - before[0];
+    [first, 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise]
 }
 
 /// The part of a step of length `h` after which a value is zero that changes its sign in it: each of both
-/// points is a value with its rate, and a cubic polynomial goes through them.
+/// points is a value with its rate.
 pub fn crossing(before: [f64; 2], after: [f64; 2], h: f64) -> f64 {
-    let [first, last] = [h * before[1], h * after[1]];
-    let rise = after[0] - before[0];
-    let (square, cube) = (3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise);
+    let [first, square, cube] = hermite(before, after, h);
     let value = |s: f64| before[0] + s * (first + s * (square + s * cube));
     let [mut low, mut high] = [0.0, 1.0];
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if value(middle) * before[0] > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
+        if value(middle) * before[0] > 0.0 { low = middle } else { high = middle }
     }
     0.5 * (low + high)
 }

@@ -18,6 +18,11 @@ impl Axis {
         Self { logarithmic: true, ..Self::linear(label) }
     }
 
+    /// The time from 0 to `end`.
+    pub fn time(end: f64) -> Self {
+        Self::linear("time *t*").within(0.0, end)
+    }
+
     /// An axis on which 0, 1, 2, … have names.
     pub fn names(label: impl Into<String>, names: Vec<String>) -> Self {
         let range = Some([-0.6, names.len() as f64 - 0.4]);

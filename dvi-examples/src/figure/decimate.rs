@@ -60,6 +60,11 @@ impl Envelope {
         bin.count += 1;
     }
 
+    /// How many intervals there are.
+    pub fn intervals(&self) -> usize {
+        self.bins.len()
+    }
+
     /// The end of the last interval that has values.
     pub fn end(&self) -> f64 {
         let filled = self.bins.iter().rposition(|bin| bin.count > 0).map_or(0, |last| last + 1);

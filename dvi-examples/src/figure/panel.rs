@@ -66,9 +66,27 @@ impl Panel {
         }
     }
 
+    /// A plane with the coordinates `x` and `y`.
+    pub fn plane(title: impl Into<String>, x: &str, y: &str) -> Self {
+        Self::new(title, Axis::linear(x), Axis::linear(y)).equal()
+    }
+
     /// A line through the points; of long series, what the pixels can show.
     pub fn line(self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
         self.with(Mark::Line(points, stroke))
+    }
+
+    /// Lines with their names in the legend.
+    pub fn lines<N: Into<String>>(
+        self,
+        lines: impl IntoIterator<Item = (N, Stroke, Vec<[f64; 2]>)>,
+    ) -> Self {
+        self.each(lines, |panel, (name, stroke, points)| panel.line(points, stroke).labelled(name))
+    }
+
+    /// What `add` adds for each of some things.
+    pub fn each<I: IntoIterator>(self, things: I, add: impl FnMut(Self, I::Item) -> Self) -> Self {
+        things.into_iter().fold(self, add)
     }
 
     /// A line below everything that was added before.

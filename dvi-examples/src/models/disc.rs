@@ -72,6 +72,21 @@ impl RollingDisc {
             4.0 * torque / self.radius.powi(2),
         ]
     }
+
+    /// The energy of (x, y, θ, φ, θ', φ').
+    pub fn energy_of(&self, &[x, y, _, phi, dot_theta, dot_phi]: &[f64; 6]) -> f64 {
+        let Self { radius, stiffness, field, gradient } = self;
+        let kinetic = radius.powi(2) * (0.75 * dot_theta.powi(2) + 0.125 * dot_phi.powi(2));
+        let magnet = (field[0] + gradient * y) * phi.cos() + (field[1] + gradient * x) * phi.sin();
+        kinetic + 0.5 * (stiffness[0] * x * x + stiffness[1] * y * y) - magnet
+    }
+}
+
+impl RollingDiscState {
+    /// (x, y, θ, φ, θ', φ')
+    pub fn reduced(&self) -> [f64; 6] {
+        [self.x, self.y, self.theta, self.phi, self.dot_theta, self.dot_phi]
+    }
 }
 
 impl ChaplyginSleigh {
@@ -85,5 +100,37 @@ impl ChaplyginSleigh {
     pub fn reduced(&self, &[_, _, theta, v, omega]: &[f64; 5]) -> [f64; 5] {
         let rate = -self.a * v * omega / (self.inertia + self.a * self.a);
         [v * theta.cos(), v * theta.sin(), omega, self.a * omega * omega, rate]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DISC: RollingDisc =
+        RollingDisc { radius: 0.7, stiffness: [1.0, 1.7], field: [0.3, 0.1], gradient: 0.3 };
+
+    #[test]
+    fn the_equations_by_hand_are_those_of_the_constraints() {
+        let state = DISC.rolling([0.4, -0.3], 1.1, [0.9, -0.6]);
+        let rates = DISC.vector_field(&state).expect("rates");
+        let by_hand = DISC.reduced(&state.reduced());
+        for (a, b) in by_hand.into_iter().zip(rates.reduced()) {
+            assert!((a - b).abs() < 1e-14, "{by_hand:?} {rates:?}");
+        }
+        let (sleigh, theta, v, omega) = (ChaplyginSleigh { inertia: 1.0, a: 0.5 }, 0.8_f64, -1.2, 0.7);
+        let (dot_x, dot_y) = (v * theta.cos(), v * theta.sin());
+        let state = ChaplyginSleighState { x: 0.0, y: 0.0, theta, dot_x, dot_y, dot_theta: omega };
+        let rates = sleigh.vector_field(&state).expect("rates");
+        let by_hand = sleigh.reduced(&[0.0, 0.0, theta, v, omega]);
+        let along = rates.dot_x * theta.cos() + rates.dot_y * theta.sin();
+        assert!((along - by_hand[3]).abs() < 1e-14 && (rates.dot_theta - by_hand[4]).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_energy_by_hand_is_that_of_the_lagrangian() {
+        let state = DISC.rolling([0.4, -0.3], 1.1, [0.9, -0.6]);
+        let generated: f64 = DISC.energy_at(&state).expect("a state");
+        assert!((DISC.energy_of(&state.reduced()) - generated).abs() < 1e-15);
     }
 }

@@ -1,6 +1,9 @@
-//! Between which heights the axis of a top goes up and down, and the mass of a spherical pendulum.
+//! What tops and spherical pendulums have in common: heights between which they go up and down, and states
+//! on a manifold.
 
 use std::f64::consts::TAU;
+
+use dvi_core::prelude::ManifoldLagrangian;
 
 /// What the height u of a top depends on: (A u̇)² = (1 − u²) 2A(E − weight u) − (vertical − spin u)², by its
 /// integrals (Goldstein 1980, section 5.7). A mass of 1 on a rod of length 1 has A = 1 and no spin.
@@ -61,6 +64,18 @@ impl Heights {
         let turning = self.vertical - self.spin * u;
         2.0 * self.spin * turning - 2.0 * self.across * (2.0 * u * kinetic + (1.0 - u * u) * self.weight)
     }
+}
+
+/// A system on a manifold whose states are so many numbers, for methods that know nothing of the manifold.
+pub trait OnManifold<const D: usize>: ManifoldLagrangian + Copy {
+    /// The entries of a state, coordinates first.
+    fn entries(state: &Self::State<f64>) -> [f64; D];
+
+    /// The state with these entries.
+    fn state(y: &[f64; D]) -> Self::State<f64>;
+
+    /// The rates of the entries in the motion.
+    fn motion(&self, y: &[f64; D]) -> [f64; D];
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 
-use super::Heights;
+use super::{Heights, OnManifold};
 
 /// The top of Lagrange: symmetric about the third axis of the body, on which its centre of mass lies, in
 /// gravity along the third axis of space. It turns about the point on which it stands.
@@ -83,12 +83,6 @@ impl Top {
         accelerated(inertia, self.acceleration([x, y, u], state.omega_R)) / 24.0 - self.weight * bent / 12.0
     }
 
-    /// The rates of R, row by row, and of ω in the motion: Ṙ = R ω̂ and 𝕀ω̇ = 𝕀ω × ω + torque.
-    pub fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
-        let [omega, above] = [[y[9], y[10], y[11]], [y[6], y[7], y[8]]];
-        turning(y, self.acceleration(above, omega))
-    }
-
     /// ω̇, with the direction of the vertical in the body.
     fn acceleration(&self, above: [f64; 3], omega: [f64; 3]) -> [f64; 3] {
         let torque = [self.weight * above[1], -self.weight * above[0], 0.0];
@@ -117,11 +111,49 @@ impl RigidBody {
     pub fn shift(&self, state: &RigidBodyState) -> f64 {
         accelerated(self.inertia, self.acceleration(state.omega_R)) / 24.0
     }
+}
 
-    /// The rates of R, row by row, and of ω in the motion.
-    pub fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
-        turning(y, self.acceleration([y[9], y[10], y[11]]))
+/// R row by row, and ω.
+impl OnManifold<12> for Top {
+    fn entries(state: &TopState) -> [f64; 12] {
+        joined(&state.R, &state.omega_R)
     }
+
+    fn state(y: &[f64; 12]) -> TopState {
+        let (rotation, omega) = split(y);
+        TopState { R: rotation, omega_R: omega }
+    }
+
+    /// Ṙ = R ω̂ and 𝕀ω̇ = 𝕀ω × ω + torque.
+    fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
+        let (rotation, omega) = split(y);
+        turning(&rotation, omega, self.acceleration(vertical(&rotation), omega))
+    }
+}
+
+/// R row by row, and ω.
+impl OnManifold<12> for RigidBody {
+    fn entries(state: &RigidBodyState) -> [f64; 12] {
+        joined(&state.R, &state.omega_R)
+    }
+
+    fn state(y: &[f64; 12]) -> RigidBodyState {
+        let (rotation, omega) = split(y);
+        RigidBodyState { R: rotation, omega_R: omega }
+    }
+
+    fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
+        let (rotation, omega) = split(y);
+        turning(&rotation, omega, self.acceleration(omega))
+    }
+}
+
+fn joined(rotation: &[f64; 9], omega: &[f64; 3]) -> [f64; 12] {
+    std::array::from_fn(|i| if i < 9 { rotation[i] } else { omega[i - 9] })
+}
+
+fn split(y: &[f64; 12]) -> ([f64; 9], [f64; 3]) {
+    (std::array::from_fn(|i| y[i]), std::array::from_fn(|i| y[9 + i]))
 }
 
 /// The direction of the third axis of space in the body.
@@ -145,9 +177,8 @@ fn accelerated(inertia: [f64; 3], acceleration: [f64; 3]) -> f64 {
 }
 
 /// The rates of R, row by row, and of ω: the rows of R ω̂ are those of R times ω.
-fn turning(y: &[f64; 12], acceleration: [f64; 3]) -> [f64; 12] {
-    let omega = [y[9], y[10], y[11]];
-    let [a, b, c] = [0, 3, 6].map(|row| cross([y[row], y[row + 1], y[row + 2]], omega));
-    let d = acceleration;
+fn turning(rotation: &[f64; 9], omega: [f64; 3], d: [f64; 3]) -> [f64; 12] {
+    let row = |i: usize| [rotation[i], rotation[i + 1], rotation[i + 2]];
+    let [a, b, c] = [0, 3, 6].map(|i| cross(row(i), omega));
     [a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]]
 }

@@ -2,7 +2,7 @@
 
 use dvi_core::prelude::*;
 
-use super::Heights;
+use super::{Heights, OnManifold};
 
 /// A mass of 1 on a rod of length 1, as a unit vector, in gravity along the third axis.
 #[lagrangian(
@@ -58,9 +58,20 @@ impl SphericalPendulum {
         let along = self.gravity * self.gravity * (1.0 - s[2] * s[2]);
         along / 24.0 + self.gravity * s[2] * squared(dot_s) / 12.0
     }
+}
 
-    /// The rates of s and ṡ in the motion: s̈ = −g e₃ − (|ṡ|² − g s₃) s.
-    pub fn motion(&self, &[x, y, z, u, v, w]: &[f64; 6]) -> [f64; 6] {
+/// s and ṡ.
+impl OnManifold<6> for SphericalPendulum {
+    fn entries(SphericalPendulumState { s, dot_s }: &SphericalPendulumState) -> [f64; 6] {
+        [s[0], s[1], s[2], dot_s[0], dot_s[1], dot_s[2]]
+    }
+
+    fn state(&[x, y, z, u, v, w]: &[f64; 6]) -> SphericalPendulumState {
+        SphericalPendulumState { s: [x, y, z], dot_s: [u, v, w] }
+    }
+
+    /// s̈ = −g e₃ − (|ṡ|² − g s₃) s
+    fn motion(&self, &[x, y, z, u, v, w]: &[f64; 6]) -> [f64; 6] {
         let tension = u * u + v * v + w * w - self.gravity * z;
         [u, v, w, -tension * x, -tension * y, -self.gravity - tension * z]
     }

@@ -1,23 +1,25 @@
 //! Newmark's method with β = ¼ and γ = ½, the average acceleration method, written by hand for linear
 //! friction.
 
-use crate::models::RadialFriction;
+use crate::models::{RadialFriction, RadialFrictionState};
 
 /// A point with its velocity and acceleration.
 #[derive(Clone, Debug)]
-pub struct Newmark {
+pub struct AverageAcceleration {
     system: RadialFriction,
     h: f64,
-    pub q: [f64; 2],
-    pub v: [f64; 2],
+    q: [f64; 2],
+    v: [f64; 2],
     a: [f64; 2],
 }
 
 /// Newton's method needs about four.
 const ITERATIONS: usize = 20;
 
-impl Newmark {
-    pub fn new(system: RadialFriction, h: f64, q: [f64; 2], v: [f64; 2]) -> Self {
+impl AverageAcceleration {
+    pub fn new(system: RadialFriction, h: f64, start: RadialFrictionState) -> Self {
+        let RadialFrictionState { x, y, dot_x, dot_y } = start;
+        let (q, v) = ([x, y], [dot_x, dot_y]);
         let slope = system.slope(&q);
         let a = std::array::from_fn(|i| -slope * q[i] - system.gamma * v[i]);
         Self { system, h, q, v, a }
@@ -48,10 +50,10 @@ impl Newmark {
     }
 
     /// q − ½h v and v − ½h a.
-    pub fn half_a_step_back(&self) -> [f64; 4] {
+    pub fn half_a_step_back(&self) -> RadialFrictionState {
         let [x, y] = std::array::from_fn(|i| self.q[i] - 0.5 * self.h * self.v[i]);
-        let [u, w] = std::array::from_fn(|i| self.v[i] - 0.5 * self.h * self.a[i]);
-        [x, y, u, w]
+        let [dot_x, dot_y] = std::array::from_fn(|i| self.v[i] - 0.5 * self.h * self.a[i]);
+        RadialFrictionState { x, y, dot_x, dot_y }
     }
 
     pub fn energy(&self) -> f64 {
@@ -84,7 +86,8 @@ mod tests {
     #[test]
     fn a_step_satisfies_the_equations_of_newmark() {
         let system = RadialFriction { gamma: 0.3 };
-        let before = Newmark::new(system, 0.2, [1.2, 0.1], [-0.3, 0.5]);
+        let start = RadialFrictionState { x: 1.2, y: 0.1, dot_x: -0.3, dot_y: 0.5 };
+        let before = AverageAcceleration::new(system, 0.2, start);
         let mut after = before.clone();
         after.step();
         let slope = after.system.slope(&after.q);

@@ -1,0 +1,75 @@
+//! Small things that are done with measured numbers.
+
+use anyhow::{Context as _, Result};
+use dvi_core::diagnostics::convergence_order;
+
+/// The larger of two measured numbers; not a number if one of them is not, so that no bound holds for it.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+/// The largest of some magnitudes.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, larger)
+}
+
+/// The largest difference of a number of one from the number of the other in the same place.
+pub fn apart<'a>(one: impl IntoIterator<Item = &'a f64>, other: impl IntoIterator<Item = &'a f64>) -> f64 {
+    largest(one.into_iter().zip(other).map(|(a, b)| (a - b).abs()))
+}
+
+/// The distance of two points of the plane.
+pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// The largest distance of a point of one from the point of the other in the same place.
+pub fn farthest(one: &[[f64; 2]], other: &[[f64; 2]]) -> f64 {
+    largest(one.iter().zip(other).map(|(&a, &b)| distance(a, b)))
+}
+
+/// The length of a vector.
+pub fn length(v: [f64; 3]) -> f64 {
+    v.into_iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The order that errors show which belong to lengths of steps: see [`convergence_order`].
+pub fn order(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
+    convergence_order(&points.into_iter().collect::<Vec<_>>())
+}
+
+/// What `make` makes of each of the cases, up to the first failure.
+pub fn each<T, U, const N: usize>(cases: [T; N], make: impl FnMut(T) -> Result<U>) -> Result<[U; N]> {
+    let made = cases.into_iter().map(make).collect::<Result<Vec<_>>>()?;
+    made.try_into().ok().context("not as many results as cases")
+}
+
+/// The order that the errors of several cases show: `error` returns the length of the steps and the error.
+pub fn order_of<T>(
+    cases: impl IntoIterator<Item = T>,
+    error: impl FnMut(T) -> Result<(f64, f64)>,
+) -> Result<Option<f64>> {
+    Ok(order(cases.into_iter().map(error).collect::<Result<Vec<_>>>()?))
+}
+
+/// One if something is so, and zero if not, for checks.
+pub fn indicator(is_so: bool) -> f64 {
+    f64::from(u8::from(is_so))
+}
+
+/// A circle as a closed line.
+pub fn circle([x, y]: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
+    let angles = (0..=200).map(|k| std::f64::consts::TAU * f64::from(k) / 200.0);
+    angles.map(|angle| [x + radius * angle.cos(), y + radius * angle.sin()]).collect()
+}
+
+/// A polygon as a closed line.
+pub fn closed(corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    corners.iter().chain(corners.first()).copied().collect()
+}
+
+/// The area of a polygon, by Gauss's formula.
+pub fn area(polygon: &[[f64; 2]]) -> f64 {
+    let next = polygon.iter().cycle().skip(1);
+    polygon.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>() / 2.0
+}

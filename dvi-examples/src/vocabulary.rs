@@ -1,0 +1,19 @@
+//! The words that experiments are written in.
+
+pub use std::f64::consts::{PI, TAU};
+
+pub use anyhow::{Context as _, Result};
+pub use dvi_core::methods::Method;
+pub use dvi_core::prelude::*;
+
+pub use crate::claim::{Bound, Check, Claim, beyond};
+pub use crate::deviation::{Deviation, Series, Span, magnitude_table, magnitudes, note, over_time, ranges};
+pub use crate::figure::{
+    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, PURPLE, Panel, SEQUENCE,
+    SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
+};
+pub use crate::gallery::Outcome;
+pub use crate::job::Job;
+pub use crate::numbers::*;
+pub use crate::output::Table;
+pub use crate::runs::*;
