@@ -39,19 +39,31 @@ pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
         run.steps(count, (storage, work), |q0, _, ahead| ahead.copy_from_slice(q0))
     } else {
         run.steps(count, (storage, work), |q0, q1, ahead| {
-            for i in 0..q0.len() {
-                delta[i] = q1[i] - q0[i];
-            }
-            product.apply(system, delta, c);
-            c.iter_mut().for_each(|c| *c *= *scale);
-            inverse.solve(system, c, ahead);
-            for i in 0..q0.len() {
-                ahead[i] += q1[i];
-            }
+            let by = (system, &*inverse, *scale, &*product);
+            look_ahead(by, [q0, q1], [delta, c], ahead);
         })
     };
     monitor.steps = from + taken;
     (taken, result)
+}
+
+/// Sets `ahead` to q1 + K⁻¹c1, for what `scale` K is the inverse of; with storage.
+#[inline(never)]
+fn look_ahead<S: DegenerateLagrangian<T>, T: Real>(
+    (system, inverse, scale, product): (&S, &Inverse<S, T>, T, &Product<S, T>),
+    [q0, q1]: [&[T]; 2],
+    [delta, c]: [&mut Vector<S, T>; 2],
+    ahead: &mut [T],
+) {
+    for i in 0..q0.len() {
+        delta[i] = q1[i] - q0[i];
+    }
+    product.apply(system, delta, c);
+    c.iter_mut().for_each(|c| *c *= scale);
+    inverse.solve(system, c, ahead);
+    for i in 0..q0.len() {
+        ahead[i] += q1[i];
+    }
 }
 
 /// What the steps are computed with, and what they leave.
