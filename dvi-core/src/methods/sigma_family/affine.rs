@@ -106,8 +106,8 @@ fn iterate<const COMPENSATED: bool, S: DegenerateLagrangian<T>, T: Real>(
     norm::finite(increment)
 }
 
-/// The nodes q_σ as they are iterated. Long vectors are passed over once: each block of the next node is placed
-/// as soon as its s is known.
+/// The nodes q_σ as they are iterated. Long vectors are passed over once: each block of the next node is
+/// placed as soon as its s is known.
 struct Nodes<'a, S: DegenerateLagrangian<T>, T: Real, P> {
     step: &'a Step<'a, S, T>,
     inverse: &'a Inverse<S, T>,
@@ -169,7 +169,8 @@ impl<S: DegenerateLagrangian<T>, T: Real, P: Fn(usize, T) -> T> Iteration<T> for
     }
 }
 
-/// Sets `point`, which begins with coordinate `first`, to `origin` + σs, in which σs is what `part` makes of it.
+/// Sets `point`, which begins with coordinate `first`, to `origin` + σs, in which σs is what `part` makes of
+/// it.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn place<T: Real>(
     [origin, s]: [&[T]; 2],
