@@ -253,7 +253,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> CoupledEquations<NODES, S, T> for Step
         }
         for (row, factor, point, time) in [(&mut *r1, *a, *q, *t), (&mut *r2, -*b, &**end, after)] {
             // Dα(q)ᵀλ
-            let mut product = Product { x: &**lambda, sum: row };
+            let mut product = Product { x: lambda, sum: row };
             system.one_form_jacobian(point, time, zero, factor, &mut product);
         }
         system.one_form(end, after, one_form);

@@ -18,12 +18,15 @@ use crate::scalar::norm;
 use crate::space::scratch;
 use crate::{DegenerateLagrangian, Real, System, Vector};
 
+/// What a run with σ = 0 carries.
+type Parts<'a, S, T> = (&'a mut Carried<S, T>, &'a mut Leaps<S, T>, &'a mut Monitor<S, T>);
+
 /// Takes `count` steps, or as many as succeed, and returns how many; `q`, and what the run carries, are then
 /// at the last good point.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
-    (carried, leaps, monitor): (&mut Carried<S, T>, &mut Leaps<S, T>, &mut Monitor<S, T>),
+    (carried, leaps, monitor): Parts<'_, S, T>,
     q: &mut Vector<S, T>,
     clock: Clock<T>,
     count: u64,
