@@ -1,5 +1,5 @@
 //! The fixed point of affine α, a fast path: s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs), with ∇H in place of the
-//! derivatives of L_d. A step of the midpoint rule on four vortices takes 1435 instructions.
+//! derivatives of L_d. A step of the midpoint rule on four vortices takes 1390 instructions.
 
 use super::Step;
 use super::memory::{Carried, Work};

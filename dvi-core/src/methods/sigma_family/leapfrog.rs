@@ -5,8 +5,8 @@
 //! Only s has to wait for the gradient: the point ahead, q0 + K⁻¹c0, was left by the step before. In a
 //! symmetric gauge, ½(x dy − y dx), it is the point before: q2 = q0 + 2s, the leapfrog scheme as it is
 //! usually written (Rowley & Marsden 2002, eq. 13). Over many steps the points are local arrays, which the
-//! compiler can keep in registers, and c, which no step needs, is computed at the end: 122 instructions a
-//! step of four vortices, and 272 where each state is read.
+//! compiler can keep in registers, and c, which no step needs, is computed at the end: 128 instructions a
+//! step of four vortices, and 250 where each state is read.
 
 use super::memory::{Carried, Leaps, Work, add};
 use super::parasitic_mode::Monitor;
