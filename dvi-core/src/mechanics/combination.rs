@@ -203,20 +203,23 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
 /// A constant combination, ready to be multiplied with.
 #[derive(Debug)]
 pub(crate) struct Product<S: System, T: Real> {
-    combination: Combination<T>,
-    /// Entry i is the only one of row i; of other matrices there are none, and they are evaluated for each product.
-    entries: Option<Vector<S, T>>,
+    /// Entry i is the only one of row i.
+    entries: Vector<S, T>,
+    /// Other matrices, which are evaluated for each product.
+    evaluated: Option<Combination<T>>,
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
     /// The combination at (`q`, `t`).
     pub(crate) fn new(system: &S, q: &[T], t: T, combination: Combination<T>) -> Self {
-        let entries = combination.is_matching::<S>().then(|| {
-            let mut entries = system.space().vector();
+        let mut entries = system.space().vector();
+        let evaluated = if combination.is_matching::<S>() {
             system.conjugate_entries(q, t, combination.a, combination.b, &mut entries);
-            entries
-        });
-        Self { combination, entries }
+            None
+        } else {
+            Some(combination)
+        };
+        Self { entries, evaluated }
     }
 
     /// Whether the combination is zero, seen from its product with a vector without pattern.
@@ -231,15 +234,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
 
     /// Sets `out` to (a Dα + b (Dα)ᵀ) x.
     pub(crate) fn apply(&self, system: &S, x: &[T], out: &mut [T]) {
-        if let Some(entries) = &self.entries {
-            for (i, (out, &entry)) in out.iter_mut().zip(entries.iter()).enumerate() {
-                *out = x[system.conjugate(i)] * entry;
-            }
-            return;
+        // Not compiled where all combinations match.
+        if let (false, Some(Combination { a, b })) = (S::MATCHING, self.evaluated) {
+            out.fill(T::lift(0.0));
+            // Dα is the same at every point.
+            let mut sink = ProductSink { x, sum: out };
+            return system.one_form_jacobian(x, T::lift(0.0), a, b, &mut sink);
         }
-        out.fill(T::lift(0.0));
-        // Dα is the same at every point.
-        let mut sink = ProductSink { x, sum: out };
-        system.one_form_jacobian(x, T::lift(0.0), self.combination.a, self.combination.b, &mut sink);
+        for (i, (out, &entry)) in out.iter_mut().zip(self.entries.iter()).enumerate() {
+            *out = x[system.conjugate(i)] * entry;
+        }
     }
 }

@@ -18,8 +18,8 @@ use crate::{
     DegenerateLagrangian, Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights,
 };
 
-/// Ω at the end of the last step, and at the point that was compared with it last. If it is the same everywhere,
-/// nothing is compared.
+/// Ω at the end of the last step, and at the point that was compared with it last. If it is the same
+/// everywhere, nothing is compared.
 #[derive(Debug)]
 pub(crate) struct FormOrientation<S: System, T: Real> {
     /// The entry of each row, where Ω couples the coordinates in pairs.

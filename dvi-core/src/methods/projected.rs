@@ -120,6 +120,8 @@ struct Work<S: System, T: Real> {
     end: Vector<S, T>,
     gradient: Vector<S, T>,
     one_form: Vector<S, T>,
+    /// λ/h.
+    slope: Vector<S, T>,
     rest: Vector<S, T>,
 }
 
@@ -142,14 +144,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
     ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let space = system.space();
-        let [middle, velocity, end, gradient, one_form, rest] = space.vectors();
+        let [middle, velocity, end, gradient, one_form, slope, rest] = space.vectors();
         Ok(ProjectedMemory {
             point: OnePoint::new(system, q, t, |rates| [rates])?,
             solver: coupled_by_second_derivatives(system, [q, &rest], t, NODES - 1, Storing::Always),
             unknowns: space.vectors(),
             residuals: space.vectors(),
             weights: space.vectors(),
-            work: Work { middle, velocity, end, gradient, one_form, rest },
+            work: Work { middle, velocity, end, gradient, one_form, slope, rest },
         })
     }
 
@@ -222,6 +224,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Step<'_, S, T> {
             work.middle[i] = q[i] + T::lift(0.5) * delta[i] + in_middle * lambda[i];
             work.velocity[i] = (delta[i] + in_velocity * lambda[i]) / *h;
             work.end[i] = q[i] + delta[i];
+            work.slope[i] = lambda[i] / *h;
         }
     }
 
@@ -253,7 +256,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> CoupledEquations<NODES, S, T> for Step
         }
         for (row, factor, point, time) in [(&mut *r1, *a, *q, *t), (&mut *r2, -*b, &**end, after)] {
             // Dα(q)ᵀλ
-            let mut product = Product { x: &**lambda, sum: row };
+            let mut product = Product { x: lambda, sum: row };
             system.one_form_jacobian(point, time, zero, factor, &mut product);
         }
         system.one_form(end, after, one_form);
@@ -298,8 +301,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Step<'_, S, T> {
 
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, _vv: &mut impl Sink<T>) {
         let [centre, after] = self.times();
-        let Self { system, q, t, unknowns: [_, _, lambda], work, .. } = self;
-        let Work { middle, velocity, end, gradient, one_form, rest } = &mut **work;
+        let Self { system, q, t, h, work, .. } = self;
+        let Work { middle, velocity, end, gradient, one_form, slope, rest } = &mut **work;
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
         let (point, time): (&[T], T) = [(*q, *t), (&**middle, centre), (&**end, after)][self.node];
@@ -309,10 +312,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Step<'_, S, T> {
                 system.linearize(point, velocity, time, Weights { qq: one, ..none }, gradient, one_form, qq);
             }
             2 => {
-                // L_qq at (q, λ) without that at (q, 0), which is of H.
-                let w = Weights { qq: one, ..none };
-                system.linearize(point, lambda, time, w, gradient, one_form, qq);
-                let w = Weights { qq: -one, ..none };
+                // h L_qq at (q, λ/h) without that at (q, 0), which is of H.
+                let w = Weights { qq: *h, ..none };
+                system.linearize(point, slope, time, w, gradient, one_form, qq);
+                let w = Weights { qq: -*h, ..none };
                 system.linearize(point, rest, time, w, gradient, one_form, qq);
             }
             _ => {}

@@ -1,5 +1,5 @@
 //! The fixed point of affine α, a fast path: s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs), with ∇H in place of the
-//! derivatives of L_d. A step of the midpoint rule on four vortices takes 1435 instructions.
+//! derivatives of L_d. A step of the midpoint rule on four vortices takes 1390 instructions.
 
 use super::Step;
 use super::memory::{Carried, Work};
@@ -106,8 +106,8 @@ fn iterate<const COMPENSATED: bool, S: DegenerateLagrangian<T>, T: Real>(
     norm::finite(increment)
 }
 
-/// The nodes q_σ as they are iterated. Long vectors are passed over once: each block of the next node is placed
-/// as soon as its s is known.
+/// The nodes q_σ as they are iterated. Long vectors are passed over once: each block of the next node is
+/// placed as soon as its s is known.
 struct Nodes<'a, S: DegenerateLagrangian<T>, T: Real, P> {
     step: &'a Step<'a, S, T>,
     inverse: &'a Inverse<S, T>,
@@ -169,7 +169,8 @@ impl<S: DegenerateLagrangian<T>, T: Real, P: Fn(usize, T) -> T> Iteration<T> for
     }
 }
 
-/// Sets `point`, which begins with coordinate `first`, to `origin` + σs, in which σs is what `part` makes of it.
+/// Sets `point`, which begins with coordinate `first`, to `origin` + σs, in which σs is what `part` makes of
+/// it.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn place<T: Real>(
     [origin, s]: [&[T]; 2],

@@ -5,8 +5,8 @@
 //! Only s has to wait for the gradient: the point ahead, q0 + K⁻¹c0, was left by the step before. In a
 //! symmetric gauge, ½(x dy − y dx), it is the point before: q2 = q0 + 2s, the leapfrog scheme as it is
 //! usually written (Rowley & Marsden 2002, eq. 13). Over many steps the points are local arrays, which the
-//! compiler can keep in registers, and c, which no step needs, is computed at the end: 122 instructions a step
-//! of four vortices, and 272 where each state is read.
+//! compiler can keep in registers, and c, which no step needs, is computed at the end: 128 instructions a
+//! step of four vortices, and 250 where each state is read.
 
 use super::memory::{Carried, Leaps, Work, add};
 use super::parasitic_mode::Monitor;
@@ -18,12 +18,15 @@ use crate::scalar::norm;
 use crate::space::scratch;
 use crate::{DegenerateLagrangian, Real, System, Vector};
 
-/// Takes `count` steps, or as many as succeed, and returns how many; `q`, and what the run carries, are then at
-/// the last good point.
+/// What a run with σ = 0 carries.
+type Parts<'a, S, T> = (&'a mut Carried<S, T>, &'a mut Leaps<S, T>, &'a mut Monitor<S, T>);
+
+/// Takes `count` steps, or as many as succeed, and returns how many; `q`, and what the run carries, are then
+/// at the last good point.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
-    (carried, leaps, monitor): (&mut Carried<S, T>, &mut Leaps<S, T>, &mut Monitor<S, T>),
+    (carried, leaps, monitor): Parts<'_, S, T>,
     q: &mut Vector<S, T>,
     clock: Clock<T>,
     count: u64,
@@ -39,19 +42,31 @@ pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
         run.steps(count, (storage, work), |q0, _, ahead| ahead.copy_from_slice(q0))
     } else {
         run.steps(count, (storage, work), |q0, q1, ahead| {
-            for i in 0..q0.len() {
-                delta[i] = q1[i] - q0[i];
-            }
-            product.apply(system, delta, c);
-            c.iter_mut().for_each(|c| *c *= *scale);
-            inverse.solve(system, c, ahead);
-            for i in 0..q0.len() {
-                ahead[i] += q1[i];
-            }
+            let by = (system, &*inverse, *scale, &*product);
+            look_ahead(by, [q0, q1], [delta, c], ahead);
         })
     };
     monitor.steps = from + taken;
     (taken, result)
+}
+
+/// Sets `ahead` to q1 + K⁻¹c1, for what `scale` K is the inverse of; with storage.
+#[inline(never)]
+fn look_ahead<S: DegenerateLagrangian<T>, T: Real>(
+    (system, inverse, scale, product): (&S, &Inverse<S, T>, T, &Product<S, T>),
+    [q0, q1]: [&[T]; 2],
+    [delta, c]: [&mut Vector<S, T>; 2],
+    ahead: &mut [T],
+) {
+    for i in 0..q0.len() {
+        delta[i] = q1[i] - q0[i];
+    }
+    product.apply(system, delta, c);
+    c.iter_mut().for_each(|c| *c *= scale);
+    inverse.solve(system, c, ahead);
+    for i in 0..q0.len() {
+        ahead[i] += q1[i];
+    }
 }
 
 /// What the steps are computed with, and what they leave.

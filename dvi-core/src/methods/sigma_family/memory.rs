@@ -1,8 +1,8 @@
 //! What a run of the σ-family carries from step to step.
 //!
 //! The increment of a step is Δ = K⁻¹c0 + s. If α is affine, K = σDα − (1−σ)(Dα)ᵀ is constant, the first part
-//! alternates with the defect, and s = −(1−σ)h K⁻¹∇H(q_σ) is smooth. If not, the first part is left out, and s
-//! is Δ. The history extrapolates s.
+//! alternates with the defect, and s = −(1−σ)h K⁻¹∇H(q_σ) is smooth. If not, the first part is left out, and
+//! s is Δ. The history extrapolates s.
 
 use super::Sigma;
 use super::parasitic_mode::{Monitor, Pace, ParasiticMode};
@@ -281,8 +281,8 @@ pub(super) fn add<T: Real>(a: &[T], b: &[T], sum: &mut [T]) {
     }
 }
 
-/// The scale of the matrix that is inverted, and the matrix, K times it. If α is affine and σ ≠ 1, the scale is
-/// −1/((1−σ)h), so that the inverse maps ∇H to s; else one.
+/// The scale of the matrix that is inverted, and the matrix, K times it. If α is affine and σ ≠ 1, the scale
+/// is −1/((1−σ)h), so that the inverse maps ∇H to s; else one.
 pub(super) fn scaled_matrix<S: DegenerateLagrangian<T>, T: Real>(
     method: &Sigma<T>,
     h: T,

@@ -1,4 +1,5 @@
-//! The parasitic mode, measured while a run goes on: what of the second differences of a run alternates from step to step.
+//! The parasitic mode, measured while a run goes on: what of the second differences of a run alternates from
+//! step to step.
 //!
 //! D_k = q_{k−1} − 2q_k + q_{k+1}. On an alternating part (−1)ᵏa, D_{k−1} − 2D_k + D_{k+1} is 16a, and
 //! D_{k−1} + 2D_k + D_{k+1} is nothing; on a smooth motion the second is 4h²q̈. The mode is compared with a
@@ -168,8 +169,8 @@ impl<S: System, T: Real> Monitor<S, T> {
         self.period
     }
 
-    /// Looks at the point before the next step, if it is one of those that are looked at, and returns the number
-    /// of steps that may be taken before this is to be done again.
+    /// Looks at the point before the next step, if it is one of those that are looked at, and returns the
+    /// number of steps that may be taken before this is to be done again.
     ///
     /// # Errors
     /// [`StepFailure::ParasiticMode`] if the run is lost.

@@ -8,8 +8,8 @@
 //! KΔ = c0 − (1−σ)h∇H(q_σ)        c1 = K'Δ − σh∇H(q_σ)        K' = σ(Dα)ᵀ − (1−σ)Dα
 //!
 //! At σ = 1 no gradient of the unknown point occurs in the first: explicit, as at σ = 0, whose steps are
-//! [`leaps`](super::leapfrog). At σ = ½, K' = −K and c1 = −c0; with c0 = 0 the scheme is the implicit midpoint
-//! rule.
+//! [`leaps`](super::leapfrog). At σ = ½, K' = −K and c1 = −c0; with c0 = 0 the scheme is the implicit
+//! midpoint rule.
 
 use super::Step;
 use super::affine::fixed_point;
@@ -23,8 +23,8 @@ use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Linear, Real, Vector};
 
-/// A step with an equation to solve, or of σ = 1. Kept out of line, so that the leaps of σ = 0 do not set up a
-/// frame for it.
+/// A step with an equation to solve, or of σ = 1. Kept out of line, so that the leaps of σ = 0 do not set up
+/// a frame for it.
 #[inline(never)]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
@@ -49,8 +49,8 @@ pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     Ok(())
 }
 
-/// A step as it is being solved: `work.increment` becomes s and, if α is affine and σ ≠ ½, the gradient of the
-/// node ∇H(q_σ).
+/// A step as it is being solved: `work.increment` becomes s and, if α is affine and σ ≠ ½, the gradient of
+/// the node ∇H(q_σ).
 struct Attempt<'a, S: DegenerateLagrangian<T>, T: Real> {
     step: &'a Step<'a, S, T>,
     q: &'a Vector<S, T>,
