@@ -144,7 +144,8 @@ impl Debug for Case {
 }
 
 impl Case {
-    pub(crate) fn new<S, M, D>(
+    /// A method, in double precision and in dual numbers, on a system that it fits.
+    pub fn new<S, M, D>(
         system: &'static S,
         subject: &Rc<Subject>,
         options: Options,
@@ -286,7 +287,8 @@ pub struct Fused {
 }
 
 impl Fused {
-    pub(crate) fn new<S, M>(system: &'static S, [q, v]: [&[f64]; 2], at: [f64; 2], method: M) -> Self
+    /// A method on such a system, from coordinates and velocities at a time with a step.
+    pub fn new<S, M>(system: &'static S, [q, v]: [&[f64]; 2], at: [f64; 2], method: M) -> Self
     where
         S: Lagrangian + 'static,
         M: Method<S, f64> + Clone + Debug + 'static,
