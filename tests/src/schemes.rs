@@ -55,10 +55,10 @@ const PLAIN: [Options; 3] = [solved(Solver::Automatic), solved(Solver::FixedPoin
 const EXPLICIT: [Options; 2] = [ONE[0], COMPENSATED];
 
 /// A system that lives as long as the tests, and what the laws know of it.
-type On<S> = (&'static S, Rc<Subject>);
+pub type On<S> = (&'static S, Rc<Subject>);
 
 /// Of `start` at t = −0.7, so that nothing begins at a time of zero.
-fn on<S>(system: S, start: [&[f64]; 2], h: f64) -> On<S>
+pub fn on<S>(system: S, start: [&[f64]; 2], h: f64) -> On<S>
 where
     S: Lagrangian + Formula + System<Kind: Rates<S, f64>> + 'static,
 {

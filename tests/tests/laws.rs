@@ -3,6 +3,7 @@
 mod checkpoint;
 mod equations;
 mod failure;
+mod mistakes;
 mod momenta;
 mod motion;
 mod order;

@@ -110,6 +110,9 @@ impl<S: Lagrangian + 'static, M: Method<S, f64>> Steps for Bare<S, M> {
 }
 
 type Begun<R> = Result<Box<R>, StartError>;
+/// Of a time and a step, and coordinates and velocities.
+type Begin<T, R> = dyn Fn([f64; 2], &[T]) -> Begun<R>;
+type Resume = dyn Fn(&Checkpoint) -> Begun<dyn Written>;
 
 /// A scheme on a system.
 pub struct Case {
@@ -128,9 +131,9 @@ pub struct Case {
     pub form: PreservedForm,
     /// Its equations.
     pub equations: Equations,
-    begin: Box<dyn Fn([f64; 2], &[f64]) -> Begun<dyn Written>>,
-    resume: Box<dyn Fn(&Checkpoint) -> Begun<dyn Written>>,
-    vary: Box<dyn Fn([f64; 2], &[Dual64]) -> Begun<dyn Steps<Dual64>>>,
+    begin: Box<Begin<f64, dyn Written>>,
+    resume: Box<Resume>,
+    vary: Box<Begin<Dual64, dyn Steps<Dual64>>>,
     copy: Box<dyn Fn(u32) -> Outcome>,
 }
 
@@ -141,7 +144,8 @@ impl Debug for Case {
 }
 
 impl Case {
-    pub(crate) fn new<S, M, D>(
+    /// A method, in double precision and in dual numbers, on a system that it fits.
+    pub fn new<S, M, D>(
         system: &'static S,
         subject: &Rc<Subject>,
         options: Options,
@@ -283,7 +287,8 @@ pub struct Fused {
 }
 
 impl Fused {
-    pub(crate) fn new<S, M>(system: &'static S, [q, v]: [&[f64]; 2], at: [f64; 2], method: M) -> Self
+    /// A method on such a system, from coordinates and velocities at a time with a step.
+    pub fn new<S, M>(system: &'static S, [q, v]: [&[f64]; 2], at: [f64; 2], method: M) -> Self
     where
         S: Lagrangian + 'static,
         M: Method<S, f64> + Clone + Debug + 'static,

@@ -81,6 +81,8 @@ pub fn defect(a: &[f64], sign: f64, b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |size: f64, (a, b)| larger(size, (a + sign * b).abs()))
 }
 
+type Field = dyn Fn(f64, &[f64]) -> Result<Vec<f64>, StartError>;
+
 /// What the laws know of a system: its formula, and where and when runs begin.
 pub struct Subject {
     /// Of the system.
@@ -98,7 +100,7 @@ pub struct Subject {
     /// For how long errors are let grow where orders are measured.
     pub time: f64,
     formula: &'static dyn Evaluated,
-    field: Box<dyn Fn(f64, &[f64]) -> Result<Vec<f64>, StartError>>,
+    field: Box<Field>,
     end: OnceCell<Vec<f64>>,
 }
 

@@ -555,7 +555,7 @@ constrained! {
     Spherical, |this, q, t| vec![square(q) - real(1.0)];
     Links, |this, q, t| {
         let n = this.rod.len();
-        let before = |k: usize| if k % n == 0 { real(0.0) } else { q[k - 1] };
+        let before = |k: usize| if k.is_multiple_of(n) { real(0.0) } else { q[k - 1] };
         (0..n)
             .map(|i| square(&[q[i] - before(i), q[n + i] - before(n + i)]) - real(this.rod[i] * this.rod[i]))
             .collect()

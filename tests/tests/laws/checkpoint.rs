@@ -26,7 +26,7 @@ fn same(run: &dyn Written, other: &dyn Written, what: &str) -> Outcome {
     if asked(run) == asked(other) { Ok(()) } else { Err(format!("{what} it is another run").into()) }
 }
 
-fn runs_go_on(case: &Case) -> Outcome {
+pub(super) fn runs_go_on(case: &Case) -> Outcome {
     let steps = u64::from(case.subject.steps);
     for before in [0, 1, steps / 2] {
         let (mut run, mut single) = (case.run()?, case.run()?);

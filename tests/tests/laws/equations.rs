@@ -207,7 +207,7 @@ fn of_three_points(subject: &Subject, nodes: &Nodes, [t, h]: [f64; 2], q: [&[f64
     defect(&left, 1.0, &right) / (1.0 + size(&left) + size(q[2]))
 }
 
-fn steps_solve_their_equations(case: &Case) -> Outcome {
+pub(super) fn steps_solve_their_equations(case: &Case) -> Outcome {
     const STEPS: usize = 4;
     let subject = &*case.subject;
     for h in [subject.h, -subject.h] {

@@ -27,7 +27,7 @@ fn is_explained(failure: StepFailure) -> bool {
     )
 }
 
-fn a_failed_step_leaves_no_trace(case: &Fused) -> Outcome {
+pub(super) fn a_failed_step_leaves_no_trace(case: &Fused) -> Outcome {
     let mut failed = 0;
     for (before, lasting) in [(0, 0), (3, 0), (3, u64::MAX)] {
         for count in 0.. {

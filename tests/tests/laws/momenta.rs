@@ -7,7 +7,7 @@ use dvi_tests::schemes::Case;
 
 use super::{Outcome, below, of_every_kind};
 
-fn momentum_maps_are_kept(case: &Case) -> Outcome {
+pub(super) fn momentum_maps_are_kept(case: &Case) -> Outcome {
     let mut run = case.run()?;
     let preserves = matches!(case.form, PreservedForm::Canonical | PreservedForm::OmegaIfAffine);
     let (Some(first), true) = (run.momentum(), preserves) else { return Ok(()) };

@@ -19,7 +19,7 @@ fn error(case: &Case, steps: u64) -> Outcome<f64> {
 }
 
 /// From as many steps on as leave errors above rounding, or as the order needs.
-fn errors_have_the_order(case: &Case) -> Outcome {
+pub(super) fn errors_have_the_order(case: &Case) -> Outcome {
     if case.order == 0 || !case.is_plain() {
         return Ok(());
     }

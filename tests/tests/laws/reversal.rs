@@ -6,7 +6,7 @@ use dvi_tests::schemes::equations::apart;
 
 use super::{Outcome, below, of_every_kind};
 
-fn steps_back_undo_steps(case: &Case) -> Outcome {
+pub(super) fn steps_back_undo_steps(case: &Case) -> Outcome {
     const STEPS: u64 = 20;
     let (subject, start) = (&case.subject, case.subject.start.concat());
     if !case.is_plain() || case.has_hidden_state() {

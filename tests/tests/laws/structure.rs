@@ -64,7 +64,7 @@ fn two_form([q, p]: &Tangent, [r, s]: &Tangent) -> f64 {
     dot(q, s) - dot(p, r)
 }
 
-fn forms_are_preserved(case: &Case) -> Outcome {
+pub(super) fn forms_are_preserved(case: &Case) -> Outcome {
     let preserves = match case.form {
         PreservedForm::Canonical | PreservedForm::Omega | PreservedForm::Discrete => true,
         PreservedForm::OmegaIfAffine => case.subject.regular || case.subject.is_affine(),
