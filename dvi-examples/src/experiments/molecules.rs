@@ -172,18 +172,12 @@ fn momenta_and_rods(rods: &Kept) -> Claim {
 }
 
 fn trend(both: [&Kept; 2]) -> Claim {
-    beyond("the energy has no trend, with rods and with springs").each(
-        both,
-        |claim, Series { name, kept, .. }| {
-            let energy = &kept[0];
-            let quantity = "mean ΔE in the last tenth of the run less that in the first, over max|ΔE|";
-            claim.of(name).at_most(quantity, energy.drift().abs() / energy.largest, 0.25).at_most(
-                "max|ΔE| over all / in the first tenth",
-                energy.growth(),
-                1.5,
-            )
-        },
-    )
+    let trend = "mean ΔE in the last tenth of the run less that in the first, over max|ΔE|";
+    let claim = beyond("the energy has no trend, with rods and with springs");
+    claim.each(both, |claim, Series { name, kept: [energy, ..], .. }| {
+        let claim = claim.of(name).at_most(trend, energy.drift().abs() / energy.largest, 0.25);
+        claim.at_most("max|ΔE| over all / in the first tenth", energy.growth(), 1.5)
+    })
 }
 
 fn steps([rods, soft, stiff]: &[Scan; 3]) -> Claim {
