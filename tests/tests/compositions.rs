@@ -1,4 +1,4 @@
-//! Compositions of the implicit midpoint rule: orders, reversal, and failures that leave no trace.
+//! Compositions of the implicit midpoint rule: the times of their parts, and compositions of compositions.
 
 use approx::abs_diff_eq;
 use dvi_core::methods::Composition;

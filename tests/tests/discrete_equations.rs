@@ -1,5 +1,4 @@
-//! Every step solves the discrete Euler–Lagrange equations D₂L_d(q0, q1) + D₁L_d(q1, q2) = 0, whose
-//! derivatives are taken here by dual numbers from the value of L alone.
+//! Steps of the σ-family: sizes, precision, a given second point, what a step costs, and time in the form.
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;

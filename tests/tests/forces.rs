@@ -1,4 +1,4 @@
-//! Forces: orders, discrete equations, momentum maps, tangent maps, power and work, failures.
+//! Forces: momentum maps, tangent maps, power and work, failures.
 
 use dvi_tests::Outcome;
 

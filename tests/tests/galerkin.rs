@@ -1,4 +1,4 @@
-//! Interior displacements: orders, the equations that a step solves, and what it preserves.
+//! Interior displacements: how steps are solved, many nodes, the oscillator, and failures.
 
 mod equations;
 mod failures;

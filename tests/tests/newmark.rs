@@ -1,4 +1,4 @@
-//! Newmark's method: order, closed form, the potential of its own coordinates, and failures.
+//! Newmark's method: closed form, the potential of its own coordinates, and failures.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::Scalar;

@@ -1,4 +1,4 @@
-//! One-step schemes of systems in class: orders, preserved forms, reversal, failures.
+//! One-step schemes of systems in class: the forms of A and B, units, failures, and how the class is seen.
 
 use approx::abs_diff_eq;
 use dvi_core::methods::Method;

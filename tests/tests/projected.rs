@@ -1,4 +1,4 @@
-//! Projected schemes: orders, what becomes of Ω, reversal, and the scheme that they are where α is affine.
+//! Projected schemes: what becomes of Ω, failures, and the scheme that they are where α is affine.
 
 use dvi_core::Real;
 use dvi_core::methods::Method;

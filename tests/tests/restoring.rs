@@ -1,4 +1,4 @@
-//! A run goes on from a copy of what another one carries, bit by bit, and ends where its energy goes astray.
+//! A run ends where its energy goes astray.
 
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;

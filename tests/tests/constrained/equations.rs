@@ -1,4 +1,4 @@
-//! The equations of constrained steps as they were written by hand, and the fast step against the general
+//! RATTLE as it was written by hand, and the fast step against the general
 //! one.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};

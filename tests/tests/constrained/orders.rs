@@ -1,4 +1,4 @@
-//! The orders of constrained steps, against the same motion in coordinates without constraints.
+//! The order of multipliers, against the same motion in coordinates without constraints.
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;

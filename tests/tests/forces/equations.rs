@@ -1,4 +1,4 @@
-//! The discrete equations of Lagrange and d'Alembert, with their forces by hand, and what follows from them.
+//! What follows from the discrete equations of Lagrange and d'Alembert.
 
 use approx::abs_diff_eq;
 use dvi_core::Space;

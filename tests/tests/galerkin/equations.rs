@@ -1,5 +1,4 @@
-//! A step solves the equations that define it, whose derivatives are taken here by dual numbers from the
-//! value of L alone, however it solves them.
+//! Steps do not depend on how they are solved, and cost what is documented.
 
 use approx::abs_diff_eq;
 use dvi_core::discrete::{FrequencyIn, Unfitted};

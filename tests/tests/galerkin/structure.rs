@@ -1,4 +1,4 @@
-//! What the steps preserve, and that they can be undone.
+//! Steps of different lengths, and that they can be undone.
 
 use dvi_core::Space;
 use dvi_core::methods::Method;

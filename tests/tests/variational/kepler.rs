@@ -1,4 +1,4 @@
-//! One period of Kepler's problem against the values of independent programs, orders, and invariants.
+//! One period of Kepler's problem against the values of independent programs, and by each solver.
 
 use approx::abs_diff_eq;
 use core::f64::consts::TAU;

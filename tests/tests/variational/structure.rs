@@ -1,4 +1,4 @@
-//! What the members of the family preserve: dq ∧ dp, time reversal, momenta, and their order.
+//! What becomes of dq ∧ dp with a frozen frequency, without one, and at an equilibrium.
 
 use super::Outcome;
 use super::phase_space::symplectic_defect;
