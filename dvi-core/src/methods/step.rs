@@ -10,131 +10,25 @@
 //! What belongs to no scheme stands here: the guess of Δ; the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + r) where M is
 //! constant, and Newton's method behind it or alone; what is looked at where a step ends; and the sums.
 
+mod by_mass;
+mod equations;
+
 use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::mass::Mass;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
 use crate::memory::{Memory, lasting};
 use crate::scalar::norm;
 use crate::scalar::passes::add;
-use crate::scalar::simd::{apart_if, widest_if};
-use crate::solve::{Convergence, Due, Guess, Iteration, Ladder, Linearize, Solver, Stopping};
-use crate::solve::{repeat, sizes, solve_by_newton};
+use crate::scalar::simd::widest_if;
+use crate::solve::{Guess, Ladder, Linearize, Solver, Stopping, solve_by_newton};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Vector};
 
-/// Where a step begins.
-pub(super) struct Begin<'a, S: System, T: Real> {
-    pub(super) system: &'a S,
-    pub(super) interval: Interval<T>,
-    pub(super) q: &'a [T],
-    pub(super) phase: &'a PhasePoint<S, T>,
-    /// M, if it is constant.
-    pub(super) mass: Option<&'a Mass<S, T>>,
-}
-
-impl<S: System, T: Real> Begin<'_, S, T> {
-    /// M where L is separable, so that it is constant.
-    ///
-    /// # Errors
-    /// None there.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn mass(&self) -> Result<&Mass<S, T>, StepFailure> {
-        self.mass.ok_or(StepFailure::NO_MATRIX)
-    }
-}
-
-/// Which ends of a step something belongs to.
-#[derive(Clone, Copy)]
-pub(super) enum Share<'a, T> {
-    /// The left one: r.
-    Left,
-    /// Both: s. If L is separable, F(q1) comes along.
-    Both { force: &'a [T] },
-}
-
-/// The kinetic part of r and s, of a separable L.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Kinetic<T> {
-    /// K
-    pub(super) mixed: T,
-    /// A − K
-    pub(super) left: T,
-    /// C − K
-    pub(super) right: T,
-    /// 1/κ, where −(κ/h)M is about ∂r/∂Δ.
-    pub(super) per_stiffness: T,
-}
-
-impl<T: Real> Kinetic<T> {
-    /// That of the mean velocity Δ/h.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of_mean_velocity() -> Self {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        Self { mixed: one, left: zero, right: zero, per_stiffness: one }
-    }
-}
-
-/// What a scheme says of its step. A node is storage.
-pub(super) trait Equations<S: Lagrangian<T>, T: Real> {
-    /// Whether the kinetic part is another than that of the mean velocity.
-    const FITTED: bool = false;
-    /// What evaluations may change. It is a value of the step, which no other function sees.
-    type Coefficients;
-
-    /// The coefficients, as far as the start of the step decides them.
-    ///
-    /// # Errors
-    /// Those of a frequency.
-    fn begin(
-        &mut self,
-        begin: &Begin<'_, S, T>,
-        node: &mut NodeWork<S, T>,
-    ) -> Result<Self::Coefficients, StepFailure>;
-
-    /// Adds r or s to `to`, but for the [kinetic](Self::kinetic) part if L is separable.
-    ///
-    /// # Errors
-    /// Those of a frequency that is read.
-    fn evaluate(
-        &mut self,
-        begin: &Begin<'_, S, T>,
-        delta: &[T],
-        share: Share<'_, T>,
-        work: (&mut Self::Coefficients, &mut NodeWork<S, T>),
-        to: &mut [T],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
-
-    /// Adds all of r to `r`, and ∂r/∂Δ to `sink`.
-    ///
-    /// # Errors
-    /// As [`evaluate`](Self::evaluate).
-    fn linearize<K: Sink<T>>(
-        &mut self,
-        begin: &Begin<'_, S, T>,
-        delta: &[T],
-        work: (&mut Self::Coefficients, &mut NodeWork<S, T>),
-        r: &mut [T],
-        sink: &mut K,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
-
-    /// The kinetic part.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn kinetic(&self, _coefficients: &Self::Coefficients) -> Kinetic<T> {
-        Kinetic::of_mean_velocity()
-    }
-
-    /// Whether r is linear in Δ, with −(κ/h)M as its derivative, if L is separable.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn is_explicit(&self) -> bool {
-        false
-    }
-}
+use by_mass::iterate_by_mass;
+pub(super) use equations::{Begin, Equations, Kinetic, Share, set_force};
 
 /// What a run carries from step to step, and its work space.
 #[derive(Debug)]
@@ -214,21 +108,6 @@ pub(super) fn ladder<S: NondegenerateLagrangian<T>, T: Real>(
     solver: Solver,
 ) -> Ladder<Linear<S, T>> {
     Ladder::new(solver, || of_second_derivatives(system, q, v, t, solver.storing()))
-}
-
-/// Sets `force` to that at a point at time `t`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn set_force<S: NondegenerateLagrangian<T>, T: Real>(
-    system: &S,
-    point: &[T],
-    t: T,
-    force: &mut [T],
-) {
-    apart_if(
-        !<S::Space as Space>::ON_STACK,
-        #[cfg_attr(not(debug_assertions), inline(always))]
-        || system.force(point, &[], t, force),
-    );
 }
 
 /// A step, and what it changes.
@@ -363,71 +242,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
 
 /// Equations and their coefficients.
 type WithCoefficients<'a, S, T, E> = (&'a mut E, &'a mut <E as Equations<S, T>>::Coefficients);
-
-/// Sets the increment.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn iterate_by_mass<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>>(
-    scheme: &mut WithCoefficients<'_, S, T, E>,
-    (begin, mass): (&Begin<'_, S, T>, &Mass<S, T>),
-    work: &mut Work<S, T>,
-    (stopping, budget): (Stopping, usize),
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let is_explicit = S::SEPARABLE && scheme.0.is_explicit();
-    if is_explicit {
-        work.increment.fill(T::lift(0.0));
-        return ByMass { scheme, begin, mass, work }.correct(statistics);
-    }
-    begin.phase.guess(Some(mass), &begin.phase.p, begin.interval.h, &mut work.increment);
-    let convergence = Convergence::fixed_point(stopping, budget);
-    repeat(convergence, statistics, ByMass { scheme, begin, mass, work })?;
-    norm::finite(&work.increment)
-}
-
-/// The fixed point.
-struct ByMass<'a, 'b, 'c, S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>> {
-    scheme: &'a mut WithCoefficients<'b, S, T, E>,
-    begin: &'a Begin<'c, S, T>,
-    mass: &'a Mass<S, T>,
-    work: &'a mut Work<S, T>,
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>> ByMass<'_, '_, '_, S, T, E> {
-    /// Corrects the increment, and leaves the correction in `node.velocity`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn correct(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Self { scheme: (equations, coefficients), begin, mass, work, .. } = self;
-        let Work { node, increment, trial: impulse, .. } = &mut **work;
-        let h = begin.interval.h;
-        impulse.copy_from_slice(&begin.phase.p);
-        equations.evaluate(begin, increment, Share::Left, (coefficients, node), impulse, statistics)?;
-        mass.solve(impulse, &mut node.velocity);
-        let Kinetic { mixed, left, per_stiffness, .. } = equations.kinetic(coefficients);
-        for ((v, delta), &q) in node.velocity.iter_mut().zip(increment.iter_mut()).zip(begin.q) {
-            let displacement = h * *v;
-            let missing = if S::SEPARABLE { displacement + left * q - mixed * *delta } else { displacement };
-            *v = missing * per_stiffness;
-            *delta += *v;
-        }
-        Ok(())
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>> Iteration<T>
-    for ByMass<'_, '_, '_, S, T, E>
-{
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn prepare(&mut self, due: &mut Due) {
-        let Self { begin, work: Work { weights, increment, .. }, .. } = self;
-        due.prepare(begin.system, weights, begin.q, increment);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        self.correct(statistics)?;
-        Ok(sizes::largest(&self.work.weights, &self.work.node.velocity))
-    }
-}
 
 /// Moves to q1 = q0 + Δ and p1 = p0 + s; `PLAIN` says that sums are plain, where they need not be asked.
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -8,13 +8,14 @@
 //! compiler can keep in registers, and c, which no step needs, is computed at the end: 128 instructions a
 //! step of four vortices, and 250 where each state is read.
 
-use super::memory::{Carried, Leaps, Work, add};
+use super::memory::{Carried, Leaps, Work};
 use super::parasitic_mode::Monitor;
 use crate::error::StepFailure;
 use crate::mechanics::combination::{Inverse, Product};
 use crate::methods::Clock;
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
+use crate::scalar::passes::add;
 use crate::space::scratch;
 use crate::{DegenerateLagrangian, Real, System, Vector};
 

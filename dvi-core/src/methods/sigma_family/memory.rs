@@ -13,6 +13,7 @@ use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::memory::{Memory, lasting};
 use crate::scalar::norm;
+use crate::scalar::passes::add;
 use crate::solve::{Ladder, Solver};
 use crate::space::scratch;
 use crate::state::Statistics;
@@ -270,14 +271,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
             *scaled = c * *scale;
         }
         inverse.solve(system, scaled, &mut work.shift);
-    }
-}
-
-/// Sets `sum` to that of two vectors.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn add<T: Real>(a: &[T], b: &[T], sum: &mut [T]) {
-    for ((sum, &a), &b) in sum.iter_mut().zip(a).zip(b) {
-        *sum = a + b;
     }
 }
 

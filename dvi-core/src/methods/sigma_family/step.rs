@@ -13,10 +13,11 @@
 
 use super::Step;
 use super::affine::fixed_point;
-use super::memory::{Carried, SigmaMemory, Work, add, scaled_matrix};
+use super::memory::{Carried, SigmaMemory, Work, scaled_matrix};
 use crate::discrete::{DiscreteLagrangian, Ends, Span, solve_by_newton};
 use crate::error::StepFailure;
 use crate::scalar::norm;
+use crate::scalar::passes::add;
 use crate::solve::{Convergence, Guess, iterate, sizes};
 use crate::space::scratch;
 use crate::state::Statistics;
