@@ -191,8 +191,8 @@ impl<'s, S: PairSum<f64, D>, const D: usize> FastSum<'s, S, D> {
     /// bodies fill a thin strip. For other systems than these, ask [`measured_error`](Self::measured_error).
     ///
     /// # Errors
-    /// [`FastSumError::Tolerance`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2; [`FastSumError::Index`] as
-    /// of [`check`](crate::System::check).
+    /// [`FastSumError::Tolerance`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2;
+    /// [`FastSumError::Index`] as of [`check`](crate::System::check).
     pub fn new(system: &'s S, tolerance: f64) -> Result<Self, FastSumError> {
         system.check()?;
         let least = if D > 2 { LEAST_IN_SPACE } else { LEAST };
@@ -249,9 +249,9 @@ where
         })
     }
 
-    /// What an evaluation of the forces takes at a state: the `pairs` of bodies that are summed one by one, of
-    /// which all bodies have n(n − 1), and the `products` in the matrices between groups of bodies. Nothing
-    /// where a coordinate is no number.
+    /// What an evaluation of the forces takes at a state: the `pairs` of bodies that are summed one by one,
+    /// of which all bodies have n(n − 1), and the `products` in the matrices between groups of bodies.
+    /// Nothing where a coordinate is no number.
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.

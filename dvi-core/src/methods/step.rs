@@ -2,8 +2,9 @@
 //!
 //! 0 = p0 + r(q0, Δ)      q1 = q0 + Δ      p1 = p0 + s(q0, Δ)
 //!
-//! A scheme says r, its derivative, and s: of a discrete Lagrangian r = D₁L_d and s = (D₁ + D₂)L_d. If L = ½ v·M
-//! v − V(q, t), these are impulses I of forces, and what the interpolation makes of the kinetic energy:
+//! A scheme says r, its derivative, and s: of a discrete Lagrangian r = D₁L_d and s = (D₁ + D₂)L_d. If L =
+//! ½ v·M v − V(q, t), these are impulses I of forces, and what the interpolation makes of the kinetic
+//! energy:
 //!
 //! r = I⁻ + M((A − K) q0 − KΔ)/h      s = I⁻ + I⁺ + M((A − K) q0 + (C − K) q1)/h
 //!

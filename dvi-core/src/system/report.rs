@@ -56,8 +56,8 @@ pub struct Entry {
 pub struct Report {
     /// The name of the struct.
     pub system: &'static str,
-    /// The coordinates in the order in which flat slices hold them: each block has a `name`, a `size` as it is
-    /// written, empty for a single coordinate, and a `factor`, where it lives.
+    /// The coordinates in the order in which flat slices hold them: each block has a `name`, a `size` as it
+    /// is written, empty for a single coordinate, and a `factor`, where it lives.
     pub coordinates: &'static [CoordinateBlock],
     /// The names of the declared momenta.
     pub momenta: &'static [&'static str],
@@ -70,7 +70,8 @@ pub struct Report {
     pub residual: &'static [OperationCount],
     /// Operations of the residual and the exact Jacobian together.
     pub jacobian: &'static [OperationCount],
-    /// The sparsity of the Jacobian: sets of entries, each in a `row` and a `column`, for all passes of `loops`.
+    /// The sparsity of the Jacobian: sets of entries, each in a `row` and a `column`, for all passes of
+    /// `loops`.
     pub sparsity: &'static [Entry],
 }
 

@@ -254,12 +254,13 @@ fn figure(all: &[Measured; 3]) -> Figure {
     };
     Figure::new(
         "Accuracy against cost: largest error of the energy over evaluations of the gradient",
-        "Order 2 is the midpoint rule (σ = ½) on vortices and Störmer–Verlet else, and Kahan–Li 8 is composed of these",
+        "Order 2 is the midpoint rule (σ = ½) on vortices and Störmer–Verlet else, and Kahan–Li 8 is \
+         composed of these",
     )
     .row(360.0, row("evaluations", |course| course.evaluations))
     .row(360.0, row("evaluations, all stages of a step at once", |course| course.in_turn))
     .footer(
-        "Steps of one length. Gauss 4, 8, 16: collocation with 2, 4, 8 stages; in lanes its stages are evaluated at once, in the lower row they count once. \
-         Hairer, Lubich & Wanner 2006.",
+        "Steps of one length. Gauss 4, 8, 16: collocation with 2, 4, 8 stages; in lanes its stages are \
+         evaluated at once, in the lower row they count once. Hairer, Lubich & Wanner 2006.",
     )
 }

@@ -165,11 +165,17 @@ fn figure(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Figure {
     let carried = carried.enumerate().map(|(i, panel)| if i == 1 { panel } else { panel.without_legend() });
     Figure::new(
         "Leapfrog on three flows: phase curves, and a circle carried along",
-        format!("Kick–drift–kick with *h* = 1/32; above from (1, 0), (2, 0), (3, 0) to *t* = {END}, below a circle about (0, 1)"),
+        format!(
+            "Kick–drift–kick with *h* = 1/32; above from (1, 0), (2, 0), (3, 0) to *t* = {END}, below \
+                 a circle about (0, 1)"
+        ),
     )
     .row(400.0, portraits.collect())
     .row(400.0, carried.collect())
-    .footer("*a* = +*x* leaves the windows as eᵗ. After Barnes 1997, Second-Order Dynamical Systems, problems 6 and 7.")
+    .footer(
+        "*a* = +*x* leaves the windows as eᵗ. After Barnes 1997, Second-Order Dynamical Systems, \
+             problems 6 and 7.",
+    )
 }
 
 fn table(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Result<Table> {

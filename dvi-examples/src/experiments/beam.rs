@@ -191,7 +191,8 @@ fn orders(claim: Claim, name: &str, sizes: [usize; 4], errors: &[Errors; 4], tar
 fn elements(of_beams: &[Errors; 4]) -> Result<Claim> {
     let largest = |errors: Errors| largest(errors.map(f64::abs));
     let error = "elements: largest relative error of a frequency";
-    let text = "the frequencies of the first three modes of finite elements are those of Euler and Bernoulli, with an error of fourth order";
+    let text = "the frequencies of the first three modes of finite elements are those of Euler and \
+                Bernoulli, with an error of fourth order";
     Ok(orders(beyond(text), "", COARSE_BEAMS, of_beams, [4.0, 0.05])
         .at_most(format!("16 {error}"), largest(of_beams[1]), 1e-4)
         .at_most(format!("{ELEMENTS} {error}"), largest(errors_of_beam(ELEMENTS)?), 1e-8))
@@ -204,7 +205,8 @@ fn segments(of_rods: &[Errors; 4]) -> Result<Claim> {
         Ok(energy - 0.9 * ANGLE * ANGLE)
     })?;
     let quantity = format!("{SEGMENTS} segments: largest relative error of a frequency");
-    let text = "the elastic rod has these frequencies at small deflections, and the energy of the curve, with errors of second order";
+    let text = "the elastic rod has these frequencies at small deflections, and the energy of the curve, \
+                with errors of second order";
     Ok(orders(beyond(text), "rod, ", COARSE_RODS, of_rods, [2.0, 0.1])
         .at_most(quantity, largest(of_rods[3].map(f64::abs)), 1.2e-3)
         .near("energy of bending: order in 1/n", order_in_size(COARSE_RODS, bending), [2.0, 0.05]))
@@ -217,7 +219,8 @@ fn energy(of_beam: &Vibration, beam: &Beam, shorter: f64) -> Result<Claim> {
     let grown = |energy: f64| energy.is_nan() || energy > 1e6 * begin;
     let lost = indicator((0..1000).any(|_| verlet.advance().is_err() || grown(verlet.energy())));
     let text = format!(
-        "{ELEMENTS} elements, 100 steps in a period of the first mode: Newmark's method with β = 1/4 keeps the energy to the accuracy with which steps are solved"
+        "{ELEMENTS} elements, 100 steps in a period of the first mode: Newmark's method with β = 1/4 keeps \
+         the energy to the accuracy with which steps are solved"
     );
     Ok(beyond(text).at_most("beam: largest |E/E(0) − 1|", of_beam.energy.largest, 1e-9).at_least(
         "runs lost of one by Störmer–Verlet with a step that is 1000 times shorter",
@@ -313,14 +316,15 @@ fn figure(
     Ok(Figure::new(
         "A clamped beam: small deflections by finite elements, large ones by an elastic rod",
         format!(
-            "Newmark's method, *β* = 1/4. Mass, length and bending stiffness are 1; released at rest, the beam with the deflection \
-             {DEFLECTION} of its end, the rod with the angle {ANGLE}."
+            "Newmark's method, *β* = 1/4. Mass, length and bending stiffness are 1; released at rest, the \
+             beam with the deflection {DEFLECTION} of its end, the rod with the angle {ANGLE}."
         ),
     )
     .row(370.0, vec![of_beam, of_rod])
     .row(350.0, vec![energy, frequencies(of_beams, of_rods)])
     .footer(format!(
-        "A period of the first mode is {:.3}. The steps are {h:.4} on the beam and {H} on the rod, but for the shorter ones that are named.",
+        "A period of the first mode is {:.3}. The steps are {h:.4} on the beam and {H} on the rod, but for \
+         the shorter ones that are named.",
         period(),
     )))
 }

@@ -149,8 +149,8 @@ fn most(orbits: &[Orbit], of: impl Fn(&Orbit) -> f64) -> f64 {
 
 fn in_ellipse(job: &Job<'_>, ellipse: &[Orbit], long: &[Orbit], impacts: u64) -> Claim {
     let text = format!(
-        "{ORBITS} orbits in an ellipse keep the product of the angular momenta about its foci over 10⁵ impacts, with steps of length {H} \
-         and with steps of length {LONG}, in which there are several"
+        "{ORBITS} orbits in an ellipse keep the product of the angular momenta about its foci over 10⁵ \
+         impacts, with steps of length {H} and with steps of length {LONG}, in which there are several"
     );
     beyond(text)
         .at_least("impacts of each orbit", job.only_full(impacts as f64), 1e5)
@@ -172,7 +172,8 @@ fn in_square(job: &Job<'_>, ellipse: &[Orbit], square: &[Orbit]) -> Result<Claim
     let mut back = Integrator::resume(&Square, method, &checkpoint)?;
     back.take_steps(run.steps())?;
     let there_and_back = distance(place(&back), [start.x, start.y]);
-    let text = "in x⁴ + y⁴ = 1 the energy is kept too, orbits of one energy fill a region of the section, and the way back is the way there";
+    let text = "in x⁴ + y⁴ = 1 the energy is kept too, orbits of one energy fill a region of the section, \
+                and the way back is the way there";
     let filled = job.only_full(most(square, Orbit::filled));
     let returned = format!("distance from the start after {REVERSED} impacts there and back");
     Ok(beyond(text)
@@ -195,8 +196,8 @@ fn laws() -> Result<Claim> {
         largest = larger(largest, distance(place(&one), place(&other)));
     }
     let text = format!(
-        "between impacts the discrete energy of a free particle is its energy, so that both laws of impact give one orbit, over {COMPARED} \
-         impacts in the ellipse"
+        "between impacts the discrete energy of a free particle is its energy, so that both laws of impact \
+         give one orbit, over {COMPARED} impacts in the ellipse"
     );
     Ok(beyond(text).at_most("largest distance", largest, 1e-8))
 }
@@ -217,5 +218,8 @@ fn figure(ellipse: &[Orbit], square: &[Orbit]) -> Figure {
     )
     .row(470.0, vec![left, panel("*x*⁴ + *y*⁴ = 1".into(), square)])
     .sequence_key("centre", "edge")
-    .footer("The velocity is the component along the curve after the impact, positive anticlockwise. Colours: where the orbit begins on the *x* axis.")
+    .footer(
+        "The velocity is the component along the curve after the impact, positive anticlockwise. \
+             Colours: where the orbit begins on the *x* axis.",
+    )
 }

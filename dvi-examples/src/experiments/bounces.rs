@@ -164,8 +164,9 @@ fn walk(job: &Job<'_>, collision: Collision, h: f64) -> Result<Walk> {
 
 fn flat(job: &Job<'_>, [.., coarse, fine]: &[Bounces; 5]) -> Claim {
     let text = format!(
-        "with the energy kept at each impact, the energy error of a particle on a curved floor is less than three times as large over 10⁵ bounces as \
-         up to t = {EARLY}, and less than a third with half the step"
+        "with the energy kept at each impact, the energy error of a particle on a curved floor is less \
+         than three times as large over 10⁵ bounces as up to t = {EARLY}, and less than a third with half \
+         the step"
     );
     beyond(text)
         .at_least("bounces", job.only_full(coarse.bounces as f64), 1e5)
@@ -187,8 +188,9 @@ fn walks_at_random(
     let last = |walk: &Walk| walk.last().map_or(f64::NAN, |point| point[1]);
     let over = |other: &Walk| job.only_full(last(variational) / last(other));
     let grazing = job.only_full((coarse.grazing + fine.grazing) as f64);
-    let text = "with the discrete energy kept at each impact the energy walks at random: its change grows with the square root of the number of \
-                bounces, and has a quarter of the size with half the step";
+    let text = "with the discrete energy kept at each impact the energy walks at random: its change grows \
+                with the square root of the number of bounces, and has a quarter of the size with half the \
+                step";
     beyond(text)
         .near("exponent of the root mean square of ΔE", exponent(variational), [0.5, 0.1])
         .at_most("the same where the energy is kept", exponent(reflecting), 0.2)
@@ -208,9 +210,16 @@ fn walks_at_random(
 }
 
 fn loses(job: &Job<'_>, rk4: &Bounces) -> Claim {
-    beyond("RK4 with impacts that keep the energy, and as many forces as with h = 0.02, loses energy all the time")
-        .at_least("RK4: max|ΔE|", job.only_full(rk4.energy.largest), 0.01)
-        .at_least(format!("RK4: max|ΔE| over all / up to t = {EARLY}"), job.only_full(rk4.energy.growth()), 100.0)
+    beyond(
+        "RK4 with impacts that keep the energy, and as many forces as with h = 0.02, loses energy all \
+            the time",
+    )
+    .at_least("RK4: max|ΔE|", job.only_full(rk4.energy.largest), 0.01)
+    .at_least(
+        format!("RK4: max|ΔE| over all / up to t = {EARLY}"),
+        job.only_full(rk4.energy.growth()),
+        100.0,
+    )
 }
 
 fn entries(BouncerState { x, y, dot_x, dot_y }: BouncerState) -> [f64; 4] {
@@ -282,15 +291,16 @@ fn figure(all: &[Bounces; 5], [variational, fine, reflecting]: &[Walk; 3], end: 
     Ok(Figure::new(
         "A particle that bounces on a curved floor",
         format!(
-            "Mass and *g* are 1; a valley that narrows with the height; floor *y* = {} cos *x*. Trapezoidal rule, divided at each impact.",
+            "Mass and *g* are 1; a valley that narrows with the height; floor *y* = {} cos *x*. \
+             Trapezoidal rule, divided at each impact.",
             FLOOR.a
         ),
     )
     .row(380.0, vec![path()?, energy])
     .row(300.0, vec![walks])
     .footer(
-        "“Discrete energy”: both flights of an impact have the same one (Fetecau, Marsden, Ortiz & West 2003). “Energy at the impact”: *E* is \
-         kept at the point of impact, as it is by RK4.",
+        "“Discrete energy”: both flights of an impact have the same one (Fetecau, Marsden, Ortiz & West \
+         2003). “Energy at the impact”: *E* is kept at the point of impact, as it is by RK4.",
     ))
 }
 

@@ -145,19 +145,23 @@ fn order_of_places(sleigh: &Sleigh) -> Result<Claim> {
     let (free, magnet) = (of(&FREE, midpoint(), on_circle(ORDER_TIME))?, of(&MAGNET, midpoint(), fine)?);
     let composed = of(&MAGNET, Composition::suzuki(midpoint()), fine)?;
     let sleigh = order(ORDER_STEPS.into_iter().zip(sleigh.errors));
-    Ok(beyond("places are of second order: against the circle of a free disc, and against RK4 on equations without constraints")
-        .at_most("distance of two references with a magnet", distance(fine, double), 1e-9)
-        .near(format!("free disc: order at t = {ORDER_TIME}"), free, [2.0, 0.01])
-        .near(format!("disc with a magnet: order at t = {ORDER_TIME}"), magnet, [2.0, 0.05])
-        .near("the same by Suzuki's composition: order", composed, [4.0, 0.1])
-        .near("sleigh: order when it has turned", sleigh, [2.0, 0.05]))
+    Ok(beyond(
+        "places are of second order: against the circle of a free disc, and against RK4 on equations \
+               without constraints",
+    )
+    .at_most("distance of two references with a magnet", distance(fine, double), 1e-9)
+    .near(format!("free disc: order at t = {ORDER_TIME}"), free, [2.0, 0.01])
+    .near(format!("disc with a magnet: order at t = {ORDER_TIME}"), magnet, [2.0, 0.05])
+    .near("the same by Suzuki's composition: order", composed, [4.0, 0.1])
+    .near("sleigh: order when it has turned", sleigh, [2.0, 0.05]))
 }
 
 fn springs(job: &Job<'_>, [.., (_, _, _, constrained), (_, _, _, rk4)]: &[Line; 5], end: f64) -> Claim {
     let growth = |of: &Growth| of.up_to(end) / of.up_to(EARLY);
     let over_all = format!("largest |ΔE| over all / up to t = {EARLY}");
     beyond(format!(
-        "on equal springs the energy error of constrained steps, on average over {STARTS} starts, does not grow, that of RK4 does"
+        "on equal springs the energy error of constrained steps, on average over {STARTS} starts, does not \
+         grow, that of RK4 does"
     ))
     .at_most("constrained: largest |ΔE|", constrained.up_to(end), 1.2e-3)
     .at_most(format!("constrained: {over_all}"), growth(constrained), 1.02)
@@ -170,13 +174,20 @@ fn magnet(job: &Job<'_>, all: &[Line; 5], end: f64) -> Claim {
     let of = |other: f64| job.only_full(whole.up_to(end) / other);
     let halved = job.only_full(half.up_to(HALVED) / whole.up_to(HALVED));
     let power = job.only_full(whole.exponent(EARLY));
-    beyond("with a magnet that energy wanders away, by an amount of the order h², and RK4 with steps of the same length keeps it better")
-        .at_least("magnet: largest |ΔE|", job.only_full(whole.up_to(end)), 0.1)
-        .at_least("magnet: largest |ΔE| / on springs", of(springs.up_to(end)), 100.0)
-        .at_least(format!("magnet: largest |ΔE| over all / up to t = {EARLY}"), of(whole.up_to(EARLY)), 10.0)
-        .within(format!("magnet: power of t by which it grows, from t = {EARLY}"), power, [0.4, 0.7])
-        .within(format!("magnet: largest |ΔE| up to t = {HALVED} with half the step / with the whole"), halved, [0.15, 0.35])
-        .at_least("magnet: largest |ΔE| / that of RK4", of(rk4.up_to(end)), 5.0)
+    beyond(
+        "with a magnet that energy wanders away, by an amount of the order h², and RK4 with steps of \
+            the same length keeps it better",
+    )
+    .at_least("magnet: largest |ΔE|", job.only_full(whole.up_to(end)), 0.1)
+    .at_least("magnet: largest |ΔE| / on springs", of(springs.up_to(end)), 100.0)
+    .at_least(format!("magnet: largest |ΔE| over all / up to t = {EARLY}"), of(whole.up_to(EARLY)), 10.0)
+    .within(format!("magnet: power of t by which it grows, from t = {EARLY}"), power, [0.4, 0.7])
+    .within(
+        format!("magnet: largest |ΔE| up to t = {HALVED} with half the step / with the whole"),
+        halved,
+        [0.15, 0.35],
+    )
+    .at_least("magnet: largest |ΔE| / that of RK4", of(rk4.up_to(end)), 5.0)
 }
 
 /// The mean, over the starts, of the largest |E − E(0)| up to time t, for times t at equal ratios.
@@ -311,7 +322,8 @@ impl Sleigh {
         let turns = last(&self.turning) / last(&self.turning_of_motion);
         let order = order(ORDER_STEPS.into_iter().zip(self.energies.map(f64::abs)));
         beyond(format!(
-            "the sleigh ends straight ahead, h = {H}: its energy changes while it turns, by a term of the order h², and then no more"
+            "the sleigh ends straight ahead, h = {H}: its energy changes while it turns, by a term of the \
+             order h², and then no more"
         ))
         .near("rate at which ω decays / av/(I + a²)", self.decay, [1.0, 0.002])
         .near("|ω| at t = 12 / that of the motion", turns, [1.0, 0.02])
@@ -364,15 +376,16 @@ fn figure(all: &[Line; 5], sleigh: &Sleigh) -> Result<Figure> {
     Ok(Figure::new(
         "A disc that rolls upright, and a sleigh on a blade: constraints of velocities",
         format!(
-            "Midpoint rule with the principle of Lagrange and d'Alembert, *h* = {H}. Mass and radius are 1; the disc begins with *θ*' = {} \
-             and *φ*' = {}.",
+            "Midpoint rule with the principle of Lagrange and d'Alembert, *h* = {H}. Mass and radius are \
+             1; the disc begins with *θ*' = {} and *φ*' = {}.",
             RATES[0], RATES[1]
         ),
     )
     .row(320.0, vec![free, springs, magnet, slid])
     .row(330.0, vec![energy, turning])
     .footer(format!(
-        "Above: the points of contact, from *t* = 0 to 16, 60, 60 and 7. Energy: the mean over {STARTS} starts of the largest |*E* − *E*(0)| up \
-         to time *t*. RK4 solves the equations from which the constraints are eliminated."
+        "Above: the points of contact, from *t* = 0 to 16, 60, 60 and 7. Energy: the mean over {STARTS} \
+         starts of the largest |*E* − *E*(0)| up to time *t*. RK4 solves the equations from which the \
+         constraints are eliminated."
     )))
 }

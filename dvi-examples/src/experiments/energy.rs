@@ -81,7 +81,8 @@ fn claims(job: &Job<'_>, ve2: &Motion, rk2: &Motion, times: Option<[f64; 2]>) ->
             .near(&when_read, read, [4.0, 1.0])
             .near(&in_bulk, bulk, [4.0, 1.0])
             .instead(
-                "it takes four times the evaluations of ∇H; the ratio of times depends on how often the states are read",
+                "it takes four times the evaluations of ∇H; the ratio of times depends on how often the \
+                 states are read",
             )
             .at_least(when_read, read, 1.2)
             .at_least(in_bulk, bulk, 2.0)

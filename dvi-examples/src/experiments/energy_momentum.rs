@@ -218,7 +218,8 @@ fn order_in_length(runs: &[Runs; 4], of: fn(&Runs) -> &Steps, value: fn(&Steps) 
 }
 
 fn discrete_energy(all: &All) -> Claim {
-    let text = "the steps keep the discrete energy to rounding, and steps of one length up to terms of the second order";
+    let text = "the steps keep the discrete energy to rounding, and steps of one length up to terms of the \
+                second order";
     let bounds = [(1.5e-14, [3.141e-3, 5e-6]), (5e-14, [1.053e-2, 2e-5])];
     beyond(text).each(all.iter().zip(bounds), |claim, ((name, runs), (kept, varies))| {
         let width = |steps: &Steps| steps.discrete().width();
@@ -249,7 +250,8 @@ fn momentum(all: &All) -> Claim {
 }
 
 fn energy(all: &All) -> Claim {
-    let text = "the energy at the points of the run varies by terms of the second order, on the spring a little more than with steps of one length, on the orbit a third as much";
+    let text = "the energy at the points of the run varies by terms of the second order, on the spring a \
+                little more than with steps of one length, on the orbit a third as much";
     beyond(text).each(all.iter().zip([[1.04, 1.07], [0.3, 0.32]]), |claim, ((name, runs), range)| {
         let width = |steps: &Steps| steps.energy().width();
         let kept = order_in_length(runs, |runs| &runs.kept, width);
@@ -277,7 +279,8 @@ fn lengths(all: &All) -> Claim {
 }
 
 fn accuracy(all: &All, between_references: f64) -> Claim {
-    let text = "up to t = 50 the run is closer to the motion than one with as many steps of one length, and farther than one of the same work";
+    let text = "up to t = 50 the run is closer to the motion than one with as many steps of one length, \
+                and farther than one of the same work";
     let references = "spring: largest distance of the reference from one with steps twice as long";
     let bounds = [([0.94, 0.96], 20.0), ([0.3, 0.5], 5.0)];
     let claim = beyond(text).at_most(references, between_references, 1e-12);
@@ -349,11 +352,18 @@ impl Ending {
             failed.curve.iter().map(|[_, defect]| *defect).fold(f64::INFINITY, |a, b| -larger(-a, -b));
         let difference = defect - failed.defect(*h);
         let of_lengths = format!("smallest E_d − e of lengths up to {REACH} times the last, by hand");
-        beyond("with the trapezoidal rule on the spring the scheme ends, because no length within reach of the last has the discrete energy e")
-            .near("steps that it takes", *steps as f64, [3.0, 0.0])
-            .at_most("|E_d − e| of the last of them, by hand", last.defect(*length).abs(), 5e-14)
-            .near(of_lengths, smallest, [2.758e-3, 1e-6])
-            .near("that of the best length that the control has found, less that by hand", difference, [0.0, 1e-13])
+        beyond(
+            "with the trapezoidal rule on the spring the scheme ends, because no length within reach of \
+                the last has the discrete energy e",
+        )
+        .near("steps that it takes", *steps as f64, [3.0, 0.0])
+        .at_most("|E_d − e| of the last of them, by hand", last.defect(*length).abs(), 5e-14)
+        .near(of_lengths, smallest, [2.758e-3, 1e-6])
+        .near(
+            "that of the best length that the control has found, less that by hand",
+            difference,
+            [0.0, 1e-13],
+        )
     }
 }
 
@@ -409,16 +419,16 @@ fn figure(all: &All, ending: &Ending) -> Figure {
     Figure::new(
         "Steps of such a length that the discrete energy stays the same",
         format!(
-            "variational midpoint rule; a spring with *V* = *r*²/2 + *r*⁴/4, first step {}, and a Kepler orbit of eccentricity {}, first \
-             step {}; “one length” is the mean of the other run",
+            "variational midpoint rule; a spring with *V* = *r*²/2 + *r*⁴/4, first step {}, and a Kepler \
+             orbit of eccentricity {}, first step {}; “one length” is the mean of the other run",
             ON_SPRING[0], ORBIT.e, ON_ORBIT[0]
         ),
     )
     .row(370.0, vec![discrete.without_legend(), energy.without_legend()])
     .row(350.0, vec![lengths, equation(ending)])
     .footer(format!(
-        "The scheme of Kane, Marsden & Ortiz 1999. With the trapezoidal rule on the spring it ends after {} steps, at *t* = {:.2}: \
-         no length within reach gives the discrete energy *e* of the first step.",
+        "The scheme of Kane, Marsden & Ortiz 1999. With the trapezoidal rule on the spring it ends after \
+         {} steps, at *t* = {:.2}: no length within reach gives the discrete energy *e* of the first step.",
         ending.steps, ending.time
     ))
 }

@@ -74,7 +74,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.publish(figure(abc, tokamak, &surfaces, turns), table)?;
     let [midpoint, rk4] = surfaces.each_ref().map(|series| series.kept[0].growth());
     let growth = "max|Δψ| over all / over 1000 turns";
-    let text = "lines stay on their surfaces: the flux function is no further off in all turns than in the first 1000";
+    let text = "lines stay on their surfaces: the flux function is no further off in all turns than in the \
+                first 1000";
     Ok(vec![
         beyond(text).at_most(format!("one step, midpoint: {growth}"), midpoint, 1.001).at_least(
             format!("RK4: {growth}"),
@@ -271,11 +272,18 @@ fn figure(abc: Lines, tokamak: Lines, surfaces: &[Series<1>; 2], turns: u64) -> 
     let [midpoint, rk4] = surfaces.each_ref().map(|series| series.kept[0].largest);
     Figure::new(
         "Magnetic field lines: Poincaré plots by the one-step midpoint scheme",
-        format!("{STEPS} steps a turn; colours tell lines apart. Tokamak: islands at *q* = 2 and *q* = 3/2, *ε* = 10⁻³ and 6·10⁻³"),
+        format!(
+            "{STEPS} steps a turn; colours tell lines apart. Tokamak: islands at *q* = 2 and *q* = \
+                 3/2, *ε* = 10⁻³ and 6·10⁻³"
+        ),
     )
     .row(560.0, vec![abc, tokamak])
     .row(280.0, vec![flux])
-    .footer(format!("Largest |Δ*ψ*/*ψ*|: one step {}, RK4 at the end {}.", at_most(midpoint), scientific(rk4)))
+    .footer(format!(
+        "Largest |Δ*ψ*/*ψ*|: one step {}, RK4 at the end {}.",
+        at_most(midpoint),
+        scientific(rk4)
+    ))
 }
 
 fn table(abc: &Lines, tokamak: &Lines, surfaces: &[Series<1>; 2]) -> Result<Table> {

@@ -107,9 +107,12 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let pairs = reference.energies.iter().skip(1).step_by(2).zip(&other.energies);
     let between = largest(pairs.map(|(a, b)| (a / b - 1.0).abs()));
     Ok(vec![
-        beyond("the reference has the energy of a run by another method, and the angular momentum of the motion")
-            .at_most("largest relative difference of two energies", between, 2e-11)
-            .at_most("largest |l/(l(0) exp(−γt)) − 1|", reference.momentum, 1e-12),
+        beyond(
+            "the reference has the energy of a run by another method, and the angular momentum of the \
+                motion",
+        )
+        .at_most("largest relative difference of two energies", between, 2e-11)
+        .at_most("largest |l/(l(0) exp(−γt)) − 1|", reference.momentum, 1e-12),
         noether(job, long, steps)?,
         follows(job, &steps[0]),
         control(&measured),
@@ -282,17 +285,20 @@ fn follows(job: &Job<'_>, runs: &Runs) -> Claim {
     let too_fast = "rate of decay of E less that of the motion, in units of γ";
     let bounds = [[0.16, 0.18, 0.065], [0.12, 0.16, 0.025], [0.33, 0.36, 0.075]];
     let rk4 = &runs[3];
-    beyond("at h = 0.2 RK4 adds to the decay of the energy as much as friction, and the other methods a small part of that")
-        .each(runs.iter().zip(bounds), |claim, (run, [mean, each, rate])| {
-            claim
-                .of(run.name)
-                .at_most(&deviates, run.largest_mean(), mean)
-                .at_most("the same at each step", run.error.largest, each)
-                .near(too_fast, run.excess(), [0.0, rate])
-        })
-        .of(rk4.name)
-        .at_least(&deviates, job.only_full(rk4.largest_mean()), 0.9)
-        .at_least(too_fast, rk4.excess(), 1.0)
+    beyond(
+        "at h = 0.2 RK4 adds to the decay of the energy as much as friction, and the other methods a \
+            small part of that",
+    )
+    .each(runs.iter().zip(bounds), |claim, (run, [mean, each, rate])| {
+        claim
+            .of(run.name)
+            .at_most(&deviates, run.largest_mean(), mean)
+            .at_most("the same at each step", run.error.largest, each)
+            .near(too_fast, run.excess(), [0.0, rate])
+    })
+    .of(rk4.name)
+    .at_least(&deviates, job.only_full(rk4.largest_mean()), 0.9)
+    .at_least(too_fast, rk4.excess(), 1.0)
 }
 
 fn control(Measured { reference, conservative, .. }: &Measured) -> Claim {
@@ -301,16 +307,23 @@ fn control(Measured { reference, conservative, .. }: &Measured) -> Claim {
     let own = rows.iter().rfind(|[t, _]| *t < BEGINNING).map_or(f64::NAN, |[_, energy]| *energy);
     let begin = reference.energy(FINE);
     let own_loss = (begin - own) / (begin - reference.energy(BEGINNING));
-    beyond("without friction the other methods keep their energy, and RK4 at first loses more than friction takes")
-        .each(&conservative[..3], |claim, run| {
-            let [first, last] = run.means();
-            let quantity = format!("mean E over the last {WINDOW} / over the first − 1");
-            claim.of(run.name).near(quantity, (1.0 + last) / (1.0 + first) - 1.0, [0.0, 5e-4])
-        })
-        .each(&conservative[..2], |claim, run| {
-            claim.of(run.name).at_most("largest |l/l(0) − 1|", run.momentum.largest, 1e-13)
-        })
-        .at_least(format!("RK4: what it loses of E to t = {BEGINNING} / what friction takes"), own_loss, 1.5)
+    beyond(
+        "without friction the other methods keep their energy, and RK4 at first loses more than \
+            friction takes",
+    )
+    .each(&conservative[..3], |claim, run| {
+        let [first, last] = run.means();
+        let quantity = format!("mean E over the last {WINDOW} / over the first − 1");
+        claim.of(run.name).near(quantity, (1.0 + last) / (1.0 + first) - 1.0, [0.0, 5e-4])
+    })
+    .each(&conservative[..2], |claim, run| {
+        claim.of(run.name).at_most("largest |l/l(0) − 1|", run.momentum.largest, 1e-13)
+    })
+    .at_least(
+        format!("RK4: what it loses of E to t = {BEGINNING} / what friction takes"),
+        own_loss,
+        1.5,
+    )
 }
 
 fn orders(job: &Job<'_>, steps: &[Runs; 4]) -> Claim {
@@ -322,14 +335,17 @@ fn orders(job: &Job<'_>, steps: &[Runs; 4]) -> Claim {
     let same_cost = steps[2][1].largest_mean() / steps[0][3].largest_mean();
     let [_, long, _, short] = STEPS;
     let dearest = "four forces in 0.2: largest deviation of E, trapezoid with h = 0.05 / RK4 with h = 0.2";
-    beyond("the error of that rate is of second order, with RK4 of the fifth, so that RK4 is behind at long steps and ahead at short ones")
-        .each(0..3, |claim, method| {
-            claim.of(steps[0][method].name).near("order of the error of the rate", order(method), [2.0, 0.1])
-        })
-        .near("RK4: order of the error of the rate", order(3), [5.0, 0.2])
-        .at_least(format!("h = {long}: largest deviation of E, RK4 / midpoint"), worse(1), 5.0)
-        .at_most(format!("h = {short}: largest deviation of E, RK4 / midpoint"), worse(3), 0.5)
-        .at_most(dearest, same_cost, 0.01)
+    beyond(
+        "the error of that rate is of second order, with RK4 of the fifth, so that RK4 is behind at \
+            long steps and ahead at short ones",
+    )
+    .each(0..3, |claim, method| {
+        claim.of(steps[0][method].name).near("order of the error of the rate", order(method), [2.0, 0.1])
+    })
+    .near("RK4: order of the error of the rate", order(3), [5.0, 0.2])
+    .at_least(format!("h = {long}: largest deviation of E, RK4 / midpoint"), worse(1), 5.0)
+    .at_most(format!("h = {short}: largest deviation of E, RK4 / midpoint"), worse(3), 0.5)
+    .at_most(dearest, same_cost, 0.01)
 }
 
 /// With z' = F(z) Newmark's method is z1 − ½hF(z1) = z0 + ½hF(z0). So the points z − ½hF(z) are those of the
@@ -386,14 +402,15 @@ fn figure(measured: &Measured) -> Figure {
     Figure::new(
         "A particle with friction: what the energy loses, and what methods add to that",
         format!(
-            "*V* = *r*²(*r*² − 1)², *γ* = {GAMMA}, from (1.2, 0) with velocity (0, 0.5); *h* = {LONG} but for the last \
-             panel; energies are means over time"
+            "*V* = *r*²(*r*² − 1)², *γ* = {GAMMA}, from (1.2, 0) with velocity (0, 0.5); *h* = {LONG} but \
+             for the last panel; energies are means over time"
         ),
     )
     .row(400.0, vec![decay, deviation.legend_at(Corner::BottomRight)])
     .row(330.0, vec![momentum.without_legend(), rates])
     .footer(format!(
-        "After Kane, Marsden, Ortiz & West 2000. The reference is Gauss's method of order 8, *h* = {FINE}. With Heun's \
-         method and the explicit midpoint rule the energy is doubled at *t* = {heun} and {explicit}."
+        "After Kane, Marsden, Ortiz & West 2000. The reference is Gauss's method of order 8, *h* = {FINE}. \
+         With Heun's method and the explicit midpoint rule the energy is doubled at *t* = {heun} and \
+         {explicit}."
     ))
 }

@@ -122,7 +122,8 @@ pub fn order_claim<S: OnManifold<12>>(
         Ok(error(h, up_to(&system, Composition::suzuki(Geodesic::trapezoid()), h, start.clone(), end)?))
     })?;
     let text = format!(
-        "R and ω of {body} are of second order, and of fourth by Suzuki's composition, against RK4 with short steps"
+        "R and ω of {body} are of second order, and of fourth by Suzuki's composition, against RK4 with \
+         short steps"
     );
     Ok(beyond(text)
         .at_most("largest difference of two references", apart(&exact, &double), 1e-9)

@@ -161,21 +161,40 @@ fn claims(all: &[Comparison]) -> Vec<Claim> {
     let [printed, fixed] = [Steps::Controlled, Steps::Fixed];
     let two = "against midpoint and trapezoid";
     vec![
-        Claim::new("section 5", "at e = 0.95, close to one third of the steps of a method of the same order")
-            .at_least(format!("(23) as printed, {two}: smallest ratio"), least(printed, HIGH, false), 0.25)
-            .at_most("the same: largest ratio", most(printed, HIGH, false), 0.42),
+        Claim::new(
+            "section 5",
+            "at e = 0.95, close to one third of the steps of a method of the same order",
+        )
+        .at_least(format!("(23) as printed, {two}: smallest ratio"), least(printed, HIGH, false), 0.25)
+        .at_most("the same: largest ratio", most(printed, HIGH, false), 0.42),
         Claim::new("section 7", "less than one third of the steps")
-            .at_most(format!("(23) as printed, e = 0.95, {two}: largest ratio"), most(printed, HIGH, false), THIRD)
+            .at_most(
+                format!("(23) as printed, e = 0.95, {two}: largest ratio"),
+                most(printed, HIGH, false),
+                THIRD,
+            )
             .instead(
-                "with (23) as printed most ratios are above one third; with fixed steps all are below it, against \
-                 midpoint and trapezoid; against linear Simpson none is at e = 0.95",
+                "with (23) as printed most ratios are above one third; with fixed steps all are below it, \
+                 against midpoint and trapezoid; against linear Simpson none is at e = 0.95",
             )
             .at_least("(23) as printed, e = 0.95: share of the ratios above one third", above, 0.5)
             .at_most(format!("fixed steps, e = 0.95, {two}: largest ratio"), most(fixed, HIGH, false), THIRD)
-            .at_least("fixed steps, e = 0.95, against linear Simpson: smallest ratio", least(fixed, HIGH, true), THIRD),
+            .at_least(
+                "fixed steps, e = 0.95, against linear Simpson: smallest ratio",
+                least(fixed, HIGH, true),
+                THIRD,
+            ),
         beyond("what is saved depends on the orbit")
-            .at_least(format!("(23) as printed, e = 0.8, {two}: largest ratio"), most(printed, 0.8, false), 1.0)
-            .at_most("fixed steps, e = 0.2, against linear Simpson: largest ratio", most(fixed, 0.2, true), THIRD),
+            .at_least(
+                format!("(23) as printed, e = 0.8, {two}: largest ratio"),
+                most(printed, 0.8, false),
+                1.0,
+            )
+            .at_most(
+                "fixed steps, e = 0.2, against linear Simpson: largest ratio",
+                most(fixed, 0.2, true),
+                THIRD,
+            ),
     ]
 }
 
@@ -210,7 +229,8 @@ fn notes(all: &[Comparison]) -> Vec<String> {
         let Comparison { e, reference, energy, fitted, linear, .. } = c;
         let ratio = c.ratio();
         format!(
-            "e = {e}, {how}, max|ΔE| = {energy:.2e}: {fitted:.0} steps per period against {linear:.0} of {reference}: {ratio:.3}."
+            "e = {e}, {how}, max|ΔE| = {energy:.2e}: {fitted:.0} steps per period against {linear:.0} of \
+             {reference}: {ratio:.3}."
         )
     };
     all.iter().filter(|c| c.e == HIGH).map(line).collect()
@@ -261,5 +281,8 @@ fn figure(all: &[Comparison]) -> Figure {
         format!("Ratios at *e* = {HIGH}, against midpoint and trapezoid: {printed}; {fixed}"),
     )
     .row(430.0, vec![steps, controlled, compared("Both with fixed steps", Steps::Fixed).without_legend()])
-    .footer("After Kosmas & Vlachos, Fig. 2. Frequency (19): left-frozen with (23), in the discrete Lagrangian with fixed steps.")
+    .footer(
+        "After Kosmas & Vlachos, Fig. 2. Frequency (19): left-frozen with (23), in the discrete \
+             Lagrangian with fixed steps.",
+    )
 }

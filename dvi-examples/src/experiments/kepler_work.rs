@@ -187,13 +187,19 @@ fn figure(all: &[Contender], curves: &[Curve], periods: u64) -> Figure {
     let [gain, best] = gains(curves).map(|gain| gain.unwrap_or(f64::NAN));
     let position = "largest distance from the exact position   [*a*]";
     Figure::new(
-        format!("Kepler orbits: largest errors over up to {periods} periods against evaluations of the force"),
         format!(
-            "Reversible steps in proportion to *r*^(3/2); at *e* = 0.95, ε = 0.02 fitting divides |Δ*E*| of Simpson \
-             by {gain:.0} (averaged), {best:.0} (variational)"
+            "Kepler orbits: largest errors over up to {periods} periods against evaluations of the \
+                 force"
+        ),
+        format!(
+            "Reversible steps in proportion to *r*^(3/2); at *e* = 0.95, ε = 0.02 fitting divides |Δ*E*| \
+             of Simpson by {gain:.0} (averaged), {best:.0} (variational)"
         ),
     )
     .row(390.0, row(panels("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy)))
     .row(390.0, row(panels("Position", position, |course| course.position)))
-    .footer("Six of 13 methods and two of four eccentricities; the table has all. Evaluations include those with a derivative. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.")
+    .footer(
+        "Six of 13 methods and two of four eccentricities; the table has all. Evaluations include \
+             those with a derivative. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
+    )
 }

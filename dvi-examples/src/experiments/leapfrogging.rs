@@ -128,7 +128,8 @@ fn figure(ve2: &Motion, rk2: &Motion, exact: &Motion) -> Figure {
         .line(ve2.distance.mean(), Stroke::solid(GREEN))
         .labelled("VE2, *h* = 2");
     Figure::new(
-        "Two leapfrogging pairs with *h* = 2: trajectories, and the distance of two vortices with VE2 and RK2",
+        "Two leapfrogging pairs with *h* = 2: trajectories, and the distance of two vortices with VE2 and \
+         RK2",
         format!(
             "Up to *t* = {}: the longest time without overtaking is {:.0} with VE2 and {:.0} with RK2",
             scientific(ve2.distance.end()),
@@ -138,5 +139,8 @@ fn figure(ve2: &Motion, rk2: &Motion, exact: &Motion) -> Figure {
     )
     .row(400.0, vec![paths.legend_at(Corner::Beside)])
     .row(300.0, vec![distance.legend_at(Corner::Beside)])
-    .footer("Γ = 1 above, Γ = −1 below. After Rowley & Marsden 2002, Fig. 3. Γ and *L*: units of circulation and length.")
+    .footer(
+        "Γ = 1 above, Γ = −1 below. After Rowley & Marsden 2002, Fig. 3. Γ and *L*: units of \
+             circulation and length.",
+    )
 }

@@ -62,14 +62,15 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let figure = Figure::new(
         format!("A pendulum of {LINKS} links, each rod a constraint"),
         format!(
-            "Length, mass and *g* are 1. Released at rest with angles that grow from 0 to {ANGLE} along the pendulum; *h* = {H}."
+            "Length, mass and *g* are 1. Released at rest with angles that grow from 0 to {ANGLE} along \
+             the pendulum; *h* = {H}."
         ),
     )
     .row(390.0, vec![half_a_swing()?, energy])
     .row(330.0, vec![lengths.without_legend(), along.without_legend()])
     .footer(
-        "RK4 solves the equations of motion with the accelerations at each state. The potential is linear: the three other methods \
-         take the same steps.",
+        "RK4 solves the equations of motion with the accelerations at each state. The potential is linear: \
+         the three other methods take the same steps.",
     );
     job.publish(figure, table)?;
     Ok(vec![
@@ -146,8 +147,8 @@ fn of_constrained(all: &[Motion; 4], value: impl Fn(&[Deviation; 3]) -> f64) -> 
 fn constraints(job: &Job<'_>, all: &[Motion; 4]) -> Claim {
     let [_, length, along] = &all[3].0.kept;
     let text = format!(
-        "{LINKS} links, released at rest with angles up to {ANGLE}, h = {H}: constrained steps keep each rod and the velocities \
-         along it to rounding, RK4 does not"
+        "{LINKS} links, released at rest with angles up to {ANGLE}, h = {H}: constrained steps keep each \
+         rod and the velocities along it to rounding, RK4 does not"
     );
     let [lengths, velocities] = [1, 2].map(|k| of_constrained(all, |kept| kept[k].largest));
     let deviation = "largest relative deviation of the length of a rod";
@@ -162,15 +163,19 @@ fn constraints(job: &Job<'_>, all: &[Motion; 4]) -> Claim {
 fn energies(job: &Job<'_>, all: &[Motion; 4]) -> Claim {
     let [energy, ..] = &all[3].0.kept;
     let growth = format!("max|ΔE| over all / up to t = {EARLY}");
-    beyond("the energy error of constrained steps is as large in the beginning as in all of the run, that of RK4 grows")
-        .at_most("constrained: max|ΔE|", of_constrained(all, |[energy, ..]| energy.largest), 1.5e-6)
-        .at_most(format!("constrained: {growth}"), of_constrained(all, |[energy, ..]| energy.growth()), 1.05)
-        .at_least("RK4: max|ΔE|", job.only_full(energy.largest), 5e-5)
-        .at_least(format!("RK4: {growth}"), job.only_full(energy.growth()), 100.0)
+    beyond(
+        "the energy error of constrained steps is as large in the beginning as in all of the run, that \
+            of RK4 grows",
+    )
+    .at_most("constrained: max|ΔE|", of_constrained(all, |[energy, ..]| energy.largest), 1.5e-6)
+    .at_most(format!("constrained: {growth}"), of_constrained(all, |[energy, ..]| energy.growth()), 1.05)
+    .at_least("RK4: max|ΔE|", job.only_full(energy.largest), 5e-5)
+    .at_least(format!("RK4: {growth}"), job.only_full(energy.growth()), 100.0)
 }
 
 fn one_method([trapezoid, midpoint, rattle, _]: &[Motion; 4]) -> Claim {
-    let text = "the potential is linear, and so the constrained trapezoid, the constrained midpoint rule and RATTLE take the same steps";
+    let text = "the potential is linear, and so the constrained trapezoid, the constrained midpoint rule \
+                and RATTLE take the same steps";
     beyond(text).each([("midpoint", midpoint), ("RATTLE", rattle)], |claim, (name, other)| {
         let quantity = format!("trapezoid and {name}: largest distance of the free ends");
         claim.at_most(quantity, farthest(&trapezoid.1, &other.1), 2e-12)
@@ -212,8 +217,8 @@ fn work(job: &Job<'_>) -> Result<Claim> {
     ];
     let [few, _, many] = each(COUNTED_LINKS, |n| of(Rattle::default(), n, steps))?;
     let text = format!(
-        "in a step of length {COUNTED} Newton's method takes three iterations with 25, 50 and 100 links, and RATTLE at most one \
-         more with 100 than with 25"
+        "in a step of length {COUNTED} Newton's method takes three iterations with 25, 50 and 100 links, \
+         and RATTLE at most one more with 100 than with 25"
     );
     Ok(beyond(text)
         .each(newton, |claim, (name, all)| {

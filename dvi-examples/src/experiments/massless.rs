@@ -144,14 +144,17 @@ impl Parasite {
 
 fn grows(parasites: &[Parasite; 3]) -> Claim {
     let rate = parasites[2].rate();
-    beyond("in the symmetric gauge the parasitic mode of two steps grows at one rate whatever h, until no step is found")
-        .at_least("rate of growth at the smallest h", rate, 5e-3)
-        .each(parasites, |claim, parasite| {
-            let Parasite { h, ended, .. } = parasite;
-            claim
-                .near(format!("h = {h}: rate of growth, in units of that"), parasite.rate() / rate, [1.0, 0.1])
-                .at_most(format!("h = {h}: time at which it ends"), ended.unwrap_or(f64::INFINITY), END)
-        })
+    beyond(
+        "in the symmetric gauge the parasitic mode of two steps grows at one rate whatever h, until no \
+            step is found",
+    )
+    .at_least("rate of growth at the smallest h", rate, 5e-3)
+    .each(parasites, |claim, parasite| {
+        let Parasite { h, ended, .. } = parasite;
+        claim
+            .near(format!("h = {h}: rate of growth, in units of that"), parasite.rate() / rate, [1.0, 0.1])
+            .at_most(format!("h = {h}: time at which it ends"), ended.unwrap_or(f64::INFINITY), END)
+    })
 }
 
 fn figure(all: &[Series<1>; 3], path: &[[f64; 2]], parasites: &[Parasite; 3], end: f64) -> Figure {

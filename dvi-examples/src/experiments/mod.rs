@@ -62,8 +62,8 @@ const fn of(
     Experiment { name, title, share, run }
 }
 
-/// All experiments, in the order of the papers: Rowley & Marsden, Kosmas & Vlachos, and what goes beyond. Each
-/// with its rough share of the time that all take, and its title.
+/// All experiments, in the order of the papers: Rowley & Marsden, Kosmas & Vlachos, and what goes beyond.
+/// Each with its rough share of the time that all take, and its title.
 #[rustfmt::skip]
 pub const ALL: &[Experiment] = &[
     of("order",               1.0,   "Orders of convergence over σ, linear and vortices", order::run),

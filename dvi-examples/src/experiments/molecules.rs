@@ -26,7 +26,8 @@ const FINE: f64 = 0.00125;
 const REVERSED: u64 = 400;
 /// The intervals in which errors are drawn and averaged.
 const INTERVALS: usize = 250;
-/// What the energy error may be, over the energy, and how many steps are tried between one and twice that one.
+/// What the energy error may be, over the energy, and how many steps are tried between one and twice that
+/// one.
 const BOUND: f64 = 0.01;
 const FINENESS: f64 = 8.0;
 
@@ -182,15 +183,22 @@ fn trend(both: [&Kept; 2]) -> Claim {
 
 fn steps([rods, soft, stiff]: &[Scan; 3]) -> Claim {
     let springs = [(soft, SOFT.k, 3.0), (stiff, STIFF.k, 9.0)];
-    beyond("with rods the longest step that keeps the energy to one hundredth is several times as long as with springs")
-        .within("rods: longest step", rods.longest(), [0.035, 0.07])
-        .each(springs, |claim, (scan, k, low)| {
-            claim.at_least(format!("k = {k}: longest step with rods / with springs"), rods.longest() / scan.longest(), low)
-        })
-        .each(springs, |claim, (scan, k, _)| {
-            let over_limit = scan.longest() * (3.0 * k).sqrt() / 2.0;
-            claim.within(format!("k = {k}: longest step with springs / (2/ω)"), over_limit, [0.88, 1.01])
-        })
+    beyond(
+        "with rods the longest step that keeps the energy to one hundredth is several times as long as \
+            with springs",
+    )
+    .within("rods: longest step", rods.longest(), [0.035, 0.07])
+    .each(springs, |claim, (scan, k, low)| {
+        claim.at_least(
+            format!("k = {k}: longest step with rods / with springs"),
+            rods.longest() / scan.longest(),
+            low,
+        )
+    })
+    .each(springs, |claim, (scan, k, _)| {
+        let over_limit = scan.longest() * (3.0 * k).sqrt() / 2.0;
+        claim.within(format!("k = {k}: longest step with springs / (2/ω)"), over_limit, [0.88, 1.01])
+    })
 }
 
 fn same([rods, soft, _]: &[Scan; 3]) -> Claim {
@@ -248,15 +256,16 @@ fn figure(both: [&Kept; 2], scans: &[Scan; 3], end: f64) -> Result<Figure> {
     Ok(Figure::new(
         format!("A chain of {MOLECULES} rigid molecules by RATTLE, and with springs in place of the rods"),
         format!(
-            "Atoms of mass 1, sides of length 1, and between molecules the potential of Morse with depth 1 and *β* = {BETA}; *h* = {H} \
-             with rods, {H_SPRINGS} with springs of *k* = 10⁴."
+            "Atoms of mass 1, sides of length 1, and between molecules the potential of Morse with depth 1 \
+             and *β* = {BETA}; *h* = {H} with rods, {H_SPRINGS} with springs of *k* = 10⁴."
         ),
     )
     .row(400.0, vec![chain()?, lengths])
     .row(310.0, vec![energy, bonds])
     .footer(format!(
-        "The longest step that keeps the energy to 1 % is {rods:.3} with rods, {soft:.4} and {stiff:.4} with springs. The chain moves away from the \
-         origin: rounding of coordinates grows with the distance.",
+        "The longest step that keeps the energy to 1 % is {rods:.3} with rods, {soft:.4} and {stiff:.4} \
+         with springs. The chain moves away from the origin: rounding of coordinates grows with the \
+         distance.",
     )))
 }
 

@@ -183,8 +183,14 @@ fn figure(all: &[Drifts]) -> Figure {
     });
     Figure::new(
         "What is conserved, scheme by scheme: momenta, the discrete momentum, the two-form",
-        format!("Four equal vortices, *h* = {H}; deviations below 10⁻¹¹ are rounding, or the finite differences of Ω"),
+        format!(
+            "Four equal vortices, *h* = {H}; deviations below 10⁻¹¹ are rounding, or the finite \
+                 differences of Ω"
+        ),
     )
     .row(500.0, vec![panel.legend_at(Corner::Beside)])
-    .footer("Rowley & Marsden 2002, eq. 17 and section 6. Two-form: (17) for the σ-family, Ω = ΣΓ d*x* ∧ d*y* for one-step methods.")
+    .footer(
+        "Rowley & Marsden 2002, eq. 17 and section 6. Two-form: (17) for the σ-family, Ω = ΣΓ d*x* ∧ \
+             d*y* for one-step methods.",
+    )
 }

@@ -160,7 +160,8 @@ fn figure(rows: &[Row]) -> Figure {
     Figure::new(
         "Orders of convergence of the σ-family, on a linear equation and on four vortices",
         format!(
-            "From two exact starting values; orders fitted over 13 values of σ: linear {linear_range}, vortices {vortex_range}"
+            "From two exact starting values; orders fitted over 13 values of σ: linear {linear_range}, \
+             vortices {vortex_range}"
         ),
     )
     .row(430.0, vec![linear.without_legend(), vortices.legend_at(Corner::Beside).weight(1.35), over_sigma])

@@ -241,10 +241,14 @@ fn figure(rows: &[Row], all: &[Errors], many: u64) -> Figure {
     Figure::new(
         "The harmonic oscillator at steps up to *u* = ω*h* = 3, with and without phase fitting",
         format!(
-            "Phase-fitted recursion: errors up to {}, where |*S* sin *u*| ≥ 0.1, over {many} steps; dashed: linear interpolation",
+            "Phase-fitted recursion: errors up to {}, where |*S* sin *u*| ≥ 0.1, over {many} steps; \
+             dashed: linear interpolation",
             at_most(well_placed(rows))
         ),
     )
     .row(460.0, vec![given.legend_at(Corner::Beside).weight(1.6), recursion, factor])
-    .footer("Kosmas & Vlachos, section 3; the momentum is not in the paper. *S* = Σ*w* cos((1 − 2*c*)*u*); a step divides by it. Right: dots measured, lines *s* = *uS*/sin *u*.")
+    .footer(
+        "Kosmas & Vlachos, section 3; the momentum is not in the paper. *S* = Σ*w* cos((1 − 2*c*)*u*); \
+             a step divides by it. Right: dots measured, lines *s* = *uS*/sin *u*.",
+    )
 }

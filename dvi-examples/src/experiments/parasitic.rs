@@ -153,5 +153,8 @@ fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
         "All runs start with a step of RK2, which leaves a parasitic mode of size *h*³",
     )
     .row(460.0, vec![left, middle, right.without_legend()])
-    .footer("A circle: the run ended there with an error. Data of Rowley & Marsden 2002, Figs. 2 and 5. Γ and *L*: units of circulation and length.")
+    .footer(
+        "A circle: the run ended there with an error. Data of Rowley & Marsden 2002, Figs. 2 and 5. Γ \
+             and *L*: units of circulation and length.",
+    )
 }

@@ -85,9 +85,9 @@ fn energy(state: &RigidBodyState) -> f64 {
 }
 
 fn momentum(job: &Job<'_>, long: Long, [_, space, defect, body]: &[Deviation; 4]) -> Claim {
-    let text = "a free body keeps its angular momentum in space, in length and in direction, up to errors no larger than a unit of rounding \
-                times the square root of the number of steps; the one in the body keeps its length, and matrices are orthogonal to a few units \
-                of rounding";
+    let text = "a free body keeps its angular momentum in space, in length and in direction, up to errors \
+                no larger than a unit of rounding times the square root of the number of steps; the one in \
+                the body keeps its length, and matrices are orthogonal to a few units of rounding";
     beyond(text)
         .at_least("steps", job.only_full(long.steps as f64), 1e6)
         .at_most("geodesics: largest |M − M(0)|/|M| in space", space.largest, long.random_walk())
@@ -96,8 +96,8 @@ fn momentum(job: &Job<'_>, long: Long, [_, space, defect, body]: &[Deviation; 4]
 }
 
 fn flips_in_time(job: &Job<'_>, wave: &Wave, flips: &[Flips; 3]) -> Claim {
-    let text = "a free body that turns about its middle axis flips with the period of the elliptic functions, up to an error of the order h² \
-                that is less than h² of it";
+    let text = "a free body that turns about its middle axis flips with the period of the elliptic \
+                functions, up to an error of the order h² that is less than h² of it";
     let [.., fine] = flips;
     let away = |flips: &Flips| flips.period / wave.period() - 1.0;
     let quantity = format!("h = {}: relative error of the period / h²", fine.h);
@@ -117,8 +117,9 @@ fn loses(
     [energy, space, defect, body]: &[Deviation; 4],
     geodesics: &[Deviation; 4],
 ) -> Claim {
-    let text = "RK4 on the entries of the matrix loses the angular momentum, the rotation and the energy in proportion to the time, but the \
-                energy by so little that its error is the smaller one all that time";
+    let text = "RK4 on the entries of the matrix loses the angular momentum, the rotation and the energy \
+                in proportion to the time, but the energy by so little that its error is the smaller one \
+                all that time";
     let far = |kept: usize| 1e6 * geodesics[kept].largest;
     let trend = "last tenth of the time over the first";
     beyond(text)
@@ -273,14 +274,15 @@ fn figure(all: &[Series<4>; 2], wave: &Wave, long: Long) -> Result<Figure> {
     Ok(Figure::new(
         "A free body that flips",
         format!(
-            "Moments of inertia {a}, {b} and {c}; rotation matrices along geodesics of SO(3), trapezoidal rule, *h* = {H}. It begins with \
-             *ω* = ({x}, {y}, {z})."
+            "Moments of inertia {a}, {b} and {c}; rotation matrices along geodesics of SO(3), trapezoidal \
+             rule, *h* = {H}. It begins with *ω* = ({x}, {y}, {z})."
         ),
     )
     .row(400.0, vec![sphere(&flipping)?, middle])
     .row(300.0, panels(long.end(), all, &quantities))
     .footer(format!(
-        "The sphere shows directions of the angular momentum in the body, with the curve that flips in red. Below: {} steps.",
+        "The sphere shows directions of the angular momentum in the body, with the curve that flips in \
+         red. Below: {} steps.",
         scientific(long.steps as f64)
     )))
 }

@@ -143,7 +143,8 @@ fn exponent(rows: &Rows) -> Option<f64> {
 
 fn claims(job: &Job<'_>, pairs: &[Pair; 4]) -> Vec<Claim> {
     let cases = || CASES.iter().zip(pairs);
-    let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ steps, as independent ones do";
+    let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ \
+                  steps, as independent ones do";
     let energies = cases().filter(|(case, _)| case.is_energy);
     let smaller = beyond("with compensated sums they are at most a fifth of those of plain sums");
     vec![
@@ -163,16 +164,17 @@ fn notes(pairs: &[Pair; 4]) -> Vec<String> {
         let (plain, by_compensation) = (exponent(plain)?, exponent(compensated)?);
         let &[n, error] = compensated.last()?;
         Some(format!(
-            "{}: errors grow as n^{plain:.2} with plain and as n^{by_compensation:.2} with compensated sums; what is left \
-             after {} steps is {:.2} εh√n.",
+            "{}: errors grow as n^{plain:.2} with plain and as n^{by_compensation:.2} with compensated \
+             sums; what is left after {} steps is {:.2} εh√n.",
             case.name,
             scientific(n),
             error / (f64::EPSILON * H * n.sqrt())
         ))
     };
-    let what_is_left = "What compensation leaves are the roundings of the increments and of the forces in them, each some εh; a plain \
-                        sum rounds coordinates, by some ε, and where these roundings do not cancel in the mean, as where an implicit \
-                        equation is solved from one side, their sum grows with n and not with √n.";
+    let what_is_left = "What compensation leaves are the roundings of the increments and of the forces in \
+                        them, each some εh; a plain sum rounds coordinates, by some ε, and where these \
+                        roundings do not cancel in the mean, as where an implicit equation is solved from \
+                        one side, their sum grows with n and not with √n.";
     CASES.iter().zip(pairs).filter_map(note).chain([what_is_left.to_owned()]).collect()
 }
 

@@ -120,8 +120,11 @@ fn own_breather() -> Result<Claim> {
             largest = larger(largest, apart);
         }
     }
-    Ok(beyond("the scheme has the breathers of the equation, larger by 1/cos ½θ, that turn by θ = 2 arctan ½ωh a step")
-        .at_most("largest distance from that in 1000 steps", largest, 1e-10))
+    Ok(beyond(
+        "the scheme has the breathers of the equation, larger by 1/cos ½θ, that turn by θ = 2 arctan \
+               ½ωh a step",
+    )
+    .at_most("largest distance from that in 1000 steps", largest, 1e-10))
 }
 
 fn figure([one_step, rk4, weak]: &[Excitation; 3], periods: u64) -> Figure {
@@ -153,7 +156,10 @@ fn figure([one_step, rk4, weak]: &[Excitation; 3], periods: u64) -> Figure {
     let excess = 100.0 * (EXCESS - 1.0);
     Figure::new(
         "A discrete breather: where it is, and what two methods keep of it",
-        format!("{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by {excess:.0} % at its centre"),
+        format!(
+            "{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by {excess:.0} \
+                 % at its centre"
+        ),
     )
     .row(380.0, vec![profile.legend_at(Corner::TopLeft), sites])
     .row(330.0, vec![errors.legend_at(Corner::Beside)])

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use crate::models::{Case, FourPoints, FourVortices};
 use crate::vocabulary::*;
 
-pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
+pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ \
+                          e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
 
 /// More crossings than these make files larger, and no clearer.
 const SHOWN: usize = 15_000;

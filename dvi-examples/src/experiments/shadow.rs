@@ -33,8 +33,8 @@ impl Shadow {
 /// longest first.
 pub fn claim(method: &str, runs: &[Shadow]) -> Claim {
     let text = format!(
-        "{method}: backward error analysis gives the energy error in closed form, h² times a function of the state, and the rest is of the \
-         order h⁴"
+        "{method}: backward error analysis gives the energy error in closed form, h² times a function of \
+         the state, and the rest is of the order h⁴"
     );
     let order = |error: fn(&Shadow) -> f64| order(runs.iter().map(|run| (run.h, error(run))));
     let ratio = runs.last().map(|run| run.largest / run.predicted);

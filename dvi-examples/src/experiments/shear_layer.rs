@@ -200,8 +200,8 @@ fn figure(rolled: &RollUp, operations: &[Operations]) -> Figure {
         .fold(figure, |figure, (height, panels)| figure.row(height, panels))
         .row(330.0, vec![kept.legend_at(Corner::Beside), costs(operations)])
         .footer(format!(
-            "Velocities differ by 1 across the layer, the waves on it have the length 1. Relative error of the forces: {at_start} at the start, {at_end} at \
-             the end."
+            "Velocities differ by 1 across the layer, the waves on it have the length 1. Relative error of \
+             the forces: {at_start} at the start, {at_end} at the end."
         ))
 }
 

@@ -96,7 +96,8 @@ impl Around {
 }
 
 fn keep(all: &[Kept; 3]) -> Claim {
-    let text = "energy and length of the moment are no further off in the whole run than in its beginning, and the moment along the axis is kept to rounding errors";
+    let text = "energy and length of the moment are no further off in the whole run than in its beginning, \
+                and the moment along the axis is kept to rounding errors";
     let growth = all[2].kept[0].growth();
     beyond(text)
         .each(&all[..2], |claim, Series { name, kept: [energy, moment, _, axial], .. }| {
@@ -119,9 +120,12 @@ fn precession() -> Result<Claim> {
         })
     }
     let (midpoint, gauss) = (of(OneStep::midpoint())?, of(OneStepGauss::<2>::new())?);
-    Ok(beyond("the moment turns slowly around the axis of the coordinates, at a rate that falls with the order of the scheme")
-        .near("midpoint: order of the angle at t = 400", midpoint, [2.0, 0.1])
-        .near("Gauss of order 4: order of the angle at t = 400", gauss, [4.0, 0.2]))
+    Ok(beyond(
+        "the moment turns slowly around the axis of the coordinates, at a rate that falls with the \
+               order of the scheme",
+    )
+    .near("midpoint: order of the angle at t = 400", midpoint, [2.0, 0.1])
+    .near("Gauss of order 4: order of the angle at t = 400", gauss, [4.0, 0.2]))
 }
 
 /// `v` turned around an axis by an angle (Rodrigues).

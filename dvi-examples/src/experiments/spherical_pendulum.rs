@@ -136,9 +136,10 @@ impl Swings {
 }
 
 fn rounding(job: &Job<'_>, long: Long, arcs: &[Deviation; 3], chords: &[Deviation; 3]) -> Claim {
-    let text = "unit vectors have the length one to a few units of rounding for the whole run; the momentum about the vertical is kept up to \
-                errors no larger than a unit of rounding times the square root of the number of steps, and by RATTLE up to what the \
-                errors of the length add up to over the steps";
+    let text = "unit vectors have the length one to a few units of rounding for the whole run; the \
+                momentum about the vertical is kept up to errors no larger than a unit of rounding times \
+                the square root of the number of steps, and by RATTLE up to what the errors of the length \
+                add up to over the steps";
     let momentum = "largest relative change of the momentum about the vertical";
     let (steps, bound) = (long.steps as f64, long.random_walk());
     beyond(text)
@@ -163,8 +164,8 @@ fn loses(job: &Job<'_>, [energy, length, vertical]: &[Deviation; 3], arcs: &[Dev
 }
 
 fn order_of_places(arcs: &[Swings; 3], chords: &[Swings; 3]) -> Result<Claim> {
-    let text = "the place of a spherical pendulum is of second order by great circles and by RATTLE, which differ by a term of the order h², and \
-                of fourth by Suzuki's composition";
+    let text = "the place of a spherical pendulum is of second order by great circles and by RATTLE, which \
+                differ by a term of the order h², and of fourth by Suzuki's composition";
     let [fine, double] = [FINE, 2.0 * FINE].map(|h| {
         let [x, y, z, ..] = reference(PENDULUM, &begin(), ORDER_TIME, h);
         [x, y, z]
@@ -202,12 +203,16 @@ fn figure(all: &[Series<3>; 3], long: Long) -> Result<Figure> {
     let energy = panels(long.end(), all, &energy).into_iter().map(|panel| panel.weight(1.4));
     Ok(Figure::new(
         "A spherical pendulum",
-        format!("Mass, length and *g* are 1; unit vectors along great circles, trapezoidal rule, and a constraint by RATTLE, *h* = {H}."),
+        format!(
+            "Mass, length and *g* are 1; unit vectors along great circles, trapezoidal rule, and a \
+                 constraint by RATTLE, *h* = {H}."
+        ),
     )
     .row(400.0, [path].into_iter().chain(energy).collect())
     .row(300.0, panels(long.end(), all, &others))
     .footer(format!(
-        "The path is from above, up to *t* = {DRAWN}; the roots of the cubic are the circles. The others: {} steps.",
+        "The path is from above, up to *t* = {DRAWN}; the roots of the cubic are the circles. The others: \
+         {} steps.",
         scientific(long.steps as f64)
     )))
 }

@@ -122,12 +122,16 @@ fn energy(job: &Job<'_>, newmark: &[Kept; 4]) -> Claim {
     let growth = job.only_full(largest(energies.map(Deviation::growth)));
     let ratio = energies[0].largest / energies[3].largest;
     beyond(format!(
-        "hω = {}: the energy of Newmark's method does not drift; its error is the smaller, the nearer β is to 1/4",
+        "hω = {}: the energy of Newmark's method does not drift; its error is the smaller, the nearer β is \
+         to 1/4",
         H * OMEGA
     ))
-    .each(BETAS.into_iter().zip(energies).zip([0.2, 0.13, 0.06, 1.5e-3]), |claim, (((_, name, _), energy), bound)| {
-        claim.of(name).at_most("largest |ΔE|", energy.largest, bound)
-    })
+    .each(
+        BETAS.into_iter().zip(energies).zip([0.2, 0.13, 0.06, 1.5e-3]),
+        |claim, (((_, name, _), energy), bound)| {
+            claim.of(name).at_most("largest |ΔE|", energy.largest, bound)
+        },
+    )
     .at_least("β = 0: largest |ΔE| / that with β = 1/4", ratio, 100.0)
     .at_most("largest |ΔE| over all / in the first hundredth", growth, 1.1)
 }
@@ -154,8 +158,8 @@ fn speeds(job: &Job<'_>, starts: usize) -> Result<Claim> {
         }
     }
     let text = format!(
-        "the stiff springs exchange their energies at 1/((1 + β(hω)²)√(1 + (β − ¼)(hω)²)) times the speed of the motion, \
-         on average over {} starts",
+        "the stiff springs exchange their energies at 1/((1 + β(hω)²)√(1 + (β − ¼)(hω)²)) times the speed \
+         of the motion, on average over {} starts",
         CENTRES.len()
     );
     Ok(beyond(text).each(BETAS.into_iter().zip(speeds), |claim, ((beta, name, _), speed)| {
@@ -176,7 +180,8 @@ fn long_steps(motion: &Exchange, long: &Exchange) -> Result<Claim> {
         [motion, long].map(|of| of.0.get(COMPARED as usize - 1).map_or(f64::NAN, |mean| mean[0]));
     let first = format!("energy of the first stiff spring at t = {COMPARED}");
     Ok(beyond(format!(
-        "hω = {}: with β = 1/4 the energy does not drift, but there is next to no exchange: the step is stable and the motion another",
+        "hω = {}: with β = 1/4 the energy does not drift, but there is next to no exchange: the step is \
+         stable and the motion another",
         LONG * OMEGA
     ))
     .at_most("long step: largest |ΔE|", most, 0.02)
@@ -304,13 +309,17 @@ fn figure(
     let sum = over_time(labels, end, [1e-2, 10.0], all.iter().copied(), 1);
     Figure::new(
         format!("Newmark's method on a chain of {} stiff springs, ω = {OMEGA}, between soft ones", CHAIN.m),
-        format!("Masses are 1; at the start all energy is in the first pair, *E* ≈ 2. *h* = {H}, so that *hω* = {}.", H * OMEGA),
+        format!(
+            "Masses are 1; at the start all energy is in the first pair, *E* ≈ 2. *h* = {H}, so that \
+                 *hω* = {}.",
+            H * OMEGA
+        ),
     )
     .row(300.0, vec![titled(0), titled(1).without_legend(), titled(3).without_legend(), long])
     .row(330.0, vec![energy.without_legend(), sum.legend_at(Corner::Beside).weight(1.25)])
     .footer(
-        "Above: energies of the three stiff springs, means over units of time, on those of the motion (grey, Gauss's method of order 8). \
-         In brackets: the speed of the exchange by the formula.",
+        "Above: energies of the three stiff springs, means over units of time, on those of the motion \
+         (grey, Gauss's method of order 8). In brackets: the speed of the exchange by the formula.",
     )
 }
 

@@ -41,8 +41,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let all = [symmetric, displaced];
     let rows = all.iter().flat_map(|run| run.rows.iter().map(|row| ([&run.name], *row)));
     job.publish(figure(&all), Table::of(&["run", "t", "asymmetry", "energy_error"], rows)?)?;
-    let rounding = "How rounding breaks the symmetry differs from program to program, and so does the time at which the \
-                    symmetric run breaks up.";
+    let rounding = "How rounding breaks the symmetry differs from program to program, and so does the time \
+                    at which the symmetric run breaks up.";
     let notes = all.iter().map(Motion::ending).chain([rounding.to_owned()]).collect();
     Ok(Outcome { claims, references: vec![], notes })
 }
@@ -137,17 +137,14 @@ fn claims(job: &Job<'_>, symmetric: &Motion, displaced: &Motion) -> Vec<Claim> {
         Claim::new("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value for all time")
             .at_least(&lost, all_time, symmetric.end)
             .instead(
-                "it does for the paper's time, carried by the mirror symmetry of its initial data; rounding breaks \
-                 the symmetry, and later the motion breaks up",
+                "it does for the paper's time, carried by the mirror symmetry of its initial data; \
+                 rounding breaks the symmetry, and later the motion breaks up",
             )
             .within(&lost, all_time, [PAPER, symmetric.end])
             .at_least("asymmetry up to t = 2·10⁵ / up to t = 2·10⁴", growth, 10.0)
             .at_least("asymmetry when it is lost", job.only_full(symmetric.asymmetry(f64::INFINITY)), 0.1),
-        beyond("with vortex 1 displaced by (0.05, 0.035) the motion is lost within the paper's time").at_most(
-            format!("displaced: {lost}"),
-            displaced.lost,
-            PAPER,
-        ),
+        beyond("with vortex 1 displaced by (0.05, 0.035) the motion is lost within the paper's time")
+            .at_most(format!("displaced: {lost}"), displaced.lost, PAPER),
     ]
 }
 
@@ -171,6 +168,7 @@ fn figure(all: &[Motion; 2]) -> Figure {
     )
     .row(450.0, vec![asymmetry, energy.without_legend()])
     .footer(format!(
-        "The run of Rowley & Marsden 2002, Fig. 2. A run is drawn until |Δ*H*| exceeds {LOST} or it ends by itself."
+        "The run of Rowley & Marsden 2002, Fig. 2. A run is drawn until |Δ*H*| exceeds {LOST} or it ends \
+         by itself."
     ))
 }

@@ -50,7 +50,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     });
     let table = Table::of(&["method", "invariant", "t", "lowest", "mean", "highest"], rows)?;
     job.publish(figure(&one_step, &by_rk4, span.end)?, table)?;
-    let text = "one step keeps xyz to rounding errors, and its error of x + y + z is no larger in the whole run than in its beginning; RK4 keeps the sum, which is linear, and loses the product";
+    let text = "one step keeps xyz to rounding errors, and its error of x + y + z is no larger in the \
+                whole run than in its beginning; RK4 keeps the sum, which is linear, and loses the product";
     let ([one_sum, one_product], [rk4_sum, rk4_product]) = (&one_step, &by_rk4);
     let growth = |of: &str| format!("{of} over all / over {EARLY} steps");
     Ok(vec![
@@ -151,7 +152,10 @@ fn figure(one_step: &[Deviation; 2], rk4: &[Deviation; 2], end: f64) -> Result<F
     ]);
     Ok(Figure::new(
         "Three species that eat each other in a circle",
-        format!("*x*′ = *x*(*y* − *z*), *y*′ = *y*(*z* − *x*), *z*′ = *z*(*x* − *y*); one-step midpoint scheme, *h* = {H}"),
+        format!(
+            "*x*′ = *x*(*y* − *z*), *y*′ = *y*(*z* − *x*), *z*′ = *z*(*x* − *y*); one-step midpoint \
+                 scheme, *h* = {H}"
+        ),
     )
     .row(430.0, vec![plane, species.weight(1.2)])
     .row(300.0, vec![errors.legend_at(Corner::Beside)])

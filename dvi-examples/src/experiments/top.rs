@@ -88,8 +88,9 @@ fn nutation(h: f64, end: f64) -> Result<([Extreme; 2], Shadow)> {
 }
 
 fn rounding(job: &Job<'_>, long: Long, [_, defect, spin, vertical]: &[Deviation; 4]) -> Claim {
-    let text = "the matrices of a heavy top are orthogonal to a few units of rounding for the whole run; its momenta are kept up to errors no \
-                larger than a unit of rounding times the square root of the number of steps";
+    let text = "the matrices of a heavy top are orthogonal to a few units of rounding for the whole run; \
+                its momenta are kept up to errors no larger than a unit of rounding times the square root \
+                of the number of steps";
     let about_vertical = "largest relative change of the momentum about the vertical";
     beyond(text)
         .at_least("steps", job.only_full(long.steps as f64), 1e7)
@@ -100,8 +101,8 @@ fn rounding(job: &Job<'_>, long: Long, [_, defect, spin, vertical]: &[Deviation;
 
 fn shrinks(job: &Job<'_>, long: Long, [energy, defect, ..]: &[Deviation; 4], by_geodesics: f64) -> Claim {
     let text = format!(
-        "RK4 on the entries of the matrix, h = {H}, shrinks it at right angles to ω: each step takes some (h|ω|)⁶/72 of the squares, and \
-         the energy drifts in proportion to the time"
+        "RK4 on the entries of the matrix, h = {H}, shrinks it at right angles to ω: each step takes some \
+         (h|ω|)⁶/72 of the squares, and the energy drifts in proportion to the time"
     );
     // ω at the start; the precession makes the entries of the matrix a little slower or faster than that.
     let [dot_theta, dot_phi, spinning] = RATES;
@@ -137,13 +138,17 @@ fn figure(all: &[Series<4>; 2], long: Long) -> Result<Figure> {
     let steps = scientific(long.steps as f64);
     Ok(Figure::new(
         "The top of Lagrange",
-        format!("Moments of inertia 1 and 0.5, weight 1, *ω*₃ = {SPINNING}; rotation matrices along geodesics of SO(3), trapezoidal rule."),
+        format!(
+            "Moments of inertia 1 and 0.5, weight 1, *ω*₃ = {SPINNING}; rotation matrices along \
+                 geodesics of SO(3), trapezoidal rule."
+        ),
     )
     .row(380.0, each(CURVES, curve)?.into())
     .row(300.0, panels(long.end(), all, &quantities))
     .footer(format!(
-        "Above: the axis from above, up to *t* = {DRAWN}, from {LEANING} off the vertical with the precession {first}, {second} and {third}. The roots of the \
-         cubic are the circles. Below: {steps} steps with *h* = {H}."
+        "Above: the axis from above, up to *t* = {DRAWN}, from {LEANING} off the vertical with the \
+         precession {first}, {second} and {third}. The roots of the cubic are the circles. Below: {steps} \
+         steps with *h* = {H}."
     )))
 }
 

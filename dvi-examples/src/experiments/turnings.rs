@@ -87,7 +87,8 @@ impl Turnings {
 /// each half of the one before.
 pub fn claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
     let text = format!(
-        "{what} goes up and down between the roots of its cubic, up to a multiple of h², which follows from the energy error in closed form"
+        "{what} goes up and down between the roots of its cubic, up to a multiple of h², which follows \
+         from the energy error in closed form"
     );
     let [low, high] = coarse;
     let square = low.h * low.h;

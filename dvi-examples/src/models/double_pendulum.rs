@@ -26,8 +26,8 @@ impl DoublePendulum {
         [self.length * (a.sin() + b.sin()), -self.length * (a.cos() + b.cos())]
     }
 
-    /// The rates of (a, b, a', b') in the motion, solved from 2a'' + b'' cos δ + b'² sin δ + 2(g/l) sin a = 0 and
-    /// b'' + a'' cos δ − a'² sin δ + (g/l) sin b = 0, δ = a − b.
+    /// The rates of (a, b, a', b') in the motion, solved from 2a'' + b'' cos δ + b'² sin δ + 2(g/l) sin a =
+    /// 0 and b'' + a'' cos δ − a'² sin δ + (g/l) sin b = 0, δ = a − b.
     pub fn motion(&self, &[a, b, da, db]: &[f64; 4]) -> [f64; 4] {
         let (sin, cos) = (a - b).sin_cos();
         let gravity = self.g / self.length;

@@ -62,8 +62,8 @@ fn the_tally_is_that_of_the_full_run() {
     let checks = || ROWS.iter().filter(|row| row.kind == "reference");
     assert!(checks().all(|row| row.verdict == "passes"), "a regression check fails");
     said!(
-        "Of {} claims of the papers that were tested, the experiments reproduce {reproduced}; the other {differ} \
-         differ from what is printed, and the summary says how.",
+        "Of {} claims of the papers that were tested, the experiments reproduce {reproduced}; the other \
+         {differ} differ from what is printed, and the summary says how.",
         printed().count()
     );
     said!(

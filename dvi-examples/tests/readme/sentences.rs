@@ -26,15 +26,15 @@ fn one_third_of_the_steps_is_said_of_each_reading() {
     let [low, fixed_low, simpson] = [low, fixed_low, simpson].map(below);
     let [high, at_lower, fixed_high, round] = [high, at_lower, fixed_high, round].map(above);
     said!(
-        "With steps by (23) as printed, at e = 0.95 and against midpoint and trapezoid, phase fitting takes \
-         {low:.2} to {high:.2} of the steps, and in {:.0} % of the comparisons more than a third; at e = 0.8 it \
-         takes up to {at_lower:.2}.",
+        "With steps by (23) as printed, at e = 0.95 and against midpoint and trapezoid, phase fitting \
+         takes {low:.2} to {high:.2} of the steps, and in {:.0} % of the comparisons more than a third; at \
+         e = 0.8 it takes up to {at_lower:.2}.",
         100.0 * share
     );
     said!("With fixed steps it takes {fixed_low:.2} to {fixed_high:.2} at e = 0.95.");
     said!(
-        "Against linear Simpson, with fixed steps, it takes at least {simpson:.2} at e = 0.95, and at most {round:.2} at \
-         e = 0.2."
+        "Against linear Simpson, with fixed steps, it takes at least {simpson:.2} at e = 0.95, and at most \
+         {round:.2} at e = 0.2."
     );
 }
 
@@ -45,13 +45,14 @@ fn long_runs_last_as_long_as_it_is_said() {
     let growth = long("(23) per arc length, 3e-6: max|ΔE| over all / over 300 periods");
     assert!(growth <= 1.001, "{growth}");
     said!(
-        "read per unit of arc length, (23) locks in to the motion: with a tolerance of 3·10⁻⁶ the energy error is \
-         at most {} in the first 300 periods and in all of 10⁵, at {:.0} steps a period.",
+        "read per unit of arc length, (23) locks in to the motion: with a tolerance of 3·10⁻⁶ the energy \
+         error is at most {} in the first 300 periods and in all of 10⁵, at {:.0} steps a period.",
         at_most(long("(23) per arc length, 3e-6: max|ΔE|")),
         long("(23) per arc length, 3e-6: steps per period")
     );
     said!(
-        "keeps an orbit of eccentricity 0.95 within {} of its energy for 10⁵ periods at {:.0} steps a period.",
+        "keeps an orbit of eccentricity 0.95 within {} of its energy for 10⁵ periods at {:.0} steps a \
+         period.",
         at_most(long("Lobatto-4: max|ΔE| over all")),
         long("Lobatto-4: steps per period")
     );
@@ -70,8 +71,8 @@ fn compensated_sums_round_as_little_as_it_is_said() {
         (1000.0 * ratio).ceil() / 10.0
     };
     said!(
-        "After 10⁸ steps on an oscillator the rounding error of the conserved energy is then at most {:.1} % of that with \
-         plain sums for σ = ½, and {:.1} % for Verlet's method.",
+        "After 10⁸ steps on an oscillator the rounding error of the conserved energy is then at most {:.1} \
+         % of that with plain sums for σ = ½, and {:.1} % for Verlet's method.",
         percent("oscillator, σ = ½"),
         percent("oscillator, Verlet")
     );
@@ -87,9 +88,9 @@ fn order_16_pays_where_the_last_digits_are_asked_for() {
     let at_once = problems.map(|name| of(&format!("{name}, stages at once")));
     said!("Gauss collocation of order 16 keeps the energy to {vortices}, {kepler} and {planets} of itself.");
     said!(
-        "To keep it to 10⁻¹³, the composition of Kahan & Li of order 8 takes {:.1}, {:.1} and {:.1} times as many \
-         evaluations of the gradient, and {:.0}, {:.0} and {:.0} times as many where the stages of a step are \
-         evaluated at once and count once.",
+        "To keep it to 10⁻¹³, the composition of Kahan & Li of order 8 takes {:.1}, {:.1} and {:.1} times \
+         as many evaluations of the gradient, and {:.0}, {:.0} and {:.0} times as many where the stages of \
+         a step are evaluated at once and count once.",
         fewer[0],
         fewer[1],
         fewer[2],
@@ -98,8 +99,8 @@ fn order_16_pays_where_the_last_digits_are_asked_for() {
         at_once[2]
     );
     said!(
-        "To keep it to 10⁻⁶, other methods take fewer evaluations than Gauss collocation of order 16: RK4 {:.2} times \
-         as many on the vortices, and Kahan–Li 8 {:.2} times as many in the solar system.",
+        "To keep it to 10⁻⁶, other methods take fewer evaluations than Gauss collocation of order 16: RK4 \
+         {:.2} times as many on the vortices, and Kahan–Li 8 {:.2} times as many in the solar system.",
         of("vortices, 1e-6: RK4 / Gauss 16"),
         of("outer solar system, 1e-6: Kahan–Li 8 / Gauss 16")
     );
@@ -116,16 +117,16 @@ fn friction_takes_from_the_energy_what_is_said() {
         assert!(friction(&format!("{name}: time at which E is twice E(0)")) <= 5.0, "{name}");
     }
     said!(
-        "is wrong by at most {:.2} γ with the variational midpoint rule, {:.2} γ with the trapezoid and {:.2} γ with \
-         Newmark's method; RK4 adds {:.2} γ of its own.",
+        "is wrong by at most {:.2} γ with the variational midpoint rule, {:.2} γ with the trapezoid and \
+         {:.2} γ with Newmark's method; RK4 adds {:.2} γ of its own.",
         at_most_hundredths("variational midpoint"),
         at_most_hundredths("variational trapezoid"),
         at_most_hundredths("Newmark, β = ¼"),
         rate("RK4")
     );
     said!(
-        "at h = 0.1 the energy of RK4 deviates {:.1} times as far as that of the midpoint rule, at h = 0.025 only \
-         {:.2} times as far.",
+        "at h = 0.1 the energy of RK4 deviates {:.1} times as far as that of the midpoint rule, at h = \
+         0.025 only {:.2} times as far.",
         ratio("0.1"),
         ratio("0.025")
     );
@@ -152,7 +153,8 @@ fn steps_that_keep_the_discrete_energy_do_what_is_said() {
     said!("E_d changes by at most {} on the spring and {} on the orbit;", kept[0], kept[1]);
     said!("with as many steps of one length it varies by {} and {}.", varies[0], varies[1]);
     said!(
-        "{:.2} times as much as with steps of one length on the spring, and {:.2} times as much on the orbit.",
+        "{:.2} times as much as with steps of one length on the spring, and {:.2} times as much on the \
+         orbit.",
         energy[0],
         energy[1]
     );
@@ -162,14 +164,14 @@ fn steps_that_keep_the_discrete_energy_do_what_is_said() {
         longest[1]
     );
     said!(
-        "the distance from the motion is {:.2} times that of as many steps of one length on the spring and {:.2} times \
-         on the orbit.",
+        "the distance from the motion is {:.2} times that of as many steps of one length on the spring and \
+         {:.2} times on the orbit.",
         distance[0],
         distance[1]
     );
     said!(
-        "a step takes {:.1} and {:.1} times as many evaluations of derivatives: for no more evaluations steps of one \
-         length come {:.0} and {:.0} times closer.",
+        "a step takes {:.1} and {:.1} times as many evaluations of derivatives: for no more evaluations \
+         steps of one length come {:.0} and {:.0} times closer.",
         work[0],
         work[1],
         farther[0],
@@ -197,14 +199,15 @@ fn constrained_steps_of_many_links_do_what_is_said() {
         100.0 * links("RK4: largest relative deviation of the length of a rod")
     );
     said!(
-        "The energy error of constrained steps is at most {}, and reaches that before t = 5; the one of RK4 grows to {}.",
+        "The energy error of constrained steps is at most {}, and reaches that before t = 5; the one of \
+         RK4 grows to {}.",
         at_most(links("constrained: max|ΔE|")),
         about(links("RK4: max|ΔE|"))
     );
     said!("their free ends stay together within {}.", at_most(apart("midpoint").max(apart("RATTLE"))));
     said!(
-        "Newton's method takes {fewest:.1} to {most:.1} iterations in a step with 25, 50 and 100 links; RATTLE takes {:.1} with \
-         25 and {many:.1} with 100.",
+        "Newton's method takes {fewest:.1} to {most:.1} iterations in a step with 25, 50 and 100 links; \
+         RATTLE takes {:.1} with 25 and {many:.1} with 100.",
         many - links("RATTLE: the same less those with 25")
     );
 }
@@ -231,13 +234,13 @@ fn constraints_of_velocities_keep_the_energy_where_it_is_said() {
     said!("the energy changes by at most {} of itself.", at_most(disc("largest |E/E(0) − 1|")));
     said!("the energy error is at most {}, on average over eight starts,", at_most(springs));
     said!(
-        "its error is {early:.3} up to t = 100 and {magnet:.2} up to t = 5·10⁴, and half the step has {:.2} times as much up \
-         to t = 10⁴.",
+        "its error is {early:.3} up to t = 100 and {magnet:.2} up to t = 5·10⁴, and half the step has \
+         {:.2} times as much up to t = 10⁴.",
         disc("magnet: largest |ΔE| up to t = 10000 with half the step / with the whole")
     );
     said!(
-        "its error is {:.1} times smaller up to t = 5·10⁴. On the equal springs it is {:.1} times larger than that of \
-         constrained steps",
+        "its error is {:.1} times smaller up to t = 5·10⁴. On the equal springs it is {:.1} times larger \
+         than that of constrained steps",
         disc("magnet: largest |ΔE| / that of RK4"),
         rk4 / springs
     );
@@ -263,8 +266,8 @@ fn stiff_springs_do_what_is_said() {
     let [p, q, r, s] =
         [0.0_f64, 1.0 / 12.0, 1.0 / 6.0, 0.25].map(|beta| 1.0 / ((1.0 + beta) * (0.75 + beta).sqrt()));
     said!(
-        "of E = 2 its error is at most {verlet:.3} with β = 0, {twelfth:.3} with β = 1/12, {sixth:.3} with β = 1/6 and {} with \
-         β = 1/4.",
+        "of E = 2 its error is at most {verlet:.3} with β = 0, {twelfth:.3} with β = 1/12, {sixth:.3} with \
+         β = 1/6 and {} with β = 1/4.",
         at_most(quarter)
     );
     said!(
@@ -274,8 +277,8 @@ fn stiff_springs_do_what_is_said() {
     said!("It gives {p:.3}, {q:.3}, {r:.3} and {s:.3} for these β,");
     said!("the runs have {a:.3}, {b:.3}, {c:.3} and {d:.3}.");
     said!(
-        "the energy error is still at most {long:.3}, but at t = 150 the first spring has {:.0} % of its energy, where in the \
-         motion it has {:.1} %.",
+        "the energy error is still at most {long:.3}, but at t = 150 the first spring has {:.0} % of its \
+         energy, where in the motion it has {:.1} %.",
         first("long step"),
         first("motion")
     );
@@ -315,8 +318,8 @@ fn beams_vibrate_as_it_is_said() {
         at_most(beam("200 segments, h = 0.001: largest |E/E(0) − 1|"))
     );
     said!(
-        "A step takes {:.1} iterations of Newton's method on the beam and {:.1} to {:.1} on the rod, with 25, 50, 100 and 200 \
-         nodes.",
+        "A step takes {:.1} iterations of Newton's method on the beam and {:.1} to {:.1} on the rod, with \
+         25, 50, 100 and 200 nodes.",
         most(of_beam),
         least(of_rod),
         most(of_rod)
@@ -340,8 +343,8 @@ fn bounces_keep_the_energy_that_is_said() {
         at_most(bounces("h = 0.01: max|ΔE|"))
     );
     said!(
-        "the root mean square of its change grows with the power {:.2} of the number of bounces, and after 2048 of them is {:.0} \
-         times as large.",
+        "the root mean square of its change grows with the power {:.2} of the number of bounces, and after \
+         2048 of them is {:.0} times as large.",
         bounces("exponent of the root mean square of ΔE"),
         bounces("root mean square after 2048 bounces, over that where the energy is kept")
     );
@@ -411,8 +414,8 @@ fn a_layer_of_many_blobs_does_what_is_said() {
         layer("rate from t = 1 to 2 / that of linear theory")
     );
     said!(
-        "The energy changes by at most {} of itself, the impulse by {} of the circulation times the length, and the angular impulse by \
-         {} of itself.",
+        "The energy changes by at most {} of itself, the impulse by {} of the circulation times the \
+         length, and the angular impulse by {} of itself.",
         at_most(layer("largest |ΔH|/H")),
         at_most(layer("largest change of ΣΓz / ΣΓ times the length")),
         at_most(layer("largest relative change of ΣΓ|z|²"))
@@ -422,8 +425,9 @@ fn a_layer_of_many_blobs_does_what_is_said() {
         at_most(layer("relative error at the end"))
     );
     said!(
-        "An evaluation takes {:.0} times fewer pairs and products than there are ordered pairs, and from 25 000 to 400 000 blobs \
-         their number grows with the power {:.2} of that of the blobs. A step takes {:.1} evaluations.",
+        "An evaluation takes {:.0} times fewer pairs and products than there are ordered pairs, and from \
+         25 000 to 400 000 blobs their number grows with the power {:.2} of that of the blobs. A step \
+         takes {:.1} evaluations.",
         layer("100 000 blobs: ordered pairs of all / pairs and products of an evaluation"),
         layer("power of the number of blobs"),
         layer("evaluations in a step")

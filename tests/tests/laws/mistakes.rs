@@ -1,5 +1,5 @@
-//! The laws can be broken: mistakes that a scheme can have, and the law that sees each. A midpoint rule with one of
-//! them stands in for a scheme; without any it keeps all laws.
+//! The laws can be broken: mistakes that a scheme can have, and the law that sees each. A midpoint rule
+//! with one of them stands in for a scheme; without any it keeps all laws.
 
 use dvi_core::discrete::{Midpoint, Unfitted};
 use dvi_core::error::CheckpointError;

@@ -85,9 +85,9 @@ where
     }
 
     /// Flies to a surface, and begins another flight there: behind an impact or, where the velocity leads
-    /// away from the surface already, as it may after a long one, without. Where the end of a flight has jumped
-    /// across the surface with its length, as the impulse that keeps the discrete energy may, it begins
-    /// with a reflection from now on, and is to be taken once more.
+    /// away from the surface already, as it may after a long one, without. Where the end of a flight has
+    /// jumped across the surface with its length, as the impulse that keeps the discrete energy may, it
+    /// begins with a reflection from now on, and is to be taken once more.
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`] if a flight without such a jump does not end at the surface.

@@ -108,7 +108,8 @@ impl<T: Real> Coefficients<T> {
         Ok(())
     }
 
-    /// Where the frequency does not depend on the motion: makes these the coefficients of a step of length `h`.
+    /// Where the frequency does not depend on the motion: makes these the coefficients of a step of length
+    /// `h`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
         &mut self,
