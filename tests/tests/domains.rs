@@ -176,6 +176,20 @@ fn no_run_stands_at_the_end_of_a_logarithm() -> Outcome {
     Ok(())
 }
 
+/// What the guide says of poles: no evaluation falls on one that a step of the midpoint rule ends at.
+#[test]
+fn a_pole_that_a_step_ends_at_may_be_left_again() -> Outcome {
+    #[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = -p + 0.1 / x)]
+    struct Uniform;
+    let start: UniformState = UniformState { x: 1.0, p: 0.0 };
+    let mut run = Integrator::new(&Uniform, Sigma::midpoint(), 0.125, start)?;
+    run.take_steps(8)?;
+    assert!(run.q()[0] == 0.0 && run.energy().is_infinite(), "{:?}", run.q());
+    run.take_steps(2)?;
+    assert!(run.q()[0] == -0.25 && run.energy().is_finite(), "{:?}", run.q());
+    Ok(())
+}
+
 /// What the guide says of domains that velocities decide.
 #[test]
 fn a_force_that_velocities_end_fails_in_the_next_step() -> Outcome {

@@ -186,10 +186,13 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
                 step.take(equations, ladder, statistics)
             }};
         }
+        if F::UNFITTED {
+            return take!(AT_THE_START);
+        }
         match self.frequency.reading() {
-            Some(Reading::Averaged) if !F::UNFITTED => take!(AT_BOTH_ENDS),
-            Some(Reading::Variational) if !F::UNFITTED => take!(WITH_ITS_DERIVATIVES),
-            _ => take!(AT_THE_START),
+            None | Some(Reading::LeftFrozen) => take!(AT_THE_START),
+            Some(Reading::Averaged) => take!(AT_BOTH_ENDS),
+            Some(Reading::Variational) => take!(WITH_ITS_DERIVATIVES),
         }
     }
 

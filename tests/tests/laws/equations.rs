@@ -222,13 +222,13 @@ pub(super) fn steps_solve_their_equations(case: &Case) -> Outcome {
             let step = Step { subject, t, h, ends: [&window[0], &window[1]] };
             let (found, bound) = match &case.equations {
                 Equations::Elsewhere => return Ok(()),
-                Equations::Discrete(nodes) if subject.regular => (step.of_lagrangian(nodes)?, 4e-14),
+                Equations::Discrete(nodes) if subject.regular => (step.of_lagrangian(nodes)?, 1e-14),
                 Equations::Discrete(nodes) => {
                     let [q0, q1, q2] = [0, 1, 2].map(|i| &window[i][..]);
-                    (of_three_points(subject, nodes, [t, h], [q0, q1, q2]), 1e-14)
+                    (of_three_points(subject, nodes, [t, h], [q0, q1, q2]), 2e-15)
                 }
                 Equations::Newmark(beta) => (step.of_newmark(*beta), 2e-14),
-                Equations::Collocation(stages) => (step.of_collocation(*stages)?, 1e-12),
+                Equations::Collocation(stages) => (step.of_collocation(*stages)?, 1e-13),
             };
             below(found, bound, &format!("h = {h}, step {k}"))?;
         }

@@ -21,7 +21,7 @@ pub(super) fn momentum_maps_are_kept(case: &Case) -> Outcome {
         run.take_steps(25)?;
         worst = larger(worst, (run.momentum().ok_or("a momentum")? - first).abs());
     }
-    below(worst, 1e-12, "the momentum drifts")
+    below(worst, 1e-13, "the momentum drifts")
 }
 
 of_every_kind!(momentum_maps_are_kept, separable regular constrained);

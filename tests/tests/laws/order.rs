@@ -39,7 +39,11 @@ pub(super) fn errors_have_the_order(case: &Case) -> Outcome {
         errors.push((1.0 / steps as f64, error(case, steps)?));
     }
     let found = convergence_order(&errors).ok_or("no slope")?;
-    let bound = if case.order < 8 { 0.12 } else { 0.25 };
+    let bound = match case.order {
+        ..3 => 0.07,
+        ..8 => 0.1,
+        _ => 0.25,
+    };
     below(
         (found - case.order as f64).abs(),
         bound,

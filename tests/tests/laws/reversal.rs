@@ -18,7 +18,7 @@ pub(super) fn steps_back_undo_steps(case: &Case) -> Outcome {
     back.take_steps(STEPS)?;
     let lost = apart(&back.values(), &start);
     if case.symmetric {
-        below(lost, 1e-12, "the way back misses the start")
+        below(lost, 1e-13, "the way back misses the start")
     } else if case.order == 1 {
         below(-lost, -1e-6, "it goes back, and is of first order")
     } else {

@@ -90,7 +90,7 @@ pub(super) fn forms_are_preserved(case: &Case) -> Outcome {
         }
     }
     if preserves {
-        below(lost / size, 2e-12, "the form changes")
+        below(lost / size, 1e-13, "the form changes")
     } else if (1..=4).contains(&case.order) {
         below(-lost / size, -2e-12, "it preserves what it does not say")
     } else {
