@@ -36,9 +36,7 @@ mod walk;
 use crate::discrete::{DiscreteLagrangian, Span};
 use crate::error::{StartError, StepFailure};
 use crate::memory::Memory;
-use crate::solve::{Solver, Stopping};
 use crate::state::Statistics;
-use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::Composition;
@@ -331,35 +329,5 @@ pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     ///
     /// # Errors
     /// [`StartError::Unsupported`] names the first that is not left at its default.
-    fn admit_inside(&self) -> Result<(), StartError> {
-        Ok(())
-    }
-}
-
-/// Refuses options of the steps of a method itself, if they are not those that it has by default.
-pub(crate) fn without_effect_inside(
-    solver: Solver,
-    stopping: Stopping,
-    summation: Summation,
-) -> Result<(), StartError> {
-    let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-    if summation != Summation::default() {
-        return unsupported(
-            "Summation::Compensated",
-            "`Constrained` adds up the increments of its steps plainly",
-        );
-    }
-    if solver != Solver::default() {
-        return unsupported(
-            "the solver of the inner method",
-            "`Constrained` solves its steps by Newton's method",
-        );
-    }
-    if stopping != Stopping::default() {
-        return unsupported(
-            "the `stopping` of the inner method",
-            "`Constrained` has one of its own, which counts",
-        );
-    }
-    Ok(())
+    fn admit_inside(&self) -> Result<(), StartError>;
 }

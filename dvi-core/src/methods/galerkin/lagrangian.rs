@@ -17,7 +17,7 @@ use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceD
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::linear_of_all;
 use crate::memory::Aside;
-use crate::methods::{InnerScheme, VariationalMethod, without_effect_inside};
+use crate::methods::VariationalMethod;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Stopping, iterate, sizes};
 use crate::space::linear::{self, blocks};
@@ -318,17 +318,5 @@ where
             node: NodeWork::new(system),
         };
         GalerkinLagrangian { method: self.clone(), fit: Fit::new(), storage }
-    }
-}
-
-impl<const NODES: usize, S, F, T> InnerScheme<S, T> for Galerkin<NODES, F>
-where
-    S: RegularLagrangian<T>,
-    F: FrequencyIn<T> + GivenFrequency + Clone,
-    T: Real,
-{
-    fn admit_inside(&self) -> Result<(), StartError> {
-        // By `stopping` the interior displacements are found.
-        without_effect_inside(self.solver, Stopping::default(), self.summation)
     }
 }
