@@ -40,8 +40,8 @@ pub(super) fn errors_have_the_order(case: &Case) -> Outcome {
     }
     let found = convergence_order(&errors).ok_or("no slope")?;
     let bound = match case.order {
-        ..3 => 0.07,
-        ..8 => 0.1,
+        ..=2 => 0.07,
+        3..=7 => 0.1,
         _ => 0.25,
     };
     below(
