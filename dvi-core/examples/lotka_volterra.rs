@@ -35,10 +35,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     table.flush()?;
 
     let equilibrium = system.rate;
-    let mut section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0] - equilibrium)?;
+    let passes = run.events([Direction::Rising], |_, state| [state.x - equilibrium])?;
     let mut times = Vec::new();
-    for crossing in section.by_ref().take(101) {
-        times.push(crossing?.time);
+    for pass in passes.take(101) {
+        times.push(pass?.time);
     }
     println!("period of the cycle: {:.10}", (times[100] - times[0]) / 100.0);
     println!("energy changed by {:.0e} until t = {:.0}", (run.energy() - energy).abs(), run.time());

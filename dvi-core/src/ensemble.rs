@@ -86,10 +86,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use crate::Lagrangian;
-use crate::diagnostics::{Direction, LyapunovExponent};
+use crate::diagnostics::LyapunovExponent;
 use crate::discrete::TwiceDifferentiable;
 use crate::methods::{InStep, Method, VariationalMethod};
-use crate::run::Together;
+use crate::run::{Direction, Together};
 use plan::Plan;
 use rounds::{Checkpoints, Rounds, Work};
 use settings::{Settings, Systems};
@@ -195,7 +195,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
 
     /// Counts how often each member crosses the section g = 0, by the signs of `g` at the
     /// [looks](Self::stride): with a stride of one, from step to step. The points of a section are those of
-    /// [`Section`](crate::diagnostics::Section).
+    /// [`Events`](crate::run::Events).
     pub fn section(
         mut self,
         direction: Direction,

@@ -1,8 +1,7 @@
 //! What a user of the integrators needs.
 
 pub use crate::diagnostics::{
-    AlternatingComponent, Crossing, Direction, LyapunovExponent, Section, TangentMap, TwoPointTangentMap,
-    Work, convergence_order,
+    AlternatingComponent, LyapunovExponent, TangentMap, TwoPointTangentMap, Work, convergence_order,
 };
 pub use crate::discrete::{Constant, Curvature, Quadrature, Radial, Reading};
 pub use crate::error::{StartError, StepError, StepFailure};
@@ -15,8 +14,8 @@ pub use crate::methods::{
     Variational,
 };
 pub use crate::run::{
-    CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, ErrorControl, Integrator, Osculating, Power,
-    Reversible, Run,
+    CentreSpeed, ControlledIntegrator, Dense, Density, Direction, EnergyMomentum, ErrorControl, Event,
+    Events, Integrator, Osculating, Power, Reversible, Run,
 };
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::Summation;

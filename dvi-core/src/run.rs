@@ -2,26 +2,28 @@
 
 #[cfg(feature = "alloc")]
 mod checkpoint;
+mod dense;
+mod events;
 mod integrator;
 mod kept;
 mod outside;
-mod partial_step;
 mod step_control;
 mod stepper;
 #[cfg(feature = "alloc")]
 mod together;
 
-use crate::error::StepError;
+use crate::error::{StartError, StepError};
 use crate::mechanics::motion::Rates;
-use crate::methods::{Carries, Method};
+use crate::methods::{Carries, Clock, Method};
 use crate::state::Statistics;
 use crate::system::start::extended;
 use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed};
 
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
+pub use dense::{Dense, StatesAt};
+pub use events::{Direction, Event, Events};
 pub use integrator::Integrator;
-pub(crate) use partial_step::{PartialStep, PartialStepOf};
 pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, ErrorControl, Osculating,
     Power, Reversible, StepControl,
@@ -32,8 +34,8 @@ pub(crate) use stepper::Stepper;
 pub use together::Together;
 
 /// A run of a method on a system: what [`Integrator`], with a fixed step, and
-/// [`ControlledIntegrator`], with steps of a control, can both do. Sections and exponents
-/// take either.
+/// [`ControlledIntegrator`], with steps of a control, can both do. States at given times,
+/// [events](Events) and exponents are those of either.
 pub trait Run {
     /// The system that is stepped.
     type System: Lagrangian<Self::Scalar>;
@@ -57,6 +59,80 @@ pub trait Run {
     /// The length h of the latest step; before the first, the one that it will have or, if a step control
     /// may reject it, be tried with.
     fn step_size(&self) -> Self::Scalar;
+
+    /// The times of the next steps, if they are known: those of a step control are not.
+    fn clock(&self) -> Option<Clock<Self::Scalar>>;
+
+    /// Goes on from another state, at time `t`: as a run that begins there, in the same direction, with its
+    /// momenta from the velocities, no parasitic mode, and no guess from steps before. Of
+    /// [`Langevin`](crate::methods::Langevin) the noise goes on. A step control begins anew too, with its
+    /// first step. What the run has cost counts on, and a run that has failed can go on. It allocates what a
+    /// new run allocates.
+    ///
+    /// # Errors
+    /// [`StartError`], as of a run that begins; the run is then where it was.
+    fn set_state(
+        &mut self,
+        t: Self::Scalar,
+        state: <Self::System as System>::State<Self::Scalar>,
+    ) -> Result<(), StartError>;
+
+    /// The states at the given `times`, which do not decrease in the direction of the run, as an iterator of
+    /// times and states: see [`Dense`].
+    ///
+    /// # Errors
+    /// [`StartError`] if no run of the method can begin at the present point.
+    ///
+    /// ```
+    /// use dvi_core::prelude::*;
+    ///
+    /// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
+    /// struct Oscillator;
+    ///
+    /// let start: OscillatorState = OscillatorState { x: 1.0, dot_x: 0.0 };
+    /// let mut run = Integrator::new(&Oscillator, Gauss::<4>::new(), 0.2, start)?;
+    /// for state in run.states_at([0.1, 0.123, 7.0, 70.7])? {
+    ///     let (t, OscillatorState { x, .. }) = state?;
+    ///     assert!((x - t.cos()).abs() < 1e-10);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    fn states_at<I>(&mut self, times: I) -> Result<StatesAt<&mut Self, I::IntoIter>, StartError>
+    where
+        Self: Sized,
+        I: IntoIterator<Item = Self::Scalar>,
+    {
+        Ok(self.dense()?.states_at(times))
+    }
+
+    /// The events of the run: where conditions `g(t, state)` cross zero, each in its direction: see
+    /// [`Events`].
+    ///
+    /// # Errors
+    /// [`StartError`] if no run of the method can begin at the present point, or a condition is no number
+    /// there.
+    fn events<G, const N: usize>(
+        &mut self,
+        directions: [Direction; N],
+        g: G,
+    ) -> Result<Events<&mut Self, G, N>, StartError>
+    where
+        Self: Sized,
+        G: FnMut(Self::Scalar, &<Self::System as System>::State<Self::Scalar>) -> [Self::Scalar; N],
+    {
+        Events::new(self.dense()?, directions, g)
+    }
+
+    /// The run with the state at any time of its last step: see [`Dense`].
+    ///
+    /// # Errors
+    /// [`StartError`] if no run of the method can begin at the present point.
+    fn dense(&mut self) -> Result<Dense<&mut Self>, StartError>
+    where
+        Self: Sized,
+    {
+        Dense::new(self)
+    }
 
     /// Takes one step. Nothing is allocated.
     ///
@@ -168,5 +244,48 @@ pub trait Run {
     fn momenta(&self) -> impl Iterator<Item = (&'static str, Self::Scalar)> + '_ {
         let names = Self::System::REPORT.momenta.iter().enumerate();
         names.filter_map(|(index, &name)| self.momentum(index).map(|value| (name, value)))
+    }
+}
+
+impl<R: Run> Run for &mut R {
+    type System = R::System;
+    type Method = R::Method;
+    type Scalar = R::Scalar;
+
+    fn stepper(&self) -> &Stepper<'_, R::System, R::Method, R::Scalar> {
+        (**self).stepper()
+    }
+
+    #[inline]
+    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
+        (**self).take_steps(count)
+    }
+
+    #[inline]
+    fn time(&self) -> R::Scalar {
+        (**self).time()
+    }
+
+    #[inline]
+    fn step_size(&self) -> R::Scalar {
+        (**self).step_size()
+    }
+
+    #[inline]
+    fn clock(&self) -> Option<Clock<R::Scalar>> {
+        (**self).clock()
+    }
+
+    fn set_state(
+        &mut self,
+        t: R::Scalar,
+        state: <R::System as System>::State<R::Scalar>,
+    ) -> Result<(), StartError> {
+        (**self).set_state(t, state)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn checkpoint(&self) -> Checkpoint<R::Scalar> {
+        (**self).checkpoint()
     }
 }

@@ -2,6 +2,7 @@
 //! are tried.
 
 mod coupled;
+pub(crate) mod crossing;
 mod newton;
 pub(crate) mod sizes;
 mod stopping;

@@ -76,6 +76,10 @@ pub trait State<T: Scalar>: Sized {
     -> Result<(), LengthError>;
     /// Reads the coordinates from `q` and the velocities from `v`, both in the order of declaration.
     fn read(block_len: impl Fn(usize) -> usize, q: &[T], v: &[T]) -> Self;
+    /// Reads as [`read`](Self::read) does, into a state of the same system, whose storage it keeps.
+    fn refill(&mut self, block_len: impl Fn(usize) -> usize, q: &[T], v: &[T]) {
+        *self = Self::read(block_len, q, v);
+    }
 }
 
 /// A mechanical system, whatever numbers it is computed in: its configuration space, its states, its report.

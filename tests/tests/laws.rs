@@ -1,5 +1,6 @@
 //! What is asked of every scheme in the table, [`dvi_tests::schemes`].
 
+mod between;
 mod checkpoint;
 mod equations;
 mod failure;

@@ -7,8 +7,8 @@ use std::vec::Vec;
 use super::growth::Growth;
 use super::lanes::Packs;
 use crate::Lagrangian;
-use crate::diagnostics::Direction;
 use crate::methods::Method;
+use crate::run::Direction;
 use crate::run::Integrator;
 
 /// The condition under which a member leaves, with the reason.

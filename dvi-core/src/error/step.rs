@@ -165,6 +165,12 @@ pub enum StepFailure {
         /// Its value.
         value: f64,
     },
+    /// A condition of [`Events`](crate::run::Events) is not a number.
+    #[error("condition {event} of the events is not a number here")]
+    UndefinedEvent {
+        /// Its number, counted from 0.
+        event: usize,
+    },
     /// The energy has changed by more than the limit of the run
     /// ([`EnergyLimit`](crate::methods::EnergyLimit)).
     #[error(
@@ -255,12 +261,12 @@ pub enum StepFailure {
         /// The step, perhaps not finite.
         h: f64,
     },
-    /// A run is asked to [advance to a time](crate::run::ControlledIntegrator::advance_to) that it has
-    /// passed, in the direction in which it goes, or that is not finite. It has taken no step, and can go on
-    /// to another time.
+    /// A run is asked for a state at a time, or to [advance to one](crate::run::Dense::advance_to), that it
+    /// has passed, in the direction in which it goes, or that is not finite. It has taken no step, and can go
+    /// on to another time.
     #[error("the run is at t = {now} and does not come to t = {target} in its direction of time")]
     Unreachable {
-        /// The time of the run.
+        /// The time of the run, or where its last step began if states within that can be asked for.
         now: f64,
         /// The time that was asked for.
         target: f64,

@@ -1,7 +1,6 @@
 //! Impacts: steps of a variational method that are divided where a gap closes, with a jump of the momentum
 //! there.
 
-mod crossing;
 mod jump;
 mod memory;
 mod passage;

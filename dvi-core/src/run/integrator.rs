@@ -122,11 +122,25 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
     fn step_size(&self) -> T {
         self.clock.step_size()
     }
+
+    #[inline]
+    fn clock(&self) -> Option<Clock<T>> {
+        Some(self.present())
+    }
+
+    fn set_state(&mut self, t: T, state: S::State<T>) -> Result<(), StartError> {
+        let (Stepper { system, method, memory, .. }, h) = (&self.stepper, self.step_size());
+        let [q, v] = checked(*system, t, h, &state)?;
+        let begun = method.begin_anew(memory, system, &q, &v[..velocities(*system)], t, h);
+        let memory = begun.map_err(|error| named(*system, [&q, &v], t, error))?;
+        self.stepper.move_to(memory, q);
+        self.clock = Clock::new(t, h).after(self.stepper.statistics.steps.wrapping_neg());
+        Ok(())
+    }
 }
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
     /// The clock at the present time.
-    #[cfg(feature = "alloc")]
     pub(super) fn present(&self) -> Clock<T> {
         self.clock.after(self.stepper.statistics.steps)
     }

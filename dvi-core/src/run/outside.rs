@@ -55,6 +55,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             | StepFailure::Contact { .. }
             | StepFailure::HalfTurn { .. }
             | StepFailure::Unreachable { .. }
+            | StepFailure::UndefinedEvent { .. }
             | StepFailure::Outside(_) => false,
         };
         if !S::HAS_SCALAR_FIELDS || !is_suspect {

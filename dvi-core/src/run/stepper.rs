@@ -35,6 +35,11 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
         Self { system, method, memory, q, statistics: Statistics::default(), failed: false }
     }
 
+    /// Goes on from another point, whose memory has just begun.
+    pub(crate) fn move_to(&mut self, memory: M::Memory, q: Vector<S, T>) {
+        (self.memory, self.q, self.failed) = (memory, q, false);
+    }
+
     /// Sets `v` to the velocity at the current point, which is reached at time `t`.
     #[inline]
     pub(crate) fn velocity(&self, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {

@@ -52,6 +52,15 @@ impl RunTime {
         *at += len;
         flat[start..*at].to_vec()
     }
+
+    /// The same, into the storage of such a block.
+    #[doc(hidden)]
+    pub fn refill_block<T: Scalar>(len: usize, at: &mut usize, flat: &[T], block: &mut Vec<T>) {
+        let start = *at;
+        *at += len;
+        block.clear();
+        block.extend_from_slice(&flat[start..*at]);
+    }
 }
 
 impl Space for RunTime {

@@ -54,9 +54,9 @@ pub struct Crossings {
 pub type Labels = [usize; 4];
 pub const LABELS: [Labels; 3] = [[0, 1, 2, 3], [0, 2, 1, 3], [0, 1, 3, 2]];
 
-/// R₁, P₁ and R₂ of a state in flat form.
-fn coordinates(q: &[f64], labels: Labels) -> [f64; 3] {
-    let (x, y) = (labels.map(|j| q[j]), labels.map(|j| q[j + 4]));
+/// R₁, P₁ and R₂ of a state.
+fn coordinates(state: &FourPoints, labels: Labels) -> [f64; 3] {
+    let [x, y] = [state.x, state.y].map(|all| labels.map(|j| all[j]));
     let (ux, uy) = (x[0] - x[2], y[0] - y[2]);
     let (wx, wy) = (x[1] - x[3], y[1] - y[3]);
     let q1 = [0.5 * (ux + wy), 0.5 * (uy - wx)];
@@ -109,12 +109,12 @@ where
     let mut run = Integrator::new(vortices, method, h, *start)?;
     let initial = run.energy();
     let steps = (end / h) as u64;
-    let mut section = Section::new(&mut run, Direction::Rising, |q| coordinates(q, labels)[2])?;
+    let mut events = run.events([Direction::Rising], |_, state| [coordinates(state, labels)[2]])?;
     let mut done = 0;
     while done < steps && !job.is_stopping() {
-        match section.advance() {
-            Ok(Some(Crossing { time, state: FourPoints { x, y } })) => {
-                let [r1, p1, _] = coordinates(&[x, y].concat(), labels);
+        match events.advance() {
+            Ok(Some(Event { time, state, .. })) => {
+                let [r1, p1, _] = coordinates(&state, labels);
                 result.points.push([time, r1, p1]);
             }
             Ok(None) => {}
@@ -123,9 +123,10 @@ where
                 break;
             }
         }
-        if section.run().steps() > done {
-            done = section.run().steps();
-            result.error.push(section.run().time(), section.run().energy() - initial);
+        let run = events.dense();
+        if run.steps() > done {
+            done = run.steps();
+            result.error.push(run.time(), run.energy() - initial);
             job.proceed(1);
         }
     }
@@ -273,16 +274,15 @@ mod tests {
 
     #[test]
     fn coordinates_do_not_see_translations_and_rotations() {
-        let q = [1.0, 0.866, -0.85, -0.5, 1.0, 0.45, -1.363636, -0.15];
+        let (x, y) = ([1.0, 0.866, -0.85, -0.5], [1.0, 0.45, -1.363636, -0.15]);
         let (sin, cos) = 0.7f64.sin_cos();
-        let moved: Vec<f64> = (0..8)
-            .map(|i| match i {
-                0..4 => cos * q[i] - sin * q[i + 4] + 3.0,
-                _ => sin * q[i - 4] + cos * q[i] - 5.0,
-            })
-            .collect();
+        let moved = FourPoints {
+            x: std::array::from_fn(|j| cos * x[j] - sin * y[j] + 3.0),
+            y: std::array::from_fn(|j| sin * x[j] + cos * y[j] - 5.0),
+        };
         for labels in LABELS {
-            for (a, b) in coordinates(&q, labels).into_iter().zip(coordinates(&moved, labels)) {
+            let both = [FourPoints { x, y }, moved].map(|state| coordinates(&state, labels));
+            for (a, b) in both[0].into_iter().zip(both[1]) {
                 assert!((a - b).abs() < 1e-14, "{a} {b}");
             }
         }

@@ -106,7 +106,14 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let copy =
         (0..model.blocks.len()).all(|block| on_stack(emitter, block)).then(|| quote!(::core::marker::Copy,));
     let derives = &model.derives;
-    let (write, read) = transfers(emitter, &fields);
+    let Transfers { write, read, refill } = transfers(emitter, &fields);
+    let is_on_heap = (0..model.blocks.len()).any(|block| !on_stack(emitter, block));
+    // What is read anew without allocation needs no other way.
+    let refill = is_on_heap.then(|| quote! {
+        fn refill(&mut self, __len: impl ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize, __q: &[__T], __v: &[__T]) {
+            #refill
+        }
+    });
     let values = (0..fields.len()).map(value_name);
     let allow = super::allow();
     let conversions = conversions(&name, &declarations, &constants, &fields, &types);
@@ -133,6 +140,7 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
                 #read
                 Self { #(#fields: #values),* }
             }
+            #refill
         }
         #conversions
     };
@@ -236,21 +244,34 @@ fn value_name(field: usize) -> Ident {
     local(format_args!("value{field}"))
 }
 
-/// The bodies of `write` and `read`: the coordinates go to and come from `__q`, the velocities `__v`.
-fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> (TokenStream, TokenStream) {
-    let blocks = emitter.model.blocks.len().max(1);
-    let (mut write, mut read) = (TokenStream::new(), TokenStream::new());
+/// The bodies of `write`, `read` and `refill`: the coordinates go to and come from `__q`, the velocities `__v`.
+#[derive(Default)]
+struct Transfers {
+    write: TokenStream,
+    read: TokenStream,
+    refill: TokenStream,
+}
+
+fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> Transfers {
+    let (blocks, krate) = (emitter.model.blocks.len().max(1), emitter.krate());
+    let Transfers { mut write, mut read, mut refill } = Transfers::default();
     for (half, (names, flat)) in fields.chunks(blocks).zip([quote!(__q), quote!(__v)]).enumerate() {
         write.extend(quote!(let mut __at = 0usize;));
         read.extend(quote!(let mut __at = 0usize;));
+        refill.extend(quote!(let mut __at = 0usize;));
         for (block, field) in names.iter().enumerate() {
             let (written, value) = transfer(emitter, block, half == 1, field, &flat);
             let name = value_name(half * blocks + block);
             write.extend(written);
+            refill.extend(if on_stack(emitter, block) {
+                quote!(self.#field = #value;)
+            } else {
+                quote!(#krate::RunTime::refill_block(__len(#block), &mut __at, #flat, &mut self.#field);)
+            });
             read.extend(quote!(let #name = #value;));
         }
     }
-    (write, read)
+    Transfers { write, read, refill }
 }
 
 /// The statements that write a field at `__at`, and the expression that reads it there.

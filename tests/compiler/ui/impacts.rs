@@ -130,13 +130,6 @@ mod methods {
         let start = WalledState { x: 1.0, dot_x: -1.0 };
         let _ = Integrator::new(&Walled, Impacts::new(Newmark::new(0.25)), 0.1, start);
     }
-
-    fn a_section_across_impacts() -> Result<(), Box<dyn std::error::Error>> {
-        let start = WalledState { x: 1.0, dot_x: -1.0 };
-        let mut run = Integrator::new(&Walled, Impacts::new(Variational::trapezoid()), 0.1, start)?;
-        let _ = Section::new(&mut run, Direction::Rising, |q| q[0] - 0.5);
-        Ok(())
-    }
 }
 
 fn main() {}

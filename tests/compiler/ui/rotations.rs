@@ -119,8 +119,6 @@ mod methods {
         let start = FreeState { s: [1.0, 0.0, 0.0], dot_s: [0.0; 3] };
         let _ = Integrator::new(&Free, Variational::trapezoid(), 0.1, start);
         let _ = Integrator::new(&Free, RungeKutta::classical(), 0.1, start);
-        let mut run = Integrator::new(&Free, Geodesic::trapezoid(), 0.1, start).unwrap();
-        let _ = Section::new(&mut run, Direction::Rising, |q| q[0]);
         let _ = Free.energy_at(&start);
         let _ = Free.vector_field(&start);
         let start = FlatState { x: 1.0, dot_x: 0.0 };

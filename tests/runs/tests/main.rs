@@ -5,6 +5,7 @@
 
 mod angular_momentum;
 mod constrained;
+mod events;
 mod impacts;
 mod loop_integrals;
 mod manifold;

@@ -50,6 +50,11 @@ pub trait Written: Steps {
     fn asked(&self) -> (u64, u64, Statistics);
     /// The first momentum that the system declares.
     fn momentum(&self) -> Option<f64>;
+    /// Coordinates and velocities at given times.
+    ///
+    /// # Errors
+    /// Those of the states.
+    fn values_at(&mut self, times: &[f64]) -> Outcome<Vec<Vec<f64>>>;
 }
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Steps<T> for Integrator<'static, S, M, T> {
@@ -76,6 +81,10 @@ impl<S: Lagrangian, M: Method<S, f64>> Written for Integrator<'static, S, M> {
     }
     fn momentum(&self) -> Option<f64> {
         Run::momentum(self, 0)
+    }
+    fn values_at(&mut self, times: &[f64]) -> Outcome<Vec<Vec<f64>>> {
+        let states = self.states_at(times.iter().copied())?.collect::<Result<Vec<_>, _>>()?;
+        states.iter().map(|(_, state)| Ok(self.system().values(state)?.collect())).collect()
     }
 }
 

@@ -4,27 +4,21 @@
 //! q(s). The first impact on it is looked for by the gaps and rates at its two ends, and found on the flight
 //! itself, g(q(s), t + s) = 0, within a bracket.
 
-use super::crossing::Cubic;
 use super::memory::{ImpactsMemory, terms};
 use super::{Collision, Impacts};
 use crate::error::StepFailure;
 use crate::methods::FreeFlight;
 use crate::scalar::norm::reported;
+use crate::solve::crossing::{APART, Cubic, ITERATIONS, Sample, dip, zero};
 use crate::state::Statistics;
 use crate::{Real, Scalar, UnilateralLagrangian, Vector};
 
 /// Flights between one that ends well and one that fails: it may have left the domain of L behind a surface.
 const SHORTENED: usize = 50;
-/// Flights to find the least gap of one that may graze a surface.
+/// Closer looks at the surfaces of a flight that has become shorter.
 const SOUGHT: usize = 60;
-/// Iterations for the time of an impact.
-const ITERATIONS: usize = 200;
 /// Iterations for the derivatives of that time, of numbers that carry some.
 const POLISHED: usize = 3;
-/// Parts of a flight that are farther apart have a slope between them that is none of rounding errors.
-const APART: f64 = 1e-5;
-/// Of the length of a flight: the part below which rounding is absolute.
-const SMALL: f64 = 1e-30;
 /// A gap that was closed is closed but for so many rounding errors.
 const ROUNDINGS: f64 = 64.0;
 /// An impact is on its surface but for so many rounding errors: more, as the equations of a flight are
@@ -184,7 +178,7 @@ where
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let [here, there] = [self.memory.here.gap[surface], self.memory.there.gap[surface]];
         let is_behind = there < zero && is_end != Some(true);
-        if !is_behind && self.cubic(surface, end, here).may_close().is_none() {
+        if !is_behind && !self.cubic(surface, end, here).may_close() {
             return Ok(None);
         }
         let rounding = T::lift(ROUNDINGS) * self.rounding(surface, end);
@@ -234,32 +228,19 @@ where
     /// A part of a flight of length `end`, from the gap `first`, at which the gap of a surface is negative,
     /// near its least value in between; if there is none, the run is at the end of the flight again.
     fn least(&mut self, surface: usize, end: T, first: T) -> Result<Option<T>, StepFailure> {
-        let zero = T::lift(0.0);
-        let [mut from, mut to] = [zero, T::lift(1.0)];
-        let mut at_from = [first, self.memory.here.rate[surface]];
-        let mut at_to = [self.memory.there.gap[surface], self.memory.there.rate[surface]];
-        for _ in 0..SOUGHT {
-            let part = to - from;
-            let length = part * end;
-            let cubic = Cubic::through([at_from[0], at_to[0]], [at_from[1] * length, at_to[1] * length]);
-            let Some(low) = cubic.may_close() else { break };
-            let low = from + low * part;
-            if low <= from || low >= to {
-                break;
-            }
-            self.try_flight(low * end)?;
-            let at_low = [self.memory.there.gap[surface], self.memory.there.rate[surface]];
-            if at_low[0] < zero {
-                return Ok(Some(low));
-            }
-            if self.along(at_low[1]) < zero {
-                (from, at_from) = (low, at_low);
-            } else {
-                (to, at_to) = (low, at_low);
-            }
+        let ImpactsMemory { here, there, .. } = &*self.memory;
+        let [from, to] = [T::lift(0.0), T::lift(1.0)];
+        let from = Sample { place: from, value: first, slope: here.rate[surface] * end };
+        let to = Sample { place: to, value: there.gap[surface], slope: there.rate[surface] * end };
+        let low = dip([from, to], |place| {
+            self.try_flight(place * end)?;
+            let there = &self.memory.there;
+            Ok(Sample { place, value: there.gap[surface], slope: there.rate[surface] * end })
+        })?;
+        if low.is_none() {
+            self.try_flight(end)?;
         }
-        self.try_flight(end)?;
-        Ok(None)
+        Ok(low)
     }
 
     /// A part of a flight of length `end`, shorter than `guess`, at which the gap of a surface is open by
@@ -286,50 +267,25 @@ where
     }
 
     /// The length of the flight at which the gap of a surface closes, between parts of `end` at which it is
-    /// open and closed: by the method of false position in the Illinois form (Dowell & Jarratt 1971), and by
-    /// bisection where that is slow.
+    /// open and closed.
     fn locate(&mut self, surface: usize, end: T, [open, closed]: [T; 2]) -> Result<T, StepFailure> {
-        let (zero, half) = (T::lift(0.0), T::lift(0.5));
-        let at = |of: &mut Self, x: T| -> Result<T, StepFailure> {
-            of.try_flight(x * end)?;
+        let at = |of: &mut Self, part: T| -> Result<T, StepFailure> {
+            of.try_flight(part * end)?;
             Ok(of.memory.there.gap[surface])
         };
-        let mut a = [open, if open > zero { at(self, open)? } else { self.memory.here.gap[surface] }];
-        let mut b = [closed, at(self, closed)?];
-        // Of a and b the one that is open keeps the bracket; what is divided for false position is a weight.
-        let (mut weight, mut slope) = (a[1], (b[1] - a[1]) / (b[0] - a[0]));
-        for iteration in 0..ITERATIONS {
-            let width = Scalar::abs(b[0] - a[0]);
-            if b[1] == zero || width <= T::default_epsilon() * (Scalar::abs(b[0]) + T::lift(SMALL)) {
-                break;
-            }
-            let secant = b[0] - b[1] * (b[0] - a[0]) / (b[1] - weight);
-            let is_inside = (secant > a[0] && secant < b[0]) || (secant > b[0] && secant < a[0]);
-            let is_slow = iteration % 4 == 3;
-            let x = if is_inside && !is_slow { secant } else { half * (a[0] + b[0]) };
-            if x == a[0] || x == b[0] {
-                break;
-            }
-            let gap = at(self, x)?;
-            if Scalar::abs(x - b[0]) > T::lift(APART) {
-                slope = (gap - b[1]) / (x - b[0]);
-            }
-            if (gap > zero) == (b[1] > zero) {
-                weight *= half;
-            } else {
-                (a, weight) = (b, b[1]);
-            }
-            b = [x, gap];
-        }
-        let mut x = b[0];
+        let is_begun = open > T::lift(0.0);
+        let a = [open, if is_begun { at(self, open)? } else { self.memory.here.gap[surface] }];
+        let b = [closed, at(self, closed)?];
+        let found = zero([a, b], |part| at(self, part))?;
+        let mut part = found.place;
         // What is left is less than rounding, but not in the derivatives of numbers that carry some.
         for _ in 0..POLISHED {
-            let change = at(self, x)? / slope;
+            let change = at(self, part)? / found.slope;
             if !change.is_finite() || Scalar::abs(change) > T::lift(APART) {
                 break;
             }
-            x -= change;
+            part -= change;
         }
-        Ok(x * end)
+        Ok(part * end)
     }
 }

@@ -4,8 +4,8 @@
 //!
 //! for q1 and h (Kane, Marsden & Ortiz 1999). The first equation is the step of the method; what is left is
 //! one equation for h. It is solved by the secant method from the last two lengths and, where that leads
-//! nowhere, by the method of false position in the Illinois form between lengths at which the defect has
-//! different signs, sought from a quarter of the last length to four times that.
+//! nowhere, by regula falsi between lengths at which the defect has different signs, sought from a quarter of
+//! the last length to four times that.
 
 use super::{ControlledRun, StepControl};
 use crate::discrete::{Ends, Interval, Span};
@@ -13,9 +13,10 @@ use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::methods::VariableStep;
 use crate::scalar::norm::reported;
+use crate::solve::crossing::zero;
 use crate::{Real, RegularLagrangian, Scalar, Space, Vector};
 
-/// Iterations of the secant method, and of that of false position.
+/// Iterations of the secant method.
 const ITERATIONS: usize = 60;
 /// Lengths that are tried in search of a sign change, on either side of the last.
 const SOUGHT: i32 = 24;
@@ -259,22 +260,12 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
         None
     }
 
-    /// Between two lengths at which the defect has different signs (Dowell & Jarratt 1971).
-    fn false_position(&mut self, [mut a, mut b]: [Trial<T>; 2]) -> Option<()> {
-        let half = T::lift(0.5);
-        for _ in 0..ITERATIONS {
-            if self.is_solved() {
-                return Some(());
-            }
-            let next = self.trial(b.h - b.defect * (b.h - a.h) / (b.defect - a.defect))?;
-            if (next.defect > T::lift(0.0)) != (b.defect > T::lift(0.0)) {
-                a = b;
-            } else {
-                a.defect *= half;
-            }
-            b = next;
-        }
-        None
+    /// Between two lengths at which the defect has different signs, until it is small enough.
+    fn between(&mut self, ends: [Trial<T>; 2]) -> Option<()> {
+        let look = |h| self.trial(h).filter(|_| !self.is_solved()).map(|trial| trial.defect).ok_or(());
+        // The end of the search is the error.
+        let _ = zero(ends.map(|trial| [trial.h, trial.defect]), look);
+        self.is_solved().then_some(())
     }
 
     /// The length of the step.
@@ -288,7 +279,7 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
             (h, h * (T::lift(1.0) + apart))
         };
         let found = self.secant([guess, other]).is_some()
-            || self.bracket().is_some_and(|ends| self.false_position(ends).is_some());
+            || self.bracket().is_some_and(|ends| self.between(ends).is_some());
         match (found || self.is_solved() || self.is_rounding(), self.best, self.failed) {
             (true, Some(best), _) => Ok(best.h),
             (false, Some(best), _) => {

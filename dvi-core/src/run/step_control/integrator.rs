@@ -7,7 +7,7 @@ use super::{ControlledRun, ErrorControl, Reversible, StepControl, reversible};
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, VariableStep};
+use crate::methods::{Carries, Clock, VariableStep};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
 use crate::run::{Run, Stepper};
@@ -56,14 +56,11 @@ where
         t: T,
         start: S::State<T>,
     ) -> Result<Self, StartError> {
-        validate(system, t)?;
         if S::TIME_TRANSFORMED {
             let reason = "the time of the system is transformed, which sets the lengths of its steps";
             return Err(StartError::Unsupported { option: "a step control", reason });
         }
-        let [q, v] = flatten(system, &start)?;
-        evaluate(system, &q, &v, t)?;
-        let all = v;
+        let [q, all] = begun(system, t, &start)?;
         let v = &all[..velocities(system)];
         control.admit(&method)?;
         let explained = |q: &Vector<S, T>, error| named(system, [q, &all], t, error);
@@ -176,6 +173,23 @@ where
     fn step_size(&self) -> T {
         self.h
     }
+
+    #[inline]
+    fn clock(&self) -> Option<Clock<T>> {
+        None
+    }
+
+    fn set_state(&mut self, t: T, state: S::State<T>) -> Result<(), StartError> {
+        let Stepper { system, method, memory, .. } = &self.controlled.stepper;
+        let [q, all] = begun(*system, t, &state)?;
+        let v = &all[..velocities(*system)];
+        let explained = |error| named(*system, [&q, &all], t, error);
+        let (control_memory, h) = self.control.begin(system, &q, v, t).map_err(explained)?;
+        let memory = method.begin_anew(memory, system, &q, v, t, h).map_err(explained)?;
+        self.controlled.stepper.move_to(memory, q);
+        (self.control_memory, self.clock, self.h) = (control_memory, VariableClock::new(t), h);
+        Ok(())
+    }
 }
 
 impl<S: RegularLagrangian<T>, M, D, T: Real> ControlledIntegrator<'_, S, M, Reversible<D>, T>
@@ -284,6 +298,18 @@ where
             .field("statistics", &self.statistics())
             .finish_non_exhaustive()
     }
+}
+
+/// The coordinates and velocities of a state that a run can begin from.
+fn begun<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    t: T,
+    start: &S::State<T>,
+) -> Result<[Vector<S, T>; 2], StartError> {
+    validate(system, t)?;
+    let [q, v] = flatten(system, start)?;
+    evaluate(system, &q, &v, t)?;
+    Ok([q, v])
 }
 
 /// The sum of steps of different lengths, and what rounding has left out of it (Neumaier 1974).

@@ -1,12 +1,13 @@
-//! Poincaré sections and Lyapunov exponents.
+//! Events of a run are as accurate as the run, by every kind of method and with steps of all lengths.
+
+mod edges;
 
 use approx::abs_diff_eq;
 use core::f64::consts::{FRAC_PI_2, TAU};
 use dvi_tests::Outcome;
 
 use dvi_core::prelude::*;
-use dvi_core::system::Smooth;
-use dvi_tests::configurations::{chaotic, quasi_periodic};
+use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use dvi_tests::{bits, larger};
@@ -18,9 +19,9 @@ fn check_against_closed_form(h: f64, direction: Direction) -> Outcome {
     let (radius, phase) = (1.5_f64, 0.3_f64);
     let start = OscillatorState { x: radius * phase.cos(), y: radius * phase.sin() };
     let mut run = Integrator::new(&system, Sigma::midpoint(), h, start)?;
-    let section = Section::new(&mut run, direction, |q: &[f64]| q[0])?;
+    let events = run.events([direction], |_, state: &OscillatorState| [state.x])?;
     let turn = |h: f64| 2.0 * (h / 2.0).atan();
-    for (k, crossing) in section.take(20).enumerate() {
+    for (k, crossing) in events.take(20).enumerate() {
         let crossing = crossing?;
         // x falls through zero at angle π/2, and rises at 3π/2.
         let (angle, y) = match (direction, k % 2) {
@@ -55,9 +56,8 @@ fn crossings_are_located_to_rounding_on_a_step_of_the_method() -> Outcome {
 /// The largest error of the first `count` times at which cos t rises through zero.
 fn largest_error<R: Run<System = Planar, Scalar = f64>>(mut run: R, count: usize) -> Outcome<f64> {
     let mut largest = 0.0;
-    for (k, crossing) in Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0])?.take(count).enumerate()
-    {
-        let Crossing { time, state } = crossing?;
+    for (k, event) in run.events([Direction::Rising], |_, state| [state.x])?.take(count).enumerate() {
+        let Event { time, state, .. } = event?;
         assert!(state.x.abs() < 1e-11, "{state:?}");
         largest = larger(largest, (time - 3.0 * FRAC_PI_2 - TAU * k as f64).abs());
     }
@@ -97,8 +97,8 @@ fn crossings_of_an_eccentric_orbit_are_at_its_pericentre() -> Outcome {
     let start = KeplerState { x: 0.4, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
     let control = ErrorControl::new(1e-8, 0.1);
     let mut run = ControlledIntegrator::new(&Kepler { mu: 1.0 }, Gauss::<8>::new(), control, start)?;
-    for (k, crossing) in Section::new(&mut run, Direction::Rising, |q: &[f64]| q[1])?.take(3).enumerate() {
-        let Crossing { time, state } = crossing?;
+    for (k, event) in run.events([Direction::Rising], |_, state| [state.y])?.take(3).enumerate() {
+        let Event { time, state, .. } = event?;
         assert!(abs_diff_eq!(time, TAU * (k + 1) as f64, epsilon = 1e-6), "{time}");
         assert!((state.x - 0.4).abs() < 1e-7 && (state.dot_y - 2.0).abs() < 1e-6, "{state:?}");
     }
@@ -111,8 +111,8 @@ fn two_crossings_within_a_step_are_seen() -> Outcome {
     for (level, h) in [(0.95_f64, 0.9), (0.95, 1.5), (-0.5, 2.3), (0.999, 0.3), (0.999_99, 0.1)] {
         let mut run = Integrator::new(&Planar, Gauss::<8>::new(), h, PLANAR)?;
         let half = level.acos();
-        let section = Section::new(&mut run, Direction::Either, |q: &[f64]| q[0] - level)?;
-        for (k, crossing) in section.take(200).enumerate() {
+        let events = run.events([Direction::Either], |_, state| [state.x - level])?;
+        for (k, crossing) in events.take(200).enumerate() {
             let nearest = TAU * k.div_ceil(2) as f64;
             let exact = if k % 2 == 0 { nearest + half } else { nearest - half };
             let time = crossing?.time;
@@ -122,37 +122,45 @@ fn two_crossings_within_a_step_are_seen() -> Outcome {
     Ok(())
 }
 
+type StateOf<R> = <<R as Run>::System as System>::State<f64>;
+
+/// The points of a run that is asked for events, and for states in between, are those of one that is not.
 #[test]
-fn a_section_leaves_the_points_of_its_run_as_they_are() -> Outcome {
-    fn check<R: Run<Scalar = f64>>(mut plain: R, mut searched: R) -> Outcome
-    where
-        <R::System as System>::Kind: Smooth,
-    {
-        let mut section = Section::new(&mut searched, Direction::Either, |q: &[f64]| q[0])?;
-        let mut crossings = 0;
-        while section.run().steps() < 300 {
-            crossings += u32::from(section.advance()?.is_some());
+fn the_points_of_a_run_stay_as_they_are() -> Outcome {
+    fn check<R: Run<Scalar = f64>>(run: impl Fn() -> Outcome<R>, x: fn(&StateOf<R>) -> f64) -> Outcome {
+        let (mut plain, mut searched, mut asked) = (run()?, run()?, run()?);
+        let mut events =
+            searched.events([Direction::Either; 2], |t, state| [x(state), x(state) - t.cos()])?;
+        let mut count = 0;
+        while events.dense().steps() < 300 {
+            let t = events.dense().time() + 3.3 * events.dense().step_size();
+            while events.next_until(t)?.is_some() {
+                count += 1;
+            }
         }
-        plain.take_steps(300)?;
-        assert!(crossings > 1);
-        assert_eq!(bits(plain.q()), bits(searched.q()));
-        assert_eq!((plain.time(), plain.statistics()), (searched.time(), searched.statistics()));
+        assert!(count > 1);
+        let mut dense = asked.dense()?;
+        while dense.steps() < searched.steps() {
+            let t = dense.time() + 0.7 * dense.step_size();
+            dense.state_at(t)?;
+        }
+        plain.take_steps(searched.steps())?;
+        for run in [searched, asked] {
+            assert_eq!(bits(plain.q()), bits(run.q()));
+            assert_eq!((plain.time(), plain.statistics()), (run.time(), run.statistics()));
+        }
         Ok(())
     }
     let oscillator = Oscillator { omega: 1.0 };
     let at = OscillatorState { x: 1.0, y: 0.0 };
     for sigma in [0.0, 0.3, 0.5] {
-        let run = || Integrator::new(&oscillator, Sigma::new(sigma), 0.1, at);
-        check(run()?, run()?)?;
+        check(|| Ok(Integrator::new(&oscillator, Sigma::new(sigma), 0.1, at)?), |state| state.x)?;
     }
-    let run = || Integrator::new(&Planar, Variational::trapezoid(), 0.1, PLANAR);
-    check(run()?, run()?)?;
-    let run =
-        || Integrator::new(&Planar, EnergyLimit { method: Galerkin::<3>::new(), limit: 1.0 }, 0.1, PLANAR);
-    check(run()?, run()?)?;
-    let control = ErrorControl::new(1e-9, 0.1);
-    let run = || ControlledIntegrator::new(&Planar, Gauss::<4>::new().in_lanes(), control, PLANAR);
-    check(run()?, run()?)
+    check(|| Ok(Integrator::new(&Planar, Variational::trapezoid(), 0.1, PLANAR)?), |state| state.x)?;
+    let limited = EnergyLimit { method: Galerkin::<3>::new(), limit: 1.0 };
+    check(|| Ok(Integrator::new(&Planar, limited, 0.1, PLANAR)?), |state| state.x)?;
+    let (method, control) = (Gauss::<4>::new().in_lanes(), ErrorControl::new(1e-9, 0.1));
+    check(|| Ok(ControlledIntegrator::new(&Planar, method, control, PLANAR)?), |state| state.x)
 }
 
 /// A point on a circle, which turns with the angular velocity one.
@@ -164,46 +172,47 @@ fn a_section_leaves_the_points_of_its_run_as_they_are() -> Outcome {
 #[derive(Debug)]
 struct Circle;
 
-/// Every kind of method that has a section: crossings are within the error of the run, and g vanishes there.
+/// Every kind of method: events are within the error of the run, and g vanishes there.
 #[test]
-fn crossings_lie_on_the_section_whatever_the_method() -> Outcome {
-    fn check<R: Run<Scalar = f64>>(mut run: R, most: f64, name: &str) -> Outcome
-    where
-        <R::System as System>::Kind: Smooth,
-    {
-        let mut values = Vec::new();
-        let section = Section::new(&mut run, Direction::Rising, |q: &[f64]| {
-            values.push(q[0]);
-            q[0]
-        })?;
-        let times: Result<Vec<f64>, _> = section.take(3).map(|crossing| Ok(crossing?.time)).collect();
-        let times = times.map_err(|error: StepError| error)?;
-        for (k, time) in times.into_iter().enumerate() {
+fn events_lie_where_g_vanishes_whatever_the_method() -> Outcome {
+    fn check<R: Run<Scalar = f64>>(mut run: R, x: fn(&StateOf<R>) -> f64, most: f64, name: &str) -> Outcome {
+        for (k, event) in run.events([Direction::Rising], |_, state| [x(state)])?.take(3).enumerate() {
+            let Event { time, state, .. } = event?;
             let error = (time - 3.0 * FRAC_PI_2 - TAU * k as f64).abs();
             assert!(error < most, "{name}: {error:e}");
+            assert!(x(&state).abs() < 1e-12, "{name}: {:e}", x(&state));
         }
-        let last = values.last().ok_or("never looked at")?;
-        assert!(last.abs() < 1e-12, "{name}: {last:e}");
         Ok(())
     }
     let oscillator = Oscillator { omega: 1.0 };
     let at = OscillatorState { x: 1.0, y: 0.0 };
     for sigma in [0.0, 0.2, 0.5, 0.8] {
-        check(Integrator::new(&oscillator, Sigma::new(sigma), 0.02, at)?, 2e-3, "sigma")?;
+        check(Integrator::new(&oscillator, Sigma::new(sigma), 0.02, at)?, |state| state.x, 2e-3, "sigma")?;
     }
-    check(Integrator::new(&oscillator, Projected::symmetric(), 0.02, at)?, 1e-3, "projected")?;
+    check(
+        Integrator::new(&oscillator, Projected::symmetric(), 0.02, at)?,
+        |state| state.x,
+        1e-3,
+        "projected",
+    )?;
     let newmark = Newmark::new(0.25);
-    check(Integrator::new(&Planar, newmark, 0.02, PLANAR)?, 1e-3, "newmark")?;
+    check(Integrator::new(&Planar, newmark, 0.02, PLANAR)?, |state| state.x, 1e-3, "newmark")?;
     let galerkin = Galerkin::<4>::new();
-    check(Integrator::new(&Planar, galerkin, 0.5, PLANAR)?, 1e-5, "galerkin")?;
+    check(Integrator::new(&Planar, galerkin, 0.5, PLANAR)?, |state| state.x, 1e-5, "galerkin")?;
     let midpoint = Variational::midpoint();
-    check(Integrator::new(&Planar, midpoint, 0.02, PLANAR)?, 1e-3, "variational")?;
+    check(Integrator::new(&Planar, midpoint, 0.02, PLANAR)?, |state| state.x, 1e-3, "variational")?;
     let composed = Composition::yoshida(Variational::trapezoid());
-    check(Integrator::new(&Planar, composed, 0.1, PLANAR)?, 1e-3, "composition")?;
+    check(Integrator::new(&Planar, composed, 0.1, PLANAR)?, |state| state.x, 1e-3, "composition")?;
     let at = CircleState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
-    check(Integrator::new(&Circle, Rattle::default(), 0.02, at)?, 2e-3, "rattle")?;
+    check(Integrator::new(&Circle, Rattle::default(), 0.02, at)?, |state| state.x, 2e-3, "rattle")?;
+    #[lagrangian(coordinates(s: S2), lagrangian = sum(0..3, |i| dot(s[i]).powi(2)) / 2.0)]
+    #[derive(Debug)]
+    struct Turning;
+    let geodesic: TurningState = TurningState { s: [1.0, 0.0, 0.0], dot_s: [0.0, 1.0, 0.0] };
+    let geodesic = Integrator::new(&Turning, Geodesic::trapezoid(), 0.3, geodesic)?;
+    check(geodesic, |state| state.s[0], 1e-12, "geodesic")?;
     let constrained = Constrained::new(Variational::midpoint());
-    check(Integrator::new(&Circle, constrained, 0.02, at)?, 2e-3, "constrained")
+    check(Integrator::new(&Circle, constrained, 0.02, at)?, |state| state.x, 2e-3, "constrained")
 }
 
 /// Where α is not affine, p − α(q) depends on the length of a step. Orbits of the midpoint scheme lie on
@@ -221,8 +230,8 @@ fn crossings_of_a_scheme_with_a_defect_lie_near_its_orbit() -> Outcome {
         let start: LotkaVolterraState = LotkaVolterraState { x: 1.0, y: 0.5 };
         let mut run = Integrator::new(&LotkaVolterra, Sigma::midpoint(), h, start)?;
         let [mut least, mut most] = [f64::INFINITY, 0.0];
-        for crossing in Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0] - 2.0)?.take(40) {
-            let y = crossing?.state.y;
+        for event in run.events([Direction::Rising], |_, state| [state.x - 2.0])?.take(40) {
+            let y = event?.state.y;
             (least, most) = (f64::min(least, y), larger(most, y));
         }
         widths.push((h, most - least));
@@ -237,58 +246,20 @@ fn the_first_crossing_may_lie_in_the_first_step() -> Outcome {
     let system = Oscillator { omega: 1.0 };
     let start = OscillatorState { x: 0.01, y: 1.0 };
     let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
-    let first = Section::new(&mut run, Direction::Falling, |q: &[f64]| q[0])?.next();
+    let first = run.events([Direction::Falling], |_, state| [state.x])?.next();
     let crossing = first.ok_or("no crossing")??;
     assert!(abs_diff_eq!(crossing.time, 0.01, epsilon = 1e-4), "{}", crossing.time);
     Ok(())
 }
 
 #[test]
-fn a_section_ends_with_the_failure_of_its_run() -> Outcome {
+fn events_end_with_the_failure_of_their_run() -> Outcome {
     let (system, start) = quasi_periodic();
     let mut run = Integrator::new(&system, Sigma::midpoint(), 1.0, start)?;
-    let mut section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0])?;
-    let error = section.by_ref().find_map(Result::err);
+    let mut events = run.events([Direction::Rising], |_, state| [state.x[0]])?;
+    let error = events.by_ref().find_map(Result::err);
     assert!(matches!(error, Some(StepError { failure: StepFailure::NotConverged { .. }, .. })));
-    assert!(section.next().is_none());
-    Ok(())
-}
-
-fn exponent((system, start): (PointVortices<4>, PointVorticesState<4>), h: f64, time: f64) -> Outcome<f64> {
-    let mut run = Integrator::new(&system, Sigma::midpoint(), h, start)?;
-    let mut lyapunov = LyapunovExponent::new(&run);
-    assert_eq!(lyapunov.exponent(), None);
-    while run.time() < time {
-        lyapunov.advance(&mut run)?;
-    }
-    lyapunov.exponent().ok_or_else(|| "no exponent".into())
-}
-
-#[test]
-fn chaos_has_a_positive_exponent_and_quasi_periodic_motion_has_none() -> Outcome {
-    let (chaos, order) = (exponent(chaotic(), 0.2, 4000.0)?, exponent(quasi_periodic(), 0.1, 4000.0)?);
-    assert!(chaos > 0.03, "{chaos}");
-    assert!(order.abs() < 0.006, "{order}");
-    Ok(())
-}
-
-#[test]
-fn a_saddle_has_its_own_exponent() -> Outcome {
-    // H = ½z² + cos φ, α = −z dφ: near φ = 0 the midpoint rule grows by (1 + h/2)/(1 − h/2) a step.
-    let (system, start) = (SphereForm { gamma: 1.0 }, SphereFormState { phi: 0.0, z: 0.0 });
-    let h: f64 = 0.1;
-    let mut run = Integrator::new(&system, Sigma::midpoint(), h, start)?;
-    let mut lyapunov = LyapunovExponent::new(&run);
-    for _ in 0..200 {
-        lyapunov.advance(&mut run)?;
-    }
-    let settled = lyapunov.growth();
-    for _ in 0..200 {
-        lyapunov.advance(&mut run)?;
-    }
-    let rate = (lyapunov.growth() - settled) / 20.0;
-    let exact = ((1.0 + h / 2.0) / (1.0 - h / 2.0)).ln() / h;
-    assert!(abs_diff_eq!(rate, exact, epsilon = 1e-12), "{rate} and {exact}");
+    assert!(events.next().is_none());
     Ok(())
 }
 
@@ -307,9 +278,9 @@ fn crossings_of_a_regular_system_have_velocities() -> Outcome {
     // x = cos t, y = 2 sin t: x rises through zero at 3π/2.
     let start = PlanarState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
     let mut run = Integrator::new(&Planar, method, 0.05, start)?;
-    let section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0])?;
-    for (k, crossing) in section.take(5).enumerate() {
-        let Crossing { time, state, .. } = crossing?;
+    let events = run.events([Direction::Rising], |_, state| [state.x])?;
+    for (k, event) in events.take(5).enumerate() {
+        let Event { time, state, .. } = event?;
         let exact = 3.0 * FRAC_PI_2 + TAU * k as f64;
         assert!(abs_diff_eq!(time, exact, epsilon = 1e-10), "{time}");
         for (found, exact) in [(state.x, 0.0), (state.y, -2.0), (state.dot_x, 1.0), (state.dot_y, 0.0)] {
@@ -334,10 +305,10 @@ fn crossings_of_a_run_with_controlled_steps_lie_on_its_orbit() -> Outcome {
     }
     assert!(longest > 2.0 * shortest, "{shortest} {longest}");
     let begin = run.time();
-    let section = Section::new(&mut run, Direction::Rising, |q: &[f64]| q[0])?;
+    let events = run.events([Direction::Rising], |_, state| [state.x])?;
     let first = ((begin - 3.0 * FRAC_PI_2) / TAU).ceil();
-    for (k, crossing) in section.take(5).enumerate() {
-        let Crossing { time, state, .. } = crossing?;
+    for (k, event) in events.take(5).enumerate() {
+        let Event { time, state, .. } = event?;
         let exact = 3.0 * FRAC_PI_2 + TAU * (first + k as f64);
         assert!(abs_diff_eq!(time, exact, epsilon = 1e-9), "{time} {exact}");
         for (found, exact) in [(state.x, 0.0), (state.y, -2.0), (state.dot_x, 1.0), (state.dot_y, 0.0)] {

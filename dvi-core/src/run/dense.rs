@@ -1,0 +1,319 @@
+//! The state at any time within the last step of a run: that step, taken again in part, by the run's own method.
+//!
+//! So a state between two points has the error of the run at the point before it and that of one step more,
+//! whatever the length of that step. The run does not notice: what is moved is a copy.
+
+use core::fmt;
+use core::ops::Deref;
+
+use crate::error::{StartError, StepError, StepFailure};
+use crate::memory::Memory;
+use crate::methods::{Carries, Method};
+use crate::run::{Run, Stepper};
+use crate::scalar::norm::reported;
+use crate::state::Statistics;
+use crate::system::start::velocities;
+use crate::{Lagrangian as _, Real, Scalar as _, Space, State, System, Vector};
+
+/// A run with its continuous extension: the state at any time of its last step.
+///
+/// What is called dense output elsewhere is here a part of a step of the method itself, from where the last
+/// step of the run began. So no state is less accurate than the points of the run are, but for the error of
+/// one step: of order p + 1 for a method of order p. The points of the run stay the same, bit for bit. A
+/// state costs a step, and to keep where steps begin costs little: it is kept before each step while states
+/// are asked for, and else once in up to 64 steps, which are then taken again.
+///
+/// What can be read of the run is read here too, by `Deref`. `R` is a run, or borrows one by `&mut`.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
+/// struct Oscillator;
+///
+/// let start: OscillatorState = OscillatorState { x: 1.0, dot_x: 0.0 };
+/// let mut run = Integrator::new(&Oscillator, Gauss::<3>::new(), 0.1, start)?;
+/// let mut dense = run.dense()?;
+/// dense.advance_to(0.75)?;
+/// assert_eq!(dense.steps(), 8);
+/// assert!((dense.state_at(0.75)?.x - 0.75_f64.cos()).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Dense<R: Run> {
+    run: R,
+    /// Where steps at hand have begun.
+    begun: PointOf<R>,
+    /// How many of them there are.
+    taken: u64,
+    /// How many there may be before the next point is kept.
+    most: u64,
+    /// Where a part of the last step has led to.
+    reached: PointOf<R>,
+    v: Vector<R::System, R::Scalar>,
+}
+
+struct Point<S: System, M: Carries<S, T>, T: Real> {
+    t: T,
+    q: Vector<S, T>,
+    memory: M::Memory,
+}
+
+type PointOf<R> = Point<<R as Run>::System, <R as Run>::Method, <R as Run>::Scalar>;
+/// A state of the system of a run `R`.
+pub(crate) type StateOf<R> = <<R as Run>::System as System>::State<<R as Run>::Scalar>;
+
+/// Steps that may be taken again where nobody asks for states in between.
+const LONGEST: u64 = 64;
+
+impl<R: Run> Dense<R> {
+    /// From the present point of `run` on. All memory is allocated here.
+    ///
+    /// # Errors
+    /// [`StartError`] if no run of the method can begin where this one is.
+    pub fn new(run: R) -> Result<Self, StartError> {
+        let (stepper, t, h) = (run.stepper(), run.time(), run.step_size());
+        let (system, q) = (stepper.system, &stepper.q);
+        let mut v = system.space().vector();
+        stepper.velocity(t, &mut v).map_err(StartError::Starter)?;
+        let point = || {
+            let mut memory = stepper.method.begin_again(system, q, &v[..velocities(system)], t, h)?;
+            memory.restore(&stepper.memory);
+            Ok::<_, StartError>(Point { t, q: q.clone(), memory })
+        };
+        let [begun, reached] = [point()?, point()?];
+        Ok(Self { run, begun, taken: 0, most: 1, reached, v })
+    }
+
+    /// The run, at the end of its last step.
+    pub fn into_run(self) -> R {
+        self.run
+    }
+
+    /// Takes one step.
+    ///
+    /// # Errors
+    /// As [`Run::advance`].
+    #[inline]
+    pub fn advance(&mut self) -> Result<(), StepError> {
+        // Steps of a control cannot be taken again by the method alone.
+        if self.taken >= self.most || self.run.clock().is_none() {
+            self.keep();
+            self.most = LONGEST.min(2 * self.most);
+        }
+        self.run.advance()?;
+        self.taken += 1;
+        Ok(())
+    }
+
+    /// Takes steps until time `t` is within the last one, or at its end; none if it is there already.
+    ///
+    /// # Errors
+    /// [`StepFailure::Unreachable`], with both times, if `t` lies before the last step or is not finite.
+    /// [`StepError`] of the first step that fails; the run stays at the last good state.
+    pub fn advance_to(&mut self, t: R::Scalar) -> Result<(), StepError> {
+        self.check_ahead(t)?;
+        if self.run.clock().is_some() {
+            // Whole steps but the last two, of which rounding may be one.
+            let ahead = reported((t - self.run.time()) / self.run.step_size()) - 2.0;
+            if ahead >= 1.0 {
+                let taken = self.run.take_steps(ahead as u64);
+                self.keep();
+                taken?;
+            }
+        }
+        while self.is_before(self.run.time(), t) {
+            self.advance()?;
+        }
+        Ok(())
+    }
+
+    /// The state at time `t`, up to which steps are taken as by [`advance_to`](Self::advance_to).
+    ///
+    /// # Errors
+    /// As [`advance_to`](Self::advance_to); [`StepError`] with the failure of the part of the step that leads
+    /// to `t`.
+    pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
+        self.advance_to(t)?;
+        let state = if t == self.run.time() { self.state_at_end() } else { self.state_within(t) };
+        state.map_err(|failure| self.error(failure))
+    }
+
+    /// The times, one after the other, with the states there: an iterator, which takes steps as it must. It ends
+    /// with the first error.
+    pub fn states_at<I: IntoIterator<Item = R::Scalar>>(self, times: I) -> StatesAt<R, I::IntoIter> {
+        StatesAt { dense: self, times: times.into_iter(), failed: false }
+    }
+
+    /// Begins anew as [`Run::set_state`] does.
+    ///
+    /// # Errors
+    /// As [`Run::set_state`].
+    pub fn set_state(&mut self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError> {
+        self.run.set_state(t, state)?;
+        self.keep();
+        Ok(())
+    }
+
+    fn keep(&mut self) {
+        let Point { t, q, memory } = &mut self.begun;
+        *t = self.run.time();
+        q.copy_from_slice(self.run.q());
+        memory.restore(self.run.memory());
+        self.taken = 0;
+    }
+
+    /// Whether time `t` is within the last step, or ahead.
+    ///
+    /// # Errors
+    /// [`StepFailure::Unreachable`].
+    pub(super) fn check_ahead(&self, t: R::Scalar) -> Result<(), StepError> {
+        let [begun, now] = [self.last_begun(), self.run.time()];
+        if reported(t).is_finite() && (t == now || !self.is_before(t, begun)) {
+            return Ok(());
+        }
+        let [now, target] = [begun, t].map(reported);
+        Err(StepError {
+            step: self.run.steps(),
+            time: now,
+            failure: StepFailure::Unreachable { now, target },
+        })
+    }
+
+    /// Whether `a` lies before `b` in the direction of the run.
+    pub(super) fn is_before(&self, a: R::Scalar, b: R::Scalar) -> bool {
+        if self.run.step_size() > R::Scalar::lift(0.0) { a < b } else { a > b }
+    }
+
+    /// The time when the last step began; the present before the first.
+    pub(super) fn last_begun(&self) -> R::Scalar {
+        match (self.taken, self.run.clock()) {
+            (2.., Some(clock)) => clock.after(1_u64.wrapping_neg()).time(),
+            _ => self.begun.t,
+        }
+    }
+
+    /// The time at a part of the last step.
+    pub(super) fn time_at(&self, part: R::Scalar) -> R::Scalar {
+        self.last_begun() + part * self.run.step_size()
+    }
+
+    /// Takes the steps again that lead from where one was kept to where the last one began.
+    ///
+    /// # Errors
+    /// As [`Method::step`].
+    pub(super) fn settle(&mut self) -> Result<(), StepFailure> {
+        self.most = 1;
+        let (Some(clock), 2..) = (self.run.clock(), self.taken) else { return Ok(()) };
+        let (before, Point { t, q, memory }) = (self.taken - 1, &mut self.begun);
+        let (clock, unused) = (clock.after(self.taken.wrapping_neg()), &mut Statistics::default());
+        self.run.method().steps(self.run.system(), memory, q, clock, before, unused)?;
+        *t = clock.after(before).time();
+        self.taken = 1;
+        Ok(())
+    }
+
+    fn state_within(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepFailure> {
+        self.settle()?;
+        self.reach(t - self.begun.t)?;
+        self.reached_state()
+    }
+
+    /// Moves a time `h` on from where the last step began, within this step. Where it began is
+    /// [settled](Self::settle).
+    ///
+    /// # Errors
+    /// As [`Method::step`]; [`StepFailure::LeftDomain`].
+    pub(super) fn reach(&mut self, h: R::Scalar) -> Result<(), StepFailure> {
+        let Self { run, begun, reached: Point { t, q, memory }, .. } = self;
+        *t = begun.t + h;
+        q.copy_from_slice(&begun.q);
+        memory.restore(&begun.memory);
+        if *t == begun.t {
+            return Ok(());
+        }
+        let unused = &mut Statistics::default();
+        run.method().part_of_step(run.system(), memory, q, begun.t, [h, run.step_size()], unused)?;
+        let leaves = R::System::HAS_DOMAIN && !reported(run.system().domain(q, *t)).is_finite();
+        if leaves { Err(StepFailure::LeftDomain) } else { Ok(()) }
+    }
+
+    /// The state at the end of the step.
+    ///
+    /// # Errors
+    /// As [`Method::velocity`].
+    pub(super) fn state_at_end(&mut self) -> Result<StateOf<R>, StepFailure> {
+        let Stepper { system, q, .. } = self.run.stepper();
+        self.run.stepper().velocity(self.run.time(), &mut self.v)?;
+        Ok(State::read(|block| system.block_len(block), q, &self.v))
+    }
+
+    /// The same, into a state that there is, without allocation.
+    ///
+    /// # Errors
+    /// As [`Method::velocity`].
+    pub(super) fn refill_at_end(&mut self, state: &mut StateOf<R>) -> Result<(), StepFailure> {
+        let Stepper { system, q, .. } = self.run.stepper();
+        self.run.stepper().velocity(self.run.time(), &mut self.v)?;
+        state.refill(|block| system.block_len(block), q, &self.v);
+        Ok(())
+    }
+
+    /// The time that has been reached.
+    pub(super) fn reached_time(&self) -> R::Scalar {
+        self.reached.t
+    }
+
+    /// The state that has been reached.
+    ///
+    /// # Errors
+    /// As [`Method::velocity`].
+    pub(super) fn reached_state(&mut self) -> Result<StateOf<R>, StepFailure> {
+        let (system, Point { t, q, memory }) = (self.run.system(), &self.reached);
+        self.run.method().velocity(system, memory, q, *t, &mut self.v)?;
+        Ok(State::read(|block| system.block_len(block), q, &self.v))
+    }
+
+    /// What has failed in the last step.
+    #[cold]
+    pub(super) fn error(&self, failure: StepFailure) -> StepError {
+        StepError { step: self.run.steps().saturating_sub(1), time: reported(self.last_begun()), failure }
+    }
+}
+
+impl<R: Run> Deref for Dense<R> {
+    type Target = R;
+
+    fn deref(&self) -> &R {
+        &self.run
+    }
+}
+
+impl<R: Run + fmt::Debug> fmt::Debug for Dense<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Dense").field("run", &self.run).finish_non_exhaustive()
+    }
+}
+
+/// The states of a run at given times: see [`Run::states_at`].
+#[derive(Debug)]
+pub struct StatesAt<R: Run, I> {
+    dense: Dense<R>,
+    times: I,
+    failed: bool,
+}
+
+impl<R: Run, I: Iterator<Item = R::Scalar>> Iterator for StatesAt<R, I> {
+    type Item = Result<(R::Scalar, StateOf<R>), StepError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.failed {
+            return None;
+        }
+        let t = self.times.next()?;
+        let state = self.dense.state_at(t).map(|state| (t, state));
+        self.failed = state.is_err();
+        Some(state)
+    }
+}
+
+impl<R: Run, I: Iterator<Item = R::Scalar>> core::iter::FusedIterator for StatesAt<R, I> {}

@@ -1,0 +1,406 @@
+//! Events of a run: where a condition g(t, state) crosses zero.
+//!
+//! They lie on the [continuous extension](Dense) of the run. After each step the sign of g tells whether it
+//! has crossed. A step that begins and ends on one side may have crossed twice: if g is near enough to zero,
+//! as its changes in the steps before say, its slopes at both ends are looked at, and where these point to
+//! zero and away from it, g is followed down to its least value in between. Each crossing is found there to
+//! rounding.
+
+use core::fmt;
+use core::iter::FusedIterator;
+
+use super::dense::{Dense, StateOf};
+use crate::error::{StartError, StepError, StepFailure};
+use crate::run::Run;
+use crate::scalar::norm::{larger, reported};
+use crate::solve::crossing::{Sample, dip, zero};
+use crate::{Real, Scalar};
+
+/// The crossings that count as events.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direction {
+    /// g increases along the run.
+    #[default]
+    Rising,
+    /// g decreases.
+    Falling,
+    /// Both.
+    Either,
+}
+
+impl Direction {
+    /// Whether a function that goes from `a` to `b` crosses zero in this direction.
+    pub fn crosses<T: Real>(self, a: T, b: T) -> bool {
+        let zero = T::lift(0.0);
+        match self {
+            Self::Rising => a < zero && b >= zero,
+            Self::Falling => a > zero && b <= zero,
+            Self::Either => (a < zero && b >= zero) || (a > zero && b <= zero),
+        }
+    }
+}
+
+/// Where a run meets a condition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event<S, T> {
+    /// Which of the conditions it is.
+    pub index: usize,
+    /// When.
+    pub time: T,
+    /// The state, with named coordinates and, of a regular system, velocities.
+    pub state: S,
+}
+
+/// An [`Event`] of a run `R`.
+type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
+
+/// The events of a run, in the order in which they happen, as an iterator that takes as many steps as it
+/// must.
+///
+/// A condition is a function g(t, state) of which an event is a zero; any number of them is one closure that
+/// returns an array. An event lies on the step that leads over it, as it is [taken in part](Dense), and is
+/// located to rounding there. So it has the error of the run and that of one step more, whatever the length
+/// of the step: that is of the order h<sup>p+1</sup> for a method of order p. The points of the run are the
+/// same, bit for bit, as without events. An event costs some twenty steps, and a condition that is far from
+/// zero one evaluation a step, with the velocities of the state.
+///
+/// What follows from an event is the body of the loop: note it, leave the loop, or change the state and go on
+/// by [`set_state`](Self::set_state). A run that is to stop at an event is set to its time and state:
+/// [`Run::set_state`]. Without an event the loop does not end; [`next_until`](Self::next_until) looks for
+/// events up to a time.
+///
+/// Of several events at one time the first in the array comes first. Where a run begins with g = 0 there is
+/// no event, and one that lies at the end of a step counts once. A step that begins and ends on one side is
+/// seen to cross zero in between if g turns once on the way; what turns more often within one step may pass
+/// unseen. Events within a step that fails are not found, those before it are.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A ball that loses a fifth of its speed on the floor.
+/// #[lagrangian(coordinates(height), lagrangian = dot(height).powi(2) / 2.0 - height)]
+/// struct Ball;
+///
+/// let start: BallState = BallState { height: 0.5, dot_height: 0.0 };
+/// let mut run = Integrator::new(&Ball, Variational::trapezoid(), 0.1, start)?;
+/// // It is at the floor, and at the top of its way.
+/// let conditions = [Direction::Falling, Direction::Falling];
+/// let mut events = run.events(conditions, |_, ball: &BallState| [ball.height, ball.dot_height])?;
+/// let mut tops = Vec::new();
+/// while let Some(Event { index, time, state }) = events.next_until(4.0)? {
+///     match index {
+///         0 => events.set_state(time, BallState { dot_height: -0.8 * state.dot_height, ..state })?,
+///         _ => tops.push((time, state.height)),
+///     }
+/// }
+/// // Of a height of 0.5 it falls for a unit of time, and rises for 0.8 of one.
+/// let [(t1, h1), (t2, h2)] = tops[..] else { panic!("{tops:?}") };
+/// assert!((t1 - 1.8).abs() < 1e-12 && (h1 - 0.32).abs() < 1e-12);
+/// assert!((t2 - 3.24).abs() < 1e-12 && (h2 - 0.2048).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Events<R: Run, G, const N: usize> {
+    dense: Dense<R>,
+    g: G,
+    directions: [Direction; N],
+    /// Of each condition, at the end of the last step.
+    watched: [Watched<R::Scalar>; N],
+    /// Parts of the last step at which events are, that have not been handed out.
+    found: [[Option<R::Scalar>; 2]; N],
+    /// Where the state at the end of a step is read to.
+    state: StateOf<R>,
+    /// The last event that was handed out.
+    last: Option<usize>,
+    failed: bool,
+}
+
+/// What is known of a condition.
+#[derive(Clone, Copy, Debug)]
+struct Watched<T> {
+    g: T,
+    /// How it has changed, once there is a step.
+    course: Option<Course<T>>,
+}
+
+/// How a condition has changed in steps.
+#[derive(Clone, Copy, Debug)]
+struct Course<T> {
+    /// The mean rate in the last step.
+    slope: T,
+    /// By how much that differs from the one before, once there is one.
+    bend: Option<T>,
+    /// How fast it has changed in the last steps, at most.
+    rate: T,
+}
+
+impl<T: Real> Course<T> {
+    /// After a step in which the mean rate is `slope`.
+    fn after(before: Option<Self>, slope: T) -> Self {
+        let size = Scalar::abs(slope);
+        let rate = before.map_or(size, |before| larger(size, T::lift(FORGETTING) * before.rate));
+        Self { slope, bend: before.map(|before| slope - before.slope), rate }
+    }
+
+    /// Whether a condition may have come to zero and back in a step of length `h` from `a` to `b`, which are on
+    /// one side, where its course was another before: if it falls at the beginning and rises at the end. The
+    /// rates there are those of a parabola, but for what the course has bent otherwise in the step before.
+    fn may_turn(&self, before: &Self, [a, b]: [T; 2], h: T) -> bool {
+        if Scalar::abs(a) + Scalar::abs(b) > T::lift(MARGIN) * self.rate * h {
+            return false;
+        }
+        let (Some(bend), Some(bent)) = (self.bend, before.bend) else { return true };
+        let [zero, half, margin] = [0.0, 0.5, MARGIN].map(T::lift);
+        let unknown = margin * Scalar::abs(bend - bent);
+        let away = |slope: T| if a < zero { -slope } else { slope };
+        away(self.slope - half * bend) < unknown && away(self.slope + half * bend) > -unknown
+    }
+}
+
+/// Of the rate at which g changes, what is kept from step to step.
+const FORGETTING: f64 = 0.9;
+/// The largest rate within a step in units of the mean rates of the last steps, and an unknown bend in units of
+/// what bends have changed by.
+const MARGIN: f64 = 2.0;
+/// The part of a step between places at which a condition is looked at for its slope.
+const CHORD: f64 = 1e-5;
+/// A condition that has led to a change of the state is zero there if it is no more than this part of what
+/// changes in a step.
+const LEFT: f64 = 1e-9;
+
+impl<R: Run, G, const N: usize> Events<R, G, N>
+where
+    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
+{
+    /// Of the run in `dense`, from its present point on, where each of the conditions `g` crosses zero in its
+    /// direction. All memory is allocated here.
+    ///
+    /// # Errors
+    /// [`StartError::Starter`] if there are no velocities, or a condition is no number, at the present point.
+    pub fn new(mut dense: Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
+        let state = dense.state_at_end().map_err(StartError::Starter)?;
+        let values = numbers(g(dense.time(), &state)).map_err(StartError::Starter)?;
+        let watched = values.map(|g| Watched { g, course: None });
+        Ok(Self { dense, g, directions, watched, found: [[None; 2]; N], state, last: None, failed: false })
+    }
+
+    /// The run, at the end of the step that is searched, with its continuous extension.
+    pub fn dense(&mut self) -> &mut Dense<R> {
+        &mut self.dense
+    }
+
+    /// The next event that is not after time `t`; `None` if there is none, and the run has come to the step
+    /// that leads over `t`. Later events are handed out later.
+    ///
+    /// # Errors
+    /// [`StepFailure::Unreachable`], with both times, if `t` lies before the last step or is not finite.
+    /// [`StepError`] of the first step that fails, once all events before it have been handed out;
+    /// [`StepFailure::UndefinedEvent`] in a step at whose end, or at a place that is looked at, a condition
+    /// is no number.
+    pub fn next_until(&mut self, t: R::Scalar) -> Result<Option<EventOf<R>>, StepError> {
+        self.dense.check_ahead(t)?;
+        self.next_before(Some(t))
+    }
+
+    fn next_before(&mut self, end: Option<R::Scalar>) -> Result<Option<EventOf<R>>, StepError> {
+        while !end.is_some_and(|end| self.has_come_to(end)) {
+            if let Some(event) = self.advance()? {
+                return Ok(Some(event));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether no event up to time `end` is left, in the last step or behind it.
+    fn has_come_to(&self, end: R::Scalar) -> bool {
+        match self.first() {
+            Some((part, ..)) => self.dense.is_before(end, self.dense.time_at(part)),
+            None => !self.dense.is_before(self.dense.time(), end),
+        }
+    }
+
+    /// Hands out an event of the last step or, if there is none left, takes a step and hands out its first, if
+    /// there is one.
+    ///
+    /// # Errors
+    /// As [`next_until`](Self::next_until).
+    pub fn advance(&mut self) -> Result<Option<EventOf<R>>, StepError> {
+        if self.first().is_none() {
+            self.step()?;
+        }
+        let Some((part, index, which)) = self.first() else { return Ok(None) };
+        self.found[index][which] = None;
+        self.last = Some(index);
+        self.event(part, index).map(Some).map_err(|failure| self.dense.error(failure))
+    }
+
+    /// Goes on from another state at time `t`, which is as a rule that of the last event; all events that have
+    /// not been handed out are forgotten, and a condition that has led there is zero there. The run begins
+    /// anew, as by [`Run::set_state`].
+    ///
+    /// # Errors
+    /// As [`Run::set_state`], and as [`new`](Self::new).
+    pub fn set_state(&mut self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError> {
+        self.dense.set_state(t, state)?;
+        self.found = [[None; 2]; N];
+        self.dense.refill_at_end(&mut self.state).map_err(StartError::Starter)?;
+        let values = numbers((self.g)(t, &self.state)).map_err(StartError::Starter)?;
+        let h = Scalar::abs(self.dense.step_size());
+        for (index, (watched, g)) in self.watched.iter_mut().zip(values).enumerate() {
+            let rounding = watched
+                .course
+                .map_or(R::Scalar::lift(0.0), |course| R::Scalar::lift(LEFT) * course.rate * h);
+            let has_led_there = self.last == Some(index) && Scalar::abs(g) <= rounding;
+            *watched = Watched { g: if has_led_there { R::Scalar::lift(0.0) } else { g }, course: None };
+        }
+        self.last = None;
+        Ok(())
+    }
+
+    /// The first event of the last step that has not been handed out: its part of the step, its condition,
+    /// and which of two it is.
+    fn first(&self) -> Option<(R::Scalar, usize, usize)> {
+        let mut first: Option<(R::Scalar, usize, usize)> = None;
+        for (index, found) in self.found.iter().enumerate() {
+            for (which, part) in found.iter().enumerate() {
+                if let Some(part) = *part
+                    && first.is_none_or(|(known, ..)| part < known)
+                {
+                    first = Some((part, index, which));
+                }
+            }
+        }
+        first
+    }
+
+    fn event(&mut self, part: R::Scalar, index: usize) -> Result<EventOf<R>, StepFailure> {
+        self.dense.settle()?;
+        self.dense.reach(part * self.dense.step_size())?;
+        Ok(Event { index, time: self.dense.reached_time(), state: self.dense.reached_state()? })
+    }
+
+    /// Takes a step, and finds its events.
+    fn step(&mut self) -> Result<(), StepError> {
+        self.dense.advance()?;
+        let result = self.search();
+        result.map_err(|failure| self.dense.error(failure))
+    }
+
+    fn search(&mut self) -> Result<(), StepFailure> {
+        self.dense.refill_at_end(&mut self.state)?;
+        let end = numbers((self.g)(self.dense.time(), &self.state))?;
+        let (zero, h) = (R::Scalar::lift(0.0), Scalar::abs(self.dense.step_size()));
+        for (index, b) in end.into_iter().enumerate() {
+            let Watched { g: a, course: before } = self.watched[index];
+            let course = Course::after(before, (b - a) / h);
+            self.watched[index] = Watched { g: b, course: Some(course) };
+            let stays = (a > zero && b > zero) || (a < zero && b < zero);
+            let passes = stays && before.is_some_and(|before| !course.may_turn(&before, [a, b], h));
+            if !passes {
+                self.dense.settle()?;
+                self.search_near(index, [a, b])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The events of a condition in a step, from its values at both ends.
+    fn search_near(&mut self, index: usize, [mut a, b]: [R::Scalar; 2]) -> Result<(), StepFailure> {
+        let [zero, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
+        let mut begin = zero;
+        if a == zero {
+            // The side to which it leads.
+            (begin, a) = (chord, self.look(index, chord)?);
+        }
+        let side = if a < zero { -one } else { one };
+        if b == zero || (b < zero) != (a < zero) {
+            self.found[index] = [self.locate(index, [[begin, a], [one, b]])?, None];
+            return Ok(());
+        }
+        let [from, to] = [self.sample(index, side, [begin, a])?, self.sample(index, side, [one, b])?];
+        let low = dip([from, to], |place| {
+            let value = self.look(index, place)?;
+            self.sample(index, side, [place, value])
+        })?;
+        if let Some(low) = low {
+            let middle = [low, self.look(index, low)?];
+            let first = self.locate(index, [[begin, a], middle])?;
+            self.found[index] = [first, self.locate(index, [middle, [one, b]])?];
+        }
+        Ok(())
+    }
+
+    /// The part of the step at which a condition crosses zero between two others, if it does so in its
+    /// direction.
+    fn locate(&mut self, index: usize, ends: [[R::Scalar; 2]; 2]) -> Result<Option<R::Scalar>, StepFailure> {
+        if !self.directions[index].crosses(ends[0][1], ends[1][1]) {
+            return Ok(None);
+        }
+        zero(ends, |part| self.look(index, part)).map(|found| Some(found.place))
+    }
+
+    /// The distance of a condition from zero at a part of the step, and its slope: that of a parabola through
+    /// three places.
+    fn sample(
+        &mut self,
+        index: usize,
+        side: R::Scalar,
+        [place, value]: [R::Scalar; 2],
+    ) -> Result<Sample<R::Scalar>, StepFailure> {
+        let [one, two, three, four, chord] = [1.0, 2.0, 3.0, 4.0, CHORD].map(R::Scalar::lift);
+        let mut at = |chords| self.look(index, place + chords * chord);
+        let change = if place < chord {
+            four * at(one)? - three * value - at(two)?
+        } else if place > one - chord {
+            three * value - four * at(-one)? + at(-two)?
+        } else {
+            at(one)? - at(-one)?
+        };
+        Ok(Sample { place, value: side * value, slope: side * change / (two * chord) })
+    }
+
+    /// A condition at a part of the step.
+    fn look(&mut self, index: usize, part: R::Scalar) -> Result<R::Scalar, StepFailure> {
+        self.dense.reach(part * self.dense.step_size())?;
+        let state = self.dense.reached_state()?;
+        Ok(numbers((self.g)(self.dense.reached_time(), &state))?[index])
+    }
+}
+
+/// The values of conditions.
+///
+/// # Errors
+/// [`StepFailure::UndefinedEvent`] for the first that is no number.
+fn numbers<T: Real, const N: usize>(values: [T; N]) -> Result<[T; N], StepFailure> {
+    match values.iter().position(|&value| reported(value).is_nan()) {
+        None => Ok(values),
+        Some(event) => Err(StepFailure::UndefinedEvent { event }),
+    }
+}
+
+impl<R: Run, G, const N: usize> Iterator for Events<R, G, N>
+where
+    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
+{
+    type Item = Result<EventOf<R>, StepError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.failed {
+            return None;
+        }
+        let next = self.next_before(None).transpose();
+        self.failed = next.as_ref().is_none_or(Result::is_err);
+        next
+    }
+}
+
+impl<R: Run, G, const N: usize> FusedIterator for Events<R, G, N> where
+    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N]
+{
+}
+
+impl<R: Run + fmt::Debug, G, const N: usize> fmt::Debug for Events<R, G, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { dense, directions, .. } = self;
+        f.debug_struct("Events").field("run", dense).field("directions", directions).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,67 @@
+//! Runs with a condition that never comes true, and with states that are asked for, beside the same runs
+//! alone.
+//!
+//! `cargo bench -p dvi-benches --bench events`; the times of a group are to be compared with each other, in
+//! one run.
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
+use dvi_core::prelude::*;
+use dvi_tests::configurations::quasi_periodic;
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
+
+const STEPS: u64 = 1000;
+
+type StateOf<R> = <<R as Run>::System as System>::State<f64>;
+
+fn compare<R: Run<Scalar = f64>>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    begin: impl Fn() -> Option<R>,
+    far: impl Fn(&StateOf<R>) -> f64,
+) {
+    group.bench_function(format!("{name}, alone"), |bencher| {
+        let mut run = begin().expect("a start");
+        bencher.iter(|| run.take_steps(STEPS));
+    });
+    group.bench_function(format!("{name}, each step alone"), |bencher| {
+        let mut run = begin().expect("a start");
+        bencher.iter(|| (0..STEPS).try_for_each(|_| black_box(&mut run).advance()));
+    });
+    group.bench_function(format!("{name}, with a condition"), |bencher| {
+        let mut run = begin().expect("a start");
+        let mut events = run.events([Direction::Either], |_, state| [far(state)]).expect("a start");
+        bencher.iter(|| {
+            let t = events.dense().time() + (STEPS as f64 - 0.5) * events.dense().step_size();
+            assert!(events.next_until(t).is_ok_and(|event| event.is_none()));
+        });
+    });
+    group.bench_function(format!("{name}, a state in ten steps"), |bencher| {
+        let mut run = begin().expect("a start");
+        let mut dense = run.dense().expect("a start");
+        bencher.iter(|| {
+            for _ in 0..STEPS / 10 {
+                let t = dense.time() + 9.5 * dense.step_size();
+                black_box(dense.state_at(t)).expect("a state");
+            }
+        });
+    });
+}
+
+fn events(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("1000 steps");
+    let kepler = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
+    let verlet = || Integrator::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.05, kepler).ok();
+    compare(&mut group, "Kepler, Verlet", verlet, |state| state.x - 5.0);
+    let (system, start) = quasi_periodic();
+    let midpoint = || Integrator::new(&system, Sigma::midpoint(), 0.1, start).ok();
+    compare(&mut group, "four vortices, midpoint", midpoint, |state| state.x[0] - 50.0);
+    let leapfrog = Sigma { parasitic_limit: None, ..Sigma::leapfrog() };
+    let explicit = || Integrator::new(&system, leapfrog, 0.01, start).ok();
+    compare(&mut group, "four vortices, explicit", explicit, |state| state.x[0] - 50.0);
+    group.finish();
+}
+
+criterion_group!(benches, events);
+criterion_main!(benches);

@@ -1,0 +1,174 @@
+//! Events that steps may miss or count twice, and how a search for events, or for a state at a time, ends.
+
+use approx::abs_diff_eq;
+use core::f64::consts::{FRAC_PI_2, PI};
+use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
+use dvi_tests::{Outcome, bits};
+
+use super::{PLANAR, Planar, PlanarState};
+
+/// Free motion, whose steps are exact.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0)]
+#[derive(Clone, Debug)]
+struct Free;
+
+/// From `x` with velocity one.
+fn free(x: f64, h: f64) -> Outcome<impl Run<System = Free, Scalar = f64>> {
+    Ok(Integrator::new(&Free, Variational::trapezoid(), h, FreeState { x, dot_x: 1.0 })?)
+}
+
+#[test]
+fn events_at_the_ends_of_steps_count_once() -> Outcome {
+    let mut run = free(-0.5, 0.25)?;
+    let falls_and_rises = |x: f64| x * (x - 0.1);
+    let mut events = run
+        .events([Direction::Either, Direction::Falling, Direction::Rising], |_, state| {
+            [state.x, falls_and_rises(state.x), falls_and_rises(state.x)]
+        })?;
+    let mut found = Vec::new();
+    while let Some(Event { index, time, .. }) = events.next_until(2.0)? {
+        found.push((index, time));
+    }
+    // At one time in the order of the conditions.
+    assert_eq!(found[..2], [(0, 0.5), (1, 0.5)]);
+    let [(2, last)] = found[2..] else { panic!("{found:?}") };
+    assert!(abs_diff_eq!(last, 0.6, epsilon = 1e-15), "{last}");
+    Ok(())
+}
+
+/// A run that begins with g = 0 has no event there, and one that follows in the same step is seen.
+#[test]
+fn a_start_on_a_zero_is_no_event() -> Outcome {
+    for (h, x) in [(0.25, 0.0), (-0.25, 0.1)] {
+        let mut run = free(x, h)?;
+        let mut events = run.events([Direction::Either], |_, state| [state.x * (state.x - 0.1)])?;
+        let Some(Event { time, state, .. }) = events.next_until(2.0 * h)? else { panic!("none") };
+        assert!(abs_diff_eq!(time, 0.1 * h.signum(), epsilon = 1e-15), "{time}");
+        assert!(abs_diff_eq!(state.x, 0.1 - x, epsilon = 1e-15), "{state:?}");
+        assert!(events.next_until(2.0 * h)?.is_none());
+    }
+    Ok(())
+}
+
+#[test]
+fn directions_are_along_a_run_back_in_time() -> Outcome {
+    let mut run = Integrator::new(&Planar, Gauss::<8>::new(), -0.3, PLANAR)?;
+    let conditions = [Direction::Falling, Direction::Rising];
+    for (k, event) in run.events(conditions, |_, state| [state.x; 2])?.take(6).enumerate() {
+        let Event { index, time, .. } = event?;
+        assert_eq!(index, k % 2);
+        let exact = -FRAC_PI_2 - PI * k as f64;
+        assert!(abs_diff_eq!(time, exact, epsilon = 1e-11), "{time} {exact}");
+    }
+    Ok(())
+}
+
+/// A fall into the centre.
+#[test]
+fn events_before_a_failed_step_are_handed_out() -> Outcome {
+    let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+    let control = ErrorControl::new(1e-9, 0.1);
+    let mut run = ControlledIntegrator::new(&Kepler { mu: 1.0 }, Gauss::<8>::new(), control, start)?;
+    let levels = [0.9, 0.5, 0.01, 1e-5_f64];
+    let mut events = run.events([Direction::Falling; 4], |_, state| levels.map(|level| state.x - level))?;
+    for (index, level) in levels.into_iter().enumerate() {
+        let event = events.next().ok_or("ended")??;
+        assert_eq!(event.index, index);
+        // t = √(x (1 − x) / 2) + arccos(√x)/√2
+        let exact = (level * (1.0 - level) / 2.0).sqrt() + level.sqrt().acos() / 2_f64.sqrt();
+        assert!(abs_diff_eq!(event.time, exact, epsilon = 1e-6), "{level}: {} {exact}", event.time);
+    }
+    assert!(matches!(events.next(), Some(Err(StepError { .. }))));
+    assert!(events.next().is_none());
+    Ok(())
+}
+
+#[test]
+fn a_condition_that_is_no_number_is_an_error() -> Outcome {
+    let mut run = free(1.0, -0.25)?;
+    let mut events = run.events([Direction::Either; 2], |_, state| [1.0, state.x.sqrt() - 2.0])?;
+    let Err(error) = events.next_until(-2.0) else { panic!("a root of what is negative") };
+    assert!(matches!(error, StepError { step: 4, failure: StepFailure::UndefinedEvent { event: 1 }, .. }));
+    let mut run = free(-1.0, 0.25)?;
+    let undefined = run.events([Direction::Either], |_, state| [state.x.sqrt()]);
+    assert!(matches!(undefined.err(), Some(StartError::Starter(StepFailure::UndefinedEvent { event: 0 }))));
+    Ok(())
+}
+
+#[test]
+fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
+    fn check<R: Run<Scalar = f64>>(mut run: R, sign: f64) -> Outcome {
+        let mut dense = run.dense()?;
+        dense.advance_to(1.03 * sign)?;
+        let steps = dense.steps();
+        let begun = dense.time() - dense.step_size();
+        dense.state_at(1.03 * sign)?;
+        for target in [begun - 1e-9 * sign, -3.0 * sign, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for error in [dense.state_at(target).err(), dense.advance_to(target).err()] {
+                let Some(StepFailure::Unreachable { now, target: named }) = error.map(|error| error.failure)
+                else {
+                    panic!("{target}: {error:?}")
+                };
+                assert!(abs_diff_eq!(now, begun, epsilon = 1e-12), "{now} {begun}");
+                assert_eq!(named.to_bits(), target.to_bits());
+            }
+        }
+        assert_eq!(dense.steps(), steps);
+        Ok(())
+    }
+    let method = Gauss::<4>::new();
+    for sign in [1.0, -1.0] {
+        check(Integrator::new(&Planar, method, 0.1 * sign, PLANAR)?, sign)?;
+        let control = ErrorControl::new(1e-9, 0.1 * sign);
+        check(ControlledIntegrator::new(&Planar, method, control, PLANAR)?, sign)?;
+    }
+    Ok(())
+}
+
+/// From the state of an event on, a run is one that begins there; one that cannot begin stays where it was.
+#[test]
+fn a_run_goes_on_from_another_state() -> Outcome {
+    fn check<R: Run<System = Planar, Scalar = f64>>(
+        mut run: R,
+        begin: impl Fn(f64, PlanarState) -> Outcome<R>,
+    ) -> Outcome {
+        run.take_steps(7)?;
+        let (before, time) = (bits(run.q()), run.time());
+        let nowhere = PlanarState { x: f64::NAN, ..PLANAR };
+        assert!(run.set_state(2.0, nowhere).is_err());
+        assert_eq!((bits(run.q()), run.time()), (before, time));
+        let at = PlanarState { x: 0.3, y: 0.4, dot_x: -1.0, dot_y: 0.2 };
+        run.set_state(2.0, at)?;
+        let mut other = begin(2.0, at)?;
+        for _ in 0..5 {
+            run.advance()?;
+            other.advance()?;
+            assert_eq!((bits(run.q()), run.time().to_bits()), (bits(other.q()), other.time().to_bits()));
+        }
+        assert_eq!(run.steps(), other.steps() + 7);
+        Ok(())
+    }
+    let verlet = Variational::trapezoid();
+    let fixed = |t, at| Ok(Integrator::new_at(&Planar, verlet, t, 0.1, at)?);
+    check(fixed(0.0, PLANAR)?, fixed)?;
+    let (gauss, control) = (Gauss::<4>::new(), ErrorControl::new(1e-9, 0.1));
+    let controlled = |t, at| Ok(ControlledIntegrator::new_at(&Planar, gauss, control, t, at)?);
+    check(controlled(0.0, PLANAR)?, controlled)
+}
+
+/// A particle between walls: the velocity jumps within a step, where the impact is.
+#[test]
+fn an_event_may_be_an_impact() -> Outcome {
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [x, 1.0 - x])]
+    #[derive(Debug)]
+    struct Walled;
+    let start: WalledState = WalledState { x: 0.3, dot_x: 1.0 };
+    let mut run = Integrator::new(&Walled, Impacts::new(Variational::trapezoid()), 0.4, start)?;
+    let turns = run.events([Direction::Either], |_, state| [state.dot_x])?;
+    for (k, turn) in turns.take(5).enumerate() {
+        let time = turn?.time;
+        assert!(abs_diff_eq!(time, 0.7 + k as f64, epsilon = 1e-12), "{time}");
+    }
+    Ok(())
+}
