@@ -36,9 +36,9 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> PartialStep<S, M, T> {
     /// [`StartError`] if no run of the method can begin where this one is.
     pub(crate) fn new<R: Run<System = S, Method = M, Scalar = T>>(run: &R) -> Result<Self, StartError> {
         let (stepper, t, h) = (run.stepper(), run.time(), run.step_size());
-        let (system, q) = (stepper.system, &stepper.q);
+        let (system, q) = (run.system(), &stepper.q);
         let mut v = system.space().vector();
-        stepper.velocity(t, &mut v).map_err(StartError::Starter)?;
+        stepper.velocity(system, t, &mut v).map_err(StartError::Starter)?;
         let point = || {
             let mut memory = stepper.method.begin_again(system, q, &v[..velocities(system)], t, h)?;
             memory.restore(&stepper.memory);
