@@ -153,7 +153,7 @@ pub use scalar::{Parameter, Real, Scalar, Varied};
 pub use space::RunTime;
 pub use space::{Fixed, Sink, Space};
 pub use system::{
-    AffineOneForm, ConstrainedSystem, DegenerateLagrangian, DegeneratePairSum, HolonomicLagrangian,
+    AffineOneForm, ConstrainedSystem, DegenerateLagrangian, DegeneratePairSum, Held, HolonomicLagrangian,
     Lagrangian, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, NonholonomicLagrangian,
     PairSum, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Separable,
     State, System, TimeTransformed, UnilateralLagrangian, Vector, Weights,

@@ -17,7 +17,7 @@ use crate::mechanics::motion::Rates;
 use crate::methods::{Carries, Clock, Method};
 use crate::state::Statistics;
 use crate::system::start::extended;
-use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed};
+use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed, Vector};
 
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
@@ -36,16 +36,37 @@ pub use together::Together;
 /// A run of a method on a system: what [`Integrator`], with a fixed step, and
 /// [`ControlledIntegrator`], with steps of a control, can both do. States at given times,
 /// [events](Events) and exponents are those of either.
+///
+/// `dyn Run<System = S, Scalar = f64>` is a run of any method:
+/// [a method that is chosen at run time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time)
+/// is one line.
 pub trait Run {
     /// The system that is stepped.
     type System: Lagrangian<Self::Scalar>;
     /// The method that takes the steps.
-    type Method: Method<Self::System, Self::Scalar>;
+    type Method: Method<Self::System, Self::Scalar>
+    where
+        Self: Sized;
     /// The numbers that it is done with.
     type Scalar: Real;
 
-    /// The system, the method and the point that they have reached.
-    fn stepper(&self) -> &Stepper<'_, Self::System, Self::Method, Self::Scalar>;
+    /// The system.
+    fn system(&self) -> &Self::System;
+
+    /// The method and the point that it has reached.
+    fn stepper(&self) -> &Stepper<Self::System, Self::Method, Self::Scalar>
+    where
+        Self: Sized;
+
+    /// The current coordinates, flat, in the order of declaration.
+    fn q(&self) -> &[Self::Scalar];
+
+    /// The current velocities, flat, in the order of declaration: not a number where the mass matrix is
+    /// singular and the momenta have no velocity, and zero for a degenerate system, whose states have none.
+    fn v(&self) -> Vector<Self::System, Self::Scalar>;
+
+    /// What the run has cost so far.
+    fn statistics(&self) -> Statistics;
 
     /// Takes `count` steps, as so many calls of [`advance`](Self::advance) would, bit by bit.
     ///
@@ -146,14 +167,12 @@ pub trait Run {
     /// The current state. The velocities of a regular system are not a number where the mass matrix is
     /// singular and the momenta have no velocity; an iterator yields an error there.
     fn state(&self) -> <Self::System as System>::State<Self::Scalar> {
-        let Stepper { system, q, .. } = self.stepper();
-        self.stepper().with_velocity(self.time(), |v| State::read(|block| system.block_len(block), q, v))
+        State::read(|block| self.system().block_len(block), self.q(), &self.v())
     }
 
     /// The energy v·∂L/∂v − L at the current state; H for a degenerate system.
     fn energy(&self) -> Self::Scalar {
-        let Stepper { system, q, .. } = self.stepper();
-        self.stepper().with_velocity(self.time(), |v| system.energy(q, v, self.time()))
+        self.system().energy(self.q(), &self.v(), self.time())
     }
 
     /// The power F·q' of the [forces](Lagrangian::applied_force) at the current state; zero if there are
@@ -161,9 +180,10 @@ pub trait Run {
     /// integral.
     fn power(&self) -> Self::Scalar
     where
+        Self: Sized,
         <Self::System as System>::Kind: Rates<Self::System, Self::Scalar>,
     {
-        let Stepper { system, q, .. } = self.stepper();
+        let (system, q) = (self.system(), &self.stepper().q);
         let (t, zero) = (self.time(), Self::Scalar::lift(0.0));
         if !Self::System::FORCED {
             return zero;
@@ -174,7 +194,8 @@ pub trait Run {
             force.iter().zip(velocity).fold(zero, |sum, (&force, &v)| sum + force * v)
         };
         if Self::System::REGULAR {
-            return self.stepper().with_velocity(t, |v| power(v, v));
+            let v = self.v();
+            return power(&v, &v);
         }
         match <Self::System as System>::Kind::rates(system, q, &[], t) {
             Ok([velocity, _]) => power(&[], &velocity),
@@ -185,12 +206,6 @@ pub trait Run {
     /// The run as data, from which another one can go on as if this had not stopped.
     #[cfg(feature = "alloc")]
     fn checkpoint(&self) -> Checkpoint<Self::Scalar>;
-
-    /// The current coordinates, flat, in the order of declaration.
-    #[inline]
-    fn q(&self) -> &[Self::Scalar] {
-        &self.stepper().q
-    }
 
     /// The physical time t of a system whose time is transformed; [`time`](Self::time) is τ.
     fn physical_time(&self) -> Self::Scalar
@@ -204,44 +219,39 @@ pub trait Run {
     /// The number of completed steps.
     #[inline]
     fn steps(&self) -> u64 {
-        self.stepper().statistics.steps
-    }
-
-    /// The system.
-    #[inline]
-    fn system(&self) -> &Self::System {
-        self.stepper().system
+        self.statistics().steps
     }
 
     /// The method.
     #[inline]
-    fn method(&self) -> &Self::Method {
+    fn method(&self) -> &Self::Method
+    where
+        Self: Sized,
+    {
         &self.stepper().method
     }
 
     /// What the method carries from step to step.
     #[inline]
-    fn memory(&self) -> &<Self::Method as Carries<Self::System, Self::Scalar>>::Memory {
+    fn memory(&self) -> &<Self::Method as Carries<Self::System, Self::Scalar>>::Memory
+    where
+        Self: Sized,
+    {
         &self.stepper().memory
-    }
-
-    /// What the run has cost so far.
-    #[inline]
-    fn statistics(&self) -> Statistics {
-        self.stepper().statistics
     }
 
     /// The value of declared momentum `index`, in the order of
     /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
     fn momentum(&self, index: usize) -> Option<Self::Scalar> {
-        let Stepper { system, q, .. } = self.stepper();
-        let value = |v: &[Self::Scalar]| system.momentum(index, q, v, self.time());
         (index < Self::System::REPORT.momenta.len())
-            .then(|| self.stepper().with_velocity(self.time(), value))
+            .then(|| self.system().momentum(index, self.q(), &self.v(), self.time()))
     }
 
     /// The names and values of all declared momenta.
-    fn momenta(&self) -> impl Iterator<Item = (&'static str, Self::Scalar)> + '_ {
+    fn momenta(&self) -> impl Iterator<Item = (&'static str, Self::Scalar)> + '_
+    where
+        Self: Sized,
+    {
         let names = Self::System::REPORT.momenta.iter().enumerate();
         names.filter_map(|(index, &name)| self.momentum(index).map(|value| (name, value)))
     }
@@ -252,8 +262,29 @@ impl<R: Run> Run for &mut R {
     type Method = R::Method;
     type Scalar = R::Scalar;
 
-    fn stepper(&self) -> &Stepper<'_, R::System, R::Method, R::Scalar> {
+    #[inline]
+    fn system(&self) -> &R::System {
+        (**self).system()
+    }
+
+    #[inline]
+    fn stepper(&self) -> &Stepper<R::System, R::Method, R::Scalar> {
         (**self).stepper()
+    }
+
+    #[inline]
+    fn q(&self) -> &[R::Scalar] {
+        (**self).q()
+    }
+
+    #[inline]
+    fn v(&self) -> Vector<R::System, R::Scalar> {
+        (**self).v()
+    }
+
+    #[inline]
+    fn statistics(&self) -> Statistics {
+        (**self).statistics()
     }
 
     #[inline]

@@ -14,6 +14,7 @@
 
 mod affine;
 mod constrained;
+mod held;
 mod holonomic;
 pub(crate) mod kind;
 mod manifold;
@@ -38,6 +39,7 @@ pub use crate::name::Name;
 pub use crate::space::Weights;
 pub use affine::AffineOneForm;
 pub use constrained::ConstrainedSystem;
+pub use held::Held;
 pub use holonomic::HolonomicLagrangian;
 pub(crate) use kind::{Degenerate, Holonomic, Kind, Manifold, Nonholonomic, Regular, Unilateral};
 pub use kind::{Smooth, Unconstrained};
@@ -52,6 +54,8 @@ pub use unilateral::UnilateralLagrangian;
 
 /// A point, velocity or covector of the space of `S`.
 pub type Vector<S, T> = <<S as System>::Space as Space>::Vector<T>;
+/// A state of the system that `H` holds.
+pub(crate) type StateOf<H, T> = <<H as Held>::System as System>::State<T>;
 /// A square matrix over the space of `S`.
 pub(crate) type Matrix<S, T> = <<S as System>::Space as Space>::Matrix<T>;
 /// A square matrix over the space of `S` that is solved with.
@@ -87,7 +91,7 @@ pub trait State<T: Scalar>: Sized {
     message = "`{Self}` is not a system",
     label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`"
 )]
-pub trait System {
+pub trait System: Held<System = Self> {
     /// The shape of the configuration space.
     type Space: Space;
     /// The state with named coordinates.

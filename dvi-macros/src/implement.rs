@@ -269,6 +269,21 @@ pub(crate) fn kind(
     }
 }
 
+/// The implementation of `Held`: a run may own the system.
+pub(crate) fn held(krate: &Path, name: &Ident, generics: &Generics) -> TokenStream {
+    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
+    let allow = allow();
+    quote! {
+        #[automatically_derived]
+        #allow
+        impl #impl_generics #krate::Held for #name #type_generics #where_clause {
+            type System = Self;
+            #ForceInline
+            fn held(&self) -> &Self { self }
+        }
+    }
+}
+
 /// The implementation of `System`.
 fn configuration(
     emitter: &Emitter<'_>,
@@ -297,7 +312,9 @@ fn configuration(
         check::check(emitter, programs),
         kind(krate, emitter.model.kind, constrained, emitter.model.is_on_manifold()),
     );
+    let held = held(krate, name, &emitter.model.item.generics);
     quote! {
+        #held
         #[automatically_derived]
         #allow
         impl #impl_generics #krate::System for #name #type_generics #where_clause {

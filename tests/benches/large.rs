@@ -172,7 +172,7 @@ fn beside_gradients<S: Lagrangian, M: Method<S, f64>>(
     criterion: &mut Criterion,
     name: &str,
     n: usize,
-    mut run: Integrator<'_, S, M>,
+    mut run: Integrator<&S, M>,
     mut gradient: impl FnMut(),
 ) -> u64 {
     assert!(run.take_steps(20).is_ok());

@@ -37,6 +37,7 @@ mod newmark;
 mod nonholonomic;
 mod one_step;
 mod orders;
+mod owned;
 mod packs;
 mod pages;
 mod parameters;

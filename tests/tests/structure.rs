@@ -35,11 +35,11 @@ fn sigma_midpoint_with_consistent_start_is_the_implicit_midpoint_rule() -> Outco
 
 /// The largest deviation of each momentum from its first value.
 fn drift<M: Method<PointVortices<4>, f64>>(
-    mut run: Integrator<'_, PointVortices<4>, M>,
+    mut run: Integrator<&PointVortices<4>, M>,
     steps: u64,
 ) -> Result<[f64; 3], StepError> {
     let value =
-        |run: &Integrator<'_, PointVortices<4>, M>| [0, 1, 2].map(|i| run.momentum(i).unwrap_or(f64::NAN));
+        |run: &Integrator<&PointVortices<4>, M>| [0, 1, 2].map(|i| run.momentum(i).unwrap_or(f64::NAN));
     let (first, mut largest) = (value(&run), [0.0_f64; 3]);
     for _ in 0..steps {
         run.advance()?;
@@ -79,7 +79,7 @@ fn discrete_momenta_stay_for_every_sigma() -> Outcome {
     for (system, start) in [quasi_periodic(), leapfrogging()] {
         for sigma in SIGMAS {
             let mut run = Integrator::new(&system, Sigma::new(sigma), 0.02, start)?;
-            let momenta = |run: &Integrator<'_, _, Sigma>| -> Result<[f64; 3], StepFailure> {
+            let momenta = |run: &Integrator<&_, Sigma>| -> Result<[f64; 3], StepFailure> {
                 let mut values = [f64::NAN; 3];
                 for (i, value) in values.iter_mut().enumerate() {
                     *value = run.discrete_momentum(i)?.unwrap_or(f64::NAN);
@@ -153,7 +153,7 @@ fn a_vortex_alone_rests() -> Outcome {
 
 /// Three consecutive points of a run, after some steps.
 fn three_points<S: DegenerateLagrangian>(
-    run: &mut Integrator<'_, S, Sigma>,
+    run: &mut Integrator<&S, Sigma>,
     steps: u64,
 ) -> Result<[Vec<f64>; 3], StepError> {
     while run.steps() < steps {

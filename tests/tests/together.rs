@@ -179,7 +179,7 @@ fn verlet_is_the_same_in_lanes() -> Outcome {
 fn runs_that_are_not_in_step_are_taken_alone() -> Outcome {
     let (one, other) = (Kepler { mu: 1.0 }, Kepler { mu: 2.0 });
     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.9 };
-    type Run<'a> = Integrator<'a, Kepler, Variational<Unfitted, Trapezoid>>;
+    type Run<'a> = Integrator<&'a Kepler, Variational<Unfitted, Trapezoid>>;
     let begin = || -> Outcome<[Run<'_>; 6]> {
         let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };
         let mut ahead = Integrator::new(&one, Variational::trapezoid(), 0.05, start)?;

@@ -41,7 +41,7 @@ pub(super) struct Slot {
 /// A member that runs.
 struct Runner<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
     slot: &'s mut Slot,
-    run: Integrator<'a, S, M>,
+    run: Integrator<&'a S, M>,
     seen: Seen,
     growth: Option<Box<dyn Growth<'a, S, M> + 'a>>,
 }
@@ -146,7 +146,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
         system: &'a S,
         number: u64,
         UnderWay { checkpoint, growth: saved, .. }: &UnderWay,
-    ) -> Result<(Integrator<'a, S, M>, Option<Box<dyn Growth<'a, S, M> + 'a>>), StartError> {
+    ) -> Result<(Integrator<&'a S, M>, Option<Box<dyn Growth<'a, S, M> + 'a>>), StartError> {
         let run = Integrator::resume(system, self.method(number), checkpoint)?;
         let mut growth = self.growth.map(|new| new(&run));
         match (&mut growth, saved) {

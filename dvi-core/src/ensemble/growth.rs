@@ -11,7 +11,7 @@ use crate::run::Integrator;
 
 /// A [`LyapunovExponent`]. It hides the discrete Lagrangian of the method.
 pub(super) trait Growth<'a, S: Lagrangian, M: Method<S, f64>> {
-    fn take_steps(&mut self, run: &mut Integrator<'a, S, M>, count: u64) -> Result<(), StepError>;
+    fn take_steps(&mut self, run: &mut Integrator<&'a S, M>, count: u64) -> Result<(), StepError>;
     fn exponent(&self) -> Option<f64>;
     fn save(&self) -> Vec<f64>;
     fn load(&mut self, saved: &[f64]) -> Option<()>;
@@ -23,7 +23,7 @@ where
     M: Method<S, f64> + VariationalMethod<S, f64, DiscreteLagrangian = L>,
     L: TwiceDifferentiable<S, f64>,
 {
-    fn take_steps(&mut self, run: &mut Integrator<'a, S, M>, count: u64) -> Result<(), StepError> {
+    fn take_steps(&mut self, run: &mut Integrator<&'a S, M>, count: u64) -> Result<(), StepError> {
         (0..count).try_for_each(|_| self.advance(run))
     }
 

@@ -10,7 +10,7 @@ use crate::run::{Integrator, Together};
 /// Takes steps of several runs. It hides the number of lanes, and what the method must be able to do for
 /// them.
 pub(super) trait Packs<'a, S: Lagrangian, M: Method<S, f64>> {
-    fn take_steps(&mut self, runs: Vec<&mut Integrator<'a, S, M>>, count: u64)
+    fn take_steps(&mut self, runs: Vec<&mut Integrator<&'a S, M>>, count: u64)
     -> Vec<Result<(), StepError>>;
 }
 
@@ -21,7 +21,7 @@ where
 {
     fn take_steps(
         &mut self,
-        runs: Vec<&mut Integrator<'a, S, M>>,
+        runs: Vec<&mut Integrator<&'a S, M>>,
         count: u64,
     ) -> Vec<Result<(), StepError>> {
         Together::take_steps(self, runs, count)

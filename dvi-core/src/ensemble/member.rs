@@ -78,7 +78,7 @@ pub(super) struct Seen {
 
 impl Seen {
     /// What is seen at the start of a run.
-    pub(super) fn first<S: Lagrangian, M: Method<S, f64>>(run: &Integrator<'_, S, M>) -> Self {
+    pub(super) fn first<S: Lagrangian, M: Method<S, f64>>(run: &Integrator<&S, M>) -> Self {
         let energy = plain(run.energy());
         Self {
             energy: Energy { first: energy, last: energy, largest_error: 0.0 },
@@ -92,7 +92,7 @@ impl Seen {
     pub(super) fn look<S: Lagrangian, M: Method<S, f64>>(
         &mut self,
         settings: &Settings<'_, S, M>,
-        run: &Integrator<'_, S, M>,
+        run: &Integrator<&S, M>,
     ) -> Option<&'static str> {
         self.energy = self.energy.with(run.energy());
         if settings.exit.is_none() && settings.section.is_none() {
@@ -112,7 +112,7 @@ impl Seen {
     pub(super) fn member<S: Lagrangian, M: Method<S, f64>>(
         self,
         number: u64,
-        run: &Integrator<'_, S, M>,
+        run: &Integrator<&S, M>,
         exponent: Option<f64>,
         outcome: Outcome,
     ) -> Member {

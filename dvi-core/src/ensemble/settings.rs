@@ -18,9 +18,9 @@ pub(super) type Crossed<'a, S, Q> = (Direction, Box<dyn Fn(&S, &Q) -> f64 + Send
 /// What is special to the method of one member.
 pub(super) type Vary<'a, M> = Box<dyn Fn(u64, &mut M) + Send + Sync + 'a>;
 /// Room for runs that are taken together.
-pub(super) type NewPacks<'a, S, M> = fn(&Integrator<'a, S, M>) -> Box<dyn Packs<'a, S, M> + 'a>;
+pub(super) type NewPacks<'a, S, M> = fn(&Integrator<&'a S, M>) -> Box<dyn Packs<'a, S, M> + 'a>;
 /// The growth of a perturbation from the current state of a run on.
-pub(super) type NewGrowth<'a, S, M> = fn(&Integrator<'a, S, M>) -> Box<dyn Growth<'a, S, M> + 'a>;
+pub(super) type NewGrowth<'a, S, M> = fn(&Integrator<&'a S, M>) -> Box<dyn Growth<'a, S, M> + 'a>;
 
 /// One system for all members, or one for each.
 pub(super) enum Systems<'a, S> {

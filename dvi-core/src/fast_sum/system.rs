@@ -7,10 +7,18 @@ use super::packs::Pack;
 use crate::error::{IndexError, OutsideError};
 use crate::system::TimeTransform;
 use crate::{
-    AffineOneForm, DegenerateLagrangian, DegeneratePairSum, Lagrangian, NondegenerateLagrangian, PairSum,
-    ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Scalar, Separable,
-    Sink, System, Weights,
+    AffineOneForm, DegenerateLagrangian, DegeneratePairSum, Held, Lagrangian, NondegenerateLagrangian,
+    PairSum, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Scalar,
+    Separable, Sink, System, Weights,
 };
+
+#[diagnostic::do_not_recommend]
+impl<S: System, const D: usize> Held for FastSum<'_, S, D> {
+    type System = Self;
+    fn held(&self) -> &Self {
+        self
+    }
+}
 
 #[diagnostic::do_not_recommend]
 impl<S: System, const D: usize> System for FastSum<'_, S, D> {

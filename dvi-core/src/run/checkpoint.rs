@@ -107,15 +107,16 @@ const BEYOND: u64 = u64::MAX / 2;
 impl<T: Real> Checkpoint<T> {
     /// Of a run whose clock and control are saved by `save`.
     pub(crate) fn of<S: Lagrangian<T>, M: Method<S, T>>(
-        stepper: &Stepper<'_, S, M, T>,
+        system: &S,
+        stepper: &Stepper<S, M, T>,
         [time, step_size]: [T; 2],
         save: impl FnOnce(&mut Record<T>),
     ) -> Self {
         let mut record = Record::new();
         stepper.memory.save(&mut record);
         save(&mut record);
-        let v = stepper
-            .with_velocity(time, |v| if v.iter().all(|v| v.is_finite()) { v.to_vec() } else { Vec::new() });
+        let v = stepper.known_velocity(system, time)[..velocities(system)].to_vec();
+        let v = if v.iter().all(|v| v.is_finite()) { v } else { Vec::new() };
         let (q, statistics) = (stepper.q.to_vec(), stepper.statistics);
         Self(Sealed { q, v, time, step_size, statistics, record, checksum: 0 }.with_checksum())
     }

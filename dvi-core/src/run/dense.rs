@@ -9,7 +9,7 @@ use core::ops::Deref;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::Memory;
 use crate::methods::{Carries, Method};
-use crate::run::{Run, Stepper};
+use crate::run::Run;
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::velocities;
@@ -72,9 +72,9 @@ impl<R: Run> Dense<R> {
     /// [`StartError`] if no run of the method can begin where this one is.
     pub fn new(run: R) -> Result<Self, StartError> {
         let (stepper, t, h) = (run.stepper(), run.time(), run.step_size());
-        let (system, q) = (stepper.system, &stepper.q);
+        let (system, q) = (run.system(), &stepper.q);
         let mut v = system.space().vector();
-        stepper.velocity(t, &mut v).map_err(StartError::Starter)?;
+        stepper.velocity(system, t, &mut v).map_err(StartError::Starter)?;
         let point = || {
             let mut memory = stepper.method.begin_again(system, q, &v[..velocities(system)], t, h)?;
             memory.restore(&stepper.memory);
@@ -242,9 +242,9 @@ impl<R: Run> Dense<R> {
     /// # Errors
     /// As [`Method::velocity`].
     pub(super) fn state_at_end(&mut self) -> Result<StateOf<R>, StepFailure> {
-        let Stepper { system, q, .. } = self.run.stepper();
-        self.run.stepper().velocity(self.run.time(), &mut self.v)?;
-        Ok(State::read(|block| system.block_len(block), q, &self.v))
+        let (system, stepper) = (self.run.system(), self.run.stepper());
+        stepper.velocity(system, self.run.time(), &mut self.v)?;
+        Ok(State::read(|block| system.block_len(block), &stepper.q, &self.v))
     }
 
     /// The same, into a state that there is, without allocation.
@@ -252,9 +252,9 @@ impl<R: Run> Dense<R> {
     /// # Errors
     /// As [`Method::velocity`].
     pub(super) fn refill_at_end(&mut self, state: &mut StateOf<R>) -> Result<(), StepFailure> {
-        let Stepper { system, q, .. } = self.run.stepper();
-        self.run.stepper().velocity(self.run.time(), &mut self.v)?;
-        state.refill(|block| system.block_len(block), q, &self.v);
+        let (system, stepper) = (self.run.system(), self.run.stepper());
+        stepper.velocity(system, self.run.time(), &mut self.v)?;
+        state.refill(|block| system.block_len(block), &stepper.q, &self.v);
         Ok(())
     }
 

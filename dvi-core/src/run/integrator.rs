@@ -12,8 +12,10 @@ use crate::run::Checkpoint;
 use crate::run::kept::Kept;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
+use crate::state::Statistics;
+use crate::system::StateOf;
 use crate::system::start::{consistent, evaluate, flatten, named, validate_step, velocities};
-use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
+use crate::{DegenerateLagrangian, Held, Lagrangian, Real, Space, System, Vector};
 
 /// A run of a method on a system with a fixed step.
 ///
@@ -21,15 +23,16 @@ use crate::{DegenerateLagrangian, Lagrangian, Real, Space, System, Vector};
 /// it yields `None`, and [`state`](Run::state) is the last good one: no step ends outside of the domain of
 /// L, whatever its equations need of that place ([`StepFailure::LeftDomain`]). [`advance`](Run::advance)
 /// takes a step without building a state. What can be asked of a run are the methods of the trait [`Run`].
-pub struct Integrator<'a, S: System, M: Carries<S, T>, T: Real = f64> {
-    pub(super) stepper: Stepper<'a, S, M, T>,
+pub struct Integrator<H: Held, M: Carries<H::System, T>, T: Real = f64> {
+    pub(super) system: H,
+    pub(super) stepper: Stepper<H::System, M, T>,
     /// At the start of the run.
     clock: Clock<T>,
     /// If steps are looked at: where those at hand have begun.
-    kept: Option<Aside<Kept<S, M, T>>>,
+    kept: Option<Aside<Kept<H::System, M, T>>>,
 }
 
-impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
+impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Integrator<H, M, T> {
     /// A run from `start` at time 0 with step `h`, which may be negative.
     ///
     /// # Errors
@@ -37,7 +40,7 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// `h` is zero or not finite, a coordinate is not finite, an option of the method is out of range,
     /// the energy or a first derivative of L is not finite at the start ([`StartError::Undefined`]), or the
     /// starting values cannot be computed.
-    pub fn new(system: &'a S, method: M, h: T, start: S::State<T>) -> Result<Self, StartError> {
+    pub fn new(system: H, method: M, h: T, start: StateOf<H, T>) -> Result<Self, StartError> {
         Self::new_at(system, method, T::lift(0.0), h, start)
     }
 
@@ -45,14 +48,15 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     ///
     /// # Errors
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
-    pub fn new_at(system: &'a S, method: M, t: T, h: T, start: S::State<T>) -> Result<Self, StartError> {
-        let [q, v] = checked(system, t, h, &start)?;
+    pub fn new_at(system: H, method: M, t: T, h: T, start: StateOf<H, T>) -> Result<Self, StartError> {
+        let held = system.held();
+        let [q, v] = checked(held, t, h, &start)?;
         let begin = || {
-            let begun = method.begin(system, &q, &v[..velocities(system)], t, h);
-            begun.map_err(|error| named(system, [&q, &v], t, error))
+            let begun = method.begin(held, &q, &v[..velocities(held)], t, h);
+            begun.map_err(|error| named(held, [&q, &v], t, error))
         };
         let (memory, kept) = (begin()?, Kept::if_looked_at(&q, begin)?);
-        Ok(Self { stepper: Stepper::new(system, method, memory, q), clock: Clock::new(t, h), kept })
+        Ok(Self { system, stepper: Stepper::new(method, memory, q), clock: Clock::new(t, h), kept })
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
@@ -62,54 +66,76 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'a, S, M, T> {
     /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than this method
     /// carries on this system, or numbers that no run has.
     #[cfg(feature = "alloc")]
-    pub fn resume(system: &'a S, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
+    pub fn resume(system: H, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
         let (t, h) = (checkpoint.time(), checkpoint.step_size());
-        crate::system::start::validate(system, t)?;
+        let held = system.held();
+        crate::system::start::validate(held, t)?;
         validate_step(t, h)?;
-        let [q, v] = checkpoint.point(system)?;
+        let [q, v] = checkpoint.point(held)?;
         let begin = || {
-            let begun = method.begin_again(system, &q, &v[..velocities(system)], t, h);
-            begun.map_err(|error| named(system, [&q, &v], t, error))
+            let begun = method.begin_again(held, &q, &v[..velocities(held)], t, h);
+            begun.map_err(|error| named(held, [&q, &v], t, error))
         };
         let (mut memory, kept) = (begin()?, Kept::if_looked_at(&q, begin)?);
         let mut clock = Clock::new(t, h);
-        checkpoint.load::<S, M>(&mut memory, |reader| {
+        checkpoint.load::<H::System, M>(&mut memory, |reader| {
             clock = Clock::load(checkpoint, reader)?;
             Ok(())
         })?;
-        let mut run = Self { stepper: Stepper::new(system, method, memory, q), clock, kept };
+        let mut run = Self { system, stepper: Stepper::new(method, memory, q), clock, kept };
         run.stepper.statistics = checkpoint.statistics();
         Ok(run)
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T> {
-    type System = S;
+impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Run for Integrator<H, M, T> {
+    type System = H::System;
     type Method = M;
     type Scalar = T;
 
-    fn stepper(&self) -> &Stepper<'_, S, M, T> {
+    #[inline]
+    fn system(&self) -> &H::System {
+        self.system.held()
+    }
+
+    #[inline]
+    fn stepper(&self) -> &Stepper<H::System, M, T> {
         &self.stepper
+    }
+
+    #[inline]
+    fn q(&self) -> &[T] {
+        &self.stepper.q
+    }
+
+    fn v(&self) -> Vector<H::System, T> {
+        self.stepper.known_velocity(self.system(), self.time())
+    }
+
+    #[inline]
+    fn statistics(&self) -> Statistics {
+        self.stepper.statistics
     }
 
     /// Takes `count` steps, as so many calls of [`advance`](Run::advance) would. It is faster than
     /// these where a method can keep its state in registers.
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-        let clock = self.clock.after(self.stepper.statistics.steps);
+        let (system, clock) = (self.system.held(), self.clock.after(self.stepper.statistics.steps));
         // One of the two is not compiled.
-        let taken = if S::TIME_TRANSFORMED || S::HAS_DOMAIN {
-            let kept = self.kept.as_mut().map(|kept| -> &mut Kept<S, M, T> { kept });
-            self.stepper.steps_looked_at(clock, count, kept)
+        let taken = if Self::System::TIME_TRANSFORMED || Self::System::HAS_DOMAIN {
+            let kept = self.kept.as_mut().map(|kept| -> &mut Kept<H::System, M, T> { kept });
+            self.stepper.steps_looked_at(system, clock, count, kept)
         } else {
-            self.stepper.steps(clock, count)
+            self.stepper.steps(system, clock, count)
         };
         taken.map_err(|failure| self.error(failure))
     }
 
     #[cfg(feature = "alloc")]
     fn checkpoint(&self) -> Checkpoint<T> {
-        Checkpoint::of(&self.stepper, [self.time(), self.step_size()], |record| self.clock.save(record))
+        let at = [self.time(), self.step_size()];
+        Checkpoint::of(self.system(), &self.stepper, at, |record| self.clock.save(record))
     }
 
     /// t₀ + steps · h, which does not accumulate rounding errors.
@@ -128,18 +154,19 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Run for Integrator<'_, S, M, T>
         Some(self.present())
     }
 
-    fn set_state(&mut self, t: T, state: S::State<T>) -> Result<(), StartError> {
-        let (Stepper { system, method, memory, .. }, h) = (&self.stepper, self.step_size());
-        let [q, v] = checked(*system, t, h, &state)?;
-        let begun = method.begin_anew(memory, system, &q, &v[..velocities(*system)], t, h);
-        let memory = begun.map_err(|error| named(*system, [&q, &v], t, error))?;
+    fn set_state(&mut self, t: T, state: StateOf<H, T>) -> Result<(), StartError> {
+        let (system, h) = (self.system.held(), self.step_size());
+        let Stepper { method, memory, statistics, .. } = &self.stepper;
+        let [q, v] = checked(system, t, h, &state)?;
+        let begun = method.begin_anew(memory, system, &q, &v[..velocities(system)], t, h);
+        let memory = begun.map_err(|error| named(system, [&q, &v], t, error))?;
+        self.clock = Clock::new(t, h).after(statistics.steps.wrapping_neg());
         self.stepper.move_to(memory, q);
-        self.clock = Clock::new(t, h).after(self.stepper.statistics.steps.wrapping_neg());
         Ok(())
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<H, M, T> {
     /// The clock at the present time.
     pub(super) fn present(&self) -> Clock<T> {
         self.clock.after(self.stepper.statistics.steps)
@@ -153,39 +180,40 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<'_, S, M, T> {
 
     #[cold]
     fn error(&mut self, failure: StepFailure) -> StepError {
-        self.stepper.error(self.time(), self.step_size(), failure)
+        let (time, h) = (self.time(), self.step_size());
+        self.stepper.error(self.system.held(), time, h, failure)
     }
 }
 
-impl<'a, S: DegenerateLagrangian<T>, T: Real> Integrator<'a, S, Sigma<T>, T> {
+impl<H: Held<System = S>, S: DegenerateLagrangian<T>, T: Real> Integrator<H, Sigma<T>, T> {
     /// A run of the two-step method that starts at `first`, time 0, and whose first step leads to `second`.
     ///
     /// # Errors
     /// As [`new`](Self::new).
     pub fn from_two_points(
-        system: &'a S,
+        system: H,
         method: Sigma<T>,
         h: T,
         first: S::State<T>,
         second: S::State<T>,
     ) -> Result<Self, StartError> {
-        let t = T::lift(0.0);
-        validate(system, t, h)?;
-        let ([q0, _], [q1, _]) = (flatten(system, &first)?, flatten(system, &second)?);
-        let rest = system.space().vector();
-        evaluate(system, &q0, &rest, t)?;
-        consistent(system, &q0, t)?;
-        evaluate(system, &q1, &rest, t + h)?;
+        let (held, t) = (system.held(), T::lift(0.0));
+        validate(held, t, h)?;
+        let ([q0, _], [q1, _]) = (flatten(held, &first)?, flatten(held, &second)?);
+        let rest = held.space().vector();
+        evaluate(held, &q0, &rest, t)?;
+        consistent(held, &q0, t)?;
+        evaluate(held, &q1, &rest, t + h)?;
         let begin = || {
-            let begun = method.begin_between(system, &q0, &q1, t, h);
-            begun.map_err(|error| named(system, [&q0, &rest], t, error))
+            let begun = method.begin_between(held, &q0, &q1, t, h);
+            begun.map_err(|error| named(held, [&q0, &rest], t, error))
         };
         let (memory, kept) = (begin()?, Kept::if_looked_at(&q0, begin)?);
-        Ok(Self { stepper: Stepper::new(system, method, memory, q0), clock: Clock::new(t, h), kept })
+        Ok(Self { system, stepper: Stepper::new(method, memory, q0), clock: Clock::new(t, h), kept })
     }
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> Integrator<'_, S, Sigma<T>, T> {
+impl<H: Held<System = S>, S: DegenerateLagrangian<T>, T: Real> Integrator<H, Sigma<T>, T> {
     /// The discrete momentum J_d = J(q) + c·ξ(q), ξ = B⁻¹∇J, of declared momentum `index`.
     ///
     /// By the discrete Noether theorem D₂L_d·ξ − f is conserved, where f is defined by
@@ -197,9 +225,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> Integrator<'_, S, Sigma<T>, T> {
     /// momentum.
     pub fn discrete_momentum(&self, index: usize) -> Result<Option<T>, StepFailure> {
         let Some(momentum) = self.momentum(index) else { return Ok(None) };
-        let mut field = VectorField::new(self.stepper.system, &self.stepper.q, self.time())?;
-        let mut xi = self.stepper.system.space().vector();
-        field.generator(self.stepper.system, index, &self.stepper.q, self.time(), &mut xi)?;
+        let (system, q, t) = (self.system(), &self.stepper.q, self.time());
+        let mut field = VectorField::new(system, q, t)?;
+        let mut xi = system.space().vector();
+        field.generator(system, index, q, t, &mut xi)?;
         let along = self.stepper.memory.defect().iter().zip(xi.iter());
         Ok(Some(along.fold(momentum, |sum, (&c, &xi)| sum + c * xi)))
     }
@@ -217,7 +246,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Integrator<'_, S, Sigma<T>, T> {
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, M, T> {
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> Iterator for Integrator<H, M, T> {
     type Item = Result<S::State<T>, StepError>;
 
     #[inline]
@@ -232,13 +261,21 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Iterator for Integrator<'_, S, 
         if self.stepper.failed {
             return None;
         }
-        Some(self.take_steps(n as u64 + 1).and_then(|()| self.stepper.try_state(self.time())))
+        Some(self.take_steps(n as u64 + 1).and_then(|()| {
+            let time = self.time();
+            self.stepper.try_state(self.system.held(), time)
+        }))
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> core::iter::FusedIterator for Integrator<'_, S, M, T> {}
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> core::iter::FusedIterator
+    for Integrator<H, M, T>
+{
+}
 
-impl<S: Lagrangian<T>, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for Integrator<'_, S, M, T> {
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug
+    for Integrator<H, M, T>
+{
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator")
             .field("system", &S::REPORT.system)

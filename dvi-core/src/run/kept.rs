@@ -28,7 +28,18 @@ pub(super) struct Kept<S: System, M: Carries<S, T>, T: Real> {
 const BLOCK: u64 = 64;
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
-    /// For a run from `q` whose memory `begin` makes, if the steps of its system are looked at.
+    /// For a run from `q` whose memory `begin` makes.
+    ///
+    /// # Errors
+    /// Those of `begin`.
+    pub(super) fn new(
+        q: &Vector<S, T>,
+        begin: impl FnOnce() -> Result<M::Memory, StartError>,
+    ) -> Result<Self, StartError> {
+        Ok(Self { q: q.clone(), memory: begin()? })
+    }
+
+    /// The same, if the steps of its system are looked at.
     ///
     /// # Errors
     /// Those of `begin`.
@@ -40,14 +51,15 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
         if !(S::TIME_TRANSFORMED || S::HAS_DOMAIN) {
             return Ok(None);
         }
-        Ok(Some(Self { q: q.clone(), memory: begin()? }.into()))
+        Ok(Some(Self::new(q, begin)?.into()))
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Takes `count` steps from the present time of `clock`, or as many as succeed and lead where they may.
     pub(super) fn steps_looked_at(
         &mut self,
+        system: &S,
         clock: Clock<T>,
         count: u64,
         mut kept: Option<&mut Kept<S, M, T>>,
@@ -63,12 +75,12 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
             let last = end.min(begun + block);
             while taken < last {
                 // At one place, where it is put in line.
-                let Self { system, method, memory, q, statistics, .. } = self;
+                let Self { method, memory, q, statistics, .. } = self;
                 let time = clock.after(taken).time();
                 method.step(system, memory, q, time, clock.step_size(), statistics)?;
                 statistics.steps += 1;
                 taken += 1;
-                if let Err(failure) = self.look(clock.after(taken), kept.as_deref()) {
+                if let Err(failure) = self.look(system, clock.after(taken), kept.as_deref()) {
                     let Some(kept) = &kept else { return Err(failure) };
                     // Up to there steps have succeeded, and are taken once more.
                     self.return_to(kept);
@@ -96,13 +108,18 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
     /// # Errors
     /// [`StepFailure::TimeRate`] and [`StepFailure::LeftDomain`].
     #[inline]
-    pub(super) fn look(&self, clock: Clock<T>, kept: Option<&Kept<S, M, T>>) -> Result<(), StepFailure> {
+    pub(super) fn look(
+        &self,
+        system: &S,
+        clock: Clock<T>,
+        kept: Option<&Kept<S, M, T>>,
+    ) -> Result<(), StepFailure> {
         if S::TIME_TRANSFORMED
             && let Some(kept) = kept
         {
-            let [time, _] = extended(self.system);
+            let [time, _] = extended(system);
             let mean = (self.q[time] - kept.q[time]) / clock.step_size();
-            let rate = self.system.time_transform(&self.q).map_or(mean, |transform| transform.rate);
+            let rate = system.time_transform(&self.q).map_or(mean, |transform| transform.rate);
             // What is not a number is not positive.
             let leads_forward = mean > T::lift(0.0) && rate > T::lift(0.0);
             if !leads_forward {
@@ -110,7 +127,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
                 return Err(StepFailure::TimeRate { rate: reported(least) });
             }
         }
-        if S::HAS_DOMAIN && !self.system.domain(&self.q, clock.time()).is_finite() {
+        if S::HAS_DOMAIN && !system.domain(&self.q, clock.time()).is_finite() {
             return Err(StepFailure::LeftDomain);
         }
         Ok(())

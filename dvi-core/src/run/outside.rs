@@ -18,9 +18,9 @@ const PARTS: [f64; 8] = [0.0, 0.125, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0];
 /// Of the step, over which ∂α/∂t is a difference quotient.
 const SHORT: f64 = 1.0 / 1024.0;
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Why the step from time `t` to `t + h` has failed.
-    pub(super) fn explained(&self, failure: StepFailure, t: T, h: T) -> StepFailure {
+    pub(super) fn explained(&self, system: &S, failure: StepFailure, t: T, h: T) -> StepFailure {
         let failure = match failure {
             // A matrix with entries that are no numbers is not singular: a formula has left its domain.
             StepFailure::Singular { column, pivot } if pivot.is_nan() && column < self.q.len() => {
@@ -61,14 +61,14 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
         if !S::HAS_SCALAR_FIELDS || !is_suspect {
             return failure;
         }
-        self.outside(t, h).map_or(failure, StepFailure::Outside)
+        self.outside(system, t, h).map_or(failure, StepFailure::Outside)
     }
 
     /// The first function that is not known on the way of a step from time `t` to `t + h`.
-    fn outside(&self, t: T, h: T) -> Option<OutsideError> {
+    fn outside(&self, system: &S, t: T, h: T) -> Option<OutsideError> {
         let is_flat = S::REPORT.coordinates.iter().all(|block| block.factor == Factor::Line);
         let parts = if is_flat { &PARTS[..] } else { &PARTS[..1] };
-        let motion = self.motion(t, h);
+        let motion = self.motion(system, t, h);
         parts.iter().find_map(|&part| {
             let elapsed = T::lift(part) * h;
             let (mut q, mut v) = (self.q.clone(), motion.velocity.clone());
@@ -79,50 +79,50 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'_, S, M, T> {
                     v[i] += elapsed * motion.acceleration[i];
                 }
             }
-            self.system.outside(&q, &v, t + elapsed).filter(|outside| outside.value.is_finite())
+            system.outside(&q, &v, t + elapsed).filter(|outside| outside.value.is_finite())
         })
     }
 
     /// The motion from the current point; zero where it is not determined.
-    fn motion(&self, t: T, h: T) -> Motion<Vector<S, T>> {
-        let space = self.system.space();
+    fn motion(&self, system: &S, t: T, h: T) -> Motion<Vector<S, T>> {
+        let space = system.space();
         let mut motion = Motion { velocity: space.vector(), acceleration: space.vector() };
         let [zero, one] = [0.0, 1.0].map(T::lift);
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
         let (rest, mut matrix) = (space.vector(), space.matrix());
         if S::REGULAR {
-            if self.velocity(t, &mut motion.velocity).is_err() {
+            if self.velocity(system, t, &mut motion.velocity).is_err() {
                 motion.velocity.fill(zero);
             }
             // M a = ∂L/∂q, but for what velocities add.
-            let (force, _) = self.linearized([&self.q, &rest], t, Weights::mass(), &mut matrix);
+            let (force, _) = linearized(system, [&self.q, &rest], t, Weights::mass(), &mut matrix);
             motion.acceleration = solved(matrix, force);
             return motion;
         }
         // ∂²L/∂qⁱ∂vʲ is ∂ᵢαⱼ, ∂L/∂q at rest is −∇H, and ∂L/∂v is α.
         let weights = Weights { qv: one, vq: -one, ..none };
         let short = T::lift(SHORT) * h;
-        let (_, later) = self.linearized([&self.q, &rest], t + short, none, &mut space.matrix());
-        let (mut source, now) = self.linearized([&self.q, &rest], t, weights, &mut matrix);
+        let (_, later) = linearized(system, [&self.q, &rest], t + short, none, &mut space.matrix());
+        let (mut source, now) = linearized(system, [&self.q, &rest], t, weights, &mut matrix);
         for i in 0..source.len() {
             source[i] = (later[i] - now[i]) / short - source[i];
         }
         motion.velocity = solved(matrix, source);
         motion
     }
+}
 
-    /// ∂L/∂q and ∂L/∂v, with the weighted second derivatives added to `matrix`.
-    fn linearized(
-        &self,
-        [q, v]: [&Vector<S, T>; 2],
-        t: T,
-        weights: Weights<T>,
-        matrix: &mut Matrix<S, T>,
-    ) -> (Vector<S, T>, Vector<S, T>) {
-        let (mut l_q, mut l_v) = (self.system.space().vector(), self.system.space().vector());
-        self.system.linearize(q, v, t, weights, &mut l_q, &mut l_v, matrix);
-        (l_q, l_v)
-    }
+/// ∂L/∂q and ∂L/∂v, with the weighted second derivatives added to `matrix`.
+fn linearized<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    [q, v]: [&Vector<S, T>; 2],
+    t: T,
+    weights: Weights<T>,
+    matrix: &mut Matrix<S, T>,
+) -> (Vector<S, T>, Vector<S, T>) {
+    let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
+    system.linearize(q, v, t, weights, &mut l_q, &mut l_v, matrix);
+    (l_q, l_v)
 }
 
 struct Motion<V> {

@@ -8,10 +8,9 @@ use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space as _, State as _, System, Vector};
 
-/// A system, a method that steps it, and the point that they have reached. It does not know the time: the
-/// run that it is part of does.
-pub struct Stepper<'a, S: System, M: Carries<S, T>, T: Real> {
-    pub(crate) system: &'a S,
+/// A method that steps a system, and the point that it has reached. It knows neither the time nor the system:
+/// the run that it is part of does.
+pub struct Stepper<S: System, M: Carries<S, T>, T: Real> {
     pub(crate) method: M,
     pub(crate) memory: M::Memory,
     pub(crate) q: Vector<S, T>,
@@ -19,7 +18,7 @@ pub struct Stepper<'a, S: System, M: Carries<S, T>, T: Real> {
     pub(crate) failed: bool,
 }
 
-impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<'_, S, M, T> {
+impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<S, M, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Stepper")
             .field("system", &S::REPORT.system)
@@ -30,9 +29,9 @@ impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<'
     }
 }
 
-impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
-    pub(crate) fn new(system: &'a S, method: M, memory: M::Memory, q: Vector<S, T>) -> Self {
-        Self { system, method, memory, q, statistics: Statistics::default(), failed: false }
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
+    pub(crate) fn new(method: M, memory: M::Memory, q: Vector<S, T>) -> Self {
+        Self { method, memory, q, statistics: Statistics::default(), failed: false }
     }
 
     /// Goes on from another point, whose memory has just begun.
@@ -42,20 +41,20 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
 
     /// Sets `v` to the velocity at the current point, which is reached at time `t`.
     #[inline]
-    pub(crate) fn velocity(&self, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
-        self.method.velocity(self.system, &self.memory, &self.q, t, v)
+    pub(crate) fn velocity(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
+        self.method.velocity(system, &self.memory, &self.q, t, v)
     }
 
     /// Takes `count` steps from the present time of `clock`, or as many as succeed.
     #[inline]
-    pub(crate) fn steps(&mut self, clock: Clock<T>, count: u64) -> Result<(), StepFailure> {
-        self.method.steps(self.system, &mut self.memory, &mut self.q, clock, count, &mut self.statistics)
+    pub(crate) fn steps(&mut self, system: &S, clock: Clock<T>, count: u64) -> Result<(), StepFailure> {
+        self.method.steps(system, &mut self.memory, &mut self.q, clock, count, &mut self.statistics)
     }
 
     #[cold]
-    pub(crate) fn error(&mut self, time: T, h: T, failure: StepFailure) -> StepError {
+    pub(crate) fn error(&mut self, system: &S, time: T, h: T, failure: StepFailure) -> StepError {
         self.failed = true;
-        let failure = self.explained(failure, time, h);
+        let failure = self.explained(system, failure, time, h);
         StepError { step: self.statistics.steps, time: reported(time), failure }
     }
 
@@ -63,24 +62,20 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<'a, S, M, T> {
     ///
     /// # Errors
     /// Where a regular system has no velocities.
-    pub(crate) fn try_state(&mut self, t: T) -> Result<S::State<T>, StepError> {
-        let system = self.system;
+    pub(crate) fn try_state(&mut self, system: &S, t: T) -> Result<S::State<T>, StepError> {
         let mut v = system.space().vector();
-        match self.velocity(t, &mut v) {
+        match self.velocity(system, t, &mut v) {
             Ok(()) => Ok(S::State::read(|block| system.block_len(block), &self.q, &v)),
-            Err(failure) => Err(self.error(t, T::lift(0.0), failure)),
+            Err(failure) => Err(self.error(system, t, T::lift(0.0), failure)),
         }
     }
 
-    /// Passes the velocity on, or nothing if the system is degenerate.
-    pub(crate) fn with_velocity<R>(&self, t: T, read: impl FnOnce(&[T]) -> R) -> R {
-        if !S::REGULAR {
-            return read(&[]);
-        }
-        let mut v = self.system.space().vector();
-        if self.velocity(t, &mut v).is_err() {
+    /// The velocity at the current point, which is reached at time `t`: not a number where there is none.
+    pub(crate) fn known_velocity(&self, system: &S, t: T) -> Vector<S, T> {
+        let mut v = system.space().vector();
+        if S::REGULAR && self.velocity(system, t, &mut v).is_err() {
             v.fill(T::lift(f64::NAN));
         }
-        read(&v)
+        v
     }
 }

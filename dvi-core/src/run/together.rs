@@ -8,7 +8,7 @@ use crate::error::StepError;
 use crate::methods::{Companion, InStep};
 #[cfg(doc)]
 use crate::system::Packable;
-use crate::{Lagrangian, Space};
+use crate::{Held, Lagrangian, Space};
 
 /// Where not all can go on together, each run takes this many steps alone.
 const ALONE: u64 = 16;
@@ -57,19 +57,19 @@ impl<const W: usize, S: Lagrangian, M: InStep<W, S>> fmt::Debug for Together<W, 
 
 impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Together<W, S, M> {
     /// Room for runs on the system of `run`, and on others with as many coordinates.
-    pub fn new(run: &Integrator<'_, S, M>) -> Self {
+    pub fn new(run: &Integrator<impl Held<System = S>, M>) -> Self {
         const { assert!(W > 0, "a pack has at least one lane") };
         Self { packs: run.method().packs(run.system()), dimension: run.system().space().dimension() }
     }
 
     /// Takes `count` steps of each run, as [`Run::take_steps`] does, and returns how each has ended.
-    pub fn take_steps<'r, 'a: 'r>(
+    pub fn take_steps<'r, H: Held<System = S> + 'r>(
         &mut self,
-        runs: impl IntoIterator<Item = &'r mut Integrator<'a, S, M>>,
+        runs: impl IntoIterator<Item = &'r mut Integrator<H, M>>,
         count: u64,
     ) -> Vec<Result<(), StepError>>
     where
-        S: 'a,
+        S: 'r,
         M: 'r,
     {
         let mut runs: Vec<_> = runs.into_iter().collect();
@@ -86,9 +86,9 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
     }
 
     /// The same of the runs of one `group`.
-    fn take(
+    fn take<H: Held<System = S>>(
         &mut self,
-        runs: &mut [&mut Integrator<'_, S, M>],
+        runs: &mut [&mut Integrator<H, M>],
         mut group: Vec<usize>,
         count: u64,
         results: &mut [Result<(), StepError>],
@@ -111,15 +111,21 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
     }
 
     /// Takes up to `count` steps of all runs of the `group`, and returns how many.
-    fn take_in_lanes(&mut self, runs: &mut [&mut Integrator<'_, S, M>], group: &[usize], count: u64) -> u64 {
+    fn take_in_lanes<H: Held<System = S>>(
+        &mut self,
+        runs: &mut [&mut Integrator<H, M>],
+        group: &[usize],
+        count: u64,
+    ) -> u64 {
         let mut of_all = None;
         let mut companions = Vec::with_capacity(group.len());
         let mut systems = Vec::with_capacity(group.len());
         for (_, run) in runs.iter_mut().enumerate().filter(|(index, _)| group.contains(index)) {
             let clock = run.present();
-            let Stepper { system, method, memory, q, statistics, .. } = &mut run.stepper;
+            let Integrator { system, stepper: Stepper { method, memory, q, statistics, .. }, .. } =
+                &mut **run;
             of_all = Some((&*method, clock));
-            systems.push(*system);
+            systems.push(system.held());
             companions.push(Companion { memory, q, statistics });
         }
         let Some((method, clock)) = of_all else { return 0 };
@@ -129,8 +135,8 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
 
 /// Whether two runs may be in one pack.
 fn go_together<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq>(
-    a: &Integrator<'_, S, M>,
-    b: &Integrator<'_, S, M>,
+    a: &Integrator<impl Held<System = S>, M>,
+    b: &Integrator<impl Held<System = S>, M>,
 ) -> bool {
     let [of_a, of_b] = [a.system(), b.system()];
     let share_packs = core::ptr::eq(of_a, of_b) || M::fit(of_a, of_b).unwrap_or_else(|| of_a == of_b);

@@ -102,7 +102,7 @@ impl Orbit {
     /// In a curve that is where a function is zero, of which `curve` returns the value and the gradient.
     fn of<S: UnilateralLagrangian>(
         job: &Job<'_>,
-        run: &mut Integrator<'_, S, Bouncing>,
+        run: &mut Integrator<&S, Bouncing>,
         impacts: u64,
         curve: impl Fn(f64, f64) -> (f64, [f64; 2]),
     ) -> Result<Self> {

@@ -86,7 +86,7 @@ pub fn compare(job: &Job<'_>, run: &mut impl KeplerRun, orbit: Orbit, periods: u
 }
 
 /// A run with controlled steps from the pericentre.
-type Controlled<M, C> = Result<ControlledIntegrator<'static, Kepler, M, C>, StartError>;
+type Controlled<M, C> = Result<ControlledIntegrator<Kepler, M, C>, StartError>;
 
 /// A run with steps by (23), as printed.
 pub fn osculating<M>(method: M, orbit: Orbit, tolerance: f64) -> Controlled<M, Osculating>
@@ -94,7 +94,7 @@ where
     M: VariableStep<Kepler, f64>,
 {
     let control = Osculating { tolerance, first_step: 1e-4, centre: CentreSpeed::AsPrinted };
-    ControlledIntegrator::new(&Kepler {}, method, control, orbit.pericentre())
+    ControlledIntegrator::new(Kepler {}, method, control, orbit.pericentre())
 }
 
 /// A run with steps by (23), v_o read per unit of arc length.
@@ -102,15 +102,15 @@ pub fn per_arc_length<M>(method: M, orbit: Orbit, tolerance: f64) -> Controlled<
 where
     M: VariableStep<Kepler, f64>,
 {
-    ControlledIntegrator::new(&Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())
+    ControlledIntegrator::new(Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())
 }
 
 /// A run with `steps` steps of the same length per period.
-pub fn fixed<M>(method: M, orbit: Orbit, steps: f64) -> Result<Integrator<'static, Kepler, M>, StartError>
+pub fn fixed<M>(method: M, orbit: Orbit, steps: f64) -> Result<Integrator<Kepler, M>, StartError>
 where
     M: Method<Kepler, f64>,
 {
-    Integrator::new(&Kepler {}, method, TAU / steps, orbit.pericentre())
+    Integrator::new(Kepler {}, method, TAU / steps, orbit.pericentre())
 }
 
 /// A run with steps in proportion to r^(3/2), about 1/ε of them per radian of the motion in the mean.
@@ -118,5 +118,5 @@ pub fn reversible<M>(method: M, orbit: Orbit, epsilon: f64) -> Controlled<M, Rev
 where
     M: VariableStep<Kepler, f64>,
 {
-    ControlledIntegrator::new(&Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())
+    ControlledIntegrator::new(Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())
 }

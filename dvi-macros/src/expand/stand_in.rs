@@ -73,6 +73,7 @@ impl StandIn<'_> {
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
         let allow = implement::allow();
         let never = quote!({ ::core::unreachable!() });
+        let held = implement::held(krate, name, self.generics);
         let kind = implement::kind(krate, self.kind, self.constrained, self.is_on_manifold);
         let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
         let constrained = (self.kind == Kind::Regular && self.constrained.is_some())
@@ -80,6 +81,7 @@ impl StandIn<'_> {
         let manifold = (self.kind == Kind::Regular && self.is_on_manifold).then(|| self.on_manifold(&never));
         quote! {
             const _: () = {
+                #held
                 #[automatically_derived]
                 #allow
                 impl #impl_generics #krate::System for #name #type_generics #where_clause {

@@ -66,4 +66,9 @@ fn integers_in_a_state() {
     let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 0.1, state);
 }
 
+fn owned_with_a_method_of_another_kind() {
+    let state = RegularState { x: 1.0, dot_x: 0.0 };
+    let _ = Integrator::new(Regular, Sigma::midpoint(), 0.1, state);
+}
+
 fn main() {}

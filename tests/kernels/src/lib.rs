@@ -281,7 +281,7 @@ fn limited_by_hand(steps: u64) -> f64 {
     leapfrog.z[0]
 }
 
-type SigmaRun<'a> = Integrator<'a, PointVortices<4>, Sigma>;
+type SigmaRun<'a> = Integrator<&'a PointVortices<4>, Sigma>;
 
 #[inline(always)]
 fn generated(method: Sigma, take: impl FnOnce(&mut SigmaRun<'_>) -> Result<(), StepError>) -> f64 {

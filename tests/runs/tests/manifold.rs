@@ -87,7 +87,7 @@ fn a_system_of_all_kinds_keeps_its_angular_momentum() {
 }
 
 /// R p_R + p_s + x × p_x
-fn angular_momentum(run: &Integrator<'_, Coupled, Geodesic<impl Rule>, f64>) -> [f64; 3] {
+fn angular_momentum(run: &Integrator<&Coupled, Geodesic<impl Rule>, f64>) -> [f64; 3] {
     let (p, CoupledState { R, x, .. }) = (run.memory().p(), run.state());
     let part = |at: usize| [p[at], p[at + 1], p[at + 2]];
     let (body, rod, centre) = (rotations::apply(&R, part(0)), part(9), cross(x, part(12)));

@@ -68,7 +68,7 @@ struct Course {
 }
 
 fn course<S: DegenerateLagrangian, M: Method<S, f64>>(
-    mut run: Integrator<'_, S, M>,
+    mut run: Integrator<&S, M>,
     end: f64,
 ) -> Outcome<Course> {
     let (initial, mut energy_error, mut error) = (run.energy(), 0.0_f64, None);

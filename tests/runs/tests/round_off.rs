@@ -14,7 +14,7 @@ const ANGULAR: usize = 2;
 fn drift(method: Sigma, h: f64, steps: u64) -> Outcome<f64> {
     let (system, start) = quasi_periodic();
     let mut run = Integrator::new(&system, method, h, start)?;
-    let value = |run: &Integrator<'_, _, Sigma>| 2.0 * run.momentum(ANGULAR).unwrap_or(f64::NAN);
+    let value = |run: &Integrator<&_, Sigma>| 2.0 * run.momentum(ANGULAR).unwrap_or(f64::NAN);
     let initial = value(&run);
     let (samples, mut covariance, mut variance) = (1000, 0.0, 0.0);
     for sample in 0..samples {
@@ -110,7 +110,7 @@ fn a_far_body_does_not_spoil_the_others() -> Outcome {
 fn angular_error<M: Method<Kepler, f64>>(method: M, h: f64, steps: u64) -> Outcome<f64> {
     let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
     let mut run = Integrator::new(&Kepler { mu: 1.0 }, method, h, start)?;
-    let value = |run: &Integrator<'_, Kepler, M>| run.momentum(0).unwrap_or(f64::NAN);
+    let value = |run: &Integrator<&Kepler, M>| run.momentum(0).unwrap_or(f64::NAN);
     let (initial, mut largest) = (value(&run), 0.0);
     for _ in 0..1000 {
         run.take_steps(steps / 1000)?;

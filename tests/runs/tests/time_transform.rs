@@ -37,7 +37,7 @@ fn energy(q: &[f64]) -> f64 {
 
 /// The largest energy error in the first and in the last tenth of a run.
 fn errors<S: dvi_core::Lagrangian, M: dvi_core::methods::Method<S, f64>>(
-    mut run: Integrator<'_, S, M>,
+    mut run: Integrator<&S, M>,
     steps: usize,
 ) -> Result<[f64; 2], StepError> {
     let mut largest = [0.0_f64; 2];

@@ -57,7 +57,7 @@ pub trait Written: Steps {
     fn values_at(&mut self, times: &[f64]) -> Outcome<Vec<Vec<f64>>>;
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Steps<T> for Integrator<'static, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Steps<T> for Integrator<&'static S, M, T> {
     fn advance(&mut self) -> Result<(), StepFailure> {
         Run::advance(self).map_err(|error| error.failure)
     }
@@ -69,7 +69,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Steps<T> for Integrator<'static
     }
 }
 
-impl<S: Lagrangian, M: Method<S, f64>> Written for Integrator<'static, S, M> {
+impl<S: Lagrangian, M: Method<S, f64>> Written for Integrator<&'static S, M> {
     fn take_steps(&mut self, count: u64) -> Result<(), StepFailure> {
         Run::take_steps(self, count).map_err(|error| error.failure)
     }

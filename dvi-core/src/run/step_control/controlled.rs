@@ -1,9 +1,9 @@
 //! A run that a step control moves on, step by step, and back.
 
-use crate::memory::{Aside, Memory};
 use core::fmt;
 
 use crate::error::{StartError, StepFailure};
+use crate::memory::Aside;
 use crate::methods::{Carries, Clock, Tolerance, VariableStep};
 use crate::run::Stepper;
 use crate::run::kept::Kept;
@@ -14,30 +14,43 @@ use crate::{Lagrangian, Real, System, Vector};
 /// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the
 /// control [rejects](super::StepControl::REJECTS) steps, back.
 pub struct ControlledRun<'a, S: System, M: Carries<S, T>, T: Real> {
-    pub(super) stepper: Stepper<'a, S, M, T>,
-    /// What can be gone back to.
-    checkpoint: Option<(M::Memory, Vector<S, T>)>,
+    system: &'a S,
+    pub(super) stepper: &'a mut Stepper<S, M, T>,
+    kept: &'a mut KeptSteps<S, M, T>,
+}
+
+/// What a run keeps of the steps that it may take back.
+pub(super) struct KeptSteps<S: System, M: Carries<S, T>, T: Real> {
+    /// What the control can go back to.
+    by_control: Option<Kept<S, M, T>>,
     /// If steps are looked at: where the one at hand has begun.
-    kept: Option<Aside<Kept<S, M, T>>>,
+    looked_at: Option<Aside<Kept<S, M, T>>>,
+}
+
+impl<S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> KeptSteps<S, M, T> {
+    pub(super) fn new(
+        q: &Vector<S, T>,
+        rejects: bool,
+        begin: impl Fn() -> Result<M::Memory, StartError>,
+    ) -> Result<Self, StartError> {
+        let by_control = rejects.then(|| Kept::new(q, &begin)).transpose()?;
+        Ok(Self { by_control, looked_at: Kept::if_looked_at(q, begin)? })
+    }
 }
 
 impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, T> {
+    #[inline]
     pub(super) fn new(
         system: &'a S,
-        method: M,
-        q: Vector<S, T>,
-        rejects: bool,
-        begin: impl Fn(&M, &Vector<S, T>) -> Result<M::Memory, StartError>,
-    ) -> Result<Self, StartError> {
-        let memory = begin(&method, &q)?;
-        let kept = Kept::if_looked_at(&q, || begin(&method, &q))?;
-        let checkpoint = rejects.then(|| begin(&method, &q)).transpose()?.map(|memory| (memory, q.clone()));
-        Ok(Self { stepper: Stepper::new(system, method, memory, q), checkpoint, kept })
+        stepper: &'a mut Stepper<S, M, T>,
+        kept: &'a mut KeptSteps<S, M, T>,
+    ) -> Self {
+        Self { system, stepper, kept }
     }
 
     /// The system.
     pub fn system(&self) -> &'a S {
-        self.stepper.system
+        self.system
     }
 
     /// The current coordinates, flat, in the order of declaration.
@@ -52,7 +65,7 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
     /// As [`Method::velocity`](crate::methods::Method::velocity).
     #[inline]
     pub fn velocity(&self, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
-        self.stepper.velocity(t, v)
+        self.stepper.velocity(self.system, t, v)
     }
 
     /// Takes a step from time `t` to `t + h`, without allocation.
@@ -69,15 +82,15 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
         }
         // Not compiled where steps are not looked at.
         if S::HAS_DOMAIN
-            && let Some(kept) = &mut self.kept
+            && let Some(kept) = &mut self.kept.looked_at
         {
             self.stepper.keep(kept);
         }
-        let Stepper { system, method, memory, q, statistics, .. } = &mut self.stepper;
-        method.step(system, memory, q, t, h, statistics)?;
+        let Stepper { method, memory, q, statistics, .. } = &mut *self.stepper;
+        method.step(self.system, memory, q, t, h, statistics)?;
         if S::HAS_DOMAIN
-            && let Some(kept) = &self.kept
-            && let Err(failure) = self.stepper.look(Clock::new(t, h).after(1), Some(kept))
+            && let Some(kept) = &self.kept.looked_at
+            && let Err(failure) = self.stepper.look(self.system, Clock::new(t, h).after(1), Some(kept))
         {
             self.stepper.return_to(kept);
             return Err(failure);
@@ -96,24 +109,22 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
         [h, usual]: [T; 2],
         tolerance: Tolerance,
     ) -> Result<Option<T>, StepFailure> {
-        let Stepper { system, method, memory, statistics, .. } = &mut self.stepper;
-        method.local_error(system, memory, t, [h, usual], tolerance, statistics)
+        let Stepper { method, memory, statistics, .. } = &mut *self.stepper;
+        method.local_error(self.system, memory, t, [h, usual], tolerance, statistics)
     }
 
     /// Keeps the present point, to [go back](Self::go_back) to it. Nothing happens if the control does not
     /// reject steps.
     pub fn keep(&mut self) {
-        if let Some((memory, q)) = &mut self.checkpoint {
-            memory.restore(&self.stepper.memory);
-            q.copy_from_slice(&self.stepper.q);
+        if let Some(kept) = &mut self.kept.by_control {
+            self.stepper.keep(kept);
         }
     }
 
     /// Goes back to the point that was kept, without allocation.
     pub fn go_back(&mut self) {
-        if let Some((memory, q)) = &self.checkpoint {
-            self.stepper.memory.restore(memory);
-            self.stepper.q.copy_from_slice(q);
+        if let Some(kept) = &self.kept.by_control {
+            self.stepper.return_to(kept);
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use super::{ControlledRun, ErrorControl, Reversible, StepControl, reversible};
+use super::controlled::{ControlledRun, KeptSteps};
+use super::{ErrorControl, Reversible, StepControl, reversible};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepError, StepFailure};
@@ -12,8 +13,10 @@ use crate::methods::{Carries, Clock, VariableStep};
 use crate::run::Checkpoint;
 use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
+use crate::state::Statistics;
+use crate::system::StateOf;
 use crate::system::start::{evaluate, flatten, named, validate, velocities};
-use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
+use crate::{Held, Lagrangian, Real, RegularLagrangian, Scalar, System, Vector};
 
 /// A run of a method on a system with steps chosen by a [`StepControl`].
 ///
@@ -21,9 +24,16 @@ use crate::{Lagrangian, Real, RegularLagrangian, Scalar, Vector};
 /// each step, up to the first failure; [`state`](Run::state) is always the last good one. The velocity is
 /// taken along, so that a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a
 /// step.
-pub struct ControlledIntegrator<'a, S: Lagrangian<T>, M: Carries<S, T>, C: StepControl<S, T>, T: Real = f64>
+pub struct ControlledIntegrator<H, M, C, T = f64>
+where
+    H: Held<System: Lagrangian<T>>,
+    M: Carries<H::System, T>,
+    C: StepControl<H::System, T>,
+    T: Real,
 {
-    controlled: ControlledRun<'a, S, M, T>,
+    system: H,
+    stepper: Stepper<H::System, M, T>,
+    kept: KeptSteps<H::System, M, T>,
     control: C,
     control_memory: C::Memory,
     clock: VariableClock<T>,
@@ -31,17 +41,18 @@ pub struct ControlledIntegrator<'a, S: Lagrangian<T>, M: Carries<S, T>, C: StepC
     h: T,
 }
 
-impl<'a, S: Lagrangian<T>, M, C, T: Real> ControlledIntegrator<'a, S, M, C, T>
+impl<H, M, C, T: Real> ControlledIntegrator<H, M, C, T>
 where
-    M: VariableStep<S, T>,
-    C: StepControl<S, T>,
+    H: Held<System: Lagrangian<T>>,
+    M: VariableStep<H::System, T>,
+    C: StepControl<H::System, T>,
 {
     /// A run from `start` at time 0.
     ///
     /// # Errors
     /// [`StartError`] if an array has the wrong length, a coordinate is not finite, an option of the method
     /// or of the control is out of range, or their starting values cannot be computed.
-    pub fn new(system: &'a S, method: M, control: C, start: S::State<T>) -> Result<Self, StartError> {
+    pub fn new(system: H, method: M, control: C, start: StateOf<H, T>) -> Result<Self, StartError> {
         Self::new_at(system, method, control, T::lift(0.0), start)
     }
 
@@ -49,27 +60,21 @@ where
     ///
     /// # Errors
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
-    pub fn new_at(
-        system: &'a S,
-        method: M,
-        control: C,
-        t: T,
-        start: S::State<T>,
-    ) -> Result<Self, StartError> {
-        if S::TIME_TRANSFORMED {
+    pub fn new_at(system: H, method: M, control: C, t: T, start: StateOf<H, T>) -> Result<Self, StartError> {
+        let held = system.held();
+        if H::System::TIME_TRANSFORMED {
             let reason = "the time of the system is transformed, which sets the lengths of its steps";
             return Err(StartError::Unsupported { option: "a step control", reason });
         }
-        let [q, all] = begun(system, t, &start)?;
-        let v = &all[..velocities(system)];
+        let [q, all] = begun(held, t, &start)?;
+        let v = &all[..velocities(held)];
         control.admit(&method)?;
-        let explained = |q: &Vector<S, T>, error| named(system, [q, &all], t, error);
-        let (control_memory, h) = control.begin(system, &q, v, t).map_err(|error| explained(&q, error))?;
-        let begin = |method: &M, q: &Vector<S, T>| {
-            method.begin(system, q, v, t, h).map_err(|error| explained(q, error))
-        };
-        let controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
-        Ok(Self { controlled, control, control_memory, clock: VariableClock::new(t), h })
+        let explained = |error| named(held, [&q, &all], t, error);
+        let (control_memory, h) = control.begin(held, &q, v, t).map_err(explained)?;
+        let begin = || method.begin(held, &q, v, t, h).map_err(explained);
+        let (memory, kept) = (begin()?, KeptSteps::new(&q, C::REJECTS, begin)?);
+        let (stepper, clock) = (Stepper::new(method, memory, q), VariableClock::new(t));
+        Ok(Self { system, stepper, kept, control, control_memory, clock, h })
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped. What a control
@@ -80,35 +85,28 @@ where
     /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than method and
     /// control carry on this system, or numbers that no run has.
     #[cfg(feature = "alloc")]
-    pub fn resume(
-        system: &'a S,
-        method: M,
-        control: C,
-        checkpoint: &Checkpoint<T>,
-    ) -> Result<Self, StartError> {
+    pub fn resume(system: H, method: M, control: C, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
         let (t, mut h) = (checkpoint.time(), checkpoint.step_size());
-        validate(system, t)?;
-        let [q, v] = checkpoint.point(system)?;
-        let all = v;
-        let v = &all[..velocities(system)];
+        let held = system.held();
+        validate(held, t)?;
+        let [q, all] = checkpoint.point(held)?;
+        let v = &all[..velocities(held)];
         control.admit(&method)?;
-        let explained = |q: &Vector<S, T>, error| named(system, [q, &all], t, error);
-        let begun = control.begin_again(system, &q, v, t);
-        let mut control_memory = begun.map_err(|error| explained(&q, error))?;
-        let begin = |method: &M, q: &Vector<S, T>| {
-            method.begin_again(system, q, v, t, h).map_err(|error| explained(q, error))
-        };
-        let mut controlled = ControlledRun::new(system, method, q, C::REJECTS, begin)?;
+        let explained = |error| named(held, [&q, &all], t, error);
+        let mut control_memory = control.begin_again(held, &q, v, t).map_err(explained)?;
+        let begin = || method.begin_again(held, &q, v, t, h).map_err(explained);
+        let (mut memory, kept) = (begin()?, KeptSteps::new(&q, C::REJECTS, begin)?);
         let mut clock = VariableClock::new(t);
-        checkpoint.load::<S, M>(&mut controlled.stepper.memory, |reader| {
+        checkpoint.load::<H::System, M>(&mut memory, |reader| {
             control_memory.load(reader)?;
             clock.load(reader)?;
             reader.numbers(core::slice::from_mut(&mut h))?;
             let is_sound = clock.time() == t && h == checkpoint.step_size() && h != T::lift(0.0);
             if is_sound { Ok(()) } else { Err(CheckpointError::Damaged) }
         })?;
-        controlled.stepper.statistics = checkpoint.statistics();
-        Ok(Self { controlled, control, control_memory, clock, h })
+        let mut stepper = Stepper::new(method, memory, q);
+        stepper.statistics = checkpoint.statistics();
+        Ok(Self { system, stepper, kept, control, control_memory, clock, h })
     }
 
     /// The step control.
@@ -124,29 +122,52 @@ where
     #[inline]
     fn step(&mut self) -> Result<(), StepError> {
         let t = self.clock.time();
-        match self.control.step(&mut self.control_memory, &mut self.controlled, t) {
+        let (system, stepper) = (self.system.held(), &mut self.stepper);
+        let mut run = ControlledRun::new(system, stepper, &mut self.kept);
+        match self.control.step(&mut self.control_memory, &mut run, t) {
             Ok(h) => {
                 self.h = h;
                 self.clock.advance(h);
-                self.controlled.stepper.statistics.steps += 1;
+                self.stepper.statistics.steps += 1;
                 Ok(())
             }
-            Err(failure) => Err(self.controlled.stepper.error(t, self.h, failure)),
+            Err(failure) => Err(self.stepper.error(system, t, self.h, failure)),
         }
     }
 }
 
-impl<S: Lagrangian<T>, M, C, T: Real> Run for ControlledIntegrator<'_, S, M, C, T>
+impl<H, M, C, T: Real> Run for ControlledIntegrator<H, M, C, T>
 where
-    M: VariableStep<S, T>,
-    C: StepControl<S, T>,
+    H: Held<System: Lagrangian<T>>,
+    M: VariableStep<H::System, T>,
+    C: StepControl<H::System, T>,
 {
-    type System = S;
+    type System = H::System;
     type Method = M;
     type Scalar = T;
 
-    fn stepper(&self) -> &Stepper<'_, S, M, T> {
-        &self.controlled.stepper
+    #[inline]
+    fn system(&self) -> &H::System {
+        self.system.held()
+    }
+
+    #[inline]
+    fn stepper(&self) -> &Stepper<H::System, M, T> {
+        &self.stepper
+    }
+
+    #[inline]
+    fn q(&self) -> &[T] {
+        &self.stepper.q
+    }
+
+    fn v(&self) -> Vector<H::System, T> {
+        self.stepper.known_velocity(self.system(), self.time())
+    }
+
+    #[inline]
+    fn statistics(&self) -> Statistics {
+        self.stepper.statistics
     }
 
     #[inline]
@@ -156,7 +177,7 @@ where
 
     #[cfg(feature = "alloc")]
     fn checkpoint(&self) -> Checkpoint<T> {
-        Checkpoint::of(&self.controlled.stepper, [self.time(), self.h], |record| {
+        Checkpoint::of(self.system(), &self.stepper, [self.time(), self.h], |record| {
             self.control_memory.save(record);
             self.clock.save(record);
             record.numbers(&[self.h]);
@@ -179,21 +200,22 @@ where
         None
     }
 
-    fn set_state(&mut self, t: T, state: S::State<T>) -> Result<(), StartError> {
-        let Stepper { system, method, memory, .. } = &self.controlled.stepper;
-        let [q, all] = begun(*system, t, &state)?;
-        let v = &all[..velocities(*system)];
-        let explained = |error| named(*system, [&q, &all], t, error);
+    fn set_state(&mut self, t: T, state: StateOf<H, T>) -> Result<(), StartError> {
+        let (system, Stepper { method, memory, .. }) = (self.system.held(), &self.stepper);
+        let [q, all] = begun(system, t, &state)?;
+        let v = &all[..velocities(system)];
+        let explained = |error| named(system, [&q, &all], t, error);
         let (control_memory, h) = self.control.begin(system, &q, v, t).map_err(explained)?;
         let memory = method.begin_anew(memory, system, &q, v, t, h).map_err(explained)?;
-        self.controlled.stepper.move_to(memory, q);
+        self.stepper.move_to(memory, q);
         (self.control_memory, self.clock, self.h) = (control_memory, VariableClock::new(t), h);
         Ok(())
     }
 }
 
-impl<S: RegularLagrangian<T>, M, D, T: Real> ControlledIntegrator<'_, S, M, Reversible<D>, T>
+impl<H, S: RegularLagrangian<T>, M, D, T: Real> ControlledIntegrator<H, M, Reversible<D>, T>
 where
+    H: Held<System = S>,
     M: VariableStep<S, T>,
     D: reversible::Density<T>,
 {
@@ -201,16 +223,13 @@ where
     /// [`Reversible::start`] at this value goes on with the same steps, and with the velocity reversed it
     /// comes back by the same steps. Not a number where the momenta have no velocity.
     pub fn density(&self) -> T {
-        let mut v = crate::Space::vector(self.controlled.stepper.system.space());
-        match self.controlled.stepper.velocity(self.time(), &mut v) {
-            Ok(()) => self.control.density_at(&self.control_memory, &self.controlled.stepper.q, &v),
-            Err(_) => T::lift(f64::NAN),
-        }
+        self.control.density_at(&self.control_memory, self.q(), &self.v())
     }
 }
 
-impl<S: Lagrangian<T>, M, T: Real> ControlledIntegrator<'_, S, M, ErrorControl, T>
+impl<H, S: Lagrangian<T>, M, T: Real> ControlledIntegrator<H, M, ErrorControl, T>
 where
+    H: Held<System = S>,
     M: VariableStep<S, T>,
 {
     /// Takes steps up to time `t`, of which the last one is as long as it takes to get there, to the
@@ -249,7 +268,7 @@ where
     }
 }
 
-impl<S: Lagrangian<T>, M, C, T: Real> Iterator for ControlledIntegrator<'_, S, M, C, T>
+impl<H: Held<System = S>, S: Lagrangian<T>, M, C, T: Real> Iterator for ControlledIntegrator<H, M, C, T>
 where
     M: VariableStep<S, T>,
     C: StepControl<S, T>,
@@ -265,24 +284,23 @@ where
     /// not skipped but yielded.
     #[inline]
     fn nth(&mut self, n: usize) -> Option<Self::Item> {
-        if self.controlled.stepper.failed {
+        if self.stepper.failed {
             return None;
         }
-        Some(
-            self.take_steps(n as u64 + 1)
-                .and_then(|()| self.controlled.stepper.try_state(self.clock.time())),
-        )
+        let taken = self.take_steps(n as u64 + 1);
+        Some(taken.and_then(|()| self.stepper.try_state(self.system.held(), self.clock.time())))
     }
 }
 
-impl<S: Lagrangian<T>, M, C, T: Real> core::iter::FusedIterator for ControlledIntegrator<'_, S, M, C, T>
+impl<H: Held<System = S>, S: Lagrangian<T>, M, C, T: Real> core::iter::FusedIterator
+    for ControlledIntegrator<H, M, C, T>
 where
     M: VariableStep<S, T>,
     C: StepControl<S, T>,
 {
 }
 
-impl<S: Lagrangian<T>, M, C, T: Real> fmt::Debug for ControlledIntegrator<'_, S, M, C, T>
+impl<H: Held<System = S>, S: Lagrangian<T>, M, C, T: Real> fmt::Debug for ControlledIntegrator<H, M, C, T>
 where
     M: VariableStep<S, T> + fmt::Debug,
     C: StepControl<S, T>,
@@ -290,7 +308,7 @@ where
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("ControlledIntegrator")
             .field("system", &S::REPORT.system)
-            .field("method", &self.controlled.stepper.method)
+            .field("method", &self.stepper.method)
             .field("control", &self.control)
             .field("time", &self.time())
             .field("step_size", &self.step_size())

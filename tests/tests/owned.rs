@@ -1,0 +1,150 @@
+//! Runs that own their system or share it, and runs whose method is chosen when the program runs: each is, bit
+//! for bit, the run that borrows.
+
+use std::rc::Rc;
+use std::sync::Arc;
+use std::thread;
+
+use dvi_core::methods::VariableStep;
+use dvi_core::prelude::*;
+use dvi_tests::configurations::leapfrogging;
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
+use dvi_tests::{Outcome, bits};
+
+const STEPS: u64 = 300;
+const KEPLER: Kepler = Kepler { mu: 1.0 };
+const START: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.8 };
+
+/// The end of a run, as a checkpoint, which has all of it, and the state.
+type End<S> = (Checkpoint, S);
+
+fn end<R: Run<Scalar = f64>>(mut run: R) -> Result<End<<R::System as System>::State<f64>>, StepError> {
+    run.take_steps(STEPS)?;
+    Ok((run.checkpoint(), run.state()))
+}
+
+/// What a struct needs that is to hold a run of any method, and of which a thread is made.
+struct Simulation<M: Method<Kepler, f64>> {
+    run: Integrator<Kepler, M>,
+}
+
+impl<M: Method<Kepler, f64, Memory: Send> + Send + 'static> Simulation<M> {
+    fn on_a_thread(self) -> Outcome<End<KeplerState>> {
+        Ok(thread::spawn(move || end(self.run)).join().expect("no panic")?)
+    }
+}
+
+fn check<M: Method<Kepler, f64, Memory: Send> + Clone + Send + 'static>(method: M) -> Outcome {
+    let expected = end(Integrator::new(&KEPLER, method.clone(), 0.05, START)?)?;
+    let simulation = Simulation { run: Integrator::new(KEPLER, method.clone(), 0.05, START)? };
+    assert_eq!(simulation.on_a_thread()?, expected);
+    assert_eq!(end(Integrator::new(Box::new(KEPLER), method.clone(), 0.05, START)?)?, expected);
+    assert_eq!(end(Integrator::new(Rc::new(KEPLER), method.clone(), 0.05, START)?)?, expected);
+    // From the middle on, as its own.
+    let mut half = Integrator::new(&KEPLER, method.clone(), 0.05, START)?;
+    half.take_steps(STEPS / 2)?;
+    let mut again = Integrator::resume(KEPLER, method, &half.checkpoint())?;
+    again.take_steps(STEPS - STEPS / 2)?;
+    assert_eq!(again.checkpoint(), expected.0);
+    Ok(())
+}
+
+#[test]
+fn a_run_that_owns_its_system_is_the_run_that_borrows_it() -> Outcome {
+    check(Variational::trapezoid())?;
+    check(Variational::simpson().phase_fitted(Constant(0.5)))?;
+    check(Galerkin::<4>::new())?;
+    check(Gauss::<2>::new())?;
+    check(Composition::kahan_li_8(Variational::midpoint()))
+}
+
+#[test]
+fn so_is_a_run_of_a_degenerate_system() -> Outcome {
+    let (vortices, start) = leapfrogging();
+    for method in [Sigma::leapfrog(), Sigma::midpoint()] {
+        let expected = end(Integrator::new(&vortices, method, 0.05, start)?)?;
+        let own = Integrator::new(vortices.clone(), method, 0.05, start)?;
+        assert_eq!(thread::spawn(move || end(own)).join().expect("no panic")?, expected);
+        let second = expected.1;
+        let between = |step| Integrator::from_two_points(&vortices, method, step, start, second);
+        let owned = Integrator::from_two_points(vortices.clone(), method, 0.05, start, second);
+        assert_eq!(end(owned?)?.0, end(between(0.05)?)?.0);
+    }
+    Ok(())
+}
+
+#[test]
+fn so_is_a_controlled_run() -> Outcome {
+    fn check<C: StepControl<Kepler, f64, Memory: Send> + Clone + Send + 'static>(
+        method: impl VariableStep<Kepler, f64, Memory: Send> + Clone + Send + 'static,
+        control: C,
+    ) -> Outcome {
+        let borrowed = ControlledIntegrator::new(&KEPLER, method.clone(), control.clone(), START)?;
+        let own = ControlledIntegrator::new(KEPLER, method, control, START)?;
+        assert_eq!(thread::spawn(move || end(own)).join().expect("no panic")?, end(borrowed)?);
+        Ok(())
+    }
+    check(Variational::trapezoid(), Reversible::power(0.05, 1.5))?;
+    check(Variational::trapezoid(), Osculating::new(1e-4, 0.01))?;
+    check(Variational::midpoint(), EnergyMomentum::new(0.05))?;
+    check(Gauss::<3>::new(), ErrorControl::new(1e-8, 0.01))
+}
+
+/// Threads each have a run on one system, which is gone when the last of them is.
+#[test]
+fn runs_share_a_system() -> Outcome {
+    let kepler = Arc::new(Kepler { mu: 2.0 });
+    let start = |j: u32| KeplerState { dot_y: 0.8 + 0.1 * f64::from(j), ..START };
+    let begin = |j| Integrator::new(Arc::clone(&kepler), Variational::trapezoid(), 0.05, start(j));
+    let runs = (0..4).map(begin).collect::<Result<Vec<_>, _>>()?;
+    assert_eq!(Arc::strong_count(&kepler), 5);
+    let threads: Vec<_> = runs.into_iter().map(|run| thread::spawn(move || end(run))).collect();
+    for (j, thread) in (0..).zip(threads) {
+        let expected = end(Integrator::new(&*kepler, Variational::trapezoid(), 0.05, start(j))?)?;
+        assert_eq!(thread.join().expect("no panic")?, expected);
+    }
+    assert_eq!(Arc::strong_count(&kepler), 1);
+    Ok(())
+}
+
+#[test]
+fn runs_of_their_own_systems_go_together_in_lanes() -> Outcome {
+    let begin = |j: u32| {
+        let start = KeplerState { dot_y: 0.8 + 0.05 * f64::from(j), ..START };
+        Integrator::new(KEPLER, Variational::trapezoid(), 0.05, start)
+    };
+    let mut together = (0..6).map(begin).collect::<Result<Vec<_>, _>>()?;
+    let results = Together::<4, _, _>::new(&together[0]).take_steps(&mut together, STEPS);
+    assert!(results.iter().all(Result::is_ok));
+    for (j, run) in (0..).zip(&together) {
+        assert_eq!(run.checkpoint(), end(begin(j)?)?.0);
+    }
+    Ok(())
+}
+
+type AnyRun<'a> = Box<dyn Run<System = Kepler, Scalar = f64> + 'a>;
+
+/// All that can be asked of a run whatever its method is.
+fn asked(run: &dyn Run<System = Kepler, Scalar = f64>) -> Outcome<(Vec<u64>, Checkpoint, KeplerState)> {
+    let momentum = run.momentum(0).ok_or("a momentum")?;
+    let numbers = [run.time(), run.step_size(), run.energy(), momentum];
+    Ok((bits(&[run.q(), &run.v(), &numbers].concat()), run.checkpoint(), run.state()))
+}
+
+#[test]
+fn a_method_that_is_chosen_at_run_time_takes_the_same_steps() -> Outcome {
+    fn check<'a, R: Run<System = Kepler, Scalar = f64> + 'a>(begin: impl Fn() -> Outcome<R>) -> Outcome {
+        let (mut known, mut chosen) = (begin()?, Box::new(begin()?) as AnyRun<'a>);
+        known.take_steps(STEPS)?;
+        known.advance()?;
+        chosen.take_steps(STEPS)?;
+        chosen.advance()?;
+        assert_eq!(asked(&*chosen)?, asked(&known)?);
+        assert_eq!((chosen.steps(), chosen.statistics()), (STEPS + 1, known.statistics()));
+        Ok(())
+    }
+    check(|| Ok(Integrator::new(&KEPLER, Variational::trapezoid(), 0.05, START)?))?;
+    check(|| Ok(Integrator::new(KEPLER, Gauss::<3>::new(), 0.05, START)?))?;
+    let control = Reversible::power(0.05, 1.5);
+    check(|| Ok(ControlledIntegrator::new(KEPLER, Variational::trapezoid(), control, START)?))
+}
