@@ -14,6 +14,8 @@ pub use crate::methods::{
     OneStep, OneStepGauss, ParasiticMode, Projected, Rattle, RungeKutta, Scheme, Sigma, Start, Tolerance,
     Variational,
 };
+#[cfg(feature = "records")]
+pub use crate::record::Recorded;
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, ErrorControl, Integrator, Osculating, Power,
     Reversible, Run,

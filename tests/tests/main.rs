@@ -39,6 +39,7 @@ mod packs;
 mod pages;
 mod parameters;
 mod projected;
+mod records;
 mod reference_values;
 mod restoring;
 mod scalar_fields;
