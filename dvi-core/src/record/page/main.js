@@ -74,7 +74,7 @@ function chooseAxes(view) {
     const velocity = shown.find(({ name }) => name === `dot_${first?.name}`);
     const parameter = shown.find(({ quantity }) => quantity === "parameter");
     across.value = parameter?.name ?? (body && !velocity ? body[0] : (first ?? record.time).name);
-    up.value = (parameter ? shown.find(({ quantity }) => quantity === "other") : velocity)?.name
+    up.value = (parameter ? shown.find(({ quantity }) => quantity === "coordinate") : velocity)?.name
         ?? (body ? body[1] : (second ?? first ?? record.time).name);
     const named = name => record.columns.find(column => column.name === name);
     const draw = () => view.draw(named(across.value), named(up.value));
