@@ -9,8 +9,10 @@ function fitted(plot, values, index, cycle) {
     return Math.ceil(axis.gap + 6 + Math.max(0, ...widths));
 }
 
+/** Across there is a height, up the width of the numbers. */
 const axisOf = (text, size) => ({
-    label: text, size, font: FONT, labelFont: FONT, labelSize: 20, gap: 4, space: 38,
+    label: text, size, font: FONT, labelFont: FONT, labelSize: 20, gap: 4,
+    space: size === fitted ? 38 : 72,
     stroke: themed("--muted"), grid: { stroke: themed("--grid"), width: 1 }, ticks: { show: false },
     values: (_, splits, __, ___, step) => ticks(splits, step),
 });
