@@ -5,8 +5,11 @@ use dvi_core::record::{Column, Quantity, Record, Recorder};
 
 use crate::records::{Checked, Kepler};
 
+/// The name of a body, and the columns of its position.
+type Told = (String, Vec<String>);
+
 /// The bodies of a record with the time and columns of these names.
-fn told(names: &[&str]) -> Result<Vec<(String, Vec<String>)>, Box<dyn std::error::Error>> {
+fn told(names: &[&str]) -> Result<Vec<Told>, Box<dyn std::error::Error>> {
     let time = Column::new("time", vec![0.0]).with_quantity(Quantity::Time);
     let mut record = Record::new("").with_column(time)?;
     for &name in names {
@@ -15,7 +18,7 @@ fn told(names: &[&str]) -> Result<Vec<(String, Vec<String>)>, Box<dyn std::error
     Ok(record.bodies().into_iter().map(|body| (body.name, body.position)).collect())
 }
 
-fn body(name: &str, position: &[&str]) -> (String, Vec<String>) {
+fn body(name: &str, position: &[&str]) -> Told {
     (name.into(), position.iter().map(|&column| column.into()).collect())
 }
 
