@@ -2,8 +2,8 @@
 
 /** So many points of trails are drawn in all. */
 const MOST_IN_TRAILS = 20000;
-/** A trail fades in so many parts. */
-const FADES = 12;
+/** A trail fades in so many parts; in fewer if there are many. */
+const FADES = 12, FADES_OF_MANY = 4, MANY = 40;
 
 class Motion {
     constructor(section, record) {
@@ -105,9 +105,10 @@ class Motion {
         const context = this.prepare();
         if (this.isSpace) this.box(context); else this.axes(context);
         const { bodies } = this.record;
-        const [ink, radius] = [themed("--paper"), bodies.length > 40 ? 2.5 : 5];
+        const [ink, radius] = [themed("--paper"), bodies.length > MANY ? 2.5 : 5];
+        const palette = Array.from({ length: colours }, (_, index) => colour(index));
         const drawn = bodies.map((body, index) => {
-            return { body, colour: colour(index), place: this.at(body, this.row) };
+            return { body, colour: palette[index % colours], place: this.at(body, this.row) };
         });
         for (const { body, colour } of drawn) this.path(context, body, colour);
         drawn.sort((a, b) => a.place[2] - b.place[2]);
@@ -129,10 +130,11 @@ class Motion {
         const every = Math.max(1, Math.ceil(length * bodies.length / MOST_IN_TRAILS));
         Object.assign(context, { strokeStyle: colour, lineWidth: 1.6 });
         const first = Math.ceil((this.row - length) / every) * every;
-        for (let fade = 0; fade < FADES; fade++) {
-            const part = k => first + Math.round(length * k / FADES / every) * every;
+        const fades = bodies.length > MANY ? FADES_OF_MANY : FADES;
+        for (let fade = 0; fade < fades; fade++) {
+            const part = k => first + Math.round(length * k / fades / every) * every;
             const [begin, end] = [part(fade), part(fade + 1)];
-            context.globalAlpha = this.trail < 1 ? (fade + 1) / FADES : 0.75;
+            context.globalAlpha = this.trail < 1 ? (fade + 1) / fades : 0.75;
             const points = [];
             const last = Math.min(end, this.row);
             for (let row = begin; row < last; row += every) points.push(this.at(body, row));
