@@ -7,7 +7,6 @@
 
 use std::error::Error;
 use std::fs::{File, create_dir_all};
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -65,7 +64,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let left = results.members().iter().filter(|member| matches!(member.outcome, Outcome::Exited { .. }));
     println!("{} of {} have left the well", left.count(), results.members().len());
-    results.write_csv(File::create(shard.path(folder.join("ensemble.csv")))?)?;
-    results.write_npy(BufWriter::new(File::create(shard.path(folder.join("ensemble.npy")))?))?;
+    let record = results.record()?;
+    let file = |name: &str| File::create(shard.path(folder.join(name)));
+    record.write_csv(file("ensemble.csv")?)?;
+    record.write_npy(file("ensemble.npy")?)?;
+    record.write_page(file("ensemble.html")?)?;
     Ok(())
 }

@@ -3,9 +3,9 @@
 
 use std::f64::consts::TAU;
 use std::fs::{self, File};
-use std::io::{BufWriter, Write as _};
 
 use dvi_core::prelude::*;
+use dvi_core::record::{Column, Recorder};
 
 /// A comet around a fixed sun.
 #[lagrangian(
@@ -25,17 +25,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut run = ControlledIntegrator::new(&kepler, method, Reversible::power(0.02, 1.5), start)?;
     let energy = run.energy();
 
-    fs::create_dir_all("results")?;
-    let mut table = BufWriter::new(File::create("results/kepler.csv")?);
-    writeln!(table, "t,step,x,y,energy_error")?;
-    let mut largest = 0.0_f64;
+    let (mut recorder, mut steps) = (Recorder::new(&kepler), Vec::new());
     while run.time() < 100.0 * TAU {
-        let (t, h, error) = (run.time(), run.step_size(), run.energy() - energy);
-        largest = largest.max(error.abs());
-        writeln!(table, "{t},{h},{},{},{error:e}", run.q()[0], run.q()[1])?;
+        recorder.push(&kepler, run.time(), &run.state())?;
+        steps.push(run.step_size());
         run.advance()?;
     }
-    table.flush()?;
+    let record = recorder.finish().with_column(Column::new("step", steps))?;
+    let largest = record.numbers("energy")?.iter().map(|now| (now - energy).abs()).fold(0.0, f64::max);
     println!("{} steps for 100 orbits", run.steps());
     println!("largest energy error with steps that follow the motion: {largest:.1e}");
 
@@ -47,6 +44,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         largest = largest.max((fixed.energy() - energy).abs());
     }
     println!("the same with as many steps of equal length: {largest:.1e}");
-    println!("The table is results/kepler.csv.");
+    fs::create_dir_all("results")?;
+    record.write_csv(File::create("results/kepler.csv")?)?;
+    record.write_page(File::create("results/kepler.html")?)?;
+    println!("The table is results/kepler.csv, and results/kepler.html shows it.");
     Ok(())
 }

@@ -2,7 +2,6 @@
 //! from the times at which the prey passes its equilibrium.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write as _};
 
 use dvi_core::prelude::*;
 
@@ -24,15 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut run = Integrator::new(&system, Gauss::<2>::new(), 0.01, start)?;
     let energy = run.energy();
-    fs::create_dir_all("results")?;
-    let mut table = BufWriter::new(File::create("results/lotka-volterra.csv")?);
-    writeln!(table, "t,x,y")?;
-    for _ in 0..2000 {
-        let LotkaVolterraState { x, y } = run.state();
-        writeln!(table, "{},{x},{y}", run.time())?;
-        run.advance()?;
-    }
-    table.flush()?;
+    let record = run.record(1, 2000)?;
 
     let equilibrium = system.rate;
     let passes = run.events([Direction::Rising], |_, state| [state.x - equilibrium])?;
@@ -42,6 +33,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     println!("period of the cycle: {:.10}", (times[100] - times[0]) / 100.0);
     println!("energy changed by {:.0e} until t = {:.0}", (run.energy() - energy).abs(), run.time());
-    println!("The table is results/lotka-volterra.csv.");
+    fs::create_dir_all("results")?;
+    record.write_csv(File::create("results/lotka-volterra.csv")?)?;
+    record.write_page(File::create("results/lotka-volterra.html")?)?;
+    println!("The table is results/lotka-volterra.csv, and results/lotka-volterra.html shows it.");
     Ok(())
 }

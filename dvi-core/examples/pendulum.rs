@@ -2,9 +2,9 @@
 //! method with four times as long steps, so that both evaluate the force equally often.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write as _};
 
 use dvi_core::prelude::*;
+use dvi_core::record::{Column, Record, RecordError};
 
 /// A pendulum; its coordinate is the angle from the vertical, in radians.
 #[lagrangian(
@@ -22,23 +22,26 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut variational = Integrator::new(&pendulum, Variational::trapezoid(), 0.025, start)?;
     let mut runge_kutta = Integrator::new(&pendulum, RungeKutta::classical(), 0.1, start)?;
     let energy = variational.energy();
+    let error = |name: &str, record: &Record| -> Result<Column, RecordError> {
+        let errors: Vec<f64> = record.numbers("energy")?.iter().map(|now| now - energy).collect();
+        Ok(Column::new(name, errors))
+    };
+    let [ours, theirs] = [variational.record(400, 1000)?, runge_kutta.record(100, 1000)?];
+    let record = Record::new("Energy errors of a pendulum")
+        .with_column(theirs.column("time")?.clone())?
+        .with_column(error("variational", &ours)?)?
+        .with_column(error("runge_kutta", &theirs)?)?;
 
-    fs::create_dir_all("results")?;
-    let mut table = BufWriter::new(File::create("results/pendulum.csv")?);
-    writeln!(table, "t,variational,runge_kutta")?;
     println!("energy error at time t");
     println!("{:>8} {:>12} {:>12}", "t", "variational", "Runge-Kutta");
-    for row in 1..=1000 {
-        variational.take_steps(400)?;
-        runge_kutta.take_steps(100)?;
-        let t = runge_kutta.time();
-        let errors = [variational.energy() - energy, runge_kutta.energy() - energy];
-        writeln!(table, "{t},{:e},{:e}", errors[0], errors[1])?;
-        if [1, 10, 100, 1000].contains(&row) {
-            println!("{t:>8.0} {:>12.5} {:>12.5}", errors[0], errors[1]);
-        }
+    let [t, a, b] = ["time", "variational", "runge_kutta"].map(|name| record.numbers(name));
+    let (t, a, b) = (t?, a?, b?);
+    for row in [1, 10, 100, 1000] {
+        println!("{:>8.0} {:>12.5} {:>12.5}", t[row], a[row], b[row]);
     }
-    table.flush()?;
-    println!("The table is results/pendulum.csv.");
+    fs::create_dir_all("results")?;
+    record.write_csv(File::create("results/pendulum.csv")?)?;
+    record.write_page(File::create("results/pendulum.html")?)?;
+    println!("The table is results/pendulum.csv, and results/pendulum.html shows it.");
     Ok(())
 }

@@ -7,7 +7,6 @@
 
 use std::error::Error;
 use std::fs::File;
-use std::io::BufWriter;
 
 use dvi_core::ensemble::{Draws, Ensemble};
 use dvi_core::prelude::*;
@@ -37,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .in_lanes::<8>()
         .take_steps_on(&world, 5000)?;
     if let Some(results) = results {
-        results.write_csv(BufWriter::new(File::create(&path)?))?;
+        results.record()?.write_csv(File::create(&path)?)?;
         println!("{} members on {} processes: {path}", results.members().len(), world.size());
     }
     Ok(())

@@ -2,7 +2,6 @@
 //! each other.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write as _};
 
 use dvi_core::prelude::*;
 
@@ -25,24 +24,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let system = Vortices { gamma: [1.0, 1.0, -1.0, -1.0] };
     let start: VorticesState<4> = VorticesState { x: [-1.0, 1.0, -1.0, 1.0], y: [2.0, 2.0, -2.0, -2.0] };
     let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
-    let (energy, momenta) = (run.energy(), run.momenta().collect::<Vec<_>>());
+    let record = run.record(1, 3000)?;
 
-    fs::create_dir_all("results")?;
-    let mut table = BufWriter::new(File::create("results/vortices.csv")?);
-    let names: Vec<String> = system.names().map(|name| name.to_string()).collect();
-    writeln!(table, "t,{}", names.join(","))?;
-    for _ in 0..3000 {
-        let row: Vec<String> = system.values(&run.state())?.map(|value| value.to_string()).collect();
-        writeln!(table, "{:.1},{}", run.time(), row.join(","))?;
-        run.advance()?;
-    }
-    table.flush()?;
     println!("after t = {:.0}", run.time());
-    println!("energy changed by {:.0e}", (run.energy() - energy).abs());
-    for ((name, now), (_, before)) in run.momenta().zip(momenta) {
-        println!("{name} changed by {:.0e}", (now - before).abs());
+    for name in ["energy", "impulse_y", "angular"] {
+        let values = record.numbers(name)?;
+        println!("{name} changed by {:.0e}", (values[3000] - values[0]).abs());
     }
     println!("\nWhat the compiler saw:\n{}", Vortices::<4>::REPORT);
-    println!("The table is results/vortices.csv.");
+    fs::create_dir_all("results")?;
+    record.write_csv(File::create("results/vortices.csv")?)?;
+    record.write_page(File::create("results/vortices.html")?)?;
+    println!("The table is results/vortices.csv, and results/vortices.html shows the motion.");
     Ok(())
 }

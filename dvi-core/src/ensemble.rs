@@ -27,13 +27,15 @@
 //! });
 //! let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states)
 //!     .until(|_, state| (state.x.hypot(state.y) > 3.0).then_some("left the well"))
+//!     .parameter("first_x", |_, start| start.x)
 //!     .in_lanes::<8>()
 //!     .take_steps(2000)?;
 //! let left = results.members().iter().filter(|member| matches!(member.outcome, Outcome::Exited { .. }));
 //! println!("{} of 100 have left", left.count());
+//! let record = results.record()?; // a row for each member
 //! let mut table = Vec::new();
-//! results.write_csv(&mut table)?;
-//! # assert_eq!(results.members().len(), 100);
+//! record.write_csv(&mut table)?;
+//! # assert_eq!((results.members().len(), record.numbers("parameter.first_x")?.len()), (100, 100));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -52,7 +54,7 @@
 //!
 //! let shards = (0..8).map(|index| Results::read(Shard::new(index, 8)?.path("run.ckpt")).map_err(Into::into));
 //! let whole = Results::merge(shards.collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?)?;
-//! whole.write_csv(std::fs::File::create("run.csv")?)?;
+//! whole.record()?.write_csv(std::fs::File::create("run.csv")?)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -83,7 +85,9 @@ use std::boxed::Box;
 use std::fmt;
 use std::format;
 use std::path::Path;
+use std::string::String;
 use std::time::Duration;
+use std::vec::Vec;
 
 use crate::Lagrangian;
 use crate::diagnostics::LyapunovExponent;
@@ -156,6 +160,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
             systems,
             states: states.into_iter().collect(),
             method,
+            parameters: Vec::new(),
             vary: None,
             h,
             stride: 100,
@@ -166,6 +171,20 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
             texts: None,
         };
         Self { settings, shard: Shard::WHOLE, checkpoints: None, on_progress: None }
+    }
+
+    /// Writes down a parameter of each member beside its results, such as one that its system has from a
+    /// table, or a part of its first state: in the column `parameter.` and `name` of their
+    /// [record](Results::record). One of the same name takes the place of the other.
+    pub fn parameter(
+        mut self,
+        name: impl Into<String>,
+        value: impl Fn(&S, &S::State<f64>) -> f64 + Send + Sync + 'a,
+    ) -> Self {
+        let name = name.into();
+        self.settings.parameters.retain(|(other, _)| *other != name);
+        self.settings.parameters.push((name, Box::new(value)));
+        self
     }
 
     /// Changes the method of each member by its number: `Langevin` needs a seed of its own in each, for else

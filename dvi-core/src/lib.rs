@@ -78,6 +78,7 @@
 //! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, steps with constraints (`Constrained`, `Rattle`) and with impacts (`Impacts`), on rotations and unit vectors (`Geodesic`), compositions, Gauss, Runge–Kutta |
 //! | [`run`] | runs with fixed and with controlled steps: state, energy, momenta, checkpoints |
 //! | [`diagnostics`] | sections, Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
+//! | `record` | what a run was, as columns: CSV, arrays of NumPy, a page that shows it; with the feature `records` |
 //! | `ensemble` | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
 //! | `fast_sum` | sums over all pairs of many bodies in a time that grows like their number, with the feature `fast-sums` |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
@@ -95,8 +96,9 @@
 //! - `alloc`: systems whose size is known at run time only.
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
-//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `threads`, `random` and
-//!   `serde`.
+//! - `records` (default): tables and pages of runs, in the module `record`; implies `std`.
+//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `threads`, `random`, `records`
+//!   and `serde`.
 //! - `fast-sums`: sums over all pairs of many bodies by the fast multipole method, in the module `fast_sum`;
 //!   implies `std`.
 //! - `threads`: what is computed for many bodies is shared by threads: the generated sums over all pairs of
@@ -115,7 +117,7 @@
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
-#[cfg(any(feature = "ensembles", feature = "fast-sums"))]
+#[cfg(any(feature = "records", feature = "fast-sums"))]
 extern crate std;
 
 #[doc(hidden)]
@@ -135,6 +137,8 @@ mod memory;
 pub mod methods;
 mod name;
 pub mod prelude;
+#[cfg(feature = "records")]
+pub mod record;
 pub mod rotations;
 pub mod run;
 pub mod scalar;

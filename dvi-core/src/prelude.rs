@@ -16,6 +16,8 @@ pub use crate::methods::{
     Newmark, OneStep, OneStepGauss, ParasiticMode, Projected, Rattle, RungeKutta, Scheme, Sigma, Start,
     Tolerance, Variational,
 };
+#[cfg(feature = "records")]
+pub use crate::record::Recorded;
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Dense, Density, Direction, EnergyMomentum, ErrorControl, Event,
     Events, Integrator, Osculating, Power, Reversible, Run, StepControl,

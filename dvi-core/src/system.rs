@@ -34,8 +34,7 @@ use crate::error::{IndexError, LengthError, OutsideError, StartError};
 use crate::space::sink::Sink;
 use crate::{Real, Scalar, Space};
 
-pub(crate) use crate::name::Factor;
-pub use crate::name::Name;
+pub use crate::name::{Factor, Name};
 pub use crate::space::Weights;
 pub use affine::AffineOneForm;
 pub use constrained::ConstrainedSystem;

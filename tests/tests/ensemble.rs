@@ -83,10 +83,11 @@ fn planets(count: u64) -> (Vec<Kepler>, Vec<KeplerState>) {
 }
 
 /// The bytes of both tables.
-fn bytes(results: &Results) -> std::io::Result<[Vec<u8>; 2]> {
+fn bytes(results: &Results) -> Result<[Vec<u8>; 2], Box<dyn std::error::Error>> {
     let [mut csv, mut npy] = [Vec::new(), Vec::new()];
-    results.write_csv(&mut csv)?;
-    results.write_npy(&mut npy)?;
+    let record = results.record()?;
+    record.write_csv(&mut csv)?;
+    record.write_npy(&mut npy)?;
     Ok([csv, npy])
 }
 

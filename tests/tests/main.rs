@@ -42,6 +42,7 @@ mod packs;
 mod pages;
 mod parameters;
 mod projected;
+mod records;
 mod reference_values;
 mod restoring;
 mod scalar_fields;

@@ -15,7 +15,7 @@ use super::group::Slot;
 use super::plan::Plan;
 
 /// Begins each file; after it stand the length and the fingerprint of the content, then the content.
-const MARK: &[u8] = b"dvi ensemble checkpoint 2\n";
+const MARK: &[u8] = b"dvi ensemble checkpoint 3\n";
 /// The bytes before the content.
 const HEAD: usize = MARK.len() + 16;
 

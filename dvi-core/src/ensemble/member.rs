@@ -55,6 +55,17 @@ pub enum Outcome {
     },
 }
 
+impl Outcome {
+    /// What it is in a word, and the reason.
+    pub(super) fn words(&self) -> [&str; 2] {
+        match self {
+            Self::Finished => ["finished", ""],
+            Self::Exited { reason } => ["exited", reason],
+            Self::Failed { error } => ["failed", error],
+        }
+    }
+}
+
 /// The energy of a member, looked at every [`stride`](super::Ensemble::stride) steps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Energy {

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{Difference, EnsembleError};
 use super::fingerprint::Fingerprint;
-use super::settings::{Settings, Systems};
+use super::member::plain;
+use super::settings::{Settings, Swept, Systems};
 use crate::methods::Method;
 use crate::{Lagrangian, Space, State};
 
@@ -22,9 +23,14 @@ const TEXTS: &str = "fingerprint of the texts of the systems";
 pub(super) struct Plan {
     /// Each with what it is.
     facts: Vec<(String, String)>,
+    /// The name of the system.
+    pub(super) title: String,
     pub(super) members: u64,
-    /// The names of the entries of a state.
+    /// Those that are written down, each with its name and its value for each member.
+    pub(super) parameters: Vec<(String, Vec<f64>)>,
+    /// The names of the entries of a state, and how many of them are coordinates.
     pub(super) names: Vec<String>,
+    pub(super) coordinates: usize,
     /// The names of the declared momenta.
     pub(super) momenta: Vec<String>,
     pub(super) has_exponents: bool,
@@ -38,6 +44,8 @@ impl Plan {
     ) -> Result<Self, EnsembleError> {
         let Settings { h, stride, ref states, ref section, .. } = *settings;
         let names = names(settings)?;
+        let coordinates = names.iter().filter(|(_, is_velocity)| !is_velocity).count();
+        let names: Vec<String> = names.into_iter().map(|(name, _)| name).collect();
         // Below the smallest number that has all digits, 1/h may be infinite.
         if !h.is_finite() || h.abs() < f64::MIN_POSITIVE {
             return Err(EnsembleError::Step { h });
@@ -46,6 +54,12 @@ impl Plan {
             return Err(EnsembleError::Stride);
         }
         let [starts, systems, texts] = fingerprints(settings);
+        let parameters = parameters(settings);
+        let mut swept = Fingerprint::new();
+        for (name, values) in &parameters {
+            swept.text(name);
+            values.iter().for_each(|&value| swept.number(value));
+        }
         // What a method says of itself need not say the number of its stages, which its type does.
         let method_text = |method: &M| format!("{} {method:?}", type_name::<M>());
         let mut varied = Fingerprint::new();
@@ -68,10 +82,14 @@ impl Plan {
             ("number of steps", steps.to_string()),
             ("stride", stride.to_string()),
             ("exit condition", settings.exit.is_some().to_string()),
+            ("fingerprint of the parameters in the table", swept.to_string()),
             ("section", format!("{direction:?}")),
             ("Lyapunov exponent", settings.growth.is_some().to_string()),
         ];
         Ok(Self {
+            title: S::REPORT.system.into(),
+            parameters,
+            coordinates,
             facts: facts.into_iter().map(|(what, value)| (what.to_string(), value)).collect(),
             members: states.len() as u64,
             names,
@@ -93,7 +111,7 @@ impl Plan {
             found: found.clone(),
         });
         let layout = |plan: &Self| {
-            let Self { facts, members, names, momenta, has_exponents, has_section } = plan;
+            let Self { facts, members, names, momenta, has_exponents, has_section, .. } = plan;
             format!("{} {members} {names:?} {momenta:?} {has_exponents} {has_section}", facts.len())
         };
         let (expected, found) = (layout(self), layout(found));
@@ -103,11 +121,12 @@ impl Plan {
     }
 }
 
-/// The names of the entries of a state, which are the same for all members.
+/// The names of the entries of a state, which are the same for all members, and whether they are velocities.
 fn names<S: Lagrangian, M: Method<S, f64>>(
     settings: &Settings<'_, S, M>,
-) -> Result<Vec<String>, EnsembleError> {
-    let of = |system: &S| system.names().map(|name| name.to_string()).collect::<Vec<_>>();
+) -> Result<Vec<(String, bool)>, EnsembleError> {
+    let of =
+        |system: &S| system.names().map(|name| (name.to_string(), name.is_velocity)).collect::<Vec<_>>();
     match settings.systems {
         Systems::Same(system) => Ok(of(system)),
         Systems::Each(systems) => {
@@ -126,6 +145,16 @@ fn names<S: Lagrangian, M: Method<S, f64>>(
             }
         }
     }
+}
+
+/// The names of the parameters that are written down, and their values for all members.
+fn parameters<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>) -> Vec<(String, Vec<f64>)> {
+    let of = |(name, value): &Swept<'_, S, S::State<f64>>| {
+        let members = settings.states.iter().enumerate();
+        let values = members.map(|(member, start)| plain(value(settings.system(member), start)));
+        (name.clone(), values.collect())
+    };
+    settings.parameters.iter().map(of).collect()
 }
 
 fn formulas<S: Lagrangian>() -> String {

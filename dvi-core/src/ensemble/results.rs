@@ -1,21 +1,19 @@
-//! The records of all members: put together from shards, and written as tables.
-
-mod columns;
-mod npy;
+//! The records of all members: put together from shards, and as a table.
 
 use std::borrow::ToOwned;
-use std::io::{self, Write};
+use std::format;
+use std::io;
 use std::path::Path;
-use std::string::{String, ToString};
+use std::string::String;
 use std::vec::Vec;
 
+use super::Shard;
 use super::error::{EnsembleError, MergeError};
 use super::file::{self, Saved};
 use super::group::{Place, Slot};
 use super::member::Member;
 use super::plan::Plan;
-use super::{Outcome, Shard};
-use columns::{Cell, columns};
+use crate::record::{Column, Quantity, Record, RecordError};
 
 /// The members of an ensemble, or of a shard, in order.
 #[derive(Clone, Debug)]
@@ -120,46 +118,70 @@ impl Results {
         self.plan.names.iter().map(String::as_str)
     }
 
-    /// Writes a table in CSV, with a line for each member. Its numbers can be read back without a rounding
-    /// error, and [`Table::states`](super::Table::states) reads the last states.
+    /// A record with a row for each member: `write_csv`, `write_npy` and `write_page` of [`Record`] write it.
+    ///
+    /// | columns | what is in them |
+    /// |---|---|
+    /// | `run.member`, `run.steps`, `run.iterations`, `run.time`, `run.crossings`, `run.exponent` | what [`Member`] says; crossings and exponents if they were asked for, and not a number if there is no exponent |
+    /// | `run.outcome`, `run.reason` | `finished`, `exited` or `failed`, and the text of the exit condition or of the error |
+    /// | `parameter.k` | the [parameters](super::Ensemble::parameter) by their names |
+    /// | `energy.first`, `energy.last`, `energy.largest_error` | the energies |
+    /// | `momentum.angular.first`, `momentum.angular.last` | the momenta by their names |
+    /// | `x`, `dot_x`, … | the last state; [`Table::states`](super::Table::states) reads it from the CSV |
+    ///
+    /// In an array of NumPy the reasons take four bytes for each letter of the longest one:
+    /// [`without_column`](Record::without_column) leaves them out.
     ///
     /// # Errors
-    /// Those of `to`.
-    pub fn write_csv(&self, to: impl Write) -> io::Result<()> {
-        let columns = columns(&self.plan);
-        let mut writer = csv::Writer::from_writer(to);
-        writer.write_record(columns.iter().map(|column| &column.name)).map_err(io::Error::from)?;
-        for member in &self.members {
-            writer
-                .write_record(columns.iter().map(|column| column.cell(member).to_string()))
-                .map_err(io::Error::from)?;
+    /// [`RecordError::Duplicate`] if two momenta have one name.
+    pub fn record(&self) -> Result<Record, RecordError> {
+        let Self { plan, members, .. } = self;
+        let counts = |of: fn(&Member) -> u64| members.iter().map(of).collect::<Vec<u64>>();
+        let numbers = |of: &dyn Fn(&Member) -> f64| members.iter().map(of).collect::<Vec<f64>>();
+        let texts =
+            |of: fn(&Member) -> &str| members.iter().map(|one| of(one).to_owned()).collect::<Vec<String>>();
+        let mut columns = Vec::from([
+            Column::new("run.member", counts(|member| member.number)),
+            Column::new("run.outcome", texts(|member| member.outcome.words()[0])),
+            Column::new("run.reason", texts(|member| member.outcome.words()[1])),
+            Column::new("run.time", numbers(&|member| member.time)),
+            Column::new("run.steps", counts(|member| member.steps)),
+            Column::new("run.iterations", counts(|member| member.iterations)),
+        ]);
+        let mut add = |name: String, quantity, of: &dyn Fn(&Member) -> f64| {
+            columns.push(Column::new(name, numbers(of)).with_quantity(quantity));
+        };
+        for (name, values) in &plan.parameters {
+            let value = |member: &Member| at(values, member.number as usize);
+            add(format!("parameter.{name}"), Quantity::Parameter, &value);
         }
-        writer.flush()
-    }
-
-    /// Writes an array of records in the format of NumPy, with the columns of the CSV as its fields, but for
-    /// the texts of `run.reason`: `numpy.load(file)["energy.last"]`. `run.outcome` is 0 if the member
-    /// finished, 1 if it exited, 2 if it failed. An exponent that is none is not a number.
-    ///
-    /// # Errors
-    /// Those of `to`.
-    pub fn write_npy(&self, mut to: impl Write) -> io::Result<()> {
-        let mut columns = columns(&self.plan);
-        columns.retain(|column| column.kind.is_some());
-        to.write_all(&npy::head(&columns, self.members.len())?)?;
-        for member in &self.members {
-            for column in &columns {
-                match column.cell(member) {
-                    Cell::Number(number) => to.write_all(&number.to_le_bytes())?,
-                    Cell::Count(count) => to.write_all(&count.to_le_bytes())?,
-                    Cell::Outcome(Outcome::Finished) => to.write_all(&[0])?,
-                    Cell::Outcome(Outcome::Exited { .. }) => to.write_all(&[1])?,
-                    Cell::Outcome(Outcome::Failed { .. }) => to.write_all(&[2])?,
-                    Cell::None => to.write_all(&f64::NAN.to_le_bytes())?,
-                    Cell::Text(_) => {}
-                }
+        add("energy.first".into(), Quantity::Energy, &|member| member.energy.first);
+        add("energy.last".into(), Quantity::Energy, &|member| member.energy.last);
+        add("energy.largest_error".into(), Quantity::Energy, &|member| member.energy.largest_error);
+        for (place, name) in plan.momenta.iter().enumerate() {
+            for (end, which) in ["first", "last"].into_iter().enumerate() {
+                let value = |member: &Member| member.momenta.get(place).map_or(f64::NAN, |ends| ends[end]);
+                add(format!("momentum.{name}.{which}"), Quantity::Momentum, &value);
             }
         }
-        to.flush()
+        if plan.has_exponents {
+            let exponent = |member: &Member| member.exponent.unwrap_or(f64::NAN);
+            add("run.exponent".into(), Quantity::Other, &exponent);
+        }
+        if plan.has_section {
+            columns.push(Column::new("run.crossings", counts(|member| member.crossings)));
+        }
+        for (place, name) in plan.names.iter().enumerate() {
+            let is_velocity = place >= plan.coordinates;
+            let quantity = if is_velocity { Quantity::Velocity } else { Quantity::Coordinate };
+            let entry = numbers(&|member| at(&member.state, place));
+            columns.push(Column::new(name, entry).with_quantity(quantity));
+        }
+        columns.into_iter().try_fold(Record::new(&plan.title), Record::with_column)
     }
+}
+
+/// An entry; not a number if there is none.
+fn at(values: &[f64], place: usize) -> f64 {
+    values.get(place).copied().unwrap_or(f64::NAN)
 }

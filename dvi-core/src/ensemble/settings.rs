@@ -15,6 +15,8 @@ use crate::run::Integrator;
 pub(super) type Exit<'a, S, Q> = Box<dyn Fn(&S, &Q) -> Option<&'static str> + Send + Sync + 'a>;
 /// The function whose zeros are the section, and which of them count.
 pub(super) type Crossed<'a, S, Q> = (Direction, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
+/// The name of a parameter, and what it is of a system and its first state.
+pub(super) type Swept<'a, S, Q> = (String, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
 /// What is special to the method of one member.
 pub(super) type Vary<'a, M> = Box<dyn Fn(u64, &mut M) + Send + Sync + 'a>;
 /// Room for runs that are taken together.
@@ -33,6 +35,7 @@ pub(super) struct Settings<'a, S: Lagrangian, M: Method<S, f64>> {
     pub(super) systems: Systems<'a, S>,
     pub(super) states: Vec<S::State<f64>>,
     pub(super) method: M,
+    pub(super) parameters: Vec<Swept<'a, S, S::State<f64>>>,
     pub(super) vary: Option<Vary<'a, M>>,
     pub(super) h: f64,
     pub(super) stride: u64,

@@ -1,9 +1,10 @@
 //! Tables in and out.
 
-use dvi_core::ensemble::{Ensemble, Outcome, Table};
+use dvi_core::ensemble::{Ensemble, Member, Outcome, Results, Shard, Table};
 use dvi_core::prelude::*;
+use dvi_core::record::{Quantity, Values};
 
-use crate::ensemble::{Checked, HenonHeiles, Kepler, KeplerState, bytes, left, planets, wells};
+use crate::ensemble::{Checked, HenonHeiles, Kepler, KeplerState, bytes, file, left, planets, wells};
 
 fn said<T>(result: Result<T, dvi_core::ensemble::TableError>) -> String {
     result.map_or_else(|error| error.to_string(), |_| "no error".into())
@@ -85,7 +86,8 @@ fn the_columns() -> Checked {
     assert!(lines.next().is_some_and(|line| line.starts_with("0,finished,,0.5,50,0,")));
     let failed = lines.nth(3);
     assert!(
-        failed.is_some_and(|line| line.starts_with("4,failed,") && line.ends_with(",,0,0.0,0.0,0.0,0.92")),
+        failed
+            .is_some_and(|line| line.starts_with("4,failed,") && line.ends_with(",NaN,0,0.0,0.0,0.0,0.92")),
         "{failed:?}"
     );
     Ok(())
@@ -101,56 +103,63 @@ fn reasons_are_quoted() -> Checked {
     Ok(())
 }
 
-/// Every field of the array, found by the offsets of the types in its head.
+/// Every column against what the members say, and against the systems and states that they have begun from.
 #[test]
-fn the_array_of_numpy() -> Checked {
-    let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(20))
-        .until(left)
-        .stride(5)
-        .take_steps(999)?;
-    let [csv, npy] = bytes(&results)?;
-    assert_eq!(&npy[..8], b"\x93NUMPY\x03\x00");
-    let len = u32::from_le_bytes(npy[8..12].try_into()?) as usize;
-    let (head, data) = npy[12..].split_at(len);
-    assert_eq!((12 + len) % 64, 0);
-    let head = std::str::from_utf8(head)?;
-    assert!(head.ends_with('\n') && head.contains("'fortran_order': False, 'shape': (20,), }"));
-    let fields = head.split_once("[").and_then(|(_, rest)| rest.split_once("]")).ok_or("it has a list")?.0;
-    let fields: Vec<(&str, &str)> = fields
-        .split("), ")
-        .filter_map(|field| field.trim_start_matches('(').split_once(", "))
-        .map(|(name, kind)| (name.trim_matches('\''), kind.trim_matches('\'')))
-        .collect();
-    let size: usize = fields.iter().map(|&(_, kind)| if kind == "|u1" { 1 } else { 8 }).sum();
-    assert_eq!(data.len(), 20 * size);
-    let table = Table::read(&csv[..])?;
-    let mut offset = 0;
-    for (name, kind) in fields {
-        let values = |read: &dyn Fn([u8; 8]) -> f64| -> Result<Vec<f64>, std::array::TryFromSliceError> {
-            data.chunks(size).map(|record| record[offset..][..8].try_into().map(read)).collect()
-        };
-        match kind {
-            "<f8" => {
-                let [found, expected] = [values(&f64::from_le_bytes)?, table.column(name)?];
-                assert!(found.iter().zip(&expected).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}");
-            }
-            "<u8" => {
-                let counts = values(&|bytes| u64::from_le_bytes(bytes) as f64)?;
-                assert_eq!(counts, table.column(name)?, "{name}");
-            }
-            "|u1" => {
-                let codes = data.chunks(size).map(|record| record[offset]);
-                let expected = results.members().iter().map(|member| match member.outcome {
-                    Outcome::Finished => 0,
-                    Outcome::Exited { .. } => 1,
-                    Outcome::Failed { .. } => 2,
-                });
-                assert!(codes.eq(expected));
-            }
-            other => return Err(format!("{name} has the type {other}").into()),
-        }
-        offset += if kind == "|u1" { 1 } else { 8 };
-    }
-    assert_eq!(offset, size);
+fn the_record_of_an_ensemble() -> Checked {
+    let (systems, states) = planets(7);
+    let results = Ensemble::with_systems(&systems, Variational::trapezoid(), 0.01, states.clone())
+        .parameter("mu", |_, _| 0.0)
+        .parameter("start", |_, state| state.dot_y)
+        .parameter("mu", |planet, _| planet.mu)
+        .take_steps(50)?;
+    let record = results.record()?;
+    assert_eq!((record.title(), record.rows()), ("Kepler", 7));
+    let numbers = |name: &str| -> Result<Vec<u64>, dvi_core::record::RecordError> {
+        Ok(record.numbers(name)?.iter().map(|number| number.to_bits()).collect())
+    };
+    let of = |value: &dyn Fn(&Member) -> f64| -> Vec<u64> {
+        results.members().iter().map(|member| value(member).to_bits()).collect()
+    };
+    assert_eq!(numbers("run.time")?, of(&|member| member.time));
+    assert_eq!(numbers("energy.largest_error")?, of(&|member| member.energy.largest_error));
+    assert_eq!(numbers("momentum.angular.first")?, of(&|member| member.momenta[0][0]));
+    assert_eq!(numbers("momentum.angular.last")?, of(&|member| member.momenta[0][1]));
+    assert_eq!(numbers("dot_x")?, of(&|member| member.state[2]));
+    assert_eq!(numbers("parameter.mu")?, of(&|member| systems[member.number as usize].mu));
+    assert_eq!(numbers("parameter.start")?, of(&|member| states[member.number as usize].dot_y));
+    let quantity = |name: &str| record.column(name).map(dvi_core::record::Column::quantity);
+    assert_eq!([quantity("y")?, quantity("dot_x")?], [Quantity::Coordinate, Quantity::Velocity]);
+    assert_eq!(quantity("parameter.mu")?, Quantity::Parameter);
+    let Values::Texts(outcomes) = record.column("run.outcome")?.values() else { panic!("they are words") };
+    let expected = results.members().iter().map(|member| match member.outcome {
+        Outcome::Finished => "finished",
+        Outcome::Exited { .. } => "exited",
+        Outcome::Failed { .. } => "failed",
+    });
+    assert!(outcomes.iter().eq(expected) && outcomes[4] == "failed");
+    assert_eq!(record.column("run.member")?.values(), &Values::Counts(vec![0, 1, 2, 3, 4, 5, 6]));
+    Ok(())
+}
+
+/// Parameters of the table go through checkpoints, and tell ensembles apart.
+#[test]
+fn parameters_are_in_the_checkpoint() -> Checked {
+    let path = file("parameters.ckpt");
+    let (systems, states) = planets(5);
+    let run = |shard: Shard, factor: f64| {
+        Ensemble::with_systems(&systems, Variational::trapezoid(), 0.01, states.clone())
+            .parameter("mu", move |planet, _| factor * planet.mu)
+            .checkpoints(&path, std::time::Duration::from_secs(60))
+            .shard(shard)
+            .take_steps(20)
+    };
+    let [first, second] = [Shard::new(0, 2)?, Shard::new(1, 2)?];
+    run(first, 1.0)?;
+    run(second, 1.0)?;
+    let whole = Results::merge([Results::read(second.path(&path))?, Results::read(first.path(&path))?])?;
+    let expected: Vec<f64> = systems.iter().map(|planet| planet.mu).collect();
+    assert_eq!(whole.record()?.numbers("parameter.mu")?, expected);
+    let said = run(first, 2.0).map_or_else(|error| error.to_string(), |_| "no error".into());
+    assert!(said.contains("fingerprint of the parameters in the table"), "{said}");
     Ok(())
 }

@@ -1,0 +1,139 @@
+//! The columns of a record.
+
+use std::format;
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+/// A named column of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    name: String,
+    quantity: Quantity,
+    /// Empty if it is not known.
+    pub(super) unit: String,
+    pub(super) values: Values,
+}
+
+/// What a column is, which decides where it stands on a page.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// The time: rows are states of a motion, one after the other.
+    Time,
+    /// A coordinate.
+    Coordinate,
+    /// A velocity.
+    Velocity,
+    /// The energy.
+    Energy,
+    /// A momentum.
+    Momentum,
+    /// A parameter, which was swept.
+    Parameter,
+    /// Anything else, such as a function of the user's.
+    #[default]
+    Other,
+}
+
+/// The values of a column.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Values {
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// Counts.
+    Counts(Vec<u64>),
+    /// Texts.
+    Texts(Vec<String>),
+}
+
+impl Quantity {
+    /// The word that stands for it on a page.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Coordinate => "coordinate",
+            Self::Velocity => "velocity",
+            Self::Energy => "energy",
+            Self::Momentum => "momentum",
+            Self::Parameter => "parameter",
+            Self::Other => "other",
+        }
+    }
+}
+
+impl Column {
+    /// A column of a name and values, `Vec<f64>`, `Vec<u64>` or `Vec<String>`.
+    pub fn new(name: impl Into<String>, values: impl Into<Values>) -> Self {
+        let (quantity, unit) = (Quantity::default(), String::new());
+        Self { name: name.into(), quantity, unit, values: values.into() }
+    }
+
+    /// The same as a column of another quantity than [`Quantity::Other`].
+    pub fn with_quantity(mut self, quantity: Quantity) -> Self {
+        self.quantity = quantity;
+        self
+    }
+
+    /// The name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What it is.
+    pub fn quantity(&self) -> Quantity {
+        self.quantity
+    }
+
+    /// Its unit; empty if [nobody has said](super::Record::with_unit) it.
+    pub fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// The values.
+    pub fn values(&self) -> &Values {
+        &self.values
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        match &self.values {
+            Values::Numbers(numbers) => numbers.len(),
+            Values::Counts(counts) => counts.len(),
+            Values::Texts(texts) => texts.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The entry of a row as a text from which it can be read back.
+    pub(super) fn text(&self, row: usize) -> String {
+        match &self.values {
+            // As many digits as tell it from its neighbours.
+            Values::Numbers(numbers) => format!("{:?}", numbers[row]),
+            Values::Counts(counts) => counts[row].to_string(),
+            Values::Texts(texts) => texts[row].clone(),
+        }
+    }
+}
+
+impl From<Vec<f64>> for Values {
+    fn from(numbers: Vec<f64>) -> Self {
+        Self::Numbers(numbers)
+    }
+}
+
+impl From<Vec<u64>> for Values {
+    fn from(counts: Vec<u64>) -> Self {
+        Self::Counts(counts)
+    }
+}
+
+impl From<Vec<String>> for Values {
+    fn from(texts: Vec<String>) -> Self {
+        Self::Texts(texts)
+    }
+}

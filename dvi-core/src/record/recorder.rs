@@ -1,0 +1,209 @@
+//! What writes down states: those of a run, or any that come with a time.
+
+use std::boxed::Box;
+use std::string::{String, ToString};
+use std::vec::Vec;
+use std::{fmt, format};
+
+use super::body::Body;
+use super::column::{Column, Quantity, Values};
+use super::{Record, RecordError};
+use crate::error::{LengthError, StepError};
+use crate::run::{Event, Run};
+use crate::system::{Factor, Name};
+use crate::{Lagrangian, Space, State};
+
+type Function<'f, S, Q> = Box<dyn FnMut(&S, &Q, f64) -> f64 + 'f>;
+
+/// Writes down states of a system: the time, the entries of the state, energy, momenta, and functions of
+/// the user's.
+pub struct Recorder<'f, S: Lagrangian> {
+    record: Record,
+    functions: Vec<Function<'f, S, S::State<f64>>>,
+}
+
+/// Runs that can be recorded: all whose numbers are `f64`.
+pub trait Recorded: Run<Scalar = f64> + Sized {
+    /// Takes `rows` times `every` steps, and records the present state and the one after each `every` steps:
+    /// `rows` + 1 rows. The page on the [module](crate::record) shows it.
+    ///
+    /// # Errors
+    /// [`RecordError::Every`] if `every` is zero. If a step fails, [`RecordError::Step`] holds the record up
+    /// to there, and the run stays at the last good state.
+    fn record(&mut self, every: u64, rows: u64) -> Result<Record, RecordError> {
+        Recorder::new(self.system()).record(self, every, rows)
+    }
+}
+
+impl<R: Run<Scalar = f64>> Recorded for R {}
+
+/// A state with its time: what iterators over parts of a run yield.
+pub trait Moment<Q> {
+    /// The time.
+    fn time(&self) -> f64;
+    /// The state.
+    fn state(&self) -> &Q;
+}
+
+impl<Q> Moment<Q> for (f64, Q) {
+    fn time(&self) -> f64 {
+        self.0
+    }
+
+    fn state(&self) -> &Q {
+        &self.1
+    }
+}
+
+impl<Q> Moment<Q> for Event<Q, f64> {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn state(&self) -> &Q {
+        &self.state
+    }
+}
+
+impl<'f, S: Lagrangian> Recorder<'f, S> {
+    /// A recorder without rows, for states of systems that have as many coordinates as `system` has.
+    pub fn new(system: &S) -> Self {
+        let column = |name, quantity| Column::new(name, Vec::<f64>::new()).with_quantity(quantity);
+        let entry = |name: Name| {
+            let quantity = if name.is_velocity { Quantity::Velocity } else { Quantity::Coordinate };
+            column(name.to_string(), quantity)
+        };
+        let mut columns: Vec<Column> = system.names().map(entry).collect();
+        let entries = columns.len();
+        let momenta = S::REPORT.momenta.iter().map(|&name| (name, Quantity::Momentum));
+        for (name, quantity) in
+            [("time", Quantity::Time), ("energy", Quantity::Energy)].into_iter().chain(momenta)
+        {
+            let mut name = name.to_string();
+            while columns.iter().any(|column| column.name() == name) {
+                name.insert_str(0, "run.");
+            }
+            columns.push(column(name, quantity));
+        }
+        // The time comes first.
+        columns[..=entries].rotate_right(1);
+        let mut record = Record::new(S::REPORT.system);
+        (record.columns, record.turning) = (columns, turning(system));
+        Self { record, functions: Vec::new() }
+    }
+
+    /// The same with a column more: a function of the system, the state and the time.
+    ///
+    /// # Errors
+    /// [`RecordError::Duplicate`] if there is a column of this name; [`RecordError::Rows`] if there are rows
+    /// already.
+    pub fn with_function(
+        mut self,
+        name: impl Into<String>,
+        function: impl FnMut(&S, &S::State<f64>, f64) -> f64 + 'f,
+    ) -> Result<Self, RecordError> {
+        self.record = self.record.with_column(Column::new(name, Vec::<f64>::new()))?;
+        self.functions.push(Box::new(function));
+        Ok(self)
+    }
+
+    /// Adds a row: a state of `system` at a time.
+    ///
+    /// # Errors
+    /// [`LengthError`] if an array of the state does not have the length that the system declares; there is
+    /// no row then.
+    pub fn push(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), LengthError> {
+        let (mut q, mut v) = (system.space().vector(), system.space().vector());
+        state.write(|block| system.block_len(block), &mut q, &mut v)?;
+        let momentum = |index| system.momentum(index, &q, &v, time);
+        let functions = self.functions.iter_mut().map(|function| function(system, state, time));
+        let row = [time]
+            .into_iter()
+            .chain(system.values(state)?)
+            .chain([system.energy(&q, &v, time)])
+            .chain((0..S::REPORT.momenta.len()).map(momentum))
+            .chain(functions);
+        for (column, value) in self.record.columns.iter_mut().zip(row) {
+            if let Values::Numbers(numbers) = &mut column.values {
+                numbers.push(value);
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes `rows` times `every` steps of `run`, and adds a row for its present state and one after each
+    /// `every` steps.
+    ///
+    /// # Errors
+    /// As of [`Recorded::record`]; [`RecordError::State`] if the run is one of another system.
+    pub fn record<R>(mut self, run: &mut R, every: u64, rows: u64) -> Result<Record, RecordError>
+    where
+        R: Run<System = S, Scalar = f64>,
+    {
+        if every == 0 {
+            return Err(RecordError::Every);
+        }
+        self.push(run.system(), run.time(), &run.state())?;
+        for _ in 0..rows {
+            if let Err(error) = run.take_steps(every) {
+                return Err(self.record.until(error));
+            }
+            self.push(run.system(), run.time(), &run.state())?;
+        }
+        Ok(self.record)
+    }
+
+    /// Adds a row for each of the `points`: events, or pairs of a time and a state.
+    ///
+    /// # Errors
+    /// [`RecordError::Step`] with the record up to the first point that is an error; [`RecordError::State`]
+    /// if an array of a state does not have the length that the system declares.
+    pub fn points<P: Moment<S::State<f64>>>(
+        mut self,
+        system: &S,
+        points: impl IntoIterator<Item = Result<P, StepError>>,
+    ) -> Result<Record, RecordError> {
+        for point in points {
+            match point {
+                Ok(point) => self.push(system, point.time(), point.state())?,
+                Err(error) => return Err(self.record.until(error)),
+            }
+        }
+        Ok(self.record)
+    }
+
+    /// The record of the rows so far.
+    pub fn finish(self) -> Record {
+        self.record
+    }
+}
+
+impl<S: Lagrangian> fmt::Debug for Recorder<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Recorder").field("record", &self.record).finish_non_exhaustive()
+    }
+}
+
+/// The ends of unit vectors, and of the three axes of bodies that turn, in space.
+fn turning<S: Lagrangian>(system: &S) -> Vec<Body> {
+    let mut bodies = Vec::new();
+    for block in S::REPORT.coordinates {
+        let of_block = |name: &Name| name.block == block.name && !name.is_velocity;
+        let entries: Vec<String> = system.names().filter(of_block).map(|name| name.to_string()).collect();
+        match (block.factor, &entries[..]) {
+            (Factor::Sphere, [_, _, _]) => {
+                bodies.push(Body { name: block.name.into(), position: entries, is_arm: true });
+            }
+            // The columns of the matrix are the axes of the body.
+            (Factor::Rotation, [_, _, _, _, _, _, _, _, _]) => {
+                bodies.extend((0..3).map(|axis| Body {
+                    name: format!("{}, axis {}", block.name, axis + 1),
+                    position: [axis, axis + 3, axis + 6].map(|place| entries[place].clone()).into(),
+                    is_arm: true,
+                }));
+            }
+            _ => {}
+        }
+    }
+    bodies
+}

@@ -1,0 +1,100 @@
+//! Which columns are positions of bodies.
+
+use dvi_core::prelude::*;
+use dvi_core::record::{Column, Quantity, Record, Recorder};
+
+use crate::records::{Checked, Kepler};
+
+/// The name of a body, and the columns of its position.
+type Told = (String, Vec<String>);
+
+/// The bodies of a record with the time and columns of these names.
+fn told(names: &[&str]) -> Result<Vec<Told>, Box<dyn std::error::Error>> {
+    let time = Column::new("time", vec![0.0]).with_quantity(Quantity::Time);
+    let mut record = Record::new("").with_column(time)?;
+    for &name in names {
+        record = record.with_column(Column::new(name, vec![0.0]))?;
+    }
+    Ok(record.bodies().into_iter().map(|body| (body.name, body.position)).collect())
+}
+
+fn body(name: &str, position: &[&str]) -> Told {
+    (name.into(), position.iter().map(|&column| column.into()).collect())
+}
+
+#[test]
+fn names_tell_bodies() -> Checked {
+    assert_eq!(told(&["x", "y"])?, [body("", &["x", "y"])]);
+    assert_eq!(told(&["z", "y", "x"])?, [body("", &["x", "y", "z"])]);
+    assert_eq!(
+        told(&["x[0]", "x[1]", "x[10]", "y[0]", "y[1]", "y[10]"])?,
+        [body("[0]", &["x[0]", "y[0]"]), body("[1]", &["x[1]", "y[1]"]), body("[10]", &["x[10]", "y[10]"])]
+    );
+    let pairs = ["x2", "y2", "x1", "y1", "sun_x", "sun_y", "x_moon", "y_moon", "z_moon", "X", "Y"];
+    assert_eq!(
+        told(&pairs)?,
+        [
+            body("2", &["x2", "y2"]),
+            body("1", &["x1", "y1"]),
+            body("sun", &["sun_x", "sun_y"]),
+            body("moon", &["x_moon", "y_moon", "z_moon"]),
+            body("", &["X", "Y"]),
+        ]
+    );
+    assert_eq!(told(&["angle", "p", "x", "z", "xi", "y[0]", "", "ŷ", "ex"])?, []);
+    Ok(())
+}
+
+/// Velocities and momenta are no positions, and members of an ensemble no motion.
+#[test]
+fn positions_are_coordinates_of_a_motion() -> Checked {
+    let column = |name: &str| Column::new(name, vec![0.0]);
+    let time = column("time").with_quantity(Quantity::Time);
+    let still = Record::new("").with_column(column("x"))?.with_column(column("y"))?;
+    assert_eq!(still.bodies(), []);
+    let velocities = |name: &str| column(name).with_quantity(Quantity::Velocity);
+    let moving = Record::new("").with_column(time)?;
+    let moving = moving.with_column(velocities("x"))?.with_column(velocities("y"))?;
+    assert_eq!(moving.bodies(), []);
+    Ok(())
+}
+
+#[test]
+fn bodies_that_are_named_take_their_place() -> Checked {
+    let record = Recorder::new(&Kepler).finish();
+    let names: Vec<String> = record.bodies().into_iter().flat_map(|body| body.position).collect();
+    assert_eq!(names, ["x", "y"]);
+    let record = record.with_body("in phase", &["x", "dot_x"])?.with_body("space", &["x", "y", "energy"])?;
+    let found: Vec<_> = record.bodies().into_iter().map(|body| (body.name, body.position)).collect();
+    assert_eq!(found, [body("in phase", &["x", "dot_x"]), body("space", &["x", "y", "energy"])]);
+    let said = |position: &[&str]| {
+        record
+            .clone()
+            .with_body("it", position)
+            .map_or_else(|error| error.to_string(), |_| "no error".into())
+    };
+    assert_eq!(said(&["x"]), "the position of the body `it` has 1 columns: two in a plane, three in space");
+    assert!(said(&["x", "w"]).starts_with("the record has no column `w`"));
+    Ok(())
+}
+
+/// A top and a pendulum on a sphere; the names of the coordinates of the top are like those of a body.
+#[lagrangian(
+    coordinates(x: SO3, s: S2),
+    lagrangian = (omega(x)[0].powi(2) + omega(x)[1].powi(2) + omega(x)[2].powi(2)) / 2.0
+        + sum(0..3, |k| dot(s[k]).powi(2)) / 2.0 - s[2] - x[2][2],
+)]
+struct Turning;
+
+#[test]
+fn unit_vectors_and_rotations_are_bodies_in_space() {
+    let found: Vec<_> = Recorder::new(&Turning).finish().bodies();
+    let found: Vec<_> = found.into_iter().map(|body| (body.name, body.position)).collect();
+    let expected = [
+        body("x, axis 1", &["x[0]", "x[3]", "x[6]"]),
+        body("x, axis 2", &["x[1]", "x[4]", "x[7]"]),
+        body("x, axis 3", &["x[2]", "x[5]", "x[8]"]),
+        body("s", &["s[0]", "s[1]", "s[2]"]),
+    ];
+    assert_eq!(found, expected);
+}
