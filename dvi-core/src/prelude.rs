@@ -15,7 +15,7 @@ pub use crate::methods::Langevin;
 pub use crate::methods::{
     Collision, Composition, Constrained, EnergyLimit, Fitting, Galerkin, Gauss, Geodesic, Impacts, Method,
     Newmark, OneStep, OneStepGauss, ParasiticMode, Projected, Rattle, RungeKutta, Scheme, Sigma, Start,
-    Tolerance, Variational,
+    Tabulated, Tolerance, Variational,
 };
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Density, EnergyMomentum, ErrorControl, Integrator, Osculating, Power,

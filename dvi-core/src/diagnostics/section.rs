@@ -10,8 +10,9 @@
 
 use crate::error::{StartError, StepError, StepFailure};
 use crate::run::{PartialStep, PartialStepOf, Run};
-use crate::scalar::norm::{larger, reported};
+use crate::scalar::norm::larger;
 use crate::system::Smooth;
+use crate::system::start::step_error;
 use crate::{Real, Scalar, System};
 
 /// The crossings that a section keeps.
@@ -168,7 +169,7 @@ impl<'r, R: Run, G: FnMut(&[R::Scalar]) -> R::Scalar> Section<'r, R, G> {
 
     #[cold]
     fn error(&self, failure: StepFailure) -> StepError {
-        StepError { step: self.run.steps() - 1, time: reported(self.step.begun()), failure }
+        step_error(self.run.system(), self.run.steps() - 1, self.step.begun(), failure)
     }
 
     /// g at a part of the step.
