@@ -28,6 +28,7 @@ mod rattle;
 mod runge_kutta;
 mod sigma_family;
 mod step;
+mod tabulated;
 mod together;
 mod tolerance;
 mod variational;
@@ -56,6 +57,7 @@ pub use rattle::Rattle;
 pub use runge_kutta::RungeKutta;
 pub(crate) use sigma_family::SigmaMemory;
 pub use sigma_family::{ParasiticMode, Sigma, Start};
+pub use tabulated::Tabulated;
 #[cfg(feature = "alloc")]
 pub(crate) use together::Companion;
 pub use together::InStep;
@@ -130,12 +132,12 @@ impl<T: Real> Clock<T> {
     }
 }
 
-/// What runs of a method carry.
+/// What runs carry for a method, or for a [step control](crate::run::StepControl).
 ///
 /// It is known for systems of either kind, so that a method meets the question whether it can step a system
 /// at one place only, where a run begins, and the user reads one error.
 pub trait Carries<S: System, T: Real> {
-    /// What a run carries from step to step besides the coordinates: momenta, guesses, work space.
+    /// What is carried from step to step besides the coordinates: momenta, guesses, work space.
     type Memory: Memory<T>;
 }
 

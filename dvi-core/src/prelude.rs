@@ -14,7 +14,7 @@ pub use crate::methods::Langevin;
 pub use crate::methods::{
     Collision, Composition, Constrained, EnergyLimit, Fitting, Galerkin, Gauss, Geodesic, Impacts, Method,
     Newmark, OneStep, OneStepGauss, ParasiticMode, Projected, Rattle, RungeKutta, Scheme, Sigma, Start,
-    Tolerance, Variational,
+    Tabulated, Tolerance, Variational,
 };
 #[cfg(feature = "records")]
 pub use crate::record::Recorded;

@@ -204,7 +204,10 @@ fn no_step_changes_the_branch_of_the_velocity() -> Outcome {
 /// N(z) = Σₖ (2S − k)! S! / ((2S)! k! (S − k)!) zᵏ (Hairer & Wanner 1996, theorem IV.3.12).
 #[test]
 fn gauss_turns_the_oscillator_by_the_pade_approximant() -> Outcome {
-    fn check<const S: usize>() -> Outcome {
+    fn check<const S: usize>() -> Outcome
+    where
+        Gauss<S>: Tabulated,
+    {
         let h = 0.9_f64;
         // Real and imaginary part of N(ih), term by term.
         let (mut term, mut numerator) = (1.0, [0.0; 2]);
@@ -234,7 +237,10 @@ fn gauss_turns_the_oscillator_by_the_pade_approximant() -> Outcome {
 /// Most of one period of Kepler's orbit in 16 steps, against its closed form.
 #[test]
 fn each_stage_of_gauss_gains_digits() -> Outcome {
-    fn error<const S: usize>() -> Outcome<f64> {
+    fn error<const S: usize>() -> Outcome<f64>
+    where
+        Gauss<S>: Tabulated,
+    {
         let orbit = Orbit { e: 0.3 };
         let at = orbit.pericentre();
         let start = KeplerState { x: at.x, y: at.y, dot_x: at.dot_x, dot_y: at.dot_y };

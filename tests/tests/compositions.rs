@@ -7,7 +7,10 @@ use dvi_tests::Outcome;
 use dvi_tests::larger;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
 
-fn compositions<const S: usize>() -> [Composition<Gauss<S>>; 6] {
+fn compositions<const S: usize>() -> [Composition<Gauss<S>>; 6]
+where
+    Gauss<S>: Tabulated,
+{
     let method = Gauss::<S>::new();
     [
         Composition::triple_jump(method),

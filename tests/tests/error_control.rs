@@ -3,9 +3,9 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::{PI, TAU};
-use dvi_core::methods::VariableStep;
+use dvi_core::methods::{Carries, VariableStep};
 use dvi_core::prelude::*;
-use dvi_core::run::{ControlledRun, StepControl};
+use dvi_core::run::ControlledRun;
 use dvi_tests::Outcome;
 use dvi_tests::configurations::chaotic;
 use dvi_tests::larger;
@@ -159,9 +159,12 @@ struct Detour {
     long: Option<f64>,
 }
 
+impl<S: System> Carries<S, f64> for Detour {
+    type Memory = ();
+}
+
 impl<S: Lagrangian> StepControl<S, f64> for Detour {
     const REJECTS: bool = true;
-    type Memory = ();
     fn begin(&self, _system: &S, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
         Ok(((), self.h))
     }

@@ -61,6 +61,7 @@ fn ends_at_the_limit<M: Method<PointVortices<2>, f64> + Copy>(method: M, d: f64,
         step: 0,
         time: 0.0,
         failure: StepFailure::NotConverged { iterations, correction, tolerance },
+        ..
     }) = error
     else {
         panic!("{error:?}")

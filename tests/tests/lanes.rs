@@ -101,6 +101,7 @@ fn history<S: Lagrangian, M: Method<S, f64>>(
 /// Compares steps whose stages are evaluated one by one with steps whose stages are in lanes.
 fn steps_are_the_same<const STAGES: usize, S: Lagrangian>(system: &S, start: [&[f64]; 2], h: f64) -> Outcome
 where
+    Gauss<STAGES>: Tabulated,
     Gauss<STAGES>: Method<S, f64>,
     Gauss<STAGES, InLanes>: Method<S, f64>,
 {

@@ -8,8 +8,8 @@ use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepError;
 use crate::methods::VariationalMethod;
 use crate::run::Run;
-use crate::scalar::norm::reported;
 use crate::space::sink::Product;
+use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// The growth of a perturbation along a run, accumulated step by step.
@@ -80,11 +80,8 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S
         self.origin.copy_from_slice(run.q());
         run.advance()?;
         let interval = Interval { t, h: run.step_size() };
-        self.map.evaluate(run.system(), interval, &self.origin, run.q()).map_err(|failure| StepError {
-            step,
-            time: reported(t),
-            failure,
-        })?;
+        let evaluated = self.map.evaluate(run.system(), interval, &self.origin, run.q());
+        evaluated.map_err(|failure| step_error(run.system(), step, t, failure))?;
         self.map.apply(&mut self.dq, &mut self.dp);
         let length = self.renormalise();
         self.growth += Scalar::ln(length);

@@ -1,8 +1,11 @@
 //! Steps that fail.
 
+use core::fmt;
+
 use thiserror::Error;
 
 use crate::error::{OutsideError, said};
+use crate::name::Name;
 
 said!(StepFailure, StepError);
 
@@ -39,7 +42,7 @@ pub enum StepFailure {
         cosine_sum: f64,
     },
     /// A matrix has an entry where its pattern, which decided its storage when the run began, has none.
-    #[error("the matrix of the step has an entry ({row}, {column}) that its pattern does not have")]
+    #[error("{}", Of(self, None))]
     Pattern {
         /// The coordinate of its row, counted from 0.
         row: usize,
@@ -53,10 +56,10 @@ pub enum StepFailure {
         omega: f64,
     },
     /// A matrix that must be solved with is singular to working precision.
-    #[error(
-        "singular matrix: pivot {pivot:e} in column {column}; Ω, the mass matrix, or the discrete Lagrangian is degenerate here"
-    )]
+    #[error("{}", Of(self, None))]
     Singular {
+        /// Which matrix.
+        matrix: &'static str,
         /// The column without a usable pivot.
         column: usize,
         /// The largest candidate.
@@ -297,11 +300,9 @@ pub enum StepFailure {
     LeftDomain,
     /// A coordinate became infinite or not a number: a collision, a formula that left its domain, or a step
     /// that is too long.
-    #[error(
-        "coordinate {coordinate} became {value}: a collision, a formula that left its domain, or a step that is too long"
-    )]
+    #[error("{}", Of(self, None))]
     NotFinite {
-        /// The flat index of the coordinate.
+        /// The flat index of the coordinate; a [`StepError`] has its name.
         coordinate: usize,
         /// Its value.
         value: f64,
@@ -310,7 +311,7 @@ pub enum StepFailure {
 
 /// A step that failed, and where. The run keeps the last good state.
 #[derive(Clone, Copy, PartialEq, Error)]
-#[error("step {step} from t = {time}: {failure}")]
+#[error("step {step} from t = {time}: {}", Of(failure, *coordinate))]
 pub struct StepError {
     /// The number of steps completed before this one.
     pub step: u64,
@@ -318,6 +319,8 @@ pub struct StepError {
     pub time: f64,
     /// Why.
     pub failure: StepFailure,
+    /// The name of the coordinate that `failure` counts, if it counts one.
+    pub coordinate: Option<Name>,
 }
 
 /// The result of a step is returned through every call of a run: with failures of seven words in place of
@@ -326,5 +329,63 @@ const _: () = assert!(size_of::<StepFailure>() <= 40);
 
 impl StepFailure {
     /// A matrix is asked for that is not made for systems of this class.
-    pub(crate) const NO_MATRIX: Self = Self::Singular { column: 0, pivot: f64::NAN };
+    pub(crate) const NO_MATRIX: Self =
+        Self::Singular { matrix: Self::DISCRETE_LAGRANGIAN, column: 0, pivot: f64::NAN };
+
+    pub(crate) const DISCRETE_LAGRANGIAN: &'static str = "the matrix D₁D₂L_d of the discrete Lagrangian";
+    pub(crate) const MASS: &'static str = "the mass matrix";
+    pub(crate) const OMEGA: &'static str = "Ω = −dα";
+    pub(crate) const STAGES: &'static str = "the matrix of the equations of the stages";
+
+    /// The same where it is `matrix` that is solved with.
+    #[cold]
+    pub(crate) fn of(self, matrix: &'static str) -> Self {
+        match self {
+            Self::Singular { column, pivot, .. } => Self::Singular { matrix, column, pivot },
+            other => other,
+        }
+    }
+
+    /// The place of the coordinate that it counts.
+    pub(crate) fn coordinate(&self) -> Option<usize> {
+        match *self {
+            Self::NotFinite { coordinate: place, .. }
+            | Self::Singular { column: place, .. }
+            | Self::Pattern { column: place, .. } => Some(place),
+            _ => None,
+        }
+    }
+}
+
+/// A failure that counts a coordinate, which may have a name.
+struct Of<'a>(&'a StepFailure, Option<Name>);
+
+impl fmt::Display for Of<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let &Self(failure, name) = self;
+        let named = |f: &mut fmt::Formatter<'_>, place: usize| match name {
+            Some(name) => write!(f, "`{name}`"),
+            None => write!(f, "coordinate {place}"),
+        };
+        match *failure {
+            StepFailure::NotFinite { coordinate, value } => {
+                named(f, coordinate)?;
+                write!(
+                    f,
+                    " became {value}: a collision, a formula that left its domain, or a step that is too long"
+                )
+            }
+            StepFailure::Singular { matrix, column, pivot } => {
+                write!(f, "{matrix} is singular: its pivot for ")?;
+                named(f, column)?;
+                write!(f, " is {pivot:e}")
+            }
+            StepFailure::Pattern { row, column } => {
+                write!(f, "the matrix of the step has an entry in row {row} for ")?;
+                named(f, column)?;
+                f.write_str(" that its pattern does not have")
+            }
+            _ => failure.fmt(f),
+        }
+    }
 }

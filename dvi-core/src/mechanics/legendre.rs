@@ -123,7 +123,8 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
     /// is.
     fn solve_once(&mut self, system: &S, points: [&[T]; 3], t: T) -> Result<(), StepFailure> {
         let Self { solver, weights, next, l_q, .. } = self;
-        solver.solve(&mut Equations { system, points, t, l_q }, weights, next)?;
+        let solved = solver.solve(&mut Equations { system, points, t, l_q }, weights, next);
+        solved.map_err(|failure| failure.of(StepFailure::MASS))?;
         norm::finite(next)
     }
 }

@@ -55,7 +55,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
             }
             let mut reciprocals = v;
             for (column, (&mass, reciprocal)) in masses.iter().zip(reciprocals.iter_mut()).enumerate() {
-                *reciprocal = norm::reciprocal(mass, column)?;
+                *reciprocal =
+                    norm::reciprocal(mass, column).map_err(|failure| failure.of(StepFailure::MASS))?;
             }
             return Ok(Self { masses, reciprocals, coupled: None });
         }
@@ -78,7 +79,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         masses.iter_mut().for_each(|mass| *mass = Scalar::sqrt(Scalar::abs(*mass)) + smallest_normal::<T>());
         set_scales(&mut scales, &masses);
         factors.scale_rows(&scales);
-        factors.factor_with_care([&mut l_q, &mut l_v])?;
+        factors.factor_with_care([&mut l_q, &mut l_v]).map_err(|failure| failure.of(StepFailure::MASS))?;
         masses.fill(T::lift(f64::NAN));
         reciprocals.fill(T::lift(f64::NAN));
         Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors, scales }) })

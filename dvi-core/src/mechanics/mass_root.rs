@@ -62,7 +62,11 @@ impl<S: NondegenerateLagrangian<T>, T: Real> MassRoot<S, T> {
 
 fn positive_root<T: Real>(pivot: T, column: usize) -> Result<T, StepFailure> {
     let is_positive = pivot > T::lift(0.0);
-    if is_positive { Ok(Scalar::sqrt(pivot)) } else { Err(norm::singular(pivot, column)) }
+    if is_positive {
+        Ok(Scalar::sqrt(pivot))
+    } else {
+        Err(norm::singular(pivot, column).of(StepFailure::MASS))
+    }
 }
 
 /// Overwrites the lower triangle of a symmetric matrix with that of its factor (Golub & Van Loan 2013,

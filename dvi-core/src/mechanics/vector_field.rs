@@ -46,7 +46,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         let (space, omega) = (system.space(), Self::omega());
         let mut entries = space.vector();
         let mut inverse = Inverse::new(system, q, t, omega);
-        inverse.prepare(system, q, t, omega, &mut entries, &mut Statistics::default())?;
+        let prepared = inverse.prepare(system, q, t, omega, &mut entries, &mut Statistics::default());
+        prepared.map_err(|failure| failure.of(StepFailure::OMEGA))?;
         Ok(Self { inverse, gradient: space.vector(), entries })
     }
 
@@ -167,7 +168,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         if !S::AFFINE {
-            self.inverse.prepare(system, q, t, Self::omega(), &mut self.entries, statistics)?;
+            let prepared = self.inverse.prepare(system, q, t, Self::omega(), &mut self.entries, statistics);
+            prepared.map_err(|failure| failure.of(StepFailure::OMEGA))?;
         }
         self.inverse.solve(system, &self.gradient, out);
         Ok(())

@@ -20,7 +20,7 @@ mod steps;
 
 use crate::discrete::frequency::Unfitted;
 use crate::mechanics::motion::{InLanes, OneByOne};
-use crate::methods::collocation::lobatto::{FEWEST, MOST};
+use crate::methods::Tabulated;
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
 use evaluation::NodeEvaluation;
@@ -65,8 +65,10 @@ pub struct Galerkin<const S: usize, F = Unfitted, E = OneByOne> {
 impl<const S: usize> Galerkin<S> {
     /// The method with linear interpolation between the ends: Lobatto IIIA–IIIB. A number of nodes below 3
     /// or above 9 does not compile.
-    pub fn new() -> Self {
-        const { assert!(S >= FEWEST && S <= MOST, "interior displacements are available with 3 to 9 nodes") };
+    pub fn new() -> Self
+    where
+        Self: Tabulated,
+    {
         Self {
             frequency: Unfitted,
             solver: Solver::default(),
@@ -87,7 +89,10 @@ impl<const S: usize> Galerkin<S> {
     }
 }
 
-impl<const S: usize> Default for Galerkin<S> {
+impl<const S: usize> Default for Galerkin<S>
+where
+    Self: Tabulated,
+{
     fn default() -> Self {
         Self::new()
     }

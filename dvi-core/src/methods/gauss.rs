@@ -24,8 +24,7 @@ use core::marker::PhantomData;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvaluation};
-use crate::methods::collocation::MOST;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, Tolerance, VariableStep};
+use crate::methods::{Carries, Method, PreservedForm, Scheme, Tabulated, Tolerance, VariableStep};
 use crate::solve::{Convergence, Due, Iteration, Ladder, Solver, Stopping, repeat};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -75,8 +74,10 @@ pub struct Gauss<const S: usize, E = OneByOne> {
 
 impl<const S: usize> Gauss<S> {
     /// The method with default options. A number of stages below 1 or above 8 does not compile.
-    pub fn new() -> Self {
-        const { assert!(S >= 1 && S <= MOST, "Gauss collocation is available with 1 to 8 stages") };
+    pub fn new() -> Self
+    where
+        Self: Tabulated,
+    {
         Self {
             solver: Solver::default(),
             stopping: Stopping::default(),
@@ -97,7 +98,10 @@ impl<const S: usize> Gauss<S> {
     }
 }
 
-impl<const S: usize> Default for Gauss<S> {
+impl<const S: usize> Default for Gauss<S>
+where
+    Self: Tabulated,
+{
     fn default() -> Self {
         Self::new()
     }

@@ -12,7 +12,7 @@ use crate::methods::{Carries, Method};
 use crate::run::Run;
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
-use crate::system::start::velocities;
+use crate::system::start::{step_error, velocities};
 use crate::{Lagrangian as _, Real, Scalar as _, Space, State, System, Vector};
 
 /// A run with its continuous extension: the state at any time of its last step.
@@ -172,11 +172,8 @@ impl<R: Run> Dense<R> {
             return Ok(());
         }
         let [now, target] = [begun, t].map(reported);
-        Err(StepError {
-            step: self.run.steps(),
-            time: now,
-            failure: StepFailure::Unreachable { now, target },
-        })
+        let failure = StepFailure::Unreachable { now, target };
+        Err(step_error(self.run.system(), self.run.steps(), begun, failure))
     }
 
     /// Whether `a` lies before `b` in the direction of the run.
@@ -276,7 +273,7 @@ impl<R: Run> Dense<R> {
     /// What has failed in the last step.
     #[cold]
     pub(super) fn error(&self, failure: StepFailure) -> StepError {
-        StepError { step: self.run.steps().saturating_sub(1), time: reported(self.last_begun()), failure }
+        step_error(self.run.system(), self.run.steps().saturating_sub(1), self.last_begun(), failure)
     }
 }
 

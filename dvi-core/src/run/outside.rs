@@ -23,7 +23,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     pub(super) fn explained(&self, system: &S, failure: StepFailure, t: T, h: T) -> StepFailure {
         let failure = match failure {
             // A matrix with entries that are no numbers is not singular: a formula has left its domain.
-            StepFailure::Singular { column, pivot } if pivot.is_nan() && column < self.q.len() => {
+            StepFailure::Singular { column, pivot, .. } if pivot.is_nan() && column < self.q.len() => {
                 StepFailure::NotFinite { coordinate: column, value: pivot }
             }
             other => other,

@@ -17,8 +17,9 @@ mod reversible;
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
+#[cfg(doc)]
 use crate::memory::Memory;
-use crate::methods::VariableStep;
+use crate::methods::{Carries, VariableStep};
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real};
 
@@ -32,11 +33,9 @@ pub use reversible::{Density, Power, Reversible};
 /// A rule for the length of each step of a run on `S`.
 ///
 /// The control takes the steps itself, so that it sees the run before and after each, and may take one back.
-pub trait StepControl<S: Lagrangian<T>, T: Real>: Debug {
+pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
     /// Whether steps may be taken back, so that the run has to keep what it takes.
     const REJECTS: bool = false;
-    /// What is carried from step to step.
-    type Memory: Memory<T>;
 
     /// Prepares a run from (`q`, `t`) with velocity `v`, which is empty for degenerate systems. Returns the
     /// length of the first step too. Everything that needs memory is allocated here.

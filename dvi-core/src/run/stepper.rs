@@ -4,8 +4,8 @@ use core::fmt;
 
 use crate::error::{StepError, StepFailure};
 use crate::methods::{Carries, Clock, Method};
-use crate::scalar::norm::reported;
 use crate::state::Statistics;
+use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Space as _, State as _, System, Vector};
 
 /// A method that steps a system, and the point that it has reached. It knows neither the time nor the system:
@@ -55,7 +55,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     pub(crate) fn error(&mut self, system: &S, time: T, h: T, failure: StepFailure) -> StepError {
         self.failed = true;
         let failure = self.explained(system, failure, time, h);
-        StepError { step: self.statistics.steps, time: reported(time), failure }
+        step_error(system, self.statistics.steps, time, failure)
     }
 
     /// The current state, which is reached at time `t`.

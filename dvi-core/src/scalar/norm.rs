@@ -62,7 +62,8 @@ pub(crate) fn reciprocal<T: Real>(pivot: T, column: usize) -> Result<T, StepFail
 /// The error of a pivot that is no use.
 #[cold]
 pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
-    StepFailure::Singular { column, pivot: reported(pivot) }
+    let matrix = StepFailure::DISCRETE_LAGRANGIAN;
+    StepFailure::Singular { matrix, column, pivot: reported(pivot) }
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -6,7 +6,7 @@
 
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
-use crate::scalar::norm::{larger, reported};
+use crate::scalar::norm::{larger, singular};
 use crate::{Real, Scalar};
 
 /// The signs of the eigenvalues of a symmetric matrix that is not singular.
@@ -32,7 +32,7 @@ impl<T: Real> Inertia<T> {
         for (column, &entry) in entries.iter().enumerate() {
             let usable = entry != T::lift(0.0) && entry.is_finite();
             if !usable {
-                return Err(StepFailure::Singular { column, pivot: reported(entry) });
+                return Err(singular(entry, column).of(StepFailure::MASS));
             }
             found.count(entry);
         }
@@ -73,7 +73,7 @@ pub(crate) fn inertia<T: Real>(matrix: &mut [T], removed: &mut [T]) -> Result<In
             // A pivot that is not a number is no use either.
             let usable = Scalar::abs(pivot) > rounding * subtracted && pivot.is_finite();
             if !usable {
-                return Err(StepFailure::Singular { column: k, pivot: reported(pivot) });
+                return Err(singular(pivot, k).of(StepFailure::MASS));
             }
             found.count(pivot);
         }

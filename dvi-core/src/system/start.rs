@@ -1,6 +1,6 @@
 //! What is checked and laid out before a run begins.
 
-use crate::error::{StartError, StepFailure};
+use crate::error::{StartError, StepError, StepFailure};
 use crate::name::Name;
 use crate::scalar::norm::reported;
 use crate::scalar::smallest_normal;
@@ -58,9 +58,9 @@ pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     let [mut sizes, mut velocity, mut l_q, mut l_v]: [Vector<S, T>; 4] = space.vectors();
     let (matrix, weights) = if S::REGULAR {
         velocity.copy_from_slice(v);
-        ("the mass matrix", Weights::mass())
+        (StepFailure::MASS, Weights::mass())
     } else {
-        ("Ω = −dα", Weights { qq: zero, qv: one, vq: -one, vv: zero })
+        (StepFailure::OMEGA, Weights { qq: zero, qv: one, vq: -one, vv: zero })
     };
     let mut sink = Places(|row: usize, _: usize, entry: T| sizes[row] += Scalar::abs(entry));
     system.linearize(q, &velocity, t, weights, &mut l_q, &mut l_v, &mut sink);
@@ -70,6 +70,23 @@ pub(crate) fn named<S: Lagrangian<T>, T: Real>(
         Some((entry, size)) => StartError::Singular { matrix, entry, size },
         None => error,
     }
+}
+
+/// The error of the step after `step` others, from time `t`, with the name of the coordinate that `failure`
+/// counts.
+#[cold]
+pub(crate) fn step_error<S: System, T: Real>(
+    system: &S,
+    step: u64,
+    t: T,
+    failure: StepFailure,
+) -> StepError {
+    // Where coordinates are more than velocities, rows and columns are not those of coordinates.
+    let is_entry = matches!(failure, StepFailure::NotFinite { .. });
+    let is_counted = is_entry || S::REPORT.coordinates.iter().all(|block| block.factor == Factor::Line);
+    let counted = failure.coordinate().filter(|_| is_counted);
+    let coordinate = counted.and_then(|place| coordinate(system, place));
+    StepError { step, time: reported(t), failure, coordinate }
 }
 
 /// The name of the coordinate at a place in the flat state.

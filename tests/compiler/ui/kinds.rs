@@ -71,4 +71,26 @@ fn owned_with_a_method_of_another_kind() {
     let _ = Integrator::new(Regular, Sigma::midpoint(), 0.1, state);
 }
 
+fn both_do_not_fit() {
+    let state = DegenerateState { x: 1.0, y: 0.0 };
+    let control = Reversible::power(0.1, 1.5);
+    let _ = ControlledIntegrator::new(&Degenerate, Variational::midpoint(), control, state);
+}
+
+fn a_control_of_another_kind() {
+    let state = DegenerateState { x: 1.0, y: 0.0 };
+    let _ = ControlledIntegrator::new(&Degenerate, Gauss::<2>::new(), EnergyMomentum::new(0.1), state);
+}
+
+fn more_stages_than_there_are() {
+    let state = RegularState { x: 1.0, dot_x: 0.0 };
+    let mut run = Integrator::new(&Regular, Gauss::<9>::new(), 0.1, state).unwrap();
+    run.take_steps(100).unwrap();
+    println!("{:?} {}", run.state(), run.energy());
+}
+
+fn fewer_nodes_than_there_are() {
+    let _ = (Galerkin::<2>::new(), OneStepGauss::<5>::new());
+}
+
 fn main() {}

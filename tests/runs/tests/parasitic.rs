@@ -170,7 +170,7 @@ fn spoilt<S: DegenerateLagrangian>(
         let lost = free.error.is_some() || free.energy_error > 10.0 * usual;
         assert!(lost, "{name}: not spoilt: {:e} of {usual:e}", free.energy_error);
         let found = course(begin(Sigma::new(sigma))?, end)?;
-        let Some(StepError { step, time, failure }) = found.error else {
+        let Some(StepError { step, time, failure, .. }) = found.error else {
             return Err(format!("{name}: not found").into());
         };
         let StepFailure::ParasiticMode { amplitude, relative, limit } = failure else {
@@ -241,8 +241,12 @@ fn the_last_state_is_kept_and_the_limit_can_be_moved_or_switched_off() -> Outcom
     let error = run.take_steps(10_000).err();
     let (state, steps) = (run.state(), run.steps());
     assert!(steps % 4 == 0 && run.energy().is_finite(), "{steps}");
-    let Some(StepError { step, time, failure: StepFailure::ParasiticMode { amplitude, relative, limit } }) =
-        error
+    let Some(StepError {
+        step,
+        time,
+        failure: StepFailure::ParasiticMode { amplitude, relative, limit },
+        ..
+    }) = error
     else {
         return Err(format!("{error:?}").into());
     };

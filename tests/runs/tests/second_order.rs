@@ -24,7 +24,10 @@ struct PhaseSpace;
 
 #[test]
 fn it_is_the_method_on_phase_space() -> Outcome {
-    fn check<const S: usize>(tolerance: f64) -> Outcome {
+    fn check<const S: usize>(tolerance: f64) -> Outcome
+    where
+        Gauss<S>: Tabulated,
+    {
         let (h, method) = (0.1, Gauss::<S>::new());
         let start = PositionsState { x: 0.7, y: -0.4, dot_x: 0.2, dot_y: 0.9 };
         let mut short = Integrator::new_at(&Positions, method, 0.3, h, start)?;

@@ -3,7 +3,9 @@
 use core::error::Error;
 use core::fmt::{Debug, Display};
 
+use dvi_core::Space;
 use dvi_core::error::{CheckpointError, IndexError, LengthError};
+use dvi_core::mechanics::VectorField;
 use dvi_core::prelude::*;
 
 /// Masses that are driven away.
@@ -25,13 +27,63 @@ fn errors_of_a_step_are_their_sentences() -> Result<(), Box<dyn Error>> {
     assert!(matches!(error.failure, StepFailure::NotFinite { coordinate: 3, .. }), "{error}");
     let message = error.to_string();
     assert!(
-        message.starts_with(&format!("step {} from t = {}: coordinate 3 became ", error.step, error.time)),
+        message.starts_with(&format!("step {} from t = {}: `x[2]` became ", error.step, error.time)),
         "{message}"
     );
     are_one(&error);
     are_one(&error.failure);
     let boxed: Box<dyn Error> = error.into();
     assert_eq!(format!("{boxed:?}"), message);
+    Ok(())
+}
+
+/// How the first step fails, without the step and the time.
+fn first_failure<S, M>(system: S, method: M, h: f64, start: S::State<f64>) -> Result<String, Box<dyn Error>>
+where
+    S: Lagrangian,
+    M: Method<S, f64>,
+{
+    let error = Integrator::new(system, method, h, start)?.advance().err().ok_or("no error")?;
+    are_one(&error);
+    Ok(error.to_string().strip_prefix("step 0 from t = 0: ").ok_or("a step")?.to_string())
+}
+
+/// Ω is x[1] in its block.
+#[degenerate_lagrangian(
+    coordinates(x[2], y[2]),
+    one_form = x[0] * d(y[0]) + x[1] * x[1] / 2.0 * d(y[1]),
+    hamiltonian = y[1],
+)]
+struct Form;
+
+/// The mass of x[1] is zero at the midpoint of the first step.
+#[lagrangian(coordinates(y, x[2]), lagrangian = (dot(y).powi(2) + dot(x[0]).powi(2) + x[1] * dot(x[1]).powi(2)) / 2.0)]
+struct Masses;
+
+/// The midpoint rule does not determine a step of length 1 along x[1].
+#[lagrangian(
+    coordinates(x[3]),
+    lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) / 2.0 + 2.0 * x[1] * x[1] - x[0] * x[0] - x[2].powi(4),
+)]
+struct Discrete;
+
+#[test]
+fn a_singular_matrix_has_its_name_and_that_of_a_coordinate() -> Result<(), Box<dyn Error>> {
+    // Steps see in time that Ω becomes singular.
+    let mut q = Form.space().vector();
+    q.copy_from_slice(&[1.0, 0.0, 0.0, 0.0]);
+    let said = VectorField::new(&Form, &q, 0.0).err().ok_or("no error")?.to_string();
+    assert!(said.starts_with("Ω = −dα is singular: its pivot for coordinate "), "{said}");
+
+    let masses = MassesState { y: 0.0, x: [0.0, 1.0], dot_y: 0.0, dot_x: [0.0, -2.0] };
+    let said = first_failure(Masses, RungeKutta::midpoint(), 1.0, masses)?;
+    assert!(said.starts_with("the mass matrix is singular: its pivot for `x[1]` is "), "{said}");
+
+    let discrete = DiscreteState { x: [0.3, 0.2, 0.1], dot_x: [0.1, 0.2, 0.3] };
+    let method = Variational { solver: Solver::Newton, ..Variational::midpoint() };
+    let said = first_failure(Discrete, method, 1.0, discrete)?;
+    let expected = "the matrix D₁D₂L_d of the discrete Lagrangian is singular: its pivot for `x[1]` is ";
+    assert!(said.starts_with(expected), "{said}");
     Ok(())
 }
 

@@ -14,12 +14,18 @@ use crate::galerkin::systems::{KEPLER, Outcome, chain, double_pendulum, driven, 
 type Failed = Box<dyn core::error::Error>;
 
 /// Compensated, as long steps ask for.
-fn compensated<const S: usize>() -> Galerkin<S> {
+fn compensated<const S: usize>() -> Galerkin<S>
+where
+    Galerkin<S>: Tabulated,
+{
     Galerkin { summation: Summation::Compensated, ..Galerkin::new() }
 }
 
 /// The phase error of a step on the oscillator, from that of many: the angle from the exact motion.
-fn phase_error<const S: usize>(u: f64) -> Result<f64, Failed> {
+fn phase_error<const S: usize>(u: f64) -> Result<f64, Failed>
+where
+    Galerkin<S>: Tabulated,
+{
     let steps = 400;
     let (system, start) = (Spring { stiffness: 1.0 }, SpringState { x: 1.0, dot_x: 0.0 });
     let mut run = Integrator::new(&system, compensated::<S>(), u, start)?;
@@ -32,7 +38,10 @@ fn phase_error<const S: usize>(u: f64) -> Result<f64, Failed> {
 /// Steps so long that rounding lets the errors be seen: the phase error of a step is of order h²ˢ⁻¹.
 #[test]
 fn orders_are_ten_to_sixteen_on_the_oscillator() -> Outcome {
-    fn check<const S: usize>(tenths: core::ops::RangeInclusive<u32>) -> Outcome {
+    fn check<const S: usize>(tenths: core::ops::RangeInclusive<u32>) -> Outcome
+    where
+        Galerkin<S>: Tabulated,
+    {
         let mut errors = Vec::new();
         for u in tenths.map(|k| 0.1 * f64::from(k)) {
             errors.push((u, phase_error::<S>(u)?));
@@ -51,7 +60,10 @@ fn orders_are_ten_to_sixteen_on_the_oscillator() -> Outcome {
 /// Most of one period of Kepler's orbit in 24 steps, against its closed form.
 #[test]
 fn each_node_gains_digits() -> Outcome {
-    fn error<const S: usize>() -> Result<f64, Failed> {
+    fn error<const S: usize>() -> Result<f64, Failed>
+    where
+        Galerkin<S>: Tabulated,
+    {
         let found = run(&KEPLER, compensated::<S>(), pericentre(0.3), 6.0, 24)?;
         Ok(apart(&found, &Orbit { e: 0.3 }.position(6.0)))
     }

@@ -47,7 +47,10 @@ fn phase_error<F: FrequencyIn<f64>, const NODES: usize>(method: Galerkin<NODES, 
 
 #[test]
 fn fitted_interpolation_gains_two_orders_of_phase() -> Outcome {
-    fn check<const NODES: usize>(u: [f64; 2]) -> Outcome {
+    fn check<const NODES: usize>(u: [f64; 2]) -> Outcome
+    where
+        Galerkin<NODES>: Tabulated,
+    {
         let (plain, fitted) =
             (Galerkin::<NODES>::new(), Galerkin::<NODES>::new().phase_fitted(Constant(1.0)));
         let ratio = (u[1] / u[0]).ln();

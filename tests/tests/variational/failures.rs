@@ -174,7 +174,8 @@ fn a_limit_of_the_energy_error_ends_a_run() -> Outcome {
     assert!(worst > 10.0, "{worst}");
     let mut run = Integrator::new(&KEPLER, EnergyLimit { method, limit: 0.1 }, h, start)?;
     let error = run.take_steps(300).err();
-    let Some(StepError { step, time, failure: StepFailure::Energy { start: initial, now, limit } }) = error
+    let Some(StepError { step, time, failure: StepFailure::Energy { start: initial, now, limit }, .. }) =
+        error
     else {
         return Err(format!("{error:?}").into());
     };

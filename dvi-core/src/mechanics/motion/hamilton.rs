@@ -321,7 +321,8 @@ fn rates<S: NondegenerateLagrangian<T>, T: Real>(
     let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
     let mut alike: Vector<S, T> = system.space().vector();
     alike.fill(T::lift(1.0));
-    solver.solve(&mut equations, &alike, &mut acceleration)?;
+    let solved = solver.solve(&mut equations, &alike, &mut acceleration);
+    solved.map_err(|failure| failure.of(StepFailure::MASS))?;
     norm::finite(&acceleration)?;
     Ok([velocity, acceleration])
 }

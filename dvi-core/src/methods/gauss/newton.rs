@@ -133,7 +133,9 @@ where
             extrapolated,
             tolerance,
         };
-        solve_coupled(&mut stages, (system, q), solver, (residuals, weights), stopping, statistics)?;
+        let room = (&mut *residuals, weights);
+        let solved = solve_coupled(&mut stages, (system, q), solver, room, stopping, statistics);
+        solved.map_err(|failure| failure.of(StepFailure::STAGES))?;
         stages.evaluate(residuals, statistics)?;
         let Path { equations, coefficients, slopes, stages, work: StageWork { point, slope, .. }, .. } =
             path;

@@ -13,7 +13,7 @@ use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::{Memory, lasting};
 use crate::methods::collocation::Collocation;
 use crate::methods::one_point::OnePoint;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, Method, PreservedForm, Scheme, Tabulated, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Convergence, CoupledEquations, Guess, Stopping, from_either_guess, solve_coupled};
 use crate::space::{NodeSum, Sink, Storing};
@@ -41,8 +41,10 @@ pub struct OneStepGauss<const S: usize> {
 
 impl<const S: usize> OneStepGauss<S> {
     /// The method with default options. A number of stages other than 1, 2, 3 or 4 does not compile.
-    pub fn new() -> Self {
-        const { assert!(S >= 1 && S <= 4, "Gauss collocation is available with 1, 2, 3 or 4 stages") };
+    pub fn new() -> Self
+    where
+        Self: Tabulated,
+    {
         Self::default()
     }
 }

@@ -89,10 +89,10 @@ pub(super) fn admit<T: Real>(pivot: T) -> Result<(), StepFailure> {
 #[cold]
 pub(super) fn named(failure: StepFailure) -> StepFailure {
     match failure {
-        StepFailure::Singular { column, pivot } if pivot.is_nan() => {
+        StepFailure::Singular { column, pivot, .. } if pivot.is_nan() => {
             StepFailure::UndefinedConstraint { constraint: column, value: pivot }
         }
-        StepFailure::Singular { column, pivot } => {
+        StepFailure::Singular { column, pivot, .. } => {
             StepFailure::RedundantConstraint { constraint: column, pivot }
         }
         other => other,

@@ -11,10 +11,10 @@ use super::{ControlledRun, StepControl};
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::VariableStep;
+use crate::methods::{Carries, VariableStep};
 use crate::scalar::norm::reported;
 use crate::solve::crossing::zero;
-use crate::{Real, RegularLagrangian, Scalar, Space, Vector};
+use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector};
 
 /// Iterations of the secant method.
 const ITERATIONS: usize = 60;
@@ -91,7 +91,7 @@ impl EnergyMomentum {
 
 /// What [`EnergyMomentum`] carries from step to step.
 #[derive(Debug)]
-pub struct EnergyMomentumMemory<S: RegularLagrangian<T>, T: Real> {
+pub struct EnergyMomentumMemory<S: System, T: Real> {
     /// The length of the last step; before the first, the one that it will have.
     h: T,
     /// The length of the step before, from which the secant method begins too.
@@ -113,7 +113,7 @@ pub struct EnergyMomentumMemory<S: RegularLagrangian<T>, T: Real> {
     force: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Memory<T> for EnergyMomentumMemory<S, T> {
+impl<S: System, T: Real> Memory<T> for EnergyMomentumMemory<S, T> {
     lasting!(T; number h, number before, number energy, flag has_begun, number defect, number scale);
 }
 
@@ -290,9 +290,12 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
     }
 }
 
+impl<S: System, T: Real> Carries<S, T> for EnergyMomentum {
+    type Memory = EnergyMomentumMemory<S, T>;
+}
+
 impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
     const REJECTS: bool = true;
-    type Memory = EnergyMomentumMemory<S, T>;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
         super::validate(self.tolerance, self.first_step)?;

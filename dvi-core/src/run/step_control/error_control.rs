@@ -11,10 +11,10 @@ use super::rejection::{Accepted, Verdict, step_of_at_most};
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Tolerance, VariableStep};
+use crate::methods::{Carries, Tolerance, VariableStep};
 use crate::scalar::norm::{larger, reported};
 use crate::system::start::is_length;
-use crate::{Lagrangian, Real, Scalar};
+use crate::{Lagrangian, Real, Scalar, System};
 
 /// f: the next step aims at less than the tolerance.
 const SAFETY: f64 = 0.9;
@@ -158,9 +158,12 @@ fn within<T: Real>(factor: T, least: f64, most: f64) -> T {
     if factor > most { most } else { larger(least, factor) }
 }
 
+impl<S: System, T: Real> Carries<S, T> for ErrorControl {
+    type Memory = ErrorControlMemory<T>;
+}
+
 impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl {
     const REJECTS: bool = true;
-    type Memory = ErrorControlMemory<T>;
 
     fn begin(&self, _system: &S, _q: &[T], _v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
         self.tolerance.validate::<T>()?;

@@ -15,7 +15,7 @@ use crate::run::{Run, Stepper};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::StateOf;
-use crate::system::start::{evaluate, flatten, named, validate, velocities};
+use crate::system::start::{evaluate, flatten, named, step_error, validate, velocities};
 use crate::{Held, Lagrangian, Real, RegularLagrangian, Scalar, System, Vector};
 
 /// A run of a method on a system with steps chosen by a [`StepControl`].
@@ -26,9 +26,9 @@ use crate::{Held, Lagrangian, Real, RegularLagrangian, Scalar, System, Vector};
 /// step.
 pub struct ControlledIntegrator<H, M, C, T = f64>
 where
-    H: Held<System: Lagrangian<T>>,
+    H: Held,
     M: Carries<H::System, T>,
-    C: StepControl<H::System, T>,
+    C: Carries<H::System, T>,
     T: Real,
 {
     system: H,
@@ -244,9 +244,8 @@ where
         // A run that has come to a time may have passed it by rounding.
         let rounding = T::lift(2.0) * T::default_epsilon() * (Scalar::abs(t) + Scalar::abs(self.h));
         if !t.is_finite() || !(self.is_before(t) || Scalar::abs(now - t) <= rounding) {
-            let [now, target] = [now, t].map(reported);
-            let failure = StepFailure::Unreachable { now, target };
-            return Err(StepError { step: self.steps(), time: now, failure });
+            let failure = StepFailure::Unreachable { now: reported(now), target: reported(t) };
+            return Err(step_error(self.system(), self.steps(), now, failure));
         }
         self.control_memory.set_end(Some(t));
         let result = self.steps_to(t);

@@ -14,10 +14,10 @@ use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
-use crate::methods::VariableStep;
+use crate::methods::{Carries, VariableStep};
 use crate::scalar::norm::larger;
 use crate::space::sink::Product;
-use crate::{Real, RegularLagrangian, Scalar, Space, Vector, Weights};
+use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// How far the centre of the osculating circle moves in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,7 +81,7 @@ struct Circle<T> {
 
 /// What [`Osculating`] carries from step to step.
 #[derive(Debug)]
-pub struct OsculatingMemory<S: RegularLagrangian<T>, T: Real> {
+pub struct OsculatingMemory<S: System, T: Real> {
     /// The length of the next step.
     h: T,
     circle: Circle<T>,
@@ -91,7 +91,7 @@ pub struct OsculatingMemory<S: RegularLagrangian<T>, T: Real> {
 }
 
 #[derive(Debug)]
-struct Work<S: RegularLagrangian<T>, T: Real> {
+struct Work<S: System, T: Real> {
     acceleration: Vector<S, T>,
     jerk: Vector<S, T>,
     l_q: Vector<S, T>,
@@ -100,7 +100,7 @@ struct Work<S: RegularLagrangian<T>, T: Real> {
     force_rate: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> OsculatingMemory<S, T> {
+impl<S: System, T: Real> OsculatingMemory<S, T> {
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         let zero = T::lift(0.0);
@@ -108,7 +108,7 @@ impl<S: RegularLagrangian<T>, T: Real> OsculatingMemory<S, T> {
     }
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Memory<T> for OsculatingMemory<S, T> {
+impl<S: System, T: Real> Memory<T> for OsculatingMemory<S, T> {
     lasting!(T; number h, part circle; is_sound);
 }
 
@@ -155,9 +155,12 @@ impl Osculating {
     }
 }
 
+impl<S: System, T: Real> Carries<S, T> for Osculating {
+    type Memory = OsculatingMemory<S, T>;
+}
+
 impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Osculating {
     const REJECTS: bool = true;
-    type Memory = OsculatingMemory<S, T>;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
         super::validate(self.tolerance, self.first_step)?;

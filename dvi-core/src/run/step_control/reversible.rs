@@ -13,9 +13,9 @@ use core::fmt::Debug;
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::VariableStep;
+use crate::methods::{Carries, VariableStep};
 use crate::scalar::norm::reported;
-use crate::{Real, RegularLagrangian, Space, Vector};
+use crate::{Real, RegularLagrangian, Space, System, Vector};
 
 /// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position
 /// alone: then G is odd in v, and the control reversible.
@@ -99,20 +99,20 @@ impl Reversible {
 
 /// What [`Reversible`] carries from step to step.
 #[derive(Debug)]
-pub struct ReversibleMemory<S: RegularLagrangian<T>, T: Real> {
+pub struct ReversibleMemory<S: System, T: Real> {
     /// ρ_{k−1/2}; for k = 0, as if there had been a step before.
     density: T,
     v: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> ReversibleMemory<S, T> {
+impl<S: System, T: Real> ReversibleMemory<S, T> {
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         is_density(self.density)
     }
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Memory<T> for ReversibleMemory<S, T> {
+impl<S: System, T: Real> Memory<T> for ReversibleMemory<S, T> {
     lasting!(T; number density; is_sound);
 }
 
@@ -131,9 +131,11 @@ impl<D> Reversible<D> {
     }
 }
 
-impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
+impl<S: System, D, T: Real> Carries<S, T> for Reversible<D> {
     type Memory = ReversibleMemory<S, T>;
+}
 
+impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
     fn begin(&self, system: &S, q: &[T], v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
         self.validate()?;
         let density = self.start.map_or_else(|| self.density.value(q), T::lift);

@@ -262,7 +262,7 @@ mod tests {
         matrix.cleared();
         (0..n).filter(|&i| i != 12).for_each(|i| matrix.add(i, i, 2.0));
         let failure = matrix.eliminate(&mut [], &mut alloc::vec![1.0; n]);
-        assert_eq!(failure, Err(StepFailure::Singular { column: 12, pivot: 0.0 }));
+        assert_eq!(failure, Err(crate::scalar::norm::singular(0.0, 12)));
     }
 
     #[test]
