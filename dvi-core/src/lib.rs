@@ -54,6 +54,7 @@
 //! | page | what it answers |
 //! |---|---|
 //! | [Your first system](guide::first_system) | How do I declare a system, run it, and write a table? |
+//! | [Recipes](guide::recipes) | States at given times, events, sections, sweeps, fits, checkpoints: how do I …? |
 //! | [Choosing a method](guide::choosing_a_method) | Which method do I begin with, and when do I take another? |
 //! | [Reading the report](guide::reading_the_report) | What did the compiler see, and what follows from it? |
 //! | [What can go wrong](guide::what_can_go_wrong) | What do the errors mean, and what does no error show? |
@@ -76,8 +77,8 @@
 //! | [`guide`] | the pages above |
 //! | [`system`] | what the attributes implement: [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`], [`Report`] |
 //! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, steps with constraints (`Constrained`, `Rattle`) and with impacts (`Impacts`), on rotations and unit vectors (`Geodesic`), compositions, Gauss, Runge–Kutta |
-//! | [`run`] | runs with fixed and with controlled steps: state, energy, momenta, checkpoints |
-//! | [`diagnostics`] | sections, Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
+//! | [`run`] | runs with fixed and with controlled steps: state at any time, events, energy, momenta, checkpoints |
+//! | [`diagnostics`] | Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
 //! | `record` | what a run was, as columns: CSV, arrays of NumPy, a page that shows it; with the feature `records` |
 //! | `ensemble` | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
 //! | `fast_sum` | sums over all pairs of many bodies in a time that grows like their number, with the feature `fast-sums` |

@@ -257,6 +257,28 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     assert_none_controlled!(kepler, kepler_start, reversible, Variational::trapezoid(), fitted());
     assert_none_controlled!(kepler, kepler_start, EnergyMomentum::new(0.01), Variational::midpoint());
     assert_none_controlled!(kepler, kepler_start, osculating, Variational::trapezoid(), fitted());
+    // A condition that never comes true, one that comes near it, and states that are looked at on the way.
+    let mut run =
+        Integrator::new(&chain, Variational::trapezoid(), 0.05, chain_start.clone()).expect("starts");
+    let mut looks = 0;
+    let mut events = run
+        .events([Direction::Either; 2], |_, state| {
+            looks += 1;
+            [state.wall - 50.0, 1e-9 + state.q[0] * state.q[0]]
+        })
+        .expect("starts");
+    let few = || blocks(&mut || (0..100).for_each(|_| assert!(events.advance().expect("steps").is_none())));
+    assert_eq!(
+        (0..3)
+            .map({
+                let mut few = few;
+                move |_| few()
+            })
+            .min(),
+        Some(0)
+    );
+    drop(events);
+    assert!(looks > 400, "{looks}");
     let by_error = ErrorControl::new(1e-9, 10.0);
     assert_none_controlled!(kepler, kepler_start, by_error, Gauss::<2>::new(), Gauss::<8>::new().in_lanes());
     assert_none_controlled!(chain, chain_start, by_error, Gauss::<2>::new());

@@ -58,6 +58,26 @@ struct Point<S: System, M: Carries<S, T>, T: Real> {
     memory: M::Memory,
 }
 
+/// A state in flat form.
+pub(super) struct Flat<'a, S, T> {
+    system: &'a S,
+    q: &'a [T],
+    v: &'a [T],
+}
+
+impl<S: System, T: Real> Flat<'_, S, T> {
+    /// The state.
+    pub(super) fn state(self) -> S::State<T> {
+        S::State::read(|block| self.system.block_len(block), self.q, self.v)
+    }
+
+    /// Writes it into another one, without allocation.
+    pub(super) fn refill(self, state: &mut S::State<T>) {
+        state.refill(|block| self.system.block_len(block), self.q, self.v);
+    }
+}
+
+type FlatOf<'a, R> = Flat<'a, <R as Run>::System, <R as Run>::Scalar>;
 type PointOf<R> = Point<<R as Run>::System, <R as Run>::Method, <R as Run>::Scalar>;
 /// A state of the system of a run `R`.
 pub(crate) type StateOf<R> = <<R as Run>::System as System>::State<<R as Run>::Scalar>;
@@ -134,7 +154,7 @@ impl<R: Run> Dense<R> {
     /// to `t`.
     pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
         self.advance_to(t)?;
-        let state = if t == self.run.time() { self.state_at_end() } else { self.state_within(t) };
+        let state = if t == self.run.time() { self.at_end().map(Flat::state) } else { self.state_within(t) };
         state.map_err(|failure| self.error(failure))
     }
 
@@ -203,16 +223,20 @@ impl<R: Run> Dense<R> {
         let (Some(clock), 2..) = (self.run.clock(), self.taken) else { return Ok(()) };
         let (before, Point { t, q, memory }) = (self.taken - 1, &mut self.begun);
         let (clock, unused) = (clock.after(self.taken.wrapping_neg()), &mut Statistics::default());
-        self.run.method().steps(self.run.system(), memory, q, clock, before, unused)?;
+        let taken = self.run.method().steps(self.run.system(), memory, q, clock, before, unused);
         *t = clock.after(before).time();
         self.taken = 1;
-        Ok(())
+        if taken.is_err() {
+            // They have been taken before; where that leads elsewhere, nothing is known of the last step.
+            self.keep();
+        }
+        taken
     }
 
     fn state_within(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepFailure> {
         self.settle()?;
         self.reach(t - self.begun.t)?;
-        self.reached_state()
+        self.reached().map(Flat::state)
     }
 
     /// Moves a time `h` on from where the last step began, within this step. Where it began is
@@ -234,25 +258,15 @@ impl<R: Run> Dense<R> {
         if leaves { Err(StepFailure::LeftDomain) } else { Ok(()) }
     }
 
-    /// The state at the end of the step.
+    /// The end of the step.
     ///
     /// # Errors
     /// As [`Method::velocity`].
-    pub(super) fn state_at_end(&mut self) -> Result<StateOf<R>, StepFailure> {
-        let (system, stepper) = (self.run.system(), self.run.stepper());
-        stepper.velocity(system, self.run.time(), &mut self.v)?;
-        Ok(State::read(|block| system.block_len(block), &stepper.q, &self.v))
-    }
-
-    /// The same, into a state that there is, without allocation.
-    ///
-    /// # Errors
-    /// As [`Method::velocity`].
-    pub(super) fn refill_at_end(&mut self, state: &mut StateOf<R>) -> Result<(), StepFailure> {
-        let (system, stepper) = (self.run.system(), self.run.stepper());
-        stepper.velocity(system, self.run.time(), &mut self.v)?;
-        state.refill(|block| system.block_len(block), &stepper.q, &self.v);
-        Ok(())
+    pub(super) fn at_end(&mut self) -> Result<FlatOf<'_, R>, StepFailure> {
+        let Self { run, v, .. } = self;
+        let run: &R = run;
+        run.stepper().velocity(run.system(), run.time(), v)?;
+        Ok(Flat { system: run.system(), q: run.q(), v })
     }
 
     /// The time that has been reached.
@@ -260,14 +274,15 @@ impl<R: Run> Dense<R> {
         self.reached.t
     }
 
-    /// The state that has been reached.
+    /// The place that has been reached.
     ///
     /// # Errors
     /// As [`Method::velocity`].
-    pub(super) fn reached_state(&mut self) -> Result<StateOf<R>, StepFailure> {
-        let (system, Point { t, q, memory }) = (self.run.system(), &self.reached);
-        self.run.method().velocity(system, memory, q, *t, &mut self.v)?;
-        Ok(State::read(|block| system.block_len(block), q, &self.v))
+    pub(super) fn reached(&mut self) -> Result<FlatOf<'_, R>, StepFailure> {
+        let Self { run, reached: Point { t, q, memory }, v, .. } = self;
+        let run: &R = run;
+        run.method().velocity(run.system(), memory, q, *t, v)?;
+        Ok(Flat { system: run.system(), q, v })
     }
 
     /// What has failed in the last step.

@@ -107,7 +107,7 @@ pub struct Events<R: Run, G, const N: usize> {
     watched: [Watched<R::Scalar>; N],
     /// Parts of the last step at which events are, that have not been handed out.
     found: [[Option<R::Scalar>; 2]; N],
-    /// Where the state at the end of a step is read to.
+    /// Where states that are looked at are read to.
     state: StateOf<R>,
     /// The last event that was handed out.
     last: Option<usize>,
@@ -177,7 +177,7 @@ where
     /// # Errors
     /// [`StartError::Starter`] if there are no velocities, or a condition is no number, at the present point.
     pub fn new(mut dense: Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
-        let state = dense.state_at_end().map_err(StartError::Starter)?;
+        let state = dense.at_end().map_err(StartError::Starter)?.state();
         let values = numbers(g(dense.time(), &state)).map_err(StartError::Starter)?;
         let watched = values.map(|g| Watched { g, course: None });
         Ok(Self { dense, g, directions, watched, found: [[None; 2]; N], state, last: None, failed: false })
@@ -242,7 +242,7 @@ where
     pub fn set_state(&mut self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError> {
         self.dense.set_state(t, state)?;
         self.found = [[None; 2]; N];
-        self.dense.refill_at_end(&mut self.state).map_err(StartError::Starter)?;
+        self.dense.at_end().map_err(StartError::Starter)?.refill(&mut self.state);
         let values = numbers((self.g)(t, &self.state)).map_err(StartError::Starter)?;
         let h = Scalar::abs(self.dense.step_size());
         for (index, (watched, g)) in self.watched.iter_mut().zip(values).enumerate() {
@@ -275,7 +275,7 @@ where
     fn event(&mut self, part: R::Scalar, index: usize) -> Result<EventOf<R>, StepFailure> {
         self.dense.settle()?;
         self.dense.reach(part * self.dense.step_size())?;
-        Ok(Event { index, time: self.dense.reached_time(), state: self.dense.reached_state()? })
+        Ok(Event { index, time: self.dense.reached_time(), state: self.dense.reached()?.state() })
     }
 
     /// Takes a step, and finds its events.
@@ -286,7 +286,7 @@ where
     }
 
     fn search(&mut self) -> Result<(), StepFailure> {
-        self.dense.refill_at_end(&mut self.state)?;
+        self.dense.at_end()?.refill(&mut self.state);
         let end = numbers((self.g)(self.dense.time(), &self.state))?;
         let (zero, h) = (R::Scalar::lift(0.0), Scalar::abs(self.dense.step_size()));
         for (index, b) in end.into_iter().enumerate() {
@@ -361,8 +361,8 @@ where
     /// A condition at a part of the step.
     fn look(&mut self, index: usize, part: R::Scalar) -> Result<R::Scalar, StepFailure> {
         self.dense.reach(part * self.dense.step_size())?;
-        let state = self.dense.reached_state()?;
-        Ok(numbers((self.g)(self.dense.reached_time(), &state))?[index])
+        self.dense.reached()?.refill(&mut self.state);
+        Ok(numbers((self.g)(self.dense.reached_time(), &self.state))?[index])
     }
 }
 
