@@ -78,6 +78,7 @@
 //! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, steps with constraints (`Constrained`, `Rattle`) and with impacts (`Impacts`), on rotations and unit vectors (`Geodesic`), compositions, Gauss, Runge–Kutta |
 //! | [`run`] | runs with fixed and with controlled steps: state, energy, momenta, checkpoints |
 //! | [`diagnostics`] | sections, Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
+//! | `archive` | a long run in one file, with the feature `ensembles`: any state again, bit for bit |
 //! | `ensemble` | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
 //! | `fast_sum` | sums over all pairs of many bodies in a time that grows like their number, with the feature `fast-sums` |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
@@ -95,8 +96,8 @@
 //! - `alloc`: systems whose size is known at run time only.
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
-//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `threads`, `random` and
-//!   `serde`.
+//! - `ensembles`: many runs over all cores, in the module `ensemble`, and long ones in files, in the module
+//!   `archive`; implies `threads`, `random` and `serde`.
 //! - `fast-sums`: sums over all pairs of many bodies by the fast multipole method, in the module `fast_sum`;
 //!   implies `std`.
 //! - `threads`: what is computed for many bodies is shared by threads: the generated sums over all pairs of
@@ -121,6 +122,8 @@ extern crate std;
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
+#[cfg(feature = "ensembles")]
+pub mod archive;
 pub mod diagnostics;
 pub mod discrete;
 #[cfg(feature = "ensembles")]

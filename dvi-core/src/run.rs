@@ -6,6 +6,8 @@ mod integrator;
 mod kept;
 mod outside;
 mod partial_step;
+#[cfg(feature = "alloc")]
+mod resume;
 mod step_control;
 mod stepper;
 #[cfg(feature = "alloc")]
@@ -22,6 +24,8 @@ use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed
 pub use checkpoint::Checkpoint;
 pub use integrator::Integrator;
 pub(crate) use partial_step::{PartialStep, PartialStepOf};
+#[cfg(feature = "alloc")]
+pub use resume::Resume;
 pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, ErrorControl, Osculating,
     Power, Reversible, StepControl,
