@@ -64,9 +64,10 @@
 )]
 
 mod draws;
-mod error;
+pub(crate) mod error;
+pub(crate) mod facts;
 mod file;
-mod fingerprint;
+pub(crate) mod fingerprint;
 mod group;
 mod growth;
 mod lanes;
@@ -76,6 +77,7 @@ mod plan;
 mod ranks;
 mod results;
 mod rounds;
+pub(crate) mod sealed;
 mod settings;
 mod shard;
 mod table;

@@ -80,6 +80,7 @@
 //! | [`run`] | runs with fixed and with controlled steps: state at any time, events, energy, momenta, checkpoints |
 //! | [`diagnostics`] | Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
 //! | `record` | what a run was, as columns: CSV, arrays of NumPy, a page that shows it; with the feature `records` |
+//! | `archive` | a long run in one file, with the feature `ensembles`: any state again, bit for bit |
 //! | `ensemble` | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
 //! | `fast_sum` | sums over all pairs of many bodies in a time that grows like their number, with the feature `fast-sums` |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
@@ -98,8 +99,8 @@
 //! - `libm`: elementary functions without `std`.
 //! - `serde`: checkpoints can be written to files; implies `alloc`.
 //! - `records` (default): tables and pages of runs, in the module `record`; implies `std`.
-//! - `ensembles`: many runs over all cores, in the module `ensemble`; implies `threads`, `random`, `records`
-//!   and `serde`.
+//! - `ensembles`: many runs over all cores, in the module `ensemble`, and long ones in files, in the module
+//!   `archive`; implies `threads`, `random`, `records` and `serde`.
 //! - `fast-sums`: sums over all pairs of many bodies by the fast multipole method, in the module `fast_sum`;
 //!   implies `std`.
 //! - `threads`: what is computed for many bodies is shared by threads: the generated sums over all pairs of
@@ -124,6 +125,8 @@ extern crate std;
 #[doc(hidden)]
 #[path = "private.rs"]
 pub mod __private;
+#[cfg(feature = "ensembles")]
+pub mod archive;
 pub mod diagnostics;
 pub mod discrete;
 #[cfg(feature = "ensembles")]

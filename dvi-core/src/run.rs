@@ -7,6 +7,8 @@ mod events;
 mod integrator;
 mod kept;
 mod outside;
+#[cfg(feature = "alloc")]
+mod resume;
 mod step_control;
 mod stepper;
 #[cfg(feature = "alloc")]
@@ -24,6 +26,8 @@ pub use checkpoint::Checkpoint;
 pub use dense::{Dense, StatesAt};
 pub use events::{Direction, Event, Events};
 pub use integrator::Integrator;
+#[cfg(feature = "alloc")]
+pub use resume::Resume;
 pub use step_control::{
     CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, ErrorControl, Osculating,
     Power, Reversible, StepControl,

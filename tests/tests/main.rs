@@ -4,6 +4,7 @@
 //! others. Apart from it are the tests that are programs of their own: one counts allocations, the other is
 //! compiled under other lints.
 
+mod archive;
 mod at_state;
 mod baselines;
 mod checkpoints;

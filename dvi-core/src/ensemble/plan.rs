@@ -9,6 +9,7 @@ use std::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use super::error::{Difference, EnsembleError};
+use super::facts::{self, Facts};
 use super::fingerprint::Fingerprint;
 use super::member::plain;
 use super::settings::{Settings, Swept, Systems};
@@ -21,8 +22,7 @@ const TEXTS: &str = "fingerprint of the texts of the systems";
 /// What an ensemble computes, as texts and fingerprints, and what its table looks like.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Plan {
-    /// Each with what it is.
-    facts: Vec<(String, String)>,
+    facts: Facts,
     /// The name of the system.
     pub(super) title: String,
     pub(super) members: u64,
@@ -72,7 +72,7 @@ impl Plan {
             ("system", type_name::<S>().to_string()),
             ("number of members", states.len().to_string()),
             ("list of coordinates", names.join(" ")),
-            ("fingerprint of the formulas", formulas::<S>()),
+            ("fingerprint of the formulas", facts::formulas::<S>()),
             ("fingerprint of the parameters", systems),
             (TEXTS, texts),
             ("fingerprint of the initial states", starts),
@@ -101,15 +101,9 @@ impl Plan {
 
     /// The first thing in which `found` differs.
     pub(super) fn difference(&self, found: &Self) -> Option<Difference> {
-        let differ = self.facts.iter().zip(&found.facts).find(|((what, expected), (_, found))| {
-            let is_told = what != TEXTS || !(expected.is_empty() || found.is_empty());
-            is_told && expected != found
-        });
-        let difference = differ.map(|((what, expected), (_, found))| Difference {
-            what: what.clone(),
-            expected: expected.clone(),
-            found: found.clone(),
-        });
+        let is_told =
+            |what: &str, values: [&str; 2]| what != TEXTS || values.iter().all(|value| !value.is_empty());
+        let difference = facts::difference(&self.facts, &found.facts, is_told);
         let layout = |plan: &Self| {
             let Self { facts, members, names, momenta, has_exponents, has_section, .. } = plan;
             format!("{} {members} {names:?} {momenta:?} {has_exponents} {has_section}", facts.len())
@@ -157,15 +151,6 @@ fn parameters<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>) -
     settings.parameters.iter().map(of).collect()
 }
 
-fn formulas<S: Lagrangian>() -> String {
-    let mut fingerprint = Fingerprint::new();
-    for formula in S::REPORT.formulas {
-        fingerprint.text(formula.name);
-        fingerprint.text(formula.text);
-    }
-    fingerprint.to_string()
-}
-
 /// Those of the initial states, of what the parameters of the systems do there, and of what the systems say
 /// of themselves, if they are asked.
 fn fingerprints<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>) -> [String; 3] {
@@ -183,12 +168,7 @@ fn fingerprints<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>)
         if let Some(text) = settings.texts {
             texts.text(&text(system));
         }
-        if system.check().is_ok() {
-            systems.number(system.energy(&q, &v, 0.0));
-            let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
-            system.gradient(&q, &v, 0.0, &mut l_q, &mut l_v);
-            l_q.iter().chain(l_v.iter()).for_each(|&x| systems.number(x));
-        }
+        facts::parameters(&mut systems, system, &q, &v, 0.0);
     }
     let texts = settings.texts.map_or_else(String::new, |_| texts.to_string());
     [starts.to_string(), systems.to_string(), texts]

@@ -31,7 +31,7 @@ where
     C: Carries<H::System, T>,
     T: Real,
 {
-    system: H,
+    pub(in crate::run) system: H,
     stepper: Stepper<H::System, M, T>,
     kept: KeptSteps<H::System, M, T>,
     control: C,
@@ -118,22 +118,6 @@ where
     pub fn control_memory(&self) -> &C::Memory {
         &self.control_memory
     }
-
-    #[inline]
-    fn step(&mut self) -> Result<(), StepError> {
-        let t = self.clock.time();
-        let (system, stepper) = (self.system.held(), &mut self.stepper);
-        let mut run = ControlledRun::new(system, stepper, &mut self.kept);
-        match self.control.step(&mut self.control_memory, &mut run, t) {
-            Ok(h) => {
-                self.h = h;
-                self.clock.advance(h);
-                self.stepper.statistics.steps += 1;
-                Ok(())
-            }
-            Err(failure) => Err(self.stepper.error(system, t, self.h, failure)),
-        }
-    }
 }
 
 impl<H, M, C, T: Real> Run for ControlledIntegrator<H, M, C, T>
@@ -172,7 +156,20 @@ where
 
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-        (0..count).try_for_each(|_| self.step())
+        let Self { system, stepper, kept, control, control_memory, clock, h } = self;
+        let mut run = ControlledRun::new(system.held(), stepper, kept);
+        for _ in 0..count {
+            let t = clock.time();
+            match control.step(control_memory, &mut run, t) {
+                Ok(length) => {
+                    *h = length;
+                    clock.advance(length);
+                    run.stepper.statistics.steps += 1;
+                }
+                Err(failure) => return Err(run.stepper.error(run.system(), t, *h, failure)),
+            }
+        }
+        Ok(())
     }
 
     #[cfg(feature = "alloc")]
@@ -261,7 +258,7 @@ where
 
     fn steps_to(&mut self, t: T) -> Result<(), StepError> {
         while self.is_before(t) && self.time() + (t - self.time()) != self.time() {
-            self.step()?;
+            self.advance()?;
         }
         Ok(())
     }

@@ -1,0 +1,253 @@
+//! A long run in one file: a checkpoint every so many steps or seconds, from which each state of the run is
+//! computed again, bit for bit.
+//!
+//! ```
+//! use dvi_core::archive::{Archive, Every};
+//! use dvi_core::prelude::*;
+//!
+//! #[lagrangian(coordinates(angle), lagrangian = dot(angle).powi(2) / 2.0 + angle.cos())]
+//! struct Pendulum;
+//!
+//! # let folder = std::env::temp_dir();
+//! # let path = folder.join(format!("dvi-archive-{}", std::process::id()));
+//! # let _ = std::fs::remove_file(&path);
+//! let begin = || {
+//!     let start: PendulumState = PendulumState { angle: 1.0, dot_angle: 0.0 };
+//!     Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)
+//! };
+//! let mut archive = Archive::new(&path, begin()?, Every::Steps(10_000))?;
+//! archive.take_steps(100_000)?;
+//!
+//! // Later, perhaps in another process: the run goes on where its archive ends.
+//! # drop(archive);
+//! let mut archive = Archive::new(&path, begin()?, Every::Steps(10_000))?;
+//! assert_eq!(archive.run().steps(), 100_000);
+//! archive.take_steps(1000)?;
+//!
+//! // What it was at t = 345.67, as a run of its own.
+//! let then = archive.run_at(345.67)?;
+//! let mut alone = begin()?;
+//! alone.take_steps(34_567)?;
+//! assert_eq!(then.state(), alone.state());
+//! # drop(archive);
+//! # std::fs::remove_file(&path)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What is in the file
+//!
+//! What tells this run from others, and checkpoints in a row, each with its length and a fingerprint, in a
+//! binary format in which numbers keep their bits. A checkpoint is appended and on the disk before the next
+//! step is taken. A process that is killed, or a disk that is full, leaves what was complete: the rest of a
+//! checkpoint is cut off when the file is opened again. A file that has changed elsewhere is an error, and so
+//! is that of another system, method, control or start; it is left as it is then.
+//!
+//! # A checkpoint alone
+//!
+//! A [`Checkpoint`](crate::run::Checkpoint) is data for `serde`. Its text has a checksum, so that one that
+//! has changed is an error:
+//!
+//! ```
+//! use dvi_core::prelude::*;
+//! # #[lagrangian(coordinates(angle), lagrangian = dot(angle).powi(2) / 2.0 + angle.cos())]
+//! # struct Pendulum;
+//! # let start: PendulumState = PendulumState { angle: 1.0, dot_angle: 0.0 };
+//! # let path = std::env::temp_dir().join(format!("dvi-checkpoint-{}", std::process::id()));
+//!
+//! let mut run = Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)?;
+//! run.take_steps(1000)?;
+//! std::fs::write(&path, serde_json::to_string(&run.checkpoint())?)?;
+//!
+//! let checkpoint: Checkpoint = serde_json::from_str(&std::fs::read_to_string(&path)?)?;
+//! let mut again = Integrator::resume(&Pendulum, Variational::trapezoid(), &checkpoint)?;
+//! again.take_steps(1000)?;
+//! run.take_steps(1000)?;
+//! assert_eq!(again.state(), run.state());
+//! # std::fs::remove_file(&path)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod file;
+
+use std::any::type_name;
+use std::fmt::Debug;
+use std::format;
+use std::path::Path;
+use std::string::ToString;
+use std::time::{Duration, Instant};
+use std::vec::Vec;
+
+use crate::ensemble::facts::{self, Facts};
+use crate::ensemble::fingerprint::Fingerprint;
+use crate::run::{Resume, Run};
+use file::File;
+
+pub use error::{ArchiveError, Difference};
+
+/// How often a checkpoint is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Every {
+    /// After so many steps, counted from the start of the run; 0 is taken as 1.
+    Steps(u64),
+    /// After so much time of the clock on the wall, and a sixteenth of it more at most, or a step.
+    Time(Duration),
+}
+
+/// A run whose states are kept in a file.
+#[derive(Debug)]
+pub struct Archive<R> {
+    run: R,
+    every: Every,
+    file: File,
+    /// Steps between two looks at the clock.
+    patience: u64,
+    written: Instant,
+}
+
+impl<R> Archive<R>
+where
+    R: Resume + Run<Scalar = f64>,
+    R::Method: Debug,
+{
+    /// The archive of `run` in the file at `path`. If there is none, it is made, with `run` as it is; else
+    /// `run` has to be as it was then, and the run goes on where the archive ends. No other process can have
+    /// the file at the same time.
+    ///
+    /// # Errors
+    /// [`ArchiveError`]: the file cannot be read or written, it is no archive or has changed, it is that of
+    /// another run, or another process has it.
+    pub fn new(path: impl AsRef<Path>, run: R, every: Every) -> Result<Self, ArchiveError> {
+        let (path, first) = (path.as_ref(), run.checkpoint());
+        let file = File::open(path, &facts_of(&run), &first)?;
+        let run = match file.kept() {
+            [.., last] if last.step != first.statistics().steps => run.resumed(&file.read(*last)?)?,
+            _ => run,
+        };
+        let every = if every == Every::Steps(0) { Every::Steps(1) } else { every };
+        Ok(Self { run, every, file, patience: 1, written: Instant::now() })
+    }
+
+    /// The run, as far as it has come.
+    pub fn run(&self) -> &R {
+        &self.run
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        self.file.path()
+    }
+
+    /// The number of steps and the time of each checkpoint.
+    pub fn checkpoints(&self) -> impl Iterator<Item = (u64, f64)> + '_ {
+        self.file.kept().iter().map(|kept| (kept.step, kept.time))
+    }
+
+    /// Takes `count` steps, and keeps checkpoints on the way.
+    ///
+    /// # Errors
+    /// [`ArchiveError::Step`] of the first step that fails: the run stays at the last good state.
+    /// [`ArchiveError::File`] if a checkpoint cannot be written, as on a full disk: the archive ends with the
+    /// one before, and the run stays where it is.
+    pub fn take_steps(&mut self, count: u64) -> Result<(), ArchiveError> {
+        let end = self.run.steps().saturating_add(count);
+        while self.run.steps() < end {
+            let (steps, begun) = (self.run.steps(), Instant::now());
+            let stride = match self.every {
+                Every::Steps(stride) => stride - steps % stride,
+                Every::Time(_) => self.patience,
+            };
+            let taken = stride.min(end - steps);
+            self.run.take_steps(taken)?;
+            let is_due = match self.every {
+                Every::Steps(_) => taken == stride,
+                Every::Time(length) => {
+                    if begun.elapsed() >= length / 32 {
+                        self.patience = (taken / 2).max(1);
+                    } else if taken == stride {
+                        self.patience = stride.saturating_mul(2);
+                    }
+                    self.written.elapsed() >= length
+                }
+            };
+            if is_due {
+                self.keep()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps a checkpoint of the present state, if it is not kept already.
+    ///
+    /// # Errors
+    /// [`ArchiveError::File`].
+    pub fn keep(&mut self) -> Result<(), ArchiveError> {
+        self.written = Instant::now();
+        if self.file.kept().last().is_some_and(|kept| kept.step == self.run.steps()) {
+            return Ok(());
+        }
+        self.file.append(&self.run.checkpoint())
+    }
+
+    /// The run as it was after `steps` steps, counted as [`Run::steps`] does: another one, bit for bit, from
+    /// the last checkpoint before.
+    ///
+    /// # Errors
+    /// [`ArchiveError::Steps`] if it has not come so far, or has begun later.
+    pub fn run_after(&self, steps: u64) -> Result<R, ArchiveError> {
+        let kept = self.file.kept().iter().take_while(|kept| kept.step <= steps).last();
+        let Some(kept) = kept.filter(|_| steps <= self.run.steps()) else {
+            return Err(ArchiveError::Steps { steps, reached: self.run.steps() });
+        };
+        let mut run = self.run.resumed(&self.file.read(*kept)?)?;
+        run.take_steps(steps - kept.step)?;
+        Ok(run)
+    }
+
+    /// The run as it was at time `t`, after the last step up to there: another one, bit for bit. It takes the
+    /// steps from the last checkpoint before twice.
+    ///
+    /// # Errors
+    /// [`ArchiveError::Time`] if it has not come to `t`, or has begun later.
+    pub fn run_at(&self, t: f64) -> Result<R, ArchiveError> {
+        let is_forward = self.run.step_size() > 0.0;
+        let is_reached = |time: f64| if is_forward { time <= t } else { time >= t };
+        let is_past = |time: f64| if is_forward { time >= t } else { time <= t };
+        let kept = self.file.kept().iter().take_while(|kept| is_reached(kept.time)).last();
+        let Some(kept) = kept.filter(|_| is_past(self.run.time())) else {
+            return Err(ArchiveError::Time { t, reached: self.run.time() });
+        };
+        let checkpoint = self.file.read(*kept)?;
+        let [mut run, mut ahead] = [self.run.resumed(&checkpoint)?, self.run.resumed(&checkpoint)?];
+        while ahead.steps() < self.run.steps() {
+            ahead.advance()?;
+            if !is_reached(ahead.time()) {
+                break;
+            }
+            run.advance()?;
+        }
+        Ok(run)
+    }
+}
+
+/// What tells the archive of `run` from others.
+fn facts_of<R>(run: &R) -> Facts
+where
+    R: Resume + Run<Scalar = f64>,
+    R::Method: Debug,
+{
+    let system = run.system();
+    let mut parameters = Fingerprint::new();
+    facts::parameters(&mut parameters, system, run.q(), &run.v(), run.time());
+    let names: Vec<_> = crate::System::names(system).map(|name| name.to_string()).collect();
+    let facts = [
+        ("version of the library", env!("CARGO_PKG_VERSION").to_string()),
+        ("system", type_name::<R::System>().to_string()),
+        ("list of coordinates", names.join(" ")),
+        ("fingerprint of the formulas", facts::formulas::<R::System>()),
+        ("fingerprint of the parameters", parameters.to_string()),
+        ("method", format!("{} {:?}", type_name::<R::Method>(), run.method())),
+        ("step control", format!("{:?}", run.chosen_by())),
+    ];
+    facts.into_iter().map(|(what, value)| (what.to_string(), value)).collect()
+}
