@@ -3,6 +3,8 @@
 //! So a state between two points has the error of the run at the point before it and that of one step more,
 //! whatever the length of that step. The run does not notice: what is moved is a copy.
 
+mod states_at;
+
 use core::fmt;
 use core::ops::Deref;
 
@@ -14,6 +16,8 @@ use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::{step_error, velocities};
 use crate::{Lagrangian as _, Real, Scalar as _, Space, State, System, Vector};
+
+pub use states_at::StatesAt;
 
 /// A run with its continuous extension: the state at any time of its last step.
 ///
@@ -305,27 +309,3 @@ impl<R: Run + fmt::Debug> fmt::Debug for Dense<R> {
         f.debug_struct("Dense").field("run", &self.run).finish_non_exhaustive()
     }
 }
-
-/// The states of a run at given times: see [`Run::states_at`].
-#[derive(Debug)]
-pub struct StatesAt<R: Run, I> {
-    dense: Dense<R>,
-    times: I,
-    failed: bool,
-}
-
-impl<R: Run, I: Iterator<Item = R::Scalar>> Iterator for StatesAt<R, I> {
-    type Item = Result<(R::Scalar, StateOf<R>), StepError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
-            return None;
-        }
-        let t = self.times.next()?;
-        let state = self.dense.state_at(t).map(|state| (t, state));
-        self.failed = state.is_err();
-        Some(state)
-    }
-}
-
-impl<R: Run, I: Iterator<Item = R::Scalar>> core::iter::FusedIterator for StatesAt<R, I> {}

@@ -6,39 +6,20 @@
 //! zero and away from it, g is followed down to its least value in between. Each crossing is found there to
 //! rounding.
 
+mod course;
+mod search;
+
 use core::fmt;
 use core::iter::FusedIterator;
 
 use super::dense::{Dense, StateOf};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::run::Run;
-use crate::scalar::norm::{larger, reported};
-use crate::solve::crossing::{Sample, dip, zero};
-use crate::{Real, Scalar};
+use crate::scalar::Scalar;
+use course::Watched;
+use search::numbers;
 
-/// The crossings that count as events.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Direction {
-    /// g increases along the run.
-    #[default]
-    Rising,
-    /// g decreases.
-    Falling,
-    /// Both.
-    Either,
-}
-
-impl Direction {
-    /// Whether a function that goes from `a` to `b` crosses zero in this direction.
-    pub fn crosses<T: Real>(self, a: T, b: T) -> bool {
-        let zero = T::lift(0.0);
-        match self {
-            Self::Rising => a < zero && b >= zero,
-            Self::Falling => a > zero && b <= zero,
-            Self::Either => (a < zero && b >= zero) || (a > zero && b <= zero),
-        }
-    }
-}
+pub use search::Direction;
 
 /// Where a run meets a condition.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,58 +92,12 @@ pub struct Events<R: Run, G, const N: usize> {
     state: StateOf<R>,
     /// The last event that was handed out.
     last: Option<usize>,
-    failed: bool,
+    /// Why the events of the last step are not known.
+    lost: Option<StepError>,
+    /// Whether the iterator has come to its end.
+    ended: bool,
 }
 
-/// What is known of a condition.
-#[derive(Clone, Copy, Debug)]
-struct Watched<T> {
-    g: T,
-    /// How it has changed, once there is a step.
-    course: Option<Course<T>>,
-}
-
-/// How a condition has changed in steps.
-#[derive(Clone, Copy, Debug)]
-struct Course<T> {
-    /// The mean rate in the last step.
-    slope: T,
-    /// By how much that differs from the one before, once there is one.
-    bend: Option<T>,
-    /// How fast it has changed in the last steps, at most.
-    rate: T,
-}
-
-impl<T: Real> Course<T> {
-    /// After a step in which the mean rate is `slope`.
-    fn after(before: Option<Self>, slope: T) -> Self {
-        let size = Scalar::abs(slope);
-        let rate = before.map_or(size, |before| larger(size, T::lift(FORGETTING) * before.rate));
-        Self { slope, bend: before.map(|before| slope - before.slope), rate }
-    }
-
-    /// Whether a condition may have come to zero and back in a step of length `h` from `a` to `b`, which are on
-    /// one side, where its course was another before: if it falls at the beginning and rises at the end. The
-    /// rates there are those of a parabola, but for what the course has bent otherwise in the step before.
-    fn may_turn(&self, before: &Self, [a, b]: [T; 2], h: T) -> bool {
-        if Scalar::abs(a) + Scalar::abs(b) > T::lift(MARGIN) * self.rate * h {
-            return false;
-        }
-        let (Some(bend), Some(bent)) = (self.bend, before.bend) else { return true };
-        let [zero, half, margin] = [0.0, 0.5, MARGIN].map(T::lift);
-        let unknown = margin * Scalar::abs(bend - bent);
-        let away = |slope: T| if a < zero { -slope } else { slope };
-        away(self.slope - half * bend) < unknown && away(self.slope + half * bend) > -unknown
-    }
-}
-
-/// Of the rate at which g changes, what is kept from step to step.
-const FORGETTING: f64 = 0.9;
-/// The largest rate within a step in units of the mean rates of the last steps, and an unknown bend in units of
-/// what bends have changed by.
-const MARGIN: f64 = 2.0;
-/// The part of a step between places at which a condition is looked at for its slope.
-const CHORD: f64 = 1e-5;
 /// A condition that has led to a change of the state is zero there if it is no more than this part of what
 /// changes in a step.
 const LEFT: f64 = 1e-9;
@@ -180,7 +115,17 @@ where
         let state = dense.at_end().map_err(StartError::Starter)?.state();
         let values = numbers(g(dense.time(), &state)).map_err(StartError::Starter)?;
         let watched = values.map(|g| Watched { g, course: None });
-        Ok(Self { dense, g, directions, watched, found: [[None; 2]; N], state, last: None, failed: false })
+        Ok(Self {
+            dense,
+            g,
+            directions,
+            watched,
+            found: [[None; 2]; N],
+            state,
+            last: None,
+            lost: None,
+            ended: false,
+        })
     }
 
     /// The run, at the end of the step that is searched, with its continuous extension.
@@ -195,7 +140,7 @@ where
     /// [`StepFailure::Unreachable`], with both times, if `t` lies before the last step or is not finite.
     /// [`StepError`] of the first step that fails, once all events before it have been handed out;
     /// [`StepFailure::UndefinedEvent`] in a step at whose end, or at a place that is looked at, a condition
-    /// is no number.
+    /// is no number: then no more is known of events, until another state is [set](Self::set_state).
     pub fn next_until(&mut self, t: R::Scalar) -> Result<Option<EventOf<R>>, StepError> {
         self.dense.check_ahead(t)?;
         self.next_before(Some(t))
@@ -252,7 +197,7 @@ where
             let has_led_there = self.last == Some(index) && Scalar::abs(g) <= rounding;
             *watched = Watched { g: if has_led_there { R::Scalar::lift(0.0) } else { g }, course: None };
         }
-        self.last = None;
+        (self.last, self.lost, self.ended) = (None, None, false);
         Ok(())
     }
 
@@ -280,100 +225,13 @@ where
 
     /// Takes a step, and finds its events.
     fn step(&mut self) -> Result<(), StepError> {
+        self.lost.map_or(Ok(()), Err)?;
         self.dense.advance()?;
-        let result = self.search();
-        result.map_err(|failure| self.dense.error(failure))
-    }
-
-    fn search(&mut self) -> Result<(), StepFailure> {
-        self.dense.at_end()?.refill(&mut self.state);
-        let end = numbers((self.g)(self.dense.time(), &self.state))?;
-        let (zero, h) = (R::Scalar::lift(0.0), Scalar::abs(self.dense.step_size()));
-        for (index, b) in end.into_iter().enumerate() {
-            let Watched { g: a, course: before } = self.watched[index];
-            let course = Course::after(before, (b - a) / h);
-            self.watched[index] = Watched { g: b, course: Some(course) };
-            let stays = (a > zero && b > zero) || (a < zero && b < zero);
-            let passes = stays && before.is_some_and(|before| !course.may_turn(&before, [a, b], h));
-            if !passes {
-                self.dense.settle()?;
-                self.search_near(index, [a, b])?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The events of a condition in a step, from its values at both ends.
-    fn search_near(&mut self, index: usize, [mut a, b]: [R::Scalar; 2]) -> Result<(), StepFailure> {
-        let [zero, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
-        let mut begin = zero;
-        if a == zero {
-            // The side to which it leads.
-            (begin, a) = (chord, self.look(index, chord)?);
-        }
-        let side = if a < zero { -one } else { one };
-        if b == zero || (b < zero) != (a < zero) {
-            self.found[index] = [self.locate(index, [[begin, a], [one, b]])?, None];
-            return Ok(());
-        }
-        let [from, to] = [self.sample(index, side, [begin, a])?, self.sample(index, side, [one, b])?];
-        let low = dip([from, to], |place| {
-            let value = self.look(index, place)?;
-            self.sample(index, side, [place, value])
-        })?;
-        if let Some(low) = low {
-            let middle = [low, self.look(index, low)?];
-            let first = self.locate(index, [[begin, a], middle])?;
-            self.found[index] = [first, self.locate(index, [middle, [one, b]])?];
-        }
-        Ok(())
-    }
-
-    /// The part of the step at which a condition crosses zero between two others, if it does so in its
-    /// direction.
-    fn locate(&mut self, index: usize, ends: [[R::Scalar; 2]; 2]) -> Result<Option<R::Scalar>, StepFailure> {
-        if !self.directions[index].crosses(ends[0][1], ends[1][1]) {
-            return Ok(None);
-        }
-        zero(ends, |part| self.look(index, part)).map(|found| Some(found.place))
-    }
-
-    /// The distance of a condition from zero at a part of the step, and its slope: that of a parabola through
-    /// three places.
-    fn sample(
-        &mut self,
-        index: usize,
-        side: R::Scalar,
-        [place, value]: [R::Scalar; 2],
-    ) -> Result<Sample<R::Scalar>, StepFailure> {
-        let [one, two, three, four, chord] = [1.0, 2.0, 3.0, 4.0, CHORD].map(R::Scalar::lift);
-        let mut at = |chords| self.look(index, place + chords * chord);
-        let change = if place < chord {
-            four * at(one)? - three * value - at(two)?
-        } else if place > one - chord {
-            three * value - four * at(-one)? + at(-two)?
-        } else {
-            at(one)? - at(-one)?
-        };
-        Ok(Sample { place, value: side * value, slope: side * change / (two * chord) })
-    }
-
-    /// A condition at a part of the step.
-    fn look(&mut self, index: usize, part: R::Scalar) -> Result<R::Scalar, StepFailure> {
-        self.dense.reach(part * self.dense.step_size())?;
-        self.dense.reached()?.refill(&mut self.state);
-        Ok(numbers((self.g)(self.dense.reached_time(), &self.state))?[index])
-    }
-}
-
-/// The values of conditions.
-///
-/// # Errors
-/// [`StepFailure::UndefinedEvent`] for the first that is no number.
-fn numbers<T: Real, const N: usize>(values: [T; N]) -> Result<[T; N], StepFailure> {
-    match values.iter().position(|&value| reported(value).is_nan()) {
-        None => Ok(values),
-        Some(event) => Err(StepFailure::UndefinedEvent { event }),
+        self.search().map_err(|failure| {
+            let error = self.dense.error(failure);
+            self.lost = Some(error);
+            error
+        })
     }
 }
 
@@ -384,11 +242,11 @@ where
     type Item = Result<EventOf<R>, StepError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
+        if self.ended {
             return None;
         }
         let next = self.next_before(None).transpose();
-        self.failed = next.as_ref().is_none_or(Result::is_err);
+        self.ended = next.as_ref().is_none_or(Result::is_err);
         next
     }
 }

@@ -90,6 +90,11 @@ fn a_condition_that_is_no_number_is_an_error() -> Outcome {
     let mut events = run.events([Direction::Either; 2], |_, state| [1.0, state.x.sqrt() - 2.0])?;
     let Err(error) = events.next_until(-2.0) else { panic!("a root of what is negative") };
     assert!(matches!(error, StepError { step: 4, failure: StepFailure::UndefinedEvent { event: 1 }, .. }));
+    // Until another state is set.
+    assert_eq!(events.next_until(-2.0).err(), Some(error));
+    events.set_state(0.0, FreeState { x: 9.1, dot_x: 1.0 })?;
+    let Some(Event { index: 1, time, .. }) = events.next_until(-6.0)? else { panic!("none") };
+    assert!(abs_diff_eq!(time, -5.1, epsilon = 1e-13), "{time}");
     let mut run = free(-1.0, 0.25)?;
     let undefined = run.events([Direction::Either], |_, state| [state.x.sqrt()]);
     assert!(matches!(undefined.err(), Some(StartError::Starter(StepFailure::UndefinedEvent { event: 0 }))));

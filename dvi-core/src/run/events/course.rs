@@ -1,0 +1,52 @@
+//! How a condition has changed from step to step: whether a step may have led to zero and back.
+
+use crate::scalar::norm::larger;
+use crate::{Real, Scalar};
+
+/// Of the rate at which g changes, what is kept from step to step.
+const FORGETTING: f64 = 0.9;
+/// The largest rate within a step in units of the mean rates of the last steps, and an unknown bend in units of
+/// what bends have changed by.
+const MARGIN: f64 = 2.0;
+
+/// What is known of a condition.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Watched<T> {
+    pub(super) g: T,
+    /// How it has changed, once there is a step.
+    pub(super) course: Option<Course<T>>,
+}
+
+/// How a condition has changed in steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course<T> {
+    /// The mean rate in the last step.
+    slope: T,
+    /// By how much that differs from the one before, once there is one.
+    bend: Option<T>,
+    /// How fast it has changed in the last steps, at most.
+    pub(super) rate: T,
+}
+
+impl<T: Real> Course<T> {
+    /// After a step in which the mean rate is `slope`.
+    pub(super) fn after(before: Option<Self>, slope: T) -> Self {
+        let size = Scalar::abs(slope);
+        let rate = before.map_or(size, |before| larger(size, T::lift(FORGETTING) * before.rate));
+        Self { slope, bend: before.map(|before| slope - before.slope), rate }
+    }
+
+    /// Whether a condition may have come to zero and back in a step of length `h` from `a` to `b`, which are on
+    /// one side, where its course was another before: if it falls at the beginning and rises at the end. The
+    /// rates there are those of a parabola, but for what the course has bent otherwise in the step before.
+    pub(super) fn may_turn(&self, before: &Self, [a, b]: [T; 2], h: T) -> bool {
+        if Scalar::abs(a) + Scalar::abs(b) > T::lift(MARGIN) * self.rate * h {
+            return false;
+        }
+        let (Some(bend), Some(bent)) = (self.bend, before.bend) else { return true };
+        let [zero, half, margin] = [0.0, 0.5, MARGIN].map(T::lift);
+        let unknown = margin * Scalar::abs(bend - bent);
+        let away = |slope: T| if a < zero { -slope } else { slope };
+        away(self.slope - half * bend) < unknown && away(self.slope + half * bend) > -unknown
+    }
+}

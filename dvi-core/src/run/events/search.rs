@@ -1,0 +1,137 @@
+//! The search for events in a step: by the signs of conditions at its ends, and by their slopes there.
+
+use super::Events;
+use super::course::{Course, Watched};
+use crate::error::StepFailure;
+use crate::run::Run;
+use crate::run::dense::StateOf;
+use crate::scalar::norm::reported;
+use crate::solve::crossing::{Sample, dip, zero};
+use crate::{Real, Scalar};
+
+/// The part of a step between places at which a condition is looked at for its slope.
+const CHORD: f64 = 1e-5;
+
+/// The crossings that count as events.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direction {
+    /// g increases along the run.
+    #[default]
+    Rising,
+    /// g decreases.
+    Falling,
+    /// Both.
+    Either,
+}
+
+impl Direction {
+    /// Whether a function that goes from `a` to `b` crosses zero in this direction.
+    pub fn crosses<T: Real>(self, a: T, b: T) -> bool {
+        let zero = T::lift(0.0);
+        match self {
+            Self::Rising => a < zero && b >= zero,
+            Self::Falling => a > zero && b <= zero,
+            Self::Either => (a < zero && b >= zero) || (a > zero && b <= zero),
+        }
+    }
+}
+
+impl<R: Run, G, const N: usize> Events<R, G, N>
+where
+    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
+{
+    /// Finds the events of the last step.
+    ///
+    /// # Errors
+    /// [`StepFailure::UndefinedEvent`], and those of parts of the step.
+    pub(super) fn search(&mut self) -> Result<(), StepFailure> {
+        self.dense.at_end()?.refill(&mut self.state);
+        let end = numbers((self.g)(self.dense.time(), &self.state))?;
+        let (zero, h) = (R::Scalar::lift(0.0), Scalar::abs(self.dense.step_size()));
+        for (index, b) in end.into_iter().enumerate() {
+            let Watched { g: a, course: before } = self.watched[index];
+            let course = Course::after(before, (b - a) / h);
+            self.watched[index] = Watched { g: b, course: Some(course) };
+            let stays = (a > zero && b > zero) || (a < zero && b < zero);
+            let passes = stays && before.is_some_and(|before| !course.may_turn(&before, [a, b], h));
+            if !passes {
+                self.dense.settle()?;
+                self.search_near(index, [a, b])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The events of a condition in a step, from its values at both ends.
+    fn search_near(&mut self, index: usize, [mut a, b]: [R::Scalar; 2]) -> Result<(), StepFailure> {
+        let [zero, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
+        let mut begin = zero;
+        if a == zero {
+            // The side to which it leads.
+            (begin, a) = (chord, self.look(index, chord)?);
+        }
+        let side = if a < zero { -one } else { one };
+        if b == zero || (b < zero) != (a < zero) {
+            self.found[index] = [self.locate(index, [[begin, a], [one, b]])?, None];
+            return Ok(());
+        }
+        let [from, to] = [self.sample(index, side, [begin, a])?, self.sample(index, side, [one, b])?];
+        let low = dip([from, to], |place| {
+            let value = self.look(index, place)?;
+            self.sample(index, side, [place, value])
+        })?;
+        if let Some(low) = low {
+            let middle = [low, self.look(index, low)?];
+            let first = self.locate(index, [[begin, a], middle])?;
+            self.found[index] = [first, self.locate(index, [middle, [one, b]])?];
+        }
+        Ok(())
+    }
+
+    /// The part of the step at which a condition crosses zero between two others, if it does so in its
+    /// direction.
+    fn locate(&mut self, index: usize, ends: [[R::Scalar; 2]; 2]) -> Result<Option<R::Scalar>, StepFailure> {
+        if !self.directions[index].crosses(ends[0][1], ends[1][1]) {
+            return Ok(None);
+        }
+        zero(ends, |part| self.look(index, part)).map(|found| Some(found.place))
+    }
+
+    /// The distance of a condition from zero at a part of the step, and its slope: that of a parabola through
+    /// three places.
+    fn sample(
+        &mut self,
+        index: usize,
+        side: R::Scalar,
+        [place, value]: [R::Scalar; 2],
+    ) -> Result<Sample<R::Scalar>, StepFailure> {
+        let [one, two, three, four, chord] = [1.0, 2.0, 3.0, 4.0, CHORD].map(R::Scalar::lift);
+        let mut at = |chords| self.look(index, place + chords * chord);
+        let change = if place < chord {
+            four * at(one)? - three * value - at(two)?
+        } else if place > one - chord {
+            three * value - four * at(-one)? + at(-two)?
+        } else {
+            at(one)? - at(-one)?
+        };
+        Ok(Sample { place, value: side * value, slope: side * change / (two * chord) })
+    }
+
+    /// A condition at a part of the step.
+    fn look(&mut self, index: usize, part: R::Scalar) -> Result<R::Scalar, StepFailure> {
+        self.dense.reach(part * self.dense.step_size())?;
+        self.dense.reached()?.refill(&mut self.state);
+        Ok(numbers((self.g)(self.dense.reached_time(), &self.state))?[index])
+    }
+}
+
+/// The values of conditions.
+///
+/// # Errors
+/// [`StepFailure::UndefinedEvent`] for the first that is no number.
+pub(super) fn numbers<T: Real, const N: usize>(values: [T; N]) -> Result<[T; N], StepFailure> {
+    match values.iter().position(|&value| reported(value).is_nan()) {
+        None => Ok(values),
+        Some(event) => Err(StepFailure::UndefinedEvent { event }),
+    }
+}
