@@ -8,6 +8,7 @@ use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge as _, ParallelIterator as _};
 
 use crate::claim::{Check, Claim};
+use crate::experiments::SOURCES;
 use crate::job::{Job, Length};
 use crate::output::now;
 use crate::progress::Progress;
@@ -19,10 +20,19 @@ pub struct Experiment {
     /// What `--only` takes, and what its files are called.
     pub name: &'static str,
     pub title: &'static str,
-    /// Its rough share of the time that all take, in seconds of a full run: what the time left is computed
-    /// from.
+    /// Who published it; empty if nobody did.
+    pub source: &'static str,
+    /// Its rough share of the time that all take, in seconds of a full run on one core: what the time left is
+    /// computed from, and the order in which they begin.
     pub share: f64,
     pub run: fn(&Job<'_>) -> Result<Outcome>,
+}
+
+impl Experiment {
+    /// Whether it belongs to the main job.
+    pub fn is_of_a_paper(&self) -> bool {
+        SOURCES.contains(&self.source)
+    }
 }
 
 /// What an experiment has to say.
@@ -41,7 +51,7 @@ impl From<Vec<Claim>> for Outcome {
     }
 }
 
-/// Runs the experiments, the longest first, and returns what each has left, in their order.
+/// Runs the experiments, the shortest first, and returns what each has left, in their order.
 pub fn run(
     experiments: &[Experiment],
     folder: &Path,
@@ -69,7 +79,7 @@ pub fn run(
         }
     };
     let mut order: Vec<usize> = (0..experiments.len()).collect();
-    order.sort_by(|&i, &j| experiments[j].share.total_cmp(&experiments[i].share));
+    order.sort_by(|&i, &j| experiments[i].share.total_cmp(&experiments[j].share));
     let finished = AtomicBool::new(false);
     let mut parts: Vec<(usize, Part)> = std::thread::scope(|scope| {
         scope.spawn(|| progress.watch(|| finished.load(Ordering::Relaxed)));
@@ -104,7 +114,7 @@ mod tests {
 
     #[test]
     fn one_failure_does_not_stop_the_others() {
-        let named = |name, run| Experiment { name, title: "", share: 1.0, run };
+        let named = |name, run| Experiment { name, title: "", source: "", share: 1.0, run };
         let both = [named("a", broken as fn(&Job<'_>) -> _), named("b", quick)];
         let stop = AtomicBool::new(false);
         let parts = run(&both, Path::new("."), Length::Short, Some(2), &stop).expect("threads");
@@ -115,7 +125,7 @@ mod tests {
     #[test]
     fn nothing_starts_after_an_interrupt() {
         let stop = AtomicBool::new(true);
-        let one = [Experiment { name: "a", title: "", share: 1.0, run: broken }];
+        let one = [Experiment { name: "a", title: "", source: "", share: 1.0, run: broken }];
         let parts = run(&one, Path::new("."), Length::Full, None, &stop).expect("threads");
         assert!(parts.iter().all(|part| part.state == State::NotStarted), "{parts:?}");
     }

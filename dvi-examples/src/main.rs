@@ -1,7 +1,7 @@
 //! The gallery: published experiments on variational integrators, reproduced with figures, tables and
 //! a summary that compares claim by claim.
 //!
-//! `cargo run --release -p dvi-examples` runs them all; `--help` says what else there is.
+//! `cargo run --release -p dvi-examples` runs those of the papers; `--help` says what else there is.
 
 #![allow(unreachable_pub, reason = "in a binary `pub` means: for the other modules")]
 
@@ -61,7 +61,8 @@ fn run(options: &Options) -> Result<ExitCode> {
     record::load(&folder)?;
     ctrlc::set_handler(interrupt).context("cannot listen to Ctrl-C")?;
     let wanted = |experiment: &Experiment| {
-        options.only.is_empty() || options.only.iter().any(|n| n == experiment.name)
+        let is_named = options.only.iter().any(|name| name == experiment.name);
+        is_named || options.only.is_empty() && (options.all || experiment.is_of_a_paper())
     };
     let chosen: Vec<Experiment> = experiments::ALL.iter().copied().filter(wanted).collect();
     let length = if options.short { Length::Short } else { Length::Full };

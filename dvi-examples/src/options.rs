@@ -9,7 +9,7 @@ use crate::experiments;
 
 /// Reproduces the published experiments on variational integrators.
 ///
-/// Without options all experiments run at full length. Each writes a figure (SVG and PNG of the same
+/// Without options the experiments of the papers run at full length, in some minutes. Each writes a figure (SVG and PNG of the same
 /// picture) and its data (CSV); at the end `summary.md` says, claim by claim, what the paper says, what was
 /// measured, and whether it was reproduced, and `summary.csv` says the same to programs. A run replaces the
 /// parts of its own experiments in the summary of its folder and keeps the others.
@@ -20,6 +20,10 @@ pub struct Options {
     /// [default: results, with --short results-short]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    /// Run those too that go beyond the papers; at full length they take twenty minutes on two cores
+    #[arg(long, conflicts_with = "only")]
+    pub all: bool,
 
     /// Run the same experiments for shorter times; claims that need longer ones stay undecided
     #[arg(long)]

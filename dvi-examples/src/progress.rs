@@ -16,6 +16,8 @@ use crate::gallery::Experiment;
 const TICK: Duration = Duration::from_millis(200);
 /// Between two plain lines.
 const INTERVAL: Duration = Duration::from_secs(10);
+/// What was done longer ago than this tells little of how fast the rest will be, beside other work.
+const MEMORY: f64 = 60.0;
 /// Of all `TOTAL` steps of the bar of all.
 const TOTAL: u64 = 1000;
 
@@ -28,6 +30,15 @@ pub struct Progress {
     ended: AtomicUsize,
     begun: Instant,
     spoken: Mutex<Instant>,
+    speed: Mutex<Speed>,
+}
+
+/// The work that was done in the seconds on the clock that it took, each with a weight that fades.
+#[derive(Clone, Copy, Debug, Default)]
+struct Speed {
+    done: f64,
+    seconds: f64,
+    last: [f64; 2],
 }
 
 #[derive(Debug)]
@@ -61,7 +72,7 @@ impl Progress {
         });
         let (ended, begun) = (AtomicUsize::new(0), Instant::now());
         let items = experiments.iter().map(item).collect();
-        Self { bars, items, ended, begun, spoken: Mutex::new(begun) }
+        Self { bars, items, ended, begun, spoken: Mutex::new(begun), speed: Mutex::default() }
     }
 
     /// Begins the experiment of that number and gives its counter.
@@ -133,17 +144,33 @@ impl Progress {
         done / all
     }
 
-    /// The time left, if the rest goes on as what is done.
+    /// The time left, if the rest goes on as what was done lately.
     fn left(&self) -> String {
         let (elapsed, fraction) = (self.begun.elapsed().as_secs_f64(), self.fraction());
-        if elapsed < 2.0 || fraction < 0.01 {
-            return "…".into();
+        let mut speed = self.speed.lock().unwrap_or_else(PoisonError::into_inner);
+        speed.note(elapsed, fraction);
+        match speed.left(fraction) {
+            _ if elapsed < 2.0 => "…".into(),
+            seconds if seconds < 90.0 => format!("{seconds:.0} s left"),
+            seconds if seconds < 1e5 => format!("{:.0} min left", seconds / 60.0),
+            _ => "…".into(),
         }
-        let seconds = (elapsed * (1.0 - fraction) / fraction).round() as u64;
-        match seconds {
-            0..90 => format!("{seconds} s left"),
-            _ => format!("{} min left", (seconds + 30) / 60),
-        }
+    }
+}
+
+impl Speed {
+    /// Notes how much is done in all at a time.
+    fn note(&mut self, seconds: f64, done: f64) {
+        let past = seconds - self.last[0];
+        let fade = (-past / MEMORY).exp();
+        self.seconds = fade * self.seconds + past;
+        self.done = fade * self.done + (done - self.last[1]);
+        self.last = [seconds, done];
+    }
+
+    /// The seconds that the rest takes.
+    fn left(&self, done: f64) -> f64 {
+        (1.0 - done) * self.seconds / self.done.max(f64::MIN_POSITIVE)
     }
 }
 
@@ -184,7 +211,8 @@ mod tests {
 
     #[test]
     fn the_whole_is_the_sum_of_its_shares() {
-        let named = |name, share| Experiment { name, title: "", share, run: |_| Ok(Outcome::default()) };
+        let named =
+            |name, share| Experiment { name, title: "", source: "", share, run: |_| Ok(Outcome::default()) };
         let progress = Progress::new(&[named("a", 1.0), named("b", 3.0)]);
         assert_eq!(progress.fraction(), 0.0);
         let bar = progress.start(1);
@@ -194,5 +222,25 @@ mod tests {
         progress.end(1, "done");
         assert_eq!(progress.fraction(), 0.75);
         assert_eq!(progress.left(), "…");
+    }
+    /// Three minutes of work, of which other work takes three quarters from the first minute on, and later all.
+    #[test]
+    fn the_time_left_follows_what_is_done_on_the_clock() {
+        let mut speed = Speed::default();
+        let done = |t: f64| (t.min(60.0) + 0.25 * (t - 60.0).clamp(0.0, 400.0)) / 180.0;
+        for tick in 1..2700 {
+            let t = 0.2 * f64::from(tick);
+            speed.note(t, done(t));
+            let (left, right) = (speed.left(done(t)), 540.0 - t);
+            let alone = 180.0 - t;
+            match t {
+                10.0..60.0 => assert!((left / alone - 1.0).abs() < 0.01, "{t}: {left}"),
+                110.0..460.0 => assert!((0.5..2.0).contains(&(left / right)), "{t}: {left}"),
+                _ => {}
+            }
+        }
+        let before = speed.left(done(540.0));
+        speed.note(900.0, done(540.0));
+        assert!(speed.left(done(540.0)) > 10.0 * before, "nothing is done, and the time left does not grow");
     }
 }

@@ -35,7 +35,7 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     if folder.exists() {
         fs::remove_dir_all(&folder).expect("removed");
     }
-    let output = run(&["--short"], &folder);
+    let output = run(&["--short", "--all"], &folder);
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
     assert_eq!(output.status.code(), Some(0), "{printed}{}", String::from_utf8_lossy(&output.stderr));
     let experiments = listed();

@@ -19,9 +19,8 @@ const EPSILON: f64 = 0.02;
 const TOLERANCE: f64 = 0.01;
 /// After so many periods of steps by (23) as printed there is nothing left of the orbit.
 const LOST: u64 = 1000;
-/// Steps per unit of arc length are short: a period takes so many times as long as one with reversible
-/// steps.
-const SHORT_STEPS: u64 = 12;
+/// What a period of each contender costs, as the progress counts it.
+const COSTS: [u64; 6] = [3, 4, 6, 31, 57, 14];
 /// Periods after which the early energy errors are noted.
 const EARLY: f64 = 100.0;
 const SETTLED: f64 = 300.0;
@@ -52,20 +51,20 @@ struct Orbits {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let periods = job.choose(100_000, 320);
-    job.expect((3 + 2 * SHORT_STEPS) * periods + periods.min(LOST));
+    let many = |contender: usize| if contender == 1 { periods.min(LOST) } else { periods };
+    job.expect((0..6).map(|contender| COSTS[contender] * many(contender)).sum());
     let frozen = Variational::simpson().phase_fitted(Curvature(Reading::LeftFrozen));
     let lobatto = Variational::new(Quadrature::lobatto(4)?).phase_fitted(Radial(Reading::Variational));
     let of = |contender: usize| {
-        let short = |tolerance| {
-            anyhow::Ok(Orbits::of(job, &mut per_arc_length(frozen, ORBIT, tolerance)?, periods, SHORT_STEPS))
-        };
-        Ok(match contender {
-            0 => Orbits::of(job, &mut reversible(Variational::trapezoid(), ORBIT, EPSILON)?, periods, 1),
-            1 => Orbits::of(job, &mut osculating(frozen, ORBIT, TOLERANCE)?, periods.min(LOST), 1),
-            2 => Orbits::of(job, &mut reversible(frozen, ORBIT, EPSILON)?, periods, 1),
-            3 => return short(1e-5),
-            4 => return short(3e-6),
-            _ => Orbits::of(job, &mut reversible(lobatto, ORBIT, EPSILON)?, periods, 1),
+        let short = |tolerance| per_arc_length(frozen, ORBIT, tolerance);
+        let (periods, cost) = (many(contender), COSTS[contender]);
+        anyhow::Ok(match contender {
+            0 => Orbits::of(job, &mut reversible(Variational::trapezoid(), ORBIT, EPSILON)?, periods, cost),
+            1 => Orbits::of(job, &mut osculating(frozen, ORBIT, TOLERANCE)?, periods, cost),
+            2 => Orbits::of(job, &mut reversible(frozen, ORBIT, EPSILON)?, periods, cost),
+            3 => Orbits::of(job, &mut short(1e-5)?, periods, cost),
+            4 => Orbits::of(job, &mut short(3e-6)?, periods, cost),
+            _ => Orbits::of(job, &mut reversible(lobatto, ORBIT, EPSILON)?, periods, cost),
         })
     };
     // The longest first.
