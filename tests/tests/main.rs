@@ -6,6 +6,8 @@
 
 mod at_state;
 mod baselines;
+#[path = "../src/browser.rs"]
+mod browser;
 mod checkpoints;
 mod compositions;
 mod constrained;
