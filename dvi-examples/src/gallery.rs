@@ -72,7 +72,8 @@ pub fn run(
             return ended("not started", State::NotStarted, Outcome::default());
         }
         let job = Job::new(name, folder.to_owned(), length, progress.start(number), stop);
-        match (run(&job), job.was_interrupted()) {
+        let ran = run(&job).and_then(|outcome| job.publish_motion().map(|()| outcome));
+        match (ran, job.was_interrupted()) {
             (Ok(outcome), false) => ended("done", State::Complete, outcome),
             (Ok(outcome), true) => ended("interrupted", State::Interrupted, outcome),
             (Err(error), _) => ended("failed", State::Failed(format!("{error:#}")), Outcome::default()),

@@ -10,7 +10,8 @@ use indicatif::ProgressBar;
 
 use crate::deviation::{Deviation, Span, note};
 use crate::figure::Figure;
-use crate::output::Table;
+use crate::motions;
+use crate::output::{Table, write_whole};
 
 /// Full length as in the papers, or seconds instead of minutes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,6 +155,14 @@ impl<'a> Job<'a> {
         let figure = if self.was_interrupted() { figure.interrupted() } else { figure };
         figure.save(&self.folder, self.name)?;
         data.save(&self.folder, self.name)
+    }
+
+    /// Writes the page of its motion (HTML), if it has one.
+    pub fn publish_motion(&self) -> Result<()> {
+        let Some(record) = motions::of(self.name)? else { return Ok(()) };
+        let mut page = Vec::new();
+        record.write_page(&mut page)?;
+        write_whole(&self.folder.join(format!("{}.html", self.name)), &page)
     }
 
     /// Whether a series of this experiment was cut short by the user.

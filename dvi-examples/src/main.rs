@@ -10,8 +10,10 @@ mod deviation;
 mod experiments;
 mod gallery;
 mod job;
+mod motions;
 mod numbers;
 mod options;
+mod page;
 mod progress;
 mod record;
 mod runs;
@@ -73,7 +75,10 @@ fn run(options: &Options) -> Result<ExitCode> {
     let parts = record::merged(record::load(&folder)?, new.clone(), &names);
     record::save(&folder, &parts)?;
     output::write_whole(&folder.join("summary.md"), summary::markdown(&parts, title).as_bytes())?;
+    let index = folder.join("index.html");
+    output::write_whole(&index, page::html(&parts, &folder).as_bytes())?;
     say(&format!("\n{}", summary::plain(&new, title, width())))?;
+    eprintln!("look at {}", index.display());
     Ok(exit_code(&new))
 }
 

@@ -133,7 +133,7 @@ fn entry(line: &mut impl FnMut(usize, &str), claim: &Claim, interrupted: bool) {
 }
 
 /// Claims of the papers, claims beyond them, and regression checks, counted apart.
-fn tally<'a>(parts: impl IntoIterator<Item = &'a Part>) -> String {
+pub fn tally<'a>(parts: impl IntoIterator<Item = &'a Part>) -> String {
     let complete = parts.into_iter().filter(|part| part.state == State::Complete);
     let outcomes: Vec<&Outcome> = complete.map(|part| &part.outcome).collect();
     let claims = outcomes.iter().flat_map(|outcome| &outcome.claims);

@@ -7,6 +7,8 @@
 mod archive;
 mod at_state;
 mod baselines;
+#[path = "../src/browser.rs"]
+mod browser;
 mod checkpoints;
 mod compositions;
 mod constrained;

@@ -9,7 +9,7 @@
 use rayon::prelude::*;
 
 use super::kepler::{Course, KeplerRun, follow, osculating, per_arc_length, reversible};
-use crate::models::Orbit;
+use crate::models::{Orbit, Phase};
 use crate::vocabulary::*;
 
 const ORBIT: Orbit = Orbit { e: 0.95 };
@@ -88,9 +88,9 @@ impl Orbits {
         let mut orbits = Self::default();
         let mut interval = i64::MIN;
         let last_interval = ((periods as f64).log10() * PER_DECADE).ceil() as i64 - 1;
-        let (mut energy, mut position, mut whole) = (0.0f64, 0.0f64, 1.0);
+        let (mut energy, mut position, mut whole, mut phase) = (0.0f64, 0.0f64, 1.0, Phase::default());
         let course = follow(job, run, periods, |sample| {
-            let (time, error) = (sample.t / TAU, ORBIT.error(sample.t, &sample.q));
+            let (time, error) = (sample.t / TAU, ORBIT.error_after(&mut phase, sample.t, &sample.q));
             // The end of the run belongs to the interval before it.
             let current = (((time.max(0.1)).log10() * PER_DECADE).floor() as i64).min(last_interval);
             if current > interval {

@@ -39,9 +39,8 @@ impl Orbit {
 
     /// The position at time `t`, by Kepler's equation E − e sin E = t.
     pub fn position(self, t: f64) -> [f64; 2] {
-        let Self { e } = self;
-        let [cos, sin] = self.anomaly(t);
-        [cos - e, (1.0 - e * e).sqrt() * sin]
+        let t = within_half_an_orbit(t);
+        self.position_in(self.phase(t, t + 0.5 * self.e.copysign(t)))
     }
 
     /// The distance of (x, y) from where the planet is at time `t`.
@@ -50,39 +49,66 @@ impl Orbit {
         (q[0] - x).hypot(q[1] - y)
     }
 
-    /// Cosine and sine of the eccentric anomaly, by Newton's method inside of a bracket. It begins at the root of a
-    /// cubic equation (Markley 1995, eq. 15–20), which is near enough for two or three iterations: long runs ask
-    /// for the position after each step.
-    fn anomaly(self, t: f64) -> [f64; 2] {
+    /// The same, in half of the time, along a run: `last` is the phase of the step before.
+    pub fn error_after(self, last: &mut Phase, t: f64, q: &[f64]) -> f64 {
+        let t = within_half_an_orbit(t);
+        *last = self.phase(t, last.anomaly + (t - last.t) * last.rate);
+        let [x, y] = self.position_in(*last);
+        (q[0] - x).hypot(q[1] - y)
+    }
+
+    fn position_in(self, Phase { sine, cosine, .. }: Phase) -> [f64; 2] {
+        [cosine - self.e, (1.0 - self.e * self.e).sqrt() * sine]
+    }
+
+    /// From a guess of the eccentric anomaly, by Newton's method inside of a bracket.
+    fn phase(self, t: f64, guess: f64) -> Phase {
         let Self { e } = self;
         // On half an orbit, −π to π, the root lies between t and t + e in magnitude.
-        let t = t - TAU * (t / TAU).round();
         let m = t.abs();
         let (mut low, mut high) = (m, (m + e).min(PI));
-        let alpha = (3.0 * PI * PI + 1.6 * PI * (PI - m) / (1.0 + e)) / (PI * PI - 6.0);
-        let d = 3.0 * (1.0 - e) + alpha * e;
-        let (q, r) = (2.0 * alpha * d * (1.0 - e) - m * m, (3.0 * alpha * d * (d - 1.0 + e) + m * m) * m);
-        let root = (r + (q.powi(3) + r * r).sqrt()).cbrt().powi(2);
-        let start = (2.0 * r * root / (root * root + root * q + q * q) + m) / d;
-        let mut anomaly = start.max(low).min(high);
+        let guess = guess.copysign(guess * t);
+        let mut anomaly = if (low..high).contains(&guess) { guess } else { 0.5 * (low + high) };
         for _ in 0..60 {
-            let excess = anomaly - e * anomaly.sin() - m;
+            let (sine, cosine) = anomaly.sin_cos();
+            let excess = anomaly - e * sine - m;
             if excess > 0.0 {
                 high = anomaly;
             } else {
                 low = anomaly;
             }
-            let newton = anomaly - excess / (1.0 - e * anomaly.cos());
+            let newton = anomaly - excess / (1.0 - e * cosine);
             let next = if (low..=high).contains(&newton) { newton } else { 0.5 * (low + high) };
             let change = (next - anomaly).abs();
             anomaly = next;
-            // What rounding leaves of the change need not become smaller.
-            if change <= 4e-16 * anomaly {
+            // After so small a change the next one is lost in rounding.
+            if change <= 1e-9 * anomaly {
                 break;
             }
         }
-        [anomaly.cos(), anomaly.sin().copysign(t)]
+        let (sine, cosine) = anomaly.sin_cos();
+        Phase {
+            t,
+            anomaly: anomaly.copysign(t),
+            sine: sine.copysign(t),
+            cosine,
+            rate: 1.0 / (1.0 - e * cosine),
+        }
     }
+}
+
+/// A time within half an orbit of the pericentre, and the eccentric anomaly then.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Phase {
+    t: f64,
+    anomaly: f64,
+    sine: f64,
+    cosine: f64,
+    rate: f64,
+}
+
+fn within_half_an_orbit(t: f64) -> f64 {
+    t - TAU * (t / TAU).round()
 }
 
 #[cfg(test)]
@@ -92,12 +118,13 @@ mod tests {
     #[test]
     fn positions_solve_kepler_s_equation() {
         for e in [0.0, 0.2, 0.95, 0.999] {
-            let orbit = Orbit { e };
+            let (orbit, mut phase) = (Orbit { e }, Phase::default());
             for k in 0..1000 {
                 let anomaly = TAU * f64::from(k) / 1000.0;
                 let t = anomaly - e * anomaly.sin();
                 let q = [anomaly.cos() - e, (1.0 - e * e).sqrt() * anomaly.sin()];
                 assert!(orbit.error(t, &q) < 2e-14 / (1.0 - e), "e = {e}, t = {t}");
+                assert!(orbit.error_after(&mut phase, t, &q) < 2e-14 / (1.0 - e), "e = {e}, t = {t}");
                 // Times of this size are rounded to 1e-12.
                 assert!(orbit.error(t + 1000.0 * TAU, &q) < 1e-11 / (1.0 - e), "e = {e}, t = {t}");
             }

@@ -1,10 +1,18 @@
 //! The gallery as a person starts it: arguments, files, exit codes, interruption.
 
+#[path = "../../../tests/src/browser.rs"]
+mod browser;
+mod page;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+
+/// The experiments whose motion is shown.
+const MOTIONS: [&str; 6] =
+    ["fig3-leapfrogging", "kepler-long", "links", "top", "guiding-centre", "shear-layer"];
 
 fn gallery(arguments: &[&str], out: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_dvi-examples"));
@@ -21,11 +29,14 @@ fn names(folder: &Path) -> BTreeSet<String> {
     entries.map(|name| name.to_string_lossy().into_owned()).collect()
 }
 
-fn listed() -> Vec<String> {
+fn list() -> Vec<String> {
     let list =
         Command::new(env!("CARGO_BIN_EXE_dvi-examples")).arg("--list").output().expect("starts").stdout;
-    let list = String::from_utf8(list).expect("UTF-8");
-    list.lines().filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
+    String::from_utf8(list).expect("UTF-8").lines().map(str::to_owned).collect()
+}
+
+fn listed() -> Vec<String> {
+    list().iter().filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
 }
 
 /// What it writes stays in `target/tmp/short-run`.
@@ -41,8 +52,10 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     let experiments = listed();
     assert!(experiments.len() >= 15, "{experiments:?}");
     let files = |name: &String| ["svg", "png", "csv"].map(|extension| format!("{name}.{extension}"));
+    let motions = MOTIONS.map(|name| format!("{name}.html"));
+    let pages = ["index.html", "summary.csv", "summary.md"].map(str::to_owned);
     let expected: BTreeSet<String> =
-        experiments.iter().flat_map(files).chain(["summary.csv", "summary.md"].map(str::to_owned)).collect();
+        experiments.iter().flat_map(files).chain(pages).chain(motions).collect();
     assert_eq!(names(&folder), expected);
     for name in &experiments {
         let read = |extension| fs::read(folder.join(format!("{name}.{extension}"))).expect("readable");
@@ -54,8 +67,10 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
         assert!(read("csv").iter().filter(|&&byte| byte == b'\n').count() > 3, "{name}");
     }
     let figure = fs::read(folder.join("fig3-leapfrogging.svg")).expect("readable");
-    let shown = include_bytes!("../figures/leapfrogging.svg");
+    let shown = include_bytes!("../../figures/leapfrogging.svg");
     assert!(figure == shown, "the README shows another figure than this program draws: copy it to figures/");
+    let table = fs::read_to_string(folder.join("summary.csv")).expect("readable");
+    page::has_all(&folder, &verdicts(&table));
     let summary = fs::read_to_string(folder.join("summary.md")).expect("readable");
     assert!(experiments.iter().all(|name| summary.contains(&format!("## {name}:"))), "{summary}");
     assert!(
@@ -66,7 +81,21 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
         "{summary}"
     );
     assert!(printed.contains("reproduced"), "{printed}");
-    same_claims(&fs::read_to_string(folder.join("summary.csv")).expect("readable"));
+    same_claims(&table);
+}
+
+#[test]
+fn the_readme_shows_each_experiment() {
+    let readme = include_str!("../../README.md");
+    for line in list() {
+        let (name, title) = line.split_once(' ').expect("a name and a sentence");
+        let cell = format!("![](figures/{name}.webp)<br>`{name}`: {}.", title.trim_start());
+        assert!(readme.contains(&cell), "dvi-examples/README.md should say:\n{cell}");
+        assert!(
+            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("figures/{name}.webp")).exists(),
+            "{name}"
+        );
+    }
 }
 
 /// The verdicts of a summary: "undecided" or how a claim was decided.
@@ -80,7 +109,7 @@ fn verdicts(table: &str) -> BTreeMap<[String; 3], String> {
 /// The table of the full run that the README quotes has the claims of this program, and the same verdicts
 /// wherever the short form decides.
 fn same_claims(short: &str) {
-    let (short, full) = (verdicts(short), verdicts(include_str!("../full-run.csv")));
+    let (short, full) = (verdicts(short), verdicts(include_str!("../../full-run.csv")));
     assert!(short.keys().eq(full.keys()), "full-run.csv is out of date: see tests/readme");
     for (claim, verdict) in short.iter().filter(|(_, verdict)| !verdict.starts_with("undecided")) {
         assert_eq!(verdict, &full[claim], "{claim:?}: full-run.csv is out of date, see tests/readme");
@@ -109,7 +138,7 @@ fn results_are_the_same_for_every_number_of_threads() {
             .collect()
     });
     let (one, two): (Vec<Vec<u8>>, Vec<Vec<u8>>) = (one, two);
-    assert_eq!(one.len(), 11);
+    assert_eq!(one.len(), 12);
     assert!(one == two);
 }
 
@@ -118,8 +147,20 @@ fn only_runs_what_is_asked_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let below = folder.path().join("new/folder");
     assert_eq!(run(&["--short", "--only", "momenta"], &below).status.code(), Some(0));
-    let expected = ["momenta.csv", "momenta.png", "momenta.svg", "summary.csv", "summary.md"];
+    let expected = ["index.html", "momenta.csv", "momenta.png", "momenta.svg", "summary.csv", "summary.md"];
     assert_eq!(names(&below).into_iter().collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn the_main_job_is_that_of_the_papers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = run(&["--short"], folder.path());
+    assert_eq!(output.status.code(), Some(0));
+    let names = names(folder.path());
+    assert!(names.contains("fig5-chaotic.svg") && !names.contains("friction.svg"), "{names:?}");
+    let messages = String::from_utf8_lossy(&output.stderr).into_owned();
+    let place = |name: &str| messages.find(&format!("\n{name} ")).expect("it ended");
+    assert!(place("order") < place("kepler-long"), "{messages}");
 }
 
 #[test]
