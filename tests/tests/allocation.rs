@@ -257,7 +257,7 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     assert_none_controlled!(kepler, kepler_start, reversible, Variational::trapezoid(), fitted());
     assert_none_controlled!(kepler, kepler_start, EnergyMomentum::new(0.01), Variational::midpoint());
     assert_none_controlled!(kepler, kepler_start, osculating, Variational::trapezoid(), fitted());
-    let by_error = ErrorControl::new(1e-9, 10.0);
+    let by_error = ErrorControl { breaks: &[0.1, 0.2, 20.0], ..ErrorControl::new(1e-9, 10.0) };
     assert_none_controlled!(kepler, kepler_start, by_error, Gauss::<2>::new(), Gauss::<8>::new().in_lanes());
     assert_none_controlled!(chain, chain_start, by_error, Gauss::<2>::new());
     assert_none_controlled!(chain, chain_start, reversible, Variational::trapezoid(), fitted());
