@@ -6,6 +6,7 @@
 //! [`ErrorControl`] and [`Osculating`] of the other. With [`EnergyMomentum`] the length of a step is an
 //! unknown of its equations.
 
+mod breaks;
 mod controlled;
 mod energy_momentum;
 mod error_control;

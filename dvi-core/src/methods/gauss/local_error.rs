@@ -23,8 +23,9 @@
 //!
 //! |error| ≈ h Σₖ ρᵏ |mₖ|,    ρˢ = (S+1) max|d|/max|X|
 //!
-//! It costs S + 1 evaluations of X. A change of X that comes and goes between two of these 2S + 1 points is
-//! seen by none of them.
+//! where the rounding of X, and that of the times at which it is evaluated, is no part of the error. It costs
+//! S + 1 evaluations of X. A change of X that comes and goes between two of these 2S + 1 points is seen by
+//! none of them.
 
 use super::memory::{Path, first_part};
 use crate::error::StepFailure;
@@ -56,7 +57,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             #[inline]
             || {
                 self.evaluate_defects::<E>(system, [t, h], statistics)?;
-                self.estimate([h, usual], tolerance)
+                self.estimate(t, [h, usual], tolerance)
             },
         )
     }
@@ -107,7 +108,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
 
     /// The error that the defects lead to, in units of `tolerance`.
     #[inline]
-    fn estimate(&mut self, [h, usual]: [T; 2], tolerance: Tolerance) -> Result<T, StepFailure> {
+    fn estimate(&mut self, t: T, [h, usual]: [T; 2], tolerance: Tolerance) -> Result<T, StepFailure> {
         let Self { equations, coefficients, completed, slopes, y, increment, next, .. } = &*self;
         let (extrema, first, last) = (&coefficients.extrema, first_part::<S, T>(equations), y.len() - 1);
         let [zero, one] = [0.0, 1.0].map(T::lift);
@@ -137,7 +138,13 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         let momentum = norm::larger(present, T::lift(FORGETTING) * self.momentum);
         let mut largest = zero;
         for (part, [_, speed]) in sizes.into_iter().enumerate().take(y.len()) {
-            let rounding = T::default_epsilon() * speed;
+            let mut rounding = speed;
+            if !S::AUTONOMOUS {
+                let changes =
+                    completed[part].iter().map(|pack| norm::largest(&(*pack - Lanes::all(pack.0[0])).0));
+                rounding += changes.fold(zero, norm::larger) * Scalar::abs(t / h);
+            }
+            let rounding = T::default_epsilon() * rounding;
             for (j, &start) in increment[part].iter().enumerate() {
                 let moments = if part < first {
                     last_power * Scalar::abs(start) * T::lift(1.0 / (2 * STAGES + 1) as f64)

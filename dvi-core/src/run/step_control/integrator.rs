@@ -224,7 +224,7 @@ where
     }
 }
 
-impl<H, S: Lagrangian<T>, M, T: Real> ControlledIntegrator<H, M, ErrorControl, T>
+impl<H, S: Lagrangian<T>, M, T: Real> ControlledIntegrator<H, M, ErrorControl<'_>, T>
 where
     H: Held<System = S>,
     M: VariableStep<S, T>,
