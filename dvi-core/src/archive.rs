@@ -245,7 +245,7 @@ where
         ("system", type_name::<R::System>().to_string()),
         ("list of coordinates", names.join(" ")),
         ("fingerprint of the formulas", facts::formulas::<R::System>()),
-        ("fingerprint of the parameters", parameters.to_string()),
+        ("fingerprint of the parameters and the start", parameters.to_string()),
         ("method", format!("{} {:?}", type_name::<R::Method>(), run.method())),
         ("step control", format!("{:?}", run.chosen_by())),
     ];

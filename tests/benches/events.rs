@@ -33,7 +33,7 @@ fn compare<R: Run<Scalar = f64>>(
         let mut run = begin().expect("a start");
         let mut events = run.events([Direction::Either], |_, state| [far(state)]).expect("a start");
         bencher.iter(|| {
-            let t = events.dense().time() + (STEPS as f64 - 0.5) * events.dense().step_size();
+            let t = events.run().time() + (STEPS as f64 - 0.5) * events.run().step_size();
             assert!(events.next_until(t).is_ok_and(|event| event.is_none()));
         });
     });

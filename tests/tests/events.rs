@@ -132,8 +132,8 @@ fn the_points_of_a_run_stay_as_they_are() -> Outcome {
         let mut events =
             searched.events([Direction::Either; 2], |t, state| [x(state), x(state) - t.cos()])?;
         let mut count = 0;
-        while events.dense().steps() < 300 {
-            let t = events.dense().time() + 3.3 * events.dense().step_size();
+        while events.run().steps() < 300 {
+            let t = events.run().time() + 3.3 * events.run().step_size();
             while events.next_until(t)?.is_some() {
                 count += 1;
             }

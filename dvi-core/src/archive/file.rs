@@ -111,7 +111,8 @@ impl File {
             if self.kept.is_empty() && encoded(first).is_ok_and(|first| first != content) {
                 let [expected, found] = [first, &checkpoint].map(|start| {
                     let [steps, time] = [start.statistics().steps as f64, start.time()];
-                    std::format!("{steps} steps, t = {time}, q = {:?}, v = {:?}", start.q(), start.v())
+                    let (h, q, v) = (start.step_size(), start.q(), start.v());
+                    std::format!("{steps} steps, t = {time}, h = {h}, q = {q:?}, v = {v:?}")
                 });
                 return Err(self.foreign(Difference { what: "start".to_owned(), expected, found }));
             }

@@ -123,6 +123,19 @@ pub enum StepFailure {
         /// The time of the last one.
         time: f64,
     },
+    /// Events follow each other ever faster: after each of them the state was set, and the next one came in a
+    /// small part of a step.
+    #[error(
+        "event {event} is the last of {count} hops, at t = {time}: they accumulate, as those of a ball that comes to rest"
+    )]
+    Hops {
+        /// The condition, counted from 0.
+        event: usize,
+        /// How many hops there were.
+        count: usize,
+        /// The time of the last one.
+        time: f64,
+    },
     /// A gap function, or its rate of change, is infinite or not a number.
     #[error(
         "the gap of surface {surface}, or its rate of change, became {value}: its formula left its domain"

@@ -12,6 +12,7 @@ use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::Memory;
 use crate::methods::{Carries, Method};
 use crate::run::Run;
+use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::{step_error, velocities};
@@ -23,7 +24,7 @@ pub use states_at::StatesAt;
 ///
 /// What is called dense output elsewhere is here a part of a step of the method itself, from where the last
 /// step of the run began. So no state is less accurate than the points of the run are, but for the error of
-/// one step: of order p + 1 for a method of order p. The points of the run stay the same, bit for bit. A
+/// one step: of order p + 1 for a method of order p, and p for [`Sigma`](crate::methods::Sigma) with σ ≠ ½. The points of the run stay the same, bit for bit. A
 /// state costs a step, and to keep where steps begin costs little: it is kept before each step while states
 /// are asked for, and else once in up to 64 steps, which are then taken again.
 ///
@@ -158,7 +159,9 @@ impl<R: Run> Dense<R> {
     /// to `t`.
     pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
         self.advance_to(t)?;
-        let state = if t == self.run.time() { self.at_end().map(Flat::state) } else { self.state_within(t) };
+        // The derivative of a time, if it carries one, is not that of the end of a step.
+        let is_end = t == self.run.time() && !(carries_derivatives::<R::Scalar>() && self.taken > 0);
+        let state = if is_end { self.at_end().map(Flat::state) } else { self.state_within(t) };
         state.map_err(|failure| self.error(failure))
     }
 
@@ -192,12 +195,17 @@ impl<R: Run> Dense<R> {
     /// [`StepFailure::Unreachable`].
     pub(super) fn check_ahead(&self, t: R::Scalar) -> Result<(), StepError> {
         let [begun, now] = [self.last_begun(), self.run.time()];
-        if reported(t).is_finite() && (t == now || !self.is_before(t, begun)) {
-            return Ok(());
-        }
+        let is_ahead = reported(t).is_finite() && (t == now || !self.is_before(t, begun));
+        if is_ahead { Ok(()) } else { Err(self.unreachable(t)) }
+    }
+
+    /// That time `t` is out of reach.
+    #[cold]
+    pub(super) fn unreachable(&self, t: R::Scalar) -> StepError {
+        let begun = self.last_begun();
         let [now, target] = [begun, t].map(reported);
         let failure = StepFailure::Unreachable { now, target };
-        Err(step_error(self.run.system(), self.run.steps(), begun, failure))
+        step_error(self.run.system(), self.run.steps(), begun, failure)
     }
 
     /// Whether `a` lies before `b` in the direction of the run.

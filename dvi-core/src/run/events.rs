@@ -15,7 +15,8 @@ use core::iter::FusedIterator;
 use super::dense::{Dense, StateOf};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::run::Run;
-use crate::scalar::Scalar;
+use crate::scalar::norm::reported;
+use crate::{Real, Scalar};
 use course::Watched;
 use search::numbers;
 
@@ -53,7 +54,10 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 /// Of several events at one time the first in the array comes first. Where a run begins with g = 0 there is
 /// no event, and one that lies at the end of a step counts once. A step that begins and ends on one side is
 /// seen to cross zero in between if g turns once on the way; what turns more often within one step may pass
-/// unseen. Events within a step that fails are not found, those before it are.
+/// unseen, and what is flat for many steps and dips in a part of one. A condition that jumps across zero, as a
+/// velocity does at an impact, is an event where it jumps. Events within a step that fails are not found, those
+/// before it are. Where events follow each other ever faster, as those of a ball that comes to rest, the run
+/// ends with [`StepFailure::Hops`].
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -90,17 +94,26 @@ pub struct Events<R: Run, G, const N: usize> {
     found: [[Option<R::Scalar>; 2]; N],
     /// Where states that are looked at are read to.
     state: StateOf<R>,
-    /// The last event that was handed out.
-    last: Option<usize>,
+    /// The last event, but for those where the state was set: its condition and its part of a step.
+    last: Option<(usize, R::Scalar)>,
+    /// Steps since the state was set; before it is, more than one.
+    steps: u64,
+    /// Events one after the other that came soon after the state was set.
+    hops: usize,
     /// Why the events of the last step are not known.
     lost: Option<StepError>,
     /// Whether the iterator has come to its end.
     ended: bool,
 }
 
-/// A condition that has led to a change of the state is zero there if it is no more than this part of what
-/// changes in a step.
+/// Where the state is changed a condition is zero if it is no more than this part of what changes in a step.
 const LEFT: f64 = 1e-9;
+/// Parts of a step that differ by no more than so many rounding errors are one.
+const TOGETHER: f64 = 16.0;
+/// An event in this part of the first step after a change of the state is a hop.
+const HOP: f64 = 1e-2;
+/// After so many hops of one condition, each shorter than the one before, events accumulate.
+const HOPS: usize = 4;
 
 impl<R: Run, G, const N: usize> Events<R, G, N>
 where
@@ -123,14 +136,16 @@ where
             found: [[None; 2]; N],
             state,
             last: None,
+            steps: 2,
+            hops: 0,
             lost: None,
             ended: false,
         })
     }
 
-    /// The run, at the end of the step that is searched, with its continuous extension.
-    pub fn dense(&mut self) -> &mut Dense<R> {
-        &mut self.dense
+    /// The run, at the end of the step that is searched.
+    pub fn run(&self) -> &R {
+        &self.dense
     }
 
     /// The next event that is not after time `t`; `None` if there is none, and the run has come to the step
@@ -147,12 +162,15 @@ where
     }
 
     fn next_before(&mut self, end: Option<R::Scalar>) -> Result<Option<EventOf<R>>, StepError> {
-        while !end.is_some_and(|end| self.has_come_to(end)) {
-            if let Some(event) = self.advance()? {
+        loop {
+            if end.is_some_and(|end| self.has_come_to(end)) {
+                return Ok(None);
+            }
+            if let Some(event) = self.hand_out()? {
                 return Ok(Some(event));
             }
+            self.step()?;
         }
-        Ok(None)
     }
 
     /// Whether no event up to time `end` is left, in the last step or behind it.
@@ -172,67 +190,97 @@ where
         if self.first().is_none() {
             self.step()?;
         }
+        self.hand_out()
+    }
+
+    /// The next event of the last step, if one is left.
+    fn hand_out(&mut self) -> Result<Option<EventOf<R>>, StepError> {
         let Some((part, index, which)) = self.first() else { return Ok(None) };
         self.found[index][which] = None;
-        self.last = Some(index);
         self.event(part, index).map(Some).map_err(|failure| self.dense.error(failure))
     }
 
-    /// Goes on from another state at time `t`, which is as a rule that of the last event; all events that have
-    /// not been handed out are forgotten, and a condition that has led there is zero there. The run begins
-    /// anew, as by [`Run::set_state`].
+    /// The state at time `t`, within the last step.
+    ///
+    /// # Errors
+    /// [`StepFailure::Unreachable`] if `t` lies before this step or after it: what happens there is not known
+    /// yet. Else as [`Dense::state_at`].
+    pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
+        if self.dense.is_before(self.dense.time(), t) {
+            return Err(self.dense.unreachable(t));
+        }
+        self.dense.state_at(t)
+    }
+
+    /// Goes on from another state at time `t`, which is as a rule that of the last event. The run begins anew,
+    /// as by [`Run::set_state`]. Conditions that are zero there but for rounding are zero; of the events that
+    /// have not been handed out those that happen there too, as in a corner, are handed out next, and all
+    /// others are forgotten.
     ///
     /// # Errors
     /// As [`Run::set_state`], and as [`new`](Self::new).
     pub fn set_state(&mut self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError> {
         self.dense.set_state(t, state)?;
-        self.found = [[None; 2]; N];
         self.dense.at_end().map_err(StartError::Starter)?.refill(&mut self.state);
         let values = numbers((self.g)(t, &self.state)).map_err(StartError::Starter)?;
         let h = Scalar::abs(self.dense.step_size());
-        for (index, (watched, g)) in self.watched.iter_mut().zip(values).enumerate() {
-            let rounding = watched
-                .course
-                .map_or(R::Scalar::lift(0.0), |course| R::Scalar::lift(LEFT) * course.rate * h);
-            let has_led_there = self.last == Some(index) && Scalar::abs(g) <= rounding;
-            *watched = Watched { g: if has_led_there { R::Scalar::lift(0.0) } else { g }, course: None };
+        let [zero, left] = [0.0, LEFT].map(R::Scalar::lift);
+        for ((watched, found), g) in self.watched.iter_mut().zip(&mut self.found).zip(values) {
+            let rounding = watched.course.map_or(zero, |course| left * course.rate * h);
+            let is_zero = Scalar::abs(g) <= rounding;
+            let is_now = |part| self.last.is_some_and(|(_, last)| part <= last + left);
+            let is_due = is_zero && found.iter().flatten().any(|&part| is_now(part));
+            *found = [is_due.then_some(zero), None];
+            watched.g = if is_zero { zero } else { g };
         }
-        (self.last, self.lost, self.ended) = (None, None, false);
+        (self.steps, self.lost, self.ended) = (0, None, false);
         Ok(())
     }
 
     /// The first event of the last step that has not been handed out: its part of the step, its condition,
-    /// and which of two it is.
+    /// and which of two it is. Of those at one time but for rounding it is the first in the array.
     fn first(&self) -> Option<(R::Scalar, usize, usize)> {
-        let mut first: Option<(R::Scalar, usize, usize)> = None;
-        for (index, found) in self.found.iter().enumerate() {
-            for (which, part) in found.iter().enumerate() {
-                if let Some(part) = *part
-                    && first.is_none_or(|(known, ..)| part < known)
-                {
-                    first = Some((part, index, which));
-                }
-            }
-        }
-        first
+        let all = self.found.iter().flatten().filter_map(|part| *part);
+        let least = all.reduce(|least, part| if part < least { part } else { least })?;
+        self.found.iter().enumerate().find_map(|(index, found)| {
+            let which = found.iter().position(|part| part.is_some_and(|part| are_one(least, part)))?;
+            found[which].map(|part| (part, index, which))
+        })
     }
 
     fn event(&mut self, part: R::Scalar, index: usize) -> Result<EventOf<R>, StepFailure> {
         self.dense.settle()?;
         self.dense.reach(part * self.dense.step_size())?;
-        Ok(Event { index, time: self.dense.reached_time(), state: self.dense.reached()?.state() })
+        let time = self.dense.reached_time();
+        // What happens where the state has been set is part of that event.
+        if part > R::Scalar::lift(0.0) {
+            let is_shorter = self.last.is_some_and(|(last, hop)| last == index && part < hop);
+            let is_hop = self.steps == 1 && part < R::Scalar::lift(HOP) && is_shorter;
+            self.hops = if is_hop { self.hops + 1 } else { 0 };
+            self.last = Some((index, part));
+        }
+        if self.hops > HOPS {
+            return Err(StepFailure::Hops { event: index, count: HOPS, time: reported(time) });
+        }
+        Ok(Event { index, time, state: self.dense.reached()?.state() })
     }
 
     /// Takes a step, and finds its events.
     fn step(&mut self) -> Result<(), StepError> {
         self.lost.map_or(Ok(()), Err)?;
         self.dense.advance()?;
+        self.steps += 1;
         self.search().map_err(|failure| {
             let error = self.dense.error(failure);
             self.lost = Some(error);
             error
         })
     }
+}
+
+/// Whether a part of a step is another, which is no larger, but for rounding.
+fn are_one<T: Real>(least: T, part: T) -> bool {
+    part <= least + T::lift(TOGETHER) * T::default_epsilon()
 }
 
 impl<R: Run, G, const N: usize> Iterator for Events<R, G, N>

@@ -22,19 +22,22 @@ pub(crate) const APART: f64 = 1e-5;
 
 /// A place between `from` and `to` at which a function is negative that is not at these ends: near the least
 /// value in between, by a cubic through values and slopes. `None` if there is no reason to look, or none is
-/// found. Of a convex function none is overlooked.
+/// found. Of a convex function none is overlooked; of another that turns in between, the first `sure` looks go
+/// to its turn whatever the cubic says of the value there.
 ///
 /// # Errors
 /// Those of `look`.
 pub(crate) fn dip<T: Real, E>(
     [mut from, mut to]: [Sample<T>; 2],
+    sure: usize,
     mut look: impl FnMut(T) -> Result<Sample<T>, E>,
 ) -> Result<Option<T>, E> {
     for iteration in 0..SOUGHT {
         let length = to.place - from.place;
         let slopes = [from.slope * length, to.slope * length];
         let cubic = Cubic::through([from.value, to.value], slopes);
-        if !cubic.may_close() {
+        let turns = from.slope < T::lift(0.0) && to.slope > T::lift(0.0);
+        if !(cubic.may_close() || (turns && iteration < sure)) {
             break;
         }
         // The first is near where the function is smooth, the second is at the tip of a kink.

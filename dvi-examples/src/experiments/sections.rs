@@ -123,7 +123,7 @@ where
                 break;
             }
         }
-        let run = events.dense();
+        let run = events.run();
         if run.steps() > done {
             done = run.steps();
             result.error.push(run.time(), run.energy() - initial);

@@ -5,6 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use dvi_tests::{Outcome, bits};
+use num_dual::Dual64;
 
 use super::{PLANAR, Planar, PlanarState};
 
@@ -174,6 +175,135 @@ fn an_event_may_be_an_impact() -> Outcome {
     for (k, turn) in turns.take(5).enumerate() {
         let time = turn?.time;
         assert!(abs_diff_eq!(time, 0.7 + k as f64, epsilon = 1e-12), "{time}");
+    }
+    Ok(())
+}
+
+/// What is asked for up to a time is not after it, and comes later.
+#[test]
+fn events_after_the_end_wait() -> Outcome {
+    let mut run = free(-0.3, 0.4)?;
+    let mut events = run.events([Direction::Rising], |_, state| [state.x])?;
+    assert!(events.next_until(0.25)?.is_none());
+    assert!(
+        matches!(events.state_at(0.25)?, FreeState { x, .. } if abs_diff_eq!(x, -0.05, epsilon = 1e-15))
+    );
+    assert!(matches!(
+        events.state_at(0.5).err(),
+        Some(StepError { failure: StepFailure::Unreachable { target: 0.5, .. }, .. })
+    ));
+    let Some(Event { time, .. }) = events.next_until(0.35)? else { panic!("none") };
+    assert!(abs_diff_eq!(time, 0.3, epsilon = 1e-15), "{time}");
+    Ok(())
+}
+
+/// A ball that comes into corners of a box meets both walls, whatever rounding says of their order.
+#[test]
+fn a_corner_reflects_twice() -> Outcome {
+    #[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0)]
+    struct Plane;
+    for k in 0..200 {
+        let speed = 0.3 + 0.007_13 * f64::from(k);
+        let start: PlaneState = PlaneState { x: 0.5, y: 0.5, dot_x: speed, dot_y: speed };
+        let mut run = Integrator::new(&Plane, Variational::trapezoid(), 0.13, start)?;
+        let walls = |_, s: &PlaneState| [s.x, s.y, 1.0 - s.x, 1.0 - s.y];
+        let mut events = run.events([Direction::Falling; 4], walls)?;
+        let mut count = [0; 4];
+        while let Some(Event { index, time, state }) = events.next_until(20.0)? {
+            count[index] += 1;
+            let state = match index {
+                0 | 2 => PlaneState { dot_x: -state.dot_x, ..state },
+                _ => PlaneState { dot_y: -state.dot_y, ..state },
+            };
+            events.set_state(time, state)?;
+        }
+        let PlaneState { x, y, .. } = run.state();
+        assert!(abs_diff_eq!(x, y, epsilon = 1e-11) && x > -0.3 && x < 1.3, "{speed}: {x} {y}");
+        let expected = (20.0 * speed + 0.5).floor() as i32;
+        assert_eq!((count[0] + count[2], count[1] + count[3]), (expected, expected), "{speed}");
+    }
+    Ok(())
+}
+
+/// Hops become shorter until they are none, and do not fall through the floor.
+#[test]
+fn a_ball_that_comes_to_rest_does_not_fall_through_the_floor() -> Outcome {
+    #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y)]
+    struct Ball;
+    for restitution in [0.2, 0.5, 0.8, 0.9] {
+        for (h, floor) in [(0.01, 0.0), (0.1, 0.0), (0.7, 0.0), (0.1, 5.0), (0.1, -3.7)] {
+            let start: BallState = BallState { y: floor + 0.5, dot_y: 0.0 };
+            let mut run = Integrator::new(&Ball, Variational::trapezoid(), h, start)?;
+            let mut events = run.events([Direction::Falling], |_, state| [state.y - floor])?;
+            let error = loop {
+                match events.next_until(100.0) {
+                    Ok(Some(Event { time, state, .. })) => {
+                        events.set_state(time, BallState { dot_y: -restitution * state.dot_y, ..state })?;
+                    }
+                    Ok(None) => panic!("{restitution}, {h}, {floor}: below the floor"),
+                    Err(error) => break error,
+                }
+            };
+            // 1 + 2 e/(1 − e) units of time, but for the last hops.
+            let rest = 1.0 + 2.0 * restitution / (1.0 - restitution);
+            let StepFailure::Hops { event: 0, time, .. } = error.failure else { panic!("{error:?}") };
+            assert!((time - rest).abs() < 0.1 * h, "{restitution}, {h}, {floor}: {time} {rest}");
+        }
+    }
+    Ok(())
+}
+
+/// g is flat at most of the points, and steep where it crosses.
+#[test]
+fn a_condition_that_is_flat_before_is_not_missed() -> Outcome {
+    let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
+    for h in [0.1, 0.2, 0.3, 0.4] {
+        let mut run = Integrator::new(&Kepler { mu: 1.0 }, Gauss::<8>::new(), h, start)?;
+        run.take_steps((1.5 / h) as u64)?;
+        let flat = |_, state: &KeplerState| [state.x.hypot(state.y).powi(-6) - 55.0];
+        let mut events = run.events([Direction::Rising], flat)?;
+        let mut count = 0;
+        while events.next_until(800.0 * PI + 3.0)?.is_some() {
+            count += 1;
+        }
+        assert_eq!(count, 400, "{h}");
+    }
+    Ok(())
+}
+
+/// One zero, as three conditions, in whatever order rounding finds them.
+#[test]
+fn events_at_one_time_come_in_the_order_of_the_conditions() -> Outcome {
+    for k in 0..200 {
+        let mut run = Integrator::new(&Planar, Gauss::<8>::new(), 0.1 + 0.003 * f64::from(k), PLANAR)?;
+        let conditions = |_, state: &PlanarState| [state.x, 3.0 * state.x, (2.0 * state.x).exp() - 1.0];
+        let events = run.events([Direction::Either; 3], conditions)?.take(6);
+        let order = events.map(|event| Ok(event?.index)).collect::<Outcome<Vec<_>>>()?;
+        assert_eq!(order, [0, 1, 2, 0, 1, 2], "{k}");
+    }
+    Ok(())
+}
+
+/// The time of a fall from y to the floor, √(2y), at the end of a step and within one: its derivative is 1/√(2y).
+#[test]
+fn times_of_events_carry_derivatives() -> Outcome {
+    #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y)]
+    struct Ball;
+    for h in [1.0, 0.5, 0.25, 0.2, 0.1, 0.07, 0.05, 0.04] {
+        let start = BallState { y: Dual64::from(0.5).derivative(), dot_y: Dual64::from(0.0) };
+        let mut run = Integrator::new(&Ball, Variational::trapezoid(), Dual64::from(h), start)?;
+        let mut events = run.events([Direction::Falling], |_, state| [state.y])?;
+        let Some(event) = events.next_until(Dual64::from(1.5))? else { panic!("none") };
+        assert!(abs_diff_eq!(event.time.eps, 1.0, epsilon = 1e-7), "{h}: {}", event.time);
+        assert!(abs_diff_eq!(event.state.y.eps, 0.0, epsilon = 1e-7), "{h}: {:?}", event.state);
+        // A time that is varied, at a point of the run and between two.
+        let fixed = BallState { y: Dual64::from(0.5), dot_y: Dual64::from(0.0) };
+        let mut run = Integrator::new(&Ball, Variational::trapezoid(), Dual64::from(h), fixed)?;
+        let mut dense = run.dense()?;
+        for t in [2.0 * h, 2.3 * h] {
+            let state = dense.state_at(Dual64::from(t).derivative())?;
+            assert!(abs_diff_eq!(state.y.eps, -t, epsilon = 1e-12), "{h}: {state:?}");
+        }
     }
     Ok(())
 }

@@ -232,7 +232,7 @@ where
         let [from, to] = [T::lift(0.0), T::lift(1.0)];
         let from = Sample { place: from, value: first, slope: here.rate[surface] * end };
         let to = Sample { place: to, value: there.gap[surface], slope: there.rate[surface] * end };
-        let low = dip([from, to], |place| {
+        let low = dip([from, to], 0, |place| {
             self.try_flight(place * end)?;
             let there = &self.memory.there;
             Ok(Sample { place, value: there.gap[surface], slope: there.rate[surface] * end })

@@ -5,9 +5,10 @@ use crate::{Real, Scalar};
 
 /// Of the rate at which g changes, what is kept from step to step.
 const FORGETTING: f64 = 0.9;
-/// The largest rate within a step in units of the mean rates of the last steps, and an unknown bend in units of
-/// what bends have changed by.
-const MARGIN: f64 = 2.0;
+/// The largest rate within a step in units of the mean rates of the last steps.
+const STEEPER: f64 = 16.0;
+/// An unknown bend in units of what bends have changed by, if a turn is likely, and at most.
+const MARGINS: [f64; 2] = [2.0, 32.0];
 
 /// What is known of a condition.
 #[derive(Clone, Copy, Debug)]
@@ -39,14 +40,31 @@ impl<T: Real> Course<T> {
     /// Whether a condition may have come to zero and back in a step of length `h` from `a` to `b`, which are on
     /// one side, where its course was another before: if it falls at the beginning and rises at the end. The
     /// rates there are those of a parabola, but for what the course has bent otherwise in the step before.
-    pub(super) fn may_turn(&self, before: &Self, [a, b]: [T; 2], h: T) -> bool {
-        if Scalar::abs(a) + Scalar::abs(b) > T::lift(MARGIN) * self.rate * h {
-            return false;
+    pub(super) fn turns(&self, before: &Self, [a, b]: [T; 2], h: T) -> Turn {
+        if Scalar::abs(a) + Scalar::abs(b) > T::lift(STEEPER) * self.rate * h {
+            return Turn::No;
         }
-        let (Some(bend), Some(bent)) = (self.bend, before.bend) else { return true };
-        let [zero, half, margin] = [0.0, 0.5, MARGIN].map(T::lift);
-        let unknown = margin * Scalar::abs(bend - bent);
+        let (Some(bend), Some(bent)) = (self.bend, before.bend) else { return Turn::Likely };
+        let (zero, half) = (T::lift(0.0), T::lift(0.5));
         let away = |slope: T| if a < zero { -slope } else { slope };
-        away(self.slope - half * bend) < unknown && away(self.slope + half * bend) > -unknown
+        let within = |margin: f64| {
+            let unknown = T::lift(margin) * Scalar::abs(bend - bent);
+            away(self.slope - half * bend) < unknown && away(self.slope + half * bend) > -unknown
+        };
+        let [near, far] = MARGINS.map(within);
+        match (near, far) {
+            (true, _) => Turn::Likely,
+            (false, true) => Turn::Perhaps,
+            (false, false) => Turn::No,
+        }
     }
+}
+
+/// Whether a condition has turned in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Turn {
+    No,
+    /// As the slopes at the ends of the step say.
+    Perhaps,
+    Likely,
 }
