@@ -75,7 +75,7 @@ fn card(page: &mut String, part: &Part, experiment: &Experiment, folder: &Path) 
     match &part.state {
         State::Failed(error) => *page += &format!("<p class=\"fails\">Failed: {}</p>", text(error)),
         State::NotStarted | State::Interrupted => {
-            *page += "<p class=\"fails\">Interrupted: no claim was decided.</p>"
+            *page += "<p class=\"fails\">Interrupted: no claim was decided.</p>";
         }
         State::Complete => results(page, part),
     }
