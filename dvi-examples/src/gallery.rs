@@ -19,6 +19,7 @@ use crate::record::{Part, State};
 pub struct Experiment {
     /// What `--only` takes, and what its files are called.
     pub name: &'static str,
+    /// A sentence on what it shows, without its full stop.
     pub title: &'static str,
     /// Who published it; empty if nobody did.
     pub source: &'static str,

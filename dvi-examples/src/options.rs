@@ -21,7 +21,7 @@ pub struct Options {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
-    /// Run those too that go beyond the papers; at full length they take twenty minutes on two cores
+    /// Run those too that go beyond the papers, which takes several times as long
     #[arg(long, conflicts_with = "only")]
     pub all: bool,
 

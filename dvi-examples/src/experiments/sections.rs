@@ -109,15 +109,21 @@ where
     let mut run = Integrator::new(vortices, method, h, *start)?;
     let initial = run.energy();
     let steps = (end / h) as u64;
-    let mut events = run.events([Direction::Rising], |_, state| [coordinates(state, labels)[2]])?;
+    let height = |state: &FourPoints| coordinates(state, labels)[2];
+    let mut before = height(&run.state());
+    let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
     let mut done = 0;
     while done < steps && !job.is_stopping() {
-        match events.advance() {
-            Ok(Some(Event { time, state, .. })) => {
+        let found = events.advance();
+        let after = height(&events.run().state());
+        match found {
+            // Where the motion only touches the section within a step, the place is as accurate as the root of
+            // the error of the step.
+            Ok(Some(Event { time, state, .. })) if before < 0.0 && after >= 0.0 => {
                 let [r1, p1, _] = coordinates(&state, labels);
                 result.points.push([time, r1, p1]);
             }
-            Ok(None) => {}
+            Ok(_) => {}
             Err(error) => {
                 result.failure = Some(error);
                 break;
@@ -125,7 +131,7 @@ where
         }
         let run = events.run();
         if run.steps() > done {
-            done = run.steps();
+            (done, before) = (run.steps(), after);
             result.error.push(run.time(), run.energy() - initial);
             job.proceed(1);
         }
