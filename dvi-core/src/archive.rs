@@ -38,9 +38,10 @@
 //!
 //! What tells this run from others, and checkpoints in a row, each with its length and a fingerprint, in a
 //! binary format in which numbers keep their bits. A checkpoint is appended and on the disk before the next
-//! step is taken. A process that is killed, or a disk that is full, leaves what was complete: the rest of a
-//! checkpoint is cut off when the file is opened again. A file that has changed elsewhere is an error, and so
-//! is that of another system, method, control or start; it is left as it is then.
+//! step is taken. Steps since the last one are in none: [`keep`](Archive::keep) keeps where the run is. A
+//! process that is killed, or a disk that is full, leaves what was complete: the rest of a checkpoint is cut
+//! off when the file is opened again. A file that has changed before its last checkpoint is an error, and so is
+//! that of another system, method, control or start; it is left as it is then.
 //!
 //! # A checkpoint alone
 //!
