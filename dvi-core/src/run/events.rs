@@ -218,11 +218,13 @@ where
     /// others are forgotten.
     ///
     /// # Errors
-    /// As [`Run::set_state`], and as [`new`](Self::new).
+    /// As [`Run::set_state`]. As [`new`](Self::new): the run is there then, but no events are known.
     pub fn set_state(&mut self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError> {
         self.dense.set_state(t, state)?;
-        self.dense.at_end().map_err(StartError::Starter)?.refill(&mut self.state);
-        let values = numbers((self.g)(t, &self.state)).map_err(StartError::Starter)?;
+        let values = self.at_end().map_err(|failure| {
+            (self.lost, self.found) = (Some(self.dense.error(failure)), [[None; 2]; N]);
+            StartError::Starter(failure)
+        })?;
         let h = Scalar::abs(self.dense.step_size());
         let [zero, left] = [0.0, LEFT].map(R::Scalar::lift);
         for ((watched, found), g) in self.watched.iter_mut().zip(&mut self.found).zip(values) {

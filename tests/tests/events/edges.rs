@@ -96,6 +96,13 @@ fn a_condition_that_is_no_number_is_an_error() -> Outcome {
     events.set_state(0.0, FreeState { x: 9.1, dot_x: 1.0 })?;
     let Some(Event { index: 1, time, .. }) = events.next_until(-6.0)? else { panic!("none") };
     assert!(abs_diff_eq!(time, -5.1, epsilon = 1e-13), "{time}");
+    // Set where a condition is none, the run is there, and no events are known.
+    assert!(events.set_state(1.0, FreeState { x: -1.0, dot_x: 1.0 }).is_err());
+    assert_eq!((events.run().time(), events.run().q()[0]), (1.0, -1.0));
+    assert!(matches!(
+        events.next_until(-6.0).err(),
+        Some(StepError { failure: StepFailure::UndefinedEvent { event: 1 }, .. })
+    ));
     let mut run = free(-1.0, 0.25)?;
     let undefined = run.events([Direction::Either], |_, state| [state.x.sqrt()]);
     assert!(matches!(undefined.err(), Some(StartError::Starter(StepFailure::UndefinedEvent { event: 0 }))));

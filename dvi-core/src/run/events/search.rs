@@ -46,13 +46,21 @@ impl<R: Run, G, const N: usize> Events<R, G, N>
 where
     G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
 {
+    /// The conditions where the run is.
+    ///
+    /// # Errors
+    /// [`StepFailure::UndefinedEvent`].
+    pub(super) fn at_end(&mut self) -> Result<[R::Scalar; N], StepFailure> {
+        self.dense.at_end()?.refill(&mut self.state);
+        numbers((self.g)(self.dense.time(), &self.state))
+    }
+
     /// Finds the events of the last step.
     ///
     /// # Errors
     /// [`StepFailure::UndefinedEvent`], and those of parts of the step.
     pub(super) fn search(&mut self) -> Result<(), StepFailure> {
-        self.dense.at_end()?.refill(&mut self.state);
-        let end = numbers((self.g)(self.dense.time(), &self.state))?;
+        let end = self.at_end()?;
         let (zero, h) = (R::Scalar::lift(0.0), Scalar::abs(self.dense.step_size()));
         for (index, b) in end.into_iter().enumerate() {
             let Watched { g: a, course } = self.watched[index];
