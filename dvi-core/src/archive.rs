@@ -40,8 +40,8 @@
 //! binary format in which numbers keep their bits. A checkpoint is appended and on the disk before the next
 //! step is taken. Steps since the last one are in none: [`keep`](Archive::keep) keeps where the run is. A
 //! process that is killed, or a disk that is full, leaves what was complete: the rest of a checkpoint is cut
-//! off when the file is opened again. A file that has changed before its last checkpoint is an error, and so is
-//! that of another system, method, control or start; it is left as it is then.
+//! off when the file is opened again. A file that has changed before its last checkpoint is an error, and
+//! so is that of another system, method, control or start; it is left as it is then.
 //!
 //! # A checkpoint alone
 //!
@@ -148,8 +148,8 @@ where
     ///
     /// # Errors
     /// [`ArchiveError::Step`] of the first step that fails: the run stays at the last good state.
-    /// [`ArchiveError::File`] if a checkpoint cannot be written, as on a full disk: the archive ends with the
-    /// one before, and the run stays where it is.
+    /// [`ArchiveError::File`] if a checkpoint cannot be written, as on a full disk: the archive ends with
+    /// the one before, and the run stays where it is.
     pub fn take_steps(&mut self, count: u64) -> Result<(), ArchiveError> {
         let end = self.run.steps().saturating_add(count);
         while self.run.steps() < end {
@@ -205,8 +205,8 @@ where
         Ok(run)
     }
 
-    /// The run as it was at time `t`, after the last step up to there: another one, bit for bit. It takes the
-    /// steps from the last checkpoint before twice.
+    /// The run as it was at time `t`, after the last step up to there: another one, bit for bit. It takes
+    /// the steps from the last checkpoint before twice.
     ///
     /// # Errors
     /// [`ArchiveError::Time`] if it has not come to `t`, or has begun later.

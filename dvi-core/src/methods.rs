@@ -167,21 +167,10 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         self.begin(system, q, v, t, h)
     }
 
-    /// Prepares the run whose memory is `before` to begin anew, as [`begin`](Self::begin) does: what noise
-    /// has been used up stays so.
-    ///
-    /// # Errors
-    /// As [`begin`](Self::begin).
-    fn begin_anew(
-        &self,
-        _before: &Self::Memory,
-        system: &S,
-        q: &Vector<S, T>,
-        v: &[T],
-        t: T,
-        h: T,
-    ) -> Result<Self::Memory, StartError> {
-        self.begin(system, q, v, t, h)
+    /// The memory of a run that begins anew where `before` was its memory: `begun`, as [`begin`](Self::begin)
+    /// has prepared it, with what a new beginning does not change, such as noise that has been used up.
+    fn begun_anew(&self, _before: &Self::Memory, begun: Self::Memory) -> Self::Memory {
+        begun
     }
 
     /// Advances `q` from `t` to `t + h`, without allocation.

@@ -49,7 +49,8 @@
 //! # Functions of yours, events, and other times
 //!
 //! A [`Recorder`] takes functions along, and states one by one or from an iterator, wherever they come from:
-//! from [events](crate::run::Events), from [given times](crate::run::Run::states_at), or from a loop of yours.
+//! from [events](crate::run::Events), from [given times](crate::run::Run::states_at), or from a loop of
+//! yours.
 //!
 //! ```
 //! # use dvi_core::prelude::*;

@@ -42,9 +42,9 @@ pub use together::Together;
 /// [events](Events) and exponents are those of either.
 ///
 /// `dyn Run<System = S, Scalar = f64>` is a run of any method:
-/// [a method that is chosen at run time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time)
-/// is one line. States at given times and events are asked of runs whose type is known, in a function that is
-/// generic over `R: Run`.
+/// [a method that is chosen at run
+/// time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time) is one line. States at given
+/// times and events are asked of runs whose type is known, in a function that is generic over `R: Run`.
 pub trait Run {
     /// The system that is stepped.
     type System: Lagrangian<Self::Scalar>;

@@ -156,8 +156,8 @@ pub(crate) fn newton<T: Real>(
     iterate(Convergence::new(stopping, stopping.max_iterations), statistics, improve)
 }
 
-/// Attempts a step from what the last steps let expect, and from zero where that fails: where steps are long,
-/// extrapolation is off, or leads to another branch.
+/// Attempts a step from what the last steps let expect, and from zero where that fails: where steps are
+/// long, extrapolation is off, or leads to another branch.
 ///
 /// # Errors
 /// That of the last attempt.

@@ -23,8 +23,8 @@ pub struct Experiment {
     pub title: &'static str,
     /// Who published it; empty if nobody did.
     pub source: &'static str,
-    /// Its rough share of the time that all take, in seconds of a full run on one core: what the time left is
-    /// computed from, and the order in which they begin.
+    /// Its rough share of the time that all take, in seconds of a full run on one core: what the time left
+    /// is computed from, and the order in which they begin.
     pub share: f64,
     pub run: fn(&Job<'_>) -> Result<Outcome>,
 }

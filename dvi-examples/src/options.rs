@@ -9,10 +9,11 @@ use crate::experiments;
 
 /// Reproduces the published experiments on variational integrators.
 ///
-/// Without options the experiments of the papers run at full length, in some minutes. Each writes a figure (SVG and PNG of the same
-/// picture) and its data (CSV); at the end `summary.md` says, claim by claim, what the paper says, what was
-/// measured, and whether it was reproduced, and `summary.csv` says the same to programs. A run replaces the
-/// parts of its own experiments in the summary of its folder and keeps the others.
+/// Without options the experiments of the papers run at full length, in some minutes. Each writes a figure
+/// (SVG and PNG of the same picture) and its data (CSV); at the end `summary.md` says, claim by claim, what
+/// the paper says, what was measured, and whether it was reproduced, and `summary.csv` says the same to
+/// programs. A run replaces the parts of its own experiments in the summary of its folder and keeps the
+/// others.
 #[derive(Debug, Parser)]
 #[command(name = "dvi-examples", version, after_help = AFTER_HELP)]
 pub struct Options {

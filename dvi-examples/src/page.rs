@@ -1,5 +1,5 @@
-//! The page of the gallery: for each experiment its figure, its claims with their verdicts and numbers, and its
-//! motion if it has one, in one file that loads nothing.
+//! The page of the gallery: for each experiment its figure, its claims with their verdicts and numbers, and
+//! its motion if it has one, in one file that loads nothing.
 
 use std::fmt::Write as _;
 use std::fs;

@@ -223,7 +223,8 @@ mod tests {
         assert_eq!(progress.fraction(), 0.75);
         assert_eq!(progress.left(), "…");
     }
-    /// Three minutes of work, of which other work takes three quarters from the first minute on, and later all.
+    /// Three minutes of work, of which other work takes three quarters from the first minute on, and later
+    /// all.
     #[test]
     fn the_time_left_follows_what_is_done_on_the_clock() {
         let mut speed = Speed::default();

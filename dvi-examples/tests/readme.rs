@@ -1,8 +1,9 @@
 //! What the two READMEs and the guide say of the experiments is what the full run has measured.
 //!
 //! `full-run.csv` is the `summary.csv` of a full run. After a change of the experiments:
-//! `cargo run --release -p dvi-examples -- --all && cp results/summary.csv dvi-examples/full-run.csv`, and write into
-//! the README what this test asks for. A test of the short run compares claims and verdicts with that table.
+//! `cargo run --release -p dvi-examples -- --all && cp results/summary.csv dvi-examples/full-run.csv`, and
+//! write into the README what this test asks for. A test of the short run compares claims and verdicts with
+//! that table.
 
 /// One of the pages should say this.
 macro_rules! said {

@@ -60,8 +60,8 @@ fn displayed(browser: &str, file: &Path, theme: usize) -> Result<String, Box<dyn
     Err(format!("{browser} does not show {}", file.display()).into())
 }
 
-/// What the script says that is put at the head of a page, which is written to `file`, in a window of a width,
-/// dark (0) or light (1); `None` without a browser, and a line that says so.
+/// What the script says that is put at the head of a page, which is written to `file`, in a window of a
+/// width, dark (0) or light (1); `None` without a browser, and a line that says so.
 pub(crate) fn told(
     page: &str,
     script: &str,

@@ -1,5 +1,5 @@
-//! Runs that own their system or share it, and runs whose method is chosen when the program runs: each is, bit
-//! for bit, the run that borrows.
+//! Runs that own their system or share it, and runs whose method is chosen when the program runs: each is,
+//! bit for bit, the run that borrows.
 
 use std::rc::Rc;
 use std::sync::Arc;

@@ -165,7 +165,8 @@ impl File {
 
 impl Drop for File {
     fn drop(&mut self) {
-        // A process that is just being started may have the file too, as long as it is not another program yet.
+        // A process that is just being started may have the file too, as long as it is not another program
+        // yet.
         let _ = self.file.unlock();
     }
 }

@@ -118,7 +118,8 @@ impl Results {
         self.plan.names.iter().map(String::as_str)
     }
 
-    /// A record with a row for each member: `write_csv`, `write_npy` and `write_page` of [`Record`] write it.
+    /// A record with a row for each member: `write_csv`, `write_npy` and `write_page` of [`Record`] write
+    /// it.
     ///
     /// | columns | what is in them |
     /// |---|---|

@@ -123,10 +123,11 @@ pub enum StepFailure {
         /// The time of the last one.
         time: f64,
     },
-    /// Events follow each other ever faster: after each of them the state was set, and the next one came in a
-    /// small part of a step.
+    /// Events follow each other ever faster: after each of them the state was set, and the next one came in
+    /// a small part of a step.
     #[error(
-        "event {event} is the last of {count} hops, at t = {time}: they accumulate, as those of a ball that comes to rest"
+        "event {event} is the last of {count} hops, at t = {time}: they accumulate, as those of a ball that \
+         comes to rest"
     )]
     Hops {
         /// The condition, counted from 0.
@@ -278,8 +279,8 @@ pub enum StepFailure {
         h: f64,
     },
     /// A run is asked for a state at a time, or to [advance to one](crate::run::Dense::advance_to), that it
-    /// has passed, in the direction in which it goes, or that is not finite. It has taken no step, and can go
-    /// on to another time.
+    /// has passed, in the direction in which it goes, or that is not finite. It has taken no step, and can
+    /// go on to another time.
     #[error("the run is at t = {now} and does not come to t = {target} in its direction of time")]
     Unreachable {
         /// The time of the run, or where its last step began if states within that can be asked for.
@@ -303,9 +304,9 @@ pub enum StepFailure {
     /// Where the motion itself stays inside, a smaller step helps.
     #[error("the step leaves a table: {0}")]
     Outside(OutsideError),
-    /// The step ends outside of the domain of L or of a force: the argument of a root, a logarithm or a power
-    /// is negative there, that of an inverse function out of its range, or a function that is called is no
-    /// number.
+    /// The step ends outside of the domain of L or of a force: the argument of a root, a logarithm or a
+    /// power is negative there, that of an inverse function out of its range, or a function that is called
+    /// is no number.
     #[error(
         "the step ends outside of the domain of a formula, as beyond the zero of what a root or a \
          logarithm is taken of: the motion leads there, or the step is too long"

@@ -87,17 +87,8 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
         Ok(EnergyLimitMemory { inner: begin()?, before, v: system.space().vector(), start })
     }
 
-    fn begin_anew(
-        &self,
-        before: &Self::Memory,
-        system: &S,
-        q: &Vector<S, T>,
-        v: &[T],
-        t: T,
-        h: T,
-    ) -> Result<Self::Memory, StartError> {
-        let inner = self.method.begin_anew(&before.inner, system, q, v, t, h)?;
-        Ok(EnergyLimitMemory { inner, ..self.begin(system, q, v, t, h)? })
+    fn begun_anew(&self, before: &Self::Memory, begun: Self::Memory) -> Self::Memory {
+        EnergyLimitMemory { inner: self.method.begun_anew(&before.inner, begun.inner), ..begun }
     }
 
     fn step(

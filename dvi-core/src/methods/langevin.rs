@@ -174,16 +174,8 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin 
         Ok(LangevinMemory { p, force, step: 0, generator, mass, root, end, work })
     }
 
-    fn begin_anew(
-        &self,
-        before: &Self::Memory,
-        system: &S,
-        q: &Vector<S, T>,
-        v: &[T],
-        t: T,
-        h: T,
-    ) -> Result<Self::Memory, StartError> {
-        Ok(LangevinMemory { step: before.step, ..self.begin(system, q, v, t, h)? })
+    fn begun_anew(&self, before: &Self::Memory, begun: Self::Memory) -> Self::Memory {
+        LangevinMemory { step: before.step, ..begun }
     }
 
     fn step(

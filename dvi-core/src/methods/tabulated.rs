@@ -2,8 +2,8 @@
 
 use super::{Galerkin, Gauss, OneStepGauss};
 
-/// A method with as many nodes as it has coefficients for: [`Gauss`] has 1 to 8 stages, [`OneStepGauss`] 1 to
-/// 4, and [`Galerkin`] 3 to 9 nodes.
+/// A method with as many nodes as it has coefficients for: [`Gauss`] has 1 to 8 stages, [`OneStepGauss`] 1
+/// to 4, and [`Galerkin`] 3 to 9 nodes.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no coefficients",
     label = "`Gauss` has 1 to 8 stages, `OneStepGauss` 1 to 4, and `Galerkin` 3 to 9 nodes"

@@ -14,7 +14,8 @@ use crate::error::StepError;
 /// positions of bodies.
 ///
 /// It is what [`record`](super::Recorded::record), a [`Recorder`](super::Recorder) or an ensemble makes; or
-/// begin with [`new`](Self::new) and add columns. This pendulum is declared by its angle, and shown in its plane:
+/// begin with [`new`](Self::new) and add columns. This pendulum is declared by its angle, and shown in its
+/// plane:
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -203,8 +204,8 @@ impl Record {
     /// Writes a page of HTML that shows the columns over time, any column against any other, and, if there
     /// are [bodies](Self::bodies), how they move. It is one file, which needs no network and no server: less
     /// than 100 kB, and about 20 bytes for each number. Numbers that are none are gaps. Of long columns at
-    /// most 4000 points over time are drawn, the extremes among them, and 60,000 against each other; the page
-    /// says of how many. Columns of texts are not on it.
+    /// most 4000 points over time are drawn, the extremes among them, and 60,000 against each other; the
+    /// page says of how many. Columns of texts are not on it.
     ///
     /// # Errors
     /// Those of `to`.

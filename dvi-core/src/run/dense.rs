@@ -1,4 +1,5 @@
-//! The state at any time within the last step of a run: that step, taken again in part, by the run's own method.
+//! The state at any time within the last step of a run: that step, taken again in part, by the run's own
+//! method.
 //!
 //! So a state between two points has the error of the run at the point before it and that of one step more,
 //! whatever the length of that step. The run does not notice: what is moved is a copy.
@@ -24,9 +25,10 @@ pub use states_at::StatesAt;
 ///
 /// What is called dense output elsewhere is here a part of a step of the method itself, from where the last
 /// step of the run began. So no state is less accurate than the points of the run are, but for the error of
-/// one step: of order p + 1 for a method of order p, and p for [`Sigma`](crate::methods::Sigma) with σ ≠ ½. The points of the run stay the same, bit for bit. A
-/// state costs a step, and to keep where steps begin costs little: it is kept before each step while states
-/// are asked for, and else once in up to 64 steps, which are then taken again.
+/// one step: of order p + 1 for a method of order p, and p for [`Sigma`](crate::methods::Sigma) with σ ≠ ½.
+/// The points of the run stay the same, bit for bit. A state costs a step, and to keep where steps begin
+/// costs little: it is kept before each step while states are asked for, and else once in up to 64 steps,
+/// which are then taken again.
 ///
 /// What can be read of the run is read here too, by `Deref`. `R` is a run, or borrows one by `&mut`.
 ///
@@ -155,8 +157,8 @@ impl<R: Run> Dense<R> {
     /// The state at time `t`, up to which steps are taken as by [`advance_to`](Self::advance_to).
     ///
     /// # Errors
-    /// As [`advance_to`](Self::advance_to); [`StepError`] with the failure of the part of the step that leads
-    /// to `t`.
+    /// As [`advance_to`](Self::advance_to); [`StepError`] with the failure of the part of the step that
+    /// leads to `t`.
     pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
         self.advance_to(t)?;
         // The derivative of a time, if it carries one, is not that of the end of a step.
@@ -165,8 +167,8 @@ impl<R: Run> Dense<R> {
         state.map_err(|failure| self.error(failure))
     }
 
-    /// The times, one after the other, with the states there: an iterator, which takes steps as it must. It ends
-    /// with the first error.
+    /// The times, one after the other, with the states there: an iterator, which takes steps as it must. It
+    /// ends with the first error.
     pub fn states_at<I: IntoIterator<Item = R::Scalar>>(self, times: I) -> StatesAt<R, I::IntoIter> {
         StatesAt { dense: self, times: times.into_iter(), failed: false }
     }

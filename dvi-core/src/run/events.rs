@@ -46,18 +46,18 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 /// same, bit for bit, as without events. An event costs some twenty steps, and a condition that is far from
 /// zero one evaluation a step, with the velocities of the state.
 ///
-/// What follows from an event is the body of the loop: note it, leave the loop, or change the state and go on
-/// by [`set_state`](Self::set_state). A run that is to stop at an event is set to its time and state:
+/// What follows from an event is the body of the loop: note it, leave the loop, or change the state and go
+/// on by [`set_state`](Self::set_state). A run that is to stop at an event is set to its time and state:
 /// [`Run::set_state`]. Without an event the loop does not end; [`next_until`](Self::next_until) looks for
 /// events up to a time.
 ///
 /// Of several events at one time the first in the array comes first. Where a run begins with g = 0 there is
 /// no event, and one that lies at the end of a step counts once. A step that begins and ends on one side is
 /// seen to cross zero in between if g turns once on the way; what turns more often within one step may pass
-/// unseen, and what is flat for many steps and dips in a part of one. A condition that jumps across zero, as a
-/// velocity does at an impact, is an event where it jumps. Events within a step that fails are not found, those
-/// before it are. Where events follow each other ever faster, as those of a ball that comes to rest, the run
-/// ends with [`StepFailure::Hops`].
+/// unseen, and what is flat for many steps and dips in a part of one. A condition that jumps across zero,
+/// as a velocity does at an impact, is an event where it jumps. Events within a step that fails are not
+/// found, those before it are. Where events follow each other ever faster, as those of a ball that comes to
+/// rest, the run ends with [`StepFailure::Hops`].
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -119,11 +119,12 @@ impl<R: Run, G, const N: usize> Events<R, G, N>
 where
     G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
 {
-    /// Of the run in `dense`, from its present point on, where each of the conditions `g` crosses zero in its
-    /// direction. All memory is allocated here.
+    /// Of the run in `dense`, from its present point on, where each of the conditions `g` crosses zero in
+    /// its direction. All memory is allocated here.
     ///
     /// # Errors
-    /// [`StartError::Starter`] if there are no velocities, or a condition is no number, at the present point.
+    /// [`StartError::Starter`] if there are no velocities, or a condition is no number, at the present
+    /// point.
     pub fn new(mut dense: Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
         let state = dense.at_end().map_err(StartError::Starter)?.state();
         let values = numbers(g(dense.time(), &state)).map_err(StartError::Starter)?;
@@ -181,8 +182,8 @@ where
         }
     }
 
-    /// Hands out an event of the last step or, if there is none left, takes a step and hands out its first, if
-    /// there is one.
+    /// Hands out an event of the last step or, if there is none left, takes a step and hands out its first,
+    /// if there is one.
     ///
     /// # Errors
     /// As [`next_until`](Self::next_until).
@@ -203,8 +204,8 @@ where
     /// The state at time `t`, within the last step.
     ///
     /// # Errors
-    /// [`StepFailure::Unreachable`] if `t` lies before this step or after it: what happens there is not known
-    /// yet. Else as [`Dense::state_at`].
+    /// [`StepFailure::Unreachable`] if `t` lies before this step or after it: what happens there is not
+    /// known yet. Else as [`Dense::state_at`].
     pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
         if self.dense.is_before(self.dense.time(), t) {
             return Err(self.dense.unreachable(t));
@@ -212,10 +213,10 @@ where
         self.dense.state_at(t)
     }
 
-    /// Goes on from another state at time `t`, which is as a rule that of the last event. The run begins anew,
-    /// as by [`Run::set_state`]. Conditions that are zero there but for rounding are zero; of the events that
-    /// have not been handed out those that happen there too, as in a corner, are handed out next, and all
-    /// others are forgotten.
+    /// Goes on from another state at time `t`, which is as a rule that of the last event. The run begins
+    /// anew, as by [`Run::set_state`]. Conditions that are zero there but for rounding are zero; of the
+    /// events that have not been handed out those that happen there too, as in a corner, are handed out
+    /// next, and all others are forgotten.
     ///
     /// # Errors
     /// As [`Run::set_state`]. As [`new`](Self::new): the run is there then, but no events are known.

@@ -158,8 +158,8 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Run for I
         let (system, h) = (self.system.held(), self.step_size());
         let Stepper { method, memory, statistics, .. } = &self.stepper;
         let [q, v] = checked(system, t, h, &state)?;
-        let begun = method.begin_anew(memory, system, &q, &v[..velocities(system)], t, h);
-        let memory = begun.map_err(|error| named(system, [&q, &v], t, error))?;
+        let begun = method.begin(system, &q, &v[..velocities(system)], t, h);
+        let memory = method.begun_anew(memory, begun.map_err(|error| named(system, [&q, &v], t, error))?);
         self.clock = Clock::new(t, h).after(statistics.steps.wrapping_neg());
         self.stepper.move_to(memory, q);
         Ok(())

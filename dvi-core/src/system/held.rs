@@ -5,8 +5,8 @@ use super::System;
 /// A system as a run takes it: the system itself, which the run then owns, `&S`, which it borrows, and with
 /// `alloc` `Box<S>`, `Rc<S>` and `Arc<S>`.
 ///
-/// A run on a system of its own borrows nothing, so that a struct can hold it and a thread can take it; steps
-/// are the same, bit for bit, and take as many instructions. The attributes implement this trait with
+/// A run on a system of its own borrows nothing, so that a struct can hold it and a thread can take it;
+/// steps are the same, bit for bit, and take as many instructions. The attributes implement this trait with
 /// [`System`]; a system written by hand returns itself.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a system",

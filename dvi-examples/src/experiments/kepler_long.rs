@@ -180,8 +180,8 @@ fn references(job: &Job<'_>, [verlet, _, _, coarse, fine, lobatto]: &[Orbits; 6]
         Check::new("Lobatto-4: max|ΔE| over all", lobatto.course.energy, Bound::AtMost(1e-7)),
         Check::new("Lobatto-4: steps per period", lobatto.course.steps, Bound::Within(460.0, 468.0)),
         Check::new("Verlet: max|ΔE| over 100 periods", verlet.early, Bound::Near(1.542e-3, 1e-6)),
-        // Of this program: rounding decides where the controlled steps lock in, and other orders of sums have
-        // given 2.5619e-4 and 3.7736e-4.
+        // Of this program: rounding decides where the controlled steps lock in, and other orders of sums
+        // have given 2.5619e-4 and 3.7736e-4.
         Check::new("(23) per arc length, 3e-6: max|ΔE|", fine.course.energy, Bound::Near(1.8193e-4, 2e-8)),
         Check::new(
             "(23) per arc length, 3e-6: steps per period",

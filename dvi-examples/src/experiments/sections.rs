@@ -117,8 +117,8 @@ where
         let found = events.advance();
         let after = height(&events.run().state());
         match found {
-            // Where the motion only touches the section within a step, the place is as accurate as the root of
-            // the error of the step.
+            // Where the motion only touches the section within a step, the place is as accurate as the root
+            // of the error of the step.
             Ok(Some(Event { time, state, .. })) if before < 0.0 && after >= 0.0 => {
                 let [r1, p1, _] = coordinates(&state, labels);
                 result.points.push([time, r1, p1]);

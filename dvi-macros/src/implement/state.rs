@@ -109,9 +109,16 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let Transfers { write, read, refill } = transfers(emitter, &fields);
     let is_on_heap = (0..model.blocks.len()).any(|block| !on_stack(emitter, block));
     // What is read anew without allocation needs no other way.
-    let refill = is_on_heap.then(|| quote! {
-        fn refill(&mut self, __len: impl ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize, __q: &[__T], __v: &[__T]) {
-            #refill
+    let refill = is_on_heap.then(|| {
+        quote! {
+            fn refill(
+                &mut self,
+                __len: impl ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize,
+                __q: &[__T],
+                __v: &[__T],
+            ) {
+                #refill
+            }
         }
     });
     let values = (0..fields.len()).map(value_name);
@@ -244,7 +251,8 @@ fn value_name(field: usize) -> Ident {
     local(format_args!("value{field}"))
 }
 
-/// The bodies of `write`, `read` and `refill`: the coordinates go to and come from `__q`, the velocities `__v`.
+/// The bodies of `write`, `read` and `refill`: the coordinates go to and come from `__q`, the velocities
+/// `__v`.
 #[derive(Default)]
 struct Transfers {
     write: TokenStream,

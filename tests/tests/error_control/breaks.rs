@@ -1,5 +1,5 @@
-//! Times at which formulas break: steps end there, to the rounding of the time, forward, backward and after a
-//! checkpoint.
+//! Times at which formulas break: steps end there, to the rounding of the time, forward, backward and after
+//! a checkpoint.
 
 use dvi_core::prelude::*;
 

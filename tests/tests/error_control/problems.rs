@@ -72,8 +72,8 @@ fn error<S: Lagrangian, M: VariableStep<S, f64>>(
 }
 
 /// Holds the errors of a motion at its end against 30 tolerances, those of two stages against 200: `exact`
-/// are coordinates and, of a regular system, velocities. `dop853` are the errors of `solve_ivp` of SciPy 1.17
-/// with rtol = atol = 10⁻⁶, 10⁻⁹ and 10⁻¹², in the same units.
+/// are coordinates and, of a regular system, velocities. `dop853` are the errors of `solve_ivp` of SciPy
+/// 1.17 with rtol = atol = 10⁻⁶, 10⁻⁹ and 10⁻¹², in the same units.
 fn check<S: Lagrangian>(
     name: &str,
     motion: (&S, &S::State<f64>),

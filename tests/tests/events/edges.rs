@@ -291,7 +291,8 @@ fn events_at_one_time_come_in_the_order_of_the_conditions() -> Outcome {
     Ok(())
 }
 
-/// The time of a fall from y to the floor, √(2y), at the end of a step and within one: its derivative is 1/√(2y).
+/// The time of a fall from y to the floor, √(2y), at the end of a step and within one: its derivative is
+/// 1/√(2y).
 #[test]
 fn times_of_events_carry_derivatives() -> Outcome {
     #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y)]

@@ -23,9 +23,9 @@
 //!
 //! |error| ≈ h Σₖ ρᵏ |mₖ|,    ρˢ = (S+1) max|d|/max|X|
 //!
-//! where the rounding of X, and that of the times at which it is evaluated, is no part of the error. It costs
-//! S + 1 evaluations of X. A change of X that comes and goes between two of these 2S + 1 points is seen by
-//! none of them.
+//! where the rounding of X, and that of the times at which it is evaluated, is no part of the error. It
+//! costs S + 1 evaluations of X. A change of X that comes and goes between two of these 2S + 1 points is
+//! seen by none of them.
 
 use super::memory::{Path, first_part};
 use crate::error::StepFailure;

@@ -37,9 +37,10 @@ impl<T: Real> Course<T> {
         Self { slope, bend: before.map(|before| slope - before.slope), rate }
     }
 
-    /// Whether a condition may have come to zero and back in a step of length `h` from `a` to `b`, which are on
-    /// one side, where its course was another before: if it falls at the beginning and rises at the end. The
-    /// rates there are those of a parabola, but for what the course has bent otherwise in the step before.
+    /// Whether a condition may have come to zero and back in a step of length `h` from `a` to `b`, which
+    /// are on one side, where its course was another before: if it falls at the beginning and rises at the
+    /// end. The rates there are those of a parabola, but for what the course has bent otherwise in the step
+    /// before.
     pub(super) fn turns(&self, before: &Self, [a, b]: [T; 2], h: T) -> Turn {
         if Scalar::abs(a) + Scalar::abs(b) > T::lift(STEEPER) * self.rate * h {
             return Turn::No;

@@ -88,7 +88,8 @@ where
         Ok(())
     }
 
-    /// Whether a condition comes nearer to zero at the beginning of a step, and goes away from it at the end.
+    /// Whether a condition comes nearer to zero at the beginning of a step, and goes away from it at the
+    /// end.
     fn is_turned(&mut self, index: usize, [a, b]: [R::Scalar; 2]) -> Result<bool, StepFailure> {
         let [one, chord] = [1.0, CHORD].map(R::Scalar::lift);
         Ok(Scalar::abs(self.look(index, chord)?) < Scalar::abs(a)
@@ -144,8 +145,8 @@ where
         Ok(Some(place))
     }
 
-    /// The distance of a condition from zero at a part of the step, and its slope: that of a parabola through
-    /// three places.
+    /// The distance of a condition from zero at a part of the step, and its slope: that of a parabola
+    /// through three places.
     fn sample(
         &mut self,
         index: usize,

@@ -4,8 +4,8 @@
 //!
 //! for q1 and h (Kane, Marsden & Ortiz 1999). The first equation is the step of the method; what is left is
 //! one equation for h. It is solved by the secant method from the last two lengths and, where that leads
-//! nowhere, by regula falsi between lengths at which the defect has different signs, sought from a quarter of
-//! the last length to four times that.
+//! nowhere, by regula falsi between lengths at which the defect has different signs, sought from a quarter
+//! of the last length to four times that.
 
 use super::{ControlledRun, StepControl};
 use crate::discrete::{Ends, Interval, Span};

@@ -88,8 +88,8 @@ pub struct ErrorControl<'a> {
     /// goes within a step is seen if it lasts longer than the largest distance of the points that are looked
     /// at: 0.29, 0.17 and 0.092 of a step of 2, 4 and 8 stages.
     pub longest_step: f64,
-    /// Times in ascending order at which formulas break, as where a force is switched on: steps end there, to
-    /// the rounding of the time, forward and backward, and none sees both sides of a jump. Default: none.
+    /// Times in ascending order at which formulas break, as where a force is switched on: steps end there,
+    /// to the rounding of the time, forward and backward, and none sees both sides of a jump. Default: none.
     ///
     /// ```
     /// use dvi_core::prelude::*;

@@ -203,7 +203,8 @@ where
         let v = &all[..velocities(system)];
         let explained = |error| named(system, [&q, &all], t, error);
         let (control_memory, h) = self.control.begin(system, &q, v, t).map_err(explained)?;
-        let memory = method.begin_anew(memory, system, &q, v, t, h).map_err(explained)?;
+        let begun = method.begin(system, &q, v, t, h).map_err(explained)?;
+        let memory = method.begun_anew(memory, begun);
         self.stepper.move_to(memory, q);
         (self.control_memory, self.clock, self.h) = (control_memory, VariableClock::new(t), h);
         Ok(())
