@@ -235,3 +235,24 @@ fn without_noise_it_is_a_deterministic_method() -> Outcome {
     }
     Ok(())
 }
+
+/// A run that goes on from its start has other noise than at its start, also where its energy is limited.
+#[test]
+fn noise_that_has_been_used_up_does_not_come_again() -> Outcome {
+    fn check<M: Method<DoubleWell, f64>>(method: M) -> Outcome {
+        let start: DoubleWellState = DoubleWellState { x: 1.0, dot_x: 0.0 };
+        let mut run = Integrator::new(DoubleWell { mass: 1.0 }, method, 0.1, start)?;
+        let mut places = Vec::new();
+        for _ in 0..20 {
+            run.set_state(0.0, start)?;
+            run.advance()?;
+            places.push(run.state().x);
+        }
+        places.sort_by(f64::total_cmp);
+        assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{places:?}");
+        Ok(())
+    }
+    let method = Langevin { friction: 1.0, temperature: 0.5, seed: 3 };
+    check(method)?;
+    check(EnergyLimit { method, limit: 1e3 })
+}
