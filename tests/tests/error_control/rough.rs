@@ -53,7 +53,7 @@ fn forces_are_switched_on_at_rest() -> Outcome {
                 let error = (run.state().x - fine.state().x).abs();
                 assert!(error < 30.0 * tolerance, "{system:?}, {method:?}, {tolerance:e}, {h}: {error:e}");
                 assert!(
-                    run.steps() + run.statistics().rejected < 10_000,
+                    run.steps() + run.statistics().rejected < 6000,
                     "{system:?}, {method:?}, {tolerance:e}, {h}"
                 );
             }
