@@ -1,7 +1,8 @@
 //! Ensembles of 10⁴ members on one thread and on two, each member alone and eight in lanes.
 //!
 //! `cargo bench -p dvi-benches --bench ensemble`. Each time is the best of seven, which take turns, so that
-//! other work on the machine meets all alike. Ratios within a row are what counts.
+//! other work on the machine meets all alike. The table is of times on one thread, of what two threads gain,
+//! and of what lanes gain on one thread.
 
 use std::error::Error;
 use std::time::{Duration, Instant};
@@ -43,7 +44,7 @@ where
     }
     let [alone, alone_2, lanes, lanes_2] = best.map(|time| time.as_secs_f64() * 1e3);
     println!(
-        "{name:<20} {steps:>6} {alone:>9.1} {alone_2:>9.1} {:>6.2} {lanes:>9.1} {lanes_2:>9.1} {:>6.2} {:>8.2}",
+        "| {name} | {steps} | {alone:.1} | {:.2} | {lanes:.1} | {:.2} | {:.2} |",
         alone / alone_2,
         lanes / lanes_2,
         alone / lanes,
@@ -77,7 +78,7 @@ fn by_hand() {
         best[1] = begin.elapsed().min(best[1]);
     }
     let [one, two] = best.map(|time| time.as_secs_f64() * 1e3);
-    println!("{:<20} {:>6} {one:>9.1} {two:>9.1} {:>6.2}", "Kepler, by hand", 2000, one / two);
+    println!("| loops that share nothing | 2000 | {one:.1} | {:.2} | | | |", one / two);
 }
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
@@ -89,11 +90,8 @@ fn planet(j: usize) -> KeplerState {
 fn main() -> Result<(), Box<dyn Error>> {
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let (one, two) = (pool(1)?, pool(2)?);
-    println!("{MEMBERS} members; times in ms, on one thread and on two");
-    println!(
-        "{:<20} {:>6} {:>9} {:>9} {:>6} {:>9} {:>9} {:>6} {:>8}",
-        "", "steps", "alone 1", "alone 2", "ratio", "lanes 1", "lanes 2", "ratio", "by lanes"
-    );
+    println!("| {MEMBERS} members | steps | ms alone | 2 threads | ms in lanes | 2 threads | by lanes |");
+    println!("|---|---|---|---|---|---|---|");
     by_hand();
     let kepler = (&KEPLER, Variational::trapezoid(), 0.01, 2000);
     row("Kepler, Verlet", [&one, &two], kepler, planet)?;

@@ -1,15 +1,16 @@
 //! Runs with a condition that never comes true, and with states that are asked for, beside the same runs
 //! alone.
 //!
-//! `cargo bench -p dvi-benches --bench events`; the times of a group are to be compared with each other, in
-//! one run.
+//! `cargo bench -p dvi-benches --bench events [-- --markdown]`; the times of a group are to be compared with
+//! each other, in one run.
 
 use std::hint::black_box;
 
-use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
+use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
 use dvi_core::prelude::*;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
+use markdown::{Cell, Table};
 
 const STEPS: u64 = 1000;
 
@@ -63,5 +64,24 @@ fn events(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, events);
-criterion_main!(benches);
+/// Times over that of as many steps, each taken alone.
+macro_rules! row {
+    ($name:literal) => {{
+        const STEPS: &str = concat!("1000 steps/", $name, ", each step alone");
+        const CELLS: &[Cell] = &[
+            Cell::Ratio(concat!("1000 steps/", $name, ", alone"), STEPS),
+            Cell::Ratio(concat!("1000 steps/", $name, ", with a condition"), STEPS),
+            Cell::Ratio(concat!("1000 steps/", $name, ", a state in ten steps"), STEPS),
+        ];
+        ($name, CELLS)
+    }};
+}
+
+const TABLE: Table = (
+    &["time over that of `advance`", "`take_steps`", "a condition never met", "a state in ten steps"],
+    &[row!("Kepler, Verlet"), row!("four vortices, midpoint"), row!("four vortices, explicit")],
+);
+
+fn main() {
+    markdown::main(&[events], &[TABLE]);
+}

@@ -2,10 +2,10 @@
 //! nodes of `Galerkin` in lanes beside the same one by one, of a rotating frame beside the same motion as p
 //! dq − H.
 //!
-//! `cargo bench -p dvi-benches --bench lanes`. Times are those of 512 steps of eight runs, and of 64 steps
+//! `cargo bench -p dvi-benches --bench lanes [-- --markdown]`. Times are those of 512 steps of eight runs, and of 64 steps
 //! of Gauss collocation or `Galerkin`. Ratios of neighbouring rows are what counts.
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput};
 use dvi_core::Lagrangian;
 use dvi_core::methods::{InStep, Method};
 use dvi_core::prelude::*;
@@ -16,6 +16,7 @@ use dvi_tests::zoo::regular::{
     Kepler, KeplerState, RestrictedThreeBody, RestrictedThreeBodyForm, RestrictedThreeBodyFormState,
     RestrictedThreeBodyState,
 };
+use markdown::{Cell, Table};
 
 const RUNS: usize = 8;
 const STEPS: u64 = 512;
@@ -118,5 +119,34 @@ fn stages(criterion: &mut Criterion) {
     );
 }
 
-criterion_group!(benches, runs_together, stages);
-criterion_main!(benches);
+macro_rules! together {
+    ($name:literal) => {
+        ($name, &[Cell::Ratio(concat!($name, "/alone"), concat!($name, "/together"))] as &[Cell])
+    };
+}
+
+macro_rules! in_lanes {
+    ($name:literal) => {
+        ($name, &[Cell::Ratio(concat!($name, "/in lanes"), concat!($name, "/one by one"))] as &[Cell])
+    };
+}
+
+const TABLES: [Table; 2] = [
+    (
+        &["eight runs", "throughput together over alone"],
+        &[together!("Kepler, Verlet"), together!("vortices, σ = 0"), together!("vortices, σ = ½")],
+    ),
+    (
+        &["stages or nodes", "time in lanes over one by one"],
+        &[
+            in_lanes!("vortices, Gauss, 4 stages"),
+            in_lanes!("vortices, Gauss, 8 stages"),
+            in_lanes!("outer solar system, Galerkin, 4 nodes"),
+            in_lanes!("outer solar system, Galerkin, 9 nodes"),
+        ],
+    ),
+];
+
+fn main() {
+    markdown::main(&[runs_together, stages], &TABLES);
+}

@@ -2,15 +2,16 @@
 //! Ulam and Tsingou beside the same steps by hand; the gradient of rings; and Newton's method on vortices,
 //! each of which moves all others.
 //!
-//! `cargo bench -p dvi-benches --bench large`. Times are those of one step by Newton and of a hundred by
+//! `cargo bench -p dvi-benches --bench large [-- --markdown]`. Times are those of one step by Newton and of a hundred by
 //! Verlet; throughput counts masses times steps.
 
 mod fput_by_hand;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, Lagrangian};
+use markdown::{Cell, Table};
 use std::hint::black_box;
 
 /// Toda's chain between walls.
@@ -156,12 +157,12 @@ fn fput_by_hand(criterion: &mut Criterion, n: usize, evaluations: u64) {
     assert!(force.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-15), "the forces differ");
     let mut group = criterion.benchmark_group(format!("FPUT, midpoint, fixed point, h = {H}"));
     group.throughput(Throughput::Elements(n as u64));
-    group.bench_function(BenchmarkId::new(format!("{evaluations} forces by hand"), n), |bencher| {
+    group.bench_function(BenchmarkId::new("as many forces by hand", n), |bencher| {
         bencher
             .iter(|| (0..evaluations).for_each(|_| fput_by_hand::force(ALPHA, black_box(&q), &mut force)));
     });
     let mut midpoint = fput_by_hand::Midpoint::new(ALPHA, H, &q, &wave(n, 1.0));
-    group.bench_function(BenchmarkId::new(format!("{evaluations} iterations by hand"), n), |bencher| {
+    group.bench_function(BenchmarkId::new("as many iterations by hand", n), |bencher| {
         bencher.iter(|| (0..evaluations).map(|_| midpoint.improve()).fold(0.0, f64::max));
     });
     group.finish();
@@ -184,7 +185,7 @@ fn beside_gradients<S: Lagrangian, M: Method<S, f64>>(
     group.bench_function(BenchmarkId::new("a step", n), |bencher| {
         bencher.iter(|| assert!(run.advance().is_ok()));
     });
-    group.bench_function(BenchmarkId::new(format!("{evaluations} gradients"), n), |bencher| {
+    group.bench_function(BenchmarkId::new("as many gradients", n), |bencher| {
         bencher.iter(|| (0..evaluations).for_each(|_| gradient()));
     });
     group.finish();
@@ -343,5 +344,96 @@ fn rings(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, rings, newton, lattice, rods, fixed_point, many_bodies, verlet);
-criterion_main!(benches);
+macro_rules! times {
+    ($name:literal, $group:literal, $function:literal, [$($n:literal),*]) => {
+        ($name, &[$(Cell::Time(concat!($group, "/", $function, $n))),*] as &[Cell])
+    };
+}
+
+macro_rules! ratios {
+    ($name:literal, $group:literal, $one:literal over $other:literal, [$($n:literal),*]) => {
+        ($name, &[$(Cell::Ratio(
+            concat!($group, "/", $one, "/", $n),
+            concat!($group, "/", $other, "/", $n),
+        )),*] as &[Cell])
+    };
+}
+
+const RING: &[Cell] = &[
+    Cell::Ratio("a ring, ∇H/generated/1000", "a ring, ∇H/by hand/1000"),
+    Cell::Ratio("a ring, ∇H/generated/10000", "a ring, ∇H/by hand/10000"),
+    Cell::Empty,
+];
+
+const VERLET: &[Cell] = &[
+    Cell::Ratio("FPUT, Verlet/generated/1000", "FPUT, Verlet/by hand/1000"),
+    Cell::Empty,
+    Cell::Ratio("FPUT, Verlet/generated/100000", "FPUT, Verlet/by hand/100000"),
+];
+
+const TABLES: [Table; 5] = [
+    (
+        &["a step by Newton's method", "n = 100", "1000", "10⁴", "10⁵"],
+        &[times!("Toda's chain", "Toda, midpoint, Newton, h = 1", "", [100, 1000, 10000, 100000])],
+    ),
+    (
+        &["a step by Newton's method", "n = 2500", "10⁴", "40000"],
+        &[
+            times!("lattice", "lattice, midpoint, Newton, h = 1", "Newton/", [2500, 10000, 40000]),
+            times!(
+                "without a matrix",
+                "lattice, midpoint, Newton, h = 1",
+                "NewtonKrylov/",
+                [2500, 10000, 40000]
+            ),
+        ],
+    ),
+    (
+        &["a step with constraints", "n = 63", "127", "255"],
+        &[times!("rods in a tree", "rods in a tree, constrained midpoint, h = 0.01", "", [63, 127, 255])],
+    ),
+    (
+        &["ratio of times", "n = 1000", "10⁴", "10⁵"],
+        &[
+            ratios!(
+                "a step by the fixed point over its forces alone: Toda's chain",
+                "Toda, midpoint, fixed point, h = 0.1",
+                "a step" over "as many gradients",
+                [1000, 10000, 100000]
+            ),
+            ratios!(
+                "the chain of Fermi, Pasta, Ulam and Tsingou, whose forces are cheap",
+                "FPUT, midpoint, fixed point, h = 0.1",
+                "a step" over "as many gradients",
+                [1000, 10000, 100000]
+            ),
+            ratios!(
+                "the same over as many iterations by hand",
+                "FPUT, midpoint, fixed point, h = 0.1",
+                "a step" over "as many iterations by hand",
+                [1000, 10000, 100000]
+            ),
+            ratios!(
+                "a ring of oscillators, σ = ½, over ∇H alone",
+                "a ring, midpoint, fixed point, h = 0.1",
+                "a step" over "as many gradients",
+                [1000, 10000, 100000]
+            ),
+            ("∇H of a ring over a loop by hand", RING),
+            ("Verlet on the chain of Fermi, Pasta, Ulam and Tsingou over a loop by hand", VERLET),
+        ],
+    ),
+    (
+        &["ratio of times", "n = 64", "128", "256"],
+        &[ratios!(
+            "vortices: Newton's method without a matrix over that with one",
+            "vortices, midpoint",
+            "NewtonKrylov" over "Newton",
+            [64, 128, 256]
+        )],
+    ),
+];
+
+fn main() {
+    markdown::main(&[rings, newton, lattice, rods, fixed_point, many_bodies, verlet], &TABLES);
+}

@@ -2,17 +2,18 @@
 //! and on two, beside three by hand; a fast sum beside the sum over all pairs; and the check of indices
 //! before a run.
 //!
-//! `cargo bench -p dvi-benches --bench pairs`. Throughput counts ordered pairs: n(n − 1) of n vortices.
+//! `cargo bench -p dvi-benches --bench pairs [-- --markdown]`. Throughput counts ordered pairs: n(n − 1) of n vortices.
 
 mod pairs_by_hand;
 
 use std::f64::consts::PI;
 use std::hint::black_box;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput};
 use dvi_core::fast_sum::FastSum;
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, System};
+use markdown::{Cell, Table};
 use rayon::ThreadPoolBuilder;
 
 /// Vortices in the plane.
@@ -189,5 +190,43 @@ fn checks(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, gradients, fast_sums, checks);
-criterion_main!(benches);
+/// The ordered pairs of 1024 vortices.
+const PAIRS: f64 = 1024.0 * 1023.0;
+
+macro_rules! rate {
+    ($name:literal) => {
+        ($name, &[Cell::Billions(PAIRS, concat!("∇H of n vortices/", $name, "/1024"))] as &[Cell])
+    };
+}
+
+macro_rules! time {
+    ($name:literal) => {
+        ($name, &[Cell::Time(concat!("∇H of many vortices/", $name, "/100000"))] as &[Cell])
+    };
+}
+
+const TABLES: [Table; 2] = [
+    (
+        &["∇H of 1024 vortices", "10⁹ pairs in a second"],
+        &[
+            rate!("generated, 1 thread(s)"),
+            rate!("generated, 2 thread(s)"),
+            rate!("by hand, vortex by vortex"),
+            rate!("by hand, each pair once"),
+            rate!("by hand, each pair once, in lanes"),
+        ],
+    ),
+    (
+        &["∇H of 10⁵ vortices", "time"],
+        &[
+            time!("all pairs, 1 thread(s)"),
+            time!("all pairs, 2 thread(s)"),
+            time!("fast sum, 1 thread(s)"),
+            time!("fast sum, 2 thread(s)"),
+        ],
+    ),
+];
+
+fn main() {
+    markdown::main(&[gradients, fast_sums, checks], &TABLES);
+}

@@ -69,12 +69,12 @@ pub(crate) fn print(alternatives: &Alternatives) {
             times.push(1e9 * begin.elapsed().as_secs_f64() / count as f64);
         }
     }
-    println!("\nresidual and Jacobian of a midpoint step, four vortices: ns");
+    println!("\n| residual and Jacobian of a midpoint step, four vortices | ns |\n|---|---|");
     for ((name, _), times) in ways.iter().zip(&mut times) {
         times.sort_by(f64::total_cmp);
-        println!("{name:<36}{:>10.1}", times[ROUNDS / 2]);
+        println!("| {name} | {:.1} |", times[ROUNDS / 2]);
     }
     for point in alternatives.of("derivatives") {
-        println!("{:<36}{:>10.1}", point.method, 1e6 * point.milliseconds);
+        println!("| {} | {:.1} |", point.method, 1e6 * point.milliseconds);
     }
 }

@@ -45,23 +45,19 @@ impl Measured<'_> {
     /// Milliseconds to hold each bound, in brackets in units of the reference, and evaluations.
     pub(crate) fn print(&self) {
         let Problem { title, error, .. } = self.problem;
-        println!("\n{title}: ms to hold max {error} (× {REFERENCE}); evaluations");
-        print!("{:<36}", "");
-        BOUNDS.iter().for_each(|bound| print!("{:>28}", format!("{bound:e}")));
-        println!();
+        let bounds = BOUNDS.map(|bound| format!("{bound:e}")).join(" | ");
+        println!("\n| {title}: ms to hold max {error} (× {REFERENCE}); evaluations | {bounds} |");
+        println!("|---|---|---|---|");
         for method in self.methods() {
-            print!("{method:<36}");
-            for bound in BOUNDS {
-                print!("{:>28}", self.cell(method, bound));
-            }
-            println!();
+            let cells = BOUNDS.map(|bound| self.cell(method, bound)).join(" | ");
+            println!("| {method} | {cells} |");
         }
     }
 
     fn cell(&self, method: &str, bound: f64) -> String {
         let Some(point) = self.fastest(method, bound) else { return "–".into() };
         let ratio = self.ratio(method, REFERENCE, bound).map(|ratio| format!(" (×{ratio:.2})"));
-        let evaluations = point.evaluations.map(|count| format!(" {:>6.0}k", count as f64 / 1e3));
+        let evaluations = point.evaluations.map(|count| format!("; {:.0}k", count as f64 / 1e3));
         let [ratio, evaluations] = [ratio, evaluations].map(|text| text.unwrap_or_default());
         format!("{:.3}{ratio}{evaluations}", point.milliseconds)
     }
