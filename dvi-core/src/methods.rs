@@ -11,6 +11,7 @@ mod before;
 mod collocation;
 mod composition;
 mod constrained;
+mod context;
 mod energy_limit;
 mod flight;
 mod galerkin;
@@ -42,6 +43,7 @@ use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::Composition;
 pub use constrained::Constrained;
+pub use context::{Here, Step, Steps};
 pub use energy_limit::EnergyLimit;
 pub use flight::FreeFlight;
 pub use galerkin::Galerkin;
@@ -173,36 +175,25 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         begun
     }
 
-    /// Advances `q` from `t` to `t + h`, without allocation.
+    /// Takes a step, without allocation.
     ///
     /// # Errors
-    /// Any [`StepFailure`]; `q` and the dynamical part of `memory` are then as they were before.
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
+    /// Any [`StepFailure`]; the point and the dynamical part of `memory` are then as they were before.
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure>;
 
-    /// Advances `q` from `t` by a part `h` of the step of length `whole` that a run takes from there, on a
-    /// copy `memory` of what it carries: the state between two points of the run. It is a [step](Self::step)
-    /// of that length, unless the memory depends on the length of steps.
+    /// Takes a part of the step of length `whole` that a run takes from there, on a copy `memory` of what it
+    /// carries: the state between two points of the run. It is a [step](Self::step) of that length, unless
+    /// the memory depends on the length of steps.
     ///
     /// # Errors
     /// As [`step`](Self::step).
     fn part_of_step(
         &self,
-        system: &S,
+        part: Step<'_, S, T>,
+        _whole: T,
         memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        [h, _whole]: [T; 2],
-        statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.step(system, memory, q, t, h, statistics)
+        self.step(part, memory)
     }
 
     /// Sets `v` to the velocity at the current point. There is nothing to do for degenerate systems.
@@ -211,50 +202,22 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     /// [`StepFailure`] if the momenta of the run have no velocity: the mass matrix is singular there.
     fn velocity(
         &self,
-        _system: &S,
+        _here: Here<'_, S, T>,
         _memory: &Self::Memory,
-        _q: &Vector<S, T>,
-        _t: T,
         _v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         Ok(())
     }
 
-    /// Takes `count` steps from the present time of `clock`, or as many as succeed, and counts them in
-    /// `statistics.steps`. A method with something to gain from many steps at once does better than the
-    /// loop that stands here.
+    /// Takes steps, or as many as succeed, and counts them. A method with something to gain from many steps
+    /// at once does better than one after the other.
     ///
     /// # Errors
     /// As [`step`](Self::step), from the first step that fails.
     #[inline]
-    fn steps(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        clock: Clock<T>,
-        count: u64,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        one_by_one(self, system, memory, q, clock, count, statistics)
+    fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        steps.one_by_one(self, memory)
     }
-}
-
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn one_by_one<S: Lagrangian<T>, T: Real, M: Method<S, T> + ?Sized>(
-    method: &M,
-    system: &S,
-    memory: &mut M::Memory,
-    q: &mut Vector<S, T>,
-    clock: Clock<T>,
-    count: u64,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    for taken in 0..count {
-        method.step(system, memory, q, clock.after(taken).time(), clock.step_size(), statistics)?;
-        statistics.steps += 1;
-    }
-    Ok(())
 }
 
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,

@@ -1,6 +1,6 @@
 //! Steps of a method on flat coordinates, in any numbers, and what they do to neighbouring points.
 
-use dvi_core::methods::Method;
+use dvi_core::methods::{Method, Step};
 use dvi_core::state::Statistics;
 use dvi_core::{Lagrangian, Real, Space};
 use nalgebra::DMatrix;
@@ -24,9 +24,10 @@ pub fn stepped<S: Lagrangian<T>, T: Real, M: Method<S, T>>(
     q.copy_from_slice(q0);
     let mut memory = method.begin(system, &q, &[], T::lift(t), T::lift(h))?;
     let mut statistics = Statistics::default();
-    for step in 0..steps {
-        let now = T::lift(t + step as f64 * h);
-        method.step(system, &mut memory, &mut q, now, T::lift(h), &mut statistics)?;
+    for taken in 0..steps {
+        let now = T::lift(t + taken as f64 * h);
+        let step = Step { system, q: &mut q, t: now, h: T::lift(h), statistics: &mut statistics };
+        method.step(step, &mut memory)?;
     }
     Ok(q.to_vec())
 }

@@ -2,7 +2,7 @@
 //! lanes is Gauss collocation, bit for bit.
 
 use dvi_core::mechanics::InLanes;
-use dvi_core::methods::Method;
+use dvi_core::methods::{Here, Method, Step};
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
 use dvi_core::state::Statistics;
@@ -88,11 +88,12 @@ fn history<S: Lagrangian, M: Method<S, f64>>(
     q.copy_from_slice(q0);
     let (t, mut passed, mut statistics) = (0.2, Vec::new(), Statistics::default());
     let mut memory = method.begin(system, &q, v0, t, h)?;
-    for step in 0..25 {
-        let now = t + f64::from(step) * h;
-        let taken = method.step(system, &mut memory, &mut q, now, h, &mut statistics);
-        taken.map_err(|failure| format!("{} at step {step}: {failure}", S::REPORT.system))?;
-        method.velocity(system, &memory, &q, now + h, &mut v)?;
+    for number in 0..25 {
+        let now = t + f64::from(number) * h;
+        let step = Step { system, q: &mut q, t: now, h, statistics: &mut statistics };
+        let taken = method.step(step, &mut memory);
+        taken.map_err(|failure| format!("{} at step {number}: {failure}", S::REPORT.system))?;
+        method.velocity(Here { system, q: &q, t: now + h }, &memory, &mut v)?;
         passed.extend([bits(&q), bits(&v)].concat());
     }
     Ok((passed, statistics))

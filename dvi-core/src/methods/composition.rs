@@ -10,8 +10,7 @@ use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
 use crate::methods::before::Before;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
-use crate::state::Statistics;
+use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::{Lagrangian, Real, System, Vector};
 
 /// The coefficients up to the middle one; the rest is their mirror image.
@@ -200,21 +199,15 @@ impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composit
     }
 
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let CompositionMemory { inner, before } = memory;
         before.keep(inner, q);
         let mut elapsed = 0.0;
         for gamma in self.table.steps() {
-            let (begin, length) = (t + T::lift(elapsed) * h, T::lift(gamma) * h);
-            if let Err(failure) = self.method.step(system, inner, q, begin, length, statistics) {
+            let (t, h) = (t + T::lift(elapsed) * h, T::lift(gamma) * h);
+            let step = Step { system, q, t, h, statistics };
+            if let Err(failure) = self.method.step(step, inner) {
                 before.go_back(inner, q);
                 return Err(failure);
             }
@@ -225,13 +218,11 @@ impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composit
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        self.method.velocity(system, &memory.inner, q, t, v)
+        self.method.velocity(here, &memory.inner, v)
     }
 }
 

@@ -15,7 +15,7 @@ use crate::mechanics::constraints::{
 };
 use crate::mechanics::orientation::MassOrientation;
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
 use crate::solve::{Due, Guess, Solver, Stopping, from_either_guess, newton, sizes};
@@ -344,15 +344,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
         })
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let begin = Begin { system, interval: Interval { t, h }, q, stopping: self.stopping };
         from_either_guess(|guess| {
             memory.guess(h, guess);
@@ -365,10 +358,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
 
     fn velocity(
         &self,
-        _system: &S,
+        _here: Here<'_, S, T>,
         memory: &Self::Memory,
-        _q: &Vector<S, T>,
-        _t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         v.copy_from_slice(&memory.here.v);

@@ -7,7 +7,9 @@
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::methods::before::Before;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, Tolerance, VariableStep, VariationalMethod};
+use crate::methods::{
+    Carries, Here, Method, PreservedForm, Scheme, Step, Tolerance, VariableStep, VariationalMethod,
+};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::TimeTransform;
@@ -91,20 +93,14 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
         EnergyLimitMemory { inner: self.method.begun_anew(&before.inner, begun.inner), ..begun }
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let EnergyLimitMemory { inner, before, v, start } = memory;
         before.keep(inner, q);
-        self.method.step(system, inner, q, t, h, statistics)?;
-        let verdict = self.method.velocity(system, inner, q, t + h, v).and_then(|()| {
-            let now = watched(system, q, if S::REGULAR { v } else { &[] }, t + h);
+        self.method.step(Step { system, q, t, h, statistics }, inner)?;
+        let end = t + h;
+        let verdict = self.method.velocity(Here { system, q, t: end }, inner, v).and_then(|()| {
+            let now = watched(system, q, if S::REGULAR { v } else { &[] }, end);
             // An energy that is not a number is within no limit.
             let within = Scalar::abs(now - *start) <= T::lift(self.limit);
             let [start, now] = [*start, now].map(reported);
@@ -118,25 +114,20 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
 
     fn part_of_step(
         &self,
-        system: &S,
+        part: Step<'_, S, T>,
+        whole: T,
         memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        lengths: [T; 2],
-        statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.method.part_of_step(system, &mut memory.inner, q, t, lengths, statistics)
+        self.method.part_of_step(part, whole, &mut memory.inner)
     }
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        self.method.velocity(system, &memory.inner, q, t, v)
+        self.method.velocity(here, &memory.inner, v)
     }
 }
 

@@ -2,8 +2,7 @@
 
 use crate::discrete::Span;
 use crate::error::{StartError, StepFailure};
-use crate::methods::{Carries, Scheme};
-use crate::state::Statistics;
+use crate::methods::{Carries, Here, Scheme, Step};
 use crate::{NondegenerateLagrangian, Real, Vector};
 
 /// A method that takes a system from impact to impact: its steps have any lengths, and its momentum may be
@@ -21,29 +20,20 @@ pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Scheme + Carries<S
     /// As [`Method::begin`](crate::methods::Method::begin).
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError>;
 
-    /// Advances `q` from t to t + h, without allocation.
+    /// Takes a step, without allocation.
     ///
     /// # Errors
     /// Any [`StepFailure`]; nothing has moved then.
-    fn fly(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        interval: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
+    fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure>;
 
-    /// Sets `v` to the velocity at the present point, which is reached at time `t`.
+    /// Sets `v` to the velocity at the present point.
     ///
     /// # Errors
     /// [`StepFailure`] where no velocity belongs to the momentum.
     fn velocity_in_flight(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure>;
 

@@ -24,7 +24,9 @@ use core::marker::PhantomData;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvaluation};
-use crate::methods::{Carries, Method, PreservedForm, Scheme, Tabulated, Tolerance, VariableStep};
+use crate::methods::{
+    Carries, Here, Method, PreservedForm, Scheme, Step, Tabulated, Tolerance, VariableStep,
+};
 use crate::solve::{Convergence, Due, Iteration, Ladder, Solver, Stopping, repeat};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -137,15 +139,8 @@ where
     }
 
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let GaussMemory { ladder, path } = memory;
         // Where Newton's method stands by, a fixed point that is slow is left to it.
         let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
@@ -178,12 +173,11 @@ where
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
+        let Here { system, q, t } = here;
         S::Kind::velocity(&memory.path.equations, system, q, t, v)
     }
 }

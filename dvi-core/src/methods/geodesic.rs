@@ -17,7 +17,7 @@ use crate::discrete::Interval;
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Trapezoid};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::manifold;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::solve::Stopping;
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
@@ -161,15 +161,8 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         Ok(memory)
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         memory.solve(&self.rule, (system, q), Interval { t, h }, self.stopping, statistics)?;
         memory.keep(q, h);
         Ok(())
@@ -177,12 +170,11 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
+        let Here { system, q, t } = here;
         memory.rates.extrapolate([v]);
         Legendre { system, q, p: &memory.p, t }.solve(v)
     }

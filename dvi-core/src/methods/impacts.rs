@@ -6,8 +6,7 @@ mod memory;
 mod passage;
 
 use crate::error::{StartError, StepFailure};
-use crate::methods::{Carries, FreeFlight, Method, PreservedForm, Scheme};
-use crate::state::Statistics;
+use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step};
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, UnilateralLagrangian, Vector};
 pub use memory::Impact;
@@ -180,15 +179,8 @@ impl<S: UnilateralLagrangian<T>, T: Real, M: FreeFlight<S, T>, const MOST: usize
         ImpactsMemory::new(system, q, || self.scheme.depart(system, q, v, t, h))
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let counts = [memory.total, memory.grazing];
         memory.start.keep(&memory.inner, q);
         memory.is_divided = false;
@@ -205,12 +197,10 @@ impl<S: UnilateralLagrangian<T>, T: Real, M: FreeFlight<S, T>, const MOST: usize
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        self.scheme.velocity_in_flight(system, &memory.inner, q, t, v)
+        self.scheme.velocity_in_flight(here, &memory.inner, v)
     }
 }

@@ -17,9 +17,8 @@ use crate::mechanics::mass::Mass;
 use crate::mechanics::mass_root::MassRoot;
 use crate::memory::{Memory, lasting};
 use crate::methods::kicks::kick;
-use crate::methods::{Carries, Method, PreservedForm, Scheme};
+use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use crate::scalar::norm;
-use crate::state::Statistics;
 use crate::{Real, RegularLagrangian, Scalar, Separable, Space, System, Vector};
 
 /// Langevin dynamics, for [`Separable`] systems: friction and noise as of a heat bath, by the splitting
@@ -178,15 +177,8 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin 
         LangevinMemory { step: before.step, ..begun }
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let LangevinMemory { p, force, step, generator, mass, root, end: [q1, p1, f1], work } = memory;
         let half = T::lift(0.5) * h;
         q1.copy_from_slice(q);
@@ -212,10 +204,8 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin 
 
     fn velocity(
         &self,
-        _system: &S,
+        _here: Here<'_, S, T>,
         memory: &Self::Memory,
-        _q: &Vector<S, T>,
-        _t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         memory.mass.solve(&memory.p, v);

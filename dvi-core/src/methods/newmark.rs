@@ -18,7 +18,7 @@ use crate::mechanics::phase::Inertial;
 use crate::memory::{Memory, lasting};
 use crate::methods::step::{Attempt, Begin, Carried, Equations, Share, ladder, set_force};
 use crate::methods::variational::verlet;
-use crate::methods::{Carries, Method, PreservedForm, Scheme};
+use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use crate::scalar::norm::reported;
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::space::Sink;
@@ -191,15 +191,8 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
     }
 
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let NewmarkMemory { carried, ladder } = memory;
         let (Self { stopping, summation, .. }, interval) = (*self, Interval { t, h });
         if let (true, Carried { phase, inertial: Inertial::Constant(mass), work, .. }) =
@@ -216,12 +209,10 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.carried.velocity(system, q, t, v)
+        memory.carried.velocity(here, v)
     }
 }

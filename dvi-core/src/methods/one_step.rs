@@ -19,7 +19,7 @@ mod stage;
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::methods::one_point::OnePoint;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{self, Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Judge, Quick, Stopping, from_either_guess};
 use crate::state::Statistics;
@@ -153,15 +153,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
     }
 
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: methods::Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let methods::Step { system, q, t, h, statistics } = step;
         let mut guess = Guess::Extrapolated;
         if S::Space::ON_STACK && self.rule == Rule::Midpoint {
             // What no other function sees may stay in registers, and of one rule the compiler knows the

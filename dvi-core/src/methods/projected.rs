@@ -13,7 +13,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::{Memory, lasting};
 use crate::methods::one_point::OnePoint;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{self, Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{CoupledEquations, Stopping, from_either_guess, solve_coupled};
 use crate::space::sink::Product;
@@ -155,15 +155,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
         })
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: methods::Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let methods::Step { system, q, t, h, statistics } = step;
         let [a, b] = self.factors();
         let ProjectedMemory { point, solver, unknowns, residuals, weights, work } = memory;
         from_either_guess(|guess| {

@@ -16,10 +16,9 @@ use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
 use crate::methods::constrained::Impulses;
-use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
 use crate::solve::{Convergence, Stopping};
 use crate::space::SquareMatrix;
-use crate::state::Statistics;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Vector};
 use arrival::{Arrival, constrain};
 use refinement::Refinement;
@@ -151,44 +150,31 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
     }
 
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let one = (Clock::new(t, h), 1);
-        if memory.strides(system) && self.stride(system, memory, q, one, statistics) == Some(1) {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
+        let one = Steps { system, q, clock: Clock::new(t, h), count: 1, statistics };
+        if memory.strides(system) && self.stride(one, memory) == Some(1) {
             return Ok(());
         }
-        self.take(system, memory, q, [t, h], statistics)
+        self.take(Step { system, q, t, h, statistics }, memory)
     }
 
     #[inline]
-    fn steps(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        clock: Clock<T>,
-        count: u64,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Steps { system, q, clock, count, statistics } = steps;
         let (mut taken, mut strides) = (0, memory.strides(system));
         while taken < count {
             if strides {
-                let more = self.stride(system, memory, q, (clock.after(taken), count - taken), statistics);
+                let (clock, count) = (clock.after(taken), count - taken);
+                let more = self.stride(Steps { system, q, clock, count, statistics }, memory);
                 // What leads to no number is taken again step by step, to see where it arises.
                 strides = more.is_some();
                 taken += more.unwrap_or(0);
                 statistics.steps += more.unwrap_or(0);
             }
             if taken < count {
-                let now = clock.after(taken);
-                self.take(system, memory, q, [now.time(), now.step_size()], statistics)?;
+                let (t, h) = (clock.after(taken).time(), clock.step_size());
+                self.take(Step { system, q, t, h, statistics }, memory)?;
                 taken += 1;
                 statistics.steps += 1;
             }
@@ -198,10 +184,8 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
 
     fn velocity(
         &self,
-        _system: &S,
+        _here: Here<'_, S, T>,
         memory: &Self::Memory,
-        _q: &Vector<S, T>,
-        _t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
         memory.mass.solve(&memory.point.here.p, v);

@@ -7,8 +7,7 @@ use core::fmt;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, Method, PreservedForm, Scheme, VariableStep};
-use crate::state::Statistics;
+use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::{Lagrangian, Real, System, Vector};
 
 const STAGES: usize = 4;
@@ -141,15 +140,8 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> fo
     }
 
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let Tableau { stages, a, b, c, .. } = self.tableau;
         let RungeKuttaMemory { equations, slopes, y, stage } = memory;
         S::Kind::gather(equations, q, y);
@@ -167,12 +159,11 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> fo
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
+        let Here { system, q, t } = here;
         S::Kind::velocity(&memory.equations, system, q, t, v)
     }
 }

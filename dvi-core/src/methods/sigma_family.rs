@@ -20,11 +20,10 @@ use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::methods::VariationalMethod;
-use crate::methods::{Carries, Clock, Method, PreservedForm, Scheme, one_by_one};
+use crate::methods::{self, Carries, Clock, Method, PreservedForm, Scheme, Steps};
 use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::space::sink::Places;
-use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
@@ -272,15 +271,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     }
 
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: methods::Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let methods::Step { system, q, t, h, statistics } = step;
         if let (true, SigmaMemory { carried, leaps: Some(leaps), monitor, .. }) = (S::AFFINE, &mut *memory) {
             let run = (carried, leaps, monitor);
             let (taken, result) = leapfrog::steps(system, run, q, Clock::new(t, h), 1);
@@ -292,34 +284,24 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
 
     fn part_of_step(
         &self,
-        system: &S,
+        part: methods::Step<'_, S, T>,
+        whole: T,
         memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        [h, whole]: [T; 2],
-        statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        memory.shorten(system, self, q, t, [h, whole])?;
-        self.step(system, memory, q, t, h, statistics)
+        memory.shorten(part.system, self, part.q, part.t, [part.h, whole])?;
+        self.step(part, memory)
     }
 
     #[inline]
-    fn steps(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        clock: Clock<T>,
-        count: u64,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         if let (true, SigmaMemory { carried, leaps: Some(leaps), monitor, .. }) = (S::AFFINE, &mut *memory) {
+            let Steps { system, q, clock, count, statistics } = steps;
             let (taken, result) = leapfrog::steps(system, (carried, leaps, monitor), q, clock, count);
             statistics.steps += taken;
             statistics.gradients += taken;
             return result;
         }
-        one_by_one(self, system, memory, q, clock, count, statistics)
+        steps.one_by_one(self, memory)
     }
 }
 

@@ -19,6 +19,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
 use crate::memory::{Memory, lasting};
+use crate::methods::Here;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
 use crate::scalar::simd::widest_if;
@@ -90,7 +91,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Carried<S, T> {
 
     /// Sets `v` to the velocity at the present point.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
+    pub(super) fn velocity(&self, here: Here<'_, S, T>, v: &mut [T]) -> Result<(), StepFailure> {
+        let Here { system, q, t } = here;
         self.inertial.velocity(system, &self.phase, q, t, v)
     }
 }

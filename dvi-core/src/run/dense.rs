@@ -11,7 +11,7 @@ use core::ops::Deref;
 
 use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::Memory;
-use crate::methods::{Carries, Method};
+use crate::methods::{Carries, Here, Method, Step, Steps};
 use crate::run::Run;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
@@ -237,7 +237,8 @@ impl<R: Run> Dense<R> {
         let (Some(clock), 2..) = (self.run.clock(), self.taken) else { return Ok(()) };
         let (before, Point { t, q, memory }) = (self.taken - 1, &mut self.begun);
         let (clock, unused) = (clock.after(self.taken.wrapping_neg()), &mut Statistics::default());
-        let taken = self.run.method().steps(self.run.system(), memory, q, clock, before, unused);
+        let steps = Steps { system: self.run.system(), q, clock, count: before, statistics: unused };
+        let taken = self.run.method().steps(steps, memory);
         *t = clock.after(before).time();
         self.taken = 1;
         if taken.is_err() {
@@ -266,8 +267,9 @@ impl<R: Run> Dense<R> {
         if *t == begun.t {
             return Ok(());
         }
-        let unused = &mut Statistics::default();
-        run.method().part_of_step(run.system(), memory, q, begun.t, [h, run.step_size()], unused)?;
+        let statistics = &mut Statistics::default();
+        let part = Step { system: run.system(), q, t: begun.t, h, statistics };
+        run.method().part_of_step(part, run.step_size(), memory)?;
         let leaves = R::System::HAS_DOMAIN && !reported(run.system().domain(q, *t)).is_finite();
         if leaves { Err(StepFailure::LeftDomain) } else { Ok(()) }
     }
@@ -295,7 +297,7 @@ impl<R: Run> Dense<R> {
     pub(super) fn reached(&mut self) -> Result<FlatOf<'_, R>, StepFailure> {
         let Self { run, reached: Point { t, q, memory }, v, .. } = self;
         let run: &R = run;
-        run.method().velocity(run.system(), memory, q, *t, v)?;
+        run.method().velocity(Here { system: run.system(), q, t: *t }, memory, v)?;
         Ok(Flat { system: run.system(), q, v })
     }
 

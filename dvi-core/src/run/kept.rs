@@ -12,7 +12,7 @@
 
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Aside, Memory};
-use crate::methods::{Carries, Clock, Method};
+use crate::methods::{Carries, Clock, Method, Step};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
 use crate::system::start::extended;
@@ -76,8 +76,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
             while taken < last {
                 // At one place, where it is put in line.
                 let Self { method, memory, q, statistics, .. } = self;
-                let time = clock.after(taken).time();
-                method.step(system, memory, q, time, clock.step_size(), statistics)?;
+                let (t, h) = (clock.after(taken).time(), clock.step_size());
+                method.step(Step { system, q, t, h, statistics }, memory)?;
                 statistics.steps += 1;
                 taken += 1;
                 if let Err(failure) = self.look(system, clock.after(taken), kept.as_deref()) {

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::error::{StepError, StepFailure};
-use crate::methods::{Carries, Clock, Method};
+use crate::methods::{Carries, Clock, Here, Method, Steps};
 use crate::state::Statistics;
 use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Space as _, State as _, System, Vector};
@@ -42,13 +42,14 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Sets `v` to the velocity at the current point, which is reached at time `t`.
     #[inline]
     pub(crate) fn velocity(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
-        self.method.velocity(system, &self.memory, &self.q, t, v)
+        self.method.velocity(Here { system, q: &self.q, t }, &self.memory, v)
     }
 
     /// Takes `count` steps from the present time of `clock`, or as many as succeed.
     #[inline]
     pub(crate) fn steps(&mut self, system: &S, clock: Clock<T>, count: u64) -> Result<(), StepFailure> {
-        self.method.steps(system, &mut self.memory, &mut self.q, clock, count, &mut self.statistics)
+        let Self { method, memory, q, statistics, .. } = self;
+        method.steps(Steps { system, q, clock, count, statistics }, memory)
     }
 
     #[cold]

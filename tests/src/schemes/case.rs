@@ -4,7 +4,7 @@
 use core::fmt::Debug;
 use std::rc::Rc;
 
-use dvi_core::methods::{Carries, Method, PreservedForm};
+use dvi_core::methods::{Carries, Here, Method, PreservedForm, Step};
 use dvi_core::prelude::*;
 use dvi_core::run::Checkpoint;
 use dvi_core::state::{Memory, Statistics};
@@ -102,13 +102,15 @@ struct Bare<S: Lagrangian + 'static, M: Method<S, f64>> {
 impl<S: Lagrangian + 'static, M: Method<S, f64>> Steps for Bare<S, M> {
     fn advance(&mut self) -> Result<(), StepFailure> {
         let (t, mut statistics) = (self.time(), Statistics::default());
-        self.method.step(self.system, &mut self.memory, &mut self.q, t, self.h, &mut statistics)?;
+        let step = Step { system: self.system, q: &mut self.q, t, h: self.h, statistics: &mut statistics };
+        self.method.step(step, &mut self.memory)?;
         self.taken += 1;
         Ok(())
     }
     fn values(&self) -> Vec<f64> {
         let mut v = self.system.space().vector();
-        if self.method.velocity(self.system, &self.memory, &self.q, self.time(), &mut v).is_err() {
+        let here = Here { system: self.system, q: &self.q, t: self.time() };
+        if self.method.velocity(here, &self.memory, &mut v).is_err() {
             v.fill(f64::NAN);
         }
         [&self.q[..], &v].concat()

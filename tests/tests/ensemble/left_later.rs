@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use dvi_core::ensemble::Ensemble;
 use dvi_core::error::{CheckpointError, StepFailure};
-use dvi_core::methods::{Carries, Method, PreservedForm};
+use dvi_core::methods::{Carries, Here, Method, PreservedForm, Step};
 use dvi_core::prelude::*;
-use dvi_core::state::{Memory, Reader, Record, Statistics};
+use dvi_core::state::{Memory, Reader, Record};
 use dvi_core::{Lagrangian, System, Vector};
 
 use crate::ensemble::{Checked, HenonHeiles, bytes, file, wells};
@@ -64,29 +64,20 @@ impl<S: Lagrangian, M: Method<S, f64>> Method<S, f64> for Marked<M> {
         Ok(Mark { inner: self.0.begin(system, q, v, t, h)?, mark: f64::INFINITY })
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, f64>,
-        t: f64,
-        h: f64,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.0.step(system, &mut memory.inner, q, t, h, statistics)?;
-        memory.mark = if statistics.steps % 5 == 4 { 0.0 } else { f64::INFINITY };
+    fn step(&self, step: Step<'_, S, f64>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let steps = step.statistics.steps;
+        self.0.step(step, &mut memory.inner)?;
+        memory.mark = if steps % 5 == 4 { 0.0 } else { f64::INFINITY };
         Ok(())
     }
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, f64>,
         memory: &Self::Memory,
-        q: &Vector<S, f64>,
-        t: f64,
         v: &mut Vector<S, f64>,
     ) -> Result<(), StepFailure> {
-        self.0.velocity(system, &memory.inner, q, t, v)
+        self.0.velocity(here, &memory.inner, v)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Steps of different lengths, and that they can be undone.
 
 use dvi_core::Space;
-use dvi_core::methods::Method;
+use dvi_core::methods::{Method, Step};
 use dvi_core::prelude::*;
 use dvi_core::state::Statistics;
 use dvi_tests::{apart, larger};
@@ -22,7 +22,7 @@ fn check_variable<S: RegularLagrangian, const NODES: usize>(
     let (lengths, mut t) = ([0.1, 0.09, 0.1, 0.03, 0.2, 0.01], 0.0);
     let back = lengths.iter().rev().map(|h| -h);
     for h in lengths.iter().copied().chain(back) {
-        method.step(system, &mut memory, &mut point, t, h, &mut statistics)?;
+        method.step(Step { system, q: &mut point, t, h, statistics: &mut statistics }, &mut memory)?;
         t += h;
     }
     let error = larger(apart(&point, q), apart(memory.p(), &momentum));

@@ -3,9 +3,9 @@
 
 use dvi_core::discrete::{Midpoint, Unfitted};
 use dvi_core::error::CheckpointError;
-use dvi_core::methods::{Carries, Method, PreservedForm, Scheme};
+use dvi_core::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use dvi_core::prelude::*;
-use dvi_core::state::{Memory, Reader, Record, Statistics};
+use dvi_core::state::{Memory, Reader, Record};
 use dvi_core::{Real, Vector};
 use dvi_tests::schemes::equations::{Equations, Nodes};
 use dvi_tests::schemes::systems::{FusedSeparable, Shaken};
@@ -88,19 +88,13 @@ impl<S: RegularLagrangian<T>, T: Real> Method<S, T> for Mistaken {
         Ok(Kept { inner, length: [T::lift(1.0)], mistake: self.0 })
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let before = q.to_vec();
         let t = if self.0 == Mistake::Time { T::lift(0.0) } else { t };
         let h = if self.0 == Mistake::Coefficient { h * T::lift(1.0 + 1e-9) } else { h * memory.length[0] };
-        let taken = Variational::midpoint().step(system, &mut memory.inner, q, t, h, statistics);
+        let step = Step { system, q: &mut *q, t, h, statistics };
+        let taken = Variational::midpoint().step(step, &mut memory.inner);
         match self.0 {
             Mistake::Sign => q.iter_mut().zip(before).for_each(|(q, before)| *q = before + before - *q),
             Mistake::NotSaved | Mistake::NotCopied => memory.length[0] *= T::lift(0.999),
@@ -112,13 +106,11 @@ impl<S: RegularLagrangian<T>, T: Real> Method<S, T> for Mistaken {
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        Variational::midpoint().velocity(system, &memory.inner, q, t, v)
+        Variational::midpoint().velocity(here, &memory.inner, v)
     }
 }
 

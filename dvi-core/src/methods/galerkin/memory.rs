@@ -9,6 +9,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::mechanics::phase::{Inertial, PhasePoint};
 use crate::memory::{Aside, Memory, lasting};
+use crate::methods::Here;
 use crate::solve::{Ladder, Solver};
 use crate::space::Storing;
 use crate::state::history::History;
@@ -72,7 +73,8 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     }
 
     /// Sets `v` to the velocity at the present point.
-    pub(super) fn velocity(&self, system: &S, q: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
+    pub(super) fn velocity(&self, here: Here<'_, S, T>, v: &mut [T]) -> Result<(), StepFailure> {
+        let Here { system, q, t } = here;
         self.path.inertial.velocity(system, &self.path.phase, q, t, v)
     }
 

@@ -7,9 +7,8 @@ use super::{Galerkin, NodeEvaluation};
 use crate::discrete::Interval;
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::error::{StartError, StepFailure};
-use crate::methods::{Carries, FreeFlight, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::solve::Solver;
-use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
 impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
@@ -44,16 +43,14 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<S: NondegenerateLagrangian<T>, T: Real>(
         &self,
-        system: &S,
+        step: Step<'_, S, T>,
         memory: &mut GalerkinMemory<NODES, S, T, E::Interior>,
-        q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
-        statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
         F: FrequencyIn<T>,
         E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
     {
+        let Step { system, q, t, h, statistics } = step;
         let GalerkinMemory { ladder, path } = memory;
         let (interval, Self { frequency, stopping, .. }) = (Interval { t, h }, self);
         let budget = ladder.budget(stopping.max_iterations, 24 + q.len());
@@ -106,27 +103,17 @@ where
     }
 
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.take(system, memory, q, [t, h], statistics)
+    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        self.take(step, memory)
     }
 
     fn velocity(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.velocity(system, q, t, v)
+        memory.velocity(here, v)
     }
 }
 
@@ -146,25 +133,16 @@ where
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         GalerkinMemory::new(self, system, [q, v], [t, h])
     }
-    fn fly(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        interval: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.take(system, memory, q, interval, statistics)
+    fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        self.take(step, memory)
     }
     fn velocity_in_flight(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.velocity(system, q, t, v)
+        memory.velocity(here, v)
     }
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
         memory.jump(impulse, velocity);

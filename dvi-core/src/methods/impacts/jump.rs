@@ -7,7 +7,7 @@ use super::memory::{ImpactsMemory, Wall};
 use super::passage::Passage;
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::StepFailure;
-use crate::methods::FreeFlight;
+use crate::methods::{FreeFlight, Here, Step};
 use crate::scalar::norm::reported;
 use crate::space::sink::Places;
 use crate::{Real, Scalar, UnilateralLagrangian, Vector, Weights};
@@ -72,14 +72,14 @@ where
             return Ok(());
         }
         let Self { method, system, memory, q, statistics, t, .. } = self;
-        method.scheme.fly(system, &mut memory.inner, q, [*t, s], statistics)
+        method.scheme.fly(Step { system, q, t: *t, h: s, statistics }, &mut memory.inner)
     }
 
     /// Sets `v` to the velocity at the present point, after a flight of length `s`.
     fn set_velocity(&mut self, s: T) -> Result<(), StepFailure> {
         let Self { method, system, memory, q, t, .. } = self;
         let ImpactsMemory { inner, v, .. } = &mut **memory;
-        method.scheme.velocity_in_flight(system, inner, q, *t + s, v)
+        method.scheme.velocity_in_flight(Here { system, q, t: *t + s }, inner, v)
     }
 
     /// Looks at the gaps there, and leaves the velocity in `v`.

@@ -13,7 +13,7 @@ use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::{Memory, lasting};
 use crate::methods::collocation::Collocation;
 use crate::methods::one_point::OnePoint;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, Tabulated, VariableStep};
+use crate::methods::{self, Carries, Method, PreservedForm, Scheme, Tabulated, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{Convergence, CoupledEquations, Guess, Stopping, from_either_guess, solve_coupled};
 use crate::space::{NodeSum, Sink, Storing};
@@ -121,15 +121,8 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
         })
     }
 
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn step(&self, step: methods::Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let methods::Step { system, q, t, h, statistics } = step;
         let (tableau, stopping) = (&Collocation::gauss(), self.stopping);
         let OneStepGaussMemory { point, split, solver, increments, residuals, weights, work } = memory;
         from_either_guess(|guess: Guess| {

@@ -5,11 +5,11 @@ use super::arrival::{Arrival, Begin, Place};
 use super::{Rattle, RattleMemory};
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
-use crate::methods::Clock;
+use crate::methods::{Step, Steps};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Quick, from_either_guess};
 use crate::state::Statistics;
-use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space, Vector};
+use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Space};
 
 /// What is kept of a point of the run, and what the next step is guessed from.
 #[derive(Debug)]
@@ -58,12 +58,10 @@ impl Rattle {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn stride<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
         &self,
-        system: &S,
+        steps: Steps<'_, S, T>,
         memory: &mut RattleMemory<S, T>,
-        q: &mut Vector<S, T>,
-        (clock, count): (Clock<T>, u64),
-        statistics: &mut Statistics,
     ) -> Option<u64> {
+        let Steps { system, q, clock, count, statistics } = steps;
         let RattleMemory { point, mass, is_positive, .. } = memory;
         let (is_metric, is_positive) = (S::DIAGONAL_MASS, *is_positive);
         let (h, stopping) = (clock.step_size(), self.stopping);
@@ -104,12 +102,10 @@ impl Rattle {
     #[inline(never)]
     pub(super) fn take<S: HolonomicLagrangian<T> + Separable<T>, T: Real>(
         &self,
-        system: &S,
+        step: Step<'_, S, T>,
         memory: &mut RattleMemory<S, T>,
-        q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
-        statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
         let RattleMemory { point, mass, is_metric, is_positive, refinement, work } = memory;
         let (here, stopping, trusts_pivot) = (&point.here, self.stopping, false);
         let (is_metric, is_positive) = (*is_metric, *is_positive);

@@ -4,7 +4,7 @@
 //! there.
 
 use crate::error::StartError;
-use crate::methods::{Gauss, Method, RungeKutta};
+use crate::methods::{Gauss, Method, RungeKutta, Step};
 use crate::state::Statistics;
 use crate::{DegenerateLagrangian, Real, Vector};
 
@@ -44,8 +44,8 @@ fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
 ) -> Result<Vector<S, T>, StartError> {
     let mut memory = method.begin(system, q, &[], t, h)?;
     let mut q = q.clone();
-    method
-        .step(system, &mut memory, &mut q, t, h, &mut Statistics::default())
-        .map_err(StartError::Starter)?;
+    let statistics = &mut Statistics::default();
+    let step = Step { system, q: &mut q, t, h, statistics };
+    method.step(step, &mut memory).map_err(StartError::Starter)?;
     Ok(q)
 }

@@ -7,8 +7,7 @@ use crate::discrete::frequency::{Frequency, Unfitted};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{Ends, Span};
 use crate::error::{StartError, StepFailure};
-use crate::methods::FreeFlight;
-use crate::state::Statistics;
+use crate::methods::{FreeFlight, Here, Step};
 use crate::{NondegenerateLagrangian, Real, Vector};
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
@@ -38,25 +37,16 @@ impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Varia
         self.validate::<S, T>(system)?;
         VariationalMemory::new(system, self, q, v, t, h)
     }
-    fn fly(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        q: &mut Vector<S, T>,
-        [t, h]: [T; 2],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.take(system, memory, q, [t, h], statistics)
+    fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        self.take(step, memory)
     }
     fn velocity_in_flight(
         &self,
-        system: &S,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
-        q: &Vector<S, T>,
-        t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.carried.velocity(system, q, t, v)
+        memory.carried.velocity(here, v)
     }
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
         memory.carried.phase.jump(impulse, velocity);

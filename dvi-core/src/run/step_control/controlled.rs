@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::error::{StartError, StepFailure};
 use crate::memory::Aside;
-use crate::methods::{Carries, Clock, Tolerance, VariableStep};
+use crate::methods::{Carries, Clock, Step, Tolerance, VariableStep};
 use crate::run::Stepper;
 use crate::run::kept::Kept;
 use crate::scalar::norm::reported;
@@ -87,7 +87,7 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
             self.stepper.keep(kept);
         }
         let Stepper { method, memory, q, statistics, .. } = &mut *self.stepper;
-        method.step(self.system, memory, q, t, h, statistics)?;
+        method.step(Step { system: self.system, q, t, h, statistics }, memory)?;
         if S::HAS_DOMAIN
             && let Some(kept) = &self.kept.looked_at
             && let Err(failure) = self.stepper.look(self.system, Clock::new(t, h).after(1), Some(kept))
