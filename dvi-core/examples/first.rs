@@ -14,7 +14,7 @@ struct Pendulum {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pendulum = Pendulum { g: 9.81, length: 1.0 };
-    let start: PendulumState = PendulumState { angle: 2.0, dot_angle: 0.0 };
+    let start = PendulumState { angle: 2.0, dot_angle: 0.0 };
     let step = 0.01;
     let mut run = Integrator::new(&pendulum, Variational::trapezoid(), step, start)?;
     let energy = run.energy();

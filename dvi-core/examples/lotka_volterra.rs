@@ -17,7 +17,7 @@ struct LotkaVolterra {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let system = LotkaVolterra { rate: 2.0 };
-    let start: LotkaVolterraState = LotkaVolterraState { x: 1.0, y: 0.5 };
+    let start = LotkaVolterraState { x: 1.0, y: 0.5 };
     let rates = system.vector_field(&start)?;
     println!("at the start x' = {} and y' = {}", rates.x, rates.y);
 

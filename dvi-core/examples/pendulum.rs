@@ -18,7 +18,7 @@ struct Pendulum {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pendulum = Pendulum { g: 9.81, length: 1.0 };
-    let start: PendulumState = PendulumState { angle: 2.5, dot_angle: 0.0 };
+    let start = PendulumState { angle: 2.5, dot_angle: 0.0 };
     let mut variational = Integrator::new(&pendulum, Variational::trapezoid(), 0.025, start)?;
     let mut runge_kutta = Integrator::new(&pendulum, RungeKutta::classical(), 0.1, start)?;
     let energy = variational.energy();

@@ -22,7 +22,7 @@ struct Vortices<const N: usize> {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let system = Vortices { gamma: [1.0, 1.0, -1.0, -1.0] };
-    let start: VorticesState<4> = VorticesState { x: [-1.0, 1.0, -1.0, 1.0], y: [2.0, 2.0, -2.0, -2.0] };
+    let start = VorticesState { x: [-1.0, 1.0, -1.0, 1.0], y: [2.0, 2.0, -2.0, -2.0] };
     let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
     let record = run.record(1, 3000)?;
 

@@ -37,7 +37,7 @@ mod state;
 pub(crate) use degenerate::degenerate;
 use document::Account;
 pub(crate) use regular::regular;
-pub(crate) use state::{State, state};
+pub(crate) use state::{Names, State, state};
 
 /// A function of this many instructions at most is inlined wherever it is called.
 const SHORT: usize = 128;

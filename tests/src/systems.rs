@@ -2,7 +2,7 @@
 
 use dvi_core::degenerate_lagrangian;
 
-pub use dvi_examples::models::{PointVortices, PointVorticesState};
+pub use dvi_examples::models::{PointVortices, PointVorticesState, PointVorticesStateOf};
 
 /// Point vortices whose number is known at run time only.
 #[degenerate_lagrangian(

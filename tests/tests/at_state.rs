@@ -240,7 +240,7 @@ fn single_coordinates_stand_beside_arrays_of_const_generic_size() -> Outcome {
 /// What is lifted is a number of the arithmetic in question.
 #[test]
 fn values_come_in_any_numbers() -> Outcome {
-    let state = KeplerState::<HyperDual64> {
+    let state = KeplerStateOf::<HyperDual64> {
         x: HyperDual64::lift(1.0),
         y: HyperDual64::lift(2.0),
         dot_x: HyperDual64::lift(3.0),
@@ -249,4 +249,16 @@ fn values_come_in_any_numbers() -> Outcome {
     let values: Vec<f64> = Kepler { mu: 1.0 }.values(&state)?.map(|value| value.re).collect();
     assert_eq!(values, [1.0, 2.0, 3.0, 4.0]);
     Ok(())
+}
+
+/// A literal is a state of `f64`, whose numbers have methods without a type written anywhere, and is printed by
+/// the name that it was written with; other numbers are asked for by the second name.
+#[test]
+fn states_are_of_f64_unless_another_name_is_written() {
+    let start = KeplerState { x: -0.5, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
+    assert_eq!(start.x.abs().sqrt(), 0.5_f64.sqrt());
+    assert_eq!(format!("{start:?}"), "KeplerState { x: -0.5, y: 0.0, dot_x: 0.0, dot_y: 1.0 }");
+    let narrow = KeplerStateOf { x: -0.5_f32, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
+    assert_eq!(Kepler { mu: 1.0 }.energy_at(&narrow).ok(), Some(-1.5_f32));
+    assert_eq!(Kepler { mu: 1.0 }.energy_at(&start).ok(), Some(-1.5));
 }

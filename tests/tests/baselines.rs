@@ -129,7 +129,7 @@ fn steps_from_rest_at_the_origin() -> Outcome {
 /// Velocities that a run gives are those that belong to its momenta.
 #[test]
 fn velocities_are_those_of_the_momenta() -> Outcome {
-    let start: RelativisticState = RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };
+    let start = RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };
     let system = Relativistic { m: 1.5 };
     let mut run = Integrator::new(&system, Gauss::<3>::new(), 0.01, start)?;
     assert_abs_diff_eq!(run.state().dot_x, 0.6, epsilon = 1e-14);
@@ -151,7 +151,7 @@ struct Gauge {
 /// their rounding.
 #[test]
 fn terms_linear_in_the_velocity_do_not_matter() -> Outcome {
-    let start: GaugeState = GaugeState { x: 1.0, dot_x: 0.0 };
+    let start = GaugeState { x: 1.0, dot_x: 0.0 };
     // The energy does not drift, however small a drift per step.
     let system = Gauge { a: 1.0 };
     let mut run = Integrator::new(&system, Gauss::<2>::new(), 0.01, start)?;
@@ -185,7 +185,7 @@ struct Branches {
 #[test]
 fn no_step_changes_the_branch_of_the_velocity() -> Outcome {
     fn ends<M: Method<Branches, f64>>(method: M, k: f64, v: f64, h: f64) -> Outcome {
-        let start: BranchesState = BranchesState { x: 0.1, dot_x: v };
+        let start = BranchesState { x: 0.1, dot_x: v };
         let system = Branches { k };
         let mut run = Integrator::new(&system, method, h, start)?;
         let energy = run.energy();
@@ -217,7 +217,7 @@ fn gauss_turns_the_oscillator_by_the_pade_approximant() -> Outcome {
             term *= h * (S - k) as f64 / ((2 * S - k) as f64 * (k + 1) as f64);
         }
         let angle = 2.0 * numerator[1].atan2(numerator[0]);
-        let start: GaugeState = GaugeState { x: 1.0, dot_x: 0.0 };
+        let start = GaugeState { x: 1.0, dot_x: 0.0 };
         let mut run = Integrator::new(&Gauge { a: 0.0 }, Gauss::<S>::new(), h, start)?;
         run.take_steps(100)?;
         let off = run.state().x - (100.0 * angle).cos();

@@ -9,7 +9,7 @@ use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::configurations::leapfrogging;
 use dvi_tests::systems::*;
-use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain};
+use dvi_tests::zoo::regular::{Kepler, KeplerState, KeplerStateOf, RunTimeChain};
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
 
@@ -287,7 +287,7 @@ fn a_rounded_checkpoint_is_refused() -> Outcome {
 /// cannot write are errors.
 #[test]
 fn a_changed_step_can_be_written() -> Outcome {
-    let start = KeplerState { x: 0.7_f32, y: 0.2, dot_x: 0.3, dot_y: 1.1 };
+    let start = KeplerStateOf { x: 0.7_f32, y: 0.2, dot_x: 0.3, dot_y: 1.1 };
     let mut run = Integrator::new(&KEPLER, Gauss::<2>::new(), 0.05, start)?;
     run.take_steps(7)?;
     let checkpoint = run.checkpoint().with_step_size(0.1);

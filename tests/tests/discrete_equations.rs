@@ -28,7 +28,7 @@ fn sizes_fixed_and_at_run_time_agree() -> Outcome {
 #[test]
 fn single_precision_steps_to_its_own_rounding() -> Outcome {
     let (system, state) = quasi_periodic();
-    let narrow = PointVorticesState { x: state.x.map(|x| x as f32), y: state.y.map(|y| y as f32) };
+    let narrow = PointVorticesStateOf { x: state.x.map(|x| x as f32), y: state.y.map(|y| y as f32) };
     let mut single = Integrator::new(&system, Sigma::<f32>::midpoint(), 0.05, narrow)?;
     let mut double = Integrator::new(&system, Sigma::midpoint(), 0.05, state)?;
     for _ in 0..40 {

@@ -181,7 +181,7 @@ fn no_run_stands_at_the_end_of_a_logarithm() -> Outcome {
 fn a_pole_that_a_step_ends_at_may_be_left_again() -> Outcome {
     #[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = -p + 0.1 / x)]
     struct Uniform;
-    let start: UniformState = UniformState { x: 1.0, p: 0.0 };
+    let start = UniformState { x: 1.0, p: 0.0 };
     let mut run = Integrator::new(&Uniform, Sigma::midpoint(), 0.125, start)?;
     run.take_steps(8)?;
     assert!(run.q()[0] == 0.0 && run.energy().is_infinite(), "{:?}", run.q());

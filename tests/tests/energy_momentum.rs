@@ -96,7 +96,7 @@ fn steps_of_any_lagrangian_keep_their_discrete_energy() -> Outcome {
 fn an_oscillator_is_stepped_by_steps_of_one_length() -> Outcome {
     #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - 4.0 * x * x / 2.0)]
     struct Oscillator;
-    let start: OscillatorState = OscillatorState { x: 1.0, dot_x: 0.2 };
+    let start = OscillatorState { x: 1.0, dot_x: 0.2 };
     let mut run =
         ControlledIntegrator::new(&Oscillator, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
     for _ in 0..200 {
@@ -181,8 +181,8 @@ fn what_has_no_conserved_energy_is_refused() {
     #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x * t.cos())]
     struct Driven;
     let control = EnergyMomentum::new(0.1);
-    let friction: FrictionState = FrictionState { x: 1.0, dot_x: 0.0 };
-    let driven: DrivenState = DrivenState { x: 1.0, dot_x: 0.0 };
+    let friction = FrictionState { x: 1.0, dot_x: 0.0 };
+    let driven = DrivenState { x: 1.0, dot_x: 0.0 };
     let unsupported = |error: Option<StartError>| matches!(error, Some(StartError::Unsupported { .. }));
     assert!(unsupported(
         ControlledIntegrator::new(&Friction, Variational::midpoint(), control, friction).err()
@@ -213,7 +213,7 @@ struct Particle {
 
 /// The smallest and the largest of `steps` lengths over the first one.
 fn lengths(system: &Particle, [x, dot_x, h]: [f64; 3], steps: usize) -> Outcome<[f64; 2]> {
-    let start: ParticleState = ParticleState { x, dot_x };
+    let start = ParticleState { x, dot_x };
     let mut run = ControlledIntegrator::new(system, Variational::midpoint(), EnergyMomentum::new(h), start)?;
     let mut found = [1.0_f64; 2];
     for _ in 0..steps {

@@ -334,7 +334,7 @@ fn times_that_do_not_lie_ahead_are_refused() -> Outcome {
 fn a_run_ends_before_the_end_of_the_numbers() -> Outcome {
     #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0)]
     struct Free;
-    let start: FreeState = FreeState { x: 1.0, dot_x: 1.0 };
+    let start = FreeState { x: 1.0, dot_x: 1.0 };
     let mut run = ControlledIntegrator::new(&Free, Gauss::<3>::new(), ErrorControl::new(1e-10, 0.1), start)?;
     let error = run.take_steps(3000).err().ok_or("it ends")?;
     assert!(matches!(error.failure, StepFailure::StepLength { .. }), "{error}");

@@ -208,7 +208,7 @@ fn events_lie_where_g_vanishes_whatever_the_method() -> Outcome {
     #[lagrangian(coordinates(s: S2), lagrangian = sum(0..3, |i| dot(s[i]).powi(2)) / 2.0)]
     #[derive(Debug)]
     struct Turning;
-    let geodesic: TurningState = TurningState { s: [1.0, 0.0, 0.0], dot_s: [0.0, 1.0, 0.0] };
+    let geodesic = TurningState { s: [1.0, 0.0, 0.0], dot_s: [0.0, 1.0, 0.0] };
     let geodesic = Integrator::new(&Turning, Geodesic::trapezoid(), 0.3, geodesic)?;
     check(geodesic, |state| state.s[0], 1e-12, "geodesic")?;
     let constrained = Constrained::new(Variational::midpoint());
@@ -227,7 +227,7 @@ fn crossings_of_a_scheme_with_a_defect_lie_near_its_orbit() -> Outcome {
     struct LotkaVolterra;
     let mut widths = Vec::new();
     for h in [0.1, 0.05, 0.025] {
-        let start: LotkaVolterraState = LotkaVolterraState { x: 1.0, y: 0.5 };
+        let start = LotkaVolterraState { x: 1.0, y: 0.5 };
         let mut run = Integrator::new(&LotkaVolterra, Sigma::midpoint(), h, start)?;
         let [mut least, mut most] = [f64::INFINITY, 0.0];
         for event in run.events([Direction::Rising], |_, state| [state.x - 2.0])?.take(40) {

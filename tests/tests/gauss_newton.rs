@@ -182,7 +182,7 @@ struct Curved {
 #[test]
 fn derivatives_of_stiff_steps_converge() -> Outcome {
     fn after<T: Real, M: Method<Curved, T>>(method: M, h: T) -> Outcome<T> {
-        let start = CurvedState { x: T::lift(0.3), y: T::lift(-0.2) };
+        let start = CurvedStateOf { x: T::lift(0.3), y: T::lift(-0.2) };
         let mut run = Integrator::new(&Curved { k: 60.0 }, method, h, start)?;
         run.take_steps(3)?;
         Ok(run.state().x)

@@ -222,8 +222,12 @@ fn stages_of_dual_numbers_go_into_lanes() -> Outcome {
         Gauss<4, E>: Method<Kepler, Dual64>,
     {
         let number = |x: f64| Dual64::from(x);
-        let start =
-            KeplerState { x: number(1.0), y: number(0.0), dot_x: number(0.0), dot_y: Dual64::new(0.9, 1.0) };
+        let start = KeplerStateOf {
+            x: number(1.0),
+            y: number(0.0),
+            dot_x: number(0.0),
+            dot_y: Dual64::new(0.9, 1.0),
+        };
         let mut run = Integrator::new(&Kepler { mu: 1.0 }, method, number(0.1), start)?;
         run.take_steps(20)?;
         Ok(run.state().x)

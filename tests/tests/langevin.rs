@@ -60,7 +60,7 @@ fn agrees([mean, error]: [f64; 2], expected: f64, most: f64) {
 #[test]
 fn positions_on_springs_have_the_exact_distribution() -> Outcome {
     let method = Langevin { friction: 0.8, temperature: 0.7, seed: 11 };
-    let start: SpringsState = SpringsState { x: 0.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+    let start = SpringsState { x: 0.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
     let determinant = 3.0 * 2.0 - 0.5 * 0.5;
     for h in [0.1, 0.8] {
         let mean = |read: fn(&SpringsState) -> f64| mean(&Springs, method, (h, 400_000), start, read);
@@ -74,7 +74,7 @@ fn positions_on_springs_have_the_exact_distribution() -> Outcome {
 /// The mean of p² is θm(1 − (ωh)²/4).
 #[test]
 fn the_kinetic_energy_on_a_spring_is_too_small_by_what_is_documented() -> Outcome {
-    let start: PushedState = PushedState { x: 0.0, dot_x: 0.0 };
+    let start = PushedState { x: 0.0, dot_x: 0.0 };
     let system = Pushed { k: 4.0, push: 1.2 };
     for (h, friction) in [(0.2, 1.0), (0.7, 3.0)] {
         let method = Langevin { friction, temperature: 0.5, seed: 3 };
@@ -98,7 +98,7 @@ fn mean_square_in_the_wells(temperature: f64) -> f64 {
 
 #[test]
 fn a_particle_between_two_wells_has_the_distribution_of_boltzmann() -> Outcome {
-    let start: DoubleWellState = DoubleWellState { x: 1.0, dot_x: 0.0 };
+    let start = DoubleWellState { x: 1.0, dot_x: 0.0 };
     let system = DoubleWell { mass: 0.5 };
     let expected = mean_square_in_the_wells(0.4);
     let error = |h: f64, steps: u64| {
@@ -118,7 +118,7 @@ fn noise_is_normal_and_independent() -> Outcome {
     #[derive(Clone, Debug)]
     struct Free;
     let method = Langevin { friction: 1e3, temperature: 1.0, seed: 1 };
-    let start: FreeState = FreeState { x: 0.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+    let start = FreeState { x: 0.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
     let mut run = Integrator::new(&Free, method, 1.0, start)?;
     let count = 200_000;
     let (mut moments, mut products, mut before) = ([0.0; 4], [0.0; 3], [0.0; 2]);
@@ -149,7 +149,7 @@ fn noise_is_normal_and_independent() -> Outcome {
 
 #[test]
 fn the_limits_are_the_trapezoidal_integrator_and_friction_alone() -> Outcome {
-    let start: DoubleWellState = DoubleWellState { x: 1.3, dot_x: 0.2 };
+    let start = DoubleWellState { x: 1.3, dot_x: 0.2 };
     let system = DoubleWell { mass: 0.5 };
     let mut without =
         Integrator::new(&system, Langevin { friction: 0.0, temperature: 2.0, seed: 1 }, 0.05, start)?;
@@ -178,7 +178,7 @@ fn the_limits_are_the_trapezoidal_integrator_and_friction_alone() -> Outcome {
 
 #[test]
 fn runs_are_repeated_and_resumed_to_the_bit() -> Outcome {
-    let start: SpringsState = SpringsState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 0.3 };
+    let start = SpringsState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 0.3 };
     let of = |seed: u64| Langevin { friction: 0.8, temperature: 0.7, seed };
     let run = |seed: u64, steps: u64| {
         let mut run = Integrator::new(&Springs, of(seed), 0.1, start)?;
@@ -196,7 +196,7 @@ fn runs_are_repeated_and_resumed_to_the_bit() -> Outcome {
 
 #[test]
 fn what_is_no_bath_is_refused() {
-    let start: SpringsState = SpringsState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 0.3 };
+    let start = SpringsState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 0.3 };
     let error = |friction: f64, temperature: f64, h: f64| {
         Integrator::new(&Springs, Langevin { friction, temperature, seed: 0 }, h, start).err()
     };
@@ -208,7 +208,7 @@ fn what_is_no_bath_is_refused() {
     assert_eq!(error(0.0, 0.0, 0.1), None);
     // A mass that is not positive has no root.
     let system = DoubleWell { mass: -1.0 };
-    let start: DoubleWellState = DoubleWellState { x: 1.3, dot_x: 0.2 };
+    let start = DoubleWellState { x: 1.3, dot_x: 0.2 };
     let error =
         Integrator::new(&system, Langevin { friction: 1.0, temperature: 1.0, seed: 0 }, 0.1, start).err();
     assert!(matches!(error, Some(StartError::Starter(StepFailure::Singular { .. }))), "{error:?}");
@@ -226,7 +226,7 @@ fn without_noise_it_is_a_deterministic_method() -> Outcome {
             Ok::<f64, Box<dyn core::error::Error>>(run.q()[0])
         };
         let [x, dot_x] = [Dual64::new(1.2, 1.0), Dual64::from(0.2)];
-        let mut run = Integrator::new(&system, method, Dual64::from(0.1), DoubleWellState { x, dot_x })?;
+        let mut run = Integrator::new(&system, method, Dual64::from(0.1), DoubleWellStateOf { x, dot_x })?;
         run.take_steps(20)?;
         let quotient = (end(1.2 + 1e-5)? - end(1.2 - 1e-5)?) / 2e-5;
         assert!(abs_diff_eq!(run.q()[0].eps, quotient, epsilon = 1e-7), "{} {quotient}", run.q()[0].eps);
@@ -240,7 +240,7 @@ fn without_noise_it_is_a_deterministic_method() -> Outcome {
 #[test]
 fn noise_that_has_been_used_up_does_not_come_again() -> Outcome {
     fn check<M: Method<DoubleWell, f64>>(method: M) -> Outcome {
-        let start: DoubleWellState = DoubleWellState { x: 1.0, dot_x: 0.0 };
+        let start = DoubleWellState { x: 1.0, dot_x: 0.0 };
         let mut run = Integrator::new(DoubleWell { mass: 1.0 }, method, 0.1, start)?;
         let mut places = Vec::new();
         for _ in 0..20 {

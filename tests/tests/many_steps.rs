@@ -74,7 +74,7 @@ fn a_failure_inside_of_a_piece_is_that_of_the_step() -> Outcome {
 
 #[test]
 fn skipping_states_does_not_skip_a_failure() -> Outcome {
-    let start: ObliqueState = ObliqueState { x: 1.0, y: 0.0 };
+    let start = ObliqueState { x: 1.0, y: 0.0 };
     let run = Integrator::new(&Oblique, unlimited(), 0.1, start)?;
     let states: Vec<_> = run.step_by(100).take(100).collect();
     assert!(states.len() > 5 && states.len() < 30);

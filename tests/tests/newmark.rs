@@ -114,7 +114,8 @@ fn tangent(beta: f64, h: f64, direction: usize) -> Outcome<[[f64; 4]; 2]> {
     let [x, y, dot_x, dot_y] =
         core::array::from_fn(|i| Dual64::new(start[i], if i == direction { 1.0 } else { 0.0 }));
     let method = Newmark { solver: Solver::Newton, ..Newmark::new(Dual64::from_re(beta)) };
-    let mut run = Integrator::new(&KEPLER, method, Dual64::from_re(h), KeplerState { x, y, dot_x, dot_y })?;
+    let mut run =
+        Integrator::new(&KEPLER, method, Dual64::from_re(h), KeplerStateOf { x, y, dot_x, dot_y })?;
     let column = |q: &[Dual64], p: &[Dual64]| {
         let r3 = q[0].hypot(q[1]).powi(3);
         let conjugate = |x: Dual64| (x + Dual64::from_re(beta * h * h) * x / r3).eps;

@@ -168,7 +168,7 @@ fn order_of_a_step<S: DegenerateLagrangian>(system: &S, start: S::State<f64>, si
 /// dF with F'' ≠ 0 adds (σ − ½) Δ·F''Δ to the discrete Lagrangian, beside a difference of F.
 #[test]
 fn sigma_away_from_one_half_is_of_first_order_where_dalpha_is_not_antisymmetric() -> Outcome {
-    let start: PendulumState = PendulumState { q: 1.0, p: 0.4 };
+    let start = PendulumState { q: 1.0, p: 0.4 };
     let of = |share: f64, sigma: f64| order_of_a_step(&Pendulum { share }, start, sigma);
     for (share, sigma, expected) in [
         (0.5, 0.3, 2.0),

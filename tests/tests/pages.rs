@@ -70,7 +70,7 @@ struct Pendulum {
 #[test]
 fn the_energy_of_the_first_program_stays_in_its_band() -> Result<(), Box<dyn std::error::Error>> {
     let pendulum = Pendulum { g: 9.81, length: 1.0 };
-    let start: PendulumState = PendulumState { angle: 2.0, dot_angle: 0.0 };
+    let start = PendulumState { angle: 2.0, dot_angle: 0.0 };
     let mut run = Integrator::new(&pendulum, Variational::trapezoid(), 0.01, start)?;
     let energy = run.energy();
     let mut largest = |steps: u64| -> Result<f64, StepError> {

@@ -56,7 +56,7 @@ fn dual(value: f64) -> Dual64 {
 fn a_step_is_differentiated_in_a_parameter() -> Outcome {
     let (k, h, n) = (1.3, 0.1, 1000);
     let system = Springs { mass: 1.0, k: [varied(k), constant(0.0)], coupling: vec![constant(0.0)] };
-    let start = SpringsState { x: dual(1.0), y: dual(0.0), dot_x: dual(0.0), dot_y: dual(0.0) };
+    let start = SpringsStateOf { x: dual(1.0), y: dual(0.0), dot_x: dual(0.0), dot_y: dual(0.0) };
     let mut run = Integrator::new(&system, Variational::trapezoid(), dual(h), start)?;
     run.take_steps(n)?;
     let theta = (1.0 - k * h * h / 2.0).acos();
@@ -75,7 +75,7 @@ fn a_degenerate_step_is_differentiated_in_the_one_form_and_in_the_hamiltonian() 
     let slope = n as f64 * (h / a) / (1.0 + (b * h / (2.0 * a)).powi(2));
     for (a, b, slope) in [(varied(a), constant(b), -slope * b / a), (constant(a), varied(b), slope)] {
         let system = Oscillator { a, b };
-        let start = OscillatorState { x: dual(1.0), y: dual(0.0) };
+        let start = OscillatorStateOf { x: dual(1.0), y: dual(0.0) };
         let method = Gauss::<1>::new();
         let mut run = Integrator::new(&system, method, dual(h), start)?;
         run.take_steps(n)?;
@@ -109,7 +109,7 @@ fn runs_are_differentiated_in_a_circulation() -> Outcome {
         let gamma = [varied(1.0), constant(0.8), constant(-0.4)];
         let system = Vortices { n: 3, gamma: &gamma };
         let lifted = |values: &[f64]| values.iter().map(|&value| dual(value)).collect::<Vec<_>>();
-        let start = VorticesState { x: lifted(&x), y: lifted(&y) };
+        let start = VorticesStateOf { x: lifted(&x), y: lifted(&y) };
         let mut run = Integrator::new(&system, method.clone(), dual(0.02), start)?;
         run.take_steps(50)?;
         let same = end(1.0)?;
@@ -147,14 +147,14 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     let turned = 1.0 - (2.0 * n as f64 * f64::atan(h / 2.0)).cos();
     let one = |x: f64| dual(x);
     for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov] {
-        let start = WellState { x: one(0.0), dot_x: one(0.0) };
+        let start = WellStateOf { x: one(0.0), dot_x: one(0.0) };
         let system = Well { a: varied(0.0) };
         let method = Variational { solver, ..Variational::midpoint() };
         let mut run = Integrator::new(&system, method, one(h), start)?;
         run.take_steps(n)?;
         let error = run.q()[0].eps - turned;
         assert!(error.abs() < 1e-13, "{solver:?}: {error:e}");
-        let start = TurnState { x: one(0.0), y: one(0.0) };
+        let start = TurnStateOf { x: one(0.0), y: one(0.0) };
         let system = Turn { a: varied(0.0) };
         let method = Sigma { solver, ..Sigma::new(one(0.5)) };
         let mut run = Integrator::new(&system, method, one(h), start)?;
@@ -162,7 +162,7 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
         let error = run.q()[0].eps - turned;
         assert!(error.abs() < 1e-13, "{solver:?}: {error:e}");
     }
-    let start = TurnState { x: one(0.0), y: one(0.0) };
+    let start = TurnStateOf { x: one(0.0), y: one(0.0) };
     let system = Turn { a: varied(0.0) };
     let mut run = Integrator::new(&system, Gauss::<1>::new(), one(h), start)?;
     run.take_steps(n)?;
@@ -170,7 +170,7 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
 
     // Second derivatives, against differences of first ones.
     let first = |a: f64| -> Outcome<f64> {
-        let start = WellState { x: one(0.0), dot_x: one(0.0) };
+        let start = WellStateOf { x: one(0.0), dot_x: one(0.0) };
         let system = Well { a: varied(a) };
         let mut run = Integrator::new(&system, Variational::midpoint(), one(h), start)?;
         run.take_steps(n)?;
@@ -179,7 +179,7 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     let expected = (first(-2e-3)? - 8.0 * first(-1e-3)? + 8.0 * first(1e-3)? - first(2e-3)?) / 12e-3;
     let real = |x: f64| HyperDual64::from_re(x);
     let system = Well { a: Varied(HyperDual64::new(0.0, 1.0, 1.0, 0.0)) };
-    let start = WellState { x: real(0.0), dot_x: real(0.0) };
+    let start = WellStateOf { x: real(0.0), dot_x: real(0.0) };
     let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
     run.take_steps(n)?;
     let error = run.q()[0].eps1eps2 - expected;
@@ -187,7 +187,7 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
 
     // Third derivatives, against differences of second ones.
     let second = |a: f64| -> Outcome<f64> {
-        let start = WellState { x: real(0.0), dot_x: real(0.0) };
+        let start = WellStateOf { x: real(0.0), dot_x: real(0.0) };
         let system = Well { a: Varied(HyperDual64::new(a, 1.0, 1.0, 0.0)) };
         let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
         run.take_steps(n)?;
@@ -196,7 +196,7 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     let expected = (second(-2e-3)? - 8.0 * second(-1e-3)? + 8.0 * second(1e-3)? - second(2e-3)?) / 12e-3;
     let real = |x: f64| Dual3_64::from_re(x);
     let system = Well { a: Varied(Dual3_64::new(0.0, 1.0, 0.0, 0.0)) };
-    let start = WellState { x: real(0.0), dot_x: real(0.0) };
+    let start = WellStateOf { x: real(0.0), dot_x: real(0.0) };
     let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
     run.take_steps(n)?;
     let error = run.q()[0].v3 - expected;
@@ -238,7 +238,7 @@ fn a_generic_system_has_formulas_in_the_numbers_of_its_parameters() {
 
 #[test]
 fn states_derive_what_they_are_asked_to() -> Outcome {
-    let state: SpringsState = SpringsState { x: 0.1, y: 2.0, dot_x: -1.0 / 3.0, dot_y: 0.0 };
+    let state = SpringsState { x: 0.1, y: 2.0, dot_x: -1.0 / 3.0, dot_y: 0.0 };
     let text = serde_json::to_string(&state)?;
     assert_eq!(serde_json::from_str::<SpringsState>(&text)?, state);
     Ok(())

@@ -41,8 +41,8 @@ fn melts<S: RegularLagrangian, M: Method<S, f64> + core::fmt::Debug>(
 #[test]
 fn no_step_goes_over_a_mass_of_zero() -> Outcome {
     // x^(3/2) = 1 − 3t/2.
-    let start: MeltingState = MeltingState { x: 1.0, dot_x: -1.0 };
-    let pair: MeltingPairState = MeltingPairState { x: 1.0, y: 0.0, dot_x: -1.0, dot_y: 0.0 };
+    let start = MeltingState { x: 1.0, dot_x: -1.0 };
+    let pair = MeltingPairState { x: 1.0, y: 0.0, dot_x: -1.0, dot_y: 0.0 };
     let mut found = 0;
     for h in [1.0, 0.9, 0.7, 0.5, 0.3, 0.07] {
         for rule in

@@ -171,7 +171,7 @@ fn beside_a_large_offset() {
     for (exponent, rest, way) in [(-90, 1e8, 1.0), (-40, 1e8, 1.0), (0, 1e8, 1.0), (-90, 1e3 / 7.0, 1e-5)] {
         let (m, steps) = (power(exponent), 200);
         let system = FarSpring { m, rest };
-        let start: FarSpringState = FarSpringState { x: rest + way, p: 0.0 };
+        let start = FarSpringState { x: rest + way, p: 0.0 };
         let mut run = Integrator::new(&system, OneStep::midpoint(), 0.3, start).expect("a start");
         run.take_steps(steps).expect("a bounded motion");
         // Each step of the midpoint rule turns by 2 atan(h/2).
@@ -192,7 +192,7 @@ struct Springs {
 }
 
 fn moved_in_the_middle<M: Method<Springs, f64>>(n: usize, method: M) -> Vec<f64> {
-    let mut start: SpringsState = SpringsState { x: vec![0.0; n], dot_x: vec![0.0; n] };
+    let mut start = SpringsState { x: vec![0.0; n], dot_x: vec![0.0; n] };
     start.x[n / 2] = 0.3;
     let system = Springs { n };
     let mut run = Integrator::new(&system, method, 0.05, start).expect("a start");
@@ -236,7 +236,7 @@ struct Planet {
 
 fn stays_on_its_circle<M: Method<Planet, f64>>(m: f64, method: M) {
     let (mu, r) = (1.327e20, 1.496e11);
-    let start: PlanetState = PlanetState { r, pr: 0.0, l: m * f64::sqrt(mu * r), phi: 0.0 };
+    let start = PlanetState { r, pr: 0.0, l: m * f64::sqrt(mu * r), phi: 0.0 };
     let planet = Planet { m, mu };
     let mut run = Integrator::new(&planet, method, 86_400.0, start).expect("a start");
     run.take_steps(400).unwrap_or_else(|error| panic!("a mass of {m:e}: {error}"));

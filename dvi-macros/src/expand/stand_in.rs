@@ -4,12 +4,12 @@
 //! are the only ones that the compiler reports.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 use syn::{GenericParam, Generics, Path, Visibility};
 
 use crate::emit::Emitter;
 use crate::errors::Errors;
-use crate::implement::{self, State};
+use crate::implement::{self, Names, State};
 use crate::syntax::{Constrained, Kind};
 
 /// A type that takes the place of a system.
@@ -147,7 +147,8 @@ impl StandIn<'_> {
 /// The length of an array that is an error makes an error of its type, and an error of all that is
 /// derived from it, which the compiler does not report again:
 /// ```text
-/// type VorticesState<const N: usize, __T = f64> = <[__T; compile_error!("…")] as IntoIterator>::Item;
+/// type VorticesStateOf<const N: usize, __T> = <[__T; compile_error!("…")] as IntoIterator>::Item;
+/// type VorticesState<const N: usize> = VorticesStateOf<N, f64>;
 /// ```
 fn lost_state(
     krate: &Path,
@@ -156,7 +157,7 @@ fn lost_state(
     generics: &Generics,
     errors: &mut Errors,
 ) -> (TokenStream, TokenStream, TokenStream) {
-    let name = format_ident!("{system}State");
+    let Names { state: name, of_f64 } = Names::of(system);
     let constants = generics.params.iter().filter_map(|parameter| match parameter {
         GenericParam::Const(constant) => Some((&constant.ident, &constant.ty)),
         _ => None,
@@ -166,8 +167,12 @@ fn lost_state(
     let item = quote! {
         #[doc(hidden)]
         #allow
-        #visibility type #name<#(const #constants: #types,)* __T = ::core::primitive::f64> =
+        #visibility type #name<#(const #constants: #types,)* __T> =
             <[__T; { #error }] as ::core::iter::IntoIterator>::Item;
+        #[doc(hidden)]
+        #allow
+        #[allow(dead_code)]
+        #visibility type #of_f64<#(const #constants: #types),*> = #name<#(#constants,)* ::core::primitive::f64>;
     };
     (quote!(#krate::Fixed<1usize, 1usize>), quote!(#name<#(#constants,)* __T>), item)
 }

@@ -91,7 +91,7 @@ fn is_name(size: &Index) -> bool {
 
 pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let (model, krate) = (emitter.model, emitter.krate());
-    let name = format_ident!("{}State", model.item.ident);
+    let Names { state: name, of_f64 } = Names::of(&model.item.ident);
     let visibility = &model.item.vis;
     let constants = constants(emitter);
     let declarations = constants.iter().map(|name| quote!(const #name: ::core::primitive::usize));
@@ -102,7 +102,11 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
         .map(|field| field_type(emitter, field % model.blocks.len(), field >= model.blocks.len()))
         .collect();
     let contents = if model.has_velocities() { "coordinates and velocities" } else { "coordinates" };
-    let summary = format!("A state of [`{}`]: its {contents} by name.", model.item.ident);
+    let system = &model.item.ident;
+    let summary = format!("A state of [`{system}`]: its {contents} by name, in numbers of type `__T`.");
+    let summary_of_f64 = format!("A state of [`{system}`]: its {contents} by name.");
+    let written = of_f64.unraw().to_string();
+    let labels: Vec<String> = fields.iter().map(|field| field.unraw().to_string()).collect();
     let copy =
         (0..model.blocks.len()).all(|block| on_stack(emitter, block)).then(|| quote!(::core::marker::Copy,));
     let derives = &model.derives;
@@ -127,9 +131,20 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let item = quote! {
         #[doc = #summary]
         #allow
-        #[derive(#copy ::core::clone::Clone, ::core::fmt::Debug, ::core::cmp::PartialEq, #(#derives),*)]
-        #visibility struct #name<#(#declarations,)* __T = ::core::primitive::f64> {
+        #[derive(#copy ::core::clone::Clone, ::core::cmp::PartialEq, #(#derives),*)]
+        #visibility struct #name<#(#declarations,)* __T> {
             #(#[doc = #docs] pub #fields: #types,)*
+        }
+        #[doc = #summary_of_f64]
+        #allow
+        #[allow(dead_code)]
+        #visibility type #of_f64<#(#declarations),*> = #name<#(#constants,)* ::core::primitive::f64>;
+        #[automatically_derived]
+        #allow
+        impl<#(#declarations,)* __T: ::core::fmt::Debug> ::core::fmt::Debug for #name<#(#constants,)* __T> {
+            fn fmt(&self, __f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                __f.debug_struct(#written)#(.field(#labels, &self.#fields))*.finish()
+            }
         }
         #[automatically_derived]
         #allow
@@ -152,6 +167,18 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
         #conversions
     };
     State { item, type_in_trait: quote!(#name<#(#constants,)* __T>), space, space_value }
+}
+
+/// The names of states: in numbers of any type, and in `f64`, which a literal needs no annotation for.
+pub(crate) struct Names {
+    pub(crate) state: Ident,
+    pub(crate) of_f64: Ident,
+}
+
+impl Names {
+    pub(crate) fn of(system: &Ident) -> Self {
+        Self { state: format_ident!("{system}StateOf"), of_f64: format_ident!("{system}State") }
+    }
 }
 
 /// The fields with their documentation: all coordinates, then all velocities if there are any.

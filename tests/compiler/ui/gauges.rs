@@ -112,7 +112,7 @@ mod none_needed {
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = auto)]
     pub struct System;
     pub fn run() {
-        let state: SystemState = SystemState { x: 1.0, y: 0.0 };
+        let state = SystemState { x: 1.0, y: 0.0 };
         let _ = Integrator::new(&System, OneStep::midpoint(), 0.1, state);
     }
 }

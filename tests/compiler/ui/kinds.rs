@@ -44,7 +44,7 @@ fn tangent_map_of_newmark() {
 pub struct OutOfClass;
 
 fn one_step_scheme_out_of_class() {
-    let state: OutOfClassState = OutOfClassState { z: [1.0; 3], w: 0.0 };
+    let state = OutOfClassState { z: [1.0; 3], w: 0.0 };
     let _ = Integrator::new(&OutOfClass, OneStep::midpoint(), 0.1, state);
 }
 
@@ -52,7 +52,7 @@ fn one_step_scheme_out_of_class() {
 pub struct Symmetric;
 
 fn one_step_scheme_in_the_symmetric_gauge() {
-    let state: SymmetricState = SymmetricState { x: 1.0, y: 0.0 };
+    let state = SymmetricState { x: 1.0, y: 0.0 };
     let _ = Integrator::new(&Symmetric, OneStepGauss::<2>::new(), 0.1, state);
 }
 

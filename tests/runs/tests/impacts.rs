@@ -8,7 +8,7 @@ use dvi_tests::larger;
 use dvi_tests::zoo::impacts::{Circle, CircleState, Wavy, WavyState};
 
 fn angular_momentum<M: FreeFlight<Circle, f64>>(method: Impacts<M>) -> Outcome {
-    let start: CircleState = CircleState { x: 0.3, y: -0.2, dot_x: 1.1, dot_y: 1.6 };
+    let start = CircleState { x: 0.3, y: -0.2, dot_x: 1.1, dot_y: 1.6 };
     let mut run = Integrator::new(&Circle, method, 0.05, start)?;
     let begin = run.momentum(0).ok_or("declared")?;
     let mut largest = 0.0;
@@ -32,7 +32,7 @@ fn the_angular_momentum_in_a_circle_is_kept() -> Outcome {
 /// the energy by an amount of order h² at each impact.
 #[test]
 fn reflections_keep_the_energy_for_many_bounces() -> Outcome {
-    let start: WavyState = WavyState { x: 0.3, y: 1.5, dot_x: 0.4, dot_y: 0.0 };
+    let start = WavyState { x: 0.3, y: 1.5, dot_x: 0.4, dot_y: 0.0 };
     let [mut early, mut late] = [[0.0_f64; 2]; 2];
     let system = Wavy { a: 0.6 };
     for (k, method) in

@@ -199,8 +199,7 @@ fn a_disc_with_a_light_wheel_rolls_in_a_circle() -> Outcome {
         };
         let mut run = Integrator::new(&disc, Constrained::new(Variational::midpoint()), h, start)?;
         run.take_steps(1000)?;
-        let DiscState { x, y, heading, dot_x, dot_y, dot_heading, dot_roll, .. }: DiscState<f64> =
-            run.state();
+        let DiscState { x, y, heading, dot_x, dot_y, dot_heading, dot_roll, .. }: DiscState = run.state();
         assert!((heading - 900.0 * h).abs() < 1e-11 && (dot_heading - 0.9).abs() < 1e-12);
         assert_abs_diff_eq!(dot_roll, 2.0, epsilon = 1e-11);
         let off = [dot_x - heading.cos() * dot_roll, dot_y - heading.sin() * dot_roll];

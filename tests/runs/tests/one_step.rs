@@ -50,7 +50,7 @@ fn energy_is_flat_for_a_million_steps() -> Outcome {
 #[test]
 fn the_two_step_midpoint_fails_and_says_so() -> Outcome {
     let system = LotkaVolterra { a: PREY.a, b: PREY.b };
-    let start: LotkaVolterraState = LotkaVolterraState { x: 2.0, y: 1.0 };
+    let start = LotkaVolterraState { x: 2.0, y: 1.0 };
     let unwatched = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
     let failed =
         Integrator::new(&system, unwatched, 0.1, start)?.take_steps(1000).err().ok_or("no failure")?;
@@ -100,7 +100,7 @@ fn no_step_changes_the_branch() -> Outcome {
 #[test]
 fn rounding_of_momenta_ends_no_run_of_the_two_step_midpoint() -> Outcome {
     for c in [0.0, 10.0, 100.0, 1000.0, 1e6] {
-        let start: ShiftedState = ShiftedState { x: 0.3, y: 0.4 };
+        let start = ShiftedState { x: 0.3, y: 0.4 };
         let system = Shifted { c };
         let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
         run.take_steps(400).map_err(|error| format!("c = {c}: {error}"))?;
@@ -124,12 +124,12 @@ fn rounding_of_momenta_ends_no_run() -> Outcome {
         for c in [1.0, 10.0, 1e3, 1e6] {
             let system = Shifted { c };
             for size in [1.0, 1e-3] {
-                let start: ShiftedState = ShiftedState { x: 0.3 * size, y: 0.4 * size };
+                let start = ShiftedState { x: 0.3 * size, y: 0.4 * size };
                 let mut run = Integrator::new(&system, method, 0.1, start)?;
                 run.take_steps(2000).map_err(|error| format!("c = {c}, size {size}: {error}"))?;
             }
         }
-        let start: OneSidedState = OneSidedState { x: 0.1, y: 0.1 };
+        let start = OneSidedState { x: 0.1, y: 0.1 };
         for h in [0.01, 0.0106, 0.0118] {
             Integrator::new(&PREY, method, h, start)?
                 .take_steps(20_000)

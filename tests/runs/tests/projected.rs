@@ -8,7 +8,7 @@ use dvi_tests::zoo::particles::{Mirror, MirrorState};
 
 /// The largest energy error within the first tenth of the steps, and within all.
 fn errors(method: Projected, steps: u64) -> Result<[f64; 2], StepError> {
-    let start: MirrorState = MirrorState { x: 0.4, y: 0.3, z: 0.2, u: 0.5 };
+    let start = MirrorState { x: 0.4, y: 0.3, z: 0.2, u: 0.5 };
     let mut run = Integrator::new(&Mirror, method, 0.1, start).expect("starts");
     let (energy, mut largest, mut early) = (run.energy(), 0.0, 0.0);
     for step in 0..steps {
@@ -42,7 +42,7 @@ fn energies_drift_by_their_orders() -> Outcome {
     struct Angle;
     let drift = |method: Projected, h: f64| -> Outcome<f64> {
         let steps = (8_000.0 / h) as u64;
-        let start: AngleState = AngleState { phi: 0.1, j: 0.8, x: 0.3, y: -0.2 };
+        let start = AngleState { phi: 0.1, j: 0.8, x: 0.3, y: -0.2 };
         let mut run = Integrator::new(&Angle, method, h, start)?;
         let mut means = [0.0; 2];
         for mean in &mut means {

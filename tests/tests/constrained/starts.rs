@@ -64,8 +64,7 @@ fn units_do_not_matter() -> Outcome {
     };
     for (mass, length) in [(1.67e-27, 1e-10), (7.3e22, 3.8e8), (1e12, 1.0), (1.0, 1e-15), (1e-20, 1e20)] {
         let system = Pendulum { m: mass, g: length, length };
-        let start: PendulumState =
-            PendulumState { x: 0.8 * length, y: -0.6 * length, dot_x: 0.0, dot_y: 0.0 };
+        let start = PendulumState { x: 0.8 * length, y: -0.6 * length, dot_x: 0.0, dot_y: 0.0 };
         let mut rattle = Integrator::new(&system, Rattle::default(), 0.05, start)?;
         let method = Constrained::new(Variational::trapezoid());
         let mut general = Integrator::new(&system, method, 0.05, start)?;
@@ -94,13 +93,13 @@ fn starts_are_judged_by_rounding_errors() -> Outcome {
         let radial = PendulumState { x: 1.3 * sin, y: -1.3 * cos, dot_x: speed * sin, dot_y: -speed * cos };
         let start = PENDULUM.projected(0.0, &radial)?;
         Integrator::new(&PENDULUM, Rattle::default(), 0.01, start)?;
-        let single = PendulumState {
+        let single = PendulumStateOf {
             x: radial.x as f32,
             y: radial.y as f32,
             dot_x: radial.dot_x as f32,
             dot_y: radial.dot_y as f32,
         };
-        let start: PendulumState<f32> = PENDULUM.projected(0.0, &single)?;
+        let start: PendulumStateOf<f32> = PENDULUM.projected(0.0, &single)?;
         Integrator::new(&PENDULUM, Constrained::new(Variational::midpoint()), 0.01_f32, start)?;
     }
     // Beside a large coordinate that has nothing to do with it.
@@ -186,8 +185,8 @@ fn far_and_near_states_are_projected() -> Outcome {
     }
     for exponent in -18..=18 {
         let size = 10_f32.powi(exponent);
-        let start = PendulumState { x: size, y: 0.5 * size, dot_x: 1.0, dot_y: 0.0 };
-        let found: PendulumState<f32> = PENDULUM.projected(0.0, &start)?;
+        let start = PendulumStateOf { x: size, y: 0.5 * size, dot_x: 1.0, dot_y: 0.0 };
+        let found: PendulumStateOf<f32> = PENDULUM.projected(0.0, &start)?;
         let off = [found.x - 0.8_f32.sqrt(), found.y - 0.2_f32.sqrt()];
         assert!(off.iter().all(|off| off.abs() < 2e-6), "{size:e}: {found:?}");
     }

@@ -35,7 +35,7 @@ fn forces_are_switched_on_at_rest() -> Outcome {
                 .flat_map(move |n| [0.1, 0.77, 1.0, 3.2, 5.0].map(|t0| (w, n, t0)))
         }) {
             let system = Pushed { w, n, t0 };
-            let start: PushedState = PushedState { x: 0.0, dot_x: 0.0 };
+            let start = PushedState { x: 0.0, dot_x: 0.0 };
             let mut fine = Integrator::new_at(&system, Gauss::<8>::new(), t0, 0.01, start)?;
             fine.take_steps(200)?;
             for (&tolerance, h) in

@@ -176,7 +176,7 @@ fn an_event_may_be_an_impact() -> Outcome {
     #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [x, 1.0 - x])]
     #[derive(Debug)]
     struct Walled;
-    let start: WalledState = WalledState { x: 0.3, dot_x: 1.0 };
+    let start = WalledState { x: 0.3, dot_x: 1.0 };
     let mut run = Integrator::new(&Walled, Impacts::new(Variational::trapezoid()), 0.4, start)?;
     let turns = run.events([Direction::Either], |_, state| [state.dot_x])?;
     for (k, turn) in turns.take(5).enumerate() {
@@ -211,7 +211,7 @@ fn a_corner_reflects_twice() -> Outcome {
     struct Plane;
     for k in 0..200 {
         let speed = 0.3 + 0.007_13 * f64::from(k);
-        let start: PlaneState = PlaneState { x: 0.5, y: 0.5, dot_x: speed, dot_y: speed };
+        let start = PlaneState { x: 0.5, y: 0.5, dot_x: speed, dot_y: speed };
         let mut run = Integrator::new(&Plane, Variational::trapezoid(), 0.13, start)?;
         let walls = |_, s: &PlaneState| [s.x, s.y, 1.0 - s.x, 1.0 - s.y];
         let mut events = run.events([Direction::Falling; 4], walls)?;
@@ -239,7 +239,7 @@ fn a_ball_that_comes_to_rest_does_not_fall_through_the_floor() -> Outcome {
     struct Ball;
     for restitution in [0.2, 0.5, 0.8, 0.9] {
         for (h, floor) in [(0.01, 0.0), (0.1, 0.0), (0.7, 0.0), (0.1, 5.0), (0.1, -3.7)] {
-            let start: BallState = BallState { y: floor + 0.5, dot_y: 0.0 };
+            let start = BallState { y: floor + 0.5, dot_y: 0.0 };
             let mut run = Integrator::new(&Ball, Variational::trapezoid(), h, start)?;
             let mut events = run.events([Direction::Falling], |_, state| [state.y - floor])?;
             let error = loop {
@@ -298,14 +298,14 @@ fn times_of_events_carry_derivatives() -> Outcome {
     #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y)]
     struct Ball;
     for h in [1.0, 0.5, 0.25, 0.2, 0.1, 0.07, 0.05, 0.04] {
-        let start = BallState { y: Dual64::from(0.5).derivative(), dot_y: Dual64::from(0.0) };
+        let start = BallStateOf { y: Dual64::from(0.5).derivative(), dot_y: Dual64::from(0.0) };
         let mut run = Integrator::new(&Ball, Variational::trapezoid(), Dual64::from(h), start)?;
         let mut events = run.events([Direction::Falling], |_, state| [state.y])?;
         let Some(event) = events.next_until(Dual64::from(1.5))? else { panic!("none") };
         assert!(abs_diff_eq!(event.time.eps, 1.0, epsilon = 1e-7), "{h}: {}", event.time);
         assert!(abs_diff_eq!(event.state.y.eps, 0.0, epsilon = 1e-7), "{h}: {:?}", event.state);
         // A time that is varied, at a point of the run and between two.
-        let fixed = BallState { y: Dual64::from(0.5), dot_y: Dual64::from(0.0) };
+        let fixed = BallStateOf { y: Dual64::from(0.5), dot_y: Dual64::from(0.0) };
         let mut run = Integrator::new(&Ball, Variational::trapezoid(), Dual64::from(h), fixed)?;
         let mut dense = run.dense()?;
         for t in [2.0 * h, 2.3 * h] {

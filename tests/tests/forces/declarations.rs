@@ -156,7 +156,7 @@ fn states_are_known_where_the_force_on_them_is_not() -> Outcome {
     let system = Dragged { drag: Spline::new([axis], &values)? };
     for rule in [Quadrature::gauss(1)?, Quadrature::lobatto(3)?] {
         let method = Variational::new(rule);
-        let start: DraggedState = DraggedState { x: 1.0, dot_x: 0.0 };
+        let start = DraggedState { x: 1.0, dot_x: 0.0 };
         let mut run = Integrator::new(&system, method, 0.1, start)?;
         let error = (0..100).find_map(|_| run.advance().err()).ok_or("no error")?;
         assert!(matches!(error.failure, StepFailure::Outside(_)), "{error}");

@@ -11,7 +11,7 @@ use num_dual::Dual64;
 
 use super::Outcome;
 use dvi_tests::schemes::systems::{
-    Canonical, Damped, DampedState, Harvested, Pulled, PulledState, Swirl, SwirlState,
+    Canonical, Damped, DampedState, DampedStateOf, Harvested, Pulled, PulledState, Swirl, SwirlState,
 };
 
 const DAMPED: Damped = Damped { gamma: 0.3 };
@@ -63,10 +63,10 @@ where
     for column in 0..4 {
         let [x, y, dot_x, dot_y] =
             core::array::from_fn(|i| Dual64::new(start[i], if i == column { 1.0 } else { 0.0 }));
-        let state = DampedState { x, y, dot_x, dot_y };
+        let state = DampedStateOf { x, y, dot_x, dot_y };
         let mut run = Integrator::new(&DAMPED, method.clone(), Dual64::from(H), state)?;
         run.advance()?;
-        let DampedState { x, y, dot_x, dot_y } = run.state();
+        let DampedStateOf { x, y, dot_x, dot_y } = run.state();
         by_hand.set_column(column, &Vector4::new(x.eps, y.eps, dot_x.eps, dot_y.eps));
     }
     let mut run = Integrator::new(&DAMPED, method.clone(), H, state(&DAMPED, &start[..2], &start[2..]))?;

@@ -46,7 +46,7 @@ fn a_fixed_point_step_needs_forces_only_and_newton_stands_by() -> Outcome {
 #[test]
 fn single_precision_steps_to_its_own_rounding() -> Outcome {
     let start = KeplerState { x: 1.0, y: 0.1, dot_x: -0.2, dot_y: 1.1 };
-    let narrow = KeplerState { x: 1.0_f32, y: 0.1, dot_x: -0.2, dot_y: 1.1 };
+    let narrow = KeplerStateOf { x: 1.0_f32, y: 0.1, dot_x: -0.2, dot_y: 1.1 };
     let mut single = Integrator::new(&KEPLER, Galerkin::<5>::new(), 0.1_f32, narrow)?;
     let mut double = Integrator::new(&KEPLER, Galerkin::<5>::new(), 0.1, start)?;
     single.take_steps(50)?;

@@ -24,7 +24,7 @@ fn a_post_is_not_passed() -> Outcome {
     for (r, h) in [(0.1, 0.5), (0.01, 0.5), (0.5, 4.0), (0.1, 4.0)] {
         for wall in [0.7, 0.3, 9.0] {
             let post = Post { r, wall };
-            let start: PostState = PostState { x: -1.3, y: 0.0, dot_x: 1.0, dot_y: 0.0 };
+            let start = PostState { x: -1.3, y: 0.0, dot_x: 1.0, dot_y: 0.0 };
             let mut run = Integrator::new(&post, Impacts::reflecting(Variational::trapezoid()), h, start)?;
             while run.time() < 8.0 {
                 run.advance()?;
@@ -100,7 +100,7 @@ fn a_surface_before_the_end_of_the_domain_is_met() -> Outcome {
     }
     for d in [0.5, 0.3, 0.1, 0.01] {
         let system = Rooted { d };
-        let start: RootedState = RootedState { y: 1.0, dot_y: -1.0 };
+        let start = RootedState { y: 1.0, dot_y: -1.0 };
         let mut run = Integrator::new(&system, Impacts::reflecting(Variational::trapezoid()), 1.2, start)?;
         run.advance()?;
         assert_eq!(run.memory().impacts().len(), 1, "{d}");
@@ -157,7 +157,7 @@ fn the_discrete_energy_is_kept_in_single_precision() -> Outcome {
         impact = [y - 0.3 * x.cos(), 1.2 - y, x + 1.0, 1.0 - x],
     )]
     struct Room;
-    let start: RoomState<f32> = RoomState { x: 0.7286, y: 0.2475, dot_x: -0.9299, dot_y: -1.0997 };
+    let start: RoomStateOf<f32> = RoomStateOf { x: 0.7286, y: 0.2475, dot_x: -0.9299, dot_y: -1.0997 };
     for h in [0.1, 0.02, 0.005_f32] {
         let mut run = Integrator::new(&Room, Impacts::new(Variational::midpoint()), h, start)?;
         run.take_steps((100.0 / h) as u64)?;

@@ -60,7 +60,7 @@ macro_rules! of_order {
 
 #[test]
 fn on_a_wavy_floor() -> Outcome {
-    let start: WavyState = WavyState { x: 0.3, y: 1.0, dot_x: 0.4, dot_y: 0.0 };
+    let start = WavyState { x: 0.3, y: 1.0, dot_x: 0.4, dot_y: 0.0 };
     of_order! { Wavy { a: 0.5 }, start =>
         Impacts::new(Variational::trapezoid()), 2.0, 100;
         Impacts::new(Variational::midpoint()), 2.0, 100;
@@ -76,7 +76,7 @@ fn on_a_wavy_floor() -> Outcome {
 
 #[test]
 fn in_a_bowl_with_a_mass_matrix_that_varies() -> Outcome {
-    let start: BowlState = BowlState { x: 0.1, y: 0.2, dot_x: 1.1, dot_y: 0.9 };
+    let start = BowlState { x: 0.1, y: 0.2, dot_x: 1.1, dot_y: 0.9 };
     of_order! { Bowl { b: 0.7 }, start =>
         Impacts::new(Variational::midpoint()), 2.0, 100;
         Impacts::new(Variational::trapezoid()), 2.0, 100;
@@ -88,7 +88,7 @@ fn in_a_bowl_with_a_mass_matrix_that_varies() -> Outcome {
 
 #[test]
 fn with_a_momentum_that_is_no_affine_function_of_the_velocity() -> Outcome {
-    let start: FastState = FastState { x: 0.2, y: 0.2, dot_x: 0.3, dot_y: -0.4 };
+    let start = FastState { x: 0.2, y: 0.2, dot_x: 0.3, dot_y: -0.4 };
     of_order! { Fast, start =>
         Impacts::new(Variational::midpoint()), 2.0, 60;
         Impacts::reflecting(Variational::trapezoid()), 2.0, 60;
@@ -99,7 +99,7 @@ fn with_a_momentum_that_is_no_affine_function_of_the_velocity() -> Outcome {
 
 #[test]
 fn with_forces_on_a_table_that_moves() -> Outcome {
-    let start: TableState = TableState { y: 0.5, dot_y: 0.2 };
+    let start = TableState { y: 0.5, dot_y: 0.2 };
     of_order! { Table { a: 0.1 }, start =>
         Impacts::reflecting(Variational::midpoint()), 2.0, 60;
         Impacts::reflecting(Variational::trapezoid()), 2.0, 60;
@@ -151,7 +151,7 @@ fn without_an_impact_a_run_is_that_of_the_method_bit_by_bit() -> Outcome {
     struct Far;
     macro_rules! same {
         ($($method:expr),+) => {$(
-            let start: FreeState = FreeState { x: 0.7, dot_x: 0.4 };
+            let start = FreeState { x: 0.7, dot_x: 0.4 };
             let mut free = Integrator::new(&Free, $method, 0.1, start)?;
             let method = Impacts::reflecting($method);
             let mut far = Integrator::new(&Far, method, 0.1_f64, FarState { x: 0.7_f64, dot_x: 0.4 })?;

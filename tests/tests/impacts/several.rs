@@ -42,7 +42,7 @@ fn a_corner_turns_a_particle_around() -> Outcome {
     for (y, surfaces) in [(1.0_f64, 2), (1.0 + 1e-9, 2), (1.0 - 1e-9, 2), (1.2, 2), (0.9, 2)] {
         for method in [Impacts::new(Variational::trapezoid()), Impacts::reflecting(Variational::trapezoid())]
         {
-            let start: CornerState = CornerState { x: 1.0, y, dot_x: -1.0, dot_y: -1.0 };
+            let start = CornerState { x: 1.0, y, dot_x: -1.0, dot_y: -1.0 };
             let mut run = Integrator::new(&Corner, method, 3.0, start)?;
             run.advance()?;
             assert_eq!(run.memory().impacts().len(), surfaces);
@@ -69,7 +69,7 @@ fn balls_of_equal_mass_exchange_their_velocities() -> Outcome {
         points.into_iter().enumerate().map(|(i, point)| point + i as f64).collect::<Vec<f64>>()
     };
     for h in [0.01, 0.3, 5.0] {
-        let start: BallsState = BallsState { x: x.clone(), dot_x: velocities.to_vec() };
+        let start = BallsState { x: x.clone(), dot_x: velocities.to_vec() };
         let balls = Balls { m: vec![1.0; n] };
         let mut run = Integrator::new(&balls, Impacts::new(Variational::trapezoid()), h, start)?;
         while run.time() < 5.0 {
@@ -88,8 +88,7 @@ fn balls_of_equal_mass_exchange_their_velocities() -> Outcome {
 
 #[test]
 fn balls_of_unequal_mass_keep_momentum_and_energy() -> Outcome {
-    let start: BallsState =
-        BallsState { x: vec![0.0_f64, 1.5, 3.0, 4.5], dot_x: vec![2.0, 0.1, -0.3, -1.7] };
+    let start = BallsState { x: vec![0.0_f64, 1.5, 3.0, 4.5], dot_x: vec![2.0, 0.1, -0.3, -1.7] };
     let balls = Balls { m: vec![1.0, 0.02, 30.0, 2.0] };
     let mut run = Integrator::new(&balls, Impacts::reflecting(Variational::trapezoid()), 0.1, start)?;
     let [energy, momentum] = [run.energy(), run.momentum(0).ok_or("declared")?];
@@ -109,7 +108,7 @@ fn balls_of_unequal_mass_keep_momentum_and_energy() -> Outcome {
 fn a_surface_that_is_left_within_the_step_is_seen() -> Outcome {
     for height in [0.3_f64, 0.9, 0.99, 0.9999] {
         for h in [0.5, 2.0, 8.0] {
-            let start: DiscState = DiscState { x: -1.3, y: height, dot_x: 1.0, dot_y: 0.0 };
+            let start = DiscState { x: -1.3, y: height, dot_x: 1.0, dot_y: 0.0 };
             let mut run = Integrator::new(&Disc, Impacts::reflecting(Variational::trapezoid()), h, start)?;
             while run.time() < 8.0 {
                 run.advance()?;

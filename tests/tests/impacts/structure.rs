@@ -108,7 +108,7 @@ fn the_discrete_equations_by_hand() -> Outcome {
     let system = Wavy { a };
     for [x, y, dot_x, dot_y] in starts() {
         let method = Impacts::new(Variational::trapezoid());
-        let start: WavyState = WavyState { x, y, dot_x, dot_y };
+        let start = WavyState { x, y, dot_x, dot_y };
         let mut run = Integrator::new(&system, method, h, start)?;
         run.advance()?;
         let [impact] = run.memory().impacts() else { return Err("one impact".into()) };
@@ -170,7 +170,7 @@ fn a_run_goes_back_the_way_it_came() -> Outcome {
 fn an_impact_is_printed_though_its_system_is_not() -> Outcome {
     #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y, impact = y)]
     struct Ball {}
-    let start: BallState = BallState { y: 0.01, dot_y: -1.0 };
+    let start = BallState { y: 0.01, dot_y: -1.0 };
     let mut run = Integrator::new(&Ball {}, Impacts::new(Variational::trapezoid()), 0.1, start)?;
     run.advance()?;
     let [impact] = run.memory().impacts() else { return Err("one impact".into()) };

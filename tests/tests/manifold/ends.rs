@@ -5,9 +5,9 @@ use dvi_core::error::{StartError, StepFailure};
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{Weights, rotations};
-use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
+use dvi_examples::models::{SphericalPendulum, SphericalPendulumState, SphericalPendulumStateOf};
 use dvi_tests::Outcome;
-use dvi_tests::zoo::manifold::{Body, BodyState, FREE, UNEVEN};
+use dvi_tests::zoo::manifold::{Body, BodyState, BodyStateOf, FREE, UNEVEN};
 use num_dual::Dual64;
 
 fn refused<S: ManifoldLagrangian>(system: &S, state: S::State<f64>) -> (&'static str, f64) {
@@ -54,18 +54,18 @@ fn a_step_by_half_a_turn_is_an_error_that_says_by_how_much() {
 #[test]
 fn what_rests_begins_to_move() -> Outcome {
     let pendulum = SphericalPendulum { gravity: 2.0 };
-    let start: SphericalPendulumState = SphericalPendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.0; 3] };
+    let start = SphericalPendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.0; 3] };
     let mut run = Integrator::new(&pendulum, Geodesic::trapezoid(), 0.01, start)?;
     run.take_steps(1000)?;
     assert!((run.energy() + 1.6).abs() < 1e-4);
     // The hanging pendulum and the standing one stay where they are.
     for z in [-1.0, 1.0] {
-        let still: SphericalPendulumState = SphericalPendulumState { s: [0.0, 0.0, z], dot_s: [0.0; 3] };
+        let still = SphericalPendulumState { s: [0.0, 0.0, z], dot_s: [0.0; 3] };
         let mut run = Integrator::new(&pendulum, Geodesic::midpoint(), 0.1, still)?;
         run.take_steps(100)?;
         assert_eq!(run.state(), still);
     }
-    let body: BodyState = BodyState { R: rotations::exp([0.4, 0.0, 0.0]), omega_R: [0.0; 3] };
+    let body = BodyState { R: rotations::exp([0.4, 0.0, 0.0]), omega_R: [0.0; 3] };
     let mut run = Integrator::new(&UNEVEN, Geodesic::trapezoid(), 0.01, body)?;
     let energy = run.energy();
     assert_abs_diff_eq!(UNEVEN.energy_at(&body)?, energy, epsilon = 1e-15);
@@ -126,14 +126,14 @@ mod singular {
 #[test]
 fn a_unit_vector_at_rest_has_no_derivatives_and_a_body_has() -> Outcome {
     let dual = |re: f64| Dual64::new(re, 0.0);
-    let still = SphericalPendulumState { s: [0.6, 0.0, -0.8].map(dual), dot_s: [0.0; 3].map(dual) };
+    let still = SphericalPendulumStateOf { s: [0.6, 0.0, -0.8].map(dual), dot_s: [0.0; 3].map(dual) };
     let pendulum = SphericalPendulum { gravity: 2.0 };
     let refused = Integrator::new(&pendulum, Geodesic::trapezoid(), dual(0.1), still);
     assert!(matches!(refused, Err(StartError::Unsupported { .. })));
     // A standing top whose axis begins to fall: to first order θ'' = (weight/inertia) θ.
     let top = Body { inertia: [1.0, 1.0, 0.5], tip: [0.0, 0.0, 1.0], weight: 1.5 };
     let tilt = rotations::exp([Dual64::new(0.0, 1.0), dual(0.0), dual(0.0)]);
-    let start = BodyState { R: tilt, omega_R: [dual(0.0); 3] };
+    let start = BodyStateOf { R: tilt, omega_R: [dual(0.0); 3] };
     let mut run = Integrator::new(&top, Geodesic::trapezoid(), dual(0.001), start)?;
     run.take_steps(1000)?;
     let rate = 1.5_f64.sqrt();
@@ -166,7 +166,7 @@ mod sizes {
     fn all_sizes_take_the_same_steps() -> Outcome {
         let (R, omega_R) = (rotations::exp([0.3, -0.2, 0.6]), [0.4, 0.9, -0.3]);
         let [x, dot_x] = [[0.3, -0.1], [0.2, 0.5]];
-        let start: FixedState<2> = FixedState { x, R, dot_x, omega_R };
+        let start = FixedState { x, R, dot_x, omega_R };
         let mut fixed = Integrator::new(&Fixed::<2>, Geodesic::trapezoid(), 0.1, start)?;
         let start = ListedState { x: x.to_vec(), R, dot_x: dot_x.to_vec(), omega_R };
         let mut listed = Integrator::new(&Listed { n: 2 }, Geodesic::trapezoid(), 0.1, start)?;

@@ -55,8 +55,7 @@ fn bodies_converge_with_the_order_of_the_rule() {
 fn a_spherical_pendulum_converges() {
     let (pendulum, start) = (SphericalPendulum { gravity: 2.0 }, [0.6, 0.0, -0.8, 0.4, 0.9, 0.3]);
     let exact = reference::motion(reference::pendulum(2.0), start, 5.0, 20_000);
-    let state: SphericalPendulumState =
-        SphericalPendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.4, 0.9, 0.3] };
+    let state = SphericalPendulumState { s: [0.6, 0.0, -0.8], dot_s: [0.4, 0.9, 0.3] };
     let errors = |rule: Quadrature| {
         [100, 200, 400].map(|steps| {
             let mut run = Integrator::new(&pendulum, Geodesic::new(rule), 5.0 / f64::from(steps), state)

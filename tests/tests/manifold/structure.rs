@@ -3,10 +3,10 @@
 use dvi_core::discrete::Rule;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
-use dvi_examples::models::{SphericalPendulum, SphericalPendulumState};
+use dvi_examples::models::{SphericalPendulum, SphericalPendulumStateOf};
 use dvi_tests::zoo::manifold::{
-    Body, BodyState, COUPLED, FREE, NotSeparable, NotSeparableState, Separable, SeparableState, UNEVEN,
-    coupled, cross, dot, tilted,
+    Body, BodyState, BodyStateOf, COUPLED, FREE, NotSeparable, NotSeparableState, Separable, SeparableState,
+    UNEVEN, coupled, cross, dot, tilted,
 };
 use num_dual::Dual64;
 
@@ -40,7 +40,7 @@ fn body_step(
     let turned =
         rotations::product(&R.map(Dual64::from), &rotations::exp(eta.map(|eta| Dual64::new(0.0, eta))));
     let omega = [0, 1, 2].map(|k| Dual64::new(omega_R[k], change[k]));
-    let start = BodyState { R: turned, omega_R: omega };
+    let start = BodyStateOf { R: turned, omega_R: omega };
     let mut run =
         Integrator::new(&body, method, Dual64::from(h), start).expect("a step that is short enough");
     run.take_steps(1).expect("a step that is short enough");
@@ -106,7 +106,7 @@ fn steps_on_the_sphere_preserve_the_canonical_form() {
         let after: Vec<[[f64; 3]; 2]> = tangents
             .iter()
             .map(|&[along, change]| {
-                let start = SphericalPendulumState {
+                let start = SphericalPendulumStateOf {
                     s: [0, 1, 2].map(|k| Dual64::new(s[k], along[k])),
                     dot_s: [0, 1, 2].map(|k| Dual64::new(v[k], change[k])),
                 };
@@ -150,8 +150,8 @@ fn steps_by_kicks_are_those_of_the_general_equations() {
     assert_eq!(is_separable, [true, false]);
     let (R, omega_R) = (rotations::exp([0.4, -0.3, 0.2]), [0.5, -0.8, 0.9]);
     let (s, dot_s) = ([0.48, -0.6, 0.64], [0.8, 0.64, 0.0]);
-    let start: SeparableState = SeparableState { R, s, x: 0.3, omega_R, dot_s, dot_x: -0.4 };
-    let same: NotSeparableState = NotSeparableState { R, s, x: 0.3, omega_R, dot_s, dot_x: -0.4 };
+    let start = SeparableState { R, s, x: 0.3, omega_R, dot_s, dot_x: -0.4 };
+    let same = NotSeparableState { R, s, x: 0.3, omega_R, dot_s, dot_x: -0.4 };
     for rule in [Quadrature::trapezoid(), Quadrature::sigma(0.0), Quadrature::sigma(1.0)] {
         let mut by_kicks = Integrator::new(&separable, Geodesic::new(rule), 0.1, start).expect("begins");
         let mut by_all = Integrator::new(&general, Geodesic::new(rule), 0.1, same).expect("begins");
@@ -183,7 +183,7 @@ struct Sprung;
 #[test]
 fn a_number_that_rests_at_zero_beside_a_rotation_is_no_task_of_its_own() {
     let R = rotations::exp([0.3, 0.0, 0.0]);
-    let start: SprungState = SprungState { x: [0.0, 1.3], R, dot_x: [0.0, 0.2], omega_R: [0.1, 0.2, 3.0] };
+    let start = SprungState { x: [0.0, 1.3], R, dot_x: [0.0, 0.2], omega_R: [0.1, 0.2, 3.0] };
     let mut run = Integrator::new(&Sprung, Geodesic::midpoint(), 0.02, start).expect("begins");
     let begin = run.energy();
     run.take_steps(500).expect("short steps");

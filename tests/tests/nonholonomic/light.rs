@@ -4,7 +4,7 @@
 use approx::abs_diff_eq;
 use dvi_core::error::StartError;
 use dvi_core::prelude::*;
-use dvi_tests::zoo::nonholonomic::{Bundle, BundleState};
+use dvi_tests::zoo::nonholonomic::{Bundle, BundleState, BundleStateOf};
 use dvi_tests::{Numbers, larger};
 
 use super::Outcome;
@@ -84,7 +84,7 @@ fn a_slip_is_one_everywhere() {
         }
     }
     let single =
-        |slip: f32| BladeState { x: 1.0_f32, y: 0.0, angle: 0.0, dot_x: 1.0, dot_y: slip, dot_angle: 0.5 };
+        |slip: f32| BladeStateOf { x: 1.0_f32, y: 0.0, angle: 0.0, dot_x: 1.0, dot_y: slip, dot_angle: 0.5 };
     let begun = |slip| {
         Integrator::new(&Blade, Constrained::new(Variational::midpoint()), 1e-3, single(slip)).map(drop)
     };
@@ -124,7 +124,7 @@ fn what_is_projected_is_a_start() -> Outcome {
             Integrator::new(&system, Constrained::new(Variational::midpoint()), h, start)?;
         }
         system.multipliers_at(0.0, &start)?;
-        let single = BundleState { q: q.map(|x| x as f32), dot_q: dot_q.map(|x| x as f32) };
+        let single = BundleStateOf { q: q.map(|x| x as f32), dot_q: dot_q.map(|x| x as f32) };
         let start = system.projected(0.0, &single)?;
         Integrator::new(&system, Constrained::new(Variational::midpoint()), 1e-3_f32, start)?;
     }

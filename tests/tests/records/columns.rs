@@ -150,10 +150,10 @@ struct Chain {
 fn states_of_another_length_are_refused() -> Checked {
     let chain = Chain { n: 3 };
     let mut recorder = Recorder::new(&chain);
-    let wrong: ChainState = ChainState { x: vec![0.0; 2], dot_x: vec![0.0; 3] };
+    let wrong = ChainState { x: vec![0.0; 2], dot_x: vec![0.0; 3] };
     let error = recorder.push(&chain, 0.0, &wrong).map_err(|error| error.to_string());
     assert_eq!(error, Err("`x` has length 2, but the system declares 3".into()));
-    let right: ChainState = ChainState { x: vec![1.0, 2.0, 3.0], dot_x: vec![4.0, 5.0, 6.0] };
+    let right = ChainState { x: vec![1.0, 2.0, 3.0], dot_x: vec![4.0, 5.0, 6.0] };
     recorder.push(&chain, 0.5, &right)?;
     let record = recorder.finish();
     assert_eq!((record.rows(), record.numbers("dot_x[1]")?), (1, &[5.0][..]));

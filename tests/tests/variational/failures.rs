@@ -50,7 +50,7 @@ fn steps_and_starts_that_are_none_are_refused() {
 #[test]
 fn options_that_do_not_go_together_are_refused() {
     let pendulums = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 1.0 };
-    let start: DoublePendulumState = DoublePendulumState { a: 1.0, b: 0.5, dot_a: 0.0, dot_b: 0.0 };
+    let start = DoublePendulumState { a: 1.0, b: 0.5, dot_a: 0.0, dot_b: 0.0 };
     let unsupported = |error: Option<StartError>| matches!(error, Some(StartError::Unsupported { .. }));
     let fitted = Variational::simpson().phase_fitted(Radial(Reading::Averaged));
     assert!(unsupported(Integrator::new(&pendulums, fitted, 0.1, start).err()));
@@ -62,7 +62,7 @@ fn options_that_do_not_go_together_are_refused() {
 #[test]
 fn a_collision_ends_the_run_at_the_last_good_state() -> Outcome {
     // x = 1, F = −1: p½ = −½ + p, and with p = −½ the first step arrives at 0.
-    let start: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: -0.5, dot_y: 0.0 };
+    let start = KeplerState { x: 1.0, y: 0.0, dot_x: -0.5, dot_y: 0.0 };
     for count in [1, 10] {
         let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 1.0, start)?;
         let error = run.take_steps(count).err();
@@ -114,7 +114,7 @@ struct Weighed {
 
 #[test]
 fn a_singular_mass_matrix_is_found() -> Outcome {
-    let start: RisingState = RisingState { x: 0.0, dot_x: 0.0 };
+    let start = RisingState { x: 0.0, dot_x: 0.0 };
     for rule in [Quadrature::gauss(1)?, Quadrature::lobatto(3)?] {
         for dot_x in [0.0, 1.0] {
             let start = RisingState { dot_x, ..start };

@@ -82,7 +82,7 @@ struct Pair;
 #[test]
 fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
     let method = Variational::simpson().phase_fitted(Constant(2.0));
-    let start: PairState = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
+    let start = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
     // A control that tries the resonant step before each of its own.
     #[derive(Debug)]
     struct Trying {

@@ -86,7 +86,7 @@ fn a_fitted_phase_has_the_momentum_of_the_paper_and_fitted_weights_the_right_one
     for (rule, s) in
         [(Quadrature::gauss(1)?, 1.188_395_105_778), (Quadrature::lobatto(3)?, 1.006_294_275_830)]
     {
-        let start: OscillatorState = OscillatorState { x: 0.0, dot_x: 1.0 };
+        let start = OscillatorState { x: 0.0, dot_x: 1.0 };
         let phase = Variational::new(rule).phase_fitted(Constant(1.0));
         let mut run = Integrator::new(&system, phase, 1.0, start)?;
         run.advance()?;
@@ -116,7 +116,7 @@ fn steps_of_different_lengths_are_exact_where_momenta_are_fitted_too() -> Outcom
         let both = Variational { fitting: Fitting::PhaseAndMomentum, ..phase };
         let mut errors = [0.0; 2];
         for (method, error) in [phase, both].into_iter().zip(&mut errors) {
-            let start: PairState = PairState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.5 };
+            let start = PairState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.5 };
             let mut run = ControlledIntegrator::new(&system, method, Reversible::power(0.3, 1.0), start)?;
             while run.steps() < 1000 {
                 run.advance()?;
@@ -132,7 +132,7 @@ fn steps_of_different_lengths_are_exact_where_momenta_are_fitted_too() -> Outcom
 #[test]
 fn small_frequencies_lose_no_digits() -> Outcome {
     let system = Oscillator { omega: 1.0 };
-    let start: OscillatorState = OscillatorState { x: 0.3, dot_x: 0.8 };
+    let start = OscillatorState { x: 0.3, dot_x: 0.8 };
     for rule in rules()? {
         let linear = Variational::new(rule);
         let mut reference = Integrator::new(&system, linear, 0.1, start)?;
@@ -150,7 +150,7 @@ fn small_frequencies_lose_no_digits() -> Outcome {
 #[test]
 fn a_resonance_is_an_error_and_not_a_number() -> Outcome {
     let system = Oscillator { omega: 1.0 };
-    let start: OscillatorState = OscillatorState { x: 0.3, dot_x: 0.8 };
+    let start = OscillatorState { x: 0.3, dot_x: 0.8 };
     let two_point_gauss = 2.720_699_046_35;
     for (rule, u) in [
         (Quadrature::gauss(2)?, two_point_gauss),
