@@ -1,4 +1,4 @@
-//! The smallest program: a pendulum, the first three of its states, and its energy after a million steps.
+//! The smallest program: a pendulum, a page that shows its first swings, and its energy after a million steps.
 
 use dvi_core::prelude::*;
 
@@ -15,14 +15,15 @@ struct Pendulum {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pendulum = Pendulum { g: 9.81, length: 1.0 };
     let start = PendulumState { angle: 2.0, dot_angle: 0.0 };
-    let step = 0.01;
-    let mut run = Integrator::new(&pendulum, Variational::trapezoid(), step, start)?;
+    let mut run = Integrator::new(&pendulum, Variational::trapezoid(), 0.01, start)?;
     let energy = run.energy();
-    for state in run.by_ref().take(3) {
-        let state = state?;
-        println!("angle {:.6}, velocity {:.6}", state.angle, state.dot_angle);
-    }
+
+    let record = run.record(1, 600)?; // the state now, and after each of 600 steps
+    record.write_page(std::fs::File::create("pendulum.html")?)?; // opens in a browser
+
     run.take_steps(1_000_000)?;
-    println!("at t = {:.2} the energy is {:.4}; it was {energy:.4}", run.time(), run.energy());
+    let state = run.state();
+    println!("t = {:.2}: angle {:.6}, velocity {:.6}", run.time(), state.angle, state.dot_angle);
+    println!("the energy is {:.4}; it was {energy:.4}", run.energy());
     Ok(())
 }

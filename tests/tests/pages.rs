@@ -40,7 +40,7 @@ fn excerpt<'a>(source: &'a str, from: &str, to: &str) -> &'a str {
 #[test]
 fn the_readme_shows_the_first_example() {
     let first = include_str!("../../dvi-core/examples/first.rs");
-    let shown = format!("```rust\n{}\n```", excerpt(first, "use dvi_core", "no such line"));
+    let shown = format!("```rust,no_run\n{}\n```", excerpt(first, "use dvi_core", "no such line"));
     assert!(README.contains(&shown), "the README should show the program `first`:\n{shown}");
 }
 
