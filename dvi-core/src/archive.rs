@@ -87,6 +87,22 @@ use file::File;
 pub use error::{ArchiveError, Difference};
 
 /// How often a checkpoint is kept.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/pendulum.txt")]
+/// use dvi_core::archive::{Archive, Every};
+///
+/// # let path = std::env::temp_dir().join(format!("dvi-every-{}", std::process::id()));
+/// # let _ = std::fs::remove_file(&path);
+/// let begin = || Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start.clone());
+/// let mut archive = Archive::new(&path, begin()?, Every::Steps(1000))?;
+/// archive.take_steps(2500)?;
+/// let steps: Vec<u64> = archive.checkpoints().map(|(steps, _)| steps).collect();
+/// assert_eq!(steps, [0, 1000, 2000]);
+/// # drop(archive);
+/// # std::fs::remove_file(&path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Every {
     /// After so many steps, counted from the start of the run; 0 is taken as 1.
@@ -96,6 +112,24 @@ pub enum Every {
 }
 
 /// A run whose states are kept in a file.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/pendulum.txt")]
+/// use dvi_core::archive::{Archive, Every};
+///
+/// # let path = std::env::temp_dir().join(format!("dvi-kept-{}", std::process::id()));
+/// # let _ = std::fs::remove_file(&path);
+/// let begin = || Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start.clone());
+/// let mut archive = Archive::new(&path, begin()?, Every::Steps(1000))?;
+/// archive.take_steps(2500)?;
+/// // The state after 1234 steps, from the checkpoint before.
+/// let mut alone = begin()?;
+/// alone.take_steps(1234)?;
+/// assert_eq!(archive.run_after(1234)?.state(), alone.state());
+/// # drop(archive);
+/// # std::fs::remove_file(&path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Archive<R> {
     run: R,

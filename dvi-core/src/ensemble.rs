@@ -112,6 +112,18 @@ pub use table::{Table, TableError};
 type Tell<'a> = Box<dyn FnMut(&Progress) + Send + 'a>;
 
 /// Runs from many states, or on many systems.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let results = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts).take_steps(1000)?;
+/// let record = results.record()?;
+/// assert_eq!(record.rows(), 10);
+/// assert!(record.numbers("energy.largest_error")?.iter().all(|error| *error < 1e-3));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use = "an ensemble does nothing before `take_steps`"]
 pub struct Ensemble<'a, S: Lagrangian, M: Method<S, f64>> {
     settings: Settings<'a, S, M>,
@@ -121,6 +133,20 @@ pub struct Ensemble<'a, S: Lagrangian, M: Method<S, f64>> {
 }
 
 /// How far an ensemble, or a shard of one, has got.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble, Progress};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let mut told: Vec<Progress> = Vec::new();
+/// Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts)
+///     .on_progress(|progress| told.push(*progress))
+///     .take_steps(1000)?;
+/// let last = told.last().unwrap();
+/// assert_eq!((last.finished, last.members, last.steps), (10, 10, 10_000));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {

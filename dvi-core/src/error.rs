@@ -67,6 +67,16 @@ pub struct OutsideError {
 }
 
 /// A run that cannot begin.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/pendulum.txt")]
+/// use dvi_core::error::StartError;
+///
+/// let lost = PendulumState { angle: f64::NAN, ..start };
+/// let error = Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, lost).unwrap_err();
+/// assert!(matches!(error, StartError::NotFinite { .. }));
+/// assert_eq!(error.to_string(), "angle = NaN in the state");
+/// ```
 #[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StartError {

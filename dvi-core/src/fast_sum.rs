@@ -113,6 +113,13 @@ use crate::error::{IndexError, LengthError};
 use crate::{PairSum, Space, State};
 
 /// There is no fast sum of a system.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/blobs.txt")]
+/// let blobs = Blobs { weight: vec![1.0; 500] };
+/// let Err(error) = FastSum::new(&blobs, 1e-12) else { panic!("no fast sum is so close") };
+/// assert!(matches!(error, FastSumError::Tolerance { least: 1e-10, .. }));
+/// ```
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum FastSumError {
@@ -166,6 +173,21 @@ const LARGEST: f64 = 1e-2;
 ///
 /// H̃ belongs to the tolerance: a run that is resumed from a checkpoint with another one goes on in another
 /// H̃.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/blobs.txt")]
+/// let n = 500;
+/// let blobs = Blobs { weight: vec![1.0; n] };
+/// let angle = |j: usize| 0.1 * j as f64;
+/// let start: BlobsState = BlobsState {
+///     x: (0..n).map(|j| angle(j).cos() * (1.0 + j as f64 / 500.0)).collect(),
+///     y: (0..n).map(|j| angle(j).sin()).collect(),
+/// };
+/// let fast = FastSum::new(&blobs, 1e-6)?;
+/// assert!(fast.measured_error(&start, 100)? < 1e-6);
+/// assert!(fast.operations(&start)?.pairs < 500 * 499); // not all pairs are summed
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct FastSum<'s, S, const D: usize> {
     system: &'s S,
     tolerance: f64,

@@ -36,6 +36,16 @@ pub use spline::{Spline, SplineError};
 use crate::Scalar;
 
 /// The expansion of a function of `D` variables about a point, up to the second order.
+///
+/// ```
+/// use dvi_core::field::Expansion;
+///
+/// // x² y at (3, 2).
+/// let here = Expansion { value: 18.0, gradient: [12.0, 9.0], hessian: [[4.0, 6.0], [6.0, 0.0]] };
+/// // A hundredth further along x: f + ∂f/∂x δ + ½ ∂²f/∂x² δ².
+/// let there: f64 = here.value + here.gradient[0] * 0.01 + here.hessian[0][0] * 0.01 * 0.01 / 2.0;
+/// assert!((there - 3.01 * 3.01 * 2.0).abs() < 1e-14);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expansion<const D: usize, T = f64> {
     /// f.

@@ -60,6 +60,16 @@
 //! | [What can go wrong](guide::what_can_go_wrong) | What do the errors mean, and what does no error show? |
 //! | [`lagrangian`](macro@lagrangian), [`degenerate_lagrangian`] | What can formulas say? |
 //!
+//! # What one looks for
+//!
+//! | question | answer |
+//! |---|---|
+//! | What is it not for? | Partial differential equations, stiff dissipative systems; energies stay in a band, not within a tolerance, and phases drift: [what can go wrong](guide::what_can_go_wrong) |
+//! | Where are events? | [`Run::events`](run::Run::events), and how to [stop at one](guide::recipes#stop-at-an-event) |
+//! | How do I plot? | A run writes tables, and a page that draws them: [a table and a page](guide::recipes#a-table-and-a-page) |
+//! | What is its status? | Before 1.0 names may change, and `CHANGELOG.md` says which; a number in these pages is one that is tested or measured |
+//! | How do I cite it? | As `CITATION.cff` says, with the version or the commit that you used |
+//!
 //! # The two kinds of Lagrangian
 //!
 //! - A **regular** Lagrangian has second-order equations of motion. Its states hold coordinates and
@@ -73,16 +83,16 @@
 //!
 //! | module | what is in it |
 //! |---|---|
-//! | [`prelude`] | what a first program needs |
+//! | [`prelude`] | what a first program needs, with a line for each name |
 //! | [`guide`] | the pages above |
 //! | [`system`] | what the attributes implement: [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`], [`Report`] |
-//! | [`methods`] | the σ-family, one-step schemes, quadrature rules with phase fitting, Galerkin, Newmark, steps with constraints (`Constrained`, `Rattle`) and with impacts (`Impacts`), on rotations and unit vectors (`Geodesic`), compositions, Gauss, Runge–Kutta |
+//! | [`methods`] | the methods, with a line for each |
 //! | [`run`] | runs with fixed and with controlled steps: state at any time, events, energy, momenta, checkpoints |
 //! | [`diagnostics`] | Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
-//! | `record` | what a run was, as columns: CSV, arrays of NumPy, a page that shows it; with the feature `records` |
-//! | `archive` | a long run in one file, with the feature `ensembles`: any state again, bit for bit |
-//! | `ensemble` | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
-//! | `fast_sum` | sums over all pairs of many bodies in a time that grows like their number, with the feature `fast-sums` |
+//! | [`record`](record/index.html) | what a run was, as columns: CSV, arrays of NumPy, a page that shows it; with the feature `records` |
+//! | [`archive`](archive/index.html) | a long run in one file, with the feature `ensembles`: any state again, bit for bit |
+//! | [`ensemble`](ensemble/index.html) | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
+//! | [`fast_sum`](fast_sum/index.html) | sums over all pairs of many bodies in a time that grows like their number, with the feature `fast-sums` |
 //! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
 //! | [`solve`] | how implicit steps are solved, and when they count as solved |
 //! | [`mechanics`] | the equations of motion, and what can be asked of a system at one state |

@@ -1,11 +1,57 @@
-//! The methods, and what one is to a run.
+//! The methods, and what one is to a run. [Choosing a method](crate::guide::choosing_a_method) says where to
+//! begin, why, and when to change.
 //!
-//! For degenerate systems: [`Sigma`], and [`OneStep`] and [`OneStepGauss`] where the one-form allows it, and
-//! [`Projected`] where it does not. For regular systems: [`Variational`], [`Galerkin`], [`Newmark`]. For
-//! systems with constraints: [`Constrained`] and [`Rattle`]. For systems with impacts: [`Impacts`]. For
-//! rotations and unit vectors as coordinates: [`Geodesic`]. To compare with, for both: [`Gauss`] and
-//! [`RungeKutta`] on the equations of motion. With friction and noise, for regular systems: `Langevin`.
-//! Around others: [`Composition`] and [`EnergyLimit`].
+//! The forms here are preserved by every step, to rounding, on systems without friction: see
+//! [`PreservedForm`]. A prime says that it is the form in other coordinates, which differ by a multiple of a
+//! power of the step.
+//!
+//! # For regular systems
+//!
+//! | method | order | preserves | when to take it |
+//! |---|---|---|---|
+//! | [`Variational::trapezoid`] | 2 | dq ∧ dp | first, if L = ½ v·Mv − V(q, t) with a constant M, and no force with velocities: Störmer–Verlet, explicit |
+//! | [`Variational::midpoint`] | 2 | dq ∧ dp | first, for other L |
+//! | [`Variational::new`], [`simpson`](Variational::simpson), [`sigma`](Variational::sigma) | 1, 2 | dq ∧ dp | to try rules of up to five nodes |
+//! | [`Variational::phase_fitted`] | 1, 2 | dq ∧ dp or nothing | if the motion has a frequency that is known, or can be read from it |
+//! | [`Galerkin`] | 4, 6, …, 16 | dq ∧ dp | for many digits: 3 to 9 nodes; from 4 on `in_lanes()` evaluates the forces of the interior nodes at once |
+//! | [`Gauss`] | 2, 4, …, 16 | dq ∧ dp | for energies to rounding errors: 1 to 8 stages, with short steps and `Gauss::<8>::new().in_lanes()`; for [`ErrorControl`](crate::run::ErrorControl) |
+//! | [`Newmark`] | 2 | dq' ∧ dp | for stiff forces: with γ = ½, stable at every step for β = ¼ |
+//! | [`Langevin`](struct.Langevin.html) | 2 | nothing | in a heat bath, for the L of `trapezoid()`: averages over long runs |
+//! | [`RungeKutta`] | 2, 4 | nothing | to compare with |
+//!
+//! # With constraints, with impacts, on rotations and unit vectors
+//!
+//! | method | order | preserves | when to take it |
+//! |---|---|---|---|
+//! | [`Rattle`] | 2 | dq ∧ dp | first, with constraints of positions and the L of `trapezoid()` |
+//! | [`Constrained`] | 1, 2 | dq ∧ dp | for other L, for more than about ten constraints, and for constraints of velocities, under which no form can be preserved |
+//! | [`Impacts::reflecting`] | 1, 2 | nothing | first, with impacts: keeps the energy at each; also around [`Galerkin`], with its order |
+//! | [`Impacts::new`] | 1, 2 | dq ∧ dp | with impacts, if the form counts more: keeps the discrete energy |
+//! | [`Geodesic`] | 1, 2 | dq ∧ dp | with rotations `R: SO3` and unit vectors `s: S2` |
+//!
+//! # For degenerate systems
+//!
+//! | method | order | preserves | when to take it |
+//! |---|---|---|---|
+//! | [`Sigma::midpoint`] | 2 | a form on Q×Q | first, if α is affine, as that of vortices is: the implicit midpoint rule, which preserves Ω then |
+//! | [`Sigma::new`], [`leapfrog`](Sigma::leapfrog) | 1, 2 | a form on Q×Q | for the family of Rowley & Marsden, on affine α such as ½(x dy − y dx); explicit for σ = 0 and 1; where the parasitic mode grows, another method |
+//! | [`OneStep`] | 1, 2 | Ω or dq' ∧ dp | first, if α is not affine and has no component along one half of the coordinates, as it stands or with `gauge = auto` |
+//! | [`OneStepGauss`] | 2, 4, 6, 8 | Ω | for many digits, with such α: 1 to 4 stages |
+//! | [`Gauss`] | 2, 4, …, 16 | Ω if α is affine | first, for all other α, with an eye on the energy; for the last digits of the energy |
+//! | [`Projected`] | 2 | Ω if α is affine | for all other α, if momenta of cyclic coordinates and Ω, to terms of order h⁵ in a step, count more than digits |
+//! | [`RungeKutta`] | 2, 4 | nothing | to compare with |
+//!
+//! # Around another method
+//!
+//! | method | order | preserves | when to take it |
+//! |---|---|---|---|
+//! | [`Composition`] | 4, 6, 8 | what it does | for many digits: several steps of a symmetric method of order 2 make one, explicit if they are |
+//! | [`EnergyLimit`] | that of the method | what it does | to end a run whose energy has gone astray |
+//!
+//! # What else is here
+//!
+//! [`Scheme`] says of a method what the tables say, [`Method`] is what a run asks of it. The other traits are
+//! for methods of your own, and for code that is generic over methods.
 
 mod before;
 mod collocation;
@@ -87,6 +133,16 @@ pub enum PreservedForm {
 }
 
 /// What is known of a method before it meets a system.
+///
+/// ```
+/// use dvi_core::methods::PreservedForm;
+/// use dvi_core::prelude::*;
+///
+/// let method = Composition::kahan_li_8(Variational::trapezoid());
+/// assert_eq!((method.order(), method.is_symmetric()), (8, true));
+/// assert_eq!(method.preserved_form(), PreservedForm::Canonical);
+/// assert_eq!(RungeKutta::classical().preserved_form(), PreservedForm::Nothing);
+/// ```
 pub trait Scheme {
     /// The order of convergence on smooth systems whose Lagrangian does not depend on time. On others it is
     /// the same, unless the documentation of the method says otherwise.
@@ -144,6 +200,22 @@ pub trait Carries<S: System, T: Real> {
 }
 
 /// A method that can step a system `S` in the arithmetic of `T`.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/pendulum.txt")]
+/// /// By how much the energy of a pendulum has changed after 1000 steps of any method.
+/// fn change(method: impl Method<Pendulum, f64>) -> Result<f64, Box<dyn std::error::Error>> {
+///     let start = PendulumState { angle: 1.0, dot_angle: 0.0 };
+///     let mut run = Integrator::new(&Pendulum, method, 0.2, start)?;
+///     let energy = run.energy();
+///     run.take_steps(1000)?;
+///     Ok((run.energy() - energy).abs())
+/// }
+/// assert!(change(Variational::trapezoid())? < 5e-3);
+/// assert!(change(Gauss::<4>::new())? < 1e-10);
+/// assert!(change(RungeKutta::heun())? > 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     /// Prepares a run with step `h` from (`q`, `t`), with velocity `v` if the system is regular; for
     /// degenerate systems `v` is empty. Everything that needs memory is allocated here.

@@ -45,6 +45,23 @@ pub use together::Together;
 /// [a method that is chosen at run
 /// time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time) is one line. States at given
 /// times and events are asked of runs whose type is known, in a function that is generic over `R: Run`.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/kepler.txt")]
+/// /// The largest change of energy in `steps` steps of any run.
+/// fn change<R: Run<Scalar = f64>>(run: &mut R, steps: u64) -> Result<f64, StepError> {
+///     let (energy, mut largest) = (run.energy(), 0.0_f64);
+///     for _ in 0..steps {
+///         run.advance()?;
+///         largest = largest.max((run.energy() - energy).abs());
+///     }
+///     Ok(largest)
+/// }
+/// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
+/// assert!(change(&mut run, 1000)? < 1e-10);
+/// assert_eq!(run.momenta().next(), Some(("angular", run.momentum(0).unwrap())));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Run {
     /// The system that is stepped.
     type System: Lagrangian<Self::Scalar>;
@@ -236,7 +253,24 @@ pub trait Run {
         &self.stepper().method
     }
 
-    /// What the method carries from step to step.
+    /// What the method carries from step to step. Of this can be read:
+    ///
+    /// | method | functions of its memory |
+    /// |---|---|
+    /// | `Variational`, `Galerkin`, `Newmark`, `Geodesic`, `Langevin` | `p()`: the momenta ∂L/∂v, with a place for each coordinate; of a rotation the first three are the angular momentum in the body |
+    /// | `Rattle`, `Constrained` | `p()`; `multipliers()`: λ of the last step, one for each constraint; `impulses()` at its two ends |
+    /// | `Impacts` | `impacts()` of the last step, each an [`Impact`](crate::methods::Impact); how many there were, in `total()` and `grazing()` |
+    /// | `Sigma` | `defect()`: p − α(q); `parasitic_mode()`, as it was measured last, and `parasitic_amplitude()` |
+    /// | `Impacts`, `Composition`, `EnergyLimit` | `inner()`: the memory of the method inside |
+    ///
+    /// ```
+    #[doc = include_str!("../docs/hidden/kepler.txt")]
+    /// let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
+    /// run.take_steps(1000)?;
+    /// let ([x, y], [p_x, p_y]) = (run.q(), run.memory().p()) else { panic!("a plane") };
+    /// assert!((x * p_y - y * p_x - 1.2).abs() < 1e-12); // the area law, in momenta
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[inline]
     fn memory(&self) -> &<Self::Method as Carries<Self::System, Self::Scalar>>::Memory
     where

@@ -22,6 +22,19 @@ pub use stopping::Stopping;
 pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdict};
 
 /// The iteration that solves an implicit step.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/vortices.txt")]
+/// let newton = Sigma { solver: Solver::Newton, ..Sigma::midpoint() };
+/// let mut quick = Integrator::new(&Vortices, Sigma::midpoint(), 0.1, start.clone())?;
+/// let mut newton = Integrator::new(&Vortices, newton, 0.1, start)?;
+/// quick.take_steps(100)?;
+/// newton.take_steps(100)?;
+/// // The same steps, in more iterations without a matrix or in fewer with one.
+/// assert!((quick.state().x[0] - newton.state().x[0]).abs() < 1e-13);
+/// assert!(quick.statistics().linearizations == 0 && newton.statistics().linearizations > 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Solver {
     /// Fixed point where it contracts fast, Newton where it does not: a step whose fixed-point iteration is

@@ -70,6 +70,15 @@ pub(crate) type Permutation<S> = <<S as System>::Space as Space>::Permutation;
 ///
 /// `block_len` gives the size of each coordinate block, as [`System::block_len`] does. States of
 /// degenerate systems have no velocities: they leave `v` alone, and it may be empty.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/kepler.txt")]
+/// // What the attribute makes beside the struct: fields by the names of the coordinates.
+/// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
+/// let KeplerState { x, y, dot_x, dot_y } = run.nth(99).unwrap()?;
+/// assert!((x * dot_y - y * dot_x - 1.2).abs() < 1e-13); // the area law
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait State<T: Scalar>: Sized {
     /// Writes the coordinates into `q` and the velocities into `v`, both in the order of declaration.
     ///
@@ -86,6 +95,15 @@ pub trait State<T: Scalar>: Sized {
 }
 
 /// A mechanical system, whatever numbers it is computed in: its configuration space, its states, its report.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/kepler.txt")]
+/// let names: Vec<String> = Kepler.names().map(|name| name.to_string()).collect();
+/// assert_eq!(names, ["x", "y", "dot_x", "dot_y"]);
+/// assert!(Kepler.values(&start)?.eq([1.0, 0.0, 0.0, 1.2]));
+/// assert_eq!(Kepler::REPORT.momenta, ["angular"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a system",
     label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`"
@@ -161,6 +179,16 @@ pub trait System: Held<System = Self> {
 /// A system whose parameters are Rust's numbers has it for every [`Scalar`]. One that is generic over the
 /// type of its parameters, `struct Kepler<P = f64> { mu: P }`, has it where that type is a
 /// [`Parameter`](crate::Parameter) of `T`.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/pendulum.txt")]
+/// // L at (q, v, t), and its derivatives: what methods are made of.
+/// let (q, v, t) = ([0.5], [2.0], 0.0);
+/// assert_eq!(Pendulum.lagrangian(&q, &v, t), 2.0 + 0.5_f64.cos());
+/// let (mut l_q, mut l_v) = ([0.0], [0.0]);
+/// Pendulum.gradient(&q, &v, t, &mut l_q, &mut l_v);
+/// assert_eq!((l_q, l_v), ([-0.5_f64.sin()], [2.0]));
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a system that can be computed in `{T}`",
     label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`, or a parameter that is no number",
@@ -231,6 +259,16 @@ pub trait Lagrangian<T: Scalar = f64>: System {
 ///
 /// Dα is the matrix ∂αᵢ/∂qʲ. Its combinations a Dα + b (Dα)ᵀ are what a step solves with: Ω itself is
 /// a = −1, b = 1, the matrix of the explicit step a = 0, b = 1 (Rowley & Marsden 2002, eq. 17).
+///
+/// ```
+#[doc = include_str!("../docs/hidden/predators.txt")]
+/// let mut alpha = [0.0; 2];
+/// Predators.one_form(&[2.0, 0.5], 0.0, &mut alpha);
+/// assert_eq!(alpha, [0.5_f64.ln() / 2.0, 0.0]);
+/// let mut gradient = [0.0; 2];
+/// Predators.hamiltonian_gradient(&[2.0, 0.5], 0.0, &mut gradient);
+/// assert_eq!(gradient, [0.5, -3.0]); // 1 − 1/x and 1 − 2/y
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and this is for systems with `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",

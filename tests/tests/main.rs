@@ -15,6 +15,7 @@ mod constrained;
 mod constraints;
 mod derivatives;
 mod discrete_equations;
+mod documentation;
 mod domains;
 mod energy_momentum;
 mod ensemble;

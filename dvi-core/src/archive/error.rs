@@ -12,6 +12,22 @@ pub use crate::ensemble::error::Difference;
 crate::error::said!(ArchiveError);
 
 /// A run that cannot be kept, or not be found again.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::archive::{Archive, ArchiveError, Every};
+///
+/// # let path = std::env::temp_dir().join(format!("dvi-error-{}", std::process::id()));
+/// # let _ = std::fs::remove_file(&path);
+/// let begin = || Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start.clone());
+/// let mut archive = Archive::new(&path, begin()?, Every::Steps(1000))?;
+/// archive.take_steps(100)?;
+/// let error = archive.run_at(2.0).unwrap_err();
+/// assert!(matches!(error, ArchiveError::Time { t: 2.0, reached: 1.0, .. }));
+/// # drop(archive);
+/// # std::fs::remove_file(&path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Error)]
 #[non_exhaustive]
 pub enum ArchiveError {

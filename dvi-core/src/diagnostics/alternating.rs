@@ -10,6 +10,18 @@ const WINDOW: usize = 5;
 const WEIGHTS: [f64; WINDOW] = [1.0 / 16.0, -4.0 / 16.0, 6.0 / 16.0, -4.0 / 16.0, 1.0 / 16.0];
 
 /// A fourth-difference filter over five consecutive points of a run.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// // A straight path with a part that alternates between 0.01 and −0.01 on it.
+/// let mut filter = AlternatingComponent::new(&Pendulum);
+/// let mut found = None;
+/// for k in 0..5 {
+///     let alternating = if k % 2 == 0 { 0.01 } else { -0.01 };
+///     found = filter.amplitude(&[0.3 * f64::from(k) + alternating]);
+/// }
+/// assert!((found.unwrap() - 0.01).abs() < 1e-15);
+/// ```
 #[derive(Debug)]
 pub struct AlternatingComponent<S: System, T: Real = f64> {
     ring: [Vector<S, T>; WINDOW],

@@ -16,6 +16,19 @@ use crate::{Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 ///
 /// Perturbations live in (q, p), so the exponent of a degenerate system is that of the two-step map,
 /// parasitic mode included.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// // Upside down, a small angle grows like e^t.
+/// let start = PendulumState { angle: core::f64::consts::PI, dot_angle: 0.0 };
+/// let mut run = Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)?;
+/// let mut exponent = LyapunovExponent::new(&run);
+/// for _ in 0..10_000 {
+///     exponent.advance(&mut run)?;
+/// }
+/// assert!((exponent.exponent().unwrap() - 1.0).abs() < 0.03);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct LyapunovExponent<S: System, L, T: Real = f64> {
     map: TangentMap<S, L, T>,

@@ -13,6 +13,20 @@ use crate::space::elimination::{self, multiply_add};
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of the discrete Lagrangian `L`.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::discrete::Interval;
+///
+/// let method = Variational::trapezoid();
+/// let mut run = Integrator::new(&Pendulum, method, 0.1, start)?;
+/// let q0 = run.q().to_vec();
+/// run.advance()?;
+/// let mut map = TangentMap::new(&Pendulum, &method);
+/// map.evaluate(&Pendulum, Interval { t: 0.0, h: 0.1 }, &q0, run.q())?;
+/// assert!(map.symplectic_defect(&Pendulum) < 1e-15); // dq ∧ dp is preserved
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct TangentMap<S: System, L, T: Real = f64> {
     hessian: DiscreteHessian<S, L, T>,

@@ -16,6 +16,22 @@ use crate::space::lines;
 use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δq1) ↦ (δq1, δq2) of one step of the discrete Lagrangian `L`.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/vortices.txt")]
+/// use dvi_core::discrete::Interval;
+///
+/// let mut run = Integrator::new(&Vortices, Sigma::midpoint(), 0.1, start)?;
+/// let mut points = vec![run.q().to_vec()];
+/// for _ in 0..2 {
+///     run.advance()?;
+///     points.push(run.q().to_vec());
+/// }
+/// let mut map = TwoPointTangentMap::new(&Vortices, run.method());
+/// map.evaluate(&Vortices, Interval { t: 0.0, h: 0.1 }, [&points[0], &points[1], &points[2]])?;
+/// assert!(map.two_form_defect(&Vortices) < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct TwoPointTangentMap<S: System, L, T: Real = f64> {
     before: DiscreteHessian<S, L, T>,

@@ -13,6 +13,19 @@ use crate::space::sink::TransposedProduct;
 use crate::{NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// How a frequency that depends on the motion enters a step from q0 to q1.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// let fitted = |reading| Variational::simpson().phase_fitted(Radial(reading));
+/// // Only what reads both ends of a step alike takes the same way back.
+/// assert!(!fitted(Reading::LeftFrozen).is_symmetric());
+/// assert!(fitted(Reading::Averaged).is_symmetric());
+/// let mut run = Integrator::new(&Kepler, fitted(Reading::Averaged), 0.1, start)?;
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reading {
     /// ω at (q0, v0), held constant: what Kosmas & Vlachos do. The step is neither symplectic (its defect is
@@ -83,6 +96,19 @@ impl GivenFrequency for Unfitted {}
 impl GivenFrequency for Constant {}
 
 /// No frequency: linear interpolation, the limit ω → 0.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// /// What holds a run names its method, and that its interpolation is linear.
+/// struct Experiment {
+///     run: Integrator<Pendulum, Variational<Unfitted, Trapezoid>>,
+/// }
+/// let run = Integrator::new(Pendulum, Variational::trapezoid(), 0.01, start)?;
+/// let mut experiment = Experiment { run };
+/// experiment.run.take_steps(100)?;
+/// assert_eq!(experiment.run.steps(), 100);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unfitted;
 
@@ -98,6 +124,20 @@ impl<T: Real> FrequencyIn<T> for Unfitted {
 
 /// One frequency for all coordinates and all times. Symplectic, and with steps of one length exact on
 /// oscillators of that frequency.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - 2.0 * x * x)]
+/// struct Spring; // with frequency 2
+///
+/// let start: SpringState = SpringState { x: 1.0, dot_x: 0.0 };
+/// let method = Variational::trapezoid().phase_fitted(Constant(2.0));
+/// let mut run = Integrator::new(&Spring, method, 0.5, start)?; // six steps a period
+/// run.take_steps(100)?;
+/// assert!((run.state().x - 100_f64.cos()).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constant(
     /// ω ≥ 0.
@@ -164,6 +204,17 @@ fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
 /// On a straight path ω = 0 has a kink, as |x| has at 0. With [`Reading::Variational`] its derivatives are
 /// left out there: the step is that of the neighbouring paths, but a run on dual numbers is no tangent map
 /// at such a point.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// // On a circle the path turns with the frequency of the motion, and so do the steps.
+/// let circle: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
+/// let method = Variational::simpson().phase_fitted(Curvature(Reading::Averaged));
+/// let mut run = Integrator::new(&Kepler, method, 0.1, circle)?;
+/// run.take_steps(100)?;
+/// assert!((run.state().x - 10_f64.cos()).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Curvature(
     /// How it enters the step.
@@ -220,6 +271,23 @@ fn area<T: Real>(v: &[T], a: &[T]) -> T {
 /// ω = √(|a|/|q|): the frequency of the oscillator q'' = −ω²q with the same acceleration at the same
 /// distance from the origin. On Kepler orbits it is r^(−3/2), and the averaged and the variational reading
 /// are of order 4 there with Simpson's rule or a better one.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// let method = Variational::simpson();
+/// let mut plain = Integrator::new(&Kepler, method, 0.05, start.clone())?;
+/// let mut fitted = Integrator::new(&Kepler, method.phase_fitted(Radial(Reading::Averaged)), 0.05, start)?;
+/// let energy = plain.energy();
+/// let mut errors = [0.0_f64; 2];
+/// for _ in 0..400 {
+///     plain.advance()?;
+///     fitted.advance()?;
+///     let changes = [plain.energy() - energy, fitted.energy() - energy];
+///     errors = [errors[0].max(changes[0].abs()), errors[1].max(changes[1].abs())];
+/// }
+/// assert!(errors[0] > 100.0 * errors[1], "{errors:?}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Radial(
     /// How it enters the step.

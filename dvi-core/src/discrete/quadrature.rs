@@ -70,15 +70,58 @@ macro_rules! rules {
 }
 
 rules! {
-    /// ½.
+    /// The rule with the node ½, exact for linear functions.
+    ///
+    /// ```
+    /// use dvi_core::discrete::Rule;
+    /// use dvi_core::prelude::*;
+    ///
+    /// let rule = Variational::midpoint().rule;
+    /// assert_eq!(rule, Midpoint);
+    /// let square: f64 = rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * c * c).sum();
+    /// assert_eq!(square, 1.0 / 4.0); // in place of 1/3
+    /// ```
     Midpoint = [0.5], [1.0];
-    /// 0 and 1, with weights ½.
+    /// The trapezoidal rule: nodes 0 and 1 with weights ½, exact for linear functions.
+    ///
+    /// ```
+    /// use dvi_core::discrete::Rule;
+    /// use dvi_core::prelude::*;
+    ///
+    /// let rule = Variational::trapezoid().rule;
+    /// assert_eq!(rule, Trapezoid);
+    /// let square: f64 = rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * c * c).sum();
+    /// assert_eq!(square, 1.0 / 2.0); // in place of 1/3
+    /// ```
     Trapezoid = [0.0, 1.0], [0.5, 0.5];
-    /// 0, ½ and 1, with weights 1/6, 2/3, 1/6.
+    /// Simpson's rule: nodes 0, ½ and 1 with weights 1/6, 2/3 and 1/6, exact for cubic functions.
+    ///
+    /// ```
+    /// use dvi_core::discrete::Rule;
+    /// use dvi_core::prelude::*;
+    ///
+    /// let rule = Variational::simpson().rule;
+    /// assert_eq!(rule, Simpson);
+    /// let cube: f64 = rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * c * c * c).sum();
+    /// assert_eq!(cube, 0.25); // exact
+    /// ```
     Simpson = [0.0, 0.5, 1.0], [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
 }
 
 /// Any rule, as data.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// // Radau's rule of two nodes.
+/// let rule = Quadrature::new(&[0.0, 2.0 / 3.0], &[0.25, 0.75])?;
+/// let method = Variational::new(rule);
+/// assert_eq!((method.order(), method.is_symmetric()), (2, false));
+/// let mut run = Integrator::new(&Pendulum, method, 0.01, start)?;
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadrature {
     nodes: [f64; NODES],

@@ -43,6 +43,15 @@ impl Draws {
 }
 
 /// The random numbers of one member, one after the other.
+///
+/// ```
+/// use dvi_core::ensemble::Draws;
+///
+/// // The numbers of member 3 of seed 7: the same whenever they are drawn.
+/// let mut draw = Draws::new(7).member(3);
+/// let mean = (0..10_000).map(|_| draw.normal(1.0, 0.1)).sum::<f64>() / 1e4;
+/// assert!((mean - 1.0).abs() < 4e-3); // four standard deviations of a mean
+/// ```
 #[derive(Clone, Debug)]
 pub struct Draw {
     generator: ChaCha8Rng,

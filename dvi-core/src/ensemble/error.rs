@@ -13,6 +13,15 @@ crate::error::said!(EnsembleError, Difference, MergeError);
 
 /// An ensemble that cannot run. The failure of a member is none: it is the [`Outcome`](super::Outcome) of
 /// that member.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble, EnsembleError};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let nowhere = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.0, starts).take_steps(1000);
+/// assert!(matches!(nowhere, Err(EnsembleError::Step { h: 0.0, .. })));
+/// ```
 #[derive(Error)]
 #[non_exhaustive]
 pub enum EnsembleError {
@@ -84,6 +93,21 @@ pub enum EnsembleError {
 }
 
 /// In what two ensembles differ.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble, MergeError, Results, Shard};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let half = |index: u64, h: f64| -> Result<Results, Box<dyn std::error::Error>> {
+///     let ensemble = Ensemble::new(&Pendulum, Variational::trapezoid(), h, starts.clone());
+///     Ok(ensemble.shard(Shard::new(index, 2)?).take_steps(100)?)
+/// };
+/// let merged = Results::merge([half(0, 0.1)?, half(1, 0.2)?]); // another step
+/// let Err(MergeError::Foreign { difference, .. }) = merged else { panic!("they differ") };
+/// assert_eq!((difference.expected.as_str(), difference.found.as_str()), ("0.1", "0.2"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Error)]
 #[error("its {what} is `{found}`, and `{expected}` is expected")]
 pub struct Difference {
@@ -96,6 +120,17 @@ pub struct Difference {
 }
 
 /// Shards whose results are not those of one ensemble.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble, MergeError, Results, Shard};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let ensemble = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts).shard(Shard::new(0, 2)?);
+/// let half = ensemble.take_steps(100)?;
+/// assert!(matches!(Results::merge([half]), Err(MergeError::Missing { member: 1, members: 10, .. })));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MergeError {

@@ -10,6 +10,18 @@ use crate::run::{Integrator, Run};
 use crate::{Lagrangian, System};
 
 /// The record of one member.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let results = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts).take_steps(1000)?;
+/// let member = &results.members()[9];
+/// assert_eq!((member.number, member.steps), (9, 1000));
+/// assert!((member.energy.first + 1_f64.cos()).abs() < 1e-15 && member.energy.largest_error < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Member {
@@ -39,6 +51,21 @@ pub struct Member {
 }
 
 /// How the run of a member has ended.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble, Outcome};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let results = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts)
+///     .until(|_, state| (state.dot_angle.abs() > 0.9).then_some("too fast"))
+///     .stride(1)
+///     .take_steps(1000)?;
+/// // From 1 rad it passes the bottom with √(2 − 2 cos 1) = 0.96, from 0.9 rad with 0.87.
+/// let fast = |member: &&dvi_core::ensemble::Member| matches!(member.outcome, Outcome::Exited { .. });
+/// assert_eq!(results.members().iter().filter(fast).count(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Outcome {
     /// It has taken all steps.

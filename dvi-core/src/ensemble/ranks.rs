@@ -24,6 +24,20 @@ const PIECE: usize = 1 << 30;
 const NONE: u64 = u64::MAX;
 
 /// What keeps an ensemble over several processes from having results.
+///
+/// ```no_run
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble, RanksError};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let universe = mpi::initialize().ok_or("MPI has begun before")?;
+/// let ensemble = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts);
+/// match ensemble.take_steps_on(&universe.world(), 1000) {
+///     Err(RanksError::Elsewhere { rank, .. }) => eprintln!("process {rank} has the reason"),
+///     results => println!("{:?}", results?.map(|results| results.members().len())), // at the first process
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Error)]
 #[non_exhaustive]
 pub enum RanksError {

@@ -16,6 +16,18 @@ use super::plan::Plan;
 use crate::record::{Column, Quantity, Record, RecordError};
 
 /// The members of an ensemble, or of a shard, in order.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let results = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts).take_steps(1000)?;
+/// assert!(results.names().eq(["angle", "dot_angle"]));
+/// assert!(results.members().iter().all(|member| member.steps == 1000));
+/// assert_eq!(results.record()?.numbers("angle")?.len(), 10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Results {
     plan: Plan,

@@ -29,6 +29,13 @@ pub struct Shard {
 }
 
 /// A text or a pair of numbers that is no shard.
+///
+/// ```
+/// use dvi_core::ensemble::{Shard, ShardError};
+///
+/// assert!(matches!("2 of 8".parse::<Shard>(), Err(ShardError::Form { .. })));
+/// assert!(matches!(Shard::new(8, 8), Err(ShardError::Range { index: 8, of: 8, .. })));
+/// ```
 #[derive(Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ShardError {

@@ -42,6 +42,15 @@ struct Row {
 }
 
 /// A table that cannot be read, or does not have what is asked for.
+///
+/// ```
+/// use dvi_core::ensemble::{Table, TableError};
+///
+/// let table = Table::read("k,x\n1.0,0.5\n4.0,a lot\n".as_bytes())?;
+/// let Err(TableError::Number { line, .. }) = table.column("x") else { panic!("text") };
+/// assert_eq!(line, 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Error)]
 #[non_exhaustive]
 pub enum TableError {

@@ -10,6 +10,20 @@ use crate::name::Name;
 said!(StepFailure, StepError);
 
 /// Why a step could not be completed.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// // A head-on fall into the sun, which steps of one length would jump over.
+/// let fall = KeplerState { dot_y: 0.0, ..start };
+/// let method = EnergyLimit { method: Variational::trapezoid(), limit: 0.1 };
+/// let mut run = Integrator::new(&Kepler, method, 0.01, fall)?;
+/// let error = run.take_steps(1000).unwrap_err();
+/// match error.failure {
+///     StepFailure::Energy { start, limit, .. } => assert_eq!((start, limit), (-1.0, 0.1)),
+///     other => panic!("{other}"),
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepFailure {
@@ -324,6 +338,18 @@ pub enum StepFailure {
 }
 
 /// A step that failed, and where. The run keeps the last good state.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// // A head-on fall into the sun, which takes π/√8 units of time.
+/// let fall = KeplerState { dot_y: 0.0, ..start };
+/// let method = EnergyLimit { method: Variational::trapezoid(), limit: 0.1 };
+/// let mut run = Integrator::new(&Kepler, method, 0.01, fall)?;
+/// let error = run.take_steps(1000).unwrap_err();
+/// assert_eq!((error.step, error.time), (run.steps(), run.time())); // the last good state
+/// assert!((1.07..1.12).contains(&error.time), "{error}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Error)]
 #[error("step {step} from t = {time}: {}", Of(failure, *coordinate))]
 pub struct StepError {

@@ -131,6 +131,13 @@ fn is_usable(distance: f64) -> bool {
 }
 
 /// Points that are not those of an axis.
+///
+/// ```
+/// use dvi_core::field::{Axis, AxisError};
+///
+/// let Err(error) = Axis::new(&[0.0, 1.0, 1.0, 2.0]) else { panic!("a point stands twice") };
+/// assert!(matches!(error, AxisError::NotIncreasing { index: 2, .. }));
+/// ```
 #[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AxisError {

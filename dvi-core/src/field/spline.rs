@@ -337,6 +337,15 @@ fn too_unequal<const D: usize>(axes: &[Axis; D], growths: [f64; D], growth: f64)
 }
 
 /// A table that no spline can be made of.
+///
+/// ```
+/// use dvi_core::field::{Axis, Spline, SplineError};
+///
+/// let few = Axis::uniform([0.0, 1.0], 3)?;
+/// let Err(error) = Spline::<1>::new([few], &[0.0, 1.0, 0.0]) else { panic!("a cubic takes four points") };
+/// assert!(matches!(error, SplineError::TooFewPoints { found: 3, expected: 4, .. }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SplineError {

@@ -95,6 +95,17 @@ static KAHAN_LI_8: Table = Table {
 ///
 /// More steps of smaller size have much smaller errors: of two compositions of one order the longer one is
 /// usually better at equal cost.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// let method = Composition::yoshida(Variational::trapezoid());
+/// assert_eq!((method.order(), method.stages()), (6, 7));
+/// let mut run = Integrator::new(&Pendulum, method, 0.1, start)?;
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composition<M> {
     method: M,

@@ -23,6 +23,17 @@ use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 /// the energy may change. Each step costs a copy of what the method carries and one evaluation of the
 /// energy, of a regular system one of the velocity too; on a Lagrangian that is not ½ v·M v − V(q, t), of a
 /// size known at run time only, that allocates.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// // Störmer–Verlet steps over the sun, and goes on with a wrong energy.
+/// let fall = KeplerState { dot_y: 0.0, ..start };
+/// let method = EnergyLimit { method: Variational::trapezoid(), limit: 0.1 };
+/// let mut run = Integrator::new(&Kepler, method, 0.01, fall)?;
+/// assert!(run.take_steps(1000).is_err());
+/// assert!((run.energy() + 1.0).abs() < 0.1); // the last good state
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyLimit<M> {
     /// The method.

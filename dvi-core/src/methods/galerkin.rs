@@ -48,6 +48,16 @@ use evaluation::NodeEvaluation;
 /// error of a step is then of order 2`S` + 1 in ωh, not 2`S` − 1. It is not zero, as it would be without
 /// displacements, because the polynomials of the displacements are not fitted. The fitted interpolation is
 /// not translation invariant.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// let mut run = Integrator::new(&Pendulum, Galerkin::<5>::new(), 0.2, start)?;
+/// assert_eq!(run.method().order(), 8);
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Galerkin<const S: usize, F = Unfitted, E = OneByOne> {
     /// What the interpolation between the ends is fitted to.

@@ -61,6 +61,16 @@ use memory::GaussMemory;
 /// [`in_lanes`](Self::in_lanes) evaluates all stages at once, in SIMD lanes, and gives the same numbers, bit
 /// for bit: with eight stages, order 16, it is the method for energies that are to be kept to rounding
 /// errors.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// let mut run = Integrator::new(&Pendulum, Gauss::<8>::new().in_lanes(), 0.3, start)?;
+/// assert_eq!(run.method().order(), 16);
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gauss<const S: usize, E = OneByOne> {
     /// How steps are solved.

@@ -42,6 +42,21 @@ use crate::{Linear, Real, RegularLagrangian, Separable, System, Vector, Weights}
 /// It preserves d(q − βh² a(q)) ∧ dp, a form that depends on h. Steps of different lengths would preserve
 /// nothing, so the method is no [`VariableStep`](crate::methods::VariableStep) and cannot be composed.
 /// Momenta of symmetries that act linearly are preserved in the form that they have at q − βh² a(q).
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - (100.0 * x).powi(2) / 2.0)]
+/// struct Stiff;
+///
+/// // A hundred times the step up to which Störmer–Verlet is stable.
+/// let start: StiffState = StiffState { x: 1.0, dot_x: 0.0 };
+/// let mut run = Integrator::new(&Stiff, Newmark::new(0.25), 2.0, start)?;
+/// let energy = run.energy();
+/// run.take_steps(1000)?;
+/// assert!((run.energy() / energy - 1.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newmark<T = f64> {
     /// β, from 0 to ½.

@@ -60,6 +60,15 @@ use stage::{Rule, Stage, Step};
 /// branch of ϑ(x, y) = p ends with [`StepFailure::Orientation`](crate::error::StepFailure::Orientation), as
 /// far as Ω has another sign halfway. A system that is not in class has no such scheme, and using one is a
 /// compile error: out of class their equations converge to a wrong motion.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/predators.txt")]
+/// let mut run = Integrator::new(&Predators, OneStep::midpoint(), 0.05, start)?;
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneStep {
     rule: Rule,

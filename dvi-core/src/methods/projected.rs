@@ -48,6 +48,25 @@ use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights}
 /// integrators for degenerate Lagrangian systems*, with the midpoint rule.
 ///
 /// A step is solved by Newton's method for 2n unknowns.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// Predators and prey with components of α along both: in no class of one-step schemes as it stands.
+/// #[degenerate_lagrangian(
+///     coordinates(x, y),
+///     one_form = (y.ln() / x * d(x) - x.ln() / y * d(y)) / 2.0,
+///     hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
+/// )]
+/// struct Predators;
+///
+/// let start: PredatorsState = PredatorsState { x: 1.0, y: 0.5 };
+/// let mut run = Integrator::new(&Predators, Projected::symmetric(), 0.05, start)?;
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projected {
     projection: Projection,

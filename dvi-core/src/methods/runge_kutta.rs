@@ -67,6 +67,17 @@ static CLASSICAL: Tableau = Tableau {
 ///
 /// Of a degenerate system y = q, and of a regular one y = (q, p). The method is neither symmetric nor
 /// symplectic: the energy drifts, and so do all momenta but linear ones on nonlinear systems.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// let mut run = Integrator::new(&Pendulum, RungeKutta::classical(), 0.2, start)?;
+/// let energy = run.energy();
+/// run.take_steps(1000)?;
+/// let first = energy - run.energy();
+/// run.take_steps(9000)?;
+/// assert!((energy - run.energy()) / first > 5.0); // the energy drifts
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RungeKutta {
     tableau: &'static Tableau,

@@ -78,6 +78,17 @@ pub use start::Start;
 /// for |ωh| < 1/|1 − 2σ|; for |ωh| above 1.4 the second point of [`Start::Consistent`] is not found, and a
 /// run takes [`Start::RungeKutta`] or two points. If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a
 /// singular matrix and cannot be stepped this way.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/vortices.txt")]
+/// // Two equal vortices circle each other in 2π² units of time.
+/// let mut run = Integrator::new(&Vortices, Sigma::midpoint(), 0.1, start)?;
+/// let angular = run.momentum(0).unwrap();
+/// run.take_steps(100_000)?;
+/// assert!((run.momentum(0).unwrap() - angular).abs() < 1e-13);
+/// assert!(run.parasitic_amplitude() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sigma<T = f64> {
     /// The point between q0 and q1 at which the Lagrangian is evaluated: 0 is q0, 1 is q1.

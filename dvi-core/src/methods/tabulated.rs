@@ -4,6 +4,19 @@ use super::{Galerkin, Gauss, OneStepGauss};
 
 /// A method with as many nodes as it has coefficients for: [`Gauss`] has 1 to 8 stages, [`OneStepGauss`] 1
 /// to 4, and [`Galerkin`] 3 to 9 nodes.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// The order of Gauss collocation, for any number of stages that there are coefficients for.
+/// fn order<const S: usize>() -> usize
+/// where
+///     Gauss<S>: Tabulated,
+/// {
+///     Gauss::<S>::new().order()
+/// }
+/// assert_eq!([order::<1>(), order::<8>()], [2, 16]);
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no coefficients",
     label = "`Gauss` has 1 to 8 stages, `OneStepGauss` 1 to 4, and `Galerkin` 3 to 9 nodes"

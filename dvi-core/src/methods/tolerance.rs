@@ -10,6 +10,20 @@ use crate::{Real, Scalar};
 /// Momenta are small where masses are, and have other units than coordinates; so their error is compared
 /// with the largest momentum of the last steps, with that which the step adds; from rest, with that which
 /// its force would make in a step of the usual length.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// let end = |relative| -> Result<PendulumState, Box<dyn std::error::Error>> {
+///     let tolerance = Tolerance { relative, absolute: 1e-3 * relative };
+///     let control = ErrorControl { tolerance, ..ErrorControl::new(1e-9, 0.1) };
+///     let mut run = ControlledIntegrator::new(&Pendulum, Gauss::<4>::new(), control, start.clone())?;
+///     run.advance_to(10.0)?;
+///     Ok(run.state())
+/// };
+/// let [coarse, fine] = [end(1e-8)?, end(1e-12)?];
+/// assert!((coarse.angle - fine.angle).abs() < 1e-7);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// In units of the numbers, and no less than their rounding, 2.3 · 10⁻¹⁶ in double precision.

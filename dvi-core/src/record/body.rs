@@ -8,6 +8,19 @@ use std::vec::Vec;
 use super::column::{Column, Quantity, Values};
 
 /// A body: its name, and the names of the two or three columns in which its position is.
+///
+/// ```
+/// use dvi_core::record::{Column, Quantity, Record};
+///
+/// let column = |name: &str| Column::new(name, vec![0.0, 1.0]).with_quantity(Quantity::Coordinate);
+/// let time = Column::new("time", vec![0.0, 0.1]).with_quantity(Quantity::Time);
+/// let record = Record::new("The sun").with_column(time)?;
+/// let record = record.with_column(column("sun_x"))?.with_column(column("sun_y"))?;
+/// let bodies = record.bodies();
+/// assert_eq!(bodies[0].name, "sun");
+/// assert_eq!(bodies[0].position, ["sun_x", "sun_y"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Body {

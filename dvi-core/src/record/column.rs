@@ -5,6 +5,17 @@ use std::string::{String, ToString};
 use std::vec::Vec;
 
 /// A named column of a record.
+///
+/// ```
+/// use dvi_core::record::{Column, Record, Values};
+///
+/// let speed = Column::new("speed", vec![1.5, 2.5]);
+/// assert_eq!((speed.name(), speed.len()), ("speed", 2));
+/// assert_eq!(speed.values(), &Values::Numbers(vec![1.5, 2.5]));
+/// let record = Record::new("Two runs").with_column(speed)?.with_unit("speed", "m/s")?;
+/// assert_eq!(record.column("speed")?.unit(), "m/s");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     name: String,
@@ -15,6 +26,16 @@ pub struct Column {
 }
 
 /// What a column is, which decides where it stands on a page.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// use dvi_core::record::Quantity;
+///
+/// let record = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?.record(1, 10)?;
+/// assert_eq!(record.column("dot_x")?.quantity(), Quantity::Velocity);
+/// assert_eq!(record.column("angular")?.quantity(), Quantity::Momentum);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -36,6 +57,14 @@ pub enum Quantity {
 }
 
 /// The values of a column.
+///
+/// ```
+/// use dvi_core::record::{Column, Values};
+///
+/// let column = Column::new("steps", vec![100_u64, 200]);
+/// let Values::Counts(steps) = column.values() else { panic!("counts") };
+/// assert_eq!(steps.iter().sum::<u64>(), 300);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Values {

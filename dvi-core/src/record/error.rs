@@ -11,6 +11,19 @@ use crate::error::{LengthError, StepError};
 crate::error::said!(RecordError);
 
 /// A record that ends early, or that is asked for what it does not have.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// use dvi_core::record::RecordError;
+///
+/// // A head-on fall: the record up to the step that failed is in the error.
+/// let fall = KeplerState { dot_y: 0.0, ..start };
+/// let method = EnergyLimit { method: Variational::trapezoid(), limit: 0.1 };
+/// let mut run = Integrator::new(&Kepler, method, 0.01, fall)?;
+/// let Err(RecordError::Step { record, error, .. }) = run.record(1, 1000) else { panic!("it falls") };
+/// assert_eq!(record.rows() as u64, error.step + 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Error)]
 #[non_exhaustive]
 pub enum RecordError {

@@ -17,12 +17,35 @@ type Function<'f, S, Q> = Box<dyn FnMut(&S, &Q, f64) -> f64 + 'f>;
 
 /// Writes down states of a system: the time, the entries of the state, energy, momenta, and functions of
 /// the user's.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// use dvi_core::record::Recorder;
+///
+/// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
+/// let recorder = Recorder::new(&Kepler).with_function("radius", |_, state, _| state.x.hypot(state.y))?;
+/// let record = recorder.record(&mut run, 10, 100)?; // now, and 100 times after 10 steps each
+/// let farthest = record.numbers("radius")?.iter().fold(0.0_f64, |a, b| a.max(*b));
+/// assert!((farthest - 2.57).abs() < 0.01); // the apocentre, 1.44/0.56
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Recorder<'f, S: Lagrangian> {
     record: Record,
     functions: Vec<Function<'f, S, S::State<f64>>>,
 }
 
 /// Runs that can be recorded: all whose numbers are `f64`.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
+/// let record = run.record(10, 200)?; // now, and 200 times after 10 steps each
+/// assert_eq!(record.numbers("time")?.last(), Some(&20.0));
+/// let mut csv = Vec::new();
+/// record.write_csv(&mut csv)?;
+/// assert!(csv.starts_with(b"time,x,y,dot_x,dot_y,energy,angular\n0.0,1.0,0.0,"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Recorded: Run<Scalar = f64> + Sized {
     /// Takes `rows` times `every` steps, and records the present state and the one after each `every` steps:
     /// `rows` + 1 rows. The page on the [module](crate::record) shows it.
@@ -38,6 +61,17 @@ pub trait Recorded: Run<Scalar = f64> + Sized {
 impl<R: Run<Scalar = f64>> Recorded for R {}
 
 /// A state with its time: what iterators over parts of a run yield.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// use dvi_core::record::Recorder;
+///
+/// // Pairs of a time and a state, as `states_at` yields them.
+/// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
+/// let record = Recorder::new(&Kepler).points(&Kepler, run.states_at([0.5, 2.0, 7.25])?)?;
+/// assert_eq!(record.numbers("time")?, [0.5, 2.0, 7.25]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Moment<Q> {
     /// The time.
     fn time(&self) -> f64;

@@ -23,6 +23,17 @@ use search::numbers;
 pub use search::Direction;
 
 /// Where a run meets a condition.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// // The first passage through the lowest point, a quarter of a period 4 K(sin ½) after the start.
+/// let mut run = Integrator::new(&Pendulum, Gauss::<4>::new(), 0.1, start)?;
+/// let event = run.events([Direction::Falling], |_, state| [state.angle])?.next_until(10.0)?;
+/// let Event { index, time, state } = event.ok_or("it swings")?;
+/// assert_eq!(index, 0); // the only condition
+/// assert!(state.angle.abs() < 1e-12 && (time - 1.675).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event<S, T> {
     /// Which of the conditions it is.

@@ -23,6 +23,17 @@ use crate::{DegenerateLagrangian, Held, Lagrangian, Real, Space, System, Vector}
 /// it yields `None`, and [`state`](Run::state) is the last good one: no step ends outside of the domain of
 /// L, whatever its equations need of that place ([`StepFailure::LeftDomain`]). [`advance`](Run::advance)
 /// takes a step without building a state. What can be asked of a run are the methods of the trait [`Run`].
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// let mut run = Integrator::new(&Pendulum, Gauss::<4>::new(), 0.1, start)?;
+/// let third = run.nth(2).unwrap()?; // the state after the third step
+/// assert_eq!((run.steps(), run.state()), (3, third));
+/// run.take_steps(997)?;
+/// assert_eq!(run.time(), 100.0);
+/// assert!((run.energy() + 1_f64.cos()).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Integrator<H: Held, M: Carries<H::System, T>, T: Real = f64> {
     pub(super) system: H,
     pub(super) stepper: Stepper<H::System, M, T>,

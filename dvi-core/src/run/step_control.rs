@@ -34,6 +34,20 @@ pub use reversible::{Density, Power, Reversible};
 /// A rule for the length of each step of a run on `S`.
 ///
 /// The control takes the steps itself, so that it sees the run before and after each, and may take one back.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// /// How far 50 steps lead, under any control.
+/// fn reached(control: impl StepControl<Kepler, f64>) -> Result<f64, Box<dyn std::error::Error>> {
+///     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
+///     let mut run = ControlledIntegrator::new(&Kepler, Gauss::<4>::new(), control, start)?;
+///     run.take_steps(50)?;
+///     Ok(run.time())
+/// }
+/// assert!(reached(ErrorControl::new(1e-6, 0.1))? > reached(ErrorControl::new(1e-12, 0.1))?);
+/// assert!(reached(Reversible::power(0.1, 1.5))? > reached(Reversible::power(0.05, 1.5))?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
     /// Whether steps may be taken back, so that the run has to keep what it takes.
     const REJECTS: bool = false;

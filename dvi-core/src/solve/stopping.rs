@@ -30,6 +30,18 @@ use crate::scalar::norm::reported;
 pub(crate) use together::Convergences;
 
 /// The criterion by which an iteration is done.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/vortices.txt")]
+/// let loose = Sigma { stopping: Stopping { tolerance: 1e-8, ..Stopping::default() }, ..Sigma::midpoint() };
+/// let mut exact = Integrator::new(&Vortices, Sigma::midpoint(), 0.1, start.clone())?;
+/// let mut loose = Integrator::new(&Vortices, loose, 0.1, start)?;
+/// exact.take_steps(100)?;
+/// loose.take_steps(100)?;
+/// assert!(loose.statistics().iterations < exact.statistics().iterations);
+/// assert!((loose.state().x[0] - exact.state().x[0]).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
     /// The largest error of a coordinate to accept, relative to its size |q| + |Δ|, where Δ is its

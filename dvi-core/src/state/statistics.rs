@@ -3,6 +3,16 @@
 use core::ops::AddAssign;
 
 /// Counters of the work done by a run, starting values not included.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// let mut run = Integrator::new(&Pendulum, Variational::trapezoid(), 0.1, start)?;
+/// run.take_steps(1000)?;
+/// let Statistics { steps, iterations, gradients, .. } = run.statistics();
+/// assert_eq!((steps, iterations), (1000, 0)); // an explicit step
+/// assert!(gradients <= 1001); // one force a step
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {

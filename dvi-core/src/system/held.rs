@@ -8,6 +8,22 @@ use super::System;
 /// A run on a system of its own borrows nothing, so that a struct can hold it and a thread can take it;
 /// steps are the same, bit for bit, and take as many instructions. The attributes implement this trait with
 /// [`System`]; a system written by hand returns itself.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use std::sync::Arc;
+///
+/// /// The energy after 100 steps, of a run that owns, borrows or shares its system.
+/// fn energy(system: impl Held<System = Pendulum>) -> Result<f64, Box<dyn std::error::Error>> {
+///     let start = PendulumState { angle: 1.0, dot_angle: 0.0 };
+///     let mut run = Integrator::new(system, Variational::trapezoid(), 0.1, start)?;
+///     run.take_steps(100)?;
+///     Ok(run.energy())
+/// }
+/// assert_eq!(energy(Pendulum)?, energy(&Pendulum)?);
+/// assert_eq!(energy(Pendulum)?, energy(Arc::new(Pendulum))?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a system",
     label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`",

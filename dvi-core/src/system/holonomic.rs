@@ -13,6 +13,26 @@ use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, Syste
 ///
 /// Constraint k is counted from 0 in the order of declaration, the members of `constraint(i in …)` one after
 /// the other in its place. All functions take slices of n coordinates and m constraints.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// #[lagrangian(
+///     coordinates(x, y),
+///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - y,
+///     constraint = x * x + y * y - 1.0,
+/// )]
+/// struct Rod;
+///
+/// let mut g = [0.0_f64];
+/// Rod.constraint(&[0.6, -0.8], 0.0, &mut g);
+/// assert!(g[0].abs() < 1e-15); // the rod has length 1
+/// let start: RodState = RodState { x: 0.6, y: -0.8, dot_x: 0.0, dot_y: 0.0 };
+/// let mut run = Integrator::new(&Rod, Rattle::default(), 0.01, start)?;
+/// run.take_steps(1000)?;
+/// assert!((run.state().x.hypot(run.state().y) - 1.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no constraints of positions in `{T}`",
     label = "its attribute has no `constraint`, or a parameter is no number",

@@ -32,6 +32,21 @@ pub trait ManifoldSystem: System {
 ///
 /// are the equations of motion of a rotation, those of Euler and Poincaré (Marsden & Ratiu 1999, section
 /// 13.5).
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// /// A unit vector that moves freely.
+/// #[lagrangian(coordinates(s: S2), lagrangian = sum(0..3, |i| dot(s[i]).powi(2)) / 2.0)]
+/// struct Free;
+///
+/// // It follows a great circle, around once in 2π units of time.
+/// let start: FreeState = FreeState { s: [1.0, 0.0, 0.0], dot_s: [0.0, 1.0, 0.0] };
+/// let mut run = Integrator::new(&Free, Geodesic::midpoint(), 0.1, start)?;
+/// run.take_steps(100)?;
+/// assert!((run.state().s[0] - 10_f64.cos()).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no rotations and no unit vectors in `{T}`",
     label = "none of its coordinates is declared as `R: SO3` or `s: S2`, or a parameter is no number",

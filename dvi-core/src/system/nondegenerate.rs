@@ -6,6 +6,16 @@ use crate::system::{Lagrangian, Regular, System};
 /// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform (q, v) ↦ (q, p =
 /// ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2). There may be constraints
 /// beside L.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// // What the compiler has seen: Störmer–Verlet steps are explicit.
+/// assert!(<Pendulum as NondegenerateLagrangian>::SEPARABLE);
+/// let (mut force, mut p) = ([0.0], [0.0]);
+/// Pendulum.force(&[0.5], &[], 0.0, &mut force);
+/// Pendulum.conjugate_momentum(&[0.5], &[2.0], 0.0, &mut p);
+/// assert_eq!((force, p), ([-0.5_f64.sin()], [2.0]));
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
     label = "its Lagrangian is degenerate, a parameter is no number, or it has no attribute",
@@ -38,6 +48,17 @@ pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
 }
 
 /// A system with a regular mass matrix and without constraints or impacts.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// /// The kinetic energy ½ p·v of a regular system without terms that are linear in v.
+/// fn kinetic<S: RegularLagrangian>(system: &S, q: &[f64], v: &[f64]) -> f64 {
+///     let mut p = vec![0.0; q.len()];
+///     system.conjugate_momentum(q, v, 0.0, &mut p);
+///     p.iter().zip(v).map(|(p, v)| p * v / 2.0).sum()
+/// }
+/// assert_eq!(kinetic(&Pendulum, &[1.0], &[3.0]), 4.5);
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system without constraints or impacts, and this is for systems with `#[lagrangian]`",
     label = "its Lagrangian is degenerate, it has constraints, impacts, rotations or unit vectors, a parameter is no number, or it has no attribute",

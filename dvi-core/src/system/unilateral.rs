@@ -17,6 +17,21 @@ use crate::system::{ConstrainedSystem, NondegenerateLagrangian, System, Unilater
 ///
 /// Surface k is counted from 0 in the order of declaration, the members of `impact(i in …)` one after the
 /// other in its place. All functions take slices of n coordinates and m gaps.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y, impact = y)]
+/// struct Ball;
+///
+/// let start: BallState = BallState { y: 1.0, dot_y: 0.0 };
+/// let mut run = Integrator::new(&Ball, Impacts::reflecting(Variational::midpoint()), 0.01, start)?;
+/// run.take_steps(1000)?;
+/// let mut gap = [0.0];
+/// Ball.gap(run.q(), run.time(), &mut gap);
+/// assert!(gap[0] > 0.0 && (run.energy() - 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no impacts in `{T}`",
     label = "its attribute has no `impact`, or a parameter is no number",

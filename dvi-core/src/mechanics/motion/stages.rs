@@ -15,6 +15,17 @@ use crate::{Real, Space, System, Vector};
 pub struct OneByOne;
 
 /// Stages are evaluated at once, in the lanes of one pack.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/pendulum.txt")]
+/// let method: Gauss<8, InLanes> = Gauss::new().in_lanes();
+/// let mut run = Integrator::new(&Pendulum, method, 0.3, start.clone())?;
+/// let mut alone = Integrator::new(&Pendulum, Gauss::<8>::new(), 0.3, start)?;
+/// run.take_steps(100)?;
+/// alone.take_steps(100)?;
+/// assert_eq!(run.state(), alone.state()); // bit for bit
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct InLanes;
 

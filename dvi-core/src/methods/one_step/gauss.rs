@@ -33,6 +33,16 @@ use crate::{Coupled, ProperlyDegenerate, Real, Space, System, Vector, Weights};
 /// at once, with all second derivatives of L.
 ///
 /// Out of class the same equations have order `S` only and preserve nothing; they are no method then.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/predators.txt")]
+/// let mut run = Integrator::new(&Predators, OneStepGauss::<3>::new(), 0.1, start)?;
+/// assert_eq!(run.method().order(), 6);
+/// let energy = run.energy();
+/// run.take_steps(10_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-7);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OneStepGauss<const S: usize> {
     /// The criterion by which a step counts as solved. Default: to rounding errors.

@@ -65,6 +65,16 @@ const FIRST_LOOKS: u32 = 2;
 const RADIANS: f64 = 4.0;
 
 /// The parasitic mode at five consecutive points of a run.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/vortices.txt")]
+/// let mut run = Integrator::new(&Vortices, Sigma::leapfrog(), 0.1, start)?;
+/// run.take_steps(10_000)?;
+/// let ParasiticMode { amplitude, relative, .. } = run.parasitic_mode().unwrap();
+/// // What a smooth motion of frequency ω = 1/π shows: (ωh/2)².
+/// assert!((relative - 2.5e-4).abs() < 2e-5 && amplitude < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParasiticMode<T = f64> {
     /// The largest entry of a = (q_{k−2} − 4q_{k−1} + 6q_k − 4q_{k+1} + q_{k+2})/16: of an alternating part

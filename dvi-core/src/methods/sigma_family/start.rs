@@ -10,6 +10,18 @@ use crate::{DegenerateLagrangian, Real, Vector};
 
 /// How the second point of a run is found. A given second point goes to
 /// [`Integrator::from_two_points`](crate::run::Integrator::from_two_points).
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/vortices.txt")]
+/// let heun = Sigma { start: Start::RungeKutta(RungeKutta::heun()), ..Sigma::midpoint() };
+/// let mut consistent = Integrator::new(&Vortices, Sigma::midpoint(), 0.5, start.clone())?;
+/// let mut heun = Integrator::new(&Vortices, heun, 0.5, start)?;
+/// consistent.take_steps(1000)?;
+/// heun.take_steps(1000)?;
+/// assert!(consistent.parasitic_amplitude() < 1e-14);
+/// assert!(heun.parasitic_amplitude() > 1e-6); // what the start has left stays
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Start {
     /// One step of the implicit midpoint rule on q' = X(q). For σ = ½ and affine α this is p0 = α(q0).

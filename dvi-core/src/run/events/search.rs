@@ -19,6 +19,17 @@ const SURE: usize = 6;
 const POLISHED: usize = 3;
 
 /// The crossings that count as events.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/pendulum.txt")]
+/// let mut run = Integrator::new(&Pendulum, Gauss::<4>::new(), 0.1, start)?;
+/// let falls = run.events([Direction::Falling], |_, state| [state.angle])?.next_until(20.0)?;
+/// assert!(falls.ok_or("it swings")?.state.dot_angle < 0.0);
+/// let rises = run.events([Direction::Rising], |_, state| [state.angle])?.next_until(20.0)?;
+/// assert!(rises.ok_or("it swings")?.state.dot_angle > 0.0);
+/// assert!(Direction::Either.crosses(-1.0, 1.0) && Direction::Either.crosses(1.0, -1.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
     /// g increases along the run.

@@ -24,6 +24,19 @@ use crate::{Held, Lagrangian, Real, RegularLagrangian, Scalar, System, Vector};
 /// each step, up to the first failure; [`state`](Run::state) is always the last good one. The velocity is
 /// taken along, so that a control can read it; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a
 /// step.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/kepler.txt")]
+/// // An orbit of eccentricity 0.9, from its pericentre.
+/// let start: KeplerState = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
+/// let control = Reversible::power(0.02, 1.5);
+/// let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
+/// let (energy, first) = (run.energy(), run.step_size());
+/// run.take_steps(200)?;
+/// assert!(run.step_size() > 10.0 * first); // further out steps are longer
+/// assert!((run.energy() - energy).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct ControlledIntegrator<H, M, C, T = f64>
 where
     H: Held,
@@ -114,7 +127,9 @@ where
         &self.control
     }
 
-    /// What the step control carries from step to step.
+    /// What the step control carries from step to step. Of [`EnergyMomentum`](super::EnergyMomentum) one reads
+    /// here `discrete_energy()`, and its `defect()` in the last step; of [`ErrorControl`](super::ErrorControl)
+    /// the `error()` of the last step in units of the tolerance, and the length of the `next_step()`.
     pub fn control_memory(&self) -> &C::Memory {
         &self.control_memory
     }

@@ -20,6 +20,18 @@ use crate::space::sink::Product;
 use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// How far the centre of the osculating circle moves in a step.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/kepler.txt")]
+/// let reached = |centre| -> Result<f64, Box<dyn std::error::Error>> {
+///     let control = Osculating { centre, ..Osculating::new(1e-3, 0.01) };
+///     let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start.clone())?;
+///     run.take_steps(100)?;
+///     Ok(run.time())
+/// };
+/// assert_ne!(reached(CentreSpeed::PerArcLength)?, reached(CentreSpeed::AsPrinted)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CentreSpeed {
     /// v_o |v| h: v_o is per unit of arc length.
@@ -51,6 +63,16 @@ impl CentreSpeed {
 /// It is here for comparison. It is not reversible, so that energy errors may drift whatever the method.
 /// With the distance along the path it may also lock in to a periodic motion, and then they do not: the
 /// gallery shows both. [`Reversible`](super::Reversible) is better and cheaper.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/kepler.txt")]
+/// let control = Osculating::new(1e-3, 0.01);
+/// let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
+/// let energy = run.energy();
+/// run.take_steps(1000)?;
+/// assert!((run.energy() - energy).abs() < 1e-2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Osculating {
     /// The largest e to accept, a length.

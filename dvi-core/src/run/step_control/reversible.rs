@@ -19,6 +19,27 @@ use crate::{Real, RegularLagrangian, Space, System, Vector};
 
 /// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position
 /// alone: then G is odd in v, and the control reversible.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/kepler.txt")]
+/// /// Short steps near the origin, of half the usual length at the distance 1.
+/// #[derive(Debug)]
+/// struct Near;
+///
+/// impl Density<f64> for Near {
+///     fn value(&self, q: &[f64]) -> f64 {
+///         1.0 + 1.0 / (q[0] * q[0] + q[1] * q[1])
+///     }
+///     fn growth(&self, q: &[f64], v: &[f64]) -> f64 {
+///         let square = q[0] * q[0] + q[1] * q[1];
+///         -2.0 * (q[0] * v[0] + q[1] * v[1]) / (square * square) / self.value(q)
+///     }
+/// }
+/// let control = Reversible::new(0.02, Near);
+/// let run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
+/// assert!((run.step_size() - 0.01).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Density<T>: Debug {
     /// ρ(q).
     fn value(&self, q: &[T]) -> T;
@@ -30,6 +51,15 @@ pub trait Density<T>: Debug {
 ///
 /// κ = 3/2 takes steps in proportion to the time of free fall: on Kepler's problem all orbits of the same
 /// shape then have the same number of steps a revolution, about (2π/ε)·mean(ρ) over time.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// let density = Power { exponent: 1.5 };
+/// assert_eq!(density.value(&[4.0, 0.0]), 0.125); // |q|^(−3/2)
+/// let control = Reversible::new(0.02, density);
+/// assert_eq!(control, Reversible::power(0.02, 1.5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power {
     /// κ.
@@ -58,6 +88,18 @@ impl<T: Real> Density<T> for Power {
 /// With a symmetric method a run can be retraced backwards, so that energy errors do not drift on reversible
 /// orbits. The whole is not symplectic. The control is for regular systems. Beside the position it needs the
 /// velocity at the start of a step, and for L = ½ v·M v − V(q, t) no evaluation of L.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/kepler.txt")]
+/// // An orbit of eccentricity 0.9, from its pericentre, over some 100 revolutions.
+/// let start: KeplerState = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
+/// let control = Reversible::power(0.02, 1.5);
+/// let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
+/// let energy = run.energy();
+/// run.take_steps(20_000)?;
+/// assert!((run.energy() - energy).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reversible<D = Power> {
     /// ε ≠ 0, in units of ρ times time; negative to run back in time.
