@@ -122,14 +122,28 @@ impl<R: Run> Dense<R> {
     /// As [`Run::advance`].
     #[inline]
     pub fn advance(&mut self) -> Result<(), StepError> {
+        self.advance_by(R::advance)
+    }
+
+    /// Takes one step by `step`.
+    #[inline]
+    pub(super) fn advance_by(
+        &mut self,
+        step: impl FnOnce(&mut R) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
         // Steps of a control cannot be taken again by the method alone.
         if self.taken >= self.most || self.run.clock().is_none() {
             self.keep();
             self.most = LONGEST.min(2 * self.most);
         }
-        self.run.advance()?;
-        self.taken += 1;
-        Ok(())
+        let before = self.run.steps();
+        let taken = step(&mut self.run);
+        match self.run.steps().wrapping_sub(before) {
+            0 => {}
+            1 if taken.is_ok() => self.taken += 1,
+            _ => self.keep(),
+        }
+        taken
     }
 
     /// Takes steps until time `t` is within the last one, or at its end; none if it is there already.
