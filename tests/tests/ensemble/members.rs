@@ -4,9 +4,7 @@ use approx::assert_abs_diff_eq;
 use dvi_core::ensemble::{Draws, Ensemble, Outcome};
 use dvi_core::prelude::*;
 
-use crate::ensemble::{
-    Checked, HenonHeiles, HenonHeilesState, Kepler, KeplerState, LEFT, left, planets, wells,
-};
+use crate::ensemble::{Checked, HenonHeiles, HenonHeilesState, LEFT, left, planets, wells};
 
 #[test]
 fn a_record_is_that_of_the_run() -> Checked {
