@@ -30,9 +30,7 @@ fn run(shard: Shard, checkpoint: &Path) -> Result<Results, EnsembleError> {
         dot_y: draw.normal(0.0, 0.4),
     });
     Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states)
-        .until(|_, state| (state.x.hypot(state.y) > 3.0).then_some("left the well"))
-        .stride(5)
-        .in_lanes::<8>()
+        .until(["left the well"], |_, state, _| [state.x.hypot(state.y) - 3.0])
         .checkpoints(checkpoint, Duration::from_secs(10))
         .shard(shard)
         .on_progress(|p| eprintln!("{} of {} have ended", p.finished + p.exited + p.failed, p.members))

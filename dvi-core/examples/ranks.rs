@@ -31,9 +31,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         dot_angle: draw.normal(0.0, 0.5),
     });
     let results = Ensemble::new(&Pendulum { drive: 0.5 }, Variational::trapezoid(), 0.05, states)
-        .until(|_, state| (state.angle.abs() > 10.0).then_some("has turned over"))
+        .until(["has turned over"], |_, state, _| [state.angle.abs() - 10.0])
         .stride(10)
-        .in_lanes::<8>()
         .take_steps_on(&world, 5000)?;
     if let Some(results) = results {
         results.record()?.write_csv(File::create(&path)?)?;

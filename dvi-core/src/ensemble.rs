@@ -26,9 +26,8 @@
 //!     dot_y: 0.0,
 //! });
 //! let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states)
-//!     .until(|_, state| (state.x.hypot(state.y) > 3.0).then_some("left the well"))
+//!     .until(["left the well"], |_, state, _| [state.x.hypot(state.y) - 3.0])
 //!     .parameter("first_x", |_, start| start.x)
-//!     .in_lanes::<8>()
 //!     .take_steps(2000)?;
 //! let left = results.members().iter().filter(|member| matches!(member.outcome, Outcome::Exited { .. }));
 //! println!("{} of 100 have left", left.count());
@@ -71,6 +70,7 @@ pub(crate) mod fingerprint;
 mod group;
 mod growth;
 mod lanes;
+mod limits;
 mod member;
 mod plan;
 #[cfg(feature = "mpi")]
@@ -96,6 +96,7 @@ use crate::diagnostics::LyapunovExponent;
 use crate::discrete::TwiceDifferentiable;
 use crate::methods::{InStep, Method, VariationalMethod};
 use crate::run::{Direction, Together};
+use limits::Given;
 use plan::Plan;
 use rounds::{Checkpoints, Rounds, Work};
 use settings::{Settings, Systems};
@@ -192,7 +193,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
             vary: None,
             h,
             stride: 100,
-            exit: None,
+            limits: None,
             section: None,
             packs: None,
             growth: None,
@@ -222,21 +223,45 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         self
     }
 
-    /// Looks at each member every `steps` steps, at its start and at its end: at the energy, the exit
-    /// condition and the section. It is 100 if nothing else is said. What happens between two looks is not
-    /// seen; where a member fails, only its energy is looked at.
+    /// Looks at each member every `steps` steps, at its start and at its end: at the energy and the section.
+    /// It is 100 if nothing else is said. What these do between two looks is not seen; where a member fails,
+    /// only its energy is looked at.
     pub fn stride(mut self, steps: u64) -> Self {
         self.settings.stride = steps;
         self
     }
 
-    /// Ends the run of a member when `exit` gives a reason, such as "left the region". It is asked every
-    /// [`stride`](Self::stride) steps, and the first time at the start.
-    pub fn until(
+    /// Ends the run of a member where one of the functions `g` of system, state and time comes from below to
+    /// zero, with its reason: such as "left the region" where `g` is the distance from the origin less the
+    /// radius of the region. A member that begins beyond a limit, where its g is positive, ends there.
+    ///
+    /// These are [`Events`](crate::run::Events): time and state of the member are those at the limit, as
+    /// accurate as its run is, whatever the length of a step, and a member that a step leads beyond a limit
+    /// and back has come to it. A function that is not a number is a failure. Each step is watched, so that
+    /// members go alone, not in lanes.
+    ///
+    /// ```
+    /// use dvi_core::ensemble::Ensemble;
+    /// use dvi_core::prelude::*;
+    ///
+    /// #[lagrangian(coordinates(height), lagrangian = dot(height).powi(2) / 2.0 - height)]
+    /// #[derive(Debug)]
+    /// struct Stone;
+    ///
+    /// let stones = [0.5, 2.0].map(|height| StoneState { height, dot_height: 0.0 });
+    /// let results = Ensemble::new(&Stone, Variational::trapezoid(), 0.3, stones)
+    ///     .until(["on the ground"], |_, stone, _| [-stone.height])
+    ///     .take_steps(10)?;
+    /// let [low, high] = results.members() else { panic!("there are two") };
+    /// assert!((low.time - 1.0).abs() < 1e-14 && (high.time - 2.0).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn until<const N: usize>(
         mut self,
-        exit: impl Fn(&S, &S::State<f64>) -> Option<&'static str> + Send + Sync + 'a,
+        reasons: [&'static str; N],
+        g: impl Fn(&S, &S::State<f64>, f64) -> [f64; N] + Send + Sync + 'a,
     ) -> Self {
-        self.settings.exit = Some(Box::new(exit));
+        self.settings.limits = Some(Box::new(Given { reasons, g }));
         self
     }
 
@@ -284,9 +309,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// A checkpoint of another ensemble is an error that says in what it differs. Initial states are
     /// compared by their bits; the method by its type and by what [`Debug`](fmt::Debug) says of it; the
     /// systems by their type, their formulas, energy and gradient at the start, and by what `Debug` says of
-    /// them. So that must be the same in each process, which the address of a function is not. Exit
-    /// conditions, sections and functions of your own in formulas cannot be compared: remove the file when
-    /// they change. It is written between two [looks](Self::stride), so that a long stride makes it late.
+    /// them. So that must be the same in each process, which the address of a function is not. Of limits the
+    /// reasons are compared; what they, sections and functions of your own in formulas compute cannot be:
+    /// remove the file when that changes. It is written between two [looks](Self::stride), so that a long stride makes it late.
     pub fn checkpoints(mut self, path: impl AsRef<Path>, every: Duration) -> Self
     where
         S: fmt::Debug,

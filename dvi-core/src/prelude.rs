@@ -138,7 +138,7 @@ pub use crate::methods::{
 pub use crate::record::Recorded;
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Dense, Density, Direction, EnergyMomentum, ErrorControl, Event,
-    Events, Integrator, Osculating, Power, Reversible, Run, StepControl,
+    Events, Integrator, Osculating, Power, Reversible, Run, StepControl, WithMethod,
 };
 #[cfg(feature = "alloc")]
 pub use crate::run::{Checkpoint, Together};

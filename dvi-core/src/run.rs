@@ -1,5 +1,6 @@
 //! A run: a system, a method, and where they have got to, whatever chooses the lengths of the steps.
 
+mod between;
 #[cfg(feature = "alloc")]
 mod checkpoint;
 mod dense;
@@ -21,6 +22,7 @@ use crate::state::Statistics;
 use crate::system::start::extended;
 use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed, Vector};
 
+use between::Between;
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
 pub use dense::{Dense, StatesAt};
@@ -43,8 +45,8 @@ pub use together::Together;
 ///
 /// `dyn Run<System = S, Scalar = f64>` is a run of any method:
 /// [a method that is chosen at run
-/// time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time) is one line. States at given
-/// times and events are asked of runs whose type is known, in a function that is generic over `R: Run`.
+/// time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time) is one line. In a `Box` or
+/// behind `&mut` it is a run too. What belongs to one method is in [`WithMethod`].
 ///
 /// ```
 #[doc = include_str!("../docs/hidden/kepler.txt")]
@@ -65,20 +67,14 @@ pub use together::Together;
 pub trait Run {
     /// The system that is stepped.
     type System: Lagrangian<Self::Scalar>;
-    /// The method that takes the steps.
-    type Method: Method<Self::System, Self::Scalar>
-    where
-        Self: Sized;
     /// The numbers that it is done with.
     type Scalar: Real;
 
     /// The system.
     fn system(&self) -> &Self::System;
 
-    /// The method and the point that it has reached.
-    fn stepper(&self) -> &Stepper<Self::System, Self::Method, Self::Scalar>
-    where
-        Self: Sized;
+    /// The system, and what takes its last step again in part: see [`Dense`].
+    fn between(&mut self) -> (&Self::System, &mut dyn Between<Self::System, Self::Scalar>);
 
     /// The current coordinates, flat, in the order of declaration.
     fn q(&self) -> &[Self::Scalar];
@@ -205,21 +201,22 @@ pub trait Run {
         Self: Sized,
         <Self::System as System>::Kind: Rates<Self::System, Self::Scalar>,
     {
-        let (system, q) = (self.system(), &self.stepper().q);
-        let (t, zero) = (self.time(), Self::Scalar::lift(0.0));
+        let (system, t, zero) = (self.system(), self.time(), Self::Scalar::lift(0.0));
         if !Self::System::FORCED {
             return zero;
         }
+        let mut q = system.space().vector();
+        q.copy_from_slice(self.q());
         let power = |v: &[Self::Scalar], velocity: &[Self::Scalar]| {
             let mut force = system.space().vector();
-            system.applied_force(q, v, t, &mut force);
+            system.applied_force(&q, v, t, &mut force);
             force.iter().zip(velocity).fold(zero, |sum, (&force, &v)| sum + force * v)
         };
         if Self::System::REGULAR {
             let v = self.v();
             return power(&v, &v);
         }
-        match <Self::System as System>::Kind::rates(system, q, &[], t) {
+        match <Self::System as System>::Kind::rates(system, &q, &[], t) {
             Ok([velocity, _]) => power(&[], &velocity),
             Err(_) => Self::Scalar::lift(f64::NAN),
         }
@@ -244,14 +241,30 @@ pub trait Run {
         self.statistics().steps
     }
 
-    /// The method.
-    #[inline]
-    fn method(&self) -> &Self::Method
+    /// The value of declared momentum `index`, in the order of
+    /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
+    fn momentum(&self, index: usize) -> Option<Self::Scalar> {
+        (index < Self::System::REPORT.momenta.len())
+            .then(|| self.system().momentum(index, self.q(), &self.v(), self.time()))
+    }
+
+    /// The names and values of all declared momenta.
+    fn momenta(&self) -> impl Iterator<Item = (&'static str, Self::Scalar)> + '_
     where
         Self: Sized,
     {
-        &self.stepper().method
+        let names = Self::System::REPORT.momenta.iter().enumerate();
+        names.filter_map(|(index, &name)| self.momentum(index).map(|value| (name, value)))
     }
+}
+
+/// A run whose method is known when the program is compiled.
+pub trait WithMethod: Run {
+    /// The method that takes the steps.
+    type Method: Method<Self::System, Self::Scalar>;
+
+    /// The method.
+    fn method(&self) -> &Self::Method;
 
     /// What the method carries from step to step. Of this can be read:
     ///
@@ -271,91 +284,91 @@ pub trait Run {
     /// assert!((x * p_y - y * p_x - 1.2).abs() < 1e-12); // the area law, in momenta
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[inline]
-    fn memory(&self) -> &<Self::Method as Carries<Self::System, Self::Scalar>>::Memory
-    where
-        Self: Sized,
-    {
-        &self.stepper().memory
-    }
-
-    /// The value of declared momentum `index`, in the order of
-    /// [`Report::momenta`](crate::Report::momenta); `None` if there is no such momentum.
-    fn momentum(&self, index: usize) -> Option<Self::Scalar> {
-        (index < Self::System::REPORT.momenta.len())
-            .then(|| self.system().momentum(index, self.q(), &self.v(), self.time()))
-    }
-
-    /// The names and values of all declared momenta.
-    fn momenta(&self) -> impl Iterator<Item = (&'static str, Self::Scalar)> + '_
-    where
-        Self: Sized,
-    {
-        let names = Self::System::REPORT.momenta.iter().enumerate();
-        names.filter_map(|(index, &name)| self.momentum(index).map(|value| (name, value)))
-    }
+    fn memory(&self) -> &<Self::Method as Carries<Self::System, Self::Scalar>>::Memory;
 }
 
-impl<R: Run> Run for &mut R {
-    type System = R::System;
-    type Method = R::Method;
-    type Scalar = R::Scalar;
+/// What holds or borrows a run is one.
+macro_rules! run {
+    ($Borrowed:ty) => {
+        impl<R: Run + ?Sized> Run for $Borrowed {
+            type System = R::System;
+            type Scalar = R::Scalar;
 
-    #[inline]
-    fn system(&self) -> &R::System {
-        (**self).system()
-    }
+            #[inline]
+            fn system(&self) -> &R::System {
+                (**self).system()
+            }
 
-    #[inline]
-    fn stepper(&self) -> &Stepper<R::System, R::Method, R::Scalar> {
-        (**self).stepper()
-    }
+            #[inline]
+            fn between(&mut self) -> (&R::System, &mut dyn Between<R::System, R::Scalar>) {
+                (**self).between()
+            }
 
-    #[inline]
-    fn q(&self) -> &[R::Scalar] {
-        (**self).q()
-    }
+            #[inline]
+            fn q(&self) -> &[R::Scalar] {
+                (**self).q()
+            }
 
-    #[inline]
-    fn v(&self) -> Vector<R::System, R::Scalar> {
-        (**self).v()
-    }
+            #[inline]
+            fn v(&self) -> Vector<R::System, R::Scalar> {
+                (**self).v()
+            }
 
-    #[inline]
-    fn statistics(&self) -> Statistics {
-        (**self).statistics()
-    }
+            #[inline]
+            fn statistics(&self) -> Statistics {
+                (**self).statistics()
+            }
 
-    #[inline]
-    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-        (**self).take_steps(count)
-    }
+            #[inline]
+            fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
+                (**self).take_steps(count)
+            }
 
-    #[inline]
-    fn time(&self) -> R::Scalar {
-        (**self).time()
-    }
+            #[inline]
+            fn time(&self) -> R::Scalar {
+                (**self).time()
+            }
 
-    #[inline]
-    fn step_size(&self) -> R::Scalar {
-        (**self).step_size()
-    }
+            #[inline]
+            fn step_size(&self) -> R::Scalar {
+                (**self).step_size()
+            }
 
-    #[inline]
-    fn clock(&self) -> Option<Clock<R::Scalar>> {
-        (**self).clock()
-    }
+            #[inline]
+            fn clock(&self) -> Option<Clock<R::Scalar>> {
+                (**self).clock()
+            }
 
-    fn set_state(
-        &mut self,
-        t: R::Scalar,
-        state: <R::System as System>::State<R::Scalar>,
-    ) -> Result<(), StartError> {
-        (**self).set_state(t, state)
-    }
+            fn set_state(
+                &mut self,
+                t: R::Scalar,
+                state: <R::System as System>::State<R::Scalar>,
+            ) -> Result<(), StartError> {
+                (**self).set_state(t, state)
+            }
 
-    #[cfg(feature = "alloc")]
-    fn checkpoint(&self) -> Checkpoint<R::Scalar> {
-        (**self).checkpoint()
-    }
+            #[cfg(feature = "alloc")]
+            fn checkpoint(&self) -> Checkpoint<R::Scalar> {
+                (**self).checkpoint()
+            }
+        }
+
+        impl<R: WithMethod + ?Sized> WithMethod for $Borrowed {
+            type Method = R::Method;
+
+            #[inline]
+            fn method(&self) -> &R::Method {
+                (**self).method()
+            }
+
+            #[inline]
+            fn memory(&self) -> &<R::Method as Carries<R::System, R::Scalar>>::Memory {
+                (**self).memory()
+            }
+        }
+    };
 }
+
+run!(&mut R);
+#[cfg(feature = "alloc")]
+run!(alloc::boxed::Box<R>);

@@ -4,6 +4,7 @@
 mod every_method;
 mod files;
 mod left_later;
+mod limits;
 mod members;
 mod mistakes;
 mod resumed;
@@ -63,8 +64,10 @@ fn wells(count: u64) -> Vec<HenonHeilesState> {
     Draws::new(7).take(count, state).collect()
 }
 
-fn left(_: &HenonHeiles, state: &HenonHeilesState) -> Option<&'static str> {
-    (state.x.hypot(state.y) > 3.0).then_some("left the well")
+const LEFT: [&str; 1] = ["left the well"];
+
+fn left(_: &HenonHeiles, state: &HenonHeilesState, _: f64) -> [f64; 1] {
+    [state.x.hypot(state.y) - 3.0]
 }
 
 /// Planets, every third of which falls into the sun, and one of which begins there.

@@ -124,6 +124,23 @@ fn runs_of_their_own_systems_go_together_in_lanes() -> Outcome {
 
 type AnyRun<'a> = Box<dyn Run<System = Kepler, Scalar = f64> + 'a>;
 
+/// Calls a function with what begins a run, of several methods, of steps of one length and of several.
+macro_rules! of_many_methods {
+    ($check:ident) => {{
+        $check(|| Ok(Integrator::new(&KEPLER, Variational::trapezoid(), 0.05, START)?))?;
+        $check(|| Ok(Integrator::new(&KEPLER, Variational::simpson(), 0.05, START)?))?;
+        $check(|| Ok(Integrator::new(KEPLER, Gauss::<3>::new(), 0.05, START)?))?;
+        $check(|| {
+            Ok(Integrator::new(KEPLER, Composition::kahan_li_8(Variational::midpoint()), 0.1, START)?)
+        })?;
+        let control = Reversible::power(0.05, 1.5);
+        $check(|| Ok(ControlledIntegrator::new(KEPLER, Variational::trapezoid(), control, START)?))?;
+        $check(|| {
+            Ok(ControlledIntegrator::new(KEPLER, Gauss::<3>::new(), ErrorControl::new(1e-8, 0.01), START)?)
+        })
+    }};
+}
+
 /// All that can be asked of a run whatever its method is.
 fn asked(run: &dyn Run<System = Kepler, Scalar = f64>) -> Outcome<(Vec<u64>, Checkpoint, KeplerState)> {
     let momentum = run.momentum(0).ok_or("a momentum")?;
@@ -143,8 +160,48 @@ fn a_method_that_is_chosen_at_run_time_takes_the_same_steps() -> Outcome {
         assert_eq!((chosen.steps(), chosen.statistics()), (STEPS + 1, known.statistics()));
         Ok(())
     }
-    check(|| Ok(Integrator::new(&KEPLER, Variational::trapezoid(), 0.05, START)?))?;
-    check(|| Ok(Integrator::new(KEPLER, Gauss::<3>::new(), 0.05, START)?))?;
-    let control = Reversible::power(0.05, 1.5);
-    check(|| Ok(ControlledIntegrator::new(KEPLER, Variational::trapezoid(), control, START)?))
+    of_many_methods!(check)
+}
+
+/// Of the run of a method that is known, and of the same run when it is not known.
+#[test]
+fn so_are_its_states_at_times_and_its_events() -> Outcome {
+    const DIRECTIONS: [Direction; 2] = [Direction::Rising, Direction::Either];
+    fn conditions(t: f64, s: &KeplerState) -> [f64; 2] {
+        [s.x * s.dot_x + s.y * s.dot_y, s.y - 0.01 * t]
+    }
+    fn states<R: Run<System = Kepler, Scalar = f64>>(mut run: R) -> Outcome<Vec<(f64, KeplerState)>> {
+        let times = (0..40).map(|k| 0.013 * f64::from(k * k));
+        Ok(run.states_at(times)?.collect::<Result<_, _>>()?)
+    }
+    fn events<R: Run<System = Kepler, Scalar = f64>>(mut run: R) -> Outcome<Vec<Event<KeplerState, f64>>> {
+        let mut events = run.events(DIRECTIONS, conditions)?;
+        let mut found = Vec::new();
+        while let Some(event) = events.next_until(20.0)? {
+            if found.len() == 4 {
+                events.set_state(event.time, KeplerState { x: event.state.x + 0.01, ..event.state })?;
+            }
+            found.push(event);
+        }
+        assert!(found.len() > 8, "{found:?}");
+        Ok(found)
+    }
+    fn check<'a, R: Run<System = Kepler, Scalar = f64> + 'a>(begin: impl Fn() -> Outcome<R>) -> Outcome {
+        let any = || Ok::<_, Box<dyn std::error::Error>>(Box::new(begin()?) as AnyRun<'a>);
+        let expected = states(begin()?)?;
+        assert_eq!(
+            [states(any()?)?, states(&mut *any()?)?, states(&mut begin()?)?],
+            [(); 3].map(|()| expected.clone())
+        );
+        assert_eq!(events(any()?)?, events(begin()?)?);
+        assert_eq!(events(&mut *any()?)?, events(begin()?)?);
+        // In one run, one after the other.
+        let (mut known, mut chosen) = (begin()?, any()?);
+        assert_eq!(chosen.dense()?.state_at(1.23)?, known.dense()?.state_at(1.23)?);
+        let event = chosen.events(DIRECTIONS, conditions)?.next_until(9.0)?;
+        assert!(event.is_some() && event == known.events(DIRECTIONS, conditions)?.next_until(9.0)?);
+        assert_eq!(asked(&*chosen)?, asked(&known)?);
+        Ok(())
+    }
+    of_many_methods!(check)
 }

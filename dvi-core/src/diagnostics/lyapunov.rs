@@ -7,7 +7,9 @@ use super::TangentMap;
 use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepError;
 use crate::methods::VariationalMethod;
+#[cfg(doc)]
 use crate::run::Run;
+use crate::run::WithMethod;
 use crate::space::sink::Product;
 use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector, Weights};
@@ -42,7 +44,7 @@ pub struct LyapunovExponent<S: System, L, T: Real = f64> {
 impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L, T> {
     /// The exponent of the given run, from its current state on. The first perturbation has a direction of
     /// no significance, and that of a degenerate system keeps p = α(q).
-    pub fn new<R: Run<System = S, Scalar = T>>(run: &R) -> Self
+    pub fn new<R: WithMethod<System = S, Scalar = T>>(run: &R) -> Self
     where
         R::Method: VariationalMethod<S, T, DiscreteLagrangian = L>,
     {
@@ -85,7 +87,7 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S
     /// # Errors
     /// As [`Run::advance`], and [`Singular`](crate::error::StepFailure::Singular) if the step has no
     /// tangent map; the run has then completed its step.
-    pub fn advance<R: Run<System = S, Scalar = T>>(&mut self, run: &mut R) -> Result<(), StepError>
+    pub fn advance<R: WithMethod<System = S, Scalar = T>>(&mut self, run: &mut R) -> Result<(), StepError>
     where
         R::Method: VariationalMethod<S, T, DiscreteLagrangian = L>,
     {

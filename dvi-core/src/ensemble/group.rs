@@ -7,9 +7,9 @@ use std::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use super::error::EnsembleError;
-use super::growth::Growth;
-use super::member::{Member, Outcome, Seen};
-use super::settings::Settings;
+use super::limits::{Exit, Watch};
+use super::member::{At, Member, Outcome, Seen};
+use super::settings::{AnyGrowth, Settings};
 use crate::Lagrangian;
 use crate::error::{CheckpointError, StartError, StepError};
 use crate::methods::Method;
@@ -29,6 +29,7 @@ pub(super) struct UnderWay {
     checkpoint: Checkpoint,
     seen: Seen,
     growth: Option<Vec<f64>>,
+    watch: Option<Vec<f64>>,
 }
 
 /// A member with its place.
@@ -41,9 +42,15 @@ pub(super) struct Slot {
 /// A member that runs.
 struct Runner<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
     slot: &'s mut Slot,
-    run: Integrator<&'a S, M>,
+    run: Course<'s, 'a, S, M>,
     seen: Seen,
-    growth: Option<Box<dyn Growth<'a, S, M> + 'a>>,
+    growth: Option<AnyGrowth<'a, S, M>>,
+}
+
+/// A run without limits, or one that is watched.
+enum Course<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
+    Free(Integrator<&'a S, M>),
+    Limited(Box<dyn Watch<'a, S, M> + 's>),
 }
 
 impl Slot {
@@ -81,25 +88,22 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             runners.extend(self.begin(slot, count)?);
         }
         let Some(first) = runners.first() else { return Ok(()) };
-        let mut packs = self.packs.filter(|_| self.growth.is_none()).map(|(_, new)| new(&first.run));
+        let mut packs = self.packs().map(|(_, new)| new(first.run.run()));
         // Members of a group may have been interrupted at different steps: those that are behind catch up.
-        while let Some(at) = runners.iter().map(|runner| runner.run.steps()).min() {
+        while let Some(at) = runners.iter().map(Runner::steps).min() {
             let steps = self.stride.min(count.saturating_sub(at));
             let (behind, mut others): (Vec<_>, Vec<_>) =
-                runners.into_iter().partition(|runner| runner.run.steps() == at);
+                runners.into_iter().partition(|runner| runner.steps() == at);
             let mut behind: Vec<Runner<'_, 'a, S, M>> = behind;
             let results = match &mut packs {
                 Some(packs) => {
-                    packs.take_steps(behind.iter_mut().map(|runner| &mut runner.run).collect(), steps)
+                    let runs = behind.iter_mut().filter_map(Runner::free).collect();
+                    packs.take_steps(runs, steps).into_iter().map(|taken| taken.map(|()| None)).collect()
                 }
-                None => behind.iter_mut().map(|runner| runner.take_steps(steps)).collect(),
+                None => behind.iter_mut().map(|runner| runner.take_steps(steps)).collect::<Vec<_>>(),
             };
-            others.extend(
-                behind
-                    .into_iter()
-                    .zip(results)
-                    .filter_map(|(runner, result)| runner.looked_at(self, result, count)),
-            );
+            let looked_at = behind.into_iter().zip(results);
+            others.extend(looked_at.filter_map(|(runner, result)| runner.looked_at(self, result, count)));
             runners = others;
             if is_interrupted() {
                 runners.retain_mut(|runner| !runner.is_left(self));
@@ -111,7 +115,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
     /// Begins the run of a member, or goes on with it; there is none if the member has ended, or ends at
     /// once.
     fn begin<'s>(
-        &self,
+        &'s self,
         slot: &'s mut Slot,
         count: u64,
     ) -> Result<Option<Runner<'s, 'a, S, M>>, EnsembleError> {
@@ -126,11 +130,10 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
                 let seen = under_way.seen.clone();
                 Ok(Some(Runner { slot, run, seen, growth }))
             }
-            Place::Waiting => match Integrator::new(system, self.method(number), self.h, state.clone()) {
-                Ok(run) => {
-                    let growth = self.growth.map(|new| new(&run));
-                    let seen = Seen::first(&run);
-                    Ok(Runner { slot, run, seen, growth }.looked_at(self, Ok(()), count))
+            Place::Waiting => match self.first(system, number, state.clone()) {
+                Ok((run, growth, exit)) => {
+                    let seen = Seen::first(&At::end_of(run.run()));
+                    Ok(Runner { slot, run, seen, growth }.looked_at(self, Ok(exit), count))
                 }
                 Err(error) => {
                     slot.place = Place::Ended(Member::without_run(number, system, state, error.to_string()));
@@ -140,13 +143,27 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
         }
     }
 
+    /// A run that begins, with its growth, and why it ends at once if it does.
+    #[allow(clippy::type_complexity)]
+    fn first(
+        &self,
+        system: &'a S,
+        number: u64,
+        state: S::State<f64>,
+    ) -> Result<(Course<'_, 'a, S, M>, Option<AnyGrowth<'a, S, M>>, Option<Exit<S>>), StartError> {
+        let run = Integrator::new(system, self.method(number), self.h, state)?;
+        let growth = self.growth.map(|new| new(&run));
+        let exit = self.limits.as_ref().and_then(|limits| limits.beyond(&run));
+        Ok((self.course(system, run, None)?, growth, exit))
+    }
+
     #[allow(clippy::type_complexity)]
     fn resume(
         &self,
         system: &'a S,
         number: u64,
-        UnderWay { checkpoint, growth: saved, .. }: &UnderWay,
-    ) -> Result<(Integrator<&'a S, M>, Option<Box<dyn Growth<'a, S, M> + 'a>>), StartError> {
+        UnderWay { checkpoint, growth: saved, watch, .. }: &UnderWay,
+    ) -> Result<(Course<'_, 'a, S, M>, Option<AnyGrowth<'a, S, M>>), StartError> {
         let run = Integrator::resume(system, self.method(number), checkpoint)?;
         let mut growth = self.growth.map(|new| new(&run));
         match (&mut growth, saved) {
@@ -154,15 +171,51 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             (None, None) => {}
             (Some(_), None) | (None, Some(_)) => return Err(CheckpointError::Damaged.into()),
         }
-        Ok((run, growth))
+        Ok((self.course(system, run, watch.as_deref())?, growth))
+    }
+
+    fn course(
+        &self,
+        system: &'a S,
+        run: Integrator<&'a S, M>,
+        saved: Option<&[f64]>,
+    ) -> Result<Course<'_, 'a, S, M>, StartError> {
+        match &self.limits {
+            Some(limits) => Ok(Course::Limited(limits.watch(system, run, saved)?)),
+            None => Ok(Course::Free(run)),
+        }
     }
 }
 
-impl<'s, 'a, S: Lagrangian, M: Method<S, f64>> Runner<'s, 'a, S, M> {
-    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-        match &mut self.growth {
-            Some(growth) => growth.take_steps(&mut self.run, count),
-            None => self.run.take_steps(count),
+impl<'a, S: Lagrangian, M: Method<S, f64>> Course<'_, 'a, S, M> {
+    fn run(&self) -> &Integrator<&'a S, M> {
+        match self {
+            Self::Free(run) => run,
+            Self::Limited(watch) => watch.run(),
+        }
+    }
+}
+
+impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
+    fn steps(&self) -> u64 {
+        self.run.run().steps()
+    }
+
+    /// A run that may go in lanes.
+    fn free(&mut self) -> Option<&mut Integrator<&'a S, M>> {
+        match &mut self.run {
+            Course::Free(run) => Some(run),
+            Course::Limited(_) => None,
+        }
+    }
+
+    /// Takes `count` steps, up to a limit.
+    fn take_steps(&mut self, count: u64) -> Result<Option<Exit<S>>, StepError> {
+        let Self { run, growth, .. } = self;
+        match (run, growth) {
+            (Course::Limited(watch), growth) => watch.take_steps(growth, count),
+            (Course::Free(run), Some(growth)) => growth.take_steps(run, count).map(|()| None),
+            (Course::Free(run), None) => run.take_steps(count).map(|()| None),
         }
     }
 
@@ -170,32 +223,45 @@ impl<'s, 'a, S: Lagrangian, M: Method<S, f64>> Runner<'s, 'a, S, M> {
     fn looked_at(
         mut self,
         settings: &Settings<'_, S, M>,
-        result: Result<(), StepError>,
+        result: Result<Option<Exit<S>>, StepError>,
         count: u64,
     ) -> Option<Self> {
-        let outcome = match result {
-            Err(error) => Outcome::Failed { error: error.to_string() },
-            Ok(()) => match self.seen.look(settings, &self.run) {
-                Some(reason) => Outcome::Exited { reason: reason.into() },
-                None if self.run.steps() >= count => Outcome::Finished,
-                None => return Some(self),
-            },
+        let run = self.run.run();
+        let (at, outcome) = match result {
+            Err(error) => (At::end_of(run), Outcome::Failed { error: error.to_string() }),
+            Ok(Some((event, reason))) => {
+                let at = At::event(run.system(), &event);
+                self.seen.look(settings, &at);
+                (at, Outcome::Exited { reason: reason.into() })
+            }
+            Ok(None) => {
+                let at = At::end_of(run);
+                self.seen.look(settings, &at);
+                if run.steps() < count {
+                    return Some(self);
+                }
+                (at, Outcome::Finished)
+            }
         };
-        let Self { slot, run, seen, growth } = self;
-        let exponent = growth.and_then(|growth| growth.exponent());
-        slot.place = Place::Ended(seen.member(slot.number, &run, exponent, outcome));
+        let exponent = self.growth.as_ref().and_then(|growth| growth.exponent());
+        let member = self.seen.member(self.slot.number, &at, run.statistics(), exponent, outcome);
+        self.slot.place = Place::Ended(member);
         None
     }
 
     /// Leaves the member to be gone on with, if it can be: a run that has just overflown takes a step more,
     /// which fails.
-    fn is_left(&mut self, settings: &Settings<'_, S, M>) -> bool
+    fn is_left(&mut self, settings: &Settings<'a, S, M>) -> bool
     where
         M: Clone,
     {
         let Self { slot, run, seen, growth } = self;
         let growth = growth.as_ref().map(|growth| growth.save());
-        let under_way = UnderWay { checkpoint: run.checkpoint(), seen: seen.clone(), growth };
+        let watch = match run {
+            Course::Free(_) => None,
+            Course::Limited(watch) => Some(watch.save()),
+        };
+        let under_way = UnderWay { checkpoint: run.run().checkpoint(), seen: seen.clone(), growth, watch };
         let can_go_on =
             settings.resume(settings.system(slot.number as usize), slot.number, &under_way).is_ok();
         if can_go_on {

@@ -6,8 +6,9 @@ use std::vec::Vec;
 
 use super::settings::Settings;
 use crate::methods::Method;
-use crate::run::{Integrator, Run};
-use crate::{Lagrangian, System};
+use crate::run::{Event, Integrator, Run};
+use crate::state::Statistics;
+use crate::{Lagrangian, Space, State, System, Vector};
 
 /// The record of one member.
 ///
@@ -29,22 +30,22 @@ pub struct Member {
     pub number: u64,
     /// How its run has ended.
     pub outcome: Outcome,
-    /// The time that it has reached: the last, that of the exit, or that of the last good state before a
+    /// The time that it has reached: the last, that of the limit, or that of the last good state before a
     /// failure.
     pub time: f64,
-    /// The steps that it has completed.
+    /// The steps that it has completed; the last one may have led beyond a limit.
     pub steps: u64,
     /// The iterations of nonlinear solvers.
     pub iterations: u64,
-    /// The last good state, in the order of [`System::names`].
+    /// The last good state, or that at the limit, in the order of [`System::names`].
     pub state: Vec<f64>,
     /// Its energy at the `first` and the `last` look, and the `largest_error` |E − E₀| of all, at each
     /// [`stride`](super::Ensemble::stride); not a number if one was not.
     pub energy: Energy,
     /// The first and the last value of each declared momentum.
     pub momenta: Vec<[f64; 2]>,
-    /// The largest Lyapunov exponent, if it is [asked for](super::Ensemble::exponents); none before the
-    /// first step.
+    /// The largest Lyapunov exponent over all its steps, if it is [asked for](super::Ensemble::exponents);
+    /// none before the first one.
     pub exponent: Option<f64>,
     /// How often it has crossed the [section](super::Ensemble::section); zero if there is none.
     pub crossings: u64,
@@ -70,9 +71,9 @@ pub struct Member {
 pub enum Outcome {
     /// It has taken all steps.
     Finished,
-    /// The [exit condition](super::Ensemble::until) held.
+    /// It has come to a [limit](super::Ensemble::until).
     Exited {
-        /// What it said.
+        /// What was said of it.
         reason: String,
     },
     /// It could not begin, or a step has failed.
@@ -104,6 +105,43 @@ pub struct Energy {
     pub largest_error: f64,
 }
 
+/// Where a member is: at the end of a step, or where an event is.
+pub(super) struct At<'a, S: Lagrangian> {
+    system: &'a S,
+    time: f64,
+    q: Vector<S, f64>,
+    v: Vector<S, f64>,
+}
+
+impl<'a, S: Lagrangian> At<'a, S> {
+    pub(super) fn end_of<M: Method<S, f64>>(run: &'a Integrator<&S, M>) -> Self {
+        let mut q = run.system().space().vector();
+        q.copy_from_slice(run.q());
+        Self { system: run.system(), time: run.time(), q, v: run.v() }
+    }
+
+    pub(super) fn event(system: &'a S, event: &Event<S::State<f64>, f64>) -> Self {
+        let (mut q, mut v) = (system.space().vector(), system.space().vector());
+        if event.state.write(|block| system.block_len(block), &mut q, &mut v).is_err() {
+            [&mut q, &mut v].into_iter().for_each(|half| half.fill(f64::NAN));
+        }
+        Self { system, time: event.time, q, v }
+    }
+
+    fn state(&self) -> S::State<f64> {
+        S::State::read(|block| self.system.block_len(block), &self.q, &self.v)
+    }
+
+    fn energy(&self) -> f64 {
+        self.system.energy(&self.q, &self.v, self.time)
+    }
+
+    fn momenta(&self) -> impl Iterator<Item = f64> {
+        let all = 0..S::REPORT.momenta.len();
+        all.map(|index| plain(self.system.momentum(index, &self.q, &self.v, self.time)))
+    }
+}
+
 /// What is seen of a run that is under way.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Seen {
@@ -116,54 +154,49 @@ pub(super) struct Seen {
 
 impl Seen {
     /// What is seen at the start of a run.
-    pub(super) fn first<S: Lagrangian, M: Method<S, f64>>(run: &Integrator<&S, M>) -> Self {
-        let energy = plain(run.energy());
+    pub(super) fn first<S: Lagrangian>(at: &At<'_, S>) -> Self {
+        let energy = plain(at.energy());
         Self {
             energy: Energy { first: energy, last: energy, largest_error: 0.0 },
-            first_momenta: run.momenta().map(|(_, value)| plain(value)).collect(),
+            first_momenta: at.momenta().collect(),
             section: None,
             crossings: 0,
         }
     }
 
-    /// Looks at a run: the reason to leave, if there is one.
+    /// Looks at where a member is.
     pub(super) fn look<S: Lagrangian, M: Method<S, f64>>(
         &mut self,
         settings: &Settings<'_, S, M>,
-        run: &Integrator<&S, M>,
-    ) -> Option<&'static str> {
-        self.energy = self.energy.with(run.energy());
-        if settings.exit.is_none() && settings.section.is_none() {
-            return None;
-        }
-        let state = run.state();
+        at: &At<'_, S>,
+    ) {
+        self.energy = self.energy.with(at.energy());
         if let Some((direction, section)) = &settings.section {
-            let now = plain(section(run.system(), &state));
+            let now = plain(section(at.system, &at.state()));
             let crosses = self.section.is_some_and(|before| direction.crosses(before, now));
             self.crossings += u64::from(crosses);
             self.section = Some(now);
         }
-        settings.exit.as_ref().and_then(|exit| exit(run.system(), &state))
     }
 
     /// The record of a run that has ended.
-    pub(super) fn member<S: Lagrangian, M: Method<S, f64>>(
+    pub(super) fn member<S: Lagrangian>(
         self,
         number: u64,
-        run: &Integrator<&S, M>,
+        at: &At<'_, S>,
+        Statistics { steps, iterations, .. }: Statistics,
         exponent: Option<f64>,
         outcome: Outcome,
     ) -> Member {
-        let last_momenta = run.momenta().map(|(_, value)| plain(value));
         Member {
             number,
             outcome,
-            time: run.time(),
-            steps: run.steps(),
-            iterations: run.statistics().iterations,
-            state: flat(run.system(), &run.state()),
-            energy: self.energy.with(run.energy()),
-            momenta: self.first_momenta.into_iter().zip(last_momenta).map(Into::into).collect(),
+            time: at.time,
+            steps,
+            iterations,
+            state: flat(at.system, &at.state()),
+            energy: self.energy.with(at.energy()),
+            momenta: self.first_momenta.into_iter().zip(at.momenta()).map(Into::into).collect(),
             exponent: exponent.map(plain),
             crossings: self.crossings,
         }

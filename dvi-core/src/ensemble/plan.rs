@@ -66,6 +66,7 @@ impl Plan {
         if settings.vary.is_some() {
             (0..states.len() as u64).for_each(|number| varied.text(&method_text(&settings.method(number))));
         }
+        let reasons = settings.limits.as_ref().map_or(&[][..], |limits| limits.reasons());
         let direction = section.as_ref().map(|(direction, _)| direction);
         let facts = [
             ("version of the library", env!("CARGO_PKG_VERSION").to_string()),
@@ -81,7 +82,7 @@ impl Plan {
             ("step h", format!("{h:?}")),
             ("number of steps", steps.to_string()),
             ("stride", stride.to_string()),
-            ("exit condition", settings.exit.is_some().to_string()),
+            ("exit condition", format!("{reasons:?}")),
             ("fingerprint of the parameters in the table", swept.to_string()),
             ("section", format!("{direction:?}")),
             ("Lyapunov exponent", settings.growth.is_some().to_string()),

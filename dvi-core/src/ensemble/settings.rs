@@ -6,13 +6,14 @@ use std::vec::Vec;
 
 use super::growth::Growth;
 use super::lanes::Packs;
+use super::limits::Limits;
 use crate::Lagrangian;
 use crate::methods::Method;
 use crate::run::Direction;
 use crate::run::Integrator;
 
-/// The condition under which a member leaves, with the reason.
-pub(super) type Exit<'a, S, Q> = Box<dyn Fn(&S, &Q) -> Option<&'static str> + Send + Sync + 'a>;
+/// The limits at which members end.
+pub(super) type AnyLimits<'a, S, M> = Box<dyn Limits<'a, S, M> + 'a>;
 /// The function whose zeros are the section, and which of them count.
 pub(super) type Crossed<'a, S, Q> = (Direction, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
 /// The name of a parameter, and what it is of a system and its first state.
@@ -22,7 +23,9 @@ pub(super) type Vary<'a, M> = Box<dyn Fn(u64, &mut M) + Send + Sync + 'a>;
 /// Room for runs that are taken together.
 pub(super) type NewPacks<'a, S, M> = fn(&Integrator<&'a S, M>) -> Box<dyn Packs<'a, S, M> + 'a>;
 /// The growth of a perturbation from the current state of a run on.
-pub(super) type NewGrowth<'a, S, M> = fn(&Integrator<&'a S, M>) -> Box<dyn Growth<'a, S, M> + 'a>;
+pub(super) type NewGrowth<'a, S, M> = fn(&Integrator<&'a S, M>) -> AnyGrowth<'a, S, M>;
+/// It hides the discrete Lagrangian of the method.
+pub(super) type AnyGrowth<'a, S, M> = Box<dyn Growth<'a, S, M> + 'a>;
 
 /// One system for all members, or one for each.
 pub(super) enum Systems<'a, S> {
@@ -39,7 +42,7 @@ pub(super) struct Settings<'a, S: Lagrangian, M: Method<S, f64>> {
     pub(super) vary: Option<Vary<'a, M>>,
     pub(super) h: f64,
     pub(super) stride: u64,
-    pub(super) exit: Option<Exit<'a, S, S::State<f64>>>,
+    pub(super) limits: Option<AnyLimits<'a, S, M>>,
     pub(super) section: Option<Crossed<'a, S, S::State<f64>>>,
     /// With the number of lanes.
     pub(super) packs: Option<(usize, NewPacks<'a, S, M>)>,
@@ -68,11 +71,13 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Settings<'a, S, M> {
         method
     }
 
+    /// The lanes that members go in, which none do that are followed from step to step.
+    pub(super) fn packs(&self) -> Option<(usize, NewPacks<'a, S, M>)> {
+        self.packs.filter(|_| self.growth.is_none() && self.limits.is_none())
+    }
+
     /// The members that go together into lanes.
     pub(super) fn group(&self) -> usize {
-        match (self.packs, self.growth) {
-            (Some((lanes, _)), None) => lanes,
-            (Some(_), Some(_)) | (None, _) => 1,
-        }
+        self.packs().map_or(1, |(lanes, _)| lanes)
     }
 }

@@ -10,14 +10,13 @@ use core::fmt;
 use core::ops::Deref;
 
 use crate::error::{StartError, StepError, StepFailure};
-use crate::memory::Memory;
-use crate::methods::{Carries, Here, Method, Step, Steps};
+#[cfg(doc)]
+use crate::methods::Method;
 use crate::run::Run;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
-use crate::state::Statistics;
-use crate::system::start::{step_error, velocities};
-use crate::{Lagrangian as _, Real, Scalar as _, Space, State, System, Vector};
+use crate::system::start::step_error;
+use crate::{Real, Scalar as _, Space, State, System, Vector};
 
 pub use states_at::StatesAt;
 
@@ -48,21 +47,15 @@ pub use states_at::StatesAt;
 /// ```
 pub struct Dense<R: Run> {
     run: R,
-    /// Where steps at hand have begun.
-    begun: PointOf<R>,
+    /// When steps at hand have begun.
+    begun: R::Scalar,
     /// How many of them there are.
     taken: u64,
     /// How many there may be before the next point is kept.
     most: u64,
-    /// Where a part of the last step has led to.
-    reached: PointOf<R>,
+    /// When a part of the last step has ended.
+    reached: R::Scalar,
     v: Vector<R::System, R::Scalar>,
-}
-
-struct Point<S: System, M: Carries<S, T>, T: Real> {
-    t: T,
-    q: Vector<S, T>,
-    memory: M::Memory,
 }
 
 /// A state in flat form.
@@ -85,7 +78,6 @@ impl<S: System, T: Real> Flat<'_, S, T> {
 }
 
 type FlatOf<'a, R> = Flat<'a, <R as Run>::System, <R as Run>::Scalar>;
-type PointOf<R> = Point<<R as Run>::System, <R as Run>::Method, <R as Run>::Scalar>;
 /// A state of the system of a run `R`.
 pub(crate) type StateOf<R> = <<R as Run>::System as System>::State<<R as Run>::Scalar>;
 
@@ -97,18 +89,11 @@ impl<R: Run> Dense<R> {
     ///
     /// # Errors
     /// [`StartError`] if no run of the method can begin where this one is.
-    pub fn new(run: R) -> Result<Self, StartError> {
-        let (stepper, t, h) = (run.stepper(), run.time(), run.step_size());
-        let (system, q) = (run.system(), &stepper.q);
-        let mut v = system.space().vector();
-        stepper.velocity(system, t, &mut v).map_err(StartError::Starter)?;
-        let point = || {
-            let mut memory = stepper.method.begin_again(system, q, &v[..velocities(system)], t, h)?;
-            memory.restore(&stepper.memory);
-            Ok::<_, StartError>(Point { t, q: q.clone(), memory })
-        };
-        let [begun, reached] = [point()?, point()?];
-        Ok(Self { run, begun, taken: 0, most: 1, reached, v })
+    pub fn new(mut run: R) -> Result<Self, StartError> {
+        let (t, h, v) = (run.time(), run.step_size(), run.system().space().vector());
+        let (system, between) = run.between();
+        between.begin(system, t, h)?;
+        Ok(Self { run, begun: t, taken: 0, most: 1, reached: t, v })
     }
 
     /// The run, at the end of its last step.
@@ -122,14 +107,28 @@ impl<R: Run> Dense<R> {
     /// As [`Run::advance`].
     #[inline]
     pub fn advance(&mut self) -> Result<(), StepError> {
+        self.advance_by(R::advance)
+    }
+
+    /// Takes one step by `step`.
+    #[inline]
+    pub(super) fn advance_by(
+        &mut self,
+        step: impl FnOnce(&mut R) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
         // Steps of a control cannot be taken again by the method alone.
         if self.taken >= self.most || self.run.clock().is_none() {
             self.keep();
             self.most = LONGEST.min(2 * self.most);
         }
-        self.run.advance()?;
-        self.taken += 1;
-        Ok(())
+        let before = self.run.steps();
+        let taken = step(&mut self.run);
+        match self.run.steps().wrapping_sub(before) {
+            0 => {}
+            1 if taken.is_ok() => self.taken += 1,
+            _ => self.keep(),
+        }
+        taken
     }
 
     /// Takes steps until time `t` is within the last one, or at its end; none if it is there already.
@@ -184,10 +183,8 @@ impl<R: Run> Dense<R> {
     }
 
     fn keep(&mut self) {
-        let Point { t, q, memory } = &mut self.begun;
-        *t = self.run.time();
-        q.copy_from_slice(self.run.q());
-        memory.restore(self.run.memory());
+        self.begun = self.run.time();
+        self.run.between().1.keep();
         self.taken = 0;
     }
 
@@ -219,7 +216,7 @@ impl<R: Run> Dense<R> {
     pub(super) fn last_begun(&self) -> R::Scalar {
         match (self.taken, self.run.clock()) {
             (2.., Some(clock)) => clock.after(1_u64.wrapping_neg()).time(),
-            _ => self.begun.t,
+            _ => self.begun,
         }
     }
 
@@ -235,11 +232,10 @@ impl<R: Run> Dense<R> {
     pub(super) fn settle(&mut self) -> Result<(), StepFailure> {
         self.most = 1;
         let (Some(clock), 2..) = (self.run.clock(), self.taken) else { return Ok(()) };
-        let (before, Point { t, q, memory }) = (self.taken - 1, &mut self.begun);
-        let (clock, unused) = (clock.after(self.taken.wrapping_neg()), &mut Statistics::default());
-        let steps = Steps { system: self.run.system(), q, clock, count: before, statistics: unused };
-        let taken = self.run.method().steps(steps, memory);
-        *t = clock.after(before).time();
+        let (clock, before) = (clock.after(self.taken.wrapping_neg()), self.taken - 1);
+        let (system, between) = self.run.between();
+        let taken = between.settle(system, clock, before);
+        self.begun = clock.after(before).time();
         self.taken = 1;
         if taken.is_err() {
             // They have been taken before; where that leads elsewhere, nothing is known of the last step.
@@ -250,7 +246,7 @@ impl<R: Run> Dense<R> {
 
     fn state_within(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepFailure> {
         self.settle()?;
-        self.reach(t - self.begun.t)?;
+        self.reach(t - self.begun)?;
         self.reached().map(Flat::state)
     }
 
@@ -260,18 +256,10 @@ impl<R: Run> Dense<R> {
     /// # Errors
     /// As [`Method::step`]; [`StepFailure::LeftDomain`].
     pub(super) fn reach(&mut self, h: R::Scalar) -> Result<(), StepFailure> {
-        let Self { run, begun, reached: Point { t, q, memory }, .. } = self;
-        *t = begun.t + h;
-        q.copy_from_slice(&begun.q);
-        memory.restore(&begun.memory);
-        if *t == begun.t {
-            return Ok(());
-        }
-        let statistics = &mut Statistics::default();
-        let part = Step { system: run.system(), q, t: begun.t, h, statistics };
-        run.method().part_of_step(part, run.step_size(), memory)?;
-        let leaves = R::System::HAS_DOMAIN && !reported(run.system().domain(q, *t)).is_finite();
-        if leaves { Err(StepFailure::LeftDomain) } else { Ok(()) }
+        self.reached = self.begun + h;
+        let whole = self.run.step_size();
+        let (system, between) = self.run.between();
+        between.reach(system, self.begun, [h, whole])
     }
 
     /// The end of the step.
@@ -279,15 +267,14 @@ impl<R: Run> Dense<R> {
     /// # Errors
     /// As [`Method::velocity`].
     pub(super) fn at_end(&mut self) -> Result<FlatOf<'_, R>, StepFailure> {
-        let Self { run, v, .. } = self;
-        let run: &R = run;
-        run.stepper().velocity(run.system(), run.time(), v)?;
-        Ok(Flat { system: run.system(), q: run.q(), v })
+        let t = self.run.time();
+        let (system, between) = self.run.between();
+        Ok(Flat { system, q: between.end(system, t, &mut self.v)?, v: &self.v })
     }
 
     /// The time that has been reached.
     pub(super) fn reached_time(&self) -> R::Scalar {
-        self.reached.t
+        self.reached
     }
 
     /// The place that has been reached.
@@ -295,10 +282,8 @@ impl<R: Run> Dense<R> {
     /// # Errors
     /// As [`Method::velocity`].
     pub(super) fn reached(&mut self) -> Result<FlatOf<'_, R>, StepFailure> {
-        let Self { run, reached: Point { t, q, memory }, v, .. } = self;
-        let run: &R = run;
-        run.method().velocity(Here { system: run.system(), q, t: *t }, memory, v)?;
-        Ok(Flat { system: run.system(), q, v })
+        let (system, between) = self.run.between();
+        Ok(Flat { system, q: between.reached(system, self.reached, &mut self.v)?, v: &self.v })
     }
 
     /// What has failed in the last step.

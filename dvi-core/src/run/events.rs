@@ -181,7 +181,7 @@ where
             if let Some(event) = self.hand_out()? {
                 return Ok(Some(event));
             }
-            self.step()?;
+            self.step(R::advance)?;
         }
     }
 
@@ -199,8 +199,20 @@ where
     /// # Errors
     /// As [`next_until`](Self::next_until).
     pub fn advance(&mut self) -> Result<Option<EventOf<R>>, StepError> {
+        self.advance_by(R::advance)
+    }
+
+    /// The same with `step` in the place of [`Run::advance`], such as that of a
+    /// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent): it takes one step of the run.
+    ///
+    /// # Errors
+    /// As [`next_until`](Self::next_until), and those of `step`.
+    pub fn advance_by(
+        &mut self,
+        step: impl FnOnce(&mut R) -> Result<(), StepError>,
+    ) -> Result<Option<EventOf<R>>, StepError> {
         if self.first().is_none() {
-            self.step()?;
+            self.step(step)?;
         }
         self.hand_out()
     }
@@ -251,6 +263,26 @@ where
         Ok(())
     }
 
+    /// What is known of the conditions, for the events of a run that goes on from a checkpoint of this one,
+    /// which are then the same. Events of the last step that have not been handed out are no part of it.
+    #[cfg(feature = "alloc")]
+    pub fn save(&self) -> alloc::vec::Vec<R::Scalar> {
+        self.watched.iter().flat_map(Watched::save).collect()
+    }
+
+    /// Takes over what [`save`](Self::save) has listed, if there are as many numbers.
+    #[cfg(feature = "alloc")]
+    pub fn load(&mut self, saved: &[R::Scalar]) -> Option<()> {
+        let (conditions, []) = saved.as_chunks() else { return None };
+        if conditions.len() != N {
+            return None;
+        }
+        for (watched, saved) in self.watched.iter_mut().zip(conditions) {
+            *watched = Watched::load(saved)?;
+        }
+        Some(())
+    }
+
     /// The first event of the last step that has not been handed out: its part of the step, its condition,
     /// and which of two it is. Of those at one time but for rounding it is the first in the array.
     fn first(&self) -> Option<(R::Scalar, usize, usize)> {
@@ -280,9 +312,9 @@ where
     }
 
     /// Takes a step, and finds its events.
-    fn step(&mut self) -> Result<(), StepError> {
+    fn step(&mut self, step: impl FnOnce(&mut R) -> Result<(), StepError>) -> Result<(), StepError> {
         self.lost.map_or(Ok(()), Err)?;
-        self.dense.advance()?;
+        self.dense.advance_by(step)?;
         self.steps += 1;
         self.search().map_err(|failure| {
             let error = self.dense.error(failure);

@@ -10,7 +10,7 @@ use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
 use crate::run::kept::Kept;
-use crate::run::{Run, Stepper};
+use crate::run::{Between, Run, Stepper, WithMethod};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::StateOf;
@@ -101,7 +101,6 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Integrato
 
 impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Run for Integrator<H, M, T> {
     type System = H::System;
-    type Method = M;
     type Scalar = T;
 
     #[inline]
@@ -110,8 +109,8 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Run for I
     }
 
     #[inline]
-    fn stepper(&self) -> &Stepper<H::System, M, T> {
-        &self.stepper
+    fn between(&mut self) -> (&H::System, &mut dyn Between<H::System, T>) {
+        (self.system.held(), &mut self.stepper)
     }
 
     #[inline]
@@ -174,6 +173,20 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Run for I
         self.clock = Clock::new(t, h).after(statistics.steps.wrapping_neg());
         self.stepper.move_to(memory, q);
         Ok(())
+    }
+}
+
+impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> WithMethod for Integrator<H, M, T> {
+    type Method = M;
+
+    #[inline]
+    fn method(&self) -> &M {
+        &self.stepper.method
+    }
+
+    #[inline]
+    fn memory(&self) -> &M::Memory {
+        &self.stepper.memory
     }
 }
 

@@ -20,8 +20,8 @@ use crate::{Lagrangian, Real, System, Vector};
 
 /// Where the steps at hand have begun.
 pub(super) struct Kept<S: System, M: Carries<S, T>, T: Real> {
-    q: Vector<S, T>,
-    memory: M::Memory,
+    pub(super) q: Vector<S, T>,
+    pub(super) memory: M::Memory,
 }
 
 /// How many steps are taken before the next point is kept.

@@ -2,14 +2,14 @@
 
 use core::fmt::Debug;
 
-use super::{Checkpoint, ControlledIntegrator, Integrator, Run, StepControl};
+use super::{Checkpoint, ControlledIntegrator, Integrator, StepControl, WithMethod};
 use crate::error::StartError;
 use crate::methods::{Method, VariableStep};
 use crate::{Held, Lagrangian, Real};
 
 /// A run from which others on the same system can be made, with the same method: its system and its method
 /// can be cloned, as a reference and an `Arc` can.
-pub trait Resume: Run + Sized {
+pub trait Resume: WithMethod + Sized {
     /// A run that goes on from `checkpoint`, one of this run or of one like it.
     ///
     /// # Errors

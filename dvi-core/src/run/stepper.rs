@@ -3,19 +3,23 @@
 use core::fmt;
 
 use crate::error::{StepError, StepFailure};
+use crate::memory::Aside;
 use crate::methods::{Carries, Clock, Here, Method, Steps};
+use crate::run::between::Points;
 use crate::state::Statistics;
 use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Space as _, State as _, System, Vector};
 
 /// A method that steps a system, and the point that it has reached. It knows neither the time nor the
 /// system: the run that it is part of does.
-pub struct Stepper<S: System, M: Carries<S, T>, T: Real> {
+pub(crate) struct Stepper<S: System, M: Carries<S, T>, T: Real> {
     pub(crate) method: M,
     pub(crate) memory: M::Memory,
     pub(crate) q: Vector<S, T>,
     pub(crate) statistics: Statistics,
     pub(crate) failed: bool,
+    /// If states in between are asked for.
+    pub(super) points: Option<Aside<Points<S, M, T>>>,
 }
 
 impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<S, M, T> {
@@ -31,7 +35,7 @@ impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<S
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     pub(crate) fn new(method: M, memory: M::Memory, q: Vector<S, T>) -> Self {
-        Self { method, memory, q, statistics: Statistics::default(), failed: false }
+        Self { method, memory, q, statistics: Statistics::default(), failed: false, points: None }
     }
 
     /// Goes on from another point, whose memory has just begun.

@@ -93,7 +93,7 @@ fn what_changes_later_is_seen() -> Outcome {
 fn another_run_is_told_from_this_one() -> Outcome {
     fn differs<R>(path: &std::path::Path, run: Result<R, StartError>, what: &str) -> Outcome
     where
-        R: Resume + Run<Scalar = f64, Method: core::fmt::Debug>,
+        R: Resume<Scalar = f64, Method: core::fmt::Debug>,
     {
         match Archive::new(path, run?, EVERY).err() {
             Some(ArchiveError::Foreign { difference, .. }) if difference.what == what => Ok(()),

@@ -12,7 +12,7 @@ use super::*;
 /// numbers of steps.
 fn check<R>(name: &str, every: Every, steps: u64, begin: impl Fn() -> Result<R, StartError>) -> Outcome
 where
-    R: Resume + Run<Scalar = f64, Method: core::fmt::Debug>,
+    R: Resume<Scalar = f64, Method: core::fmt::Debug>,
 {
     let path = file(name)?;
     Archive::new(&path, begin()?, every)?.take_steps(steps / 3)?;

@@ -6,7 +6,7 @@ use std::time::Duration;
 use dvi_core::ensemble::{Ensemble, EnsembleError, MergeError, Results, Shard};
 use dvi_core::prelude::*;
 
-use crate::ensemble::{Checked, HenonHeiles, Kepler, Verlet, file, left, planets, said, wells};
+use crate::ensemble::{Checked, HenonHeiles, Kepler, LEFT, Verlet, file, left, planets, said, wells};
 
 fn ensemble(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
     Ensemble::new(system, Variational::trapezoid(), 0.05, wells(3))
@@ -57,7 +57,7 @@ fn another_ensemble_is_told_from_this_one() -> Checked {
     differs(said(of(trapezoid(), 0.051, wells(3)).take_steps(10)), "step h");
     let gauss = Ensemble::new(&HenonHeiles, Gauss::<2>::new(), 0.05, wells(3)).checkpoints(&path, RARELY);
     differs(said(gauss.take_steps(10)), "method");
-    differs(said(this().until(left).take_steps(10)), "exit condition");
+    differs(said(this().until(LEFT, left).take_steps(10)), "exit condition");
     differs(said(this().exponents().take_steps(10)), "Lyapunov exponent");
     differs(said(this().section(Direction::Falling, |_, state| state.x).take_steps(10)), "section");
     assert_eq!(said(this().take_steps(10)), "no error");

@@ -4,7 +4,7 @@ use approx::assert_abs_diff_eq;
 use dvi_core::ensemble::{Draws, Ensemble, Outcome};
 use dvi_core::prelude::*;
 
-use crate::ensemble::{Checked, HenonHeiles, HenonHeilesState, Kepler, KeplerState, left, planets, wells};
+use crate::ensemble::{Checked, HenonHeiles, HenonHeilesState, LEFT, left, planets, wells};
 
 #[test]
 fn a_record_is_that_of_the_run() -> Checked {
@@ -28,37 +28,6 @@ fn a_record_is_that_of_the_run() -> Checked {
         assert_eq!((&member.outcome, member.exponent, member.crossings), (&Outcome::Finished, None, 0));
     }
     assert_eq!(results.names().collect::<Vec<_>>(), ["x", "y", "dot_x", "dot_y"]);
-    Ok(())
-}
-
-#[test]
-fn a_member_leaves_at_the_first_look_outside() -> Checked {
-    let state = |dot_x| KeplerState { x: 1.0, y: 0.0, dot_x, dot_y: 1.0 };
-    let far = |_: &Kepler, state: &KeplerState| (state.x.hypot(state.y) > 4.0).then_some("far");
-    let far_at_once = KeplerState { x: 5.0, ..state(0.0) };
-    let states = [state(0.0), state(3.0), far_at_once];
-    let results = Ensemble::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.01, states)
-        .stride(10)
-        .until(far)
-        .take_steps(1000)?;
-    let [stays, leaves, never_in] = results.members() else { return Err("there are three".into()) };
-    assert_eq!((&stays.outcome, stays.steps), (&Outcome::Finished, 1000));
-    let exited = Outcome::Exited { reason: "far".into() };
-    assert_eq!((&leaves.outcome, &never_in.outcome), (&exited, &exited));
-    assert_eq!((never_in.steps, never_in.time), (0, 0.0));
-    // It is outside now, and was inside at the look before.
-    let mut run = Integrator::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.01, state(3.0))?;
-    run.take_steps(leaves.steps - 10)?;
-    assert!(far(run.system(), &run.state()).is_none());
-    run.take_steps(10)?;
-    assert!(far(run.system(), &run.state()).is_some());
-    assert_eq!(leaves.time, run.time());
-    // The last look is at the last step, also if that is no multiple of the stride.
-    let last = Ensemble::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.01, [state(3.0)])
-        .stride(u64::MAX)
-        .until(far)
-        .take_steps(leaves.steps)?;
-    assert_eq!(last.members()[0].outcome, exited);
     Ok(())
 }
 
@@ -101,7 +70,7 @@ fn states_that_are_no_numbers_fail_alone() -> Checked {
 fn exponents_are_those_of_the_diagnostic() -> Checked {
     let states = wells(4);
     let ensemble = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states.clone());
-    let results = ensemble.until(left).exponents().in_lanes::<4>().take_steps(2000)?;
+    let results = ensemble.until(LEFT, left).exponents().in_lanes::<4>().take_steps(2000)?;
     for (member, state) in results.members().iter().zip(states) {
         let mut run = Integrator::new(&HenonHeiles, Variational::trapezoid(), 0.05, state)?;
         let mut exponent = LyapunovExponent::new(&run);
@@ -151,7 +120,7 @@ fn progress_is_told_in_order() -> Checked {
     let mut told = Vec::new();
     let states: Vec<HenonHeilesState> = wells(30);
     let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states)
-        .until(left)
+        .until(LEFT, left)
         .on_progress(|progress| told.push(*progress))
         .take_steps(5000)?;
     let ended = |p: &dvi_core::ensemble::Progress| p.finished + p.exited + p.failed;

@@ -9,7 +9,7 @@ use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
 use dvi_core::prelude::*;
 
 use crate::ensemble::{
-    Checked, HenonHeiles, Verlet, Vortices, VorticesState, bytes, file, left, planets, wells,
+    Checked, HenonHeiles, LEFT, Verlet, Vortices, VorticesState, bytes, file, left, planets, wells,
 };
 
 const STEPS: u64 = 2000;
@@ -18,7 +18,8 @@ const STEPS: u64 = 2000;
 const CHILD: &str = "DVI_ENSEMBLE_CHECKPOINT";
 
 fn ensemble(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
-    let ensemble = Ensemble::new(system, Variational::trapezoid(), 0.05, wells(30)).until(left).stride(100);
+    let ensemble =
+        Ensemble::new(system, Variational::trapezoid(), 0.05, wells(30)).until(LEFT, left).stride(100);
     ensemble.section(Direction::Rising, |_, state| state.x).exponents()
 }
 
@@ -123,10 +124,7 @@ fn noise_is_that_of_the_member() -> Checked {
 /// A run that was begun with some lanes goes on with others, or without.
 #[test]
 fn lanes_may_change_on_the_way() -> Checked {
-    let plain = || {
-        let ensemble = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(30)).until(left);
-        ensemble.stride(50)
-    };
+    let plain = || Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(30)).stride(50);
     let expected = bytes(&plain().take_steps(STEPS)?)?;
     let (path, kept) = (file("lanes.ckpt"), file("lanes-kept.ckpt"));
     // Copies of the checkpoint of a run that is under way.

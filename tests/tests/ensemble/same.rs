@@ -3,7 +3,9 @@
 use dvi_core::ensemble::{Ensemble, Results, Shard};
 use dvi_core::prelude::*;
 
-use crate::ensemble::{Checked, HenonHeiles, Verlet, Vortices, VorticesState, bytes, left, planets, wells};
+use crate::ensemble::{
+    Checked, HenonHeiles, LEFT, Verlet, Vortices, VorticesState, bytes, left, planets, wells,
+};
 
 const STEPS: u64 = 1500;
 
@@ -14,8 +16,13 @@ fn on_threads<T: Send>(
     Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(of))
 }
 
+/// Some members fall without end, and fail where numbers end.
+fn without_limits(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
+    Ensemble::new(system, Variational::trapezoid(), 0.05, wells(45)).stride(7)
+}
+
 fn ensemble(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
-    Ensemble::new(system, Variational::trapezoid(), 0.05, wells(45)).until(left).stride(7)
+    without_limits(system).until(LEFT, left)
 }
 
 #[test]
@@ -27,17 +34,24 @@ fn for_every_number_of_threads() -> Checked {
         let in_lanes = on_threads(threads, || ensemble(&HenonHeiles).in_lanes::<4>().take_steps(STEPS))??;
         assert_eq!(bytes(&in_lanes)?, expected);
     }
+    let expected = bytes(&without_limits(&HenonHeiles).take_steps(STEPS)?)?;
+    assert!(String::from_utf8_lossy(&expected[0]).contains("failed"));
+    for threads in [1, 3] {
+        let in_lanes =
+            on_threads(threads, || without_limits(&HenonHeiles).in_lanes::<4>().take_steps(STEPS))??;
+        assert_eq!(bytes(&in_lanes)?, expected);
+    }
     Ok(())
 }
 
 #[test]
 fn for_every_number_of_lanes() -> Checked {
-    let expected = bytes(&ensemble(&HenonHeiles).take_steps(STEPS)?)?;
-    assert_eq!(bytes(&ensemble(&HenonHeiles).in_lanes::<1>().take_steps(STEPS)?)?, expected);
-    assert_eq!(bytes(&ensemble(&HenonHeiles).in_lanes::<2>().take_steps(STEPS)?)?, expected);
-    assert_eq!(bytes(&ensemble(&HenonHeiles).in_lanes::<3>().take_steps(STEPS)?)?, expected);
-    assert_eq!(bytes(&ensemble(&HenonHeiles).in_lanes::<8>().take_steps(STEPS)?)?, expected);
-    assert_eq!(bytes(&ensemble(&HenonHeiles).in_lanes::<16>().take_steps(STEPS)?)?, expected);
+    let expected = bytes(&without_limits(&HenonHeiles).take_steps(STEPS)?)?;
+    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<1>().take_steps(STEPS)?)?, expected);
+    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<2>().take_steps(STEPS)?)?, expected);
+    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<3>().take_steps(STEPS)?)?, expected);
+    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<8>().take_steps(STEPS)?)?, expected);
+    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<16>().take_steps(STEPS)?)?, expected);
     Ok(())
 }
 
@@ -84,18 +98,20 @@ fn beside_members_that_fail() -> Checked {
 
 #[test]
 fn from_shards() -> Checked {
-    let whole = ensemble(&HenonHeiles).take_steps(STEPS)?;
-    for of in [1, 2, 3, 50] {
-        let shard = |index| {
-            let shard = Shard::new(index, of)?;
-            let results = ensemble(&HenonHeiles).shard(shard).in_lanes::<4>().take_steps(STEPS)?;
-            assert_eq!(results.shard(), shard);
-            Ok(results)
-        };
-        // In any order.
-        let shards = (0..of).rev().map(shard).collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;
-        let merged = Results::merge(shards)?;
-        assert_eq!(bytes(&merged)?, bytes(&whole)?);
+    for ensemble in [ensemble, without_limits] {
+        let whole = ensemble(&HenonHeiles).take_steps(STEPS)?;
+        for of in [1, 2, 3, 50] {
+            let shard = |index| {
+                let shard = Shard::new(index, of)?;
+                let results = ensemble(&HenonHeiles).shard(shard).in_lanes::<4>().take_steps(STEPS)?;
+                assert_eq!(results.shard(), shard);
+                Ok(results)
+            };
+            // In any order.
+            let shards = (0..of).rev().map(shard).collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;
+            let merged = Results::merge(shards)?;
+            assert_eq!(bytes(&merged)?, bytes(&whole)?);
+        }
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use dvi_core::ensemble::{Ensemble, Member, Outcome, Results, Shard, Table};
 use dvi_core::prelude::*;
 use dvi_core::record::{Quantity, Values};
 
-use crate::ensemble::{Checked, HenonHeiles, Kepler, KeplerState, bytes, file, left, planets, wells};
+use crate::ensemble::{Checked, HenonHeiles, Kepler, KeplerState, LEFT, bytes, file, left, planets, wells};
 
 fn said<T>(result: Result<T, dvi_core::ensemble::TableError>) -> String {
     result.map_or_else(|error| error.to_string(), |_| "no error".into())
@@ -54,7 +54,7 @@ fn mistakes_have_a_line_and_a_column() {
 #[test]
 fn results_are_a_table_of_states() -> Checked {
     let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(20))
-        .until(left)
+        .until(LEFT, left)
         .stride(5)
         .take_steps(999)?;
     let [csv, _] = bytes(&results)?;
@@ -97,7 +97,7 @@ fn the_columns() -> Checked {
 fn reasons_are_quoted() -> Checked {
     let reason = "left, \"far\" away\nand for ever";
     let ensemble = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(2));
-    let [csv, _] = bytes(&ensemble.until(|_, _| Some(reason)).take_steps(5)?)?;
+    let [csv, _] = bytes(&ensemble.until([reason], |_, _, _| [1.0]).take_steps(5)?)?;
     assert!(String::from_utf8_lossy(&csv).contains("\"left, \"\"far\"\" away\nand for ever\""));
     assert_eq!(Table::read(&csv[..])?.column("run.steps")?, [0.0, 0.0]);
     Ok(())

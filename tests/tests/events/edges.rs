@@ -315,3 +315,33 @@ fn times_of_events_carry_derivatives() -> Outcome {
     }
     Ok(())
 }
+
+/// A run that goes on from a checkpoint, with what was known of its conditions, has the events of the whole.
+#[test]
+fn events_go_on_from_a_checkpoint() -> Outcome {
+    let orbit = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
+    let (system, method) = (Kepler { mu: 1.0 }, Gauss::<3>::new());
+    let directions = [Direction::Rising, Direction::Either];
+    let g = |t: f64, s: &KeplerState| [s.x * s.dot_x + s.y * s.dot_y, t.sin() - 0.999];
+    let mut run = Integrator::new(&system, method, 0.1, orbit)?;
+    let mut whole = run.events(directions, g)?;
+    let mut part = Events::new(
+        Dense::new(Integrator::resume(&system, method, &whole.run().checkpoint())?)?,
+        directions,
+        g,
+    )?;
+    let mut found = 0;
+    while whole.run().time() < 40.0 {
+        let event = whole.advance()?;
+        assert_eq!(part.advance()?, event);
+        found += usize::from(event.is_some());
+        if event.is_none() {
+            let run = Integrator::resume(&system, method, &part.run().checkpoint())?;
+            let known = part.save();
+            part = Events::new(Dense::new(run)?, directions, g)?;
+            assert_eq!((part.load(&known), part.load(&known[1..])), (Some(()), None));
+        }
+    }
+    assert!(found > 10, "{found}");
+    Ok(())
+}

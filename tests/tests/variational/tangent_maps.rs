@@ -78,7 +78,7 @@ fn second_derivatives_agree_with_hyper_dual_numbers() -> Outcome {
 }
 
 /// With fixed and with controlled steps.
-fn tangent_matches_runs<R: Run<System = Kepler, Scalar = f64>>(
+fn tangent_matches_runs<R: WithMethod<System = Kepler, Scalar = f64>>(
     begin: impl Fn(KeplerState) -> Result<R, StartError>,
 ) -> Outcome
 where

@@ -11,7 +11,7 @@ use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Clock, VariableStep};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
-use crate::run::{Run, Stepper};
+use crate::run::{Between, Run, Stepper, WithMethod};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::StateOf;
@@ -142,7 +142,6 @@ where
     C: StepControl<H::System, T>,
 {
     type System = H::System;
-    type Method = M;
     type Scalar = T;
 
     #[inline]
@@ -151,8 +150,8 @@ where
     }
 
     #[inline]
-    fn stepper(&self) -> &Stepper<H::System, M, T> {
-        &self.stepper
+    fn between(&mut self) -> (&H::System, &mut dyn Between<H::System, T>) {
+        (self.system.held(), &mut self.stepper)
     }
 
     #[inline]
@@ -223,6 +222,25 @@ where
         self.stepper.move_to(memory, q);
         (self.control_memory, self.clock, self.h) = (control_memory, VariableClock::new(t), h);
         Ok(())
+    }
+}
+
+impl<H, M, C, T: Real> WithMethod for ControlledIntegrator<H, M, C, T>
+where
+    H: Held<System: Lagrangian<T>>,
+    M: VariableStep<H::System, T>,
+    C: StepControl<H::System, T>,
+{
+    type Method = M;
+
+    #[inline]
+    fn method(&self) -> &M {
+        &self.stepper.method
+    }
+
+    #[inline]
+    fn memory(&self) -> &M::Memory {
+        &self.stepper.memory
     }
 }
 
