@@ -18,6 +18,9 @@ use crate::errors::text;
 use crate::syntax::{Attribute, Factor};
 use names::{Arrays, number};
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use declared::declared;
 pub(crate) use lines::{Equation, block};
 pub(crate) use names::plain;
@@ -26,10 +29,10 @@ pub(crate) use names::plain;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Strength {
     Sum,
-    /// `\sum_j a_j`, which takes all factors that follow.
+    /// `\sum_j a_j` or `\sin x`, which seem to take all factors that follow.
     Series,
     Product,
-    /// `\sin x`, of which no power is taken without parentheses.
+    /// `\sin(x + y)` or `x^2`, of which no power is taken without parentheses.
     Function,
     Atom,
 }
@@ -231,7 +234,7 @@ impl Typesetter {
                 otherwise => {
                     let otherwise = otherwise.map_or_else(String::new, |value| self.expr(value).text);
                     let _ = write!(cases, r"{otherwise} & \text{{otherwise}}");
-                    return Tex::atom(format!(r"\begin{{cases}} {cases} \end{{cases}}"));
+                    return Tex::new(Strength::Series, format!(r"\begin{{cases}} {cases} \end{{cases}}"));
                 }
             }
         }

@@ -133,9 +133,7 @@ impl Typesetter {
 /// `\sin x`, `\sin(a + b)` or `f(x, y)`.
 fn applied(sign: &str, arguments: &[Tex]) -> Tex {
     match arguments {
-        [of] if of.strength == Strength::Atom && !of.text.starts_with(r"\begin") => {
-            Tex::new(Strength::Function, format!("{sign} {}", of.text))
-        }
+        [of] if of.strength == Strength::Atom => Tex::new(Strength::Series, format!("{sign} {}", of.text)),
         several => {
             let several: Vec<&str> = several.iter().map(|argument| argument.text.as_str()).collect();
             Tex::new(Strength::Function, format!(r"{sign}\left({}\right)", several.join(", ")))
