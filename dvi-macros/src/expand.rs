@@ -17,7 +17,7 @@ use crate::syntax::{Attribute, Kind, depth, parse_attribute, tidy};
 use crate::validate::{self, Checked, Difference};
 
 mod formulas;
-mod numbers;
+mod names;
 mod stand_in;
 
 use stand_in::stand_in;
@@ -44,7 +44,14 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
         let Stages { graph, model, attribute, .. } = &*stages;
         let checked = validate::degenerate(graph, model, attribute, &programs, &structure);
         let checked = stages.agrees(checked)?;
-        Some(implement::degenerate(&stages.emitter(), &formulas, &programs, &structure, &checked))
+        Some(implement::degenerate(
+            &stages.emitter(),
+            &stages.attribute,
+            &formulas,
+            &programs,
+            &structure,
+            &checked,
+        ))
     })
 }
 
@@ -64,7 +71,14 @@ pub(crate) fn lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStre
         let Stages { graph, model, attribute, .. } = &*stages;
         let checked = validate::regular(graph, model, attribute, &programs, &structure);
         let checked = stages.agrees(checked)?;
-        Some(implement::regular(&stages.emitter(), &formulas, &programs, &structure, &checked))
+        Some(implement::regular(
+            &stages.emitter(),
+            &stages.attribute,
+            &formulas,
+            &programs,
+            &structure,
+            &checked,
+        ))
     })
 }
 
@@ -104,8 +118,8 @@ fn expand(
     item: TokenStream,
     ending: impl FnOnce(&mut Stages) -> Option<TokenStream>,
 ) -> TokenStream {
-    let number = numbers::name([&attribute, &item]);
-    numbers::named(expanded(kind, attribute, item, ending), number)
+    let renaming = names::renaming([&attribute, &item]);
+    names::renamed(expanded(kind, attribute, item, ending), &renaming)
 }
 
 fn expanded(

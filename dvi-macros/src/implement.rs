@@ -131,7 +131,7 @@ fn system(
     members: &TokenStream,
     special: &TokenStream,
 ) -> TokenStream {
-    let (documentation, report) = (account.documentation(), account.report(emitter, programs));
+    let (documentation, report) = (account.documentation(emitter), account.report(emitter, programs));
     let state = state(emitter);
     let configuration = configuration(emitter, programs, &state, &report);
     let lagrangian = lagrangian(emitter, programs, members);

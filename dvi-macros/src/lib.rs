@@ -32,6 +32,7 @@ mod symbolic;
 mod syntax;
 #[cfg(test)]
 mod tests;
+mod typeset;
 mod validate;
 mod words;
 mod work;

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::document::{Account, beside_force, quantity};
+use super::document::{Account, beside_force, in_tex, quantity};
 use super::pairs::degenerate_pairs;
 use super::{in_numbers, over_numbers};
 use crate::emit::Emitter;
@@ -14,10 +14,12 @@ use crate::program::DegeneratePrograms;
 use crate::routine::Routine;
 use crate::structure::{Class, Components, OneForm};
 use crate::symbolic::{Expr, Index, Node, print_coordinate};
+use crate::syntax::Attribute;
 use crate::validate::Checked;
 
 pub(crate) fn degenerate(
     emitter: &Emitter<'_>,
+    attribute: &Attribute,
     formulas: &DegenerateFormulas,
     programs: &DegeneratePrograms,
     structure: &OneForm,
@@ -47,7 +49,7 @@ pub(crate) fn degenerate(
     super::system(
         emitter,
         &programs.shared,
-        &account(emitter, formulas, programs, structure, checked),
+        &account(emitter, attribute, formulas, programs, structure, checked),
         &members,
         &implementation,
     )
@@ -55,6 +57,7 @@ pub(crate) fn degenerate(
 
 fn account(
     emitter: &Emitter<'_>,
+    attribute: &Attribute,
     formulas: &DegenerateFormulas,
     programs: &DegeneratePrograms,
     structure: &OneForm,
@@ -65,7 +68,8 @@ fn account(
     let declared = declared.chain(formulas.time.map(|time| ("ρ", time.rate)));
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account = Account::new(
-        "L(q, v, t) = α(q, t)·v − H(q, t) with",
+        attribute,
+        "L(q, v, t) = α(q, t)·v − H(q, t), as it is declared:",
         declared.collect(),
         structure.sentences(emitter.model, programs.shared.forces.is_some()),
     );
@@ -90,10 +94,15 @@ fn account(
     account.momenta(emitter, &formulas.momenta);
     account.forces(emitter, &programs.shared);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
-    account.derived(emitter, &programs.one_form.statements, |_, entry| format!("α_{}", coordinate(entry)));
-    account.derived(emitter, &programs.hamiltonian_gradient.statements, |_, entry| {
-        let force = beside_force(emitter, &programs.shared, "−", entry);
-        format!("∂H/∂{}{force}", coordinate(entry))
+    account.derived(emitter, &programs.one_form.statements, |typesetter, _, entry| {
+        let along = coordinate(entry);
+        (format!("α_{along}"), Some(format!(r"\alpha_{{{}}}", in_tex(typesetter, &along))))
+    });
+    account.derived(emitter, &programs.hamiltonian_gradient.statements, |typesetter, _, entry| {
+        let [text, tex] = beside_force(emitter, &programs.shared, typesetter, '-', entry);
+        let by = coordinate(entry);
+        let text = format!("∂H/∂{by}{}", text.replace('-', "−"));
+        (text, Some(format!(r"\partial H / \partial {}{tex}", in_tex(typesetter, &by))))
     });
     account
 }

@@ -11,8 +11,10 @@ use crate::program::Programs;
 use crate::statement::{Output, Place, Row, Statement};
 use crate::symbolic::{
     Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops, print_velocity,
+    write_expr,
 };
-use crate::syntax::{Constrained, Factor};
+use crate::syntax::{Attribute, Constrained, Factor};
+use crate::typeset::{Equation, Typesetter, block, declared, plain};
 
 pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
     print_expr(emitter.graph, expr, 0, emitter.model)
@@ -23,17 +25,27 @@ pub(super) struct Account {
     opening: &'static str,
     /// Declared formulas, then derived ones, as (name, text).
     formulas: Vec<(String, String)>,
+    /// The declared ones as they were written, and those of the derived ones that are short.
+    equations: [Vec<Equation>; 2],
+    typesetter: Typesetter,
+    /// Whether there are some that are not typeset.
+    has_more: bool,
     sentences: Vec<String>,
     momenta: Vec<String>,
 }
 
 impl Account {
     pub(super) fn new(
+        attribute: &Attribute,
         opening: &'static str,
-        declared: Vec<(String, String)>,
+        formulas: Vec<(String, String)>,
         sentences: Vec<String>,
     ) -> Self {
-        Self { opening, formulas: declared, sentences, momenta: Vec::new() }
+        let mut typesetter = Typesetter::new(attribute);
+        let declared = declared(attribute, &mut typesetter);
+        let has_more = declared.iter().any(Equation::is_endless);
+        let equations = [declared, Vec::new()];
+        Self { opening, formulas, equations, typesetter, has_more, sentences, momenta: Vec::new() }
     }
 
     /// Adds what is said of the system as a whole.
@@ -52,8 +64,8 @@ impl Account {
     /// Adds the forces, and what they mean for the methods.
     pub(super) fn forces(&mut self, emitter: &Emitter<'_>, programs: &Programs) {
         let Some(forces) = &programs.forces else { return };
-        self.derived(emitter, &forces.statements, |_, entry| {
-            format!("force({})", print_coordinate(entry, emitter.model))
+        self.derived(emitter, &forces.statements, |_, _, entry| {
+            (format!("force({})", print_coordinate(entry, emitter.model)), None)
         });
         self.sentence(
             "Forces act: no method preserves a form, and energy and momenta change as the forces make them."
@@ -61,17 +73,35 @@ impl Account {
         );
     }
 
-    /// Adds derivatives, named by what they are entries of and where.
+    /// Adds derivatives, named by what they are entries of and where: as text, and in LaTeX if they are not
+    /// declared as they are. What loops add to entries is no equation, and stands as text alone.
     pub(super) fn derived(
         &mut self,
         emitter: &Emitter<'_>,
         statements: &[Statement],
-        name: impl Fn(Output, &Coordinate) -> String,
+        name: impl Fn(&mut Typesetter, Output, &Coordinate) -> (String, Option<String>),
     ) {
+        let are_equations = statements.iter().all(|statement| statement.loops.is_empty());
         for statement in statements {
-            if let Place::Entry(output, coordinate) = &statement.place {
-                self.formulas.push((name(*output, coordinate), in_loops(emitter, statement)));
+            let Place::Entry(output, coordinate) = &statement.place else { continue };
+            let (text, tex) = name(&mut self.typesetter, *output, coordinate);
+            self.formulas.push((text, in_loops(emitter, statement)));
+            match tex {
+                Some(name) if are_equations => self.typeset(emitter, name, statement.value),
+                Some(_) => self.has_more = true,
+                None => {}
             }
+        }
+    }
+
+    /// Typesets a derived formula, if it is short.
+    pub(super) fn typeset(&mut self, emitter: &Emitter<'_>, name: String, value: Expr) {
+        let text = write_expr(emitter.graph, value, emitter.model);
+        let formula = text.and_then(|text| syn::parse_str(&text).ok());
+        let equation = formula.map(|formula| self.typesetter.equation(name, &formula));
+        match equation.filter(Equation::is_short) {
+            Some(equation) => self.equations[1].push(equation),
+            None => self.has_more = true,
         }
     }
 
@@ -142,14 +172,17 @@ impl Account {
     }
 
     /// The text that the struct's own documentation is continued with.
-    pub(super) fn documentation(&self) -> String {
-        let mut text = format!("\n# Dynamics\n\n{}\n\n```text\n", self.opening);
-        for (name, formula) in &self.formulas {
-            text += &format!("{name} = {formula}\n");
+    pub(super) fn documentation(&self, emitter: &Emitter<'_>) -> String {
+        let [declared, derived] = &self.equations;
+        let mut text = format!("\n# Dynamics\n\n{}\n\n{}", self.opening, block(declared));
+        if !derived.is_empty() {
+            text += &format!("The compiler makes of it:\n\n{}", block(derived));
         }
-        text += "```\n\n";
         for sentence in &self.sentences {
             text += &format!("- {sentence}\n");
+        }
+        if self.has_more {
+            text += &format!("- `{}::REPORT` has all formulas.\n", emitter.model.item.ident);
         }
         text
     }
@@ -164,14 +197,20 @@ fn in_loops(emitter: &Emitter<'_>, statement: &Statement) -> String {
     format!("{text}  for {}", print_loops(&statement.loops, emitter.model))
 }
 
+/// A place as the language has it, such as `x[i]` or `dot(x)`, in LaTeX.
+pub(super) fn in_tex(typesetter: &mut Typesetter, place: &str) -> String {
+    syn::parse_str(place).map_or_else(|_| plain(place), |place| typesetter.text(&place))
+}
+
 /// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with another
-/// sign; nothing where no force acts.
+/// sign, as text and in LaTeX; nothing where no force acts.
 pub(super) fn beside_force(
     emitter: &Emitter<'_>,
     programs: &Programs,
-    sign: &str,
+    typesetter: &mut Typesetter,
+    sign: char,
     entry: &Coordinate,
-) -> String {
+) -> [String; 2] {
     let acts = |statement: &Statement| match &statement.place {
         Place::Entry(_, on) => on.block == entry.block,
         Place::Result | Place::MatrixEntry(..) | Place::Constraint(_) | Place::ConstraintDerivative(..) => {
@@ -179,11 +218,11 @@ pub(super) fn beside_force(
         }
     };
     let is_forced = programs.forces.iter().any(|forces| forces.statements.iter().any(acts));
-    if is_forced {
-        format!(" {sign} force({})", print_coordinate(entry, emitter.model))
-    } else {
-        String::new()
+    if !is_forced {
+        return Default::default();
     }
+    let on = print_coordinate(entry, emitter.model);
+    [format!(" {sign} force({on})"), format!(" {sign} F_{{{}}}", in_tex(typesetter, &on))]
 }
 
 fn operation_list(emitter: &Emitter<'_>, operations: &[Operations]) -> TokenStream {

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constraints::constraints;
-use super::document::{Account, beside_force, quantity};
+use super::document::{Account, beside_force, in_tex, quantity};
 use super::in_numbers;
 use super::manifold::manifold;
 use super::pairs::regular_pairs;
@@ -15,10 +15,12 @@ use crate::program::RegularPrograms;
 use crate::statement::Output;
 use crate::structure::MassMatrix;
 use crate::symbolic::{Expr, print_coordinate, print_velocity};
+use crate::syntax::Attribute;
 use crate::validate::Checked;
 
 pub(crate) fn regular(
     emitter: &Emitter<'_>,
+    attribute: &Attribute,
     formulas: &RegularFormulas,
     programs: &RegularPrograms,
     structure: &MassMatrix,
@@ -33,7 +35,7 @@ pub(crate) fn regular(
     super::system(
         emitter,
         &programs.shared,
-        &account(emitter, formulas, programs, structure, checked),
+        &account(emitter, attribute, formulas, programs, structure, checked),
         &members,
         &implementation,
     )
@@ -41,16 +43,19 @@ pub(crate) fn regular(
 
 fn account(
     emitter: &Emitter<'_>,
+    attribute: &Attribute,
     formulas: &RegularFormulas,
     programs: &RegularPrograms,
     structure: &MassMatrix,
     checked: &Checked,
 ) -> Account {
-    let energy = programs.energy.statements.first().map_or(Expr::ZERO, |statement| statement.value);
-    let declared = [("L", formulas.lagrangian), ("E", energy)];
+    let energy = programs.energy.statements.first();
+    let declared =
+        [("L", formulas.lagrangian), ("E", energy.map_or(Expr::ZERO, |statement| statement.value))];
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account = Account::new(
-        "L(q, v, t) and its energy E = v·∂L/∂v − L:",
+        attribute,
+        "L(q, v, t), and what is declared with it:",
         declared.to_vec(),
         structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of), emitter.model),
     );
@@ -58,13 +63,27 @@ fn account(
     account.momenta(emitter, &formulas.momenta);
     account.forces(emitter, &programs.shared);
     account.constraints(emitter, &programs.shared);
-    account.derived(emitter, &programs.shared.gradient.statements, |output, entry| match output {
-        Output::Lv => format!("∂L/∂{}", print_velocity(entry, emitter.model)),
-        Output::Lq | Output::Vector => {
-            let force = beside_force(emitter, &programs.shared, "+", entry);
-            format!("∂L/∂{}{force}", print_coordinate(entry, emitter.model))
-        }
-    });
+    if let Some(energy) = energy {
+        account.typeset(emitter, "E".to_string(), energy.value);
+    }
+    account.derived(
+        emitter,
+        &programs.shared.gradient.statements,
+        |typesetter, output, entry| match output {
+            Output::Lv => {
+                let by = print_velocity(entry, emitter.model);
+                (format!("∂L/∂{by}"), Some(format!(r"\partial L / \partial {}", in_tex(typesetter, &by))))
+            }
+            Output::Lq | Output::Vector => {
+                let [text, tex] = beside_force(emitter, &programs.shared, typesetter, '+', entry);
+                let by = print_coordinate(entry, emitter.model);
+                (
+                    format!("∂L/∂{by}{text}"),
+                    Some(format!(r"\partial L / \partial {}{tex}", in_tex(typesetter, &by))),
+                )
+            }
+        },
+    );
     account
 }
 

@@ -1,11 +1,13 @@
 //! Formulas as text: as on paper, for documentation and reports, or in the language of the attribute.
 
+mod letters;
+
 use rustc_hash::FxHashMap as HashMap;
 
 use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation, Weight};
-use super::index::{Atom, Index, Loop, Range};
+use super::index::{Index, Loop};
 use super::partial::Partial;
-use crate::internal::internal;
+use letters::{Letters, Notation, letter};
 
 /// The names that ids of the model stand for.
 pub(crate) trait Names {
@@ -24,142 +26,12 @@ pub(crate) trait Names {
     fn is_taken(&self, name: &str) -> bool;
 }
 
-/// How a formula is written.
-#[derive(Clone, Copy, PartialEq)]
-enum Notation {
-    Paper,
-    /// As the attribute reads it.
-    Language,
-}
-
 /// How tightly the text of an expression holds together.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Strength {
     Sum,
     Product,
     Atom,
-}
-
-fn letter(number: usize) -> String {
-    match "ijkl".chars().nth(number) {
-        Some(letter) => letter.to_string(),
-        None => format!("i{number}"),
-    }
-}
-
-/// The letter, or with underscores that which nothing else is called.
-fn free_letter(number: usize, names: &dyn Names) -> String {
-    let mut name = letter(number);
-    while names.is_taken(&name) {
-        name.push('_');
-    }
-    name
-}
-
-/// The letters of the indices: open ones by depth, then those of the sums around a place.
-#[derive(Clone)]
-struct Letters<'a> {
-    names: &'a dyn Names,
-    depth: usize,
-    /// Heights of the sums around, from the outside.
-    sums: Vec<u32>,
-    notation: Notation,
-}
-
-impl Letters<'_> {
-    fn inside(&self, height: u32) -> Self {
-        let sums = self.sums.iter().copied().chain([height]).collect();
-        Self { sums, ..self.clone() }
-    }
-
-    /// A name that is a keyword of Rust is one on paper without more ado.
-    fn name(&self, name: &str) -> String {
-        match self.notation {
-            Notation::Paper => name.replace("r#", ""),
-            Notation::Language => name.to_string(),
-        }
-    }
-
-    fn letter(&self, number: usize) -> String {
-        match self.notation {
-            Notation::Paper => letter(number),
-            Notation::Language => free_letter(number, self.names),
-        }
-    }
-
-    fn times(&self) -> &'static str {
-        match self.notation {
-            Notation::Paper => "·",
-            Notation::Language => " * ",
-        }
-    }
-
-    fn index(&self, index: &Index) -> String {
-        // An index of the language begins with what is added.
-        let begins_negative = index.counted_terms().next().is_some_and(|(_, coefficient)| *coefficient < 0);
-        let leads = begins_negative && self.notation == Notation::Language;
-        let mut text = if leads { index.constant.to_string() } else { String::new() };
-        for (atom, coefficient) in index.counted_terms() {
-            let name = match atom {
-                Atom::Open(depth) => self.letter(*depth as usize),
-                Atom::Bound(height) => match self.sums.iter().rposition(|known| known == height) {
-                    Some(position) => self.letter(self.depth + position),
-                    None => internal("an index outside of its sum"),
-                },
-                Atom::Size(size) => self.name(self.names.size(size.0)),
-                Atom::Remainder(value, modulus) => {
-                    let [value, modulus] = [value, modulus].map(|index| self.index(index));
-                    match self.notation {
-                        Notation::Paper => format!("({value}) % {modulus}"),
-                        Notation::Language => format!("(({value}) % ({modulus}))"),
-                    }
-                }
-            };
-            let sign = match (*coefficient < 0, text.is_empty()) {
-                (true, true) => "-",
-                (true, false) => " - ",
-                (false, true) => "",
-                (false, false) => " + ",
-            };
-            text += sign;
-            if coefficient.abs() != 1 {
-                text += &format!("{}{}", coefficient.abs(), self.times());
-            }
-            text += &name;
-        }
-        match (if leads { 0 } else { index.constant }, text.is_empty()) {
-            (constant, true) => constant.to_string(),
-            (0, false) => text,
-            (constant, false) if constant < 0 => format!("{text} - {}", -constant),
-            (constant, false) => format!("{text} + {constant}"),
-        }
-    }
-
-    fn range(&self, letter: &str, range: &Range) -> String {
-        let (lower, upper) = (self.index(&range.lower), self.index(&range.upper));
-        let except: Vec<String> = range.left_out().map(|index| self.index(index)).collect();
-        let except =
-            if except.is_empty() { String::new() } else { format!(" without {}", except.join(", ")) };
-        format!("{letter} in {lower}..{upper}{except}")
-    }
-
-    fn coordinate(&self, coordinate: &Coordinate) -> String {
-        let entry = coordinate.index.as_literal().filter(|_| self.names.is_rotation(coordinate.block));
-        let (name, is_array) = self.names.coordinate(coordinate.block);
-        match (self.name(&name), is_array, entry) {
-            (name, _, Some(entry)) => format!("{name}[{}][{}]", entry / 3, entry % 3),
-            (name, true, None) => format!("{name}[{}]", self.index(&coordinate.index)),
-            (name, false, None) => name,
-        }
-    }
-
-    fn velocity(&self, coordinate: &Coordinate) -> String {
-        if self.names.is_rotation(coordinate.block) {
-            let name = self.name(&self.names.coordinate(coordinate.block).0);
-            return format!("omega({name})[{}]", self.index(&coordinate.index));
-        }
-        format!("{}({})", self.names.velocity(), self.coordinate(coordinate))
-    }
 }
 
 /// The letters outside of all sums.
@@ -204,7 +76,7 @@ pub(crate) fn print_expr(graph: &Graph, expr: Expr, depth: usize, names: &dyn Na
 /// it that has no word there.
 pub(crate) fn write_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> Option<String> {
     let can_be_written = |id: Id| match graph.node(id) {
-        Node::Velocity(_) | Node::Weight(_) => false,
+        Node::Weight(_) => false,
         Node::Unary(function, _) => function.is_written(),
         Node::Binary(function, ..) => *function != Binary::OverRoot,
         Node::Call(_, order, _) => *order == 0,

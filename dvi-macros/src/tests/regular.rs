@@ -24,18 +24,18 @@ fn kepler_linearized() {
         "linearize",
         &expect![[r#"
             fn linearize() {
-                let (__q0, __rest) = __q.split_at(1usize);
+                let (__q0, __rest) = q.split_at(1usize);
                 let (__q1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                let (__v0, __rest) = __v.split_at(1usize);
+                let (__v0, __rest) = v.split_at(1usize);
                 let (__v1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                __l_q.fill(T::lift(-0.0));
-                let (__l_q0, __rest) = __l_q.split_at_mut(1usize);
+                l_q.fill(T::lift(-0.0));
+                let (__l_q0, __rest) = l_q.split_at_mut(1usize);
                 let (__l_q1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
-                __l_v.fill(T::lift(-0.0));
-                let (__l_v0, __rest) = __l_v.split_at_mut(1usize);
+                l_v.fill(T::lift(-0.0));
+                let (__l_v0, __rest) = l_v.split_at_mut(1usize);
                 let (__l_v1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let __offset0: usize = 0usize;
@@ -52,29 +52,29 @@ fn kepler_linearized() {
                         __private::Number::number(self.mu),
                     ) * __r9);
                 let __r17 = T::lift(3f64) * __r9;
-                let __r21 = __w.qq * __r11;
+                let __r21 = w.qq * __r11;
                 let __r25 = ((__r0 * __r3) * __r17) * __r21;
-                let __r26 = __w.vv;
+                let __r26 = w.vv;
                 __l_q0[0usize] -= (__r0 * __r11);
                 __l_v0[0usize] += __v0[0usize];
                 __l_q1[0usize] -= (__r3 * __r11);
                 __l_v1[0usize] += __v1[0usize];
                 Sink::add(
-                    __sink,
+                    sink,
                     __offset0 + 0usize,
                     __offset0 + 0usize,
                     (((__r17 * __r2) - T::lift(1f64)) * __r21),
                 );
-                Sink::add(__sink, __offset0 + 0usize, __offset1 + 0usize, __r25);
-                Sink::add(__sink, __offset1 + 0usize, __offset0 + 0usize, __r25);
-                Sink::add(__sink, __offset0 + 0usize, __offset0 + 0usize, __r26);
+                Sink::add(sink, __offset0 + 0usize, __offset1 + 0usize, __r25);
+                Sink::add(sink, __offset1 + 0usize, __offset0 + 0usize, __r25);
+                Sink::add(sink, __offset0 + 0usize, __offset0 + 0usize, __r26);
                 Sink::add(
-                    __sink,
+                    sink,
                     __offset1 + 0usize,
                     __offset1 + 0usize,
                     (((__r17 * __r4) - T::lift(1f64)) * __r21),
                 );
-                Sink::add(__sink, __offset1 + 0usize, __offset1 + 0usize, __r26);
+                Sink::add(sink, __offset1 + 0usize, __offset1 + 0usize, __r26);
             }
         "#]],
     );
@@ -87,10 +87,10 @@ fn energy_of_kepler() {
         "energy",
         &expect![[r#"
             fn energy() {
-                let (__q0, __rest) = __q.split_at(1usize);
+                let (__q0, __rest) = q.split_at(1usize);
                 let (__q1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                let (__v0, __rest) = __v.split_at(1usize);
+                let (__v0, __rest) = v.split_at(1usize);
                 let (__v1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
                 let __r1 = __v0[0usize];
@@ -116,25 +116,25 @@ fn force_of_kepler() {
         kepler(),
         "force",
         &expect![[r#"
-        fn force() {
-            let (__q0, __rest) = __q.split_at(1usize);
-            let (__q1, __rest) = __rest.split_at(1usize);
-            let _ = __rest;
-            __vector.fill(T::lift(-0.0));
-            let (__vector0, __rest) = __vector.split_at_mut(1usize);
-            let (__vector1, __rest) = __rest.split_at_mut(1usize);
-            let _ = __rest;
-            let __r0 = __q0[0usize];
-            let __r4 = __q1[0usize];
-            let __r8 = T::lift(1f64)
-                / (T::sqrt(((__r0 * __r0) + (__r4 * __r4))));
-            let __r11 = (T::lift(
-                __private::Number::number(self.mu),
-            ) * __r8) * (__r8 * __r8);
-            __vector0[0usize] -= (__r0 * __r11);
-            __vector1[0usize] -= (__r4 * __r11);
-        }
-    "#]],
+            fn force() {
+                let (__q0, __rest) = q.split_at(1usize);
+                let (__q1, __rest) = __rest.split_at(1usize);
+                let _ = __rest;
+                out.fill(T::lift(-0.0));
+                let (__vector0, __rest) = out.split_at_mut(1usize);
+                let (__vector1, __rest) = __rest.split_at_mut(1usize);
+                let _ = __rest;
+                let __r0 = __q0[0usize];
+                let __r4 = __q1[0usize];
+                let __r8 = T::lift(1f64)
+                    / (T::sqrt(((__r0 * __r0) + (__r4 * __r4))));
+                let __r11 = (T::lift(
+                    __private::Number::number(self.mu),
+                ) * __r8) * (__r8 * __r8);
+                __vector0[0usize] -= (__r0 * __r11);
+                __vector1[0usize] -= (__r4 * __r11);
+            }
+        "#]],
     );
 }
 
@@ -153,9 +153,9 @@ fn energy_of_a_chain() {
         "energy",
         &expect![[r#"
             fn energy() {
-                let (__q0, __rest) = __q.split_at(N);
+                let (__q0, __rest) = q.split_at(N);
                 let _ = __rest;
-                let (__v0, __rest) = __v.split_at(N);
+                let (__v0, __rest) = v.split_at(N);
                 let _ = __rest;
                 let mut __r14 = T::lift(-0.0);
                 for __i0 in (0usize)..(N) {
@@ -185,20 +185,20 @@ fn state_of_kepler() {
         kepler(),
         "write",
         &expect![[r#"
-        fn write() {
-            let mut __at = 0usize;
-            __q[__at] = self.x;
-            __at += 1usize;
-            __q[__at] = self.y;
-            __at += 1usize;
-            let mut __at = 0usize;
-            __v[__at] = self.dot_x;
-            __at += 1usize;
-            __v[__at] = self.dot_y;
-            __at += 1usize;
-            ::core::result::Result::Ok(())
-        }
-    "#]],
+            fn write() {
+                let mut __at = 0usize;
+                q[__at] = self.x;
+                __at += 1usize;
+                q[__at] = self.y;
+                __at += 1usize;
+                let mut __at = 0usize;
+                v[__at] = self.dot_x;
+                __at += 1usize;
+                v[__at] = self.dot_y;
+                __at += 1usize;
+                ::core::result::Result::Ok(())
+            }
+        "#]],
     );
 }
 
@@ -220,47 +220,47 @@ fn constraints_of_a_chain_with_their_jacobian() {
         hanging_chain(),
         "constraint_jacobian",
         &expect![[r#"
-        fn constraint_jacobian() {
-            let (__q0, __rest) = __q.split_at(self.n);
-            let (__q1, __rest) = __rest.split_at(self.n);
-            let _ = __rest;
-            __g.fill(T::lift(-0.0));
-            let (__g0, __rest) = __g.split_at_mut((self.n).saturating_sub(1usize));
-            let (__g1, __rest) = __rest.split_at_mut(1usize);
-            let _ = __rest;
-            let __row0: usize = 0usize;
-            let __row1: usize = __row0 + (self.n).saturating_sub(1usize);
-            let __offset0: usize = 0usize;
-            let __offset1: usize = self.n;
-            let __r4 = __t;
-            let mut __r10 = T::lift(-0.0);
-            for __i0 in (0usize)..(self.n) {
-                let __r0 = __q0[__i0];
-                let __r9 = __r0 * __r0;
-                Sink::add(
-                    __sink,
-                    __row1 + 0usize,
-                    __offset0 + __i0,
-                    (T::lift(2f64) * __r0),
-                );
-                __r10 += __r9;
+            fn constraint_jacobian() {
+                let (__q0, __rest) = q.split_at(self.n);
+                let (__q1, __rest) = __rest.split_at(self.n);
+                let _ = __rest;
+                out.fill(T::lift(-0.0));
+                let (__g0, __rest) = out.split_at_mut((self.n).saturating_sub(1usize));
+                let (__g1, __rest) = __rest.split_at_mut(1usize);
+                let _ = __rest;
+                let __row0: usize = 0usize;
+                let __row1: usize = __row0 + (self.n).saturating_sub(1usize);
+                let __offset0: usize = 0usize;
+                let __offset1: usize = self.n;
+                let __r4 = t;
+                let mut __r10 = T::lift(-0.0);
+                for __i0 in (0usize)..(self.n) {
+                    let __r0 = __q0[__i0];
+                    let __r9 = __r0 * __r0;
+                    Sink::add(
+                        sink,
+                        __row1 + 0usize,
+                        __offset0 + __i0,
+                        (T::lift(2f64) * __r0),
+                    );
+                    __r10 += __r9;
+                }
+                for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
+                    let __r0 = __q0[__i0];
+                    let __r2 = __q0[__i0 + 1usize] - __r0;
+                    let __r5 = __q1[__i0] - __r4;
+                    __g0[__i0]
+                        += ((__r2 * __r5)
+                            - T::lift(
+                                __private::Number::number(self.rods[__i0]),
+                            ));
+                    Sink::add(sink, __row0 + __i0, __offset0 + __i0, (-__r5));
+                    Sink::add(sink, __row0 + __i0, __offset1 + __i0, __r2);
+                    Sink::add(sink, __row0 + __i0, __offset0 + __i0 + 1usize, __r5);
+                }
+                __g1[0usize] += __r10;
             }
-            for __i0 in (0usize)..((self.n).saturating_sub(1usize)) {
-                let __r0 = __q0[__i0];
-                let __r2 = __q0[__i0 + 1usize] - __r0;
-                let __r5 = __q1[__i0] - __r4;
-                __g0[__i0]
-                    += ((__r2 * __r5)
-                        - T::lift(
-                            __private::Number::number(self.rods[__i0]),
-                        ));
-                Sink::add(__sink, __row0 + __i0, __offset0 + __i0, (-__r5));
-                Sink::add(__sink, __row0 + __i0, __offset1 + __i0, __r2);
-                Sink::add(__sink, __row0 + __i0, __offset0 + __i0 + 1usize, __r5);
-            }
-            __g1[0usize] += __r10;
-        }
-    "#]],
+        "#]],
     );
 }
 
@@ -271,11 +271,11 @@ fn constraints_of_a_chain_along_a_motion() {
         "constraint_curvature",
         &expect![[r#"
             fn constraint_curvature() {
-                let (__v0, __rest) = __v.split_at(self.n);
+                let (__v0, __rest) = v.split_at(self.n);
                 let (__v1, __rest) = __rest.split_at(self.n);
                 let _ = __rest;
-                __g.fill(T::lift(-0.0));
-                let (__g0, __rest) = __g.split_at_mut((self.n).saturating_sub(1usize));
+                out.fill(T::lift(-0.0));
+                let (__g0, __rest) = out.split_at_mut((self.n).saturating_sub(1usize));
                 let (__g1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let mut __r12 = T::lift(-0.0);
@@ -283,7 +283,7 @@ fn constraints_of_a_chain_along_a_motion() {
                     T,
                     _,
                 >(
-                    __q.len(),
+                    q.len(),
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
                         let __whole = __private::whole(0usize, self.n);
@@ -387,54 +387,54 @@ fn constraints_of_velocities_with_their_weighted_derivatives() {
         train(),
         "velocity_constraint_jacobian",
         &expect![[r#"
-        fn velocity_constraint_jacobian() {
-            let (__q0, __rest) = __q.split_at(self.n);
-            let (__q1, __rest) = __rest.split_at(self.n);
-            let _ = __rest;
-            let (__v0, __rest) = __v.split_at(self.n);
-            let (__v1, __rest) = __rest.split_at(self.n);
-            let _ = __rest;
-            __g.fill(T::lift(-0.0));
-            let (__g0, __rest) = __g.split_at_mut(self.n);
-            let (__g1, __rest) = __rest.split_at_mut(1usize);
-            let _ = __rest;
-            let __row0: usize = 0usize;
-            let __row1: usize = __row0 + self.n;
-            let __offset0: usize = 0usize;
-            let __offset1: usize = self.n;
-            let __r5 = T::lift(
-                __private::Number::number(self.slope),
-            ) * __t;
-            let __r13 = __weights[1usize];
-            let __r15 = __weights[0usize];
-            let mut __r11 = T::lift(-0.0);
-            for __i0 in (0usize)..(self.n) {
-                let __r0 = __v0[__i0];
-                let __r1 = __q1[__i0];
-                let __r8 = __q0[__i0];
-                let __r9 = __v1[__i0];
-                let __r10 = __r8 * __r9;
-                __g0[__i0] += ((__r0 * __r1) - __r5);
-                Sink::add(__sink, __row0 + __i0, __offset0 + __i0, (__r13 * __r1));
-                Sink::add(__sink, __row0 + __i0, __offset1 + __i0, (__r15 * __r0));
-                Sink::add(
-                    __sink,
-                    __row1 + 0usize,
-                    __offset0 + __i0,
-                    (-(__r15 * __r9)),
-                );
-                Sink::add(
-                    __sink,
-                    __row1 + 0usize,
-                    __offset1 + __i0,
-                    (-(__r13 * __r8)),
-                );
-                __r11 += __r10;
+            fn velocity_constraint_jacobian() {
+                let (__q0, __rest) = q.split_at(self.n);
+                let (__q1, __rest) = __rest.split_at(self.n);
+                let _ = __rest;
+                let (__v0, __rest) = v.split_at(self.n);
+                let (__v1, __rest) = __rest.split_at(self.n);
+                let _ = __rest;
+                out.fill(T::lift(-0.0));
+                let (__g0, __rest) = out.split_at_mut(self.n);
+                let (__g1, __rest) = __rest.split_at_mut(1usize);
+                let _ = __rest;
+                let __row0: usize = 0usize;
+                let __row1: usize = __row0 + self.n;
+                let __offset0: usize = 0usize;
+                let __offset1: usize = self.n;
+                let __r5 = T::lift(
+                    __private::Number::number(self.slope),
+                ) * t;
+                let __r13 = w[1usize];
+                let __r15 = w[0usize];
+                let mut __r11 = T::lift(-0.0);
+                for __i0 in (0usize)..(self.n) {
+                    let __r0 = __v0[__i0];
+                    let __r1 = __q1[__i0];
+                    let __r8 = __q0[__i0];
+                    let __r9 = __v1[__i0];
+                    let __r10 = __r8 * __r9;
+                    __g0[__i0] += ((__r0 * __r1) - __r5);
+                    Sink::add(sink, __row0 + __i0, __offset0 + __i0, (__r13 * __r1));
+                    Sink::add(sink, __row0 + __i0, __offset1 + __i0, (__r15 * __r0));
+                    Sink::add(
+                        sink,
+                        __row1 + 0usize,
+                        __offset0 + __i0,
+                        (-(__r15 * __r9)),
+                    );
+                    Sink::add(
+                        sink,
+                        __row1 + 0usize,
+                        __offset1 + __i0,
+                        (-(__r13 * __r8)),
+                    );
+                    __r11 += __r10;
+                }
+                __g1[0usize] += (__v0[0usize] - __r11);
+                Sink::add(sink, __row1 + 0usize, __offset0 + 0usize, __r13);
             }
-            __g1[0usize] += (__v0[0usize] - __r11);
-            Sink::add(__sink, __row1 + 0usize, __offset0 + 0usize, __r13);
-        }
-    "#]],
+        "#]],
     );
 }
 
@@ -444,26 +444,26 @@ fn constraints_of_velocities_along_a_motion() {
         train(),
         "velocity_constraint_rate",
         &expect![[r#"
-        fn velocity_constraint_rate() {
-            let (__v0, __rest) = __v.split_at(self.n);
-            let (__v1, __rest) = __rest.split_at(self.n);
-            let _ = __rest;
-            __g.fill(T::lift(-0.0));
-            let (__g0, __rest) = __g.split_at_mut(self.n);
-            let (__g1, __rest) = __rest.split_at_mut(1usize);
-            let _ = __rest;
-            let __r0 = T::lift(
-                __private::Number::number(self.slope),
-            );
-            let mut __r5 = T::lift(-0.0);
-            for __i0 in (0usize)..(self.n) {
-                let __r3 = __v0[__i0] * __v1[__i0];
-                __g0[__i0] -= (__r0 - __r3);
-                __r5 += __r3;
+            fn velocity_constraint_rate() {
+                let (__v0, __rest) = v.split_at(self.n);
+                let (__v1, __rest) = __rest.split_at(self.n);
+                let _ = __rest;
+                out.fill(T::lift(-0.0));
+                let (__g0, __rest) = out.split_at_mut(self.n);
+                let (__g1, __rest) = __rest.split_at_mut(1usize);
+                let _ = __rest;
+                let __r0 = T::lift(
+                    __private::Number::number(self.slope),
+                );
+                let mut __r5 = T::lift(-0.0);
+                for __i0 in (0usize)..(self.n) {
+                    let __r3 = __v0[__i0] * __v1[__i0];
+                    __g0[__i0] -= (__r0 - __r3);
+                    __r5 += __r3;
+                }
+                __g1[0usize] -= __r5;
             }
-            __g1[0usize] -= __r5;
-        }
-    "#]],
+        "#]],
     );
 }
 

@@ -1,0 +1,85 @@
+//! The names in generated code that users read in messages and documentation: that of the type of numbers,
+//! and those of the arguments of functions, which are called here as in the traits.
+
+use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use syn::ext::IdentExt as _;
+
+/// The type as the stages write it: nobody else's.
+const INTERNAL: &str = "__T";
+
+/// What it is called where the user has nothing of that name.
+const NUMBERS: [&str; 4] = ["T", "Number", "Numbers", "Scalar"];
+
+/// Arguments as the stages write them, and what they are called where the user has nothing of the first name.
+#[rustfmt::skip]
+const ARGUMENTS: [(&str, &str); 19] = [
+    ("__q",          "q"),
+    ("__v",          "v"),
+    ("__t",          "t"),
+    ("__vector",     "out"),
+    ("__g",          "out"),
+    ("__l_q",        "l_q"),
+    ("__l_v",        "l_v"),
+    ("__w",          "w"),
+    ("__weights",    "w"),
+    ("__a",          "a"),
+    ("__b",          "b"),
+    ("__sink",       "sink"),
+    ("__index",      "index"),
+    ("__i",          "i"),
+    ("__coordinate", "coordinate"),
+    ("__axis",       "axis"),
+    ("__body",       "body"),
+    ("__block",      "block"),
+    ("__len",        "block_len"),
+];
+
+/// What is renamed, and to what.
+pub(super) type Renaming = Vec<(&'static str, &'static str)>;
+
+/// For an attribute and the item below it.
+pub(super) fn renaming(inputs: [&TokenStream; 2]) -> Renaming {
+    let mut taken = Vec::new();
+    inputs.into_iter().for_each(|input| mentioned(input, &mut taken));
+    let is_free = |name: &str| !taken.contains(&name);
+    let numbers = NUMBERS.into_iter().find(|name| is_free(name)).map(|name| (INTERNAL, name));
+    numbers.into_iter().chain(ARGUMENTS.into_iter().filter(|(internal, _)| is_free(internal))).collect()
+}
+
+/// Adds those of the names above that stand in `tokens`.
+fn mentioned(tokens: &TokenStream, taken: &mut Vec<&'static str>) {
+    for token in tokens.clone() {
+        match token {
+            TokenTree::Ident(ident) => {
+                let text = ident.unraw().to_string();
+                let mut known = NUMBERS.into_iter().chain(ARGUMENTS.map(|(internal, _)| internal));
+                taken.extend(known.find(|name| *name == text));
+            }
+            TokenTree::Group(group) => mentioned(&group.stream(), taken),
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+}
+
+/// `tokens` with the names that users read.
+pub(super) fn renamed(tokens: TokenStream, renaming: &Renaming) -> TokenStream {
+    let rename = |token: TokenTree| match token {
+        TokenTree::Ident(ident) => {
+            let text = ident.to_string();
+            let known = renaming.iter().find(|(internal, _)| *internal == text);
+            known.map_or(ident.clone(), |(_, name)| Ident::new(name, in_place(ident.span()))).into()
+        }
+        TokenTree::Group(group) => {
+            let mut inside = Group::new(group.delimiter(), renamed(group.stream(), renaming));
+            inside.set_span(group.span());
+            inside.into()
+        }
+        token => token,
+    };
+    tokens.into_iter().map(rename).collect()
+}
+
+/// The user's own names are not what it is resolved to, nor is it what they are.
+fn in_place(span: Span) -> Span {
+    span.resolved_at(Span::mixed_site())
+}

@@ -1,0 +1,136 @@
+//! Names, letters of indices, and places in arrays, as text.
+
+use super::Names;
+use crate::internal::internal;
+use crate::symbolic::graph::Coordinate;
+use crate::symbolic::index::{Atom, Index, Range};
+
+/// How a formula is written.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Notation {
+    Paper,
+    /// As the attribute reads it.
+    Language,
+}
+
+pub(super) fn letter(number: usize) -> String {
+    match "ijkl".chars().nth(number) {
+        Some(letter) => letter.to_string(),
+        None => format!("i{number}"),
+    }
+}
+
+/// The letter, or with underscores that which nothing else is called.
+fn free_letter(number: usize, names: &dyn Names) -> String {
+    let mut name = letter(number);
+    while names.is_taken(&name) {
+        name.push('_');
+    }
+    name
+}
+
+/// The letters of the indices: open ones by depth, then those of the sums around a place.
+#[derive(Clone)]
+pub(super) struct Letters<'a> {
+    pub(super) names: &'a dyn Names,
+    pub(super) depth: usize,
+    /// Heights of the sums around, from the outside.
+    pub(super) sums: Vec<u32>,
+    pub(super) notation: Notation,
+}
+
+impl Letters<'_> {
+    pub(super) fn inside(&self, height: u32) -> Self {
+        let sums = self.sums.iter().copied().chain([height]).collect();
+        Self { sums, ..self.clone() }
+    }
+
+    /// A name that is a keyword of Rust is one on paper without more ado.
+    pub(super) fn name(&self, name: &str) -> String {
+        match self.notation {
+            Notation::Paper => name.replace("r#", ""),
+            Notation::Language => name.to_string(),
+        }
+    }
+
+    pub(super) fn letter(&self, number: usize) -> String {
+        match self.notation {
+            Notation::Paper => letter(number),
+            Notation::Language => free_letter(number, self.names),
+        }
+    }
+
+    pub(super) fn times(&self) -> &'static str {
+        match self.notation {
+            Notation::Paper => "·",
+            Notation::Language => " * ",
+        }
+    }
+
+    pub(super) fn index(&self, index: &Index) -> String {
+        // An index of the language begins with what is added.
+        let begins_negative = index.counted_terms().next().is_some_and(|(_, coefficient)| *coefficient < 0);
+        let leads = begins_negative && self.notation == Notation::Language;
+        let mut text = if leads { index.constant.to_string() } else { String::new() };
+        for (atom, coefficient) in index.counted_terms() {
+            let name = match atom {
+                Atom::Open(depth) => self.letter(*depth as usize),
+                Atom::Bound(height) => match self.sums.iter().rposition(|known| known == height) {
+                    Some(position) => self.letter(self.depth + position),
+                    None => internal("an index outside of its sum"),
+                },
+                Atom::Size(size) => self.name(self.names.size(size.0)),
+                Atom::Remainder(value, modulus) => {
+                    let [value, modulus] = [value, modulus].map(|index| self.index(index));
+                    match self.notation {
+                        Notation::Paper => format!("({value}) % {modulus}"),
+                        Notation::Language => format!("(({value}) % ({modulus}))"),
+                    }
+                }
+            };
+            let sign = match (*coefficient < 0, text.is_empty()) {
+                (true, true) => "-",
+                (true, false) => " - ",
+                (false, true) => "",
+                (false, false) => " + ",
+            };
+            text += sign;
+            if coefficient.abs() != 1 {
+                text += &format!("{}{}", coefficient.abs(), self.times());
+            }
+            text += &name;
+        }
+        match (if leads { 0 } else { index.constant }, text.is_empty()) {
+            (constant, true) => constant.to_string(),
+            (0, false) => text,
+            (constant, false) if constant < 0 => format!("{text} - {}", -constant),
+            (constant, false) => format!("{text} + {constant}"),
+        }
+    }
+
+    pub(super) fn range(&self, letter: &str, range: &Range) -> String {
+        let (lower, upper) = (self.index(&range.lower), self.index(&range.upper));
+        let except: Vec<String> = range.left_out().map(|index| self.index(index)).collect();
+        let except =
+            if except.is_empty() { String::new() } else { format!(" without {}", except.join(", ")) };
+        format!("{letter} in {lower}..{upper}{except}")
+    }
+
+    pub(super) fn coordinate(&self, coordinate: &Coordinate) -> String {
+        let entry = coordinate.index.as_literal().filter(|_| self.names.is_rotation(coordinate.block));
+        let (name, is_array) = self.names.coordinate(coordinate.block);
+        match (self.name(&name), is_array, entry) {
+            (name, _, Some(entry)) => format!("{name}[{}][{}]", entry / 3, entry % 3),
+            (name, true, None) => format!("{name}[{}]", self.index(&coordinate.index)),
+            (name, false, None) => name,
+        }
+    }
+
+    pub(super) fn velocity(&self, coordinate: &Coordinate) -> String {
+        if self.names.is_rotation(coordinate.block) {
+            let name = self.name(&self.names.coordinate(coordinate.block).0);
+            return format!("omega({name})[{}]", self.index(&coordinate.index));
+        }
+        format!("{}({})", self.names.velocity(), self.coordinate(coordinate))
+    }
+}

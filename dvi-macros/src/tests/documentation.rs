@@ -1,0 +1,170 @@
+//! What the documentation of a struct is continued with.
+
+use expect_test::{Expect, expect};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::expand::{degenerate_lagrangian, lagrangian};
+
+/// Compares what stands below the user's own words, up to the sentences on structure.
+fn check(expansion: TokenStream, expected: &Expect) {
+    let file: syn::File = syn::parse2(expansion).expect("the expansion parses");
+    let attributes = file.items.iter().find_map(|item| match item {
+        syn::Item::Struct(item) => Some(&item.attrs),
+        _ => None,
+    });
+    let text = attributes.expect("a struct").iter().find_map(|attribute| match &attribute.meta {
+        syn::Meta::NameValue(doc) if doc.path.is_ident("doc") => match &doc.value {
+            syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) => Some(text.value()),
+            _ => None,
+        },
+        _ => None,
+    });
+    let text = text.expect("documentation");
+    let formulas = text.split("\n- ").next().unwrap_or_default();
+    expected.assert_eq(formulas);
+}
+
+#[test]
+fn names_of_lets_are_kept() {
+    check(
+        lagrangian(
+            quote! {
+                coordinates(a, b),
+                lagrangian = {
+                    let first = length[0] * dot(a);
+                    let second = length[1] * dot(b);
+                    let kinetic = mass[0] * first.powi(2) / 2.0
+                        + mass[1] * (first.powi(2) + second.powi(2)) / 2.0
+                        + mass[1] * first * second * (a - b).cos();
+                    let height = (mass[0] + mass[1]) * length[0] * (1.0 - a.cos())
+                        + mass[1] * length[1] * (1.0 - b.cos());
+                    kinetic - g * height
+                },
+            },
+            quote! { struct DoublePendulum { mass: [f64; 2], length: [f64; 2], g: f64 } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \mathit{kinetic} - g \, \mathit{height} \\
+            \mathit{first} &= \mathit{length}_{0} \, \dot{a} \\
+            \mathit{second} &= \mathit{length}_{1} \, \dot{b} \\
+            \mathit{kinetic} &= \frac{\mathit{mass}_{0} \, {\mathit{first}}^{2}}{2} + \frac{\mathit{mass}_{1} \, \left({\mathit{first}}^{2} + {\mathit{second}}^{2}\right)}{2} \\
+            &\quad + \mathit{mass}_{1} \, \mathit{first} \, \mathit{second} \, \cos\left(a - b\right) \\
+            \mathit{height} &= \left(\mathit{mass}_{0} + \mathit{mass}_{1}\right) \, \mathit{length}_{0} \, \left(1 - \cos a\right) + \mathit{mass}_{1} \, \mathit{length}_{1} \, \left(1 - \cos b\right)
+            \end{aligned}
+            ```
+
+            The compiler makes of it:
+
+            ```math
+            \begin{aligned}
+            \partial L / \partial a &= -\mathit{length}_{0} \, \left(\dot{a} \, \mathit{length}_{1} \, \dot{b} \, \mathit{mass}_{1} \, \sin\left(a - b\right) + \left(\mathit{mass}_{0} + \mathit{mass}_{1}\right) \, g \, \sin a\right) \\
+            \partial L / \partial \dot{a} &= \mathit{length}_{0} \, \left(\mathit{length}_{0} \, \dot{a} \, \left(\mathit{mass}_{0} + \mathit{mass}_{1}\right) + \mathit{length}_{1} \, \dot{b} \, \mathit{mass}_{1} \, \cos\left(a - b\right)\right) \\
+            \partial L / \partial b &= \mathit{length}_{1} \, \mathit{mass}_{1} \, \left(\mathit{length}_{0} \, \dot{a} \, \dot{b} \, \sin\left(a - b\right) - g \, \sin b\right) \\
+            \partial L / \partial \dot{b} &= \mathit{length}_{1} \, \mathit{mass}_{1} \, \left(\mathit{length}_{1} \, \dot{b} + \mathit{length}_{0} \, \dot{a} \, \cos\left(a - b\right)\right)
+            \end{aligned}
+            ```
+        "#]],
+    );
+}
+
+#[test]
+fn sums_pairs_components_and_momenta() {
+    check(
+        degenerate_lagrangian(
+            quote! {
+                coordinates(x[N], y[N]),
+                one_form = [|j| 0.0, |j| gamma[j] * x[j]],
+                hamiltonian = -sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
+                    * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) + 1e-3).ln()) / (4.0 * PI),
+                momenta(angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2)))),
+            },
+            quote! { struct Vortices<const N: usize> { gamma: [f64; N] } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t) = α(q, t)·v − H(q, t), as it is declared:
+
+            ```math
+            \begin{aligned}
+            \alpha_{x_{j}} &= 0 \\
+            \alpha_{y_{j}} &= \gamma_{j} \, x_{j} \\
+            H &= -\frac{\sum_{0 \le j < k \le N - 1} \gamma_{j} \, \gamma_{k} \, \ln\left({\left(x_{j} - x_{k}\right)}^{2} + {\left(y_{j} - y_{k}\right)}^{2} + 10^{-3}\right)}{4 \, \pi} \\
+            \text{angular} &= \sum_{j = 0}^{N - 1} \gamma_{j} \, \left({x_{j}}^{2} + {y_{j}}^{2}\right)
+            \end{aligned}
+            ```
+        "#]],
+    );
+}
+
+#[test]
+fn rotations_constraints_choices_and_functions() {
+    check(
+        lagrangian(
+            quote! {
+                coordinates(R: SO3, s: S2, omega_0),
+                lagrangian = sum(0..3, |k| dot(s[k]).powi(2)) + omega(R)[0].powi(2) + omega(R)[1].powi(2)
+                    + (omega(R)[2].powi(2) + dot(omega_0).powi(2)) / 2.0 - R[2][1] * psi(omega_0, t),
+                functions(psi = path),
+            },
+            quote! { struct Top; },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \sum_{k = 0}^{2} {\dot{s}_{k}}^{2} + {\omega\left(R\right)_{0}}^{2} + {\omega\left(R\right)_{1}}^{2} + \frac{{\omega\left(R\right)_{2}}^{2} + {\dot{\omega}_{0}}^{2}}{2} - R_{2,1} \, \psi\left(\omega_{0}, t\right)
+            \end{aligned}
+            ```
+
+            The compiler makes of it:
+
+            ```math
+            \begin{aligned}
+            E &= \sum_{i = 0}^{2} {\dot{s}_{i}}^{2} + {\omega\left(R\right)_{0}}^{2} + {\omega\left(R\right)_{1}}^{2} + 0.5 \, \left({\omega\left(R\right)_{2}}^{2} + {\dot{\omega}_{0}}^{2}\right) + R_{2,1} \, \psi\left(\omega_{0}, t\right)
+            \end{aligned}
+            ```
+        "#]],
+    );
+    check(
+        lagrangian(
+            quote! {
+                coordinates(x[n], y[n]),
+                lagrangian = sum(0..n, |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0
+                    - if x[i] < 0.0 && t > 1.0 { k * x[i].abs() } else { x[(i + 1) % n].sin() }),
+                force(y) = |i| -drag * dot(y[i]),
+                constraint = x[0].hypot(y[0]) - self.rod,
+                constraint(i in 1..n) = (x[i] - x[i - 1]).sqrt() - rod,
+            },
+            quote! { struct Chain { n: usize, k: f64, rod: f64, drag: f64 } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \sum_{i = 0}^{n - 1} \left(\frac{{\dot{x}_{i}}^{2} + {\dot{y}_{i}}^{2}}{2} - \begin{cases} k \, \left|x_{i}\right| & \text{if } x_{i} < 0 \text{ and } t > 1 \\ \sin x_{\left(i + 1\right) \bmod n} & \text{otherwise} \end{cases}\right) \\
+            F_{y_{i}} &= -\mathit{drag} \, \dot{y}_{i} \\
+            0 &= \sqrt{{x_{0}}^2 + {y_{0}}^2} - \mathit{rod} \\
+            0 &= \sqrt{x_{i} - x_{i - 1}} - \mathit{rod} \qquad \text{for } 1 \le i \le n - 1
+            \end{aligned}
+            ```
+        "#]],
+    );
+}

@@ -1,0 +1,84 @@
+//! What an attribute declares, as equations.
+
+use syn::Expr;
+
+use super::{Equation, Typesetter};
+use crate::syntax::{Attribute, Constrained, Constraint, Force};
+
+/// The formulas of a system as they were written.
+pub(crate) fn declared(attribute: &Attribute, typesetter: &mut Typesetter) -> Vec<Equation> {
+    let mut equations = Vec::new();
+    let Attribute { one_form, hamiltonian, lagrangian, time_transform, .. } = attribute;
+    let rate = time_transform.as_ref().map(|transform| &transform.rate);
+    if let Some(Expr::Array(list)) = one_form {
+        equations.extend(components(attribute, r"\alpha", list, typesetter));
+    }
+    let one_form = one_form.as_ref().filter(|form| !matches!(form, Expr::Array(_)));
+    let dynamics = [
+        ("L", lagrangian.as_ref()),
+        (r"\alpha", one_form),
+        ("H", hamiltonian.as_ref()),
+        ("F", attribute.gauge()),
+        (r"\rho", rate),
+    ];
+    let dynamics = dynamics.into_iter().filter_map(|(name, formula)| Some((name, formula?)));
+    equations.extend(dynamics.map(|(name, formula)| typesetter.equation(name, formula)));
+    for force in &attribute.forces {
+        match force {
+            Force::Components(list) => equations.extend(components(attribute, "F", list, typesetter)),
+            Force::On(name, formula) => {
+                equations.push(component("F", &name.to_string(), formula, typesetter));
+            }
+        }
+    }
+    let constraints = attribute.constraints.iter();
+    equations.extend(constraints.flat_map(|one| constraint(attribute.constrained, one, typesetter)));
+    for momentum in &attribute.momenta {
+        // Upright, as a `let` may have the same name.
+        let name = format!(r"\text{{{}}}", momentum.name.to_string().replace('_', r"\_"));
+        equations.push(typesetter.equation(name, &momentum.formula));
+    }
+    equations
+}
+
+/// One for each block of coordinates.
+fn components(
+    attribute: &Attribute,
+    of: &str,
+    list: &syn::ExprArray,
+    typesetter: &mut Typesetter,
+) -> Vec<Equation> {
+    let blocks = attribute.coordinates.iter().zip(&list.elems);
+    blocks.map(|(block, formula)| component(of, &block.name.to_string(), formula, typesetter)).collect()
+}
+
+/// The component along a coordinate, or `|i| …` along those of an array.
+fn component(of: &str, coordinate: &str, formula: &Expr, typesetter: &mut Typesetter) -> Equation {
+    let name = typesetter.symbol(coordinate);
+    match formula {
+        Expr::Closure(closure) => {
+            let index = closure
+                .inputs
+                .first()
+                .and_then(super::bound)
+                .map_or_else(String::new, |index| typesetter.symbol(&index));
+            typesetter.equation(format!("{of}_{{{name}_{{{index}}}}}"), &closure.body)
+        }
+        formula => typesetter.equation(format!("{of}_{{{name}}}"), formula),
+    }
+}
+
+/// 0 = g(q, t), or 0 ≤ g(q, t); several where a list is declared.
+fn constraint(of: Option<Constrained>, one: &Constraint, typesetter: &mut Typesetter) -> Vec<Equation> {
+    let relation = match of {
+        Some(Constrained::Gaps) => r"\le",
+        Some(Constrained::Positions | Constrained::Velocities) | None => "=",
+    };
+    let range = one.family.as_ref().map(|family| typesetter.range(&family.index.to_string(), &family.range));
+    let formulas: Vec<&Expr> = match &one.formula {
+        Expr::Array(list) => list.elems.iter().collect(),
+        formula => vec![formula],
+    };
+    let equations = formulas.into_iter().map(|formula| typesetter.equation("0", formula));
+    equations.map(|equation| Equation { relation, range: range.clone(), ..equation }).collect()
+}
