@@ -38,6 +38,10 @@ impl Errors {
         self.found.is_empty()
     }
 
+    pub(crate) fn count(&self) -> usize {
+        self.found.len()
+    }
+
     /// The first error as an expression; it is not reported elsewhere.
     pub(crate) fn take_first(&mut self) -> TokenStream {
         match self.found.is_empty() {

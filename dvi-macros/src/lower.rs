@@ -4,6 +4,8 @@
 //! sub-expression at fault; `None` stands for an expression that was reported, and silences everything
 //! above it while its siblings are still read.
 
+use std::rc::Rc;
+
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
 use syn::visit::Visit;
@@ -23,12 +25,14 @@ mod habits;
 mod inside;
 mod integers;
 pub(crate) mod lints;
+mod local;
 mod names;
 mod reach;
 mod sums;
 mod unsupported;
 
 use crate::words;
+use local::{Calls, Local};
 
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,11 +82,12 @@ enum Binding {
         value: Option<Expr>,
         written: Written,
     },
-    /// An index: its form in the open index of a loop, and that loop.
+    /// An index: its form in the open indices of loops, and the loop that it counts if it is no argument.
     Index {
         form: Index,
-        over: Loop,
+        over: Option<Loop>,
     },
+    Function(Rc<Local>),
 }
 
 pub(crate) struct Lowering<'a> {
@@ -91,6 +96,7 @@ pub(crate) struct Lowering<'a> {
     pub(crate) errors: &'a mut Errors,
     role: Role,
     scope: Vec<(String, Binding)>,
+    calls: Calls,
     /// The number of sums around.
     loops: u32,
     /// How many indices were tied to loops that may be empty.
@@ -112,6 +118,15 @@ impl<'ast> Visit<'ast> for IndexNames {
             self.0.extend(bound_name(input));
         }
         syn::visit::visit_expr_closure(self, closure);
+    }
+
+    /// The parameters of a function are no indices of a sum.
+    fn visit_local(&mut self, local: &'ast syn::Local) {
+        match local.init.as_ref().map(|init| (local::closure(&init.expr), &init.expr)) {
+            Some((Some(closure), _)) => self.visit_expr(&closure.body),
+            Some((None, value)) => self.visit_expr(value),
+            None => {}
+        }
     }
 }
 
@@ -141,6 +156,7 @@ impl<'a> Lowering<'a> {
             errors,
             role: Role::Hamiltonian,
             scope: Vec::new(),
+            calls: Calls::default(),
             loops: 0,
             ties: 0,
             depth: 0,
@@ -282,7 +298,10 @@ impl<'a> Lowering<'a> {
     }
 
     fn binding_of(&self, name: &str) -> Option<&Binding> {
-        self.scope.iter().rev().find(|(known, _)| known == name).map(|(_, binding)| binding)
+        let of_name = |(position, (known, _)): &(usize, &(String, Binding))| {
+            known == name && !self.calls.hide(*position)
+        };
+        self.scope.iter().enumerate().rev().find(of_name).map(|(_, (_, binding))| binding)
     }
 
     fn parameter(&mut self, name: &Ident) -> Option<u32> {

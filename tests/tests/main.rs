@@ -33,6 +33,7 @@ mod imports;
 mod lanes;
 mod langevin;
 mod laws;
+mod local_functions;
 mod manifold;
 mod many_coordinates;
 mod many_steps;

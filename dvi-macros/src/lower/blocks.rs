@@ -2,7 +2,7 @@
 
 use syn::{BinOp, Expr as Syntax, ExprIf, Pat, Stmt, UnOp};
 
-use super::{Binding, Lowering, Written, bound_name};
+use super::{Binding, Lowering, Written, bound_name, local};
 use crate::errors::text;
 use crate::symbolic::{Expr, Relation};
 
@@ -37,6 +37,13 @@ impl Lowering<'_> {
     }
 
     fn binding(&mut self, local: &syn::Local) {
+        let init = local.init.as_ref().filter(|init| init.diverge.is_none()).map(|init| &*init.expr);
+        if let Some(closure) = init.and_then(local::closure) {
+            return self.define(&local.pat, closure);
+        }
+        if let Pat::Tuple(names) = &local.pat {
+            return self.bind_tuple(names, init);
+        }
         let value = match &local.init {
             Some(init) if init.diverge.is_none() => self.expr(&init.expr),
             _ => {

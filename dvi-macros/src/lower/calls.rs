@@ -5,7 +5,7 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
-use super::{Lowering, Role};
+use super::{Binding, Lowering, Role};
 use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
@@ -137,6 +137,9 @@ impl Lowering<'_> {
         let Some(name) = path.path.get_ident().map(ToString::to_string) else {
             return self.path_call(call, &path.path);
         };
+        if let Some(local) = self.local(&name) {
+            return self.call_local(&name, &local, call);
+        }
         if self.model.functions.iter().any(|function| function.name == name) {
             return self.own_function(&name, call);
         }
@@ -310,6 +313,8 @@ impl Lowering<'_> {
             self.model.functions.iter().map(|function| function.name.to_string()).collect();
         let mut known: Vec<&str> = callable().collect();
         known.extend(own.iter().map(String::as_str));
+        let is_function = |binding: &Binding| matches!(binding, Binding::Function(_));
+        known.extend(self.scope.iter().filter(|(_, b)| is_function(b)).map(|(name, _)| name.as_str()));
         let mut message = format!("unknown function `{name}`");
         match nearest(name, known.iter().copied()) {
             Some(near) => message += &format!("; did you mean `{near}`?"),

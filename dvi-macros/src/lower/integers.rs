@@ -113,6 +113,7 @@ impl Lowering<'_> {
                 Some(name) => match self.binding_of(&name.to_string()) {
                     Some(Binding::Value { written, .. }) => !matches!(written, Written::Real),
                     Some(Binding::Index { .. }) => true,
+                    Some(Binding::Function(_)) => false,
                     None => self.model.is_integer_field(syntax) || self.model.size(syntax).is_some(),
                 },
                 None => false,

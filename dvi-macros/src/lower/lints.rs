@@ -12,6 +12,8 @@ use quote::{quote, quote_spanned};
 use syn::visit::Visit;
 use syn::{Expr, Ident, Pat, Stmt};
 
+use super::local::closure;
+
 /// A name of an inner scope.
 struct Local {
     name: Ident,
@@ -72,7 +74,18 @@ fn name_of(pattern: &Pat) -> Option<&Ident> {
 }
 
 impl Names {
+    /// A function of the formula, whose parameters hide no index by mistake.
+    fn visit_function(&mut self, closure: &syn::ExprClosure) {
+        let outside = self.open.len();
+        closure.inputs.iter().for_each(|input| self.bind(input, false));
+        self.visit_expr(&closure.body);
+        self.close(outside);
+    }
+
     fn bind(&mut self, pattern: &Pat, index: bool) {
+        if let Pat::Tuple(names) = pattern {
+            return names.elems.iter().for_each(|name| self.bind(name, index));
+        }
         let Some(name) = name_of(pattern) else { return };
         if index && self.open.iter().any(|local| local.index && local.name == *name) {
             self.hidden.push(name.clone());
@@ -94,8 +107,10 @@ impl<'ast> Visit<'ast> for Names {
         for statement in &block.stmts {
             match statement {
                 Stmt::Local(local) => {
-                    if let Some(init) = &local.init {
-                        self.visit_expr(&init.expr);
+                    match local.init.as_ref().map(|init| (closure(&init.expr), &init.expr)) {
+                        Some((Some(closure), _)) => self.visit_function(closure),
+                        Some((None, value)) => self.visit_expr(value),
+                        None => {}
                     }
                     self.bind(&local.pat, false);
                 }

@@ -22,6 +22,10 @@ impl Lowering<'_> {
         let name = ident.to_string();
         match self.binding_of(&name) {
             Some(Binding::Value { value, .. }) => return *value,
+            Some(Binding::Function(_)) => {
+                self.errors.push(path, format!("`{name}` is a function: write `{name}(…)`"));
+                return None;
+            }
             Some(Binding::Index { .. }) => {
                 self.errors
                     .push(path, format!("`{name}` is an index: as a number it is written `{name} as f64`"));
@@ -55,7 +59,10 @@ impl Lowering<'_> {
         if name == words::TIME {
             return Some(self.graph.intern(Node::Time).into());
         }
-        if self.index_names.contains(&name) {
+        if self.scope.iter().any(|(known, _)| *known == name) {
+            let message = format!("a function sees the names before it: `{name}` stands behind this one");
+            self.errors.push(path, message);
+        } else if self.index_names.contains(&name) {
             self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
         } else if words::constant(&name).is_some() {
             let message =
@@ -156,7 +163,7 @@ impl Lowering<'_> {
             return None;
         };
         if matches!(base, Syntax::Path(_)) && self.binding_of(&name.to_string()).is_some() {
-            self.errors.push(base, format!("`{name}` is a number or an index here: it takes no index"));
+            self.errors.push(base, format!("`{name}` is a name of this formula here: it takes no index"));
             return None;
         }
         let function = name.to_string().to_lowercase();

@@ -49,8 +49,8 @@ impl Lowering<'_> {
         let bindings = self.scope.iter().map(|(_, binding)| binding);
         bindings
             .filter_map(|binding| match binding {
-                Binding::Index { over, .. } => Some(over),
-                Binding::Value { .. } => None,
+                Binding::Index { over, .. } => over.as_ref(),
+                Binding::Value { .. } | Binding::Function(_) => None,
             })
             .collect()
     }

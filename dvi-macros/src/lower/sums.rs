@@ -93,7 +93,7 @@ impl Lowering<'_> {
     pub(super) fn inside(&mut self, indices: &[(String, Index, &Loop)], body: &Syntax) -> Option<Expr> {
         let outside = self.scope.len();
         for (name, form, over) in indices {
-            let binding = Binding::Index { form: form.clone(), over: (*over).clone() };
+            let binding = Binding::Index { form: form.clone(), over: Some((*over).clone()) };
             self.scope.push((name.clone(), binding));
         }
         self.loops += indices.len() as u32;

@@ -55,7 +55,9 @@ fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
         Syntax::Break(_) | Syntax::Continue(_) | Syntax::Return(_) => {
             ("a jump", "; its value is its last expression")
         }
-        Syntax::Closure(_) => ("a closure outside of a sum", "; write `sum(0..n, |j| …)`"),
+        Syntax::Closure(_) => {
+            ("a closure outside of a sum", "; write `sum(0..n, |j| …)`, or name it: `let f = |a| …;`")
+        }
         Syntax::ForLoop(_) | Syntax::Loop(_) | Syntax::While(_) => ("a loop", "; write `sum(0..n, |j| …)`"),
         Syntax::Macro(_) => ("a macro call", "; it is differentiated before macros are expanded"),
         Syntax::Match(_) => ("`match`", "; write `if … { … } else { … }`"),

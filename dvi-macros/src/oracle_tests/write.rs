@@ -19,6 +19,25 @@ enum Binding {
     Postfix,
 }
 
+/// Whether a text has a name in brackets, where indices stand.
+fn is_in_brackets(text: &str, name: &str) -> bool {
+    let (mut depth, mut word, mut found) = (0_u32, String::new(), false);
+    for letter in text.chars().chain([' ']) {
+        if letter.is_alphanumeric() || letter == '_' {
+            word.push(letter);
+            continue;
+        }
+        found |= depth > 0 && word == name;
+        word.clear();
+        depth = match letter {
+            '[' => depth + 1,
+            ']' => depth - 1,
+            _ => depth,
+        };
+    }
+    found
+}
+
 /// Writes the formulas of one system.
 pub(super) struct Writer<'a> {
     pub(super) system: &'a System,
@@ -36,6 +55,10 @@ impl Spelling {
         let next = self.0.get().wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         self.0.set(next);
         next >> 30 == 0
+    }
+
+    fn is_rare(&self) -> bool {
+        self.is_other() && self.is_other()
     }
 }
 
@@ -188,6 +211,9 @@ impl<'a> Writer<'a> {
         let method = |of: &Formula, name: &str, arguments: String| {
             (format!("{}.{name}({arguments})", self.bound(of, Postfix)), Postfix)
         };
+        if let Some(text) = self.with_function(formula) {
+            return (text, Block);
+        }
         match formula {
             Formula::Number(text) => postfix((*text).into()),
             Formula::Pi => postfix("PI".into()),
@@ -241,7 +267,12 @@ impl<'a> Writer<'a> {
                 (format!("if {} {{ {then} }} else {{ {otherwise} }}", self.condition(condition)), Block)
             }
             Formula::Let(name, value, body) => {
-                (format!("{{ let a{name} = {}; {} }}", self.text(value), self.text(body)), Block)
+                let (value, body) = (self.text(value), self.text(body));
+                let bound = match self.spelling.is_other() {
+                    true => format!("let (a{name}, _b) = ({value}, 0.5);"),
+                    false => format!("let a{name} = {value};"),
+                };
+                (format!("{{ {bound} {body} }}"), Block)
             }
             Formula::Sum(loops, level, lower, upper, body) => {
                 let (name, indices) = match loops {
@@ -252,9 +283,36 @@ impl<'a> Writer<'a> {
                         ("sum_ordered_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1]))
                     }
                 };
-                let range = self.range(lower, upper);
-                postfix(format!("{name}({range}, |{indices}| {})", self.text(body)))
+                let (range, body) = (self.range(lower, upper), self.text(body));
+                let are_read = indices.split(", ").all(|index| is_in_brackets(&body, index));
+                if are_read && self.spelling.is_other() {
+                    let sum = format!("{name}({range}, |{indices}| term({indices}))");
+                    return (format!("{{ let term = |{indices}| {body}; {sum} }}"), Block);
+                }
+                postfix(format!("{name}({range}, |{indices}| {body})"))
             }
+        }
+    }
+
+    /// Sometimes, a formula by a function of its own.
+    fn with_function(&self, formula: &Formula) -> Option<String> {
+        match formula {
+            Formula::Add(a, b) if self.spelling.is_rare() => Some(format!(
+                "{{ let plus = |left, right| left + right; plus({}, {}) }}",
+                self.text(a),
+                self.text(b)
+            )),
+            Formula::Multiply(a, b) if self.spelling.is_rare() => {
+                let [a, b] = [a, b].map(|factor| self.text(factor));
+                Some(format!(
+                    "{{ let times = |left| {{ let by = |right| left * right; by({b}) }}; times({a}) }}"
+                ))
+            }
+            Formula::Coordinate(block, Some(index)) if self.spelling.is_rare() => {
+                let (name, index) = (self.system.blocks[*block].name, self.index(index));
+                Some(format!("{{ let entry = |place| {name}[place]; entry({index}) }}"))
+            }
+            _ => None,
         }
     }
 

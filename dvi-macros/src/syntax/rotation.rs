@@ -204,6 +204,7 @@ impl Entries<'_> {
         match pattern {
             Pat::Ident(name) => self.hidden.push(name.ident.clone()),
             Pat::Type(typed) => self.hide(&typed.pat),
+            Pat::Tuple(names) => names.elems.iter().for_each(|name| self.hide(name)),
             // Refused where formulas are read.
             _ => {}
         }

@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use quote::ToTokens;
-use syn::{BinOp, Expr, Stmt, UnOp};
+use syn::{BinOp, Expr, ExprClosure, Stmt, UnOp};
 
 use super::jet::Jet;
 use super::point::{Branches, Directions, Point, Variable};
@@ -18,10 +18,11 @@ use crate::work::step;
 mod calls;
 mod constraints;
 mod indices;
+mod locals;
 mod words;
 
 pub(super) use constraints::Combination;
-use words::{constant, literal_number, pattern, place_text};
+use words::{constant, literal_number, place_text};
 
 /// Why there is no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,10 @@ type Value<T> = Result<T, NoValue>;
 enum Binding {
     Number(Jet),
     Index(i64),
+    /// An argument: what it is as a number, and as an index.
+    Argument(Option<Jet>, Option<i64>),
+    /// A function, and the number of names that its body sees.
+    Function(Rc<ExprClosure>, usize),
 }
 
 /// The names of the scopes that are open.
@@ -59,6 +64,22 @@ impl Scope {
         self.names.len()
     }
 
+    /// Closes the names from `outside` on, and gives what they stood for.
+    fn set_aside(&mut self, outside: usize) -> Vec<(Rc<str>, Binding)> {
+        let mut aside = Vec::new();
+        while self.names.len() > outside
+            && let Some(name) = self.names.pop()
+        {
+            let binding = self.bindings.get_mut(&name).and_then(Vec::pop);
+            aside.extend(binding.map(|binding| (name, binding)));
+        }
+        aside
+    }
+
+    fn put_back(&mut self, aside: Vec<(Rc<str>, Binding)>) {
+        aside.into_iter().rev().for_each(|(name, binding)| self.push(name, binding));
+    }
+
     fn truncate(&mut self, outside: usize) {
         for name in self.names.drain(outside..) {
             self.bindings.entry(name).or_default().pop();
@@ -69,12 +90,21 @@ impl Scope {
 /// The names in the text, each made once: by the place of the node that it is the text of. The formulas
 /// stay where they are as long as they are checked.
 #[derive(Debug, Default)]
-pub(super) struct Texts(RefCell<HashMap<usize, Rc<str>>>);
+pub(super) struct Texts {
+    names: RefCell<HashMap<usize, Rc<str>>>,
+    /// The functions of the formulas, which stay where they are too.
+    functions: RefCell<HashMap<usize, Rc<ExprClosure>>>,
+}
 
 impl Texts {
     fn of<T>(&self, node: &T, text: impl FnOnce() -> String) -> Rc<str> {
         let place = std::ptr::from_ref(node) as usize;
-        self.0.borrow_mut().entry(place).or_insert_with(|| text().into()).clone()
+        self.names.borrow_mut().entry(place).or_insert_with(|| text().into()).clone()
+    }
+
+    fn function(&self, closure: &ExprClosure) -> Rc<ExprClosure> {
+        let place = std::ptr::from_ref(closure) as usize;
+        self.functions.borrow_mut().entry(place).or_insert_with(|| closure.clone().into()).clone()
     }
 }
 
@@ -252,9 +282,7 @@ impl<'a> Evaluation<'a> {
             match statement {
                 Stmt::Local(local) => {
                     let Some(init) = &local.init else { unknown(local) };
-                    let bound = self.number(&init.expr)?;
-                    let name = self.texts.of(&local.pat, || pattern(&local.pat));
-                    self.scope.push(name, Binding::Number(bound));
+                    self.binding(&local.pat, &init.expr)?;
                 }
                 Stmt::Expr(expr, None) => value = Some(self.number(expr)?),
                 _ => unknown(statement),
@@ -300,7 +328,7 @@ impl<'a> Evaluation<'a> {
 
     fn name(&mut self, syntax: &Expr, path: &syn::Path) -> Value<Jet> {
         let text = self.texts.of(syntax, || written(path));
-        if let Some(Binding::Number(value)) = self.bound(&text) {
+        if let Some(Binding::Number(value) | Binding::Argument(Some(value), _)) = self.bound(&text) {
             return Ok(value);
         }
         if self.block(&text).is_some() || self.parameter(&text).is_some() {

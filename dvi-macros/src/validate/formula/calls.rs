@@ -56,6 +56,9 @@ impl Evaluation<'_> {
 
     pub(super) fn call(&mut self, call: &ExprCall) -> Value<Jet> {
         let name = self.texts.of(call, || written(&call.func));
+        if let Some(Binding::Function(closure, sees)) = self.bound(&name) {
+            return self.call_function(&closure, sees, &call.args);
+        }
         if let Some(number) = self.functions.iter().position(|function| *function == name) {
             let argument = self.number(&call.args[0])?;
             return Ok(functions::own(number, &argument));

@@ -11,7 +11,9 @@ impl Evaluation<'_> {
             Expr::Path(path) => {
                 let text = self.texts.of(syntax, || written(path));
                 match self.bound(&text) {
-                    Some(binding) => matches!(binding, Binding::Index(_)),
+                    Some(binding) => {
+                        matches!(binding, Binding::Index(_) | Binding::Argument(None, Some(_)))
+                    }
                     None => self.size(&text).is_some(),
                 }
             }
@@ -43,7 +45,7 @@ impl Evaluation<'_> {
             Expr::Path(_) | Expr::Field(_) | Expr::MethodCall(_) => {
                 let name = self.texts.of(syntax, || place_text(syntax));
                 match (self.bound(&name), self.size(&name)) {
-                    (Some(Binding::Index(index)), _) => Ok(index),
+                    (Some(Binding::Index(index) | Binding::Argument(_, Some(index))), _) => Ok(index),
                     (None, Some(size)) => Ok(size),
                     _ => unknown(syntax),
                 }

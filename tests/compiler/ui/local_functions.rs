@@ -1,0 +1,77 @@
+//! Functions and pairs of names inside of a formula.
+
+use dvi_core::prelude::*;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = {
+        let gap = |a, b| (a * a + b * b).sqrt();
+        dot(x).powi(2) + dot(y).powi(2) - gap(x)
+    },
+)]
+struct TooFew;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = {
+        let gap = |a, b| (a * a + b * b).sqrt();
+        dot(x).powi(2) + dot(y).powi(2) - gap + gop(x, y)
+    },
+)]
+struct NotCalled;
+
+#[lagrangian(
+    coordinates(x),
+    lagrangian = {
+        let series = |a| 1.0 + a * series(a);
+        dot(x).powi(2) - series(x)
+    },
+)]
+struct CallsItself;
+
+#[lagrangian(
+    coordinates(x[3]),
+    lagrangian = {
+        let entry = |k| x[k].powi(2);
+        let square = |a| a * a;
+        sum(0..3, |i| dot(x[i]).powi(2) - square(i)) - entry(1.5) - entry(x[0]) - entry(3)
+    },
+)]
+struct NumbersAndIndices;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = {
+        let energy = |(a, b)| a * a + b * b;
+        let (sin, cos) = x;
+        let (a, b) = (1.0, 2.0, 3.0);
+        let (c, 2) = x.sin_cos();
+        dot(x).powi(2) + dot(y).powi(2) - energy(x, y) - sin * cos * a * b * c
+    },
+)]
+struct Patterns;
+
+/// A mistake in a function is one, however often it is called.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = {
+        let well = |a| a * a + stiffnes * a;
+        dot(x).powi(2) + dot(y).powi(2) - well(x) - well(y)
+    },
+)]
+struct Once {
+    stiffness: f64,
+}
+
+/// The names around a call are not those of the function.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = {
+        let well = |a| depth * a * a;
+        let depth = 2.0;
+        dot(x).powi(2) + dot(y).powi(2) - well(x) - depth * y
+    },
+)]
+struct Later;
+
+fn main() {}
