@@ -33,6 +33,7 @@ mod unsupported;
 
 use crate::words;
 use local::{Calls, Local};
+pub(crate) use local::closure;
 
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
 #[derive(Clone, Copy, Debug, PartialEq)]

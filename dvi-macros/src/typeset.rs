@@ -15,6 +15,7 @@ use syn::visit::Visit as _;
 use syn::{BinOp, Expr, ExprIf, Lit, Pat, Stmt, UnOp};
 
 use crate::errors::text;
+use crate::lower::closure;
 use crate::syntax::{Attribute, Factor};
 use names::{Arrays, number};
 
@@ -150,10 +151,38 @@ impl Typesetter {
     fn bindings(&mut self, block: &syn::Block) {
         for statement in &block.stmts {
             let Stmt::Local(syn::Local { pat, init: Some(init), .. }) = statement else { continue };
-            let name = bound(pat).map_or_else(|| plain(&text(pat)), |name| self.symbol(&name));
-            let value = self.terms(&init.expr);
-            self.lets.push((name, value));
+            match (pat, closure(&init.expr)) {
+                (_, Some(function)) => {
+                    let parameters: Vec<String> =
+                        function.inputs.iter().map(|parameter| self.pattern(parameter)).collect();
+                    let name = format!(r"{}\left({}\right)", self.pattern(pat), parameters.join(", "));
+                    let value = self.terms(&function.body);
+                    self.lets.push((name, value));
+                }
+                (Pat::Tuple(names), None) => self.tuple(names, &init.expr),
+                (_, None) => {
+                    let (name, value) = (self.pattern(pat), self.terms(&init.expr));
+                    self.lets.push((name, value));
+                }
+            }
         }
+    }
+
+    /// Takes down the names of `let (a, b) = (…, …)` and of `let (s, c) = x.sin_cos()`.
+    fn tuple(&mut self, names: &syn::PatTuple, init: &Expr) {
+        let names: Vec<String> = names.elems.iter().map(|name| self.pattern(name)).collect();
+        let values: Vec<Vec<String>> = match init {
+            Expr::Tuple(list) => list.elems.iter().map(|value| self.terms(value)).collect(),
+            Expr::MethodCall(call) => {
+                ["sin", "cos"].map(|name| vec![self.function(name, &[&call.receiver]).text]).into()
+            }
+            other => vec![vec![plain(&text(other))]],
+        };
+        self.lets.extend(names.into_iter().zip(values));
+    }
+
+    fn pattern(&mut self, pattern: &Pat) -> String {
+        bound(pattern).map_or_else(|| plain(&text(pattern)), |name| self.symbol(&name))
     }
 
     fn statements(&mut self, block: &syn::Block) -> Tex {

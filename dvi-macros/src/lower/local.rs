@@ -44,7 +44,7 @@ impl Calls {
 }
 
 /// `|a, b| …`, in parentheses or not.
-pub(super) fn closure(syntax: &Syntax) -> Option<&ExprClosure> {
+pub(crate) fn closure(syntax: &Syntax) -> Option<&ExprClosure> {
     match syntax {
         Syntax::Paren(inner) => closure(&inner.expr),
         Syntax::Closure(closure) => Some(closure),

@@ -76,6 +76,49 @@ fn names_of_lets_are_kept() {
 }
 
 #[test]
+fn functions_and_pairs_of_names_are_lines() {
+    check(
+        lagrangian(
+            quote! {
+                coordinates(x, y),
+                lagrangian = {
+                    let pull = |m, at| m / (x - at).hypot(y);
+                    let (s, c) = y.sin_cos();
+                    (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + pull(mass, -1.0) + pull(1.0, s) * c
+                },
+            },
+            quote! { struct TwoSuns { mass: f64 } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \frac{{\dot{x}}^{2} + {\dot{y}}^{2}}{2} + \mathit{pull}\left(\mathit{mass}, -1\right) + \mathit{pull}\left(1, s\right) \, c \\
+            \mathit{pull}\left(m, \mathit{at}\right) &= \frac{m}{\sqrt{{\left(x - \mathit{at}\right)}^2 + {y}^2}} \\
+            s &= \sin y \\
+            c &= \cos y
+            \end{aligned}
+            ```
+
+            The compiler makes of it:
+
+            ```math
+            \begin{aligned}
+            E &= 0.5 \, \left({\dot{x}}^{2} + {\dot{y}}^{2} - \frac{2 \, \mathit{mass}}{\sqrt{{\left(x + 1\right)}^2 + {y}^2}}\right) - \frac{\cos y}{\sqrt{{\left(x - \sin y\right)}^2 + {y}^2}} \\
+            \partial L / \partial x &= -\left(\frac{\mathit{mass} \, \left(x + 1\right)}{{\sqrt{{\left(x + 1\right)}^2 + {y}^2}}^{3}} + \frac{\left(\cos y\right) \, \left(x - \sin y\right)}{{\sqrt{{\left(x - \sin y\right)}^2 + {y}^2}}^{3}}\right) \\
+            \partial L / \partial \dot{x} &= \dot{x} \\
+            \partial L / \partial \dot{y} &= \dot{y}
+            \end{aligned}
+            ```
+        "#]],
+    );
+}
+
+#[test]
 fn sums_pairs_components_and_momenta() {
     check(
         degenerate_lagrangian(
