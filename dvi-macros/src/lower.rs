@@ -32,8 +32,8 @@ mod sums;
 mod unsupported;
 
 use crate::words;
-use local::{Calls, Local};
 pub(crate) use local::closure;
+use local::{Calls, Local};
 
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +47,7 @@ pub(crate) enum Role {
     Force,
     Constraint(Constrained),
     Momentum,
+    Event,
 }
 
 impl Role {
@@ -63,6 +64,7 @@ impl Role {
             Self::Constraint(Constrained::Velocities) => "a nonholonomic constraint",
             Self::Constraint(Constrained::Gaps) => "a gap function",
             Self::Momentum => "a momentum",
+            Self::Event => "an event",
         }
     }
 }

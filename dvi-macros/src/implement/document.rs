@@ -32,6 +32,7 @@ pub(super) struct Account {
     has_more: bool,
     sentences: Vec<String>,
     momenta: Vec<String>,
+    events: Vec<String>,
 }
 
 impl Account {
@@ -45,7 +46,8 @@ impl Account {
         let declared = declared(attribute, &mut typesetter);
         let has_more = declared.iter().any(Equation::is_endless);
         let equations = [declared, Vec::new()];
-        Self { opening, formulas, equations, typesetter, has_more, sentences, momenta: Vec::new() }
+        let [momenta, events] = [Vec::new(), Vec::new()];
+        Self { opening, formulas, equations, typesetter, has_more, sentences, momenta, events }
     }
 
     /// Adds what is said of the system as a whole.
@@ -58,6 +60,14 @@ impl Account {
         for (name, value) in emitter.model.momenta.iter().zip(values) {
             self.formulas.push((name.clone(), quantity(emitter, *value)));
             self.momenta.push(name.clone());
+        }
+    }
+
+    /// Adds the declared events.
+    pub(super) fn events(&mut self, emitter: &Emitter<'_>, values: &[Expr]) {
+        for (name, value) in emitter.model.events.iter().zip(values) {
+            self.formulas.push((name.clone(), quantity(emitter, *value)));
+            self.events.push(name.clone());
         }
     }
 
@@ -145,7 +155,7 @@ impl Account {
 
     pub(super) fn report(&self, emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
         let krate = emitter.krate();
-        let Self { formulas, sentences, momenta, .. } = self;
+        let Self { formulas, sentences, momenta, events, .. } = self;
         let system = emitter.model.item.ident.to_string();
         let blocks = emitter.model.blocks.iter().map(|block| {
             let (name, size) =
@@ -165,7 +175,7 @@ impl Account {
         let sparsity = sparsity(emitter, programs);
         quote! {
             #krate::Report::new(
-                #system, &[#(#blocks),*], &[#(#momenta),*], &[#(#lines),*], &[#(#sentences),*],
+                #system, &[#(#blocks),*], &[#(#momenta),*], &[#(#events),*], &[#(#lines),*], &[#(#sentences),*],
                 #residual, #jacobian, #sparsity,
             )
         }

@@ -61,6 +61,7 @@ fn account(
     );
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
+    account.events(emitter, &formulas.events);
     account.forces(emitter, &programs.shared);
     account.constraints(emitter, &programs.shared);
     if let Some(energy) = energy {

@@ -33,10 +33,10 @@ pub(crate) fn declared(attribute: &Attribute, typesetter: &mut Typesetter) -> Ve
     }
     let constraints = attribute.constraints.iter();
     equations.extend(constraints.flat_map(|one| constraint(attribute.constrained, one, typesetter)));
-    for momentum in &attribute.momenta {
+    for named in attribute.momenta.iter().chain(&attribute.events) {
         // Upright, as a `let` may have the same name.
-        let name = format!(r"\text{{{}}}", momentum.name.to_string().replace('_', r"\_"));
-        equations.push(typesetter.equation(name, &momentum.formula));
+        let name = format!(r"\text{{{}}}", named.name.to_string().replace('_', r"\_"));
+        equations.push(typesetter.equation(name, &named.formula));
     }
     equations
 }
