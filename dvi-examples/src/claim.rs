@@ -65,6 +65,11 @@ pub enum Verdict {
     Undecided,
 }
 
+/// What a paper says at a place.
+pub fn says(place: impl Into<String>, text: impl Into<String>) -> Claim {
+    Claim::new(place, text)
+}
+
 /// What no paper says.
 pub fn beyond(says: impl Into<String>) -> Claim {
     Claim::new(BEYOND, says)

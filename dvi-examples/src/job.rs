@@ -8,7 +8,7 @@ use dvi_core::error::StepError;
 use dvi_core::prelude::Run;
 use indicatif::ProgressBar;
 
-use crate::deviation::{Deviation, Span, note};
+use crate::deviation::{Deviation, Named, Series, Span, note};
 use crate::figure::Figure;
 use crate::motions;
 use crate::output::{Table, write_whole};
@@ -148,6 +148,23 @@ impl<'a> Job<'a> {
         let mut kept = span.deviations();
         self.follow(run, steps, |run| note(&mut kept, run.time(), of(run)))?;
         Ok(kept)
+    }
+
+    /// The same as a series of that name, with the points that `of` adds to its path.
+    ///
+    /// # Errors
+    /// That of the first step that fails.
+    pub fn series<R: Run<Scalar = f64>, const N: usize>(
+        &self,
+        (name, stroke): Named<'_>,
+        mut run: R,
+        steps: u64,
+        span: Span,
+        mut of: impl FnMut(&R, &mut Vec<[f64; 2]>) -> [f64; N],
+    ) -> Result<Series<N>, StepError> {
+        let mut path = Vec::new();
+        let kept = self.keep(&mut run, steps, span, |run| of(run, &mut path))?;
+        Ok(Series { path, ..Series::new(name, stroke, kept) })
     }
 
     /// Writes the figure (SVG and PNG) and its data (CSV); the figure of an interrupted run says so.

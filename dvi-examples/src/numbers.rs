@@ -13,6 +13,11 @@ pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, larger)
 }
 
+/// The smallest of some numbers.
+pub fn least(values: impl IntoIterator<Item = f64>) -> f64 {
+    -values.into_iter().map(|value| -value).fold(f64::NEG_INFINITY, larger)
+}
+
 /// The largest difference of a number of one from the number of the other in the same place.
 pub fn apart<'a>(one: impl IntoIterator<Item = &'a f64>, other: impl IntoIterator<Item = &'a f64>) -> f64 {
     largest(one.into_iter().zip(other).map(|(a, b)| (a - b).abs()))
@@ -28,9 +33,19 @@ pub fn farthest(one: &[[f64; 2]], other: &[[f64; 2]]) -> f64 {
     largest(one.iter().zip(other).map(|(&a, &b)| distance(a, b)))
 }
 
+/// The product of two vectors.
+pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    a.into_iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The difference of two vectors.
+pub fn difference<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
 /// The length of a vector.
-pub fn length(v: [f64; 3]) -> f64 {
-    v.into_iter().map(|x| x * x).sum::<f64>().sqrt()
+pub fn length<const N: usize>(v: [f64; N]) -> f64 {
+    dot(v, v).sqrt()
 }
 
 /// The order that errors show which belong to lengths of steps: see [`convergence_order`].

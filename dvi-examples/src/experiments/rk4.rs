@@ -24,6 +24,26 @@ pub fn rk4_up_to<const N: usize>(
     (0..(end / h).round() as u64).fold(y, |y, _| rk4(&y, h, &f))
 }
 
+/// How far quantities are from their start in the course of so many steps; `of` returns that after each of
+/// them.
+pub fn keep_rk4<const D: usize, const N: usize>(
+    job: &Job<'_>,
+    mut y: [f64; D],
+    (h, steps): (f64, u64),
+    span: Span,
+    f: impl Fn(&[f64; D]) -> [f64; D],
+    of: impl Fn(&[f64; D]) -> [f64; N],
+) -> Result<[Deviation; N]> {
+    let (mut kept, mut step) = (span.deviations(), 0_u32);
+    job.repeat(steps, || {
+        y = rk4(&y, h, &f);
+        step += 1;
+        note(&mut kept, f64::from(step) * h, of(&y));
+        Ok(())
+    })?;
+    Ok(kept)
+}
+
 /// A run of it on what a system with constraints is without them: the equations of motion with the
 /// accelerations at each state.
 ///

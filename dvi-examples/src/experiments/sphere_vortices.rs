@@ -48,10 +48,6 @@ fn moment<const N: usize>(vortices: &SphereVortices<N>, q: &[f64]) -> [f64; 3] {
     std::array::from_fn(|i| vortices.gamma.iter().zip(places).map(|(gamma, place)| gamma * place[i]).sum())
 }
 
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
 fn follow(
     job: &Job<'_>,
     name: &str,

@@ -30,9 +30,12 @@ impl Axis {
     }
 
     /// Fixes the range; without it the data decide.
-    pub fn within(mut self, low: f64, high: f64) -> Self {
-        self.range = Some([low, high]);
-        self
+    pub fn within(self, low: f64, high: f64) -> Self {
+        self.range([low, high])
+    }
+
+    pub(super) fn range(self, range: [f64; 2]) -> Self {
+        Self { range: Some(range), ..self }
     }
 
     /// The range to draw for data that span `data`: fixed, or a little wider than the data.

@@ -1,6 +1,7 @@
 //! One pair of axes with what is drawn on it.
 
 use super::axis::{Axis, Scale, Ticks};
+use super::decimate::Envelope;
 use super::mark::{Fill, Frame, Mark, Stroke};
 use super::palette::{Colour, GRID, SLATE};
 use super::svg::{Anchor, Label, Pen, Svg, number};
@@ -14,6 +15,9 @@ pub enum Corner {
     /// To the right of the panel, from the top, for legends that would cover data.
     Beside,
 }
+
+/// The label of an axis, and its range.
+pub type Ranged<'a> = (&'a str, [f64; 2]);
 
 /// One pair of axes with what is drawn on it, in the order in which it was added.
 #[derive(Clone, Debug)]
@@ -66,9 +70,29 @@ impl Panel {
         }
     }
 
+    /// Linear axes.
+    pub fn linear(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
+        Self::new(title, Axis::linear(x.0).range(x.1), Axis::linear(y.0).range(y.1))
+    }
+
+    /// A logarithmic y axis.
+    pub fn semilog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
+        Self::new(title, Axis::linear(x.0).range(x.1), Axis::logarithmic(y.0).range(y.1))
+    }
+
+    /// Logarithmic axes.
+    pub fn loglog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
+        Self::new(title, Axis::logarithmic(x.0).range(x.1), Axis::logarithmic(y.0).range(y.1))
+    }
+
     /// A plane with the coordinates `x` and `y`.
     pub fn plane(title: impl Into<String>, x: &str, y: &str) -> Self {
         Self::new(title, Axis::linear(x), Axis::linear(y)).equal()
+    }
+
+    /// A part of a plane.
+    pub fn window(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
+        Self::linear(title, x, y).equal()
     }
 
     /// A line through the points; of long series, what the pixels can show.
@@ -87,6 +111,28 @@ impl Panel {
     /// What `add` adds for each of some things.
     pub fn each<I: IntoIterator>(self, things: I, add: impl FnMut(Self, I::Item) -> Self) -> Self {
         things.into_iter().fold(self, add)
+    }
+
+    /// Lines through few points, which are marked, with their names in the legend.
+    pub fn marked<N: Into<String>>(
+        self,
+        lines: impl IntoIterator<Item = (N, Stroke, Vec<[f64; 2]>)>,
+    ) -> Self {
+        self.each(lines, |panel, (name, stroke, points)| {
+            panel.line(points.clone(), stroke).labelled(name).dots(points, 2.6, stroke.colour())
+        })
+    }
+
+    /// The range of a quantity in each interval of time, and its mean, with their names in the legend.
+    pub fn ranges<'a>(self, all: impl IntoIterator<Item = (&'a str, Colour, &'a Envelope)>) -> Self {
+        self.each(all, |panel, (name, colour, of)| {
+            panel.band(of.band(), colour).line(of.mean(), Stroke::solid(colour)).labelled(name)
+        })
+    }
+
+    /// A straight line that others are to be seen beside, with its name in the legend.
+    pub fn guide(self, ends: [[f64; 2]; 2], name: impl Into<String>) -> Self {
+        self.line(ends.into(), Stroke::dashed(SLATE).width(1.2)).labelled(name)
     }
 
     /// A line below everything that was added before.
