@@ -157,13 +157,13 @@ impl<'a> Job<'a> {
     pub fn series<R: Run<Scalar = f64>, const N: usize>(
         &self,
         (name, stroke): Named<'_>,
-        mut run: R,
+        run: &mut R,
         steps: u64,
         span: Span,
         mut of: impl FnMut(&R, &mut Vec<[f64; 2]>) -> [f64; N],
     ) -> Result<Series<N>, StepError> {
         let mut path = Vec::new();
-        let kept = self.keep(&mut run, steps, span, |run| of(run, &mut path))?;
+        let kept = self.keep(run, steps, span, |run| of(run, &mut path))?;
         Ok(Series { path, ..Series::new(name, stroke, kept) })
     }
 

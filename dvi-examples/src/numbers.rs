@@ -2,6 +2,7 @@
 
 use anyhow::{Context as _, Result};
 use dvi_core::diagnostics::convergence_order;
+use rayon::prelude::*;
 
 /// The larger of two measured numbers; not a number if one of them is not, so that no bound holds for it.
 pub fn larger(a: f64, b: f64) -> f64 {
@@ -56,6 +57,15 @@ pub fn order(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
 /// What `make` makes of each of the cases, up to the first failure.
 pub fn each<T, U, const N: usize>(cases: [T; N], make: impl FnMut(T) -> Result<U>) -> Result<[U; N]> {
     let made = cases.into_iter().map(make).collect::<Result<Vec<_>>>()?;
+    made.try_into().ok().context("not as many results as cases")
+}
+
+/// The same, side by side on the threads that there are.
+pub fn side_by_side<T: Send, U: Send, const N: usize>(
+    cases: [T; N],
+    make: impl Fn(T) -> Result<U> + Sync + Send,
+) -> Result<[U; N]> {
+    let made = cases.into_par_iter().with_max_len(1).map(make).collect::<Result<Vec<_>>>()?;
     made.try_into().ok().context("not as many results as cases")
 }
 

@@ -66,19 +66,17 @@ fn claims(job: &Job<'_>, all: &[Crossings; 6], region: &Region, exponent: Option
     let growth = |run: &Crossings| format!("late growth of a displacement, {}", run.name());
     let drift = rk_small.error.last / rk_small.error.largest;
     vec![
-        Claim::new("section 5", "the motion is chaotic").at_least(
+        says("section 5", "the motion is chaotic").at_least(
             "largest Lyapunov exponent up to t = 2·10⁴",
             exponent,
             0.03,
         ),
-        Claim::new("Fig. 5", "both schemes produce clear sections for h = 0.2")
-            .each([vi_small, rk_small], inside),
-        Claim::new("Fig. 5", "for h = 0.5 the section of RK4 is blurred")
+        says("Fig. 5", "both schemes produce clear sections for h = 0.2").each([vi_small, rk_small], inside),
+        says("Fig. 5", "for h = 0.5 the section of RK4 is blurred")
             .at_least(share(rk_middle), job.only_full(outside(rk_middle)), 8e-3)
             .at_least(rk_middle.growth_name(), rk_middle.error.growth(), 5.0),
-        Claim::new("Fig. 5", "the section of VI2 remains crisp for h = 1")
-            .each([vi_middle, vi_large], inside),
-        Claim::new("Fig. 5", "for h = 1 RK4 deviates completely and becomes quasi-periodic")
+        says("Fig. 5", "the section of VI2 remains crisp for h = 1").each([vi_middle, vi_large], inside),
+        says("Fig. 5", "for h = 1 RK4 deviates completely and becomes quasi-periodic")
             .at_most(growth(rk_large), job.only_full(rk_large.growth), REGULAR)
             .at_least(growth(vi_large), vi_large.growth, 1e8),
         sections::stays_close(&all[..3]).at_least("ΔH at the end / max|ΔH|, RK4 at h = 0.2", drift, 0.98),
@@ -101,8 +99,7 @@ fn references(job: &Job<'_>, all: &[Crossings; 6]) -> Vec<Check> {
 }
 
 fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
-    let axis = |name| Axis::linear(name).within(-2.6, 2.6);
-    let panel = run.panel((axis("*R*₁"), axis("*P*₁")), 0.7);
+    let panel = run.panel([-2.6, 2.6], [-2.6, 2.6], 0.7);
     if job.was_interrupted() {
         return panel;
     }

@@ -52,15 +52,11 @@ pub fn follow(
         let end = TAU * (done as f64 + 1.0 - 5e-7);
         let mut steps = 0;
         while run.time() < end {
-            ensure!(
-                steps < MOST_STEPS,
-                "more than {MOST_STEPS} steps for a period, at E = {:.3}",
-                run.energy()
-            );
+            let energy = run.energy();
+            ensure!(steps < MOST_STEPS, "more than {MOST_STEPS} steps for a period, at E = {energy:.3}");
             steps += 1;
             run.advance()?;
-            let t = run.time();
-            let sample = Sample { t, energy: run.energy() - initial, q: [run.q()[0], run.q()[1]] };
+            let sample = Sample { t: run.time(), energy: run.energy() - initial, q: place(run) };
             course.energy = larger(course.energy, sample.energy.abs());
             look(sample);
         }
@@ -85,38 +81,35 @@ pub fn compare(job: &Job<'_>, run: &mut impl KeplerRun, orbit: Orbit, periods: u
     Ok(Course { position, ..course })
 }
 
-/// A run with controlled steps from the pericentre.
-type Controlled<M, C> = Result<ControlledIntegrator<Kepler, M, C>, StartError>;
+/// A run with `steps` steps of the same length per period.
+pub fn fixed(method: impl Method<Kepler, f64>, orbit: Orbit, steps: f64) -> Result<impl KeplerRun> {
+    Ok(Integrator::new(Kepler {}, method, TAU / steps, orbit.pericentre())?)
+}
 
 /// A run with steps by (23), as printed.
-pub fn osculating<M>(method: M, orbit: Orbit, tolerance: f64) -> Controlled<M, Osculating>
-where
-    M: VariableStep<Kepler, f64>,
-{
+pub fn osculating(
+    method: impl VariableStep<Kepler, f64>,
+    orbit: Orbit,
+    tolerance: f64,
+) -> Result<impl KeplerRun> {
     let control = Osculating { tolerance, first_step: 1e-4, centre: CentreSpeed::AsPrinted };
-    ControlledIntegrator::new(Kepler {}, method, control, orbit.pericentre())
+    Ok(ControlledIntegrator::new(Kepler {}, method, control, orbit.pericentre())?)
 }
 
 /// A run with steps by (23), v_o read per unit of arc length.
-pub fn per_arc_length<M>(method: M, orbit: Orbit, tolerance: f64) -> Controlled<M, Osculating>
-where
-    M: VariableStep<Kepler, f64>,
-{
-    ControlledIntegrator::new(Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())
-}
-
-/// A run with `steps` steps of the same length per period.
-pub fn fixed<M>(method: M, orbit: Orbit, steps: f64) -> Result<Integrator<Kepler, M>, StartError>
-where
-    M: Method<Kepler, f64>,
-{
-    Integrator::new(Kepler {}, method, TAU / steps, orbit.pericentre())
+pub fn per_arc_length(
+    method: impl VariableStep<Kepler, f64>,
+    orbit: Orbit,
+    tolerance: f64,
+) -> Result<impl KeplerRun> {
+    Ok(ControlledIntegrator::new(Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())?)
 }
 
 /// A run with steps in proportion to r^(3/2), about 1/ε of them per radian of the motion in the mean.
-pub fn reversible<M>(method: M, orbit: Orbit, epsilon: f64) -> Controlled<M, Reversible>
-where
-    M: VariableStep<Kepler, f64>,
-{
-    ControlledIntegrator::new(Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())
+pub fn reversible(
+    method: impl VariableStep<Kepler, f64>,
+    orbit: Orbit,
+    epsilon: f64,
+) -> Result<impl KeplerRun> {
+    Ok(ControlledIntegrator::new(Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())?)
 }

@@ -1,6 +1,5 @@
-//! Work and precision on Kepler orbits: evaluations of the force per period against the largest errors of
-//! energy and position over many periods, for all families of this library, with the state of the art
-//! beside.
+//! Work and precision on Kepler orbits: evaluations of the force per period against the largest errors over
+//! many periods, for all families of this library, with the state of the art beside.
 
 use dvi_core::methods::VariableStep;
 use rayon::prelude::*;
@@ -40,8 +39,8 @@ const EPSILONS: &[f64] = &[0.2, 0.1, 0.05, 0.02, 0.01, 0.005];
 const LONG_EPSILONS: &[f64] = &[1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
 
 /// Reversible steps.
-fn by<M: VariableStep<Kepler, f64>>(
-    method: M,
+fn by(
+    method: impl VariableStep<Kepler, f64>,
     (job, orbit, periods): Case<'_>,
     epsilon: f64,
 ) -> Result<Course> {
@@ -87,7 +86,6 @@ fn contenders() -> [Contender; 13] {
 }
 
 /// One method on one orbit.
-#[derive(Default)]
 struct Curve {
     contender: usize,
     e: f64,
@@ -97,45 +95,60 @@ struct Curve {
 }
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
-    let periods = job.choose(100, 10);
+    let (periods, long) = (job.choose(100, 10), job.choose(100_000, 1000));
     let all = contenders();
     let pairs: Vec<(usize, f64)> =
         ECCENTRICITIES.iter().flat_map(|&e| (0..all.len()).map(move |contender| (contender, e))).collect();
     let runs: usize = pairs.iter().map(|&(contender, _)| all[contender].knobs.len()).sum();
-    let long = job.choose(100_000, 1000);
     job.expect(runs as u64 * periods + 3 * long);
-    let curves: Vec<Curve> =
-        pairs.into_par_iter().map(|(contender, e)| curve(job, &all, contender, e, periods)).collect();
+    let curve = |(contender, e)| {
+        let Contender { name, knobs, run, .. } = &all[contender];
+        let (mut courses, mut failures) = (Vec::new(), Vec::new());
+        for &knob in *knobs {
+            match run((job, Orbit { e }, periods), knob) {
+                Ok(course) => courses.push(course),
+                Err(error) => {
+                    failures.push(format!("{}, e = {e}, at {knob}: {error}.", name.replace('*', "")));
+                }
+            }
+        }
+        Curve { contender, e, courses, failures }
+    };
+    let curves: Vec<Curve> = pairs.into_par_iter().map(curve).collect();
     let orbit = Orbit { e: 0.95 };
     let leapfrog = logarithmic_hamiltonian(job, orbit, 25, long);
     let [regular, shorter] = each([8, 32], |steps| levi_civita(job, orbit, steps, long))?;
     let columns =
         ["method", "e", "steps_per_period", "evaluations_per_period", "energy_error", "position_error"];
     let rows = curves.iter().flat_map(|Curve { contender, e, courses, .. }| {
-        let numbers = courses.iter().map(move |c| [*e, c.steps, c.evaluations, c.energy, c.position]);
-        numbers.map(|numbers| ([all[*contender].name], numbers))
+        let name = all[*contender].name;
+        courses.iter().map(move |c| ([name], [*e, c.steps, c.evaluations, c.energy, c.position]))
     });
-    job.publish(figure(&all, &curves, periods), Table::of(&columns, rows)?)?;
+    job.publish(figure(&all, &curves), Table::of(&columns, rows)?)?;
     // Numbers of independent programs.
     let [averaged, variational] = [4, 5].map(|contender| job.only_full(energy(&curves, contender)));
     let references = vec![
         Check::new("averaged, e = 0.95, ε = 0.02: max|ΔE|", averaged, Bound::Near(4.506e-7, 1e-10)),
         Check::new("variational, e = 0.95, ε = 0.02: max|ΔE|", variational, Bound::Near(9.527e-8, 1e-11)),
     ];
-    let notes = curves.iter().flat_map(|curve| curve.failures.clone()).collect();
-    Ok(Outcome { claims: claims(&curves, &leapfrog, &regular, &shorter), references, notes })
-}
-
-fn curve(job: &Job<'_>, all: &[Contender], contender: usize, e: f64, periods: u64) -> Curve {
-    let Contender { name, knobs, run, .. } = &all[contender];
-    let (name, mut curve) = (name.replace('*', ""), Curve { contender, e, ..Curve::default() });
-    for &knob in *knobs {
-        match run((job, Orbit { e }, periods), knob) {
-            Ok(course) => curve.courses.push(course),
-            Err(error) => curve.failures.push(format!("{name}, e = {e}, at {knob}: {error}.")),
-        }
-    }
-    curve
+    // By what fitting divides the error.
+    let [averaged, variational] = [4, 5].map(|fitted| Some(energy(&curves, 2)? / energy(&curves, fitted)?));
+    let regularised =
+        "regularised, Kepler's problem is an oscillator, and phase fitting is exact at 8 steps a period";
+    let rounding = "max|ΔE| at 32 steps a period, where more rounding is left";
+    let claims = vec![
+        beyond("phase fitting with r^(−3/2) gains three orders of magnitude at the same steps")
+            .at_least("e = 0.95, ε = 0.02: max|ΔE| of Simpson, linear / averaged", averaged, 1000.0)
+            .at_least("e = 0.95, ε = 0.02: max|ΔE| of Simpson, linear / variational", variational, 1000.0),
+        beyond("the logarithmic Hamiltonian leapfrog errs in the phase alone, at 25 evaluations a period")
+            .at_most("max|ΔE|", leapfrog.course.energy, 1e-10)
+            .at_most("largest distance from the exact orbit", leapfrog.off_orbit, 1e-10),
+        beyond(regularised)
+            .at_most("max|ΔE|", regular.course.energy, 1e-12)
+            .at_most(rounding, shorter.course.energy, 1e-10)
+            .at_most("largest position error", regular.course.position, 1e-8),
+    ];
+    Ok(Outcome { claims, references, notes: curves.into_iter().flat_map(|curve| curve.failures).collect() })
 }
 
 /// The error of the energy at e = 0.95 and the ε = 0.02 of the other experiments.
@@ -144,62 +157,28 @@ fn energy(curves: &[Curve], contender: usize) -> Option<f64> {
     curve.courses.get(3).map(|course| course.energy)
 }
 
-/// By what fitting divides it: averaged, and variational.
-fn gains(curves: &[Curve]) -> [Option<f64>; 2] {
-    [4, 5].map(|fitted| Some(energy(curves, 2)? / energy(curves, fitted)?))
-}
-
-fn claims(curves: &[Curve], leapfrog: &Rival, regular: &Rival, shorter: &Rival) -> Vec<Claim> {
-    let [averaged, variational] = gains(curves);
-    vec![
-        beyond("phase fitting with r^(−3/2) gains three orders of magnitude at the same steps")
-            .at_least("e = 0.95, ε = 0.02: max|ΔE| of Simpson, linear / averaged", averaged, 1000.0)
-            .at_least("e = 0.95, ε = 0.02: max|ΔE| of Simpson, linear / variational", variational, 1000.0),
-        beyond("the logarithmic Hamiltonian leapfrog errs in the phase alone, at 25 evaluations a period")
-            .at_most("max|ΔE|", leapfrog.course.energy, 1e-10)
-            .at_most("largest distance from the exact orbit", leapfrog.off_orbit, 1e-10),
-        beyond(
-            "regularised, Kepler's problem is an oscillator, and phase fitting is exact at 8 steps a period",
-        )
-        .at_most("max|ΔE|", regular.course.energy, 1e-12)
-        .at_most("max|ΔE| at 32 steps a period, where more rounding is left", shorter.course.energy, 1e-10)
-        .at_most("largest position error", regular.course.position, 1e-8),
-    ]
-}
-
-fn figure(all: &[Contender], curves: &[Curve], periods: u64) -> Figure {
-    let panels = |title: &str, label: &str, of: fn(&Course) -> f64| {
-        SHOWN.map(|e| {
-            let work = Axis::logarithmic("evaluations of the force per period").within(5.0, 5e4);
-            let error = Axis::logarithmic(label).within(1e-15, 10.0);
-            let empty = Panel::new(format!("{title} error over work, *e* = {e}"), work, error);
+fn figure(all: &[Contender], curves: &[Curve]) -> Figure {
+    let row = |title: &str, label: &str, of: fn(&Course) -> f64| {
+        let [left, right] = SHOWN.map(|e| {
             let shown = curves.iter().map(|curve| (curve, &all[curve.contender]));
             let shown = shown.filter(|(curve, method)| curve.e == e && DRAWN.contains(&method.name));
-            empty.each(shown, |panel, (curve, Contender { name, stroke, .. })| {
-                let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
-                let points: Vec<_> = points.collect();
-                panel.line(points.clone(), *stroke).labelled(*name).dots(points, 2.6, stroke.colour())
-            })
-        })
+            let work = ("evaluations of the force per period", [5.0, 5e4]);
+            Panel::loglog(format!("{title} error over work, *e* = {e}"), work, (label, [1e-15, 10.0]))
+                .marked(shown.map(|(curve, Contender { name, stroke, .. })| {
+                    let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
+                    (*name, *stroke, points.collect())
+                }))
+        });
+        vec![left.without_legend(), right.legend_at(Corner::Beside).weight(1.3)]
     };
-    let row =
-        |[left, right]: [Panel; 2]| vec![left.without_legend(), right.legend_at(Corner::Beside).weight(1.3)];
-    let [gain, best] = gains(curves).map(|gain| gain.unwrap_or(f64::NAN));
-    let position = "largest distance from the exact position   [*a*]";
     Figure::new(
-        format!(
-            "Kepler orbits: largest errors over up to {periods} periods against evaluations of the \
-                 force"
-        ),
-        format!(
-            "Reversible steps in proportion to *r*^(3/2); at *e* = 0.95, ε = 0.02 fitting divides |Δ*E*| \
-             of Simpson by {gain:.0} (averaged), {best:.0} (variational)"
-        ),
+        "Kepler orbits: largest errors over many periods against evaluations of the force",
+        "Reversible steps in proportion to *r*^(3/2); six of 13 methods and two of four eccentricities: the \
+         table has all",
     )
-    .row(390.0, row(panels("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy)))
-    .row(390.0, row(panels("Position", position, |course| course.position)))
+    .row(390.0, row("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy))
+    .row(390.0, row("Position", "largest distance from the exact position   [*a*]", |course| course.position))
     .footer(
-        "Six of 13 methods and two of four eccentricities; the table has all. Evaluations include \
-             those with a derivative. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
+        "Evaluations include those with a derivative. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
     )
 }

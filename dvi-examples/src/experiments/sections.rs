@@ -214,11 +214,11 @@ impl Crossings {
     }
 
     /// A panel with the section, coloured by time.
-    pub fn panel(&self, (r1, p1): (Axis, Axis), radius: f64) -> Panel {
+    pub fn panel(&self, r1: [f64; 2], p1: [f64; 2], radius: f64) -> Panel {
         let shown = thin(&self.points, SHOWN);
         let interval = |t: f64| (t / self.end * SEQUENCE.len() as f64) as usize;
         let colours = SEQUENCE.into_iter().enumerate();
-        Panel::new(self.title(), r1, p1).equal().each(colours, |panel, (i, colour)| {
+        Panel::window(self.title(), ("*R*₁", r1), ("*P*₁", p1)).each(colours, |panel, (i, colour)| {
             let places = shown.iter().filter(|[t, ..]| interval(*t) == i).map(|&[_, r1, p1]| [r1, p1]);
             panel.dots(places.collect(), radius, colour)
         })

@@ -28,7 +28,7 @@ pub use axis::{Axis, at_most, scientific};
 pub use decimate::{Envelope, thin};
 pub use mark::{Fill, Stroke};
 pub use palette::*;
-pub use panel::{Corner, Panel};
+pub use panel::{Corner, Panel, Ranged};
 pub use svg::Anchor;
 use svg::{Label, Pen, Svg, number};
 
