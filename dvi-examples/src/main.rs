@@ -10,6 +10,7 @@ mod deviation;
 mod experiments;
 mod gallery;
 mod job;
+mod measures;
 mod motions;
 mod numbers;
 mod options;
