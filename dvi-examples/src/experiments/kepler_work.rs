@@ -103,15 +103,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(runs as u64 * periods + 3 * long);
     let curve = |(contender, e)| {
         let Contender { name, knobs, run, .. } = &all[contender];
-        let (mut courses, mut failures) = (Vec::new(), Vec::new());
-        for &knob in *knobs {
-            match run((job, Orbit { e }, periods), knob) {
-                Ok(course) => courses.push(course),
-                Err(error) => {
-                    failures.push(format!("{}, e = {e}, at {knob}: {error}.", name.replace('*', "")));
-                }
-            }
-        }
+        let course = |&knob: &f64| run((job, Orbit { e }, periods), knob);
+        let told = |knob: &f64| format!("{}, e = {e}, at {knob}", name.replace('*', ""));
+        let (courses, failures) = attempts(*knobs, course, told);
         Curve { contender, e, courses, failures }
     };
     let curves: Vec<Curve> = pairs.into_par_iter().map(curve).collect();
@@ -159,25 +153,27 @@ fn energy(curves: &[Curve], contender: usize) -> Option<f64> {
 
 fn figure(all: &[Contender], curves: &[Curve]) -> Figure {
     let row = |title: &str, label: &str, of: fn(&Course) -> f64| {
-        let [left, right] = SHOWN.map(|e| {
+        let panels = SHOWN.map(|e| {
             let shown = curves.iter().map(|curve| (curve, &all[curve.contender]));
             let shown = shown.filter(|(curve, method)| curve.e == e && DRAWN.contains(&method.name));
             let work = ("evaluations of the force per period", [5.0, 5e4]);
-            Panel::loglog(format!("{title} error over work, *e* = {e}"), work, (label, [1e-15, 10.0]))
-                .marked(shown.map(|(curve, Contender { name, stroke, .. })| {
-                    let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
-                    (*name, *stroke, points.collect())
-                }))
+            let empty =
+                Panel::loglog(format!("{title} error over work, *e* = {e}"), work, (label, [1e-15, 10.0]));
+            empty.marked(shown.map(|(curve, Contender { name, stroke, .. })| {
+                let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
+                (*name, *stroke, points.collect())
+            }))
         });
-        vec![left.without_legend(), right.legend_at(Corner::Beside).weight(1.3)]
+        panels.into()
     };
+    let position = "largest distance from the exact position   [*a*]";
     Figure::new(
         "Kepler orbits: largest errors over many periods against evaluations of the force",
         "Reversible steps in proportion to *r*^(3/2); six of 13 methods and two of four eccentricities: the \
          table has all",
     )
-    .row(390.0, row("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy))
-    .row(390.0, row("Position", "largest distance from the exact position   [*a*]", |course| course.position))
+    .row_with_legend(390.0, row("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy), 1.3)
+    .row_with_legend(390.0, row("Position", position, |course| course.position), 1.3)
     .footer(
         "Evaluations include those with a derivative. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
     )

@@ -19,10 +19,9 @@ const EARLY: u64 = 2000;
 const STEPS: [f64; 3] = [0.5, 0.25, 0.125];
 const END: f64 = 1500.0;
 
-/// The parasitic mode of the two-step scheme.
+/// The parasitic mode of the two-step scheme: time and amplitude.
 struct Parasite {
     h: f64,
-    /// Time and amplitude.
     amplitudes: Vec<[f64; 2]>,
     path: Vec<[f64; 2]>,
     /// The time at which no step was found.
@@ -32,14 +31,12 @@ struct Parasite {
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(3 * steps + STEPS.map(|h| (END / h) as u64).iter().sum::<u64>());
-    let (solid, dashed) = (Stroke::solid, Stroke::dashed);
-    let (one_step, path) =
-        long_run(job, ("along *x*, one step", solid(BLUE)), &ALONG_X, OneStep::midpoint(), steps)?;
-    let named = ("symmetric, projected", solid(GREEN));
+    let [one_step, projected] =
+        [("along *x*, one step", Stroke::solid(BLUE)), ("symmetric, projected", Stroke::solid(GREEN))];
     let all = [
-        one_step,
-        long_run(job, named, &SYMMETRIC, Projected::symmetric(), steps)?.0,
-        long_run(job, ("RK4", dashed(SLATE)), &SYMMETRIC, RungeKutta::classical(), steps)?.0,
+        long_run(job, one_step, &ALONG_X, OneStep::midpoint(), steps)?,
+        long_run(job, projected, &SYMMETRIC, Projected::symmetric(), steps)?,
+        long_run(job, ("RK4", Stroke::dashed(SLATE)), &SYMMETRIC, RungeKutta::classical(), steps)?,
     ];
     let parasites = each(STEPS, |h| Parasite::new(job, h))?;
     let errors = all.iter().flat_map(|series| {
@@ -51,7 +48,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         rows.map(move |row| ([format!("parasitic mode, h = {h}")], row))
     });
     let table = Table::of(&["series", "t", "amplitude or lowest ΔH", "highest ΔH"], errors.chain(modes))?;
-    job.publish(figure(&all, &path, &parasites, steps as f64 * H), table)?;
+    job.publish(figure(&all, &parasites, steps as f64 * H), table)?;
     let growth = |series: &Series<1>| {
         format!("{}: max|ΔH| over all / over {EARLY} steps", series.name.replace('*', ""))
     };
@@ -62,26 +59,22 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 /// E − E(0), and the path of the beginning.
-fn long_run<S>(
+fn long_run<S: DegenerateLagrangian<State<f64>: From<(f64, f64)>>>(
     job: &Job<'_>,
-    (name, stroke): (&str, Stroke),
+    named: Named<'_>,
     system: &S,
     method: impl Method<S, f64>,
     steps: u64,
-) -> Result<(Series<1>, Vec<[f64; 2]>)>
-where
-    S: DegenerateLagrangian<State<f64>: From<(f64, f64)>>,
-{
+) -> Result<Series<1>> {
     let mut run = Integrator::new(system, method, H, START.into())?;
-    let (energy, mut path) = (run.energy(), vec![[START.0, START.1]]);
-    let span = Span { end: steps as f64 * H, early: EARLY as f64 * H, intervals: 100 };
-    let kept = job.keep(&mut run, steps, span, |run| {
+    let energy = run.energy();
+    let span = Span { intervals: 100, ..Span::of(steps, H, EARLY) };
+    Ok(job.series(named, &mut run, steps, span, |run, path| {
         if path.len() < 200 {
             path.push(place(run));
         }
         [run.energy() - energy]
-    })?;
-    Ok((Series::new(name, stroke, kept), path))
+    })?)
 }
 
 fn same_motion() -> Result<Claim> {
@@ -101,12 +94,12 @@ fn same_motion() -> Result<Claim> {
     let places = [[1.0, 1.0], [-0.3, 2.0], [0.8, -0.7]];
     let difference = largest(places.map(|q| apart(&omega(&ALONG_X, q), &omega(&SYMMETRIC, q))));
     let exact = end(&SYMMETRIC, Gauss::<4>::new(), 400)?;
-    let error = |steps: u64, place| (20.0 / steps as f64, distance(exact, place));
-    let counts = [160, 240, 320];
-    let one_step = order_of(counts, |steps| Ok(error(steps, end(&ALONG_X, OneStep::midpoint(), steps)?)))?;
-    let two_step = order_of(counts, |steps| Ok(error(steps, end(&SYMMETRIC, Sigma::midpoint(), steps)?)))?;
-    let projected =
-        order_of(counts, |steps| Ok(error(steps, end(&SYMMETRIC, Projected::symmetric(), steps)?)))?;
+    let order = |place: &dyn Fn(u64) -> Result<[f64; 2]>| {
+        order_of([160, 240, 320], |steps| Ok((20.0 / steps as f64, distance(exact, place(steps)?))))
+    };
+    let one_step = order(&|steps| end(&ALONG_X, OneStep::midpoint(), steps))?;
+    let two_step = order(&|steps| end(&SYMMETRIC, Sigma::midpoint(), steps))?;
+    let projected = order(&|steps| end(&SYMMETRIC, Projected::symmetric(), steps))?;
     Ok(beyond("both gauges have one Ω and one motion")
         .at_most("largest difference of entries of Ω at three points", difference, 1e-14)
         .near("along x, one step: order at t = 20", one_step, [2.0, 0.05])
@@ -119,7 +112,7 @@ impl Parasite {
         let method = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
         let mut run = Integrator::new(&SYMMETRIC, method, h, START.into())?;
         let mut filter = AlternatingComponent::new(&SYMMETRIC);
-        let (mut amplitudes, mut path) = (vec![], vec![[START.0, START.1]]);
+        let (mut amplitudes, mut path) = (vec![], vec![]);
         let ended = job.follow(&mut run, (END / h) as u64, |run| {
             amplitudes.extend(filter.amplitude(run.q()).map(|amplitude| [run.time(), amplitude]));
             path.push(place(run));
@@ -144,48 +137,43 @@ impl Parasite {
 
 fn grows(parasites: &[Parasite; 3]) -> Claim {
     let rate = parasites[2].rate();
-    beyond(
-        "in the symmetric gauge the parasitic mode of two steps grows at one rate whatever h, until no \
-            step is found",
+    let text = "in the symmetric gauge the parasitic mode of two steps grows at one rate whatever h, until no \
+                step is found";
+    beyond(text).at_least("rate of growth at the smallest h", rate, 5e-3).each(
+        parasites,
+        |claim, parasite| {
+            let (h, ended) = (parasite.h, parasite.ended.unwrap_or(f64::INFINITY));
+            claim
+                .near(
+                    format!("h = {h}: rate of growth, in units of that"),
+                    parasite.rate() / rate,
+                    [1.0, 0.1],
+                )
+                .at_most(format!("h = {h}: time at which it ends"), ended, END)
+        },
     )
-    .at_least("rate of growth at the smallest h", rate, 5e-3)
-    .each(parasites, |claim, parasite| {
-        let Parasite { h, ended, .. } = parasite;
-        claim
-            .near(format!("h = {h}: rate of growth, in units of that"), parasite.rate() / rate, [1.0, 0.1])
-            .at_most(format!("h = {h}: time at which it ends"), ended.unwrap_or(f64::INFINITY), END)
-    })
 }
 
-fn figure(all: &[Series<1>; 3], path: &[[f64; 2]], parasites: &[Parasite; 3], end: f64) -> Figure {
-    let plane =
-        Panel::new("Path", Axis::linear("*x*").within(-2.0, 2.0), Axis::linear("*y*").within(-0.2, 4.2))
-            .equal()
-            .line(path.to_vec(), Stroke::solid(BLUE).width(2.5))
-            .labelled("along *x*, one step")
-            .dots(parasites[0].path.clone(), 1.3, VERMILLION)
-            .labelled("symmetric, two steps");
+fn figure(all: &[Series<1>; 3], parasites: &[Parasite; 3], end: f64) -> Figure {
+    let plane = Panel::window("Path", ("*x*", [-2.0, 2.0]), ("*y*", [-0.2, 4.2]))
+        .line(all[0].path.clone(), Stroke::solid(BLUE).width(2.5))
+        .labelled("along *x*, one step")
+        .dots(parasites[0].path.clone(), 1.3, VERMILLION)
+        .labelled("symmetric, two steps");
     let strokes = [Stroke::solid(VERMILLION), Stroke::dashed(GREEN), Stroke::dashed(SLATE)];
     let lines = parasites
         .iter()
         .zip(strokes)
-        .map(|(parasite, stroke)| (format!("*h* = {}", parasite.h), stroke, parasite.amplitudes.clone()));
-    let axis = Axis::logarithmic("amplitude in *q*").within(1e-9, 10.0);
-    let amplitudes = Panel::new("Parasitic mode of two steps, symmetric gauge", Axis::time(END), axis);
-    let amplitudes = amplitudes.lines(lines).weight(1.35).legend_at(Corner::BottomRight);
-    let energy =
-        over_time(["Error of the energy", "largest |Δ*H*| of each interval"], end, [1e-5, 10.0], all, 0);
-    let [one_step, projected, rk4] = all.each_ref().map(|series| series.kept[0].largest);
+        .map(|(Parasite { h, amplitudes, .. }, stroke)| (format!("*h* = {h}"), stroke, amplitudes.clone()));
+    let axis = ("amplitude in *q*", [1e-9, 10.0]);
+    let title = "Parasitic mode of two steps, symmetric gauge";
+    let amplitudes = Panel::semilog(title, ("time *t*", [0.0, END]), axis).lines(lines).weight(1.35);
+    let labels = ["Error of the energy", "largest |Δ*H*| of each interval"];
+    let energy = over_time(labels, end, [1e-5, 10.0], all, 0);
     Figure::new(
         "A charged particle without mass: two gauges of one field",
         format!("*B* = 1 + 2(*x*² + *y*²), *φ* = cos *x* + sin *y*, from (1, 1), *h* = {H}"),
     )
-    .row(430.0, vec![plane, amplitudes])
+    .row(430.0, vec![plane, amplitudes.legend_at(Corner::BottomRight)])
     .row(300.0, vec![energy.legend_at(Corner::BottomRight)])
-    .footer(format!(
-        "Largest |Δ*H*|: one step {}, projected {}. RK4 at the end: {}.",
-        at_most(one_step),
-        at_most(projected),
-        scientific(rk4)
-    ))
 }

@@ -59,6 +59,15 @@ impl Figure {
         self
     }
 
+    /// Adds a row of panels that have one legend: beside the last, which is wider by the factor `weight`.
+    pub fn row_with_legend(self, height: f64, mut panels: Vec<Panel>, weight: f64) -> Self {
+        if let Some(last) = panels.pop() {
+            panels = panels.into_iter().map(Panel::without_legend).collect();
+            panels.push(last.legend_at(Corner::Beside).weight(weight));
+        }
+        self.row(height, panels)
+    }
+
     /// Small print: the source, and what the reader should be warned of.
     pub fn footer(mut self, text: impl Into<String>) -> Self {
         self.footer = text.into();
