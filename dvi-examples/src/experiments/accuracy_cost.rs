@@ -189,11 +189,8 @@ fn figure(all: &[[Curve; 6]; 3]) -> Figure {
         });
         panels.collect()
     };
-    Figure::new(
-        "Accuracy against cost: largest error of the energy over evaluations of the gradient",
-        "Order 2: midpoint (σ = ½) on vortices, Störmer–Verlet else; Kahan–Li 8 is composed of these",
-    )
-    .row_with_legend(360.0, row("evaluations", false), 1.35)
-    .row_with_legend(360.0, row("evaluations, all stages of a step at once", true), 1.35)
-    .footer("Steps of one length. Gauss 4, 8, 16: 2, 4, 8 stages. Hairer, Lubich & Wanner 2006.")
+    Figure::of("Order 2: midpoint (σ = ½) on vortices, Störmer–Verlet else; Kahan–Li 8 is composed of these")
+        .row_with_legend(360.0, row("evaluations", false), 1.35)
+        .row_with_legend(360.0, row("evaluations, all stages of a step at once", true), 1.35)
+        .footer("Steps of one length. Gauss 4, 8, 16: 2, 4, 8 stages. Hairer, Lubich & Wanner 2006.")
 }

@@ -147,8 +147,7 @@ fn figure(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Figure {
         circle(1, [-0.9, 6.9], [-0.2, 7.6]),
         circle(2, [-1.6, 3.0], narrow).without_legend(),
     ];
-    Figure::new(
-        "Leapfrog on three flows: phase curves, and a circle carried along",
+    Figure::of(
         format!("Kick–drift–kick with *h* = 1/32; above to *t* = {END}, below a circle about (0, 1)"),
     )
     .row(400.0, portraits)

@@ -138,10 +138,7 @@ fn figure([(ve2, ..), (rk2, ..)]: &[Motion; 2], end: f64) -> Figure {
     let beginning = Panel::new("The beginning", time().within(0.0, CLOSE_UP), energy())
         .line(ve2.path.clone(), Stroke::solid(BLUE).width(1.3))
         .line(rk2.path.clone(), Stroke::solid(VERMILLION).width(1.3));
-    Figure::new(
-        "Two leapfrogging pairs: the error of the Hamiltonian, VE2 against RK2 at half the step",
-        "VE2 takes one evaluation of ∇*H* per step, RK2 two",
-    )
-    .row(430.0, vec![whole, beginning])
-    .footer("After Rowley & Marsden 2002, Fig. 2. Γ and *L*: units of circulation and length.")
+    Figure::of("VE2 takes one evaluation of ∇*H* per step, RK2 two")
+        .row(430.0, vec![whole, beginning])
+        .footer("After Rowley & Marsden 2002, Fig. 2. Γ and *L*: units of circulation and length.")
 }

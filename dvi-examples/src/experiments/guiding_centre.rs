@@ -112,9 +112,6 @@ fn figure([banana, passing]: &[Orbit; 2], end: f64) -> Figure {
         ("passing, out of class", dashed(SLATE), passing[1].path.clone()),
     ]);
     let labels = ["Relative error of the energy, banana", "largest |Δ*H*/*H*| of each interval"];
-    Figure::new(
-        "A guiding centre in a tokamak: two orbits in two sets of coordinates",
-        format!("*q* = {Q}, *μ* = {MU}, from *R* = {}, *h* = {H}", 1.0 + RADIUS),
-    )
-    .row(470.0, vec![paths, over_time(labels, end, [1e-7, 1e-1], banana, 0).weight(1.35)])
+    Figure::of(format!("*q* = {Q}, *μ* = {MU}, from *R* = {}, *h* = {H}", 1.0 + RADIUS))
+        .row(470.0, vec![paths, over_time(labels, end, [1e-7, 1e-1], banana, 0).weight(1.35)])
 }

@@ -78,10 +78,9 @@ fn figure(readings: &[Readings]) -> Figure {
         ])
     };
     let all = panel("Ten periods", 0.0, PERIODS as f64).without_legend().weight(1.3);
-    Figure::new(
-        format!("Two frequencies of a Kepler orbit with *e* = {}, over {PERIODS} periods", ORBIT.e),
-        format!("Read along a phase-fitted run of {STEPS} steps per period; *a*: the semi-major axis"),
-    )
+    Figure::of(format!(
+        "Read along a phase-fitted run of {STEPS} steps per period; *a*: the semi-major axis"
+    ))
     .row(430.0, vec![all, panel("One period", 0.5, 1.5)])
     .footer("After Kosmas & Vlachos, Fig. 4.")
 }

@@ -190,8 +190,7 @@ fn figure(all: &[Orbits; 6], periods: u64) -> Figure {
     let energy = panel("Energy", "largest |*E* − *E*(0)|   [μ/*a*]", 1).without_legend();
     let position = panel("Position", "largest distance from the exact position   [*a*]", 2)
         .guide([[0.1, 2.0], [end, 2.0]], "the diameter of the orbit");
-    Figure::new(
-        "A Kepler orbit with *e* = 0.95: largest errors in each interval of time",
+    Figure::of(
         "Left-frozen: Simpson's rule; in *L*_d: Lobatto's with four nodes. (23) with *v*_o per unit of arc \
          length, and its tolerance",
     )

@@ -167,8 +167,7 @@ fn figure(all: &[Contender], curves: &[Curve]) -> Figure {
         panels.into()
     };
     let position = "largest distance from the exact position   [*a*]";
-    Figure::new(
-        "Kepler orbits: largest errors over many periods against evaluations of the force",
+    Figure::of(
         "Reversible steps in proportion to *r*^(3/2); six of 13 methods and two of four eccentricities: the \
          table has all",
     )

@@ -108,11 +108,8 @@ fn figure(ve2: &Motion, rk2: &Motion, exact: &Motion) -> Figure {
     let axis = Axis::logarithmic("|*z*₁ − *z*₂|   [*L*]");
     let distance = Panel::new("Distance of vortices 1 and 2 (range and mean)", time, axis)
         .ranges([("RK2, *h* = 2", SLATE, &rk2.distance), ("VE2, *h* = 2", GREEN, &ve2.distance)]);
-    Figure::new(
-        "Two leapfrogging pairs with *h* = 2: trajectories, and the distance of two vortices with VE2 and RK2",
-        "Γ = 1 above, Γ = −1 below; Γ and *L*: units of circulation and length",
-    )
-    .row(400.0, vec![paths.legend_at(Corner::Beside)])
-    .row(300.0, vec![distance.legend_at(Corner::Beside)])
-    .footer("After Rowley & Marsden 2002, Fig. 3.")
+    Figure::of("Γ = 1 above, Γ = −1 below; Γ and *L*: units of circulation and length")
+        .row(400.0, vec![paths.legend_at(Corner::Beside)])
+        .row(300.0, vec![distance.legend_at(Corner::Beside)])
+        .footer("After Rowley & Marsden 2002, Fig. 3.")
 }

@@ -127,9 +127,8 @@ fn figure(all: &[Motion; 4], end: f64) -> Figure {
     ]);
     let labels = ["Error of the energy", "largest |*H* − *H*(0)| of each interval"];
     let energy = over_time(labels, end, [1e-6, 1.0], all[..3].iter().map(|(series, _)| series), 0);
-    Figure::new(
-        "Predators and prey: one step and two, and the energy errors of three methods",
-        format!("From (2, 1), *h* = {H}; two steps with the symmetric one-form end after {ended} of them"),
-    )
+    Figure::of(format!(
+        "From (2, 1), *h* = {H}; two steps with the symmetric one-form end after {ended} of them"
+    ))
     .row(470.0, vec![paths, energy.weight(1.35).legend_at(Corner::BottomRight)])
 }

@@ -170,10 +170,7 @@ fn figure(all: &[Series<1>; 3], parasites: &[Parasite; 3], end: f64) -> Figure {
     let amplitudes = Panel::semilog(title, ("time *t*", [0.0, END]), axis).lines(lines).weight(1.35);
     let labels = ["Error of the energy", "largest |Δ*H*| of each interval"];
     let energy = over_time(labels, end, [1e-5, 10.0], all, 0);
-    Figure::new(
-        "A charged particle without mass: two gauges of one field",
-        format!("*B* = 1 + 2(*x*² + *y*²), *φ* = cos *x* + sin *y*, from (1, 1), *h* = {H}"),
-    )
-    .row(430.0, vec![plane, amplitudes.legend_at(Corner::BottomRight)])
-    .row(300.0, vec![energy.legend_at(Corner::BottomRight)])
+    Figure::of(format!("*B* = 1 + 2(*x*² + *y*²), *φ* = cos *x* + sin *y*, from (1, 1), *h* = {H}"))
+        .row(430.0, vec![plane, amplitudes.legend_at(Corner::BottomRight)])
+        .row(300.0, vec![energy.legend_at(Corner::BottomRight)])
 }

@@ -169,8 +169,7 @@ fn figure(all: &[Drifts]) -> Figure {
         let points = rows.filter_map(|(row, drifts)| Some([drifts.of[i]?.max(SMALLEST), row as f64 + lift]));
         panel.discs(points.collect(), colour, Fill::Solid).labelled(name)
     });
-    let title = "What is conserved, scheme by scheme: momenta, the discrete momentum, the two-form";
-    Figure::new(title, format!("Four equal vortices, *h* = {H}; deviations below 10⁻¹¹ are rounding"))
+    Figure::of(format!("Four equal vortices, *h* = {H}; deviations below 10⁻¹¹ are rounding"))
         .row(500.0, vec![panel.legend_at(Corner::Beside)])
         .footer("Rowley & Marsden 2002. Two-form: (17) for the σ-family, Ω = ΣΓ d*x* ∧ d*y* for one-step methods.")
 }

@@ -136,9 +136,8 @@ fn figure(rows: &[Row]) -> Figure {
         .note([SPECIAL, 4.15], Anchor::Middle, SLATE, "(3 − √3)/6")
         .note([MIRRORED, 4.15], Anchor::Middle, SLATE, "(3 + √3)/6")
         .note([PRINTED, 2.15], Anchor::Middle, SLATE, "(3 − √3)/2");
-    let title = "Orders of convergence of the σ-family, on a linear equation and on four vortices";
     let vortices = vortices.legend_at(Corner::Beside).weight(1.35);
-    Figure::new(title, "From two exact starting values; orders fitted to the three shortest steps")
+    Figure::of("From two exact starting values; orders fitted to the three shortest steps")
         .row(430.0, vec![linear.without_legend(), vortices, over_sigma])
         .footer("Rowley & Marsden 2002, section 4.1.")
 }

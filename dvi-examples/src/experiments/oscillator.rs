@@ -187,10 +187,9 @@ fn figure(rows: &[Row; 8], given: &[Given; 7], many: u64) -> Figure {
         let curve = us.map(|u| [u, formula(&rows[rule].1, u)]).collect();
         panel.line(curve, Stroke::solid(colour).width(1.2)).dots(rows[rule].3.clone(), 3.0, colour)
     });
-    Figure::new(
-        "The harmonic oscillator at steps up to *u* = ω*h* = 3, with and without phase fitting",
-        "Dashed: linear interpolation. Right: dots measured, lines *s* = *uS*/sin *u*",
-    )
-    .row(460.0, vec![velocity, recursion, factor])
-    .footer("Kosmas & Vlachos, section 3; the momentum is not in the paper. *S* = Σ*w* cos((1 − 2*c*)*u*).")
+    Figure::of("Dashed: linear interpolation. Right: dots measured, lines *s* = *uS*/sin *u*")
+        .row(460.0, vec![velocity, recursion, factor])
+        .footer(
+            "Kosmas & Vlachos, section 3; the momentum is not in the paper. *S* = Σ*w* cos((1 − 2*c*)*u*).",
+        )
 }

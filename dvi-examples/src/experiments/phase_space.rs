@@ -138,9 +138,6 @@ fn figure(all: &[Series<1>; 3], leapfrog: &Circles, end: f64) -> Figure {
             plane.dots(circle.clone(), 1.3, colour)
         });
     let labels = ["Error of the energy", "largest |*H* − *H*(0)| of each interval"];
-    Figure::new(
-        "The pendulum in phase-space form: an area carried along, and the energy errors of three methods",
-        format!("*H* = ½*p*² − cos *x*; left *h* = 1/32, right *h* = {H} from (2, 0)"),
-    )
-    .row(500.0, vec![plane, over_time(labels, end, [1e-4, 10.0], all, 0).weight(1.2)])
+    Figure::of(format!("*H* = ½*p*² − cos *x*; left *h* = 1/32, right *h* = {H} from (2, 0)"))
+        .row(500.0, vec![plane, over_time(labels, end, [1e-4, 10.0], all, 0).weight(1.2)])
 }

@@ -193,12 +193,9 @@ fn figure(pairs: &[Pair; 4], steps: f64) -> Figure {
             .legend_at(Corner::TopLeft)
     };
     let panels = || CASES.iter().zip(pairs).map(panel);
-    Figure::new(
-        "Rounding errors of what a method conserves, *h* = 0.1",
-        format!(
-            "root mean square over {RUNS} runs from different points, in intervals of the logarithm of *n*"
-        ),
-    )
+    Figure::of(format!(
+        "root mean square over {RUNS} runs from different points, in intervals of the logarithm of *n*"
+    ))
     .row(330.0, panels().take(2).collect())
     .row(330.0, panels().skip(2).collect())
 }

@@ -133,12 +133,9 @@ fn figure(all: &[Excitation; 3], periods: f64) -> Figure {
         ("RK4: *H*", Stroke::solid(VERMILLION), rk4.kept[2].magnitude()),
         ("RK4: norm", Stroke::dashed(AMBER), rk4.kept[1].magnitude()),
     ]);
-    Figure::new(
-        "A discrete breather: where it is, and what two methods keep of it",
-        format!(
-            "{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by 5 % at its centre"
-        ),
-    )
+    Figure::of(format!(
+        "{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by 5 % at its centre"
+    ))
     .row(380.0, vec![profile, sites])
     .row(330.0, vec![errors.legend_at(Corner::Beside)])
 }

@@ -179,10 +179,7 @@ fn figure(all: &[Kept; 3], paths: &Paths, end: f64) -> Figure {
     let energy = over_time("Error of the energy", "largest |Δ*H*| of each interval", 0);
     let moment = over_time("Length of the moment", "largest |Δ|*M*||/|*M*| of each interval", 1);
     let turn = over_time("Direction of the moment", "angle around the axis   [rad]", 2);
-    Figure::new(
-        "Three point vortices on a sphere",
-        format!("*h* = {H}; on the left the one-step midpoint scheme up to *t* = {}", 400.0 * H),
-    )
-    .row(430.0, vec![seen, energy.weight(1.4).legend_at(Corner::Beside)])
-    .row(300.0, vec![moment.without_legend(), turn.without_legend()])
+    Figure::of(format!("*h* = {H}; on the left the one-step midpoint scheme up to *t* = {}", 400.0 * H))
+        .row(430.0, vec![seen, energy.weight(1.4).legend_at(Corner::Beside)])
+        .row(300.0, vec![moment.without_legend(), turn.without_legend()])
 }

@@ -178,12 +178,9 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
         .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));
-    Figure::new(
-        "The stability of the σ-family on *z*' = λ*z*, on the imaginary axis and to the left of it",
-        format!(
-            "Found by running the schemes; the limits on the left are those of the formula to {accuracy}"
-        ),
-    )
+    Figure::of(format!(
+        "Found by running the schemes; the limits on the left are those of the formula to {accuracy}"
+    ))
     .row(470.0, vec![border, growth])
     .footer("Rowley & Marsden 2002, section 4.1.")
 }

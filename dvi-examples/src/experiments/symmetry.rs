@@ -135,9 +135,8 @@ fn figure(all: &[Motion; 2]) -> Figure {
     let asymmetry =
         panel("Distance from mirror symmetry", "largest in each interval   [*L*]", [1e-16, 1e4], 0);
     let energy = panel("Energy", "largest |*H* − *H*(0)| in each interval   [Γ²]", [1e-4, 0.2], 1);
-    let title = "Two leapfrogging pairs with VE2, *h* = 2: mirror symmetry and energy over time";
     let subtitle = format!("A run is drawn until |Δ*H*| exceeds {LOST} or it ends by itself");
-    Figure::new(title, subtitle)
+    Figure::of(subtitle)
         .row(450.0, vec![asymmetry, energy.without_legend()])
         .footer("The run of Rowley & Marsden 2002, Fig. 2.")
 }

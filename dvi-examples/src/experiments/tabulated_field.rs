@@ -121,10 +121,9 @@ fn figure(cubic: &Differences, quintic: &Differences, energy: &Deviation, end: f
     let axis = ("largest |Δ*H*/*H*| of each interval", [1e-7, 1e-3]);
     let error =
         Panel::semilog(title, ("time *t*", [0.0, end]), axis).line(energy.magnitude(), Stroke::solid(GREEN));
-    Figure::new(
-        "A guiding centre in a field from a table",
-        format!("*q* = {Q}, *μ* = {MU}, bananas from *R* = 1.19 to 1.235, *h* = {H}, one-step midpoint"),
-    )
+    Figure::of(format!(
+        "*q* = {Q}, *μ* = {MU}, bananas from *R* = 1.19 to 1.235, *h* = {H}, one-step midpoint"
+    ))
     .row(430.0, vec![falls, error.weight(1.35)])
     .footer("Dashed: orders 3 and 5 of the first derivatives.")
 }

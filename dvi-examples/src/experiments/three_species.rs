@@ -127,7 +127,8 @@ fn figure(all: &[Series<2>; 2], end: f64) -> Result<Figure> {
         .each(orbits.iter().zip([0, 2, 4, 6]), |plane, (path, colour)| {
             plane.line(path.iter().copied().map(flat).collect(), Stroke::solid(SEQUENCE[colour]).width(1.4))
         });
-    let over_time = |i: usize| orbits[0].iter().zip(0..).map(move |(species, k)| [f64::from(k) * H, species[i]]);
+    let over_time =
+        |i: usize| orbits[0].iter().zip(0..).map(move |(species, k)| [f64::from(k) * H, species[i]]);
     let species = Panel::linear("Species", ("time *t*", [0.0, 20.0]), ("number", [0.0, 3.0])).lines([
         ("*x*", Stroke::solid(BLUE), over_time(0).collect()),
         ("*y*", Stroke::solid(GREEN), over_time(1).collect()),
@@ -141,10 +142,7 @@ fn figure(all: &[Series<2>; 2], end: f64) -> Result<Figure> {
         ("RK4: *x* + *y* + *z*", Stroke::solid(VERMILLION), rk4_sum),
         ("RK4: *xyz*", Stroke::dashed(VERMILLION), rk4_product),
     ]);
-    Ok(Figure::new(
-        "Three species that eat each other in a circle",
-        format!("*x*′ = *x*(*y* − *z*), *y*′ = *y*(*z* − *x*), *z*′ = *z*(*x* − *y*); *h* = {H}"),
-    )
-    .row(430.0, vec![plane, species.weight(1.2)])
-    .row(300.0, vec![errors.legend_at(Corner::Beside)]))
+    Ok(Figure::of(format!("*x*′ = *x*(*y* − *z*), *y*′ = *y*(*z* − *x*), *z*′ = *z*(*x* − *y*); *h* = {H}"))
+        .row(430.0, vec![plane, species.weight(1.2)])
+        .row(300.0, vec![errors.legend_at(Corner::Beside)]))
 }

@@ -53,6 +53,16 @@ impl Figure {
         Self { title, subtitle, footer: String::new(), key: None, rows: Vec::new() }
     }
 
+    /// A figure that has the title of its experiment.
+    pub fn of(subtitle: impl Into<String>) -> Self {
+        Self::new("", subtitle)
+    }
+
+    /// Gives it this title if it has none.
+    pub fn titled(self, title: &str) -> Self {
+        if self.title.is_empty() { Self { title: title.to_owned(), ..self } } else { self }
+    }
+
     /// Adds a row of panels, `height` units high; a figure is 1200 wide.
     pub fn row(mut self, height: f64, panels: Vec<Panel>) -> Self {
         self.rows.push((height, panels));
@@ -90,7 +100,9 @@ impl Figure {
     pub fn svg(&self) -> String {
         let height = HEADER + self.rows.iter().map(|(height, _)| height).sum::<f64>() + FOOTER;
         let mut svg = Svg::new(WIDTH, height, &self.title);
-        svg.label(Label { bold: true, ..Label::new(&self.title, [MARGIN, 36.0], 20.0) });
+        // Bold letters are about 0.7 as wide as high.
+        let size = (WIDTH / (0.7 * self.title.chars().count() as f64)).min(20.0);
+        svg.label(Label { bold: true, ..Label::new(&self.title, [MARGIN, 36.0], size) });
         svg.label(Label { colour: SLATE, ..Label::new(&self.subtitle, [MARGIN, 59.0], 14.0) });
         self.draw_key(&mut svg);
         let mut top = HEADER;
