@@ -4,7 +4,6 @@
 //! not.
 
 use anyhow::Result;
-use dvi_core::prelude::*;
 
 use crate::figure::{Axis, Envelope, Panel, Stroke};
 use crate::numbers::{larger, least};
@@ -105,43 +104,6 @@ impl Span {
     }
 }
 
-/// How long a run is that is watched.
-#[derive(Clone, Copy, Debug)]
-pub struct Plan {
-    pub steps: u64,
-    pub h: f64,
-    /// Steps of the beginning, with which the whole is compared.
-    pub early: u64,
-    /// The intervals in which quantities are drawn.
-    pub intervals: usize,
-    /// Steps of the beginning of which the coordinates are kept.
-    pub shown: u64,
-}
-
-impl Plan {
-    pub fn end(self) -> f64 {
-        self.steps as f64 * self.h
-    }
-
-    pub fn span(self) -> Span {
-        Span { intervals: self.intervals, ..Span::of(self.steps, self.h, self.early) }
-    }
-}
-
-/// What is seen of a run after a step: its coordinates, its energy, and the first of its momenta.
-#[derive(Clone, Copy, Debug)]
-pub struct Seen<'a> {
-    pub q: &'a [f64],
-    pub energy: f64,
-    pub momentum: f64,
-}
-
-impl<'a> Seen<'a> {
-    pub fn of(run: &'a impl Run<Scalar = f64>) -> Self {
-        Self { q: run.q(), energy: run.energy(), momentum: run.momentum(0).unwrap_or(f64::NAN) }
-    }
-}
-
 /// Adds the values of several quantities at time `t`.
 pub fn note<const N: usize>(kept: &mut [Deviation; N], t: f64, values: [f64; N]) {
     kept.iter_mut().zip(values).for_each(|(deviation, value)| deviation.push(t, value));
@@ -158,20 +120,11 @@ pub struct Series<const N: usize> {
     pub stroke: Stroke,
     pub kept: [Deviation; N],
     pub path: Vec<[f64; 2]>,
-    /// The coordinates in the beginning.
-    pub states: Vec<Vec<f64>>,
-    /// The error that has ended it early.
-    pub ended: Option<StepError>,
 }
 
 impl<const N: usize> Series<N> {
     pub fn new(name: impl Into<String>, stroke: Stroke, kept: [Deviation; N]) -> Self {
-        Self { name: name.into(), stroke, kept, path: Vec::new(), states: Vec::new(), ended: None }
-    }
-
-    /// The first two coordinates in the beginning.
-    pub fn places(&self) -> Vec<[f64; 2]> {
-        self.states.iter().map(|q| [q[0], q[1]]).collect()
+        Self { name: name.into(), stroke, kept, path: Vec::new() }
     }
 
     /// What the series is, for [`Panel::lines`], over any points.

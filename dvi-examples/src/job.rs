@@ -8,7 +8,7 @@ use dvi_core::error::StepError;
 use dvi_core::prelude::Run;
 use indicatif::ProgressBar;
 
-use crate::deviation::{Deviation, Named, Plan, Seen, Series, Span, note};
+use crate::deviation::{Deviation, Named, Series, Span, note};
 use crate::experiments::title;
 use crate::figure::Figure;
 use crate::motions;
@@ -166,41 +166,6 @@ impl<'a> Job<'a> {
         let mut path = Vec::new();
         let kept = self.keep(run, steps, span, |run| of(run, &mut path))?;
         Ok(Series { path, ..Series::new(name, stroke, kept) })
-    }
-
-    /// A run as a series of that name, with the quantities that `of` makes of what is seen after each step and
-    /// at the start; an error ends it early.
-    pub fn attempt<const N: usize>(
-        &self,
-        (name, stroke): Named<'_>,
-        mut run: impl Run<Scalar = f64>,
-        plan: Plan,
-        mut of: impl FnMut(Seen<'_>, Seen<'_>) -> [f64; N],
-    ) -> Series<N> {
-        let (q, mut states) = (run.q().to_vec(), vec![run.q().to_vec()]);
-        let (start, mut kept) = (Seen { q: &q, ..Seen::of(&run) }, plan.span().deviations());
-        let followed = self.follow(&mut run, plan.steps, |run| {
-            note(&mut kept, run.time(), of(Seen::of(run), start));
-            if run.steps() <= plan.shown {
-                states.push(run.q().to_vec());
-            }
-        });
-        Series { states, ended: followed.err(), ..Series::new(name, stroke, kept) }
-    }
-
-    /// The same of a run that comes to its end.
-    ///
-    /// # Errors
-    /// That of the first step that fails.
-    pub fn watch<const N: usize>(
-        &self,
-        named: Named<'_>,
-        run: impl Run<Scalar = f64>,
-        plan: Plan,
-        of: impl FnMut(Seen<'_>, Seen<'_>) -> [f64; N],
-    ) -> Result<Series<N>, StepError> {
-        let series = self.attempt(named, run, plan, of);
-        series.ended.map_or(Ok(series), Err)
     }
 
     /// Writes the figure (SVG and PNG) and its data (CSV); the figure of an interrupted run says so.

@@ -74,7 +74,10 @@ fn run(options: &Options) -> Result<ExitCode> {
     let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
     let parts = record::merged(record::load(&folder)?, new.clone(), &names);
     record::save(&folder, &parts)?;
-    output::write_whole(&folder.join("summary.md"), summary::markdown(&parts, experiments::title).as_bytes())?;
+    output::write_whole(
+        &folder.join("summary.md"),
+        summary::markdown(&parts, experiments::title).as_bytes(),
+    )?;
     let index = folder.join("index.html");
     output::write_whole(&index, page::html(&parts, &folder).as_bytes())?;
     say(&format!("\n{}", summary::plain(&new, experiments::title, width())))?;

@@ -5,7 +5,7 @@ use dvi_core::methods::VariableStep;
 use rayon::prelude::*;
 
 use super::kepler::{Course, compare, fixed, osculating, reversible};
-use super::rivals::{Rival, levi_civita, logarithmic_hamiltonian};
+use super::rivals::{levi_civita, logarithmic_hamiltonian};
 use crate::models::{Kepler, Orbit};
 use crate::vocabulary::*;
 
@@ -80,7 +80,7 @@ fn contenders() -> [Contender; 13] {
         of("Galerkin, order 4",    solid(PURPLE).opacity(0.4), LONG_EPSILONS, |case, epsilon| by(Galerkin::<3>::new(), case, epsilon)),
         of("Galerkin, order 6",    solid(PURPLE),     LONG_EPSILONS, |case, epsilon| by(Galerkin::<4>::new(), case, epsilon)),
         of("Galerkin, order 8",    dashed(PURPLE),    LONG_EPSILONS, |case, epsilon| by(Galerkin::<5>::new(), case, epsilon)),
-        of("log-*H* leapfrog",     solid(AMBER),      &[25.0, 100.0, 400.0, 1600.0], |(job, orbit, periods), n| Ok(logarithmic_hamiltonian(job, orbit, n as u32, periods).course)),
+        of("log-*H* leapfrog",     solid(AMBER),      &[25.0, 100.0, 400.0, 1600.0], |(job, orbit, periods), n| Ok(logarithmic_hamiltonian(job, orbit, n as u32, periods)?.course)),
         of("Levi-Civita, fitted",  dashed(INK),       &[8.0, 16.0, 32.0], |(job, orbit, periods), n| Ok(levi_civita(job, orbit, n as u32, periods)?.course)),
     ]
 }
@@ -110,7 +110,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     };
     let curves: Vec<Curve> = pairs.into_par_iter().map(curve).collect();
     let orbit = Orbit { e: 0.95 };
-    let leapfrog = logarithmic_hamiltonian(job, orbit, 25, long);
+    let leapfrog = logarithmic_hamiltonian(job, orbit, 25, long)?;
     let [regular, shorter] = each([8, 32], |steps| levi_civita(job, orbit, steps, long))?;
     let columns =
         ["method", "e", "steps_per_period", "evaluations_per_period", "energy_error", "position_error"];

@@ -4,8 +4,6 @@
 //! where sin u ≠ 0 and S = Σ w cos((1 − 2c)u) ≠ 0. The momentum is s·v with s = uS/sin u: a run that starts
 //! from a velocity has a wrong amplitude for ever, unless the weights are fitted too.
 
-use std::f64::consts::FRAC_PI_2;
-
 use dvi_core::discrete::{Frequency, FrequencyIn, Rule as _};
 
 use crate::models::{Spring, SpringState};

@@ -30,12 +30,11 @@ struct Motion {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1.2e8, PAPER);
-    job.expect((end / H) as u64 + (PAPER / H) as u64);
+    job.expect((end / H) as u64 / STRIDE + (PAPER / H) as u64 / STRIDE);
     let [x, y] = DISPLACEMENT;
-    let displaced = format!("vortex 1 displaced by ({x}, {y})");
     let all = [
         Motion::new(job, "as in the paper".into(), BLUE, [0.0; 2], end)?,
-        Motion::new(job, displaced, VERMILLION, DISPLACEMENT, PAPER)?,
+        Motion::new(job, format!("vortex 1 displaced by ({x}, {y})"), VERMILLION, DISPLACEMENT, PAPER)?,
     ];
     let rows = all.iter().flat_map(|Motion { name, errors, .. }| {
         errors.rows.iter().map(move |&(t, [asymmetry, error])| ([name], [t, asymmetry, error]))
@@ -65,27 +64,20 @@ impl Motion {
         let mut run = Integrator::new(&vortices, method, H, start)?;
         let (initial, mut errors) = (run.energy(), Decades::new(40.0));
         let (mut lost, mut failure) = (f64::INFINITY, None);
-        let (strides, mut done) = ((end / H) as u64 / STRIDE, 0);
-        // A run that is lost tells nothing more.
-        while done < strides && lost.is_infinite() && !job.is_stopping() {
-            if let Err(error) = run.take_steps(STRIDE) {
-                (lost, failure) = (run.time(), Some(error));
-                break;
+        job.repeat((end / H) as u64 / STRIDE, || {
+            // A run that is lost tells nothing more.
+            if lost.is_infinite() {
+                failure = run.take_steps(STRIDE).err();
+                let (t, error) = (run.time(), (run.energy() - initial).abs());
+                if failure.is_none() {
+                    errors.push(t, [asymmetry(run.q()), error]);
+                }
+                if failure.is_some() || error.is_nan() || error > LOST {
+                    lost = t;
+                }
             }
-            done += 1;
-            if done % 1000 == 0 {
-                job.proceed(1000 * STRIDE);
-            }
-            let (t, error) = (run.time(), (run.energy() - initial).abs());
-            errors.push(t, [asymmetry(run.q()), error]);
-            if error.is_nan() || error > LOST {
-                lost = t;
-            }
-        }
-        if done < strides && lost.is_infinite() {
-            job.cut_short();
-        }
-        job.proceed((strides - done) * STRIDE);
+            Ok(())
+        })?;
         Ok(Self { name, colour, errors, lost, end, failure })
     }
 

@@ -26,11 +26,11 @@ use crate::output::write_whole;
 
 pub use axis::{Axis, at_most, scientific};
 pub use decimate::{Envelope, thin};
-pub use mark::{Fill, Stroke};
+pub use mark::Fill;
 pub use palette::*;
 pub use panel::{Corner, Panel, Ranged};
-pub use svg::Anchor;
-use svg::{Label, Pen, Svg, number};
+pub use svg::{Anchor, Stroke};
+use svg::{Label, Svg, number};
 
 const WIDTH: f64 = 1200.0;
 const MARGIN: f64 = 22.0;
@@ -126,7 +126,7 @@ impl Figure {
         let left = right - step * SEQUENCE.len() as f64;
         for (i, &colour) in SEQUENCE.iter().enumerate() {
             let x = number(left + step * i as f64);
-            svg.stroke(&format!("M{x} {y}h{}", step + 0.5), Pen::new(colour, 12.0));
+            svg.stroke(&format!("M{x} {y}h{}", step + 0.5), Stroke::solid(colour).width(12.0));
         }
         let label = |text, x, anchor| Label { anchor, ..Label::new(text, [x, y + 4.5], 13.0) };
         svg.label(label(from, left - 8.0, Anchor::End));
