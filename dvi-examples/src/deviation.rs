@@ -104,6 +104,23 @@ impl Span {
     }
 }
 
+/// How long a run is of which the energy is watched, with how many steps that are its beginning, the intervals
+/// in which it is drawn, and how many of its first places are kept.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    pub steps: u64,
+    pub h: f64,
+    pub early: u64,
+    pub intervals: usize,
+    pub places: usize,
+}
+
+impl Plan {
+    pub fn end(self) -> f64 {
+        self.steps as f64 * self.h
+    }
+}
+
 /// Adds the values of several quantities at time `t`.
 pub fn note<const N: usize>(kept: &mut [Deviation; N], t: f64, values: [f64; N]) {
     kept.iter_mut().zip(values).for_each(|(deviation, value)| deviation.push(t, value));

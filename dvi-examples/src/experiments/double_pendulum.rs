@@ -25,16 +25,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let span = Span { end: steps as f64 * H, early: EARLY, intervals: 400 };
     let by_rk4 =
         keep_rk4(job, START, (H, steps), span, |y| SYSTEM.motion(y), |y| [error(SYSTEM.energy_of(y))])?;
-    let green = ("variational, midpoint", Stroke::solid(GREEN));
+    let [a, b, dot_a, dot_b] = START;
+    let start = DoublePendulumState { a, b, dot_a, dot_b };
+    let plan = Plan { steps, h: H, early: (EARLY / H) as u64, intervals: 400, places: (SHOWN / H) as usize };
+    let [green, blue] = [GREEN, BLUE].map(Stroke::solid);
     let all = [
-        variational(job, green, Variational::midpoint(), steps, span)?,
-        variational(
-            job,
-            ("variational, Simpson", Stroke::solid(BLUE)),
-            Variational::simpson(),
-            steps,
-            span,
-        )?,
+        job.energy(("variational, midpoint", green), &SYSTEM, Variational::midpoint(), start, plan)?,
+        job.energy(("variational, Simpson", blue), &SYSTEM, Variational::simpson(), start, plan)?,
         Series::new("RK4, by hand", Stroke::dashed(VERMILLION), by_rk4),
     ];
     let table = range_table(&["method", "t", "lowest", "mean", "highest"], &[""], &all)?;
@@ -56,24 +53,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 fn error(energy: f64) -> f64 {
     energy - SYSTEM.energy_of(&START)
-}
-
-/// E − E(0), and the angles in the beginning.
-fn variational(
-    job: &Job<'_>,
-    named: Named<'_>,
-    method: impl Method<DoublePendulum, f64>,
-    steps: u64,
-    span: Span,
-) -> Result<Series<1>> {
-    let [a, b, dot_a, dot_b] = START;
-    let mut run = Integrator::new(&SYSTEM, method, H, DoublePendulumState { a, b, dot_a, dot_b })?;
-    Ok(job.series(named, &mut run, steps, span, |run, angles| {
-        if run.time() <= SHOWN {
-            angles.push(place(run));
-        }
-        [error(run.energy())]
-    })?)
 }
 
 fn figure(all: &[Series<1>; 3], end: f64) -> Figure {

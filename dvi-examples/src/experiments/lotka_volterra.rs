@@ -14,35 +14,45 @@ const H: f64 = 0.1;
 /// Steps of the beginning, with which the whole is compared.
 const EARLY: u64 = 1000;
 
-/// E − E(0) with the path of the beginning, and the step that failed, infinite if none did.
-type Motion = (Series<1>, f64);
-
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(3 * steps + 2 * EARLY + 2 * steps);
-    let (solid, dashed) = (Stroke::solid, Stroke::dashed);
     let (one_sided, symmetric) = (OneSidedPredators {}, SymmetricPredators {});
-    let gauss = ("one step, Gauss of order 4", solid(GREEN));
+    let plan = Plan { steps, h: H, early: EARLY, intervals: 400, places: EARLY as usize + 1 };
+    let ([blue, green, red], short) =
+        ([BLUE, GREEN, VERMILLION].map(Stroke::solid), Plan { steps: EARLY, ..plan });
+    // Whatever becomes of its parasitic mode.
+    let unwatched = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
+    let (two_step, ended) = job.attempt(("two steps, σ = ½", red), &symmetric, unwatched, START, short)?;
     let all = [
-        follow(job, ("one step, midpoint", solid(BLUE)), &one_sided, OneStep::midpoint(), H, steps)?,
-        follow(job, gauss, &one_sided, OneStepGauss::<2>::new(), H, steps)?,
-        follow(job, ("RK4", dashed(SLATE)), &one_sided, RungeKutta::classical(), H, steps)?,
-        follow(job, ("two steps, σ = ½", solid(VERMILLION)), &symmetric, unwatched(), H, EARLY)?,
+        job.energy(("one step, midpoint", blue), &one_sided, OneStep::midpoint(), START, plan)?,
+        job.energy(
+            ("one step, Gauss of order 4", green),
+            &one_sided,
+            OneStepGauss::<2>::new(),
+            START,
+            plan,
+        )?,
+        job.energy(("RK4", Stroke::dashed(SLATE)), &one_sided, RungeKutta::classical(), START, plan)?,
+        two_step,
     ];
-    let half = follow(job, ("", solid(BLUE)), &one_sided, OneStep::midpoint(), H / 2.0, 2 * steps)?;
-    let watched = follow(job, ("", solid(BLUE)), &symmetric, Sigma::midpoint(), H, EARLY)?;
-    let columns = ["method", "t", "lowest", "mean", "highest"];
-    let table = range_table(&columns, &[""], all.iter().map(|(series, _)| series))?;
-    job.publish(figure(&all, steps as f64 * H), table)?;
-    let [midpoint, gauss, rk4, (_, ended)] = &all;
-    let near = |h: &str, run: &Motion, bound| {
-        Check::new(format!("one step, midpoint, h = {h}: max|ΔH|"), run.0.kept[0].largest, bound)
+    let halved = Plan { steps: 2 * steps, h: H / 2.0, ..plan };
+    let half = job.energy(("", blue), &one_sided, OneStep::midpoint(), START, halved)?;
+    let (_, watched) = job.attempt(("", blue), &symmetric, Sigma::midpoint(), START, short)?;
+    // The steps that failed.
+    let [ended, watched] =
+        [ended, watched].map(|error| error.map_or(f64::INFINITY, |error| error.step as f64));
+    let table = range_table(&["method", "t", "lowest", "mean", "highest"], &[""], &all)?;
+    job.publish(figure(&all, ended, plan.end()), table)?;
+    let [midpoint, gauss, rk4, _] = &all;
+    let near = |h: &str, run: &Series<1>, bound| {
+        Check::new(format!("one step, midpoint, h = {h}: max|ΔH|"), run.kept[0].largest, bound)
     };
     let references = vec![
         near("0.1", midpoint, Bound::Near(1.04e-2, 5e-5)),
         near("0.05", &half, Bound::Near(2.56e-3, 5e-6)),
     ];
-    let [of_midpoint, of_gauss, of_rk4] = [midpoint, gauss, rk4].map(|(series, _)| series.kept[0].growth());
+    let [of_midpoint, of_gauss, of_rk4] = [midpoint, gauss, rk4].map(|series| series.kept[0].growth());
     let fails =
         "the two-step midpoint fails in the symmetric one-form, and its parasitic mode is seen before";
     let between = "steps between the error of the parasitic mode and that";
@@ -51,40 +61,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_most("midpoint: max|ΔH| over all / over 1000 steps", of_midpoint, 1.001)
             .at_most("Gauss of order 4: max|ΔH| over all / over 1000 steps", of_gauss, 1.001)
             .at_least("RK4: max|ΔH| over all / over 1000 steps", of_rk4, 5.0),
-        beyond(fails).at_most("steps until no step is found", *ended, 118.0).at_least(
+        beyond(fails).at_most("steps until no step is found", ended, 118.0).at_least(
             between,
-            ended - watched.1,
+            ended - watched,
             1.0,
         ),
         gauges()?,
     ];
     Ok(Outcome { claims, references, notes: vec![] })
-}
-
-/// The two-step midpoint scheme, whatever becomes of its parasitic mode.
-fn unwatched() -> Sigma {
-    Sigma { parasitic_limit: None, ..Sigma::midpoint() }
-}
-
-fn follow<S: DegenerateLagrangian<State<f64>: From<(f64, f64)>>>(
-    job: &Job<'_>,
-    (name, stroke): Named<'_>,
-    system: &S,
-    method: impl Method<S, f64>,
-    h: f64,
-    steps: u64,
-) -> Result<Motion> {
-    let mut run = Integrator::new(system, method, h, START.into())?;
-    let (energy, mut path) = (run.energy(), vec![place(&run)]);
-    let mut kept = Span::of(steps, h, EARLY).deviations();
-    let ended = job.follow(&mut run, steps, |run| {
-        note(&mut kept, run.time(), [run.energy() - energy]);
-        if run.steps() <= EARLY {
-            path.push(place(run));
-        }
-    });
-    let failed = ended.err().map_or(f64::INFINITY, |error| error.step as f64);
-    Ok((Series { path, ..Series::new(name, stroke, kept) }, failed))
 }
 
 /// Four one-forms that differ by gauges.
@@ -119,14 +103,14 @@ fn end<S: DegenerateLagrangian<State<f64>: From<(f64, f64)>>>(system: &S, h: f64
     Ok(place(&run))
 }
 
-fn figure(all: &[Motion; 4], end: f64) -> Figure {
-    let [(one_step, _), .., (two_step, ended)] = all;
+fn figure(all: &[Series<1>; 4], ended: f64, end: f64) -> Figure {
+    let [one_step, .., two_step] = all;
     let paths = Panel::window("Path", ("*x*", [0.0, 4.5]), ("*y*", [0.0, 4.5])).lines([
         (&one_step.name, Stroke::solid(BLUE).width(2.5), one_step.path.clone()),
         (&two_step.name, Stroke::solid(VERMILLION).width(1.0), two_step.path.clone()),
     ]);
     let labels = ["Error of the energy", "largest |*H* − *H*(0)| of each interval"];
-    let energy = over_time(labels, end, [1e-6, 1.0], all[..3].iter().map(|(series, _)| series), 0);
+    let energy = over_time(labels, end, [1e-6, 1.0], &all[..3], 0);
     Figure::of(format!(
         "From (2, 1), *h* = {H}; two steps with the symmetric one-form end after {ended} of them"
     ))

@@ -14,19 +14,18 @@ const SYSTEM: PhasePendulum = PhasePendulum {};
 /// The start of long runs, and their step.
 const START: PhasePendulumState = PhasePendulumState { x: 2.0, p: 0.0 };
 const H: f64 = 0.2;
-/// Steps of the beginning, with which the whole is compared.
-const EARLY: u64 = 1000;
-
 /// The corners of a polygon at t = 0, 1, …
 type Circles = Vec<Vec<[f64; 2]>>;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(3 * steps);
+    let plan = Plan { steps, h: H, early: 1000, intervals: 400, places: 0 };
+    let [blue, green] = [BLUE, GREEN].map(Stroke::solid);
     let all = [
-        long_run(job, ("one step, midpoint", Stroke::solid(BLUE)), OneStep::midpoint(), steps)?,
-        long_run(job, ("one step, trapezoid", Stroke::solid(GREEN)), OneStep::trapezoid(), steps)?,
-        long_run(job, ("RK4", Stroke::dashed(VERMILLION)), RungeKutta::classical(), steps)?,
+        job.energy(("one step, midpoint", blue), &SYSTEM, OneStep::midpoint(), START, plan)?,
+        job.energy(("one step, trapezoid", green), &SYSTEM, OneStep::trapezoid(), START, plan)?,
+        job.energy(("RK4", Stroke::dashed(VERMILLION)), &SYSTEM, RungeKutta::classical(), START, plan)?,
     ];
     let leapfrog = circles(OneStep::trapezoid(), 100, 8)?;
     let errors = all.iter().flat_map(|series| {
@@ -37,25 +36,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         circle.iter().map(move |[x, p]| (["circle".to_owned()], [t as f64, *x, *p]))
     });
     let table = Table::of(&["series", "t", "x or lowest ΔH", "p or highest ΔH"], errors.chain(points))?;
-    job.publish(figure(&all, &leapfrog, steps as f64 * H), table)?;
+    job.publish(figure(&all, &leapfrog, plan.end()), table)?;
     let text = "the energy error of one-step schemes is no larger in the whole run than in its beginning";
-    let growth = |series: &Series<1>| format!("{}: max|ΔH| over all / over {EARLY} steps", series.name);
+    let growth = |series: &Series<1>| format!("{}: max|ΔH| over all / over 1000 steps", series.name);
     let flat = beyond(text)
         .each(&all[..2], |claim, series| claim.at_most(growth(series), series.kept[0].growth(), 1.001))
         .at_least(growth(&all[2]), all[2].kept[0].growth(), 5.0);
     let references = barnes::areas("trapezoid", &leapfrog).into();
     Ok(Outcome { claims: vec![flat, same_schemes()?, areas()?, periods()?], references, notes: vec![] })
-}
-
-fn long_run(
-    job: &Job<'_>,
-    named: Named<'_>,
-    method: impl Method<PhasePendulum, f64>,
-    steps: u64,
-) -> Result<Series<1>> {
-    let mut run = Integrator::new(&SYSTEM, method, H, START)?;
-    let energy = run.energy();
-    Ok(job.series(named, &mut run, steps, Span::of(steps, H, EARLY), |run, _| [run.energy() - energy])?)
 }
 
 /// A regular polygon about (0, 1), carried along with the step of the experiment `barnes`.
@@ -105,18 +93,15 @@ fn areas() -> Result<Claim> {
 
 /// Where a hundred steps lead that are a hundredth of the period each, against the start.
 fn periods() -> Result<Claim> {
-    fn of(method: impl Method<PhasePendulum, f64> + Copy) -> Result<Option<f64>> {
-        let (sin, cos) = (START.x / 2.0).sin_cos();
-        let period = 4.0 * Elliptic { modulus: sin, complementary: cos }.quarter();
-        order_of([100.0, 150.0, 200.0], |steps| {
-            let PhasePendulumState { x, p } = up_to(&SYSTEM, method, period / steps, START, period)?;
-            Ok((period / steps, distance([x, p], [START.x, START.p])))
-        })
-    }
-    let gauss = of(OneStepGauss::<2>::new())?;
+    let (sin, cos) = (START.x / 2.0).sin_cos();
+    let period = 4.0 * Elliptic { modulus: sin, complementary: cos }.quarter();
+    let (counts, error) = ([100, 150, 200], |q: &[f64]| distance([q[0], q[1]], [START.x, START.p]));
+    let midpoint = order_at(&SYSTEM, OneStep::midpoint(), &START, period, counts, error)?;
+    let trapezoid = order_at(&SYSTEM, OneStep::trapezoid(), &START, period, counts, error)?;
+    let gauss = order_at(&SYSTEM, OneStepGauss::<2>::new(), &START, period, counts, error)?;
     Ok(beyond("the period comes out as the elliptic integral says, to the order of the scheme")
-        .near("midpoint: order of the error after a period", of(OneStep::midpoint())?, [2.0, 0.02])
-        .near("trapezoid: order of the error after a period", of(OneStep::trapezoid())?, [2.0, 0.02])
+        .near("midpoint: order of the error after a period", midpoint, [2.0, 0.02])
+        .near("trapezoid: order of the error after a period", trapezoid, [2.0, 0.02])
         .near("Gauss of order 4: order of the error after a period", gauss, [4.0, 0.05]))
 }
 

@@ -103,20 +103,18 @@ fn keep(all: &[Kept; 3]) -> Claim {
 
 /// The angle by which M has turned at t = 400, over the step.
 fn precession() -> Result<Claim> {
-    fn of(method: impl Method<SphereVortices<3>, f64> + Copy) -> Result<Option<f64>> {
-        order_of([400, 600, 800], |steps| {
-            let h = 400.0 / steps as f64;
-            let mut run = Integrator::new(&THREE, method, h, SphereVortices::state(PLACES))?;
-            let mut direction = Around::new(moment(&THREE, run.q()));
-            run.take_steps(steps)?;
-            Ok((h, direction.turned_to(moment(&THREE, run.q())).abs()))
-        })
-    }
+    let (start, counts) = (SphereVortices::state(PLACES), [400, 600, 800]);
+    let begin = Integrator::new(&THREE, OneStep::midpoint(), H, start)?;
+    let angle = |q: &[f64]| Around::new(moment(&THREE, begin.q())).turned_to(moment(&THREE, q)).abs();
+    let midpoint = order_at(&THREE, OneStep::midpoint(), &start, 400.0, counts, angle)?;
+    let gauss = order_at(&THREE, OneStepGauss::<2>::new(), &start, 400.0, counts, angle)?;
     let text = "the moment turns slowly around the axis of the coordinates, at a rate that falls with the \
                 order of the scheme";
-    Ok(beyond(text)
-        .near("midpoint: order of the angle at t = 400", of(OneStep::midpoint())?, [2.0, 0.1])
-        .near("Gauss of order 4: order of the angle at t = 400", of(OneStepGauss::<2>::new())?, [4.0, 0.2]))
+    Ok(beyond(text).near("midpoint: order of the angle at t = 400", midpoint, [2.0, 0.1]).near(
+        "Gauss of order 4: order of the angle at t = 400",
+        gauss,
+        [4.0, 0.2],
+    ))
 }
 
 /// `v` turned around an axis by an angle (Rodrigues).
