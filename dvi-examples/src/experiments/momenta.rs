@@ -133,8 +133,9 @@ fn claims(all: &[Drifts; 7]) -> Vec<Claim> {
         |all: &[Drifts], quantity: usize| largest(all.iter().filter_map(|drifts| drifts.of[quantity]));
     let [angular, two_form] = [ANGULAR, 4].map(|quantity| move |drifts: &Drifts| drifts.of[quantity]);
     let impulses = larger(most(all, 0), most(all, 1));
+    let text = "the two-form (17) is exactly preserved";
     vec![
-        says("eq. 17", "the two-form (17) is exactly preserved").at_most(
+        says("eq. 17", text).at_most(
             "largest change under the tangent map of a step, σ = 0, ¼, ½",
             most(&all[..4], 4),
             1e-12,
