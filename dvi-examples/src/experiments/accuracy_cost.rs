@@ -78,7 +78,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     Ok(Outcome { claims: claims(job, &all), references: vec![], notes })
 }
 
-/// One run of a problem.
 fn solve(job: &Job<'_>, problem: usize, method: usize, steps: u64, share: f64) -> Result<Course> {
     // Compensated sums, as those of Gauss collocation are.
     let verlet = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };
@@ -125,7 +124,6 @@ where
     }
 }
 
-/// One run, its energy looked at after each step.
 fn follow<S: Lagrangian>(
     job: &Job<'_>,
     (system, start): (&S, S::State<f64>),

@@ -7,7 +7,6 @@
 use crate::models::{Pendulum, PendulumState, Spring, SpringState};
 use crate::vocabulary::*;
 
-/// So many steps in a unit of time.
 const STEPS: usize = 32;
 /// Until when phase curves are followed, the pendulum from (3, 0) has the period 16.16, and circles; and where
 /// the values of the independent programs are.
@@ -44,7 +43,6 @@ const FLOWS: [Flow; 3] = [
     ),
 ];
 
-/// Kick, drift, kick.
 fn orbit<S: RegularLagrangian>(system: &S, start: S::State<f64>, end: usize) -> Result<Curve> {
     let mut run = Integrator::new(system, Variational::trapezoid(), 1.0 / STEPS as f64, start)?;
     // The mass is one: velocities are momenta.

@@ -13,9 +13,7 @@ const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };
 /// Both rods horizontal, at rest: (a, b, a', b').
 const START: [f64; 4] = [FRAC_PI_2, FRAC_PI_2, 0.0, 0.0];
 const H: f64 = 0.01;
-/// How long the path is drawn.
 const SHOWN: f64 = 12.0;
-/// How long the beginning is with which the whole is compared.
 const EARLY: f64 = 100.0;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {

@@ -14,12 +14,10 @@ pub const FEW_UNITS: f64 = 8.0 * f64::EPSILON;
 pub struct Long {
     pub steps: u64,
     pub every: u64,
-    /// The length of a step.
     pub h: f64,
 }
 
 impl Long {
-    /// When it ends.
     pub fn end(self) -> f64 {
         self.steps as f64 * self.h
     }
@@ -47,7 +45,6 @@ impl Long {
         Ok(kept)
     }
 
-    /// A run along geodesics.
     pub fn along_geodesics<const D: usize, S: OnManifold<D>, const N: usize>(
         self,
         job: &Job<'_>,

@@ -14,7 +14,6 @@ const RADIUS: f64 = 0.2;
 /// The velocities along the field at the start, of the banana and of the passing orbit.
 const ORBITS: [(&str, f64); 2] = [("banana", 4e-3), ("passing orbit", 1.2e-2)];
 const H: f64 = 60.0;
-/// Steps of the beginning, with which the whole is compared; several bounces.
 const EARLY: u64 = 2000;
 
 /// The runs of one orbit, in class, out of class, and RK4: the relative changes of the energy and of the

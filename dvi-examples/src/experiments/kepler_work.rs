@@ -38,7 +38,6 @@ const EPSILONS: &[f64] = &[0.2, 0.1, 0.05, 0.02, 0.01, 0.005];
 /// Compositions take many steps in one.
 const LONG_EPSILONS: &[f64] = &[1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
 
-/// Reversible steps.
 fn by(
     method: impl VariableStep<Kepler, f64>,
     (job, orbit, periods): Case<'_>,
@@ -85,7 +84,6 @@ fn contenders() -> [Contender; 13] {
     ]
 }
 
-/// One method on one orbit.
 struct Curve {
     contender: usize,
     e: f64,

@@ -4,22 +4,18 @@
 use crate::models::{self, Case, FourVortices};
 use crate::vocabulary::*;
 
-/// How long the trajectories are that the figure shows.
 const SHOWN: f64 = 200.0;
 
 struct Motion {
     /// The first points of each vortex.
     trajectories: [Vec<[f64; 2]>; 4],
-    /// The distance of vortices 1 and 2.
     distance: Envelope,
     /// Times at which one of vortices 1 and 2 overtakes the other.
     overtakings: Vec<f64>,
     end: f64,
-    /// The largest coordinate at the end.
     extent: f64,
     /// The largest deviation from mirror symmetry about y = 0.
     asymmetry: f64,
-    /// The error that ended the run early.
     failure: Option<StepError>,
 }
 

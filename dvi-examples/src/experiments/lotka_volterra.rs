@@ -11,7 +11,6 @@ use crate::vocabulary::*;
 
 const START: (f64, f64) = (2.0, 1.0);
 const H: f64 = 0.1;
-/// Steps of the beginning, with which the whole is compared.
 const EARLY: u64 = 1000;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {

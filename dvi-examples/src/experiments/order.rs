@@ -12,14 +12,12 @@ const MIRRORED: f64 = (3.0 + ROOT_3) / 6.0;
 /// (3 − √3)/2, what the paper prints at the end of section 4.1.
 const PRINTED: f64 = (3.0 - ROOT_3) / 2.0;
 const SIGMAS: [f64; 13] = [0.0, 0.1, SPECIAL, 0.3, 0.4, 0.5, 0.6, PRINTED, 0.7, MIRRORED, 0.85, 0.9, 1.0];
-/// Those whose errors are drawn.
 const DRAWN: [(f64, &str, Colour); 4] = [
     (0.0, "σ = 0", BLUE),
     (SPECIAL, "σ = (3 − √3)/6", INK),
     (0.5, "σ = ½", VERMILLION),
     (PRINTED, "σ = (3 − √3)/2", GREEN),
 ];
-/// When the runs with vortices end.
 const END: f64 = 4.0;
 
 /// What is measured with one σ, on the linear equation and on the vortices.

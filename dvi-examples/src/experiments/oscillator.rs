@@ -14,14 +14,12 @@ const SYSTEM: Spring = Spring { k: 1.0 };
 const START: SpringState = SpringState { x: 1.0, dot_x: 1.0 };
 /// u from 0.1 to 3.
 const STEPS: u32 = 30;
-/// Runs from given velocities take that many steps.
 const FEW: u64 = 1000;
 /// √3 π/2: the two-point Gauss rule has S = cos(u/√3) = 0 there.
 const RESONANCE: f64 = 2.720_699_046_35;
 /// Four of the eight rules are drawn; the others lie among them, and are in the table.
 const SHOWN: [(usize, Colour); 4] = [(0, BLUE), (1, SLATE), (2, VERMILLION), (5, INK)];
 
-/// A number for each u.
 type Curve = Vec<[f64; 2]>;
 
 /// A rule, with max |q_k − exact orbit through q_0 and q_1|, and p/v by the first step of a run.
@@ -81,7 +79,6 @@ fn at_one(curve: &Curve) -> Option<f64> {
     curve.iter().find(|[u, _]| *u == 1.0).map(|[_, value]| *value)
 }
 
-/// The rule fitted to the oscillator.
 fn fitted(rule: Quadrature) -> Variational<Constant> {
     Variational::new(rule).phase_fitted(Constant(1.0))
 }
@@ -103,7 +100,6 @@ fn momentum_factor(rule: Quadrature, u: f64) -> Result<f64> {
     Ok(u.sin() / run.q()[0])
 }
 
-/// The errors from the same position and velocity.
 fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Result<Curve> {
     curve(|u| {
         let (mut run, mut largest) = (Integrator::new(&SYSTEM, method, u, START)?, 0.0f64);

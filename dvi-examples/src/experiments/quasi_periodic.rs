@@ -96,7 +96,6 @@ impl Curve {
         Self { corners }
     }
 
-    /// The ranges of both coordinates with a margin.
     fn frame(&self) -> [[f64; 2]; 2] {
         if self.corners.is_empty() {
             return [[-2.6, 2.6]; 2];

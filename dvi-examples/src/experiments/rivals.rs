@@ -8,7 +8,6 @@ use super::kepler::Course;
 use crate::models::{LeviCivita, LeviCivitaState, Orbit};
 use crate::vocabulary::*;
 
-/// What a rival has shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rival {
     pub course: Course,

@@ -18,7 +18,6 @@ const RUNS: [usize; 4] = [0, 1, 2, 3];
 /// An odd number of steps from look to look, so that no phase of the motion is preferred.
 const STRIDE: u64 = 37;
 const PER_DECADE: f64 = 8.0;
-/// From here on growth is measured.
 const FIRST: f64 = 1e4;
 
 /// What is conserved but for rounding, with its title; and the share of the steps that are taken, which is

@@ -14,7 +14,6 @@ const OMEGA: f64 = 4.0;
 /// Steps for each period 2π/ω.
 const STEPS: u64 = 24;
 const H: f64 = TAU / (OMEGA * STEPS as f64);
-/// Periods of the beginning, with which the whole is compared.
 const EARLY: u64 = 100;
 /// By what the breather is too large at its centre at the start, and the amplitude of a weak excitation of
 /// one site.
@@ -60,7 +59,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     .into())
 }
 
-/// ψ = u, real.
 fn state(u: Amplitudes) -> SchroedingerLatticeState<SITES> {
     SchroedingerLatticeState { q: u.map(|u| SQRT_2 * u), p: [0.0; SITES] }
 }

@@ -24,7 +24,6 @@ const STEPS: [f64; 3] = [0.1, 0.05, 0.025];
 /// The time at which the order is measured, and the step of the reference.
 const ORDER_TIME: f64 = 8.0;
 const FINE: f64 = 2e-3;
-/// How long the path is drawn.
 const DRAWN: f64 = 37.0;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {

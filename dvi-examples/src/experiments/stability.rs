@@ -18,10 +18,8 @@ const SIGMAS: [f64; 18] = [
 const LARGE: f64 = 1e8;
 /// λh that damp, the first of which is drawn.
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
-/// Steps of the runs with them.
 const FEW: u64 = 1000;
 
-/// Both modes are wanted.
 fn unlimited(sigma: f64) -> Sigma {
     Sigma { parasitic_limit: None, ..Sigma::new(sigma) }
 }

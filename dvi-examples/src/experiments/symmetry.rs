@@ -8,7 +8,6 @@ use crate::models::{self, Case};
 use crate::vocabulary::*;
 
 const H: f64 = 2.0;
-/// The paper's time.
 const PAPER: f64 = 2e5;
 /// How far vortex 1 is displaced.
 const DISPLACEMENT: [f64; 2] = [0.05, 0.035];
@@ -86,7 +85,6 @@ impl Motion {
         largest(self.errors.rows.iter().filter(|row| row.0 <= t).map(|row| row.1[0]))
     }
 
-    /// How the run ended, in words.
     fn ending(&self) -> String {
         let Self { name, lost, end, failure, .. } = self;
         match failure {

@@ -21,11 +21,9 @@ const RADIUS: f64 = 0.2;
 const H: f64 = 60.0;
 /// Steps of the orbit that is compared: two bounces of the banana.
 const COMPARED: u64 = 200;
-/// Steps of the beginning, with which the energy of the whole is compared.
 const EARLY: u64 = 2000;
 /// The intervals of the grid across the section.
 const GRIDS: [usize; 14] = [8, 9, 11, 13, 15, 18, 21, 25, 29, 34, 40, 47, 55, 64];
-/// Of the table in the long run.
 const COARSE: usize = 12;
 
 /// One kind of spline on all grids: the intervals across the section, and the root mean square of how far the

@@ -13,7 +13,6 @@ use crate::vocabulary::*;
 const START: Species = [0.3, 0.7, 2.0];
 const OTHERS: [Species; 3] = [[0.1, 0.9, 2.0], [0.6, 0.9, 1.5], [0.85, 1.0, 1.15]];
 const H: f64 = 0.1;
-/// Steps of the beginning, with which the whole is compared.
 const EARLY: u64 = 2000;
 
 type Species = [f64; 3];
@@ -63,14 +62,12 @@ fn state(species: Species) -> ThreeSpeciesState {
     ThreeSpeciesState { x: species[0], s: 0.0, y: species[1], w: product(species).ln() }
 }
 
-/// The species at each step.
 fn orbit(start: Species, h: f64, steps: u64) -> Result<Vec<Species>> {
     let mut run = Integrator::new(&ThreeSpecies {}, OneStep::midpoint(), h, state(start))?;
     let species = |ThreeSpeciesState { x, y, w, .. }: ThreeSpeciesState| [x, y, w.exp() / (x * y)];
     Ok(course(&mut run, steps, |run| species(run.state()))?)
 }
 
-/// The equations of x, y and z as they are.
 fn rates(&[x, y, z]: &Species) -> Species {
     [x * (y - z), y * (z - x), z * (x - y)]
 }

@@ -73,7 +73,6 @@ fn begin() -> TopState {
     Top::leaning(LEANING, RATES)
 }
 
-/// The energy, with that of the spin.
 fn energy(heights: &Heights) -> f64 {
     heights.energy + heights.spin * heights.spin / (2.0 * TOP.along)
 }

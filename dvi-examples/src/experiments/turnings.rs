@@ -4,7 +4,6 @@ use super::shadow::Shadow;
 use crate::models::Heights;
 use crate::vocabulary::*;
 
-/// The turnings of a run with steps of one length.
 struct Turnings {
     h: f64,
     last: Option<Sample>,
@@ -52,7 +51,6 @@ pub fn up_and_down(
 }
 
 impl Turnings {
-    /// Adds a point of the run, one step after the point before.
     fn push(&mut self, sample: Sample) {
         if let Some(before) = self.last.replace(sample)
             && before.rate * sample.rate < 0.0
