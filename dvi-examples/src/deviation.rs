@@ -5,7 +5,7 @@
 
 use anyhow::Result;
 
-use crate::figure::{Axis, Envelope, Panel, Stroke, at_most};
+use crate::figure::{Axis, Envelope, Panel, Stroke};
 use crate::numbers::{larger, least};
 use crate::output::Table;
 
@@ -104,6 +104,23 @@ impl Span {
     }
 }
 
+/// How long a run is of which the energy is watched, with how many steps that are its beginning, the intervals
+/// in which it is drawn, and how many of its first places are kept.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    pub steps: u64,
+    pub h: f64,
+    pub early: u64,
+    pub intervals: usize,
+    pub places: usize,
+}
+
+impl Plan {
+    pub fn end(self) -> f64 {
+        self.steps as f64 * self.h
+    }
+}
+
 /// Adds the values of several quantities at time `t`.
 pub fn note<const N: usize>(kept: &mut [Deviation; N], t: f64, values: [f64; N]) {
     kept.iter_mut().zip(values).for_each(|(deviation, value)| deviation.push(t, value));
@@ -125,16 +142,6 @@ pub struct Series<const N: usize> {
 impl<const N: usize> Series<N> {
     pub fn new(name: impl Into<String>, stroke: Stroke, kept: [Deviation; N]) -> Self {
         Self { name: name.into(), stroke, kept, path: Vec::new() }
-    }
-
-    /// The largest magnitude of a quantity, as figures tell it: that of a bound.
-    pub fn bound(&self, quantity: usize) -> String {
-        at_most(self.kept[quantity].largest)
-    }
-
-    /// The path, for [`Panel::lines`].
-    pub fn path(&self) -> (&str, Stroke, Vec<[f64; 2]>) {
-        self.line(self.path.clone())
     }
 
     /// What the series is, for [`Panel::lines`], over any points.

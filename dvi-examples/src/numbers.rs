@@ -69,6 +69,22 @@ pub fn side_by_side<T: Send, U: Send, const N: usize>(
     made.try_into().ok().context("not as many results as cases")
 }
 
+/// What `make` makes of each of the cases, and what is told of those in which it fails: their names and errors.
+pub fn attempts<T: Copy, U>(
+    cases: impl IntoIterator<Item = T>,
+    make: impl Fn(T) -> Result<U>,
+    name: impl Fn(T) -> String,
+) -> (Vec<U>, Vec<String>) {
+    let (mut made, mut failures) = (Vec::new(), Vec::new());
+    for case in cases {
+        match make(case) {
+            Ok(one) => made.push(one),
+            Err(error) => failures.push(format!("{}: {error}.", name(case))),
+        }
+    }
+    (made, failures)
+}
+
 /// The order that the errors of several cases show: `error` returns the length of the steps and the error.
 pub fn order_of<T>(
     cases: impl IntoIterator<Item = T>,

@@ -4,7 +4,7 @@ use anyhow::Result;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
-use crate::numbers::{apart, each};
+use crate::numbers::{apart, each, order_of};
 
 /// What `of` reads of a run, at its start and after each of so many steps.
 pub fn course<R: Run, T>(run: &mut R, steps: u64, mut of: impl FnMut(&R) -> T) -> Result<Vec<T>, StepError> {
@@ -32,6 +32,22 @@ pub fn up_to<S: Lagrangian>(
     let mut run = Integrator::new(system, method, h, start)?;
     run.take_steps((end / h).round() as u64)?;
     Ok(run.state())
+}
+
+/// The order that errors after time `end` show, of runs with so many steps; `error` is that of the coordinates.
+pub fn order_at<S: Lagrangian, const N: usize>(
+    system: &S,
+    method: impl Method<S, f64> + Clone,
+    start: &S::State<f64>,
+    end: f64,
+    counts: [u64; N],
+    error: impl Fn(&[f64]) -> f64,
+) -> Result<Option<f64>> {
+    order_of(counts, |steps| {
+        let mut run = Integrator::new(system, method.clone(), end / steps as f64, start.clone())?;
+        run.take_steps(steps)?;
+        Ok((end / steps as f64, error(run.q())))
+    })
 }
 
 /// The largest difference of a coordinate or velocity from the start, after steps there and as many back.

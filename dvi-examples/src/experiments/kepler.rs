@@ -14,35 +14,24 @@ impl<R: Run<System = Kepler, Scalar = f64>> KeplerRun for R {}
 /// What a run has shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Course {
-    /// Steps per period.
     pub steps: f64,
     /// Evaluations of the force per period, those with its derivative included.
     pub evaluations: f64,
-    /// max |E − E(0)|.
     pub energy: f64,
     /// The largest distance from the exact position, where it was asked for.
     pub position: f64,
 }
 
-/// What is known at the end of a step.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    pub t: f64,
-    /// E − E(0).
-    pub energy: f64,
-    pub q: [f64; 2],
-}
-
 /// A run that takes more steps for one period has left its orbit.
 const MOST_STEPS: u64 = 3_000_000;
 
-/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the end of
-/// each step to `look`.
+/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the time, E −
+/// E(0) and the place at the end of each step to `look`.
 pub fn follow(
     job: &Job<'_>,
     run: &mut impl KeplerRun,
     periods: u64,
-    mut look: impl FnMut(Sample),
+    mut look: impl FnMut((f64, f64, [f64; 2])),
 ) -> Result<Course> {
     let initial = run.energy();
     let mut course = Course::default();
@@ -56,9 +45,9 @@ pub fn follow(
             ensure!(steps < MOST_STEPS, "more than {MOST_STEPS} steps for a period, at E = {energy:.3}");
             steps += 1;
             run.advance()?;
-            let sample = Sample { t: run.time(), energy: run.energy() - initial, q: place(run) };
-            course.energy = larger(course.energy, sample.energy.abs());
-            look(sample);
+            let change = run.energy() - initial;
+            course.energy = larger(course.energy, change.abs());
+            look((run.time(), change, place(run)));
         }
         done += 1;
         job.proceed(1);
@@ -76,8 +65,7 @@ pub fn follow(
 /// Follows a run and compares it with the exact positions as well.
 pub fn compare(job: &Job<'_>, run: &mut impl KeplerRun, orbit: Orbit, periods: u64) -> Result<Course> {
     let mut position = 0.0f64;
-    let course =
-        follow(job, run, periods, |sample| position = larger(position, orbit.error(sample.t, &sample.q)))?;
+    let course = follow(job, run, periods, |(t, _, q)| position = larger(position, orbit.error(t, &q)))?;
     Ok(Course { position, ..course })
 }
 

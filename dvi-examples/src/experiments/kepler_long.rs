@@ -16,9 +16,6 @@ const EPSILON: f64 = 0.02;
 const TOLERANCE: f64 = 0.01;
 /// After so many periods of steps by (23) as printed there is nothing left of the orbit.
 const LOST: u64 = 1000;
-/// Periods after which the early energy errors are noted.
-const EARLY: f64 = 100.0;
-const SETTLED: f64 = 300.0;
 
 /// In the order of their curves, with what a period of each costs, as the progress counts it.
 const CONTENDERS: [(&str, Colour, u64); 6] = [
@@ -35,7 +32,7 @@ struct Orbits {
     /// The time in periods, |E − E(0)|, and the position error.
     errors: Decades<3>,
     course: Course,
-    /// max |E − E(0)| over the first `EARLY` and the first `SETTLED` periods.
+    /// max |E − E(0)| over the first 100 and the first 300 periods.
     early: f64,
     settled: f64,
     failure: Option<anyhow::Error>,
@@ -72,22 +69,22 @@ impl Orbits {
     fn of(job: &Job<'_>, mut run: impl KeplerRun, periods: u64, cost: u64) -> Self {
         let (mut errors, mut early, mut settled) = (Decades::new(40.0), 0.0, 0.0);
         let (mut energy, mut position, mut whole, mut phase) = (0.0f64, 0.0f64, 1.0, Phase::default());
-        let ended = follow(job, &mut run, periods, |sample| {
-            let (time, error) = (sample.t / TAU, ORBIT.error_after(&mut phase, sample.t, &sample.q));
+        let ended = follow(job, &mut run, periods, |(t, change, q)| {
+            let (time, error) = (t / TAU, ORBIT.error_after(&mut phase, t, &q));
             // The end of the run belongs to the interval before it.
             let within = time.max(0.1).min((1.0 - 1e-7) * periods as f64);
-            errors.push(within, [time, sample.energy.abs(), error]);
+            errors.push(within, [time, change.abs(), error]);
             // `follow` itself counts one for each period.
             if time >= whole {
                 whole += 1.0;
                 job.proceed(cost - 1);
             }
-            energy = larger(energy, sample.energy.abs());
+            energy = larger(energy, change.abs());
             position = larger(position, error);
-            if time <= EARLY {
+            if time <= 100.0 {
                 early = energy;
             }
-            if time <= SETTLED {
+            if time <= 300.0 {
                 settled = energy;
             }
         });
@@ -98,14 +95,9 @@ impl Orbits {
         Self { errors, course: Course { position, ..course }, early, settled, failure }
     }
 
-    /// How much the largest energy error has grown since `SETTLED` periods.
+    /// How much the largest energy error has grown since 300 periods.
     fn growth(&self) -> f64 {
         self.course.energy / self.settled
-    }
-
-    /// The time of the last step, in periods.
-    fn reached(&self) -> f64 {
-        self.errors.rows.last().map_or(0.0, |(_, row)| row[0])
     }
 }
 
@@ -165,12 +157,14 @@ fn references(job: &Job<'_>, [verlet, _, _, coarse, fine, lobatto]: &[Orbits; 6]
 
 fn notes(all: &[Orbits; 6]) -> Vec<String> {
     let line = |(orbits, (name, ..)): (&Orbits, (&str, Colour, u64))| {
-        let (name, last, course) = (name.replace('*', ""), orbits.reached(), &orbits.course);
+        let (name, course) = (name.replace('*', ""), &orbits.course);
+        // The time of the last step.
+        let last = orbits.errors.rows.last().map_or(0.0, |(_, row)| row[0]);
         match &orbits.failure {
             Some(error) => format!("{name}: ended after {last:.0} periods, {error}."),
             None => format!(
                 "{name}: {:.0} steps and {:.0} evaluations per period; max|ΔE| {:.3e} over the first \
-                 {SETTLED} periods, {:.3e} over {last:.0}; position error up to {:.3}.",
+                 300 periods, {:.3e} over {last:.0}; position error up to {:.3}.",
                 course.steps, course.evaluations, orbits.settled, course.energy, course.position
             ),
         }
@@ -190,8 +184,7 @@ fn figure(all: &[Orbits; 6], periods: u64) -> Figure {
     let energy = panel("Energy", "largest |*E* − *E*(0)|   [μ/*a*]", 1).without_legend();
     let position = panel("Position", "largest distance from the exact position   [*a*]", 2)
         .guide([[0.1, 2.0], [end, 2.0]], "the diameter of the orbit");
-    Figure::new(
-        "A Kepler orbit with *e* = 0.95: largest errors in each interval of time",
+    Figure::of(
         "Left-frozen: Simpson's rule; in *L*_d: Lobatto's with four nodes. (23) with *v*_o per unit of arc \
          length, and its tolerance",
     )

@@ -5,7 +5,7 @@ use dvi_core::methods::VariableStep;
 use rayon::prelude::*;
 
 use super::kepler::{Course, compare, fixed, osculating, reversible};
-use super::rivals::{Rival, levi_civita, logarithmic_hamiltonian};
+use super::rivals::{levi_civita, logarithmic_hamiltonian};
 use crate::models::{Kepler, Orbit};
 use crate::vocabulary::*;
 
@@ -38,7 +38,6 @@ const EPSILONS: &[f64] = &[0.2, 0.1, 0.05, 0.02, 0.01, 0.005];
 /// Compositions take many steps in one.
 const LONG_EPSILONS: &[f64] = &[1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
 
-/// Reversible steps.
 fn by(
     method: impl VariableStep<Kepler, f64>,
     (job, orbit, periods): Case<'_>,
@@ -80,12 +79,11 @@ fn contenders() -> [Contender; 13] {
         of("Galerkin, order 4",    solid(PURPLE).opacity(0.4), LONG_EPSILONS, |case, epsilon| by(Galerkin::<3>::new(), case, epsilon)),
         of("Galerkin, order 6",    solid(PURPLE),     LONG_EPSILONS, |case, epsilon| by(Galerkin::<4>::new(), case, epsilon)),
         of("Galerkin, order 8",    dashed(PURPLE),    LONG_EPSILONS, |case, epsilon| by(Galerkin::<5>::new(), case, epsilon)),
-        of("log-*H* leapfrog",     solid(AMBER),      &[25.0, 100.0, 400.0, 1600.0], |(job, orbit, periods), n| Ok(logarithmic_hamiltonian(job, orbit, n as u32, periods).course)),
+        of("log-*H* leapfrog",     solid(AMBER),      &[25.0, 100.0, 400.0, 1600.0], |(job, orbit, periods), n| Ok(logarithmic_hamiltonian(job, orbit, n as u32, periods)?.course)),
         of("Levi-Civita, fitted",  dashed(INK),       &[8.0, 16.0, 32.0], |(job, orbit, periods), n| Ok(levi_civita(job, orbit, n as u32, periods)?.course)),
     ]
 }
 
-/// One method on one orbit.
 struct Curve {
     contender: usize,
     e: f64,
@@ -103,20 +101,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(runs as u64 * periods + 3 * long);
     let curve = |(contender, e)| {
         let Contender { name, knobs, run, .. } = &all[contender];
-        let (mut courses, mut failures) = (Vec::new(), Vec::new());
-        for &knob in *knobs {
-            match run((job, Orbit { e }, periods), knob) {
-                Ok(course) => courses.push(course),
-                Err(error) => {
-                    failures.push(format!("{}, e = {e}, at {knob}: {error}.", name.replace('*', "")));
-                }
-            }
-        }
+        let course = |&knob: &f64| run((job, Orbit { e }, periods), knob);
+        let told = |knob: &f64| format!("{}, e = {e}, at {knob}", name.replace('*', ""));
+        let (courses, failures) = attempts(*knobs, course, told);
         Curve { contender, e, courses, failures }
     };
     let curves: Vec<Curve> = pairs.into_par_iter().map(curve).collect();
     let orbit = Orbit { e: 0.95 };
-    let leapfrog = logarithmic_hamiltonian(job, orbit, 25, long);
+    let leapfrog = logarithmic_hamiltonian(job, orbit, 25, long)?;
     let [regular, shorter] = each([8, 32], |steps| levi_civita(job, orbit, steps, long))?;
     let columns =
         ["method", "e", "steps_per_period", "evaluations_per_period", "energy_error", "position_error"];
@@ -159,25 +151,26 @@ fn energy(curves: &[Curve], contender: usize) -> Option<f64> {
 
 fn figure(all: &[Contender], curves: &[Curve]) -> Figure {
     let row = |title: &str, label: &str, of: fn(&Course) -> f64| {
-        let [left, right] = SHOWN.map(|e| {
+        let panels = SHOWN.map(|e| {
             let shown = curves.iter().map(|curve| (curve, &all[curve.contender]));
             let shown = shown.filter(|(curve, method)| curve.e == e && DRAWN.contains(&method.name));
             let work = ("evaluations of the force per period", [5.0, 5e4]);
-            Panel::loglog(format!("{title} error over work, *e* = {e}"), work, (label, [1e-15, 10.0]))
-                .marked(shown.map(|(curve, Contender { name, stroke, .. })| {
-                    let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
-                    (*name, *stroke, points.collect())
-                }))
+            let empty =
+                Panel::loglog(format!("{title} error over work, *e* = {e}"), work, (label, [1e-15, 10.0]));
+            empty.marked(shown.map(|(curve, Contender { name, stroke, .. })| {
+                let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
+                (*name, *stroke, points.collect())
+            }))
         });
-        vec![left.without_legend(), right.legend_at(Corner::Beside).weight(1.3)]
+        panels.into()
     };
-    Figure::new(
-        "Kepler orbits: largest errors over many periods against evaluations of the force",
+    let position = "largest distance from the exact position   [*a*]";
+    Figure::of(
         "Reversible steps in proportion to *r*^(3/2); six of 13 methods and two of four eccentricities: the \
          table has all",
     )
-    .row(390.0, row("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy))
-    .row(390.0, row("Position", "largest distance from the exact position   [*a*]", |course| course.position))
+    .row_with_legend(390.0, row("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy), 1.3)
+    .row_with_legend(390.0, row("Position", position, |course| course.position), 1.3)
     .footer(
         "Evaluations include those with a derivative. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
     )

@@ -4,22 +4,18 @@
 use crate::models::{self, Case, FourVortices};
 use crate::vocabulary::*;
 
-/// How long the trajectories are that the figure shows.
 const SHOWN: f64 = 200.0;
 
 struct Motion {
     /// The first points of each vortex.
     trajectories: [Vec<[f64; 2]>; 4],
-    /// The distance of vortices 1 and 2.
     distance: Envelope,
     /// Times at which one of vortices 1 and 2 overtakes the other.
     overtakings: Vec<f64>,
     end: f64,
-    /// The largest coordinate at the end.
     extent: f64,
     /// The largest deviation from mirror symmetry about y = 0.
     asymmetry: f64,
-    /// The error that ended the run early.
     failure: Option<StepError>,
 }
 
@@ -108,11 +104,8 @@ fn figure(ve2: &Motion, rk2: &Motion, exact: &Motion) -> Figure {
     let axis = Axis::logarithmic("|*z*₁ − *z*₂|   [*L*]");
     let distance = Panel::new("Distance of vortices 1 and 2 (range and mean)", time, axis)
         .ranges([("RK2, *h* = 2", SLATE, &rk2.distance), ("VE2, *h* = 2", GREEN, &ve2.distance)]);
-    Figure::new(
-        "Two leapfrogging pairs with *h* = 2: trajectories, and the distance of two vortices with VE2 and RK2",
-        "Γ = 1 above, Γ = −1 below; Γ and *L*: units of circulation and length",
-    )
-    .row(400.0, vec![paths.legend_at(Corner::Beside)])
-    .row(300.0, vec![distance.legend_at(Corner::Beside)])
-    .footer("After Rowley & Marsden 2002, Fig. 3.")
+    Figure::of("Γ = 1 above, Γ = −1 below; Γ and *L*: units of circulation and length")
+        .row(400.0, vec![paths.legend_at(Corner::Beside)])
+        .row(300.0, vec![distance.legend_at(Corner::Beside)])
+        .footer("After Rowley & Marsden 2002, Fig. 3.")
 }

@@ -173,6 +173,11 @@ pub const ALL: &[Experiment] = &[
         "Of three species one step keeps xyz to rounding, by a coordinate that is conjugate to the Casimir"),
 ];
 
+/// The title of an experiment.
+pub fn title(name: &str) -> &'static str {
+    ALL.iter().find(|experiment| experiment.name == name).map_or("", |experiment| experiment.title)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -12,14 +12,12 @@ const MIRRORED: f64 = (3.0 + ROOT_3) / 6.0;
 /// (3 − √3)/2, what the paper prints at the end of section 4.1.
 const PRINTED: f64 = (3.0 - ROOT_3) / 2.0;
 const SIGMAS: [f64; 13] = [0.0, 0.1, SPECIAL, 0.3, 0.4, 0.5, 0.6, PRINTED, 0.7, MIRRORED, 0.85, 0.9, 1.0];
-/// Those whose errors are drawn.
 const DRAWN: [(f64, &str, Colour); 4] = [
     (0.0, "σ = 0", BLUE),
     (SPECIAL, "σ = (3 − √3)/6", INK),
     (0.5, "σ = ½", VERMILLION),
     (PRINTED, "σ = (3 − √3)/2", GREEN),
 ];
-/// When the runs with vortices end.
 const END: f64 = 4.0;
 
 /// What is measured with one σ, on the linear equation and on the vortices.
@@ -83,6 +81,7 @@ fn claims(rows: &[Row]) -> Vec<Claim> {
     };
     let but_one = from_two(0, &[SPECIAL]);
     let (second, fourth) = ([2.0, 0.02], [4.0, 0.02]);
+    let text = "σ = (3 − √3)/6 is fourth-order accurate";
     vec![
         says("section 4.1", "second order for every σ except (3 − √3)/6")
             .at_most("largest |order − 2| of the others, linear", but_one, 0.02)
@@ -90,11 +89,7 @@ fn claims(rows: &[Row]) -> Vec<Claim> {
             .near("order on z' = iz, σ = (3 + √3)/6", linear(MIRRORED), fourth)
             .at_most("largest |order − 2| of the rest, linear", from_two(0, &[SPECIAL, MIRRORED]), 0.02)
             .at_most("largest |order − 2| of all σ, vortices", from_two(1, &[]), 0.02),
-        says("section 4.1, on x' = λx", "σ = (3 − √3)/6 is fourth-order accurate").near(
-            "order on z' = iz",
-            linear(SPECIAL),
-            fourth,
-        ),
+        says("section 4.1, on x' = λx", text).near("order on z' = iz", linear(SPECIAL), fourth),
         beyond("the fourth order is for linear equations only")
             .near("order on vortices, σ = (3 − √3)/6", vortices(SPECIAL), second)
             .near("order on vortices, σ = (3 + √3)/6", vortices(MIRRORED), second),
@@ -136,9 +131,8 @@ fn figure(rows: &[Row]) -> Figure {
         .note([SPECIAL, 4.15], Anchor::Middle, SLATE, "(3 − √3)/6")
         .note([MIRRORED, 4.15], Anchor::Middle, SLATE, "(3 + √3)/6")
         .note([PRINTED, 2.15], Anchor::Middle, SLATE, "(3 − √3)/2");
-    let title = "Orders of convergence of the σ-family, on a linear equation and on four vortices";
     let vortices = vortices.legend_at(Corner::Beside).weight(1.35);
-    Figure::new(title, "From two exact starting values; orders fitted to the three shortest steps")
+    Figure::of("From two exact starting values; orders fitted to the three shortest steps")
         .row(430.0, vec![linear.without_legend(), vortices, over_sigma])
         .footer("Rowley & Marsden 2002, section 4.1.")
 }

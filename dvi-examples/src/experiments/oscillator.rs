@@ -4,8 +4,6 @@
 //! where sin u ≠ 0 and S = Σ w cos((1 − 2c)u) ≠ 0. The momentum is s·v with s = uS/sin u: a run that starts
 //! from a velocity has a wrong amplitude for ever, unless the weights are fitted too.
 
-use std::f64::consts::FRAC_PI_2;
-
 use dvi_core::discrete::{Frequency, FrequencyIn, Rule as _};
 
 use crate::models::{Spring, SpringState};
@@ -16,14 +14,12 @@ const SYSTEM: Spring = Spring { k: 1.0 };
 const START: SpringState = SpringState { x: 1.0, dot_x: 1.0 };
 /// u from 0.1 to 3.
 const STEPS: u32 = 30;
-/// Runs from given velocities take that many steps.
 const FEW: u64 = 1000;
 /// √3 π/2: the two-point Gauss rule has S = cos(u/√3) = 0 there.
 const RESONANCE: f64 = 2.720_699_046_35;
 /// Four of the eight rules are drawn; the others lie among them, and are in the table.
 const SHOWN: [(usize, Colour); 4] = [(0, BLUE), (1, SLATE), (2, VERMILLION), (5, INK)];
 
-/// A number for each u.
 type Curve = Vec<[f64; 2]>;
 
 /// A rule, with max |q_k − exact orbit through q_0 and q_1|, and p/v by the first step of a run.
@@ -83,7 +79,6 @@ fn at_one(curve: &Curve) -> Option<f64> {
     curve.iter().find(|[u, _]| *u == 1.0).map(|[_, value]| *value)
 }
 
-/// The rule fitted to the oscillator.
 fn fitted(rule: Quadrature) -> Variational<Constant> {
     Variational::new(rule).phase_fitted(Constant(1.0))
 }
@@ -105,7 +100,6 @@ fn momentum_factor(rule: Quadrature, u: f64) -> Result<f64> {
     Ok(u.sin() / run.q()[0])
 }
 
-/// The errors from the same position and velocity.
 fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Result<Curve> {
     curve(|u| {
         let (mut run, mut largest) = (Integrator::new(&SYSTEM, method, u, START)?, 0.0f64);
@@ -149,6 +143,8 @@ fn claims(rows: &[Row; 8], given: &[Given; 7]) -> Result<Vec<Claim>> {
         _ => f64::NAN,
     };
     let weighted = "largest error of the recursion times |S sin u|, u = 0.1 … 3";
+    let text = "only the positions are: p = s·v with s = uS/sin u";
+    let other = "where S = 0 the step does not exist, and a run is refused";
     Ok(vec![
         says("eqs. 13–15", "the phase-fitted family solves the oscillator exactly at any step")
             .each(rows, |claim, (name, rule, recursion, _)| {
@@ -156,20 +152,12 @@ fn claims(rows: &[Row; 8], given: &[Given; 7]) -> Result<Vec<Claim>> {
                 claim.of(name).at_most(weighted, largest(errors), 1e-9)
             })
             .at_most("all rules: largest error where |S sin u| ≥ 0.1", largest(well_placed), 1e-9),
-        beyond("only the positions are: p = s·v with s = uS/sin u").at_most(
-            "largest relative deviation from the formula",
-            largest(defects),
-            1e-11,
-        ),
+        beyond(text).at_most("largest relative deviation from the formula", largest(defects), 1e-11),
         beyond("a start from velocities costs |v(1/s − 1)/ω|, unless weights are fitted too")
             .near("phase only, midpoint at u = 1: max|q − exact|", at_one(phase), [expected, 1e-4])
             .at_most("momenta too, midpoint: max|q − exact|", most(both), 1e-10)
             .at_most("momenta too, Simpson: max|q − exact|", most(simpson_both), 1e-10),
-        beyond("where S = 0 the step does not exist, and a run is refused").at_most(
-            "two-point Gauss at u = √3 π/2: |S| in the error",
-            refused,
-            1e-10,
-        ),
+        beyond(other).at_most("two-point Gauss at u = √3 π/2: |S| in the error", refused, 1e-10),
     ])
 }
 
@@ -187,10 +175,9 @@ fn figure(rows: &[Row; 8], given: &[Given; 7], many: u64) -> Figure {
         let curve = us.map(|u| [u, formula(&rows[rule].1, u)]).collect();
         panel.line(curve, Stroke::solid(colour).width(1.2)).dots(rows[rule].3.clone(), 3.0, colour)
     });
-    Figure::new(
-        "The harmonic oscillator at steps up to *u* = ω*h* = 3, with and without phase fitting",
-        "Dashed: linear interpolation. Right: dots measured, lines *s* = *uS*/sin *u*",
-    )
-    .row(460.0, vec![velocity, recursion, factor])
-    .footer("Kosmas & Vlachos, section 3; the momentum is not in the paper. *S* = Σ*w* cos((1 − 2*c*)*u*).")
+    Figure::of("Dashed: linear interpolation. Right: dots measured, lines *s* = *uS*/sin *u*")
+        .row(460.0, vec![velocity, recursion, factor])
+        .footer(
+            "Kosmas & Vlachos, section 3; the momentum is not in the paper. *S* = Σ*w* cos((1 − 2*c*)*u*).",
+        )
 }

@@ -144,8 +144,7 @@ fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
     let left = panel("Leapfrogging pairs", amplitude, leapfrogging, 1);
     let middle = panel("Chaotic motion", amplitude, chaotic, 1);
     let right = panel("Chaotic motion: energy", "largest |*H* − *H*(0)| so far   [Γ²]", chaotic, 2);
-    Figure::new(
-        "The parasitic mode of the two-step map: the part of an orbit that alternates from step to step",
+    Figure::of(
         "All runs start with a step of RK2, which leaves a parasitic mode of size *h*³; in a circle a run ended",
     )
     .row(460.0, vec![left, middle, right.without_legend()])

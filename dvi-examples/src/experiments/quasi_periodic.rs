@@ -25,12 +25,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         claim.at_most(quantity, curve.largest_distance(run), 0.01)
     };
     let far = format!("largest distance from the exact section, {}", rk_middle.name());
+    let text = "the motion is quasi-periodic";
     let claims = vec![
-        says("section 5", "the motion is quasi-periodic").at_most(
-            "largest Lyapunov exponent up to t = 2·10⁴",
-            exponent,
-            1e-3,
-        ),
+        says("section 5", text).at_most("largest Lyapunov exponent up to t = 2·10⁴", exponent, 1e-3),
         says("Fig. 4", "both schemes give qualitatively correct results for h = 0.1")
             .each([vi_small, rk_small], near),
         says("Fig. 4", "RK4 gives spurious results for h = 0.2, VI2 does not")
@@ -99,7 +96,6 @@ impl Curve {
         Self { corners }
     }
 
-    /// The ranges of both coordinates with a margin.
     fn frame(&self) -> [[f64; 2]; 2] {
         if self.corners.is_empty() {
             return [[-2.6, 2.6]; 2];

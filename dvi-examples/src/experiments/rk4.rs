@@ -4,7 +4,6 @@ use dvi_core::State;
 
 use crate::vocabulary::*;
 
-/// One step of it.
 pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
     let moved = |by: f64, slope: &[f64; N]| std::array::from_fn(|i| y[i] + by * slope[i]);
     let first = f(y);
@@ -81,7 +80,6 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
         Ok(())
     }
 
-    /// The state after time `end`.
     pub fn up_to(mut self, end: f64) -> Result<S::State<f64>> {
         (0..(end / self.h).round() as u64).try_for_each(|_| self.step())?;
         Ok(self.state())

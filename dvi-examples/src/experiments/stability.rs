@@ -18,10 +18,8 @@ const SIGMAS: [f64; 18] = [
 const LARGE: f64 = 1e8;
 /// λh that damp, the first of which is drawn.
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
-/// Steps of the runs with them.
 const FEW: u64 = 1000;
 
-/// Both modes are wanted.
 fn unlimited(sigma: f64) -> Sigma {
     Sigma { parasitic_limit: None, ..Sigma::new(sigma) }
 }
@@ -178,12 +176,9 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
         .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));
-    Figure::new(
-        "The stability of the σ-family on *z*' = λ*z*, on the imaginary axis and to the left of it",
-        format!(
-            "Found by running the schemes; the limits on the left are those of the formula to {accuracy}"
-        ),
-    )
+    Figure::of(format!(
+        "Found by running the schemes; the limits on the left are those of the formula to {accuracy}"
+    ))
     .row(470.0, vec![border, growth])
     .footer("Rowley & Marsden 2002, section 4.1.")
 }

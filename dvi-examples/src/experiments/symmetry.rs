@@ -8,7 +8,6 @@ use crate::models::{self, Case};
 use crate::vocabulary::*;
 
 const H: f64 = 2.0;
-/// The paper's time.
 const PAPER: f64 = 2e5;
 /// How far vortex 1 is displaced.
 const DISPLACEMENT: [f64; 2] = [0.05, 0.035];
@@ -30,12 +29,11 @@ struct Motion {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1.2e8, PAPER);
-    job.expect((end / H) as u64 + (PAPER / H) as u64);
+    job.expect((end / H) as u64 / STRIDE + (PAPER / H) as u64 / STRIDE);
     let [x, y] = DISPLACEMENT;
-    let displaced = format!("vortex 1 displaced by ({x}, {y})");
     let all = [
         Motion::new(job, "as in the paper".into(), BLUE, [0.0; 2], end)?,
-        Motion::new(job, displaced, VERMILLION, DISPLACEMENT, PAPER)?,
+        Motion::new(job, format!("vortex 1 displaced by ({x}, {y})"), VERMILLION, DISPLACEMENT, PAPER)?,
     ];
     let rows = all.iter().flat_map(|Motion { name, errors, .. }| {
         errors.rows.iter().map(move |&(t, [asymmetry, error])| ([name], [t, asymmetry, error]))
@@ -65,27 +63,20 @@ impl Motion {
         let mut run = Integrator::new(&vortices, method, H, start)?;
         let (initial, mut errors) = (run.energy(), Decades::new(40.0));
         let (mut lost, mut failure) = (f64::INFINITY, None);
-        let (strides, mut done) = ((end / H) as u64 / STRIDE, 0);
-        // A run that is lost tells nothing more.
-        while done < strides && lost.is_infinite() && !job.is_stopping() {
-            if let Err(error) = run.take_steps(STRIDE) {
-                (lost, failure) = (run.time(), Some(error));
-                break;
+        job.repeat((end / H) as u64 / STRIDE, || {
+            // A run that is lost tells nothing more.
+            if lost.is_infinite() {
+                failure = run.take_steps(STRIDE).err();
+                let (t, error) = (run.time(), (run.energy() - initial).abs());
+                if failure.is_none() {
+                    errors.push(t, [asymmetry(run.q()), error]);
+                }
+                if failure.is_some() || error.is_nan() || error > LOST {
+                    lost = t;
+                }
             }
-            done += 1;
-            if done % 1000 == 0 {
-                job.proceed(1000 * STRIDE);
-            }
-            let (t, error) = (run.time(), (run.energy() - initial).abs());
-            errors.push(t, [asymmetry(run.q()), error]);
-            if error.is_nan() || error > LOST {
-                lost = t;
-            }
-        }
-        if done < strides && lost.is_infinite() {
-            job.cut_short();
-        }
-        job.proceed((strides - done) * STRIDE);
+            Ok(())
+        })?;
         Ok(Self { name, colour, errors, lost, end, failure })
     }
 
@@ -94,7 +85,6 @@ impl Motion {
         largest(self.errors.rows.iter().filter(|row| row.0 <= t).map(|row| row.1[0]))
     }
 
-    /// How the run ended, in words.
     fn ending(&self) -> String {
         let Self { name, lost, end, failure, .. } = self;
         match failure {
@@ -135,9 +125,8 @@ fn figure(all: &[Motion; 2]) -> Figure {
     let asymmetry =
         panel("Distance from mirror symmetry", "largest in each interval   [*L*]", [1e-16, 1e4], 0);
     let energy = panel("Energy", "largest |*H* − *H*(0)| in each interval   [Γ²]", [1e-4, 0.2], 1);
-    let title = "Two leapfrogging pairs with VE2, *h* = 2: mirror symmetry and energy over time";
     let subtitle = format!("A run is drawn until |Δ*H*| exceeds {LOST} or it ends by itself");
-    Figure::new(title, subtitle)
+    Figure::of(subtitle)
         .row(450.0, vec![asymmetry, energy.without_legend()])
         .footer("The run of Rowley & Marsden 2002, Fig. 2.")
 }

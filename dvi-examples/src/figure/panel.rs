@@ -2,9 +2,9 @@
 
 use super::axis::{Axis, Scale, Ticks};
 use super::decimate::Envelope;
-use super::mark::{Fill, Frame, Mark, Stroke};
+use super::mark::{Fill, Frame, Mark};
 use super::palette::{Colour, GRID, SLATE};
-use super::svg::{Anchor, Label, Pen, Svg, number};
+use super::svg::{Anchor, Label, Stroke, Svg, number};
 
 /// A corner of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -206,10 +206,8 @@ impl Panel {
     fn frame(&self, [left, top, width, height]: [f64; 4]) -> Frame {
         let points: Vec<[f64; 2]> = self.marks.iter().flat_map(Mark::corners).collect();
         let span = |axis: &Axis, i: usize| {
-            let values = points.iter().map(|point| point[i]).filter(|&value| axis.shows(value));
-            values.fold(None, |span: Option<[f64; 2]>, v| {
-                Some(span.map_or([v, v], |[low, high]| [low.min(v), high.max(v)]))
-            })
+            let values = points.iter().map(|point| [point[i]; 2]).filter(|value| axis.shows(value[0]));
+            values.reduce(|[low, high], [v, _]| [low.min(v), high.max(v)])
         };
         let (mut x, mut y) = (self.x.fit(span(&self.x, 0)), self.y.fit(span(&self.y, 1)));
         if self.equal {
@@ -258,16 +256,8 @@ impl Panel {
         let (bottom, right) = (top + height, left + width);
         let (x, y) = (self.x.ticks(&frame.x, width / 95.0), self.y.ticks(&frame.y, height / 65.0));
         draw_grid(svg, frame, &x, &y);
-        svg.stroke(
-            &format!(
-                "M{l} {t}V{b}H{r}",
-                l = number(left),
-                t = number(top),
-                b = number(bottom),
-                r = number(right)
-            ),
-            Pen::new(SLATE, 1.0),
-        );
+        let [l, t, b, r] = [left, top, bottom, right].map(number);
+        svg.stroke(&format!("M{l} {t}V{b}H{r}"), Stroke::solid(SLATE).width(1.0));
         let label = |text, at, anchor| Label { anchor, ..Label::new(text, at, TEXT) };
         for (value, text) in &x.marks {
             svg.label(label(text, [frame.x.place(*value), bottom + 20.0], Anchor::Middle));
@@ -324,20 +314,15 @@ fn centred([low, high]: [f64; 2], width: f64) -> [f64; 2] {
 
 fn draw_grid(svg: &mut Svg, frame: &Frame, x: &Ticks, y: &Ticks) {
     let [left, top, width, height] = frame.rectangle().map(|v| (v * 100.0).round() / 100.0);
-    let labelled = |ticks: &Ticks, major: bool| {
-        let marks = ticks.marks.iter().filter(move |(_, label)| label.is_empty() != major);
-        marks.map(|(value, _)| *value).collect::<Vec<_>>()
+    let mut lines = |ticks: &Ticks, is_major: bool, line: &dyn Fn(f64) -> String| {
+        let marks = ticks.marks.iter().filter(|(_, label)| label.is_empty() != is_major);
+        let path: String = marks.map(|(value, _)| line(*value)).collect();
+        svg.stroke(&path, Stroke::solid(if is_major { GRID } else { SLATE }).width(1.0));
     };
-    let across = |y: f64| format!("M{left} {}h{width}", number(frame.y.place(y)));
-    let along = |x: f64| format!("M{} {top}v{height}", number(frame.x.place(x)));
-    let grid: String = labelled(y, true).into_iter().map(across).collect();
-    svg.stroke(&grid, Pen::new(GRID, 1.0));
-    let grid: String = labelled(x, true).into_iter().map(along).collect();
-    svg.stroke(&grid, Pen::new(GRID, 1.0));
-    let minor = |y: f64| format!("M{left} {}h4", number(frame.y.place(y)));
-    let ticks: String = labelled(y, false).into_iter().map(minor).collect();
-    svg.stroke(&ticks, Pen::new(SLATE, 1.0));
-    let minor = |x: f64| format!("M{} {}v-4", number(frame.x.place(x)), number(top + height));
-    let ticks: String = labelled(x, false).into_iter().map(minor).collect();
-    svg.stroke(&ticks, Pen::new(SLATE, 1.0));
+    let (across, along) = (|y| number(frame.y.place(y)), |x| number(frame.x.place(x)));
+    let bottom = number(top + height);
+    lines(y, true, &|y| format!("M{left} {}h{width}", across(y)));
+    lines(x, true, &|x| format!("M{} {top}v{height}", along(x)));
+    lines(y, false, &|y| format!("M{left} {}h4", across(y)));
+    lines(x, false, &|x| format!("M{} {bottom}v-4", along(x)));
 }
