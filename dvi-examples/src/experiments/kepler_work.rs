@@ -1,12 +1,11 @@
 //! Work and precision on Kepler orbits: evaluations of the force per period against the largest errors over
 //! many periods, for all families of this library, with the state of the art beside.
 
-use dvi_core::methods::VariableStep;
 use rayon::prelude::*;
 
-use super::kepler::{Course, compare, fixed, osculating, reversible};
+use super::kepler::{Course, KeplerMethod, compare, fixed, osculating, reversible};
 use super::rivals::{levi_civita, logarithmic_hamiltonian};
-use crate::models::{Kepler, Orbit};
+use crate::models::Orbit;
 use crate::vocabulary::*;
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];
@@ -38,11 +37,7 @@ const EPSILONS: &[f64] = &[0.2, 0.1, 0.05, 0.02, 0.01, 0.005];
 /// Compositions take many steps in one.
 const LONG_EPSILONS: &[f64] = &[1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
 
-fn by(
-    method: impl VariableStep<Kepler, f64>,
-    (job, orbit, periods): Case<'_>,
-    epsilon: f64,
-) -> Result<Course> {
+fn by(method: impl KeplerMethod, (job, orbit, periods): Case<'_>, epsilon: f64) -> Result<Course> {
     compare(job, &mut reversible(method, orbit, epsilon)?, orbit, periods)
 }
 
