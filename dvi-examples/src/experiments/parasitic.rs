@@ -106,6 +106,7 @@ fn claims(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Vec<Claim> {
     let first = quarter[0].rate();
     let energy = chaotic[3].points.last().map_or(f64::NAN, |point| point[2]);
     let until = format!("time of |ΔH| > {LOST} or of an error that ends the run");
+    let rates = |run: &Motion| run.rate().zip(first).map(|(rate, first)| rate / first);
     vec![
         beyond("with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not")
             .each(explicit, |claim, run| {
@@ -117,7 +118,7 @@ fn claims(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Vec<Claim> {
             |claim, run| {
                 let name = run.name();
                 let quantity = format!("rate on the leapfrogging pairs, {name}, over that of the largest h");
-                claim.near(quantity, run.rate().zip(first).map(|(rate, first)| rate / first), [1.0, 0.1])
+                claim.near(quantity, rates(run), [1.0, 0.1])
             },
         ),
         beyond("for σ = ½ it neither grows nor decays").each(halves, |claim, run| {
