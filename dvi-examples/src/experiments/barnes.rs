@@ -8,8 +8,8 @@ use crate::models::{Pendulum, PendulumState, Spring, SpringState};
 use crate::vocabulary::*;
 
 const STEPS: usize = 32;
-/// Until when phase curves are followed, the pendulum from (3, 0) has the period 16.16, and circles; and where
-/// the values of the independent programs are.
+/// Until when phase curves are followed (the pendulum from (3, 0) has the period 16.16), and circles; and
+/// where the values of the independent programs are.
 const END: usize = 17;
 const CARRIED: usize = 4;
 const COMPARED: usize = 8;
@@ -145,12 +145,10 @@ fn figure(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Figure {
         circle(1, [-0.9, 6.9], [-0.2, 7.6]),
         circle(2, [-1.6, 3.0], narrow).without_legend(),
     ];
-    Figure::of(
-        format!("Kick–drift–kick with *h* = 1/32; above to *t* = {END}, below a circle about (0, 1)"),
-    )
-    .row(400.0, portraits)
-    .row(400.0, carried)
-    .footer("*a* = +*x* leaves the windows as eᵗ. After Barnes 1997, Second-Order Dynamical Systems, problems 6 and 7.")
+    Figure::of(format!("Kick–drift–kick with *h* = 1/32; above to *t* = {END}, below a circle about (0, 1)"))
+        .row(400.0, portraits)
+        .row(400.0, carried)
+        .footer("After Barnes 1997, Second-Order Dynamical Systems, problems 6 and 7.")
 }
 
 fn table(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Result<Table> {

@@ -107,8 +107,8 @@ pub fn reference<const D: usize, S: OnManifold<D>>(
     rk4_up_to(S::entries(start), end, h, |y| system.motion(y))
 }
 
-/// The claim that R and ω of a body are of second order, and of fourth by a composition, at a time, for steps
-/// of these lengths, against RK4 with short steps.
+/// The claim that R and ω of a body are of second order, and of fourth by a composition, at a time, for
+/// steps of these lengths, against RK4 with short steps.
 pub fn order_claim<S: OnManifold<12>>(
     body: &str,
     system: S,

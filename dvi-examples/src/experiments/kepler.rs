@@ -30,8 +30,8 @@ pub struct Course {
 /// A run that takes more steps for one period has left its orbit.
 const MOST_STEPS: u64 = 3_000_000;
 
-/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the time, E −
-/// E(0) and the place at the end of each step to `look`.
+/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the time,
+/// E − E(0) and the place at the end of each step to `look`.
 pub fn follow(
     job: &Job<'_>,
     run: &mut impl KeplerRun,

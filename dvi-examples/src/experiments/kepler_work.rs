@@ -167,6 +167,6 @@ fn figure(all: &[Contender], curves: &[Curve]) -> Figure {
     .row_with_legend(390.0, row("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy), 1.3)
     .row_with_legend(390.0, row("Position", position, |course| course.position), 1.3)
     .footer(
-        "Evaluations include those with a derivative. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
+        "Evaluations include those of derivatives. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
     )
 }

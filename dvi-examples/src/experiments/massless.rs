@@ -105,8 +105,8 @@ impl Parasite {
 
 fn grows(parasites: &[Parasite; 3]) -> Claim {
     let rate = parasites[2].rate();
-    let text = "in the symmetric gauge the parasitic mode of two steps grows at one rate whatever h, until no \
-                step is found";
+    let text = "in the symmetric gauge the parasitic mode of two steps grows at one rate whatever h, until \
+                no step is found";
     let claim = beyond(text).at_least("rate of growth at the smallest h", rate, 5e-3);
     claim.each(parasites, |claim, parasite| {
         let claim = claim.of(format!("h = {}", parasite.h));

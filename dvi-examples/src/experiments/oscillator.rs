@@ -113,7 +113,7 @@ fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Res
     })
 }
 
-/// S = Σ w cos((1 − 2c)u), s = uS/sin u, and what rounding is multiplied by: a step divides by S and by sin u.
+/// S = Σ w cos((1 − 2c)u), s = uS/sin u, and S sin u, by which a step divides, and rounding with it.
 fn strength(rule: &Quadrature, u: f64) -> f64 {
     let terms = rule.nodes().iter().zip(rule.weights());
     terms.map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()

@@ -146,7 +146,7 @@ fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
     let middle = panel("Chaotic motion", amplitude, chaotic, 1);
     let right = panel("Chaotic motion: energy", "largest |*H* − *H*(0)| so far   [Γ²]", chaotic, 2);
     Figure::of(
-        "All runs start with a step of RK2, which leaves a parasitic mode of size *h*³; in a circle a run ended",
+        "All runs start with a step of RK2, which leaves a mode of size *h*³; a circle: the run ended there",
     )
     .row(460.0, vec![left, middle, right.without_legend()])
     .footer("Data of Rowley & Marsden 2002, Figs. 2 and 5. Γ and *L*: units of circulation and length.")

@@ -163,7 +163,7 @@ fn figure(pairs: &[Pair; 4], steps: f64) -> Figure {
             .legend_at(Corner::TopLeft)
     };
     let panels = || CASES.iter().zip(pairs).map(panel);
-    Figure::of("Root mean square over four runs from different points, in intervals of the logarithm of *n*; *h* = 0.1")
+    Figure::of("*h* = 0.1; root mean square over four runs, in intervals of the logarithm of *n*")
         .row(330.0, panels().take(2).collect())
         .row(330.0, panels().skip(2).collect())
 }
