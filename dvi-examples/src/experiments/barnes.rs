@@ -26,22 +26,18 @@ type Curve = Vec<[f64; 2]>;
 type Flow = (&'static str, fn([f64; 2], end: usize) -> Result<Curve>, fn([f64; 2]) -> f64);
 
 const FLOWS: [Flow; 3] = [
-    (
-        "*a* = −*x*",
-        |[x, dot_x], end| orbit(&Spring { k: 1.0 }, SpringState { x, dot_x }, end),
-        |[x, v]| (v * v + x * x) / 2.0,
-    ),
-    (
-        "*a* = +*x*",
-        |[x, dot_x], end| orbit(&Spring { k: -1.0 }, SpringState { x, dot_x }, end),
-        |[x, v]| (v * v - x * x) / 2.0,
-    ),
-    (
-        "*a* = −sin *x*",
-        |[x, dot_x], end| orbit(&Pendulum {}, PendulumState { x, dot_x }, end),
-        |[x, v]| v * v / 2.0 - x.cos(),
-    ),
+    ("*a* = −*x*", |start, end| spring(1.0, start, end), |[x, v]| (v * v + x * x) / 2.0),
+    ("*a* = +*x*", |start, end| spring(-1.0, start, end), |[x, v]| (v * v - x * x) / 2.0),
+    ("*a* = −sin *x*", pendulum, |[x, v]| v * v / 2.0 - x.cos()),
 ];
+
+fn spring(k: f64, [x, dot_x]: [f64; 2], end: usize) -> Result<Curve> {
+    orbit(&Spring { k }, SpringState { x, dot_x }, end)
+}
+
+fn pendulum([x, dot_x]: [f64; 2], end: usize) -> Result<Curve> {
+    orbit(&Pendulum {}, PendulumState { x, dot_x }, end)
+}
 
 fn orbit<S: RegularLagrangian>(system: &S, start: S::State<f64>, end: usize) -> Result<Curve> {
     let mut run = Integrator::new(system, Variational::trapezoid(), 1.0 / STEPS as f64, start)?;
