@@ -17,3 +17,4 @@ pub use crate::job::Job;
 pub use crate::numbers::*;
 pub use crate::output::Table;
 pub use crate::runs::*;
+pub use dvi_examples::models::{self, *};

@@ -4,7 +4,6 @@
 //! The cost is counted, not timed, so that it is the same on every machine. The benchmark `accuracy`
 //! measures times.
 
-use crate::models::{Case, Kepler, Orbit, outer_solar_system, quasi_periodic};
 use crate::vocabulary::*;
 
 /// The methods, with the number of stages that can be evaluated at once.

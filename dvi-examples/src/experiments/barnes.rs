@@ -4,7 +4,6 @@
 //! The step is symplectic: in the plane, it preserves area. Of a polygon it preserves the area exactly if it
 //! is linear; where it bends the sides, the corners alone leave a deficit that falls like n⁻².
 
-use crate::models::{Pendulum, PendulumState, Spring, SpringState};
 use crate::vocabulary::*;
 
 const STEPS: usize = 32;

@@ -6,7 +6,6 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::rk4::keep_rk4;
-use crate::models::{DoublePendulum, DoublePendulumState};
 use crate::vocabulary::*;
 
 const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };

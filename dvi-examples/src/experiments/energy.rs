@@ -6,7 +6,6 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use crate::models::{self, Case, FourVortices};
 use crate::vocabulary::*;
 
 const CLOSE_UP: f64 = 400.0;

@@ -1,6 +1,5 @@
 //! Long runs along geodesics, beside RK4 on the entries of the states, and what is claimed of them.
 
-use crate::models::{Heights, OnManifold};
 use crate::vocabulary::*;
 
 use super::rk4::{rk4, rk4_up_to};

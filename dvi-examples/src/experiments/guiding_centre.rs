@@ -4,7 +4,6 @@
 //! A particle that has little velocity along the field is reflected where the field is strong, and its orbit
 //! in the poloidal plane is a banana; one with more goes around. Energy and toroidal momentum are conserved.
 
-use crate::models::{TokamakInClass, TokamakInClassState, TokamakOutOfClass, TokamakOutOfClassState};
 use crate::vocabulary::*;
 
 const Q: f64 = 2.0;

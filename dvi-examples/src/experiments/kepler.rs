@@ -3,7 +3,6 @@
 use anyhow::ensure;
 use dvi_core::methods::VariableStep;
 
-use crate::models::{Kepler, Orbit};
 use crate::vocabulary::*;
 
 /// A run on a Kepler orbit, with fixed or with controlled steps.

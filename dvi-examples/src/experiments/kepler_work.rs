@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use super::kepler::{Course, KeplerMethod, compare, fixed, osculating, reversible};
 use super::rivals::{levi_civita, logarithmic_hamiltonian};
-use crate::models::Orbit;
 use crate::vocabulary::*;
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];

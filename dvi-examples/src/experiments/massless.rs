@@ -6,7 +6,6 @@
 
 use dvi_core::space::sink::Dense;
 
-use crate::models::{MasslessAlongX, MasslessSymmetric};
 use crate::vocabulary::*;
 
 const ALONG_X: MasslessAlongX = MasslessAlongX {};

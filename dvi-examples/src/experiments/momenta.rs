@@ -3,7 +3,6 @@
 
 use dvi_core::discrete::Interval;
 
-use crate::models::{self, Case, FourPoints, FourVortices};
 use crate::vocabulary::*;
 
 const H: f64 = 0.1;

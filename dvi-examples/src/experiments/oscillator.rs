@@ -6,7 +6,6 @@
 
 use dvi_core::discrete::{Frequency, FrequencyIn, Rule as _};
 
-use crate::models::{Spring, SpringState};
 use crate::vocabulary::*;
 
 const SYSTEM: Spring = Spring { k: 1.0 };

@@ -3,7 +3,6 @@
 //! It decides whether a run can be used. The energy of Fig. 2 does not show it, because that motion is
 //! protected by its mirror symmetry. Beyond the paper.
 
-use crate::models::{self, Case};
 use crate::vocabulary::*;
 
 const COLOURS: [Colour; 4] = [BLUE, GREEN, VERMILLION, INK];

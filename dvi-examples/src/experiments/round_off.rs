@@ -6,7 +6,6 @@
 //! 1937). A plain sum rounds the coordinates, in units of ε|q|; a compensated one the increments, in units
 //! of εh|q'|.
 
-use crate::models::{self, Case, Kepler, Orbit, Rotation, RotationState, Spring, SpringState};
 use crate::vocabulary::*;
 
 /// [steps, error] in intervals of the logarithm of the steps.

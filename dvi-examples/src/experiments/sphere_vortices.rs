@@ -6,7 +6,6 @@
 //! M is conserved. In coordinates along an axis a scheme is symmetric about that axis only: the component
 //! along it is kept, and M turns slowly around it.
 
-use crate::models::SphereVortices;
 use crate::vocabulary::*;
 
 /// Three vortices whose moment is not along the axis of the coordinates.

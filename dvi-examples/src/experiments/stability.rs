@@ -5,7 +5,6 @@
 
 use rayon::prelude::*;
 
-use crate::models::{Linear, LinearState, Rotation, RotationState};
 use crate::vocabulary::*;
 
 /// σ = ½ has no limit and is tested apart.

@@ -7,7 +7,6 @@
 use dvi_core::ProperlyDegenerate;
 use dvi_core::field::{ScalarField, Spline};
 
-use crate::models::{TabulatedTokamak, TabulatedTokamakState, TokamakInClass, TokamakInClassState};
 use crate::vocabulary::*;
 
 const Q: f64 = 2.0;

@@ -10,7 +10,6 @@ use dvi_core::rotations;
 use super::geodesics::{FEW_UNITS, Long, between_heights, flat_energy, order_claim, panels};
 use super::shadow;
 use super::turnings::{self, Sample, up_and_down};
-use crate::models::{Heights, Top, TopState};
 use crate::vocabulary::*;
 
 const TOP: Top = Top { across: 1.0, along: 0.5, weight: 1.0 };

@@ -1,7 +1,6 @@
 //! Where a height that goes up and down turns, between the steps of a run.
 
 use super::shadow::Shadow;
-use crate::models::Heights;
 use crate::vocabulary::*;
 
 struct Turnings {
