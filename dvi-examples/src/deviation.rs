@@ -104,8 +104,8 @@ impl Span {
     }
 }
 
-/// How long a run is of which the energy is watched, with how many steps that are its beginning, the intervals
-/// in which it is drawn, and how many of its first places are kept.
+/// How long a run is of which the energy is watched, how many of its steps are its beginning, the intervals in
+/// which it is drawn, and how many of its first places are kept.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
     pub steps: u64,
@@ -217,8 +217,8 @@ pub fn magnitude_table<'a, const N: usize>(
     Table::of(columns, rows)
 }
 
-/// A table with the name of each run, that of each of its quantities if there is a column for it, and lowest,
-/// mean and highest value in each interval of time.
+/// A table with the name of each run, that of each of its quantities if there is a column for it, and
+/// lowest, mean and highest value in each interval of time.
 pub fn range_table<'a, const N: usize>(
     columns: &[&str],
     quantities: &[&str],

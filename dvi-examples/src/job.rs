@@ -169,7 +169,7 @@ impl<'a> Job<'a> {
         Ok(Series { path, ..Series::new(name, stroke, kept) })
     }
 
-    /// E − E(0) of a run as a series of that name, with its first places, and the error that has ended it early.
+    /// E − E(0) of a run as a series of that name, with its first places, and the error that has ended it.
     pub fn attempt<S: Lagrangian>(
         &self,
         (name, stroke): Named<'_>,

@@ -69,7 +69,7 @@ pub fn side_by_side<T: Send, U: Send, const N: usize>(
     made.try_into().ok().context("not as many results as cases")
 }
 
-/// What `make` makes of each of the cases, and what is told of those in which it fails: their names and errors.
+/// What `make` makes of each of the cases, and the names and errors of those in which it fails.
 pub fn attempts<T: Copy, U>(
     cases: impl IntoIterator<Item = T>,
     make: impl Fn(T) -> Result<U>,

@@ -34,7 +34,7 @@ pub fn up_to<S: Lagrangian>(
     Ok(run.state())
 }
 
-/// The order that errors after time `end` show, of runs with so many steps; `error` is that of the coordinates.
+/// The order that errors of the coordinates show after time `end`, of runs with so many steps.
 pub fn order_at<S: Lagrangian, const N: usize>(
     system: &S,
     method: impl Method<S, f64> + Clone,

@@ -18,3 +18,4 @@ pub use crate::measures::*;
 pub use crate::numbers::*;
 pub use crate::output::Table;
 pub use crate::runs::*;
+pub use dvi_examples::models::{self, *};

@@ -4,7 +4,6 @@
 //! The cost is counted, not timed, so that it is the same on every machine. The benchmark `accuracy`
 //! measures times.
 
-use crate::models::{Case, Kepler, Orbit, outer_solar_system, quasi_periodic};
 use crate::vocabulary::*;
 
 /// The methods, with the number of stages that can be evaluated at once.
@@ -174,7 +173,7 @@ fn claims(job: &Job<'_>, all: &[[Curve; 6]; 3]) -> Vec<Claim> {
     ]
 }
 
-/// A column for each problem, with evaluations counted all, and those counted once that can be made together.
+/// A column for each problem, with all evaluations counted, and in turn.
 fn figure(all: &[[Curve; 6]; 3]) -> Figure {
     let row = |label: &str, at_once: bool| {
         let panels = all.iter().zip(PROBLEMS).map(|(curves, (_, title, _))| {

@@ -4,12 +4,11 @@
 //! The step is symplectic: in the plane, it preserves area. Of a polygon it preserves the area exactly if it
 //! is linear; where it bends the sides, the corners alone leave a deficit that falls like n⁻².
 
-use crate::models::{Pendulum, PendulumState, Spring, SpringState};
 use crate::vocabulary::*;
 
 const STEPS: usize = 32;
-/// Until when phase curves are followed, the pendulum from (3, 0) has the period 16.16, and circles; and where
-/// the values of the independent programs are.
+/// Until when phase curves are followed (the pendulum from (3, 0) has the period 16.16), and circles; and
+/// where the values of the independent programs are.
 const END: usize = 17;
 const CARRIED: usize = 4;
 const COMPARED: usize = 8;
@@ -26,22 +25,18 @@ type Curve = Vec<[f64; 2]>;
 type Flow = (&'static str, fn([f64; 2], end: usize) -> Result<Curve>, fn([f64; 2]) -> f64);
 
 const FLOWS: [Flow; 3] = [
-    (
-        "*a* = −*x*",
-        |[x, dot_x], end| orbit(&Spring { k: 1.0 }, SpringState { x, dot_x }, end),
-        |[x, v]| (v * v + x * x) / 2.0,
-    ),
-    (
-        "*a* = +*x*",
-        |[x, dot_x], end| orbit(&Spring { k: -1.0 }, SpringState { x, dot_x }, end),
-        |[x, v]| (v * v - x * x) / 2.0,
-    ),
-    (
-        "*a* = −sin *x*",
-        |[x, dot_x], end| orbit(&Pendulum {}, PendulumState { x, dot_x }, end),
-        |[x, v]| v * v / 2.0 - x.cos(),
-    ),
+    ("*a* = −*x*", |start, end| spring(1.0, start, end), |[x, v]| (v * v + x * x) / 2.0),
+    ("*a* = +*x*", |start, end| spring(-1.0, start, end), |[x, v]| (v * v - x * x) / 2.0),
+    ("*a* = −sin *x*", pendulum, |[x, v]| v * v / 2.0 - x.cos()),
 ];
+
+fn spring(k: f64, [x, dot_x]: [f64; 2], end: usize) -> Result<Curve> {
+    orbit(&Spring { k }, SpringState { x, dot_x }, end)
+}
+
+fn pendulum([x, dot_x]: [f64; 2], end: usize) -> Result<Curve> {
+    orbit(&Pendulum {}, PendulumState { x, dot_x }, end)
+}
 
 fn orbit<S: RegularLagrangian>(system: &S, start: S::State<f64>, end: usize) -> Result<Curve> {
     let mut run = Integrator::new(system, Variational::trapezoid(), 1.0 / STEPS as f64, start)?;
@@ -145,12 +140,10 @@ fn figure(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Figure {
         circle(1, [-0.9, 6.9], [-0.2, 7.6]),
         circle(2, [-1.6, 3.0], narrow).without_legend(),
     ];
-    Figure::of(
-        format!("Kick–drift–kick with *h* = 1/32; above to *t* = {END}, below a circle about (0, 1)"),
-    )
-    .row(400.0, portraits)
-    .row(400.0, carried)
-    .footer("*a* = +*x* leaves the windows as eᵗ. After Barnes 1997, Second-Order Dynamical Systems, problems 6 and 7.")
+    Figure::of(format!("Kick–drift–kick with *h* = 1/32; above to *t* = {END}, below a circle about (0, 1)"))
+        .row(400.0, portraits)
+        .row(400.0, carried)
+        .footer("After Barnes 1997, Second-Order Dynamical Systems, problems 6 and 7.")
 }
 
 fn table(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Result<Table> {

@@ -8,7 +8,6 @@ use std::collections::HashMap;
 use super::sections::{
     self, CAVEAT, Crossings, LABELS, LYAPUNOV_STEPS, Scheme, compare, cost, crossings, lyapunov_exponent,
 };
-use crate::models::{self, Case};
 use crate::vocabulary::*;
 
 const RUNS: [(Scheme, f64); 6] = sections::runs([0.2, 0.5, 1.0]);

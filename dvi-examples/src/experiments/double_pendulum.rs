@@ -6,7 +6,6 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::rk4::keep_rk4;
-use crate::models::{DoublePendulum, DoublePendulumState};
 use crate::vocabulary::*;
 
 const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };
@@ -61,7 +60,7 @@ fn figure(all: &[Series<1>; 3], end: f64) -> Figure {
         panel.line(points, Stroke::solid(colour).width(1.5))
     });
     let labels = ["Error of the energy", "largest |*E* − *E*(0)| of each interval   [J]"];
-    let energy = over_time(labels, end, [1e-6, 10.0], all, 0);
+    let energy = over_time(labels, end, [1e-6, 1.0], all, 0);
     Figure::of(format!("Masses of 1 kg, rods of 1 m, released with both rods horizontal; *h* = {H} s"))
         .row(470.0, vec![path, energy.weight(1.35).legend_at(Corner::BottomRight)])
         .sequence_key("path: 0 s", format!("{SHOWN} s"))

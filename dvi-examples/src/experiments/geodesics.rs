@@ -1,6 +1,5 @@
 //! Long runs along geodesics, beside RK4 on the entries of the states, and what is claimed of them.
 
-use crate::models::{Heights, OnManifold};
 use crate::vocabulary::*;
 
 use super::rk4::{rk4, rk4_up_to};
@@ -107,8 +106,8 @@ pub fn reference<const D: usize, S: OnManifold<D>>(
     rk4_up_to(S::entries(start), end, h, |y| system.motion(y))
 }
 
-/// The claim that R and ω of a body are of second order, and of fourth by a composition, at a time, for steps
-/// of these lengths, against RK4 with short steps.
+/// The claim that R and ω of a body are of second order, and of fourth by a composition, at a time, for
+/// steps of these lengths, against RK4 with short steps.
 pub fn order_claim<S: OnManifold<12>>(
     body: &str,
     system: S,

@@ -4,7 +4,6 @@
 //! A particle that has little velocity along the field is reflected where the field is strong, and its orbit
 //! in the poloidal plane is a banana; one with more goes around. Energy and toroidal momentum are conserved.
 
-use crate::models::{TokamakInClass, TokamakInClassState, TokamakOutOfClass, TokamakOutOfClassState};
 use crate::vocabulary::*;
 
 const Q: f64 = 2.0;
@@ -69,33 +68,31 @@ fn follow(
 fn claims(orbits: &[Orbit; 2]) -> Vec<Claim> {
     let named = || ORBITS.iter().map(|(name, _)| *name).zip(orbits);
     let reach = |series: &Series<2>| largest(series.path.iter().map(|[_, z]| z.abs()));
-    let growth = |claim: Claim, orbit: &str, series: &Series<2>, bound: fn(f64) -> Bound, at: f64| {
-        let quantity = format!("{orbit}, {}: max|ΔH| over all / over {EARLY} steps", series.name);
-        claim.check(quantity, series.kept[0].growth(), bound(at))
-    };
+    let growth = format!("max|ΔH| over all / over {EARLY} steps");
+    let reaches = "largest |Z| out of class, in units of that in class";
     vec![
         beyond("energy errors are no larger in the whole run than in its beginning").each(
             named(),
-            |claim, (orbit, [in_class, projected, rk4])| {
-                let claim = growth(claim, orbit, in_class, Bound::AtMost, 1.02);
-                let claim = growth(claim, orbit, projected, Bound::AtMost, 1.02);
-                growth(claim, orbit, rk4, Bound::AtLeast, 2.0)
+            |claim, (orbit, [one_step, projected, rk4])| {
+                let claim = claim.each([one_step, projected], |claim, run| {
+                    claim.of(format!("{orbit}, {}", run.name)).at_most(&growth, run.kept[0].growth(), 1.02)
+                });
+                claim.of(format!("{orbit}, RK4")).at_least(&growth, rk4.kept[0].growth(), 2.0)
             },
         ),
         beyond("the toroidal momentum is kept to rounding errors").each(named(), |claim, (orbit, runs)| {
-            claim.each(&runs[..2], |claim, series| {
-                claim.at_most(
-                    format!("{orbit}, {}: max|Δp_φ/p_φ|", series.name),
-                    series.kept[1].largest,
+            claim.each(&runs[..2], |claim, run| {
+                claim.of(format!("{orbit}, {}", run.name)).at_most(
+                    "max|Δp_φ/p_φ|",
+                    run.kept[1].largest,
                     1e-9,
                 )
             })
         }),
         beyond("both sets of coordinates give one orbit").each(
             named(),
-            |claim, (orbit, [in_class, projected, _])| {
-                let quantity = format!("{orbit}: largest |Z| out of class, in units of that in class");
-                claim.near(quantity, reach(projected) / reach(in_class), [1.0, 2e-3])
+            |claim, (orbit, [one_step, projected, _])| {
+                claim.of(orbit).near(reaches, reach(projected) / reach(one_step), [1.0, 2e-3])
             },
         ),
     ]

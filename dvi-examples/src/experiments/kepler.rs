@@ -3,13 +3,17 @@
 use anyhow::ensure;
 use dvi_core::methods::VariableStep;
 
-use crate::models::{Kepler, Orbit};
 use crate::vocabulary::*;
 
 /// A run on a Kepler orbit, with fixed or with controlled steps.
 pub trait KeplerRun: Run<System = Kepler, Scalar = f64> {}
 
 impl<R: Run<System = Kepler, Scalar = f64>> KeplerRun for R {}
+
+/// A method for it that takes steps of any length.
+pub trait KeplerMethod: VariableStep<Kepler, f64> {}
+
+impl<M: VariableStep<Kepler, f64>> KeplerMethod for M {}
 
 /// What a run has shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,8 +29,8 @@ pub struct Course {
 /// A run that takes more steps for one period has left its orbit.
 const MOST_STEPS: u64 = 3_000_000;
 
-/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the time, E −
-/// E(0) and the place at the end of each step to `look`.
+/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the time,
+/// E − E(0) and the place at the end of each step to `look`.
 pub fn follow(
     job: &Job<'_>,
     run: &mut impl KeplerRun,
@@ -75,29 +79,17 @@ pub fn fixed(method: impl Method<Kepler, f64>, orbit: Orbit, steps: f64) -> Resu
 }
 
 /// A run with steps by (23), as printed.
-pub fn osculating(
-    method: impl VariableStep<Kepler, f64>,
-    orbit: Orbit,
-    tolerance: f64,
-) -> Result<impl KeplerRun> {
+pub fn osculating(method: impl KeplerMethod, orbit: Orbit, tolerance: f64) -> Result<impl KeplerRun> {
     let control = Osculating { tolerance, first_step: 1e-4, centre: CentreSpeed::AsPrinted };
     Ok(ControlledIntegrator::new(Kepler {}, method, control, orbit.pericentre())?)
 }
 
 /// A run with steps by (23), v_o read per unit of arc length.
-pub fn per_arc_length(
-    method: impl VariableStep<Kepler, f64>,
-    orbit: Orbit,
-    tolerance: f64,
-) -> Result<impl KeplerRun> {
+pub fn per_arc_length(method: impl KeplerMethod, orbit: Orbit, tolerance: f64) -> Result<impl KeplerRun> {
     Ok(ControlledIntegrator::new(Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())?)
 }
 
 /// A run with steps in proportion to r^(3/2), about 1/ε of them per radian of the motion in the mean.
-pub fn reversible(
-    method: impl VariableStep<Kepler, f64>,
-    orbit: Orbit,
-    epsilon: f64,
-) -> Result<impl KeplerRun> {
+pub fn reversible(method: impl KeplerMethod, orbit: Orbit, epsilon: f64) -> Result<impl KeplerRun> {
     Ok(ControlledIntegrator::new(Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())?)
 }

@@ -6,7 +6,6 @@
 
 use dvi_core::discrete::FrequencyIn as _;
 
-use crate::models::{Kepler, Orbit};
 use crate::vocabulary::*;
 
 const ORBIT: Orbit = Orbit { e: 0.95 };

@@ -6,7 +6,6 @@
 //! Beside it stand a frequency that is a part of the discrete Lagrangian, with reversible steps, and Verlet.
 
 use super::kepler::{Course, KeplerRun, follow, osculating, per_arc_length, reversible};
-use crate::models::{Orbit, Phase};
 use crate::vocabulary::*;
 
 const ORBIT: Orbit = Orbit { e: 0.95 };

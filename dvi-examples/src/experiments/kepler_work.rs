@@ -1,12 +1,10 @@
 //! Work and precision on Kepler orbits: evaluations of the force per period against the largest errors over
 //! many periods, for all families of this library, with the state of the art beside.
 
-use dvi_core::methods::VariableStep;
 use rayon::prelude::*;
 
-use super::kepler::{Course, compare, fixed, osculating, reversible};
+use super::kepler::{Course, KeplerMethod, compare, fixed, osculating, reversible};
 use super::rivals::{levi_civita, logarithmic_hamiltonian};
-use crate::models::{Kepler, Orbit};
 use crate::vocabulary::*;
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];
@@ -22,88 +20,77 @@ const DRAWN: [&str; 6] = [
     "Levi-Civita, fitted",
 ];
 
-/// A method over its accuracies.
-struct Contender {
-    name: &'static str,
-    stroke: Stroke,
-    /// What `run` takes: ε, steps per period, or a tolerance.
-    knobs: &'static [f64],
-    run: fn(Case<'_>, f64) -> Result<Course>,
-}
+const EPSILONS: &[f64] = &[0.2, 0.1, 0.05, 0.02, 0.01, 0.005];
+/// Compositions take many steps in one.
+const LONG: &[f64] = &[1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
+
+/// The methods over their accuracies: ε, steps per period, or a tolerance.
+#[rustfmt::skip]
+const CONTENDERS: [(&str, Stroke, &[f64]); 13] = [
+    ("Verlet, fixed steps",   Stroke::dashed(SLATE),     &[100.0, 300.0, 1000.0, 3000.0, 10_000.0]),
+    ("Verlet",                Stroke::solid(SLATE),      EPSILONS),
+    ("Simpson, linear",       Stroke::solid(SKY),        EPSILONS),
+    ("the paper: (19), (23)", Stroke::solid(AMBER),      &[0.03, 0.01, 0.003, 0.001]),
+    ("fitted, averaged",      Stroke::solid(BLUE),       EPSILONS),
+    ("fitted, variational",   Stroke::solid(VERMILLION), EPSILONS),
+    ("Verlet, Suzuki 4",      Stroke::solid(GREEN),      LONG),
+    ("Verlet, Kahan–Li 8",    Stroke::dashed(GREEN),     LONG),
+    ("Galerkin, order 4",     Stroke::solid(PURPLE),     LONG),
+    ("Galerkin, order 6",     Stroke::solid(PURPLE),     LONG),
+    ("Galerkin, order 8",     Stroke::dashed(PURPLE),    LONG),
+    ("log-*H* leapfrog",      Stroke::solid(AMBER),      &[25.0, 100.0, 400.0, 1600.0]),
+    ("Levi-Civita, fitted",   Stroke::dashed(INK),       &[8.0, 16.0, 32.0]),
+];
 
 /// An orbit for so many periods.
 type Case<'a> = (&'a Job<'a>, Orbit, u64);
 
-const EPSILONS: &[f64] = &[0.2, 0.1, 0.05, 0.02, 0.01, 0.005];
-/// Compositions take many steps in one.
-const LONG_EPSILONS: &[f64] = &[1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
+/// A run of a method with one accuracy.
+fn course(contender: usize, case: Case<'_>, knob: f64) -> Result<Course> {
+    let ((job, orbit, periods), verlet, simpson) = (case, Variational::trapezoid(), Variational::simpson());
+    let fitted = Variational::new(Quadrature::lobatto(4)?).phase_fitted(Radial(Reading::Variational));
+    let frozen = simpson.phase_fitted(Curvature(Reading::LeftFrozen));
+    match contender {
+        0 => compare(job, &mut fixed(verlet, orbit, knob)?, orbit, periods),
+        1 => by(verlet, case, knob),
+        2 => by(simpson, case, knob),
+        3 => compare(job, &mut osculating(frozen, orbit, knob)?, orbit, periods),
+        4 => by(simpson.phase_fitted(Radial(Reading::Averaged)), case, knob),
+        5 => by(fitted, case, knob),
+        6 => by(Composition::suzuki(verlet), case, knob),
+        7 => by(Composition::kahan_li_8(verlet), case, knob),
+        8 => by(Galerkin::<3>::new(), case, knob),
+        9 => by(Galerkin::<4>::new(), case, knob),
+        10 => by(Galerkin::<5>::new(), case, knob),
+        11 => Ok(logarithmic_hamiltonian(job, orbit, knob as u32, periods)?.course),
+        _ => Ok(levi_civita(job, orbit, knob as u32, periods)?.course),
+    }
+}
 
-fn by(
-    method: impl VariableStep<Kepler, f64>,
-    (job, orbit, periods): Case<'_>,
-    epsilon: f64,
-) -> Result<Course> {
+/// With reversible steps.
+fn by(method: impl KeplerMethod, (job, orbit, periods): Case<'_>, epsilon: f64) -> Result<Course> {
     compare(job, &mut reversible(method, orbit, epsilon)?, orbit, periods)
 }
 
-fn verlet_with_fixed_steps((job, orbit, periods): Case<'_>, steps: f64) -> Result<Course> {
-    compare(job, &mut fixed(Variational::trapezoid(), orbit, steps)?, orbit, periods)
-}
-
-fn as_in_the_paper((job, orbit, periods): Case<'_>, tolerance: f64) -> Result<Course> {
-    let method = Variational::simpson().phase_fitted(Curvature(Reading::LeftFrozen));
-    compare(job, &mut osculating(method, orbit, tolerance)?, orbit, periods)
-}
-
-fn averaged(case: Case<'_>, epsilon: f64) -> Result<Course> {
-    by(Variational::simpson().phase_fitted(Radial(Reading::Averaged)), case, epsilon)
-}
-
-fn variational(case: Case<'_>, epsilon: f64) -> Result<Course> {
-    by(Variational::new(Quadrature::lobatto(4)?).phase_fitted(Radial(Reading::Variational)), case, epsilon)
-}
-
-#[rustfmt::skip]
-fn contenders() -> [Contender; 13] {
-    let of = |name, stroke, knobs, run| Contender { name, stroke, knobs, run };
-    let (solid, dashed) = (Stroke::solid, Stroke::dashed);
-    [
-        of("Verlet, fixed steps",  dashed(SLATE),     &[100.0, 300.0, 1000.0, 3000.0, 10_000.0], verlet_with_fixed_steps),
-        of("Verlet",               solid(SLATE),      EPSILONS, |case, epsilon| by(Variational::trapezoid(), case, epsilon)),
-        of("Simpson, linear",      solid(SKY),        EPSILONS, |case, epsilon| by(Variational::simpson(), case, epsilon)),
-        of("the paper: (19), (23)", solid(AMBER),     &[0.03, 0.01, 0.003, 0.001], as_in_the_paper),
-        of("fitted, averaged",     solid(BLUE),       EPSILONS, averaged),
-        of("fitted, variational",  solid(VERMILLION), EPSILONS, variational),
-        of("Verlet, Suzuki 4",     solid(GREEN),      LONG_EPSILONS, |case, epsilon| by(Composition::suzuki(Variational::trapezoid()), case, epsilon)),
-        of("Verlet, Kahan–Li 8",   dashed(GREEN),     LONG_EPSILONS, |case, epsilon| by(Composition::kahan_li_8(Variational::trapezoid()), case, epsilon)),
-        of("Galerkin, order 4",    solid(PURPLE).opacity(0.4), LONG_EPSILONS, |case, epsilon| by(Galerkin::<3>::new(), case, epsilon)),
-        of("Galerkin, order 6",    solid(PURPLE),     LONG_EPSILONS, |case, epsilon| by(Galerkin::<4>::new(), case, epsilon)),
-        of("Galerkin, order 8",    dashed(PURPLE),    LONG_EPSILONS, |case, epsilon| by(Galerkin::<5>::new(), case, epsilon)),
-        of("log-*H* leapfrog",     solid(AMBER),      &[25.0, 100.0, 400.0, 1600.0], |(job, orbit, periods), n| Ok(logarithmic_hamiltonian(job, orbit, n as u32, periods)?.course)),
-        of("Levi-Civita, fitted",  dashed(INK),       &[8.0, 16.0, 32.0], |(job, orbit, periods), n| Ok(levi_civita(job, orbit, n as u32, periods)?.course)),
-    ]
-}
-
+/// The courses of one method on one orbit, and the runs that did not come to their end.
 struct Curve {
     contender: usize,
     e: f64,
     courses: Vec<Course>,
-    /// Runs that did not come to their end.
     failures: Vec<String>,
 }
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (periods, long) = (job.choose(100, 10), job.choose(100_000, 1000));
-    let all = contenders();
-    let pairs: Vec<(usize, f64)> =
-        ECCENTRICITIES.iter().flat_map(|&e| (0..all.len()).map(move |contender| (contender, e))).collect();
-    let runs: usize = pairs.iter().map(|&(contender, _)| all[contender].knobs.len()).sum();
+    let pairs: Vec<_> =
+        ECCENTRICITIES.iter().flat_map(|&e| (0..13).map(move |method| (method, e))).collect();
+    let runs: usize = CONTENDERS.iter().map(|(.., knobs)| 4 * knobs.len()).sum();
     job.expect(runs as u64 * periods + 3 * long);
-    let curve = |(contender, e)| {
-        let Contender { name, knobs, run, .. } = &all[contender];
-        let course = |&knob: &f64| run((job, Orbit { e }, periods), knob);
+    let curve = |(contender, e): (usize, f64)| {
+        let (name, _, knobs) = CONTENDERS[contender];
         let told = |knob: &f64| format!("{}, e = {e}, at {knob}", name.replace('*', ""));
-        let (courses, failures) = attempts(*knobs, course, told);
+        let (courses, failures) =
+            attempts(knobs, |&knob| course(contender, (job, Orbit { e }, periods), knob), told);
         Curve { contender, e, courses, failures }
     };
     let curves: Vec<Curve> = pairs.into_par_iter().map(curve).collect();
@@ -113,10 +100,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let columns =
         ["method", "e", "steps_per_period", "evaluations_per_period", "energy_error", "position_error"];
     let rows = curves.iter().flat_map(|Curve { contender, e, courses, .. }| {
-        let name = all[*contender].name;
+        let name = CONTENDERS[*contender].0;
         courses.iter().map(move |c| ([name], [*e, c.steps, c.evaluations, c.energy, c.position]))
     });
-    job.publish(figure(&all, &curves), Table::of(&columns, rows)?)?;
+    job.publish(figure(&curves), Table::of(&columns, rows)?)?;
     // Numbers of independent programs.
     let [averaged, variational] = [4, 5].map(|contender| job.only_full(energy(&curves, contender)));
     let references = vec![
@@ -149,18 +136,18 @@ fn energy(curves: &[Curve], contender: usize) -> Option<f64> {
     curve.courses.get(3).map(|course| course.energy)
 }
 
-fn figure(all: &[Contender], curves: &[Curve]) -> Figure {
+fn figure(curves: &[Curve]) -> Figure {
     let row = |title: &str, label: &str, of: fn(&Course) -> f64| {
         let panels = SHOWN.map(|e| {
-            let shown = curves.iter().map(|curve| (curve, &all[curve.contender]));
-            let shown = shown.filter(|(curve, method)| curve.e == e && DRAWN.contains(&method.name));
-            let work = ("evaluations of the force per period", [5.0, 5e4]);
-            let empty =
-                Panel::loglog(format!("{title} error over work, *e* = {e}"), work, (label, [1e-15, 10.0]));
-            empty.marked(shown.map(|(curve, Contender { name, stroke, .. })| {
+            let shown = curves.iter().map(|curve| (curve, CONTENDERS[curve.contender]));
+            let shown = shown.filter(|(curve, (name, ..))| curve.e == e && DRAWN.contains(name));
+            let lines = shown.map(|(curve, (name, stroke, _))| {
                 let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
-                (*name, *stroke, points.collect())
-            }))
+                (name, stroke, points.collect())
+            });
+            let (work, error) =
+                (("evaluations of the force per period", [5.0, 5e4]), (label, [1e-15, 10.0]));
+            Panel::loglog(format!("{title} error over work, *e* = {e}"), work, error).marked(lines)
         });
         panels.into()
     };
@@ -172,6 +159,6 @@ fn figure(all: &[Contender], curves: &[Curve]) -> Figure {
     .row_with_legend(390.0, row("Energy", "max|*E* − *E*(0)|   [μ/*a*]", |course| course.energy), 1.3)
     .row_with_legend(390.0, row("Position", position, |course| course.position), 1.3)
     .footer(
-        "Evaluations include those with a derivative. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
+        "Evaluations include those of derivatives. Log-*H*: Mikkola & Tanikawa 1999, Preto & Tremaine 1999.",
     )
 }

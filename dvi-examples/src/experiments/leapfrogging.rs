@@ -1,7 +1,6 @@
 //! Rowley & Marsden 2002, Fig. 3: trajectories of two leapfrogging pairs, and what becomes of them under
 //! RK2 at the step that VE2 can take.
 
-use crate::models::{self, Case, FourVortices};
 use crate::vocabulary::*;
 
 const SHOWN: f64 = 200.0;

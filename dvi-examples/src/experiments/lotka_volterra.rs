@@ -6,7 +6,6 @@
 
 use dvi_core::Space as _;
 
-use crate::models::{OneSidedPredators, ShiftedPredators, ShiftedSymmetricPredators, SymmetricPredators};
 use crate::vocabulary::*;
 
 const START: (f64, f64) = (2.0, 1.0);

@@ -6,7 +6,6 @@
 
 use dvi_core::space::sink::Dense;
 
-use crate::models::{MasslessAlongX, MasslessSymmetric};
 use crate::vocabulary::*;
 
 const ALONG_X: MasslessAlongX = MasslessAlongX {};
@@ -105,21 +104,14 @@ impl Parasite {
 
 fn grows(parasites: &[Parasite; 3]) -> Claim {
     let rate = parasites[2].rate();
-    let text = "in the symmetric gauge the parasitic mode of two steps grows at one rate whatever h, until no \
-                step is found";
-    beyond(text).at_least("rate of growth at the smallest h", rate, 5e-3).each(
-        parasites,
-        |claim, parasite| {
-            let (h, ended) = (parasite.h, parasite.ended.unwrap_or(f64::INFINITY));
-            claim
-                .near(
-                    format!("h = {h}: rate of growth, in units of that"),
-                    parasite.rate() / rate,
-                    [1.0, 0.1],
-                )
-                .at_most(format!("h = {h}: time at which it ends"), ended, END)
-        },
-    )
+    let text = "in the symmetric gauge the parasitic mode of two steps grows at one rate whatever h, until \
+                no step is found";
+    let claim = beyond(text).at_least("rate of growth at the smallest h", rate, 5e-3);
+    claim.each(parasites, |claim, parasite| {
+        let claim = claim.of(format!("h = {}", parasite.h));
+        let claim = claim.near("rate of growth, in units of that", parasite.rate() / rate, [1.0, 0.1]);
+        claim.at_most("time at which it ends", parasite.ended.unwrap_or(f64::INFINITY), END)
+    })
 }
 
 fn figure(all: &[Series<1>; 3], parasites: &[Parasite; 3], end: f64) -> Figure {

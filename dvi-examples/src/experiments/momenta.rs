@@ -3,7 +3,6 @@
 
 use dvi_core::discrete::Interval;
 
-use crate::models::{self, Case, FourPoints, FourVortices};
 use crate::vocabulary::*;
 
 const H: f64 = 0.1;
@@ -165,5 +164,7 @@ fn figure(all: &[Drifts]) -> Figure {
     });
     Figure::of(format!("Four equal vortices, *h* = {H}; deviations below 10⁻¹¹ are rounding"))
         .row(500.0, vec![panel.legend_at(Corner::Beside)])
-        .footer("Rowley & Marsden 2002. Two-form: (17) for the σ-family, Ω = ΣΓ d*x* ∧ d*y* for one-step methods.")
+        .footer(
+            "Rowley & Marsden 2002. Two-form: (17) of the σ-family, Ω = ΣΓ d*x* ∧ d*y* of one-step methods.",
+        )
 }

@@ -2,7 +2,6 @@
 //!
 //! Each run starts from two points of the exact orbit, so that the starting step does not show.
 
-use crate::models::{self, Case, FourPoints, Rotation, RotationState};
 use crate::vocabulary::*;
 
 const ROOT_3: f64 = 1.732_050_807_568_877_2;

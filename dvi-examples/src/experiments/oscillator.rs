@@ -6,7 +6,6 @@
 
 use dvi_core::discrete::{Frequency, FrequencyIn, Rule as _};
 
-use crate::models::{Spring, SpringState};
 use crate::vocabulary::*;
 
 const SYSTEM: Spring = Spring { k: 1.0 };
@@ -113,7 +112,7 @@ fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Res
     })
 }
 
-/// S = Σ w cos((1 − 2c)u), s = uS/sin u, and what rounding is multiplied by: a step divides by S and by sin u.
+/// S = Σ w cos((1 − 2c)u), s = uS/sin u, and S sin u, by which a step divides, and rounding with it.
 fn strength(rule: &Quadrature, u: f64) -> f64 {
     let terms = rule.nodes().iter().zip(rule.weights());
     terms.map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()

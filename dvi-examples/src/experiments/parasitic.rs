@@ -3,7 +3,6 @@
 //! It decides whether a run can be used. The energy of Fig. 2 does not show it, because that motion is
 //! protected by its mirror symmetry. Beyond the paper.
 
-use crate::models::{self, Case};
 use crate::vocabulary::*;
 
 const COLOURS: [Colour; 4] = [BLUE, GREEN, VERMILLION, INK];
@@ -106,6 +105,7 @@ fn claims(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Vec<Claim> {
     let first = quarter[0].rate();
     let energy = chaotic[3].points.last().map_or(f64::NAN, |point| point[2]);
     let until = format!("time of |ΔH| > {LOST} or of an error that ends the run");
+    let rates = |run: &Motion| run.rate().zip(first).map(|(rate, first)| rate / first);
     vec![
         beyond("with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not")
             .each(explicit, |claim, run| {
@@ -117,7 +117,7 @@ fn claims(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Vec<Claim> {
             |claim, run| {
                 let name = run.name();
                 let quantity = format!("rate on the leapfrogging pairs, {name}, over that of the largest h");
-                claim.near(quantity, run.rate().zip(first).map(|(rate, first)| rate / first), [1.0, 0.1])
+                claim.near(quantity, rates(run), [1.0, 0.1])
             },
         ),
         beyond("for σ = ½ it neither grows nor decays").each(halves, |claim, run| {
@@ -145,7 +145,7 @@ fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
     let middle = panel("Chaotic motion", amplitude, chaotic, 1);
     let right = panel("Chaotic motion: energy", "largest |*H* − *H*(0)| so far   [Γ²]", chaotic, 2);
     Figure::of(
-        "All runs start with a step of RK2, which leaves a parasitic mode of size *h*³; in a circle a run ended",
+        "All runs start with a step of RK2, which leaves a mode of size *h*³; a circle: the run ended there",
     )
     .row(460.0, vec![left, middle, right.without_legend()])
     .footer("Data of Rowley & Marsden 2002, Figs. 2 and 5. Γ and *L*: units of circulation and length.")

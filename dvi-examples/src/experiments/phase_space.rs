@@ -5,9 +5,6 @@
 
 use super::barnes;
 use super::elliptic::Elliptic;
-use crate::models::{
-    Pendulum, PendulumState, PhasePendulum, PhasePendulumState, SymmetricPendulum, SymmetricPendulumState,
-};
 use crate::vocabulary::*;
 
 const SYSTEM: PhasePendulum = PhasePendulum {};

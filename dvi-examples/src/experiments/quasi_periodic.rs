@@ -4,7 +4,6 @@
 //! collocation of order six.
 
 use super::sections::{self, CAVEAT, Crossings, LYAPUNOV_STEPS, Scheme, compare, cost, lyapunov_exponent};
-use crate::models;
 use crate::vocabulary::*;
 
 const RUNS: [(Scheme, f64); 6] = sections::runs([0.1, 0.2, 0.5]);

@@ -5,7 +5,6 @@
 //! solves exactly.
 
 use super::kepler::Course;
-use crate::models::{LeviCivita, LeviCivitaState, Orbit};
 use crate::vocabulary::*;
 
 #[derive(Clone, Copy, Debug, Default)]

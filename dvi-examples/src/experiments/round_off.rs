@@ -6,7 +6,6 @@
 //! 1937). A plain sum rounds the coordinates, in units of ε|q|; a compensated one the increments, in units
 //! of εh|q'|.
 
-use crate::models::{self, Case, Kepler, Orbit, Rotation, RotationState, Spring, SpringState};
 use crate::vocabulary::*;
 
 /// [steps, error] in intervals of the logarithm of the steps.
@@ -163,7 +162,7 @@ fn figure(pairs: &[Pair; 4], steps: f64) -> Figure {
             .legend_at(Corner::TopLeft)
     };
     let panels = || CASES.iter().zip(pairs).map(panel);
-    Figure::of("Root mean square over four runs from different points, in intervals of the logarithm of *n*; *h* = 0.1")
+    Figure::of("*h* = 0.1; root mean square over four runs, in intervals of the logarithm of *n*")
         .row(330.0, panels().take(2).collect())
         .row(330.0, panels().skip(2).collect())
 }

@@ -6,7 +6,6 @@
 
 use std::f64::consts::SQRT_2;
 
-use crate::models::{SchroedingerLattice, SchroedingerLatticeState, breather};
 use crate::vocabulary::*;
 
 const SITES: usize = 15;

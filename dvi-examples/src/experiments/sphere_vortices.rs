@@ -6,7 +6,6 @@
 //! M is conserved. In coordinates along an axis a scheme is symmetric about that axis only: the component
 //! along it is kept, and M turns slowly around it.
 
-use crate::models::SphereVortices;
 use crate::vocabulary::*;
 
 /// Three vortices whose moment is not along the axis of the coordinates.
@@ -51,7 +50,7 @@ fn follow(
 ) -> Result<(Kept, Paths)> {
     let mut run = Integrator::new(&THREE, method, H, SphereVortices::state(PLACES))?;
     let (energy, start) = (run.energy(), moment(&THREE, run.q()));
-    let (mut direction, mut paths) = (Around::new(start), Paths::default());
+    let (mut before, mut turned, mut paths) = (start, 0.0, Paths::default());
     let span = Span { intervals: 100, ..Span::of(steps, H, EARLY) };
     let kept = job.series(named, &mut run, steps, span, |run, _| {
         let moment = moment(&THREE, run.q());
@@ -59,30 +58,17 @@ fn follow(
             let places = paths.iter_mut().zip(THREE.places(run.q()));
             places.for_each(|(path, [x, y, _])| path.push([x, y]));
         }
+        turned += angle(before, moment);
+        before = moment;
         let axial = (moment[2] - start[2]) / length(start);
-        [run.energy() - energy, length(moment) / length(start) - 1.0, direction.turned_to(moment), axial]
+        [run.energy() - energy, length(moment) / length(start) - 1.0, turned, axial]
     })?;
     Ok((kept, paths))
 }
 
-/// The angle of a vector around the z axis, counted over more than one turn.
-struct Around {
-    angle: f64,
-    turn: f64,
-}
-
-impl Around {
-    fn new([x, y, _]: [f64; 3]) -> Self {
-        Self { angle: y.atan2(x), turn: 0.0 }
-    }
-
-    /// The angle since the start.
-    fn turned_to(&mut self, [x, y, _]: [f64; 3]) -> f64 {
-        let angle = y.atan2(x);
-        self.turn += (angle - self.angle + PI).rem_euclid(TAU) - PI;
-        self.angle = angle;
-        self.turn
-    }
+/// By what angle a vector has turned around the z axis, less than half a turn.
+fn angle(before: [f64; 3], [x, y, _]: [f64; 3]) -> f64 {
+    (y.atan2(x) - before[1].atan2(before[0]) + PI).rem_euclid(TAU) - PI
 }
 
 fn keep(all: &[Kept; 3]) -> Claim {
@@ -102,7 +88,7 @@ fn keep(all: &[Kept; 3]) -> Claim {
 fn precession() -> Result<Claim> {
     let (start, counts) = (SphereVortices::state(PLACES), [400, 600, 800]);
     let begin = Integrator::new(&THREE, OneStep::midpoint(), H, start)?;
-    let angle = |q: &[f64]| Around::new(moment(&THREE, begin.q())).turned_to(moment(&THREE, q)).abs();
+    let angle = |q: &[f64]| angle(moment(&THREE, begin.q()), moment(&THREE, q)).abs();
     let midpoint = order_at(&THREE, OneStep::midpoint(), &start, 400.0, counts, angle)?;
     let gauss = order_at(&THREE, OneStepGauss::<2>::new(), &start, 400.0, counts, angle)?;
     let text = "the moment turns slowly around the axis of the coordinates, at a rate that falls with the \

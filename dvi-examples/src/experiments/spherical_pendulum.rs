@@ -7,7 +7,6 @@
 use super::geodesics::{FEW_UNITS, Long, between_heights, flat_energy, panels, reference};
 use super::shadow;
 use super::turnings::{self, Sample, up_and_down};
-use crate::models::{ConstrainedPendulum, SphericalPendulum, SphericalPendulumState};
 use crate::vocabulary::*;
 
 const PENDULUM: SphericalPendulum = SphericalPendulum { gravity: 1.0 };

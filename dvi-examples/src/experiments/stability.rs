@@ -5,7 +5,6 @@
 
 use rayon::prelude::*;
 
-use crate::models::{Linear, LinearState, Rotation, RotationState};
 use crate::vocabulary::*;
 
 /// σ = ½ has no limit and is tested apart.
@@ -18,7 +17,7 @@ const SIGMAS: [f64; 18] = [
 const LARGE: f64 = 1e8;
 /// λh that damp, the first of which is drawn.
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
-const FEW: u64 = 1000;
+const FEW: usize = 1000;
 
 fn unlimited(sigma: f64) -> Sigma {
     Sigma { parasitic_limit: None, ..Sigma::new(sigma) }
@@ -32,14 +31,14 @@ fn formula(sigma: f64) -> f64 {
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
     // A bisection takes some 32 runs.
-    job.expect(steps * (3 + 32 * SIGMAS.len() as u64) + FEW * (19 * DAMPED.len() + 1) as u64);
+    job.expect(steps * (3 + 32 * SIGMAS.len() as u64));
     let measured: Vec<[f64; 2]> =
         SIGMAS.par_iter().map(|&sigma| Ok([sigma, limit(job, sigma, steps)?])).collect::<Result<_>>()?;
     let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(job, 0.5, 1e3, steps))?;
     let damped = SIGMAS.into_iter().chain([0.5]).flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
     let damped: Vec<Damped> =
-        damped.map(|(sigma, lambda)| Damped::new(job, sigma, lambda)).collect::<Result<_>>()?;
-    let right = Damped::new(job, 0.5, [0.01, 1.0])?.factor;
+        damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<_>>()?;
+    let right = Damped::new(0.5, [0.01, 1.0])?.factor;
     let limits = measured.iter().map(|&[sigma, at]| (["limit"], [sigma, 0.0, at, at, formula(sigma)]));
     let growths = damped.iter().map(|run| {
         let [x, y] = run.lambda;
@@ -93,16 +92,17 @@ fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Resul
     let [first, second] =
         [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
     let mut run = Integrator::from_two_points(&rotation, unlimited(sigma), 1.0, first, second)?;
-    let (mut largest, mut lost) = (0.0f64, false);
-    job.repeat(steps, || {
+    let mut largest = 0.0f64;
+    for _ in 0..steps {
         // Once it is large enough to be called unstable, or ended, there is no need to go on to infinity.
-        if largest < LARGE && !lost {
-            lost = run.advance().is_err();
-            largest = run.q().iter().fold(largest, |largest, q| larger(q.abs(), largest));
+        if run.advance().is_err() || largest >= LARGE {
+            largest = LARGE;
+            break;
         }
-        Ok(())
-    })?;
-    Ok(if lost { LARGE } else { largest })
+        largest = run.q().iter().fold(largest, |largest, q| larger(q.abs(), largest));
+    }
+    job.proceed(steps);
+    Ok(largest)
 }
 
 /// A run with h = 1 and a λ off the imaginary axis.
@@ -116,21 +116,17 @@ struct Damped {
 }
 
 impl Damped {
-    fn new(job: &Job<'_>, sigma: f64, lambda: [f64; 2]) -> Result<Self> {
+    fn new(sigma: f64, lambda: [f64; 2]) -> Result<Self> {
         let [first, second] = [[1.0, 0.0], [0.0, 1.0]].map(|z| LinearState { z, w: [0.0; 2] });
         let system = Linear { real: lambda[0], imaginary: lambda[1] };
         let mut run = Integrator::from_two_points(&system, unlimited(sigma), 1.0, first, second)?;
-        let (mut sizes, mut before, mut lost) = (vec![1.0f64], 1.0f64, false);
-        job.repeat(FEW, || {
-            if before < 1e60 && !lost {
-                lost = run.advance().is_err();
-                // Two points, so that no oscillation is mistaken for decay.
-                let now = run.q()[0].hypot(run.q()[1]);
-                sizes.push(larger(before, now));
-                before = now;
-            }
-            Ok(())
-        })?;
+        let (mut sizes, mut before) = (vec![1.0f64], 1.0f64);
+        while sizes.len() <= FEW && before < 1e60 && run.advance().is_ok() {
+            // Two points, so that no oscillation is mistaken for decay.
+            let now = run.q()[0].hypot(run.q()[1]);
+            sizes.push(larger(before, now));
+            before = now;
+        }
         let (middle, last) = (sizes.len() / 2, sizes.len() - 1);
         let factor = (sizes[last] / sizes[middle]).powf(1.0 / (last - middle).max(1) as f64);
         Ok(Self { sigma, lambda, factor, largest: largest(sizes) })

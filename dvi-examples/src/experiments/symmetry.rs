@@ -4,7 +4,6 @@
 //! the symmetry lasts, the parasitic mode of σ = 0 has nothing to grow from; rounding breaks it slowly. With
 //! one vortex displaced there is no symmetry, and the motion is lost within the paper's time.
 
-use crate::models::{self, Case};
 use crate::vocabulary::*;
 
 const H: f64 = 2.0;

@@ -7,7 +7,6 @@
 use dvi_core::ProperlyDegenerate;
 use dvi_core::field::{ScalarField, Spline};
 
-use crate::models::{TabulatedTokamak, TabulatedTokamakState, TokamakInClass, TokamakInClassState};
 use crate::vocabulary::*;
 
 const Q: f64 = 2.0;
@@ -26,8 +25,8 @@ const EARLY: u64 = 2000;
 const GRIDS: [usize; 14] = [8, 9, 11, 13, 15, 18, 21, 25, 29, 34, 40, 47, 55, 64];
 const COARSE: usize = 12;
 
-/// One kind of spline on all grids: the intervals across the section, and the root mean square of how far the
-/// orbits are at most from those of the formulas. And the power of their number by which it falls.
+/// One kind of spline on all grids: the intervals across the section, and the root mean square of how far
+/// the orbits are at most from those of the formulas. And the power of their number by which it falls.
 type Differences = (Vec<[f64; 2]>, f64);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {

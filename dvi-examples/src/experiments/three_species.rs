@@ -6,7 +6,6 @@
 //! species.
 
 use super::rk4::{keep_rk4, rk4_up_to};
-use crate::models::{ThreeSpecies, ThreeSpeciesReduced, ThreeSpeciesReducedState, ThreeSpeciesState};
 use crate::vocabulary::*;
 
 /// x, y and z at the start; the paths in the figure begin at others too.

@@ -10,7 +10,6 @@ use dvi_core::rotations;
 use super::geodesics::{FEW_UNITS, Long, between_heights, flat_energy, order_claim, panels};
 use super::shadow;
 use super::turnings::{self, Sample, up_and_down};
-use crate::models::{Heights, Top, TopState};
 use crate::vocabulary::*;
 
 const TOP: Top = Top { across: 1.0, along: 0.5, weight: 1.0 };
@@ -126,8 +125,8 @@ fn figure(all: &[Series<4>; 2], long: Long) -> Result<Figure> {
     ];
     let [first, second, third] = CURVES.map(|(precession, _)| precession.to_string().replace('-', "−"));
     let subtitle = format!(
-        "Above: the axis from above, up to *t* = {DRAWN}, from {LEANING} off the vertical with the precession \
-         {first}, {second} and {third}. The roots of the cubic are the circles."
+        "The axis from above, up to *t* = {DRAWN}, from {LEANING} off the vertical with the precession {first}, \
+         {second} and {third}; circles: the roots of the cubic"
     );
     Ok(Figure::of(subtitle)
         .row(380.0, each(CURVES, curve)?.into())

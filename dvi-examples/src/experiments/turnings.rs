@@ -1,7 +1,6 @@
 //! Where a height that goes up and down turns, between the steps of a run.
 
 use super::shadow::Shadow;
-use crate::models::Heights;
 use crate::vocabulary::*;
 
 struct Turnings {
@@ -99,24 +98,16 @@ pub fn claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
     let square = low.h * low.h;
     let bound = 1.1 * larger(low.predicted.abs(), high.predicted.abs()) / square;
     let farthest = larger(low.largest, high.largest) / square;
+    let distance = format!("distance from the root, h = {half} over h = {h}");
     beyond(text)
-        .each(
-            ["lowest", "highest"].into_iter().zip(middle.iter().zip(fine)),
-            |claim, (name, (middle, fine))| {
-                let [predicted, found] = [fine.predicted, fine.mean].map(|height| height / (h * h));
-                claim
-                    .of(name)
-                    .at_least("turnings", fine.count as f64, 5.0)
-                    .of(format!("{name}, h = {h}"))
-                    .near("(height − root)/h²", found, [predicted, 0.02 * predicted.abs()])
-                    .of(name)
-                    .near(
-                        format!("distance from the root, h = {half} over h = {h}"),
-                        middle.mean / fine.mean,
-                        [4.0, 0.1],
-                    )
-            },
-        )
+        .each([0, 1], |claim, side: usize| {
+            let (name, middle, fine) = (["lowest", "highest"][side], &middle[side], &fine[side]);
+            let [predicted, found] = [fine.predicted, fine.mean].map(|height| height / (h * h));
+            let claim = claim.of(name).at_least("turnings", fine.count as f64, 5.0);
+            let claim = claim.of(format!("{name}, h = {h}"));
+            let claim = claim.near("(height − root)/h²", found, [predicted, 0.02 * predicted.abs()]);
+            claim.of(name).near(&distance, middle.mean / fine.mean, [4.0, 0.1])
+        })
         .at_most(format!("h = {}: largest distance of a turning from its root / h²", low.h), farthest, bound)
 }
 

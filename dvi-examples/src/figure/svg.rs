@@ -43,15 +43,15 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    pub fn solid(colour: Colour) -> Self {
+    pub const fn solid(colour: Colour) -> Self {
         Self { colour, width: 1.8, opacity: 1.0, dash: "" }
     }
 
-    pub fn dashed(colour: Colour) -> Self {
+    pub const fn dashed(colour: Colour) -> Self {
         Self { dash: " stroke-dasharray=\"7 5\"", ..Self::solid(colour) }
     }
 
-    pub fn width(self, width: f64) -> Self {
+    pub const fn width(self, width: f64) -> Self {
         Self { width, ..self }
     }
 
@@ -59,7 +59,7 @@ impl Stroke {
         self.width(self.width.max(width))
     }
 
-    pub fn opacity(self, opacity: f64) -> Self {
+    pub const fn opacity(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
 
