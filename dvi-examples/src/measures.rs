@@ -40,7 +40,10 @@ pub fn shapes<S: System>(
 }
 
 /// Steps of the trapezoidal rule that are divided at impacts.
-pub fn trapezoid(collision: Collision) -> Impacts<Variational<Unfitted, Trapezoid>> {
+pub type Bouncing = Impacts<Variational<Unfitted, Trapezoid>>;
+
+/// With that law of impact.
+pub fn trapezoid(collision: Collision) -> Bouncing {
     Impacts { collision, ..Impacts::new(Variational::trapezoid()) }
 }
 

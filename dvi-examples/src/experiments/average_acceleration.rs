@@ -2,7 +2,6 @@
 //! friction.
 
 use super::decay::{Case, START};
-use crate::models::{RadialFriction, RadialFrictionState};
 use crate::vocabulary::*;
 
 /// A point with its velocity and acceleration.
@@ -73,7 +72,8 @@ impl AverageAcceleration {
 /// forces.
 pub fn is_midpoint(job: &Job<'_>, case: Case) -> Result<Claim> {
     let mut newmark = AverageAcceleration::new(case.system(), case.h, START);
-    let mut run = case.run(Variational::midpoint(), newmark.half_a_step_back())?;
+    let mut run =
+        Integrator::new(case.system(), Variational::midpoint(), case.h, newmark.half_a_step_back())?;
     let entries = |RadialFrictionState { x, y, dot_x, dot_y }| [x, y, dot_x, dot_y];
     let mut most = 0.0;
     job.follow(&mut run, case.steps(), |run| {

@@ -4,15 +4,11 @@
 use dvi_core::Separable;
 
 use super::beam::{ANGLE, ELEMENTS, OF_BEAM, OF_ROD, SEGMENTS, newmark, rod};
-use crate::models::{Beam, Mode};
 use crate::vocabulary::*;
 
 const MODES: [u32; 3] = [0, 1, 2];
 const BEAMS: [usize; 4] = [8, 16, 32, 64];
 const RODS: [usize; 4] = [12, 25, 50, 100];
-/// The factor of the velocities of a mode with which frequencies of the rod are measured, small so that they
-/// do not depend on it.
-const SPEED: f64 = 1e-4;
 
 /// Relative errors of the frequencies of [`MODES`].
 type Errors = [f64; 3];
@@ -40,8 +36,8 @@ impl Frequencies {
             Ok(energy - 0.9 * ANGLE * ANGLE)
         })?;
         let quantity = format!("{SEGMENTS} segments: largest relative error of a frequency");
-        let text = "the elastic rod has these frequencies at small deflections, and the energy of the curve, \
-                    with errors of second order";
+        let text = "the elastic rod has these frequencies at small deflections, and the energy of the \
+                    curve, with errors of second order";
         let segments = orders(beyond(text), "rod, ", RODS, of_rods, [2.0, 0.1])
             .at_most(quantity, largest(of_rods[3]), 1.2e-3)
             .near("energy of bending: order in 1/n", order_in_size(RODS, bending), [2.0, 0.05]);
@@ -56,14 +52,10 @@ impl Frequencies {
         let n = Axis::logarithmic("elements or segments *n*").within(6.0, 130.0);
         Panel::new("Frequencies", n, Axis::logarithmic("relative error of the frequency"))
             .each([BLUE, GREEN, PURPLE].into_iter().enumerate(), |panel, (k, colour)| {
-                let (beams, rods) = (points(BEAMS, &self.0, k), points(RODS, &self.1, k));
-                panel
-                    .line(beams.clone(), Stroke::solid(colour))
-                    .labelled(format!("mode {}, elements", k + 1))
-                    .discs(beams, colour, Fill::Solid)
-                    .line(rods.clone(), Stroke::dashed(colour))
-                    .labelled(format!("mode {}, segments", k + 1))
-                    .discs(rods, colour, Fill::Hollow)
+                panel.marked([
+                    (format!("mode {}, elements", k + 1), Stroke::solid(colour), points(BEAMS, &self.0, k)),
+                    (format!("mode {}, segments", k + 1), Stroke::dashed(colour), points(RODS, &self.1, k)),
+                ])
             })
             .line(slope(14.0, 1e-8, 4), Stroke::solid(SLATE).width(1.2))
             .labelled("orders 4 and 2")
@@ -104,18 +96,16 @@ where
 }
 
 fn errors_of_beam(n: usize) -> Result<Errors> {
-    each(MODES.map(Mode::new), |mode| {
-        let found = frequency(&Beam { n }, newmark(OF_BEAM), Beam { n }.struck(mode), mode.frequency())?;
-        Ok(found / mode.frequency() - 1.0)
-    })
+    errors(|mode, guess| frequency(&Beam { n }, newmark(OF_BEAM), Beam { n }.struck(mode), guess))
 }
 
 /// Of deflections that are so small that the frequency does not depend on them.
 fn errors_of_rod(n: usize) -> Result<Errors> {
-    each(MODES.map(Mode::new), |mode| {
-        let found = frequency(&rod(n), newmark(OF_ROD), rod(n).struck(mode, SPEED), mode.frequency())?;
-        Ok(found / mode.frequency() - 1.0)
-    })
+    errors(|mode, guess| frequency(&rod(n), newmark(OF_ROD), rod(n).struck(mode, 1e-4), guess))
+}
+
+fn errors(frequency: impl Fn(Mode, f64) -> Result<f64>) -> Result<Errors> {
+    each(MODES.map(Mode::new), |mode| Ok(frequency(mode, mode.frequency())? / mode.frequency() - 1.0))
 }
 
 /// The order in 1/n of errors that belong to these n.

@@ -5,11 +5,8 @@
 //! momenta about the foci is a constant of the motion, so that each orbit has a curve in the section
 //! (Birkhoff 1927). In the curve x⁴ + y⁴ = 1 some orbits fill regions of it.
 
-use dvi_core::discrete::{Trapezoid, Unfitted};
 use rayon::prelude::*;
 
-use crate::models::RoundedSquareBilliardState as SquareState;
-use crate::models::{EllipseBilliard, EllipseBilliardState as State, RoundedSquareBilliard as Square};
 use crate::vocabulary::*;
 
 const ELLIPSE: EllipseBilliard = EllipseBilliard { a: 1.25, b: 0.8 };
@@ -81,10 +78,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 /// Where an orbit crosses the x axis, and its velocity there.
-fn start(number: u32) -> State {
+fn start(number: u32) -> EllipseBilliardState {
     let part = (f64::from(number) + 0.5) / f64::from(ORBITS);
     let angle = 0.5 * PI * (1.0 - 0.6 * part);
-    State { x: 0.95 * part * ELLIPSE.a, y: 0.0, dot_x: angle.cos(), dot_y: angle.sin() }
+    EllipseBilliardState { x: 0.95 * part * ELLIPSE.a, y: 0.0, dot_x: angle.cos(), dot_y: angle.sin() }
 }
 
 impl Orbit {
@@ -97,9 +94,9 @@ impl Orbit {
     }
 
     fn in_square(job: &Job<'_>, number: u32, impacts: u64) -> Result<Self> {
-        let State { x, y, dot_x, dot_y } = start(number);
-        let start = SquareState { x: x / ELLIPSE.a, y, dot_x, dot_y };
-        let mut run = Integrator::new(&Square, trapezoid(Collision::Reflection), H, start)?;
+        let EllipseBilliardState { x, y, dot_x, dot_y } = start(number);
+        let start = RoundedSquareBilliardState { x: x / ELLIPSE.a, y, dot_x, dot_y };
+        let mut run = Integrator::new(&RoundedSquareBilliard, trapezoid(Collision::Reflection), H, start)?;
         Self::of(job, &mut run, impacts, |x, y| {
             (1.0 - x.powi(4) - y.powi(4), [-4.0 * x.powi(3), -4.0 * y.powi(3)])
         })
@@ -108,7 +105,7 @@ impl Orbit {
     /// In a curve that is where a function is zero, of which `curve` returns the value and the gradient.
     fn of<S: UnilateralLagrangian>(
         job: &Job<'_>,
-        run: &mut Integrator<&S, Impacts<Variational<Unfitted, Trapezoid>>>,
+        run: &mut Integrator<&S, Bouncing>,
         impacts: u64,
         curve: impl Fn(f64, f64) -> (f64, [f64; 2]),
     ) -> Result<Self> {
@@ -155,13 +152,13 @@ fn most(orbits: &[Orbit], of: impl Fn(&Orbit) -> f64) -> f64 {
 
 /// How far a particle in the square is from its start after twelve impacts and as many back.
 fn there_and_back() -> Result<f64> {
-    let start = SquareState { x: 0.3, y: 0.1, dot_x: 0.8, dot_y: 0.6 };
+    let start = RoundedSquareBilliardState { x: 0.3, y: 0.1, dot_x: 0.8, dot_y: 0.6 };
     let method = trapezoid(Collision::Variational);
-    let mut run = Integrator::new(&Square, method, H, start)?;
+    let mut run = Integrator::new(&RoundedSquareBilliard, method, H, start)?;
     while run.memory().total() < 12 {
         run.advance()?;
     }
-    let SquareState { x, y, .. } = back(&Square, method, &run)?;
+    let RoundedSquareBilliardState { x, y, .. } = back(&RoundedSquareBilliard, method, &run)?;
     Ok(distance([x, y], [start.x, start.y]))
 }
 
@@ -189,14 +186,7 @@ fn figure(ellipse: &[Orbit], square: &[Orbit]) -> Figure {
         })
     };
     let left = panel(format!("Ellipse with half axes {} and {}", ELLIPSE.a, ELLIPSE.b), ellipse);
-    Figure::new(
-        "Billiards in an ellipse and in a rounded square",
-        format!("{ORBITS} orbits of a free particle of speed 1, *h* = {H}: the first 3000 impacts of each."),
-    )
-    .row(470.0, vec![left, panel("*x*⁴ + *y*⁴ = 1".into(), square)])
-    .sequence_key("centre", "edge")
-    .footer(
-        "The velocity is the component along the curve after the impact, positive anticlockwise. \
-             Colours: where the orbit begins on the *x* axis.",
-    )
+    let subtitle = "The first 3000 impacts of 14 orbits of speed 1, by where they begin on the *x* axis";
+    let figure = Figure::of(subtitle).row(470.0, vec![left, panel("*x*⁴ + *y*⁴ = 1".into(), square)]);
+    figure.sequence_key("centre", "edge")
 }

@@ -8,7 +8,6 @@
 
 use super::random_walk::Walks;
 use super::rk4::rk4;
-use crate::models::{Bouncer, BouncerState};
 use crate::vocabulary::*;
 
 pub const FLOOR: Bouncer = Bouncer { a: 0.8 };
@@ -59,13 +58,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     .at_most(format!("h = 0.02: {over_all}"), job.only_full(coarse.growth()), 3.0)
     .at_most(format!("h = 0.01: {over_all}"), job.only_full(fine.growth()), 3.0)
     .at_least("max|ΔE|, h = 0.02 over h = 0.01", ratio, 3.0);
-    let text = "RK4 with impacts that keep the energy, and as many forces as with h = 0.02, loses energy all \
-                the time";
-    let loses = beyond(text).at_least("RK4: max|ΔE|", job.only_full(rk4.largest), 0.01).at_least(
-        format!("RK4: {over_all}"),
-        job.only_full(rk4.growth()),
-        100.0,
-    );
+    let text = "RK4 with impacts that keep the energy, and as many forces as with h = 0.02, loses energy \
+                all the time";
+    let loses = beyond(text).at_least("RK4: max|ΔE|", job.only_full(rk4.largest), 0.01);
+    let loses = loses.at_least(format!("RK4: {over_all}"), job.only_full(rk4.growth()), 100.0);
     let text = "with the discrete energy kept at each impact the energy walks at random: its change grows \
                 with the square root of the number of bounces, and has a quarter of the size with half the \
                 step";
@@ -80,10 +76,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64) -> Result<Bounces> {
-    let name = match collision {
-        Collision::Variational => "discrete energy",
-        Collision::Reflection => "energy at the impact",
-    };
+    let is_discrete = collision == Collision::Variational;
+    let name = if is_discrete { "discrete energy" } else { "energy at the impact" };
     let mut run = Integrator::new(&FLOOR, trapezoid(collision), h, START)?;
     let (begin, span) = (run.energy(), Span { end, early: EARLY, intervals: 300 });
     let kept = job.keep(&mut run, (end / h) as u64, span, |run| [run.energy() - begin])?;
@@ -173,20 +167,10 @@ fn figure(all: &[Bounces; 5], walks: &Walks, end: f64) -> Result<Figure> {
     });
     let error = ("largest |*E* − *E*(0)|", [1e-5, 1e4]);
     let energy = Panel::semilog("Energy", ("time *t*", [0.0, end]), error).lines(lines);
-    Ok(Figure::new(
-        "A particle that bounces on a curved floor",
-        format!(
-            "Mass and *g* are 1; a valley that narrows with the height; floor *y* = {} cos *x*. \
-             Trapezoidal rule, divided at each impact.",
-            FLOOR.a
-        ),
-    )
-    .row(380.0, vec![path()?, energy.legend_at(Corner::TopLeft).weight(1.6)])
-    .row(300.0, vec![walks.panel()])
-    .footer(
-        "“Discrete energy”: both flights of an impact have the same one (Fetecau, Marsden, Ortiz & West \
-         2003). “Energy at the impact”: *E* is kept at the point of impact, as it is by RK4.",
-    ))
+    let subtitle = "Floor *y* = 0.8 cos *x*. The discrete energy is that of both flights of an impact; the \
+                    energy at the impact is kept by RK4, too.";
+    let above = vec![path()?, energy.legend_at(Corner::TopLeft).weight(1.6)];
+    Ok(Figure::of(subtitle).row(380.0, above).row(300.0, vec![walks.panel()]))
 }
 
 /// The path up to t = 20, and the points of impact.

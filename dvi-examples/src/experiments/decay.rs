@@ -3,7 +3,6 @@
 use anyhow::bail;
 
 use super::average_acceleration::AverageAcceleration;
-use crate::models::{RadialFriction, RadialFrictionState};
 use crate::vocabulary::*;
 
 pub const GAMMA: f64 = 1e-3;
@@ -31,15 +30,8 @@ impl Case {
         RadialFriction { gamma: self.gamma }
     }
 
-    pub fn run<M>(
-        self,
-        method: M,
-        start: RadialFrictionState,
-    ) -> Result<Integrator<RadialFriction, M>, StartError>
-    where
-        M: Method<RadialFriction, f64>,
-    {
-        Integrator::new(self.system(), method, self.h, start)
+    pub fn run<M: Method<RadialFriction, f64>>(self, method: M) -> Result<Integrator<RadialFriction, M>> {
+        Ok(Integrator::new(self.system(), method, self.h, START)?)
     }
 }
 
@@ -52,7 +44,7 @@ pub struct Reference {
 
 impl Reference {
     pub fn new(job: &Job<'_>, method: impl Method<RadialFriction, f64>, case: Case) -> Result<Self> {
-        let mut run = case.run(method, START)?;
+        let mut run = case.run(method)?;
         let (mut energies, [begin], mut momentum) = (Vec::new(), momenta(&run), 0.0);
         job.follow(&mut run, case.steps(), |run| {
             energies.push(run.energy());
@@ -69,8 +61,8 @@ impl Reference {
     }
 }
 
-/// What one run leaves: E, drawn in tenths of a window; with the energy E' of the reference at the same time,
-/// E/E' − 1; and l/(l(0) e^{−γt}) − 1.
+/// What one run leaves: E, drawn in tenths of a window; with the energy E' of the reference at the same
+/// time, E/E' − 1; and l/(l(0) e^{−γt}) − 1.
 pub struct Decay {
     pub name: &'static str,
     pub case: Case,
@@ -85,37 +77,37 @@ pub struct Decay {
 /// Runs with one step: midpoint, trapezoid, Newmark and RK4.
 pub type Runs = [Decay; 4];
 
-pub fn runs(job: &Job<'_>, case: Case, reference: &Reference) -> Result<Runs> {
-    let mut newmark = AverageAcceleration::new(case.system(), case.h, START);
-    let (begin, mut steps) = ([newmark.energy(), newmark.angular_momentum()], 0);
-    let newmark = Decay::new(job, "Newmark, *β* = ¼", case, reference, begin, || {
-        newmark.step();
-        steps += 1;
-        Ok((f64::from(steps) * case.h, [newmark.energy(), newmark.angular_momentum()]))
-    });
-    let runs = [
-        Decay::by(job, "variational midpoint", Variational::midpoint(), case, reference)?,
-        Decay::by(job, "variational trapezoid", Variational::trapezoid(), case, reference)?,
-        newmark,
-        Decay::by(job, "RK4", RungeKutta::classical(), case, reference)?,
-    ];
-    if let Some(error) = runs.iter().find_map(|run| run.lost) {
-        bail!(error);
-    }
-    Ok(runs)
+/// What runs are compared with, and how.
+#[derive(Clone, Copy)]
+pub struct Setting<'a> {
+    pub job: &'a Job<'a>,
+    pub case: Case,
+    pub reference: &'a Reference,
 }
 
-impl Decay {
-    pub fn by(
-        job: &Job<'_>,
-        name: &'static str,
-        method: impl Method<RadialFriction, f64>,
-        case: Case,
-        reference: &Reference,
-    ) -> Result<Self> {
-        let mut run = case.run(method, START)?;
+impl Setting<'_> {
+    pub fn runs(self) -> Result<Runs> {
+        let case = self.case;
+        let mut newmark = AverageAcceleration::new(case.system(), case.h, START);
+        let (begin, mut steps) = ([newmark.energy(), newmark.angular_momentum()], 0);
+        let newmark = self.decay("Newmark, *β* = ¼", begin, || {
+            newmark.step();
+            steps += 1;
+            Ok((f64::from(steps) * case.h, [newmark.energy(), newmark.angular_momentum()]))
+        });
+        let midpoint = self.by("variational midpoint", Variational::midpoint())?;
+        let trapezoid = self.by("variational trapezoid", Variational::trapezoid())?;
+        let runs = [midpoint, trapezoid, newmark, self.by("RK4", RungeKutta::classical())?];
+        match runs.iter().find_map(|run| run.lost) {
+            Some(error) => bail!(error),
+            None => Ok(runs),
+        }
+    }
+
+    pub fn by(self, name: &'static str, method: impl Method<RadialFriction, f64>) -> Result<Decay> {
+        let mut run = self.case.run(method)?;
         let [l] = momenta(&run);
-        Ok(Self::new(job, name, case, reference, [run.energy(), l], || {
+        Ok(self.decay(name, [run.energy(), l], || {
             run.advance()?;
             let [l] = momenta(&run);
             Ok((run.time(), [run.energy(), l]))
@@ -123,18 +115,14 @@ impl Decay {
     }
 
     /// From E and l at the start, with the time and those after each step.
-    fn new(
-        job: &Job<'_>,
-        name: &'static str,
-        case: Case,
-        reference: &Reference,
-        begin: [f64; 2],
-        mut step: impl FnMut() -> Result<(f64, [f64; 2]), StepError>,
-    ) -> Self {
-        let windows = (case.end / WINDOW).round() as usize;
-        let [mut error, mut momentum] =
-            Span { end: case.end, early: WINDOW, intervals: windows }.deviations();
-        let (mut energy, mut doubled) = (Envelope::new(case.end, 10 * windows), None);
+    fn decay<F>(self, name: &'static str, begin: [f64; 2], mut step: F) -> Decay
+    where
+        F: FnMut() -> Result<(f64, [f64; 2]), StepError>,
+    {
+        let Self { job, case, reference } = self;
+        let (windows, end) = ((case.end / WINDOW).round() as usize, case.end);
+        let [mut error, mut momentum] = Span { end, early: WINDOW, intervals: windows }.deviations();
+        let (mut energy, mut doubled) = (Envelope::new(end, 10 * windows), None);
         let ended = job.repeat(case.steps(), || {
             let (t, [e, l]) = step()?;
             energy.push(t, e);
@@ -145,9 +133,11 @@ impl Decay {
             }
             Ok(())
         });
-        Self { name, case, energy, error, momentum, doubled, lost: ended.err() }
+        Decay { name, case, energy, error, momentum, doubled, lost: ended.err() }
     }
+}
 
+impl Decay {
     /// The relative deviation of the energy in the first and in the last window, on average over each.
     pub fn means(&self) -> [f64; 2] {
         let means = self.error.envelope.mean();

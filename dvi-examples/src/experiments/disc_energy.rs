@@ -4,7 +4,6 @@
 use super::disc::{MAGNET, PLACE, RATES, SPRINGS};
 use super::rk4::rk4;
 use super::sleigh::{H, midpoint};
-use crate::models::{RollingDisc, RollingDiscState};
 use crate::vocabulary::*;
 
 /// The end of the beginning, and of runs with half the step.
@@ -30,13 +29,31 @@ impl Errors {
     pub fn new(job: &Job<'_>) -> Result<Self> {
         let (end, half) = job.choose((5e4, HALVED), (500.0, 500.0));
         job.expect((STARTS as f64 * (4.0 * end / H + 2.0 * half / H)) as u64);
-        let (solid, dashed) = (Stroke::solid, Stroke::dashed);
+        let constrained = |named, disc: &'static RollingDisc, h, end| {
+            Growth::new(job, named, disc, [h, end], |begin| {
+                let mut run = Integrator::new(disc, midpoint(), h, begin)?;
+                Ok(move || {
+                    run.advance()?;
+                    Ok(run.energy())
+                })
+            })
+        };
+        // On the equations without constraints.
+        let by_rk4 = |named, disc: &'static RollingDisc| {
+            Growth::new(job, named, disc, [H, end], |begin| {
+                let mut y = begin.reduced();
+                Ok(move || {
+                    y = rk4(&y, H, |y| disc.reduced(y));
+                    Ok(disc.energy_of(&y))
+                })
+            })
+        };
         Ok(Self([
-            Growth::constrained(job, ("magnet", solid(VERMILLION)), &MAGNET, H, end)?,
-            Growth::constrained(job, ("magnet", solid(AMBER)), &MAGNET, H / 2.0, half)?,
-            Growth::rk4(job, ("magnet, RK4", dashed(VERMILLION)), &MAGNET, end)?,
-            Growth::constrained(job, ("springs", solid(BLUE)), &SPRINGS, H, end)?,
-            Growth::rk4(job, ("springs, RK4", dashed(BLUE)), &SPRINGS, end)?,
+            constrained(("magnet", Stroke::solid(VERMILLION)), &MAGNET, H, end)?,
+            constrained(("magnet", Stroke::solid(AMBER)), &MAGNET, H / 2.0, half)?,
+            by_rk4(("magnet, RK4", Stroke::dashed(VERMILLION)), &MAGNET)?,
+            constrained(("springs", Stroke::solid(BLUE)), &SPRINGS, H, end)?,
+            by_rk4(("springs, RK4", Stroke::dashed(BLUE)), &SPRINGS)?,
         ]))
     }
 
@@ -65,8 +82,8 @@ impl Errors {
         let by_half = format!("magnet: largest |ΔE| up to t = {HALVED} with half the step / with the whole");
         let late = whole.points.iter().filter(|point| point[0] >= 0.999 * EARLY);
         let power = job.only_full(order(late.map(|&[t, error]| (t, error))));
-        let magnet = "with a magnet that energy wanders away, by an amount of the order h², and RK4 with steps \
-                      of the same length keeps it better";
+        let magnet = "with a magnet that energy wanders away, by an amount of the order h², and RK4 with \
+                      steps of the same length keeps it better";
         [
             beyond(format!(
                 "on equal springs the energy error of constrained steps, on average over {STARTS} starts, \
@@ -88,35 +105,8 @@ impl Errors {
 }
 
 impl Growth {
-    fn constrained(
-        job: &Job<'_>,
-        named: (&'static str, Stroke),
-        disc: &RollingDisc,
-        h: f64,
-        end: f64,
-    ) -> Result<Self> {
-        Self::of(job, named, disc, [h, end], |begin| {
-            let mut run = Integrator::new(disc, midpoint(), h, begin)?;
-            Ok(move || {
-                run.advance()?;
-                Ok(run.energy())
-            })
-        })
-    }
-
-    /// By RK4 on the equations without constraints.
-    fn rk4(job: &Job<'_>, named: (&'static str, Stroke), disc: &RollingDisc, end: f64) -> Result<Self> {
-        Self::of(job, named, disc, [H, end], |begin| {
-            let mut y = begin.reduced();
-            Ok(move || {
-                y = rk4(&y, H, |y| disc.reduced(y));
-                Ok(disc.energy_of(&y))
-            })
-        })
-    }
-
     /// Of runs whose steps `begun` takes, each of which returns the energy after it.
-    fn of<F: FnMut() -> Result<f64, StepError>>(
+    fn new<F: FnMut() -> Result<f64, StepError>>(
         job: &Job<'_>,
         (name, stroke): (&'static str, Stroke),
         disc: &RollingDisc,

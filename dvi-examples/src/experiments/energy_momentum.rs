@@ -6,7 +6,6 @@
 
 use super::energy_steps::{BEGINNING, COMPARED, Motion, Runs, Steps, most, order_in_length};
 use super::no_energy_step::NoStep;
-use crate::models::{Kepler, Orbit, StiffeningSpring, StiffeningSpringState};
 use crate::vocabulary::*;
 
 pub const START: StiffeningSpringState = StiffeningSpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
@@ -62,8 +61,8 @@ fn position(states: &[StiffeningSpringState], t: f64) -> [f64; 2] {
 fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
     let one_length = |of: &Runs| format!("{}, steps of one length", of.name);
     let (second, width) = ([2.0, 0.02], |steps: &Steps, k: usize| steps.kept[k].width());
-    let discrete = "the steps keep the discrete energy to rounding, and steps of one length up to terms of the \
-                    second order";
+    let discrete = "the steps keep the discrete energy to rounding, and steps of one length up to terms of \
+                    the second order";
     let bounds = [(1.5e-14, [3.141e-3, 5e-6]), (5e-14, [1.053e-2, 2e-5])];
     let discrete = beyond(discrete).each(all.iter().zip(bounds), |claim, (of, (rounding, varies))| {
         let claim = claim.of(of.name);
@@ -153,21 +152,13 @@ fn figure(all: &[Runs; 2], none: &NoStep) -> Figure {
     let discrete = panel(0, "Discrete energy", step, defect);
     let energy = panel(1, "Energy at the points of the run", time(), Axis::linear("*E* − *E*(0)"));
     let lengths = panel(2, "Length of the steps", time(), Axis::linear("*h*").within(0.0, 0.22));
-    Figure::new(
-        "Steps of such a length that the discrete energy stays the same",
-        format!(
-            "variational midpoint rule; a spring with *V* = *r*²/2 + *r*⁴/4, first step {}, and a Kepler \
-             orbit of eccentricity {}, first step {}; “one length” is the mean of the other run",
-            ON_SPRING[0], ORBIT.e, ON_ORBIT[0]
-        ),
-    )
+    Figure::of(format!(
+        "midpoint rule; a spring with *V* = *r*²/2 + *r*⁴/4, first step {}, and a Kepler orbit of \
+         eccentricity {}, first step {}; “one length” is the mean of the other run",
+        ON_SPRING[0], ORBIT.e, ON_ORBIT[0]
+    ))
     .row(370.0, vec![discrete.without_legend(), energy.without_legend()])
     .row(350.0, vec![lengths, none.panel()])
-    .footer(format!(
-        "The scheme of Kane, Marsden & Ortiz 1999. With the trapezoidal rule on the spring it ends after \
-         {} steps, at *t* = {:.2}: no length within reach gives the discrete energy *e* of the first step.",
-        none.steps, none.time
-    ))
 }
 
 fn table(all: &[Runs; 2], none: &NoStep) -> Result<Table> {

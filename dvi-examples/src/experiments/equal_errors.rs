@@ -3,7 +3,6 @@
 use dvi_core::discrete::{FrequencyIn, Unfitted};
 
 use super::kepler::{Course, fixed, follow, osculating};
-use crate::models::Orbit;
 use crate::vocabulary::*;
 
 /// Of a factor 1000, down to 10⁻⁴.

@@ -1,14 +1,13 @@
 //! How fast the stiff springs of a chain exchange their energies, in the motion and by Newmark's method.
 //!
-//! With x = z(t)e^{iω̃t} and z slow, a soft force that is linear in x, −gx, turns z at the rate g/(2ω) in the
-//! motion. With δ² the second difference, the method is (1 + βh²ω²)δ²x = −h²ω²x − h²(1 + βδ²)gx. There the
-//! rate is g/(2ω) times
+//! With x = z(t)e^{iω̃t} and z slow, a soft force that is linear in x, −gx, turns z at the rate g/(2ω) in
+//! the motion. With δ² the second difference, the method is (1 + βh²ω²)δ²x = −h²ω²x − h²(1 + βδ²)gx. There
+//! the rate is g/(2ω) times
 //!
 //! 1 / ((1 + β(hω)²) √(1 + (β − ¼)(hω)²)),
 //!
 //! which is 1 + O((hω)⁴) for β = 1/12 only.
 
-use crate::models::SpringChain;
 use crate::vocabulary::*;
 
 pub const OMEGA: f64 = 50.0;

@@ -6,9 +6,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::carried_flux::{Field, Place, STEPS, flux_change, turned};
-use super::islands::where_islands_are;
-use crate::models::{Abc, PerturbedTokamak};
+use super::poincare_map::{Field, Place, STEPS, flux_change, turned, where_islands_are};
 use crate::vocabulary::*;
 
 const ABC: Abc = Abc { a: 0.08, b: 0.3, c: 0.3, uniform: 1.0 };
@@ -155,20 +153,9 @@ fn figure(abc: Lines, tokamak: Lines, surfaces: &[Series<1>; 2], turns: u64) -> 
     let time = ("turns around the torus", [0.0, turns as f64]);
     let flux = Panel::semilog(title, time, ("largest |Δ*ψ*/*ψ*| of each interval", [1e-5, 1.0]));
     let flux = flux.lines(magnitudes(surfaces, 0)).legend_at(Corner::BottomRight);
-    Figure::new(
-        "Magnetic field lines: Poincaré plots by the one-step midpoint scheme",
-        format!(
-            "{STEPS} steps a turn; colours tell lines apart. Tokamak: islands at *q* = 2 and *q* = \
-                 3/2, *ε* = 10⁻³ and 6·10⁻³"
-        ),
-    )
-    .row(560.0, vec![abc, tokamak])
-    .row(280.0, vec![flux])
-    .footer(format!(
-        "Largest |Δ*ψ*/*ψ*|: one step {}, RK4 at the end {}.",
-        surfaces[0].bound(0),
-        scientific(surfaces[1].kept[0].largest)
-    ))
+    let subtitle = "24 steps a turn; colours tell lines apart. Tokamak: islands at *q* = 2 and *q* = 3/2, \
+                    *ε* = 10⁻³ and 6·10⁻³";
+    Figure::of(subtitle).row(560.0, vec![abc, tokamak]).row(280.0, vec![flux])
 }
 
 fn table(abc: &Lines, tokamak: &Lines, surfaces: &[Series<1>; 2]) -> Result<Table> {

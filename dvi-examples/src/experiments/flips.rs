@@ -6,12 +6,12 @@
 use super::elliptic::Elliptic;
 use super::shadow::Shadow;
 use super::turnings::crossing;
-use crate::models::{RigidBody, RigidBodyState};
 use crate::vocabulary::*;
 
 pub const BODY: RigidBody = RigidBody { inertia: [1.0, 2.0, 3.0] };
 /// Close to the middle axis; the first component is zero where the second is largest.
 pub const OMEGA: [f64; 3] = [0.0, 1.0, 0.02];
+
 pub fn begin() -> RigidBodyState {
     RigidBody::turning(OMEGA)
 }

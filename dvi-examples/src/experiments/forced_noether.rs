@@ -1,7 +1,6 @@
 //! The forced discrete Noether theorem: what a step takes of an angular momentum.
 
-use super::decay::{Case, Runs, START};
-use crate::models::RadialFriction;
+use super::decay::{Case, Runs};
 use crate::vocabulary::*;
 
 /// D₁L_d and D₂L_d are parallel to the points but for Δ/h and the forces ∓½γΔ, and so l0 = (1/h + c + ½γ)
@@ -37,7 +36,7 @@ fn defects(
     case: Case,
     c: impl Fn([f64; 2], [f64; 2]) -> f64,
 ) -> Result<[f64; 2]> {
-    let mut run = case.run(method, START)?;
+    let mut run = case.run(method)?;
     let (mut before, [mut l]) = (place(&run), momenta(&run));
     let (mut product, mut of_a_step, mut of_all) = (l, 0.0, 0.0);
     job.follow(&mut run, case.steps(), |run| {

@@ -6,7 +6,7 @@
 //! Noether theorem its discrete rate is known in closed form.
 
 use super::average_acceleration::is_midpoint;
-use super::decay::{Case, Decay, FINE, GAMMA, Reference, Runs, STEPS, WINDOW, runs};
+use super::decay::{Case, Decay, FINE, GAMMA, Reference, Runs, STEPS, Setting, WINDOW};
 use super::forced_noether::noether;
 use crate::vocabulary::*;
 
@@ -22,23 +22,22 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let reference = Reference::new(job, Gauss::<4>::new(), fine)?;
     let other = Reference::new(job, Galerkin::<5>::new(), double)?;
     let without = Reference::new(job, Gauss::<4>::new(), Case { gamma: 0.0, ..fine })?;
-    let lost = [
-        Decay::by(job, "Heun", RungeKutta::heun(), long, &reference)?,
-        Decay::by(job, "explicit midpoint", RungeKutta::midpoint(), long, &reference)?,
-    ];
-    let steps = each(by_step, |case| runs(job, case, &reference))?;
-    let conservative = runs(job, Case { gamma: 0.0, ..long }, &without)?;
+    let setting = Setting { job, case: long, reference: &reference };
+    let lost =
+        [setting.by("Heun", RungeKutta::heun())?, setting.by("explicit midpoint", RungeKutta::midpoint())?];
+    let steps = each(by_step, |case| Setting { case, ..setting }.runs())?;
+    let conservative = Setting { case: Case { gamma: 0.0, ..long }, reference: &without, job }.runs()?;
     let all = steps.iter().flatten().chain(&lost).chain(&conservative);
     let rows = all.flat_map(|Decay { name, case, error, momentum, .. }| {
         let means = error.envelope.mean().into_iter().zip(momentum.envelope.mean());
         means.map(|([t, energy], [_, momentum])| ([*name], [case.gamma, case.h, t, energy, momentum]))
     });
     let columns = ["method", "gamma", "h", "t", "mean_energy_deviation", "mean_momentum_deviation"];
-    job.publish(figure(&reference, &steps, &lost, &conservative[3]), Table::of(&columns, rows)?)?;
+    job.publish(figure(&reference, &steps, &conservative[3]), Table::of(&columns, rows)?)?;
     let pairs = reference.energies.iter().skip(1).step_by(2).zip(&other.energies);
     let between = largest(pairs.map(|(a, b)| (a / b - 1.0).abs()));
-    let references = "the reference has the energy of a run by another method, and the angular momentum of the \
-                      motion";
+    let references = "the reference has the energy of a run by another method, and the angular momentum of \
+                      the motion";
     let gain = beyond("Runge–Kutta methods of second order gain energy at that step instead of losing it");
     Ok(vec![
         beyond(references).at_most("largest relative difference of two energies", between, 2e-11).at_most(
@@ -118,7 +117,7 @@ fn orders(job: &Job<'_>, steps: &[Runs; 4]) -> Claim {
         .at_most(dearest, same_cost, 0.01)
 }
 
-fn figure(reference: &Reference, steps: &[Runs; 4], lost: &[Decay; 2], rk4_alone: &Decay) -> Figure {
+fn figure(reference: &Reference, steps: &[Runs; 4], rk4_alone: &Decay) -> Figure {
     let stroke = |method: usize| Stroke::solid(COLOURS[method]).width(if method == 0 { 2.4 } else { 1.8 });
     let lines = |points: fn(&Decay) -> Vec<[f64; 2]>| {
         steps[0].iter().enumerate().map(move |(method, run)| (run.name, stroke(method), points(run)))
@@ -141,26 +140,16 @@ fn figure(reference: &Reference, steps: &[Runs; 4], lost: &[Decay; 2], rk4_alone
         Panel::semilog("Angular momentum", time, change).lines(lines(|run| run.momentum.magnitude()));
     let h = Axis::logarithmic("step *h*").within(0.02, 0.25);
     let rate = Axis::logarithmic("|error| of the rate of *E*   [*γ*]");
-    let rates = Panel::new("Error of the rate of decay", h, rate).each(0..4, |panel, method: usize| {
+    let excess = |method: usize| {
         let points = steps.iter().map(|runs| [runs[method].case.h, runs[method].excess().abs()]);
-        let points: Vec<_> = points.collect();
-        panel.line(points.clone(), stroke(method)).discs(points, COLOURS[method], Fill::Solid)
-    });
-    let [heun, explicit] =
-        lost.each_ref().map(|run| run.doubled.map_or("∞".to_owned(), |t| format!("{t:.1}")));
-    Figure::new(
-        "A particle with friction: what the energy loses, and what methods add to that",
-        format!(
-            "*V* = *r*²(*r*² − 1)², *γ* = {GAMMA}, from (1.2, 0) with velocity (0, 0.5); *h* = {} but \
-             for the last panel; energies are means over time",
-            STEPS[0]
-        ),
-    )
-    .row(400.0, vec![decay, deviation.legend_at(Corner::BottomRight)])
-    .row(330.0, vec![momentum.without_legend(), rates])
-    .footer(format!(
-        "After Kane, Marsden, Ortiz & West 2000. The reference is Gauss's method of order 8, *h* = {FINE}. \
-         With Heun's method and the explicit midpoint rule the energy is doubled at *t* = {heun} and \
-         {explicit}."
+        (steps[0][method].name, stroke(method), points.collect())
+    };
+    let rates = Panel::new("Error of the rate of decay", h, rate).marked((0..4).map(excess));
+    Figure::of(format!(
+        "*V* = *r*²(*r*² − 1)², *γ* = {GAMMA}, from (1.2, 0) with velocity (0, 0.5); *h* = {} but for the \
+         last panel; energies are means over time; reference: *h* = {FINE}",
+        STEPS[0]
     ))
+    .row(400.0, vec![decay, deviation.legend_at(Corner::BottomRight)])
+    .row(330.0, vec![momentum.without_legend(), rates.without_legend()])
 }

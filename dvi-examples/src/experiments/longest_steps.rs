@@ -1,7 +1,6 @@
 //! How long steps may be with rods, and with springs in place of them.
 
 use super::molecules::{H_SPRINGS, RIGID, SOFT, STIFF};
-use crate::models::RigidMoleculesState;
 use crate::vocabulary::*;
 
 /// What the energy error may be, over the energy.
@@ -60,7 +59,8 @@ impl Scans {
             nearest.map_or(f64::NAN, |[_, error]| *error)
         });
         let quantity = format!("h = {H_SPRINGS}: max|ΔE| with springs, k = {}, over that with rods", SOFT.k);
-        let text = "below that limit rods and springs have the same energy error: only stability shortens the steps";
+        let text = "below that limit rods and springs have the same energy error: only stability shortens \
+                    the steps";
         [longer, beyond(text).near(quantity, soft / rods, [1.0, 0.02])]
     }
 

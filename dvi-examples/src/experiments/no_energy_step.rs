@@ -4,7 +4,6 @@
 use anyhow::bail;
 
 use super::energy_momentum::{ON_SPRING, START};
-use crate::models::{StiffeningSpring, StiffeningSpringState};
 use crate::vocabulary::*;
 
 /// Lengths are tried up to so many times that of the step before, which is as far as the control seeks.
@@ -15,7 +14,6 @@ const SHOWN: f64 = 0.25;
 /// The last step of the run, and the one that it cannot take.
 pub struct NoStep {
     pub steps: u64,
-    pub time: f64,
     /// E_d − e over the length of the step, of both.
     curves: [Vec<[f64; 2]>; 2],
     /// The length of the last step, with its defect by hand.
@@ -46,7 +44,6 @@ impl NoStep {
         });
         Ok(Self {
             steps: run.steps(),
-            time: run.time(),
             curves,
             last: [length, energy_of_step(last, length) - energy],
             best: [h, defect, energy_of_step(failed, h) - energy],

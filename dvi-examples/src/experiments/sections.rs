@@ -4,19 +4,14 @@
 //! section is R₂ = 0, dR₂/dt > 0. These pairs are canonical and remove translation and rotation, but the
 //! coordinates that Pullin & Saffman used, and the paper with them, may be others.
 
-use rayon::prelude::*;
-
 pub use super::section_figures::{CAVEAT, figure, notes, stays_close, table};
-use crate::models::{Case, FourPoints, FourVortices};
 use crate::vocabulary::*;
 
-/// The schemes that the sections compare.
+/// The schemes that the sections compare: VI2 with σ = ½, RK4, and Gauss collocation of order six.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
-    /// σ = ½.
     Vi2,
     Rk4,
-    /// Gauss collocation of order six.
     Gauss6,
 }
 
@@ -74,8 +69,7 @@ pub fn compare<const N: usize>(
     runs: [(Scheme, f64); N],
     end: f64,
 ) -> Result<[Crossings; N]> {
-    let all = runs.par_iter().map(|&run| crossings(job, case, run, end, LABELS[0]));
-    all.collect::<Result<Vec<_>>>()?.try_into().ok().context("a section for each run")
+    side_by_side(runs, |run| crossings(job, case, run, end, LABELS[0]))
 }
 
 /// The section of one run with the vortices in the given order.
@@ -95,15 +89,16 @@ pub fn crossings(
     }
 }
 
-fn collect<M>(job: &Job<'_>, case: &Case, method: M, mut result: Crossings) -> Result<Crossings>
-where
-    M: Method<FourVortices, f64> + Copy,
-{
+fn collect(
+    job: &Job<'_>,
+    case: &Case,
+    method: impl Method<FourVortices, f64> + Copy,
+    mut result: Crossings,
+) -> Result<Crossings> {
     let Case { vortices, start } = case;
     let (h, end, labels) = (result.h, result.end, result.labels);
     let mut run = Integrator::new(vortices, method, h, *start)?;
-    let initial = run.energy();
-    let steps = (end / h) as u64;
+    let (initial, steps) = (run.energy(), (end / h) as u64);
     let height = |state: &FourPoints| coordinates(state, labels)[2];
     let mut before = height(&run.state());
     let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
@@ -141,20 +136,23 @@ where
 
 /// By what factor a small displacement grows in 2000 units of time: exponential growth reaches the size
 /// of the motion and saturates at some 1e10, on a torus the growth is linear.
-fn growth<M>(vortices: &FourVortices, method: M, h: f64, start: &FourPoints) -> Result<f64>
-where
-    M: Method<FourVortices, f64> + Copy,
-{
+fn growth(
+    vortices: &FourVortices,
+    method: impl Method<FourVortices, f64> + Copy,
+    h: f64,
+    start: &FourPoints,
+) -> Result<f64> {
     const DISPLACEMENT: f64 = 1e-10;
     let mut displaced = *start;
     displaced.x[0] += DISPLACEMENT;
-    let mut pair = each([*start, displaced], |start| Ok(Integrator::new(vortices, method, h, start)?))?;
-    for run in &mut pair {
+    let [one, other] = each([*start, displaced], |start| {
+        let mut run = Integrator::new(vortices, method, h, start)?;
         while run.time() < 2000.0 {
             run.advance()?;
         }
-    }
-    Ok(apart(pair[0].q(), pair[1].q()) / DISPLACEMENT)
+        Ok(run.q().to_vec())
+    })?;
+    Ok(apart(&one, &other) / DISPLACEMENT)
 }
 
 /// What [`lyapunov_exponent`] takes.

@@ -12,7 +12,6 @@
 use dvi_core::fast_sum::FastSum;
 
 use super::waves::waves;
-use crate::models::{ShearLayer, VortexBlobsState};
 use crate::vocabulary::*;
 
 /// Of the forces, and of the stages of a step.
@@ -128,14 +127,12 @@ fn figure(rolled: &RollUp, operations: &[Operations]) -> Figure {
         shown.map(|((state, steps), weight)| snapshot(rolled.layer, state, steps).weight(weight)).collect();
     let late = panels.split_off(panels.len().min(1));
     let rows = [(370.0, panels), (560.0, late)].into_iter().filter(|(_, panels)| !panels.is_empty());
-    let figure = Figure::new(
-        format!("A shear layer of {} {:03} vortex blobs rolls up", n / 1000, n % 1000),
-        format!(
-            "Gauss collocation of order 6, *h* = {H}, with a fast sum of tolerance {}",
-            scientific(TOLERANCE)
-        ),
-    )
-    .sequence_key("from below", "from above");
+    let figure = Figure::of(format!(
+        "{} {:03} blobs; Gauss collocation of order 6, *h* = {H}, with a fast sum of tolerance {}",
+        n / 1000,
+        n % 1000,
+        scientific(TOLERANCE)
+    ));
     let [energy, impulse, angular] = rolled.kept.each_ref().map(Deviation::magnitude);
     let time = Axis::time(SHOWN[2] as f64 * H);
     let kept = Panel::new("What is kept", time, Axis::logarithmic("relative change")).lines([
@@ -146,25 +143,16 @@ fn figure(rolled: &RollUp, operations: &[Operations]) -> Figure {
     let per_blob = |of: fn(&Operations) -> u64| -> Vec<[f64; 2]> {
         operations.iter().map(|counts| [counts.0 as f64, of(counts) as f64 / counts.0 as f64]).collect()
     };
-    let of_groups = [
-        ("pairs nearby", per_blob(|(_, pairs, _)| *pairs), BLUE),
-        ("products of groups", per_blob(|(.., products)| *products), VERMILLION),
+    let costs = [
+        ("all pairs", Stroke::solid(SLATE), per_blob(|(blobs, ..)| blobs * (blobs - 1))),
+        ("pairs nearby", Stroke::solid(BLUE), per_blob(|(_, pairs, _)| *pairs)),
+        ("products of groups", Stroke::solid(VERMILLION), per_blob(|(.., products)| *products)),
     ];
     let axes = (Axis::logarithmic("number of blobs"), Axis::logarithmic("for each blob"));
-    let costs = Panel::new("What an evaluation takes for each blob", axes.0, axes.1)
-        .line(per_blob(|(blobs, ..)| blobs * (blobs - 1)), Stroke::solid(SLATE))
-        .labelled("all pairs")
-        .each(of_groups, |panel, (name, points, colour)| {
-            let line = panel.line(points.clone(), Stroke::solid(colour)).labelled(name);
-            line.discs(points, colour, Fill::Solid)
-        });
-    let [at_start, at_end] = rolled.errors.map(scientific);
+    let costs = Panel::new("What an evaluation takes for each blob", axes.0, axes.1).marked(costs);
     rows.fold(figure, |figure, (height, panels)| figure.row(height, panels))
         .row(330.0, vec![kept.legend_at(Corner::Beside), costs.legend_at(Corner::Beside)])
-        .footer(format!(
-            "Velocities differ by 1 across the layer, the waves on it have the length 1. Relative error of \
-             the forces: {at_start} at the start, {at_end} at the end."
-        ))
+        .sequence_key("from below", "from above")
 }
 
 /// The blobs, in the colours of their rows.

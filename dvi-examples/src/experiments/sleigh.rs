@@ -1,9 +1,9 @@
-//! A sleigh on a blade, which turns around and ends in straight motion: to that no symplectic map could lead.
+//! A sleigh on a blade, which turns around and ends in straight motion: to that no symplectic map could
+//! lead.
 
 use dvi_core::discrete::{Midpoint, Unfitted};
 
 use super::rk4::rk4;
-use crate::models::{ChaplyginSleigh, ChaplyginSleighState};
 use crate::vocabulary::*;
 
 const SLEIGH: ChaplyginSleigh = ChaplyginSleigh { inertia: 1.0, a: 0.5 };

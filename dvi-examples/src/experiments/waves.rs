@@ -1,10 +1,9 @@
-//! Small waves on a shear layer of vortex blobs, which grow as Rayleigh (1880) says: with √(d² + δ²) = s as the
-//! distance of the edges of the layer, at the rate √(e^{−2ks} − (e^{−kδ} − k(s − δ))²)/2d.
+//! Small waves on a shear layer of vortex blobs, which grow as Rayleigh (1880) says: with √(d² + δ²) = s as
+//! the distance of the edges of the layer, at the rate √(e^{−2ks} − (e^{−kδ} − k(s − δ))²)/2d.
 
 use dvi_core::fast_sum::FastSum;
 
 use super::shear_layer::{H, TOLERANCE, method};
-use crate::models::{ShearLayer, VortexBlobsState};
 use crate::vocabulary::*;
 
 /// ln(a(2)/a(1)), where a is the amplitude of small waves on the edges of the layer, in its middle, over the
