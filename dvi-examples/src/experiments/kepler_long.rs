@@ -171,13 +171,10 @@ fn figure(all: &[Orbits; 6], periods: u64) -> Figure {
         });
         Panel::loglog(title, ("time *t*   [periods]", [0.1, end]), (label, [1e-8, 10.0])).lines(lines)
     };
-    let energy = panel("Energy", "largest |*E* − *E*(0)|   [μ/*a*]", 1).without_legend();
+    let energy = panel("Energy", "largest |*E* − *E*(0)|   [μ/*a*]", 1);
     let position = panel("Position", "largest distance from the exact position   [*a*]", 2)
         .guide([[0.1, 2.0], [end, 2.0]], "the diameter of the orbit");
-    Figure::of(
-        "Left-frozen: Simpson's rule; in *L*_d: Lobatto's with four nodes. (23) with *v*_o per unit of arc \
-         length, and its tolerance",
-    )
-    .row(470.0, vec![energy, position.legend_at(Corner::Beside).weight(1.45)])
-    .footer("After Kosmas & Vlachos, Fig. 3.")
+    Figure::of("Left-frozen: Simpson's rule; in *L*_d: Lobatto's with four nodes. (23) with its tolerance")
+        .row_with_legend(470.0, vec![energy, position], 1.45)
+        .footer("After Kosmas & Vlachos, Fig. 3.")
 }
