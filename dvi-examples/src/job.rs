@@ -204,9 +204,9 @@ impl<'a> Job<'a> {
         ended.map_or(Ok(series), |error| Err(error.into()))
     }
 
-    /// Writes the figure (SVG and PNG) and its data (CSV); the figure of an interrupted run says so.
+    /// Writes the figure (SVG and PNG) and its data (CSV); the figure of a short or an interrupted run says so.
     pub fn publish(&self, figure: Figure, data: Table) -> Result<()> {
-        let figure = figure.titled(title(self.name));
+        let figure = figure.titled(&format!("{}{}", title(self.name), self.choose("", " — short form")));
         let figure = if self.was_interrupted() { figure.interrupted() } else { figure };
         figure.save(&self.folder, self.name)?;
         data.save(&self.folder, self.name)

@@ -8,13 +8,13 @@ use crate::vocabulary::*;
 
 /// The methods, with the number of stages that can be evaluated at once.
 #[rustfmt::skip]
-const METHODS: [(&str, u64, Colour); 6] = [
-    ("order 2",    1, SLATE),
-    ("RK4",        1, INK),
-    ("Kahan–Li 8", 1, GREEN),
-    ("Gauss 4",    2, AMBER),
-    ("Gauss 8",    4, VERMILLION),
-    ("Gauss 16",   8, BLUE),
+const METHODS: [(&str, f64, Stroke); 6] = [
+    ("order 2",    1.0, Stroke::solid(SLATE)),
+    ("RK4",        1.0, Stroke::dashed(INK)),
+    ("Kahan–Li 8", 1.0, Stroke::solid(GREEN)),
+    ("Gauss 4",    2.0, Stroke::solid(AMBER)),
+    ("Gauss 8",    4.0, Stroke::solid(VERMILLION)),
+    ("Gauss 16",   8.0, Stroke::solid(BLUE)),
 ];
 const RK4: usize = 1;
 const KAHAN_LI: usize = 2;
@@ -27,19 +27,11 @@ const PROBLEMS: [(&str, &str, [f64; 6]); 3] = [
     ("planets", "Outer solar system", [1e6, 2e5, 2e4, 2e5, 2e4, 4e3]),
 ];
 
-/// What one run has cost, in evaluations of ∇H or of the force, and max |H − H(0)| / |H(0)| over all steps.
-struct Course {
-    steps: u64,
-    evaluations: u64,
-    error: f64,
-}
-
-impl Course {
-    /// The evaluations one after another, if so many stages of a step are evaluated at once.
-    fn in_turn(&self, stages: u64) -> f64 {
-        self.evaluations.div_ceil(stages) as f64
-    }
-}
+/// The steps of one run, its evaluations of ∇H or of the force, the same one after another if all stages of a
+/// step are evaluated at once, and max |H − H(0)| / |H(0)| over all steps.
+type Course = [f64; 4];
+const ALL: usize = 1;
+const IN_TURN: usize = 2;
 
 /// All runs of one problem by one of the methods, and those that did not come to their end.
 type Curve = (Vec<Course>, Vec<String>);
@@ -59,21 +51,17 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         })
     })?;
     let curves = || {
-        all.iter().zip(PROBLEMS).flat_map(|(of, (problem, ..))| {
-            of.iter().zip(METHODS).map(move |((courses, failures), (name, stages, _))| {
-                (problem, name, stages, courses, failures)
-            })
+        let all = all.iter().zip(PROBLEMS);
+        all.flat_map(|(of, (problem, ..))| {
+            of.iter().zip(METHODS).map(move |(curve, of)| (problem, of.0, curve))
         })
     };
-    let rows = curves().flat_map(|(problem, name, stages, courses, _)| {
-        courses.iter().map(move |course| {
-            let [all, in_turn] = [1, stages].map(|stages| course.in_turn(stages));
-            ([problem, name], [course.steps as f64, all, in_turn, course.error])
-        })
+    let rows = curves().flat_map(|(problem, method, (courses, _))| {
+        courses.iter().map(move |course| ([problem, method], *course))
     });
     let columns = ["problem", "method", "steps", "evaluations", "evaluations_in_turn", "energy_error"];
     job.publish(figure(&all), Table::of(&columns, rows)?)?;
-    let notes = curves().flat_map(|(.., failures)| failures.clone()).collect();
+    let notes = curves().flat_map(|(.., (_, failures))| failures.clone()).collect();
     Ok(Outcome { claims: claims(job, &all), references: vec![], notes })
 }
 
@@ -113,13 +101,14 @@ where
     Gauss<4>: Method<S, f64>,
     Gauss<8>: Method<S, f64>,
 {
+    let stages = METHODS[method].1;
     match method {
-        0 => follow(job, begin, second, span),
-        RK4 => follow(job, begin, RungeKutta::classical(), span),
-        KAHAN_LI => follow(job, begin, Composition::kahan_li_8(composed), span),
-        3 => follow(job, begin, Gauss::<2>::new(), span),
-        4 => follow(job, begin, Gauss::<4>::new(), span),
-        _ => follow(job, begin, Gauss::<8>::new(), span),
+        0 => follow(job, begin, second, stages, span),
+        RK4 => follow(job, begin, RungeKutta::classical(), stages, span),
+        KAHAN_LI => follow(job, begin, Composition::kahan_li_8(composed), stages, span),
+        3 => follow(job, begin, Gauss::<2>::new(), stages, span),
+        4 => follow(job, begin, Gauss::<4>::new(), stages, span),
+        _ => follow(job, begin, Gauss::<8>::new(), stages, span),
     }
 }
 
@@ -127,67 +116,62 @@ fn follow<S: Lagrangian>(
     job: &Job<'_>,
     (system, start): (&S, S::State<f64>),
     method: impl Method<S, f64>,
+    stages: f64,
     [end, steps]: [f64; 2],
 ) -> Result<Course> {
     let mut run = Integrator::new(system, method, end / steps, start)?;
     let (initial, mut error, steps) = (run.energy(), 0.0, steps as u64);
     job.follow(&mut run, steps, |run| error = larger(error, ((run.energy() - initial) / initial).abs()))?;
     let statistics = run.statistics();
-    Ok(Course { steps, evaluations: statistics.gradients + statistics.linearizations, error })
+    let evaluations = (statistics.gradients + statistics.linearizations) as f64;
+    Ok([steps as f64, evaluations, (evaluations / stages).ceil(), error])
 }
 
 fn claims(job: &Job<'_>, all: &[[Curve; 6]; 3]) -> Vec<Claim> {
     let [vortices, _, planets] = all;
     let named = || ["vortices", "Kepler", "outer solar system"].into_iter().zip(all);
-    let best = |of: &[Curve; 6]| job.only_full(least(of[GAUSS_16].0.iter().map(|run| run.error)));
-    // How much more work one method takes than another to keep the energy to a bound.
-    let ratio = |of: &[Curve; 6], pair: [(usize, u64); 2], bound: f64| {
-        let [of, to] = pair.map(|(method, stages)| {
-            let within = of[method].0.iter().filter(|course| course.error <= bound);
-            within.map(|course| course.in_turn(stages)).reduce(f64::min)
+    let best = |of: &[Curve; 6]| job.only_full(least(of[GAUSS_16].0.iter().map(|course| course[3])));
+    // How much more work a method takes than Gauss 16 to keep the energy to a bound.
+    let ratio = |of: &[Curve; 6], method: usize, bound: f64, work: usize| {
+        let [of, to] = [method, GAUSS_16].map(|method| {
+            let within = of[method].0.iter().filter(|course| course[3] <= bound);
+            within.map(|course| course[work]).reduce(f64::min)
         });
         job.only_full(of.zip(to).map(|(of, to)| of / to))
     };
-    let [rk4, kahan_li] = [RK4, KAHAN_LI].map(|method| [(method, 1), (GAUSS_16, 1)]);
-    let at_once = [(KAHAN_LI, 1), (GAUSS_16, METHODS[GAUSS_16].1)];
+    let fewer = "for 1e-13 it needs fewer evaluations than Kahan–Li 8";
+    let many_fewer = "with its stages at once it makes many fewer one after another";
+    let of_planets = ratio(planets, KAHAN_LI, 1e-6, ALL);
     vec![
         beyond("Gauss collocation of order 16 keeps the energy to rounding errors")
             .each(named(), |claim, (name, of)| {
                 claim.of(name).at_most("smallest max|ΔH|/|H|", best(of), 1e-14)
             }),
-        beyond("for 1e-13 it needs fewer evaluations than Kahan–Li 8").each(
-            named().zip([5.0, 2.0, 1.5]),
-            |claim, ((name, of), low)| {
-                claim.of(name).at_least("Kahan–Li 8 / Gauss 16", ratio(of, kahan_li, 1e-13), low)
-            },
-        ),
-        beyond("with its stages at once it makes many fewer one after another").each(
-            named().zip([40.0, 16.0, 12.0]),
-            |claim, ((name, of), low)| {
-                claim.at_least(format!("{name}, stages at once"), ratio(of, at_once, 1e-13), low)
-            },
-        ),
+        beyond(fewer).each(named().zip([5.0, 2.0, 1.5]), |claim, ((name, of), low)| {
+            claim.of(name).at_least("Kahan–Li 8 / Gauss 16", ratio(of, KAHAN_LI, 1e-13, ALL), low)
+        }),
+        beyond(many_fewer).each(named().zip([40.0, 16.0, 12.0]), |claim, ((name, of), low)| {
+            claim.at_least(format!("{name}, stages at once"), ratio(of, KAHAN_LI, 1e-13, IN_TURN), low)
+        }),
         beyond("for 1e-6 it does not: other methods need fewer evaluations")
-            .at_most("vortices, 1e-6: RK4 / Gauss 16", ratio(vortices, rk4, 1e-6), 1.0)
-            .at_most("outer solar system, 1e-6: Kahan–Li 8 / Gauss 16", ratio(planets, kahan_li, 1e-6), 1.0),
+            .at_most("vortices, 1e-6: RK4 / Gauss 16", ratio(vortices, RK4, 1e-6, ALL), 1.0)
+            .at_most("outer solar system, 1e-6: Kahan–Li 8 / Gauss 16", of_planets, 1.0),
     ]
 }
 
 /// A column for each problem, with all evaluations counted, and in turn.
 fn figure(all: &[[Curve; 6]; 3]) -> Figure {
-    let row = |label: &str, at_once: bool| {
+    let row = |label: &str, work: usize| {
         let panels = all.iter().zip(PROBLEMS).map(|(curves, (_, title, _))| {
-            let lines = METHODS.into_iter().zip(curves).map(|((name, stages, colour), (courses, _))| {
-                let stroke = if name == "RK4" { Stroke::dashed(colour) } else { Stroke::solid(colour) };
-                let stages = if at_once { stages } else { 1 };
-                (name, stroke, courses.iter().map(|course| [course.in_turn(stages), course.error]).collect())
+            let lines = METHODS.into_iter().zip(curves).map(|((name, _, stroke), (courses, _))| {
+                (name, stroke, courses.iter().map(|course| [course[work], course[3]]).collect())
             });
             Panel::loglog(title, (label, [2e3, 4e6]), ("max|Δ*H*| / |*H*|", [1e-16, 1.0])).marked(lines)
         });
         panels.collect()
     };
     Figure::of("Order 2: midpoint (σ = ½) on vortices, Störmer–Verlet else; Kahan–Li 8 is composed of these")
-        .row_with_legend(360.0, row("evaluations", false), 1.35)
-        .row_with_legend(360.0, row("evaluations, all stages of a step at once", true), 1.35)
+        .row_with_legend(360.0, row("evaluations", ALL), 1.35)
+        .row_with_legend(360.0, row("evaluations, all stages of a step at once", IN_TURN), 1.35)
         .footer("Steps of one length. Gauss 4, 8, 16: 2, 4, 8 stages. Hairer, Lubich & Wanner 2006.")
 }

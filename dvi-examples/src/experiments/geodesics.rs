@@ -137,9 +137,6 @@ pub fn order_claim<S: OnManifold<12>>(
 /// The checks that the energy error of a run is no larger than predicted, and has no trend.
 pub fn flat_energy(job: &Job<'_>, claim: Claim, run: &str, energy: &Deviation, predicted: f64) -> Claim {
     let trend = format!("{run}: max|ΔE|, last tenth of the time over the first");
-    claim.at_most(format!("{run}: max|ΔE|"), energy.largest, 1.02 * predicted).near(
-        trend,
-        job.only_full(energy.trend()),
-        [1.0, 0.01],
-    )
+    let claim = claim.at_most(format!("{run}: max|ΔE|"), energy.largest, 1.02 * predicted);
+    claim.near(trend, job.only_full(energy.trend()), [1.0, 0.01])
 }

@@ -69,32 +69,25 @@ fn claims(orbits: &[Orbit; 2]) -> Vec<Claim> {
     let named = || ORBITS.iter().map(|(name, _)| *name).zip(orbits);
     let reach = |series: &Series<2>| largest(series.path.iter().map(|[_, z]| z.abs()));
     let growth = format!("max|ΔH| over all / over {EARLY} steps");
+    let flat = "energy errors are no larger in the whole run than in its beginning";
+    let one_orbit = "both sets of coordinates give one orbit";
     let reaches = "largest |Z| out of class, in units of that in class";
     vec![
-        beyond("energy errors are no larger in the whole run than in its beginning").each(
-            named(),
-            |claim, (orbit, [one_step, projected, rk4])| {
-                let claim = claim.each([one_step, projected], |claim, run| {
-                    claim.of(format!("{orbit}, {}", run.name)).at_most(&growth, run.kept[0].growth(), 1.02)
-                });
-                claim.of(format!("{orbit}, RK4")).at_least(&growth, rk4.kept[0].growth(), 2.0)
-            },
-        ),
+        beyond(flat).each(named(), |claim, (orbit, [one_step, projected, rk4])| {
+            let claim = claim.each([one_step, projected], |claim, run| {
+                claim.of(format!("{orbit}, {}", run.name)).at_most(&growth, run.kept[0].growth(), 1.02)
+            });
+            claim.of(format!("{orbit}, RK4")).at_least(&growth, rk4.kept[0].growth(), 2.0)
+        }),
         beyond("the toroidal momentum is kept to rounding errors").each(named(), |claim, (orbit, runs)| {
             claim.each(&runs[..2], |claim, run| {
-                claim.of(format!("{orbit}, {}", run.name)).at_most(
-                    "max|Δp_φ/p_φ|",
-                    run.kept[1].largest,
-                    1e-9,
-                )
+                let claim = claim.of(format!("{orbit}, {}", run.name));
+                claim.at_most("max|Δp_φ/p_φ|", run.kept[1].largest, 1e-9)
             })
         }),
-        beyond("both sets of coordinates give one orbit").each(
-            named(),
-            |claim, (orbit, [one_step, projected, _])| {
-                claim.of(orbit).near(reaches, reach(projected) / reach(one_step), [1.0, 2e-3])
-            },
-        ),
+        beyond(one_orbit).each(named(), |claim, (orbit, [one_step, projected, _])| {
+            claim.of(orbit).near(reaches, reach(projected) / reach(one_step), [1.0, 2e-3])
+        }),
     ]
 }
 

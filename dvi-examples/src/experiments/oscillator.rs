@@ -176,7 +176,5 @@ fn figure(rows: &[Row; 8], given: &[Given; 7], many: u64) -> Figure {
     });
     Figure::of("Dashed: linear interpolation. Right: dots measured, lines *s* = *uS*/sin *u*")
         .row(460.0, vec![velocity, recursion, factor])
-        .footer(
-            "Kosmas & Vlachos, section 3; the momentum is not in the paper. *S* = Σ*w* cos((1 − 2*c*)*u*).",
-        )
+        .footer("Kosmas & Vlachos, section 3, but for the momentum. *S* = Σ*w* cos((1 − 2*c*)*u*).")
 }

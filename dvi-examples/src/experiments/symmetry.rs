@@ -96,15 +96,14 @@ impl Motion {
 
 fn claims(job: &Job<'_>, [symmetric, displaced]: &[Motion; 2]) -> Vec<Claim> {
     let lost = format!("time at which |ΔH| exceeds {LOST}");
+    let carried = "it does for the paper's time, carried by the mirror symmetry of its initial data; rounding \
+                   breaks the symmetry, and later the motion breaks up";
     let all_time = job.only_full(symmetric.lost);
     let growth = symmetric.asymmetry(PAPER) / symmetric.asymmetry(0.1 * PAPER);
     vec![
         says("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value for all time")
             .at_least(&lost, all_time, symmetric.end)
-            .instead(
-                "it does for the paper's time, carried by the mirror symmetry of its initial data; \
-                 rounding breaks the symmetry, and later the motion breaks up",
-            )
+            .instead(carried)
             .within(&lost, all_time, [PAPER, symmetric.end])
             .at_least("asymmetry up to t = 2·10⁵ / up to t = 2·10⁴", growth, 10.0)
             .at_least("asymmetry when it is lost", job.only_full(symmetric.asymmetry(f64::INFINITY)), 0.1),

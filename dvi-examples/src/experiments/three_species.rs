@@ -101,11 +101,8 @@ fn means() -> Result<Claim> {
         total += 0.5 * (before + run.q()[0]);
     }
     let means = [total / STEPS as f64, run.q()[1] / (STEPS as f64 * H)];
-    Ok(beyond("s counts the third species, whose mean is that of the first").near(
-        "s/t over the mean of x, at t = 2000",
-        means[1] / means[0],
-        [1.0, 3e-3],
-    ))
+    let claim = beyond("s counts the third species, whose mean is that of the first");
+    Ok(claim.near("s/t over the mean of x, at t = 2000", means[1] / means[0], [1.0, 3e-3]))
 }
 
 fn figure(all: &[Series<2>; 2], end: f64) -> Result<Figure> {

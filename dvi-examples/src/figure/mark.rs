@@ -34,7 +34,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.x.place(x), self.y.place(y)]
     }
 

@@ -7,9 +7,10 @@ use super::palette::{Colour, GRID, SLATE};
 use super::svg::{Anchor, Label, Stroke, Svg, number};
 
 /// A corner of a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Corner {
     TopLeft,
+    #[default]
     TopRight,
     BottomRight,
     /// To the right of the panel, from the top, for legends that would cover data.
@@ -20,7 +21,7 @@ pub enum Corner {
 pub type Ranged<'a> = (&'a str, [f64; 2]);
 
 /// One pair of axes with what is drawn on it, in the order in which it was added.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Panel {
     title: String,
     x: Axis,
@@ -28,18 +29,11 @@ pub struct Panel {
     marks: Vec<Mark>,
     legend: Vec<(usize, String)>,
     corner: Corner,
-    notes: Vec<Note>,
+    /// The place in data coordinates, the text, and how it hangs there.
+    notes: Vec<([f64; 2], String, Anchor, Colour)>,
     captions: Vec<(Corner, String)>,
     pub(super) weight: f64,
     equal: bool,
-}
-
-#[derive(Clone, Debug)]
-struct Note {
-    at: [f64; 2],
-    text: String,
-    anchor: Anchor,
-    colour: Colour,
 }
 
 const LEFT: f64 = 70.0;
@@ -56,18 +50,7 @@ const BESIDE: f64 = 150.0;
 
 impl Panel {
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
-        Self {
-            title: title.into(),
-            x,
-            y,
-            marks: Vec::new(),
-            legend: Vec::new(),
-            corner: Corner::TopRight,
-            notes: Vec::new(),
-            captions: Vec::new(),
-            weight: 1.0,
-            equal: false,
-        }
+        Self { title: title.into(), x, y, weight: 1.0, ..Self::default() }
     }
 
     /// Linear axes.
@@ -165,7 +148,7 @@ impl Panel {
 
     /// Writes on the panel, at a point in data coordinates.
     pub fn note(mut self, at: [f64; 2], anchor: Anchor, colour: Colour, text: impl Into<String>) -> Self {
-        self.notes.push(Note { at, text: text.into(), anchor, colour });
+        self.notes.push((at, text.into(), anchor, colour));
         self
     }
 
@@ -237,10 +220,9 @@ impl Panel {
             let ([x, y], anchor) = hold(*corner, inner, 10.0, 0.0);
             svg.label(Label { anchor, halo: true, ..Label::new(text, [x, y + 4.5], TEXT) });
         }
-        for note in &self.notes {
-            let at = [frame.x.place(note.at[0]), frame.y.place(note.at[1])];
-            let label = Label::new(&note.text, at, TEXT);
-            svg.label(Label { anchor: note.anchor, colour: note.colour, halo: true, ..label });
+        for &(at, ref text, anchor, colour) in &self.notes {
+            let label = Label::new(text, frame.place(at), TEXT);
+            svg.label(Label { anchor, colour, halo: true, ..label });
         }
     }
 
