@@ -1,4 +1,4 @@
-//! The experiments, a file each, and what several of them share.
+//! The experiments, a file each, and the ideas beside them, which several of them may share.
 
 mod accuracy_cost;
 mod average_acceleration;

@@ -26,8 +26,14 @@ pub fn turned<F: Field>(field: &F, method: impl Method<F, f64>, steps: u64, [x, 
     Ok(place(&run))
 }
 
+/// What the one-step midpoint scheme and RK4 change of the flux.
+pub fn flux_changes(field: &impl Field, place: Place, radius: f64) -> Result<[f64; 2]> {
+    let midpoint = flux_change(field, OneStep::midpoint(), place, radius)?;
+    Ok([midpoint, flux_change(field, RungeKutta::classical(), place, radius)?])
+}
+
 /// The largest relative change of the flux ∮A·dx through a loop that is carried along for eight turns.
-pub fn flux_change<F: Field>(
+fn flux_change<F: Field>(
     field: &F,
     method: impl Method<F, f64> + Copy,
     [x, y]: Place,
