@@ -18,8 +18,8 @@ const END: f64 = 1500.0;
 /// The parasitic mode of the two-step scheme: time and amplitude.
 struct Parasite {
     h: f64,
-    amplitudes: Vec<[f64; 2]>,
-    path: Vec<[f64; 2]>,
+    amplitudes: Points,
+    path: Points,
     /// The time at which no step was found.
     ended: Option<f64>,
 }

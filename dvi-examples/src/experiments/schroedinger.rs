@@ -109,7 +109,7 @@ fn own_breather() -> Result<Claim> {
 }
 
 fn figure(all: &[Excitation; 3], periods: f64) -> Figure {
-    let at_sites = |values: &Amplitudes| -> Vec<[f64; 2]> {
+    let at_sites = |values: &Amplitudes| -> Points {
         values.iter().zip(0..).map(|(value, n)| [f64::from(n - SITES as i32 / 2), *value]).collect()
     };
     let [(one_step, [begin, _]), (rk4, _), (weak, _)] = all;
