@@ -156,8 +156,7 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let title = "Imaginary λ: where runs turn from bounded to unbounded";
     let border = Panel::semilog(title, sigma, ("|λ*h*|", [bottom, top]))
         .band(stable, BLUE)
-        .line(curve, Stroke::solid(BLUE))
-        .labelled("1/|1 − 2σ|")
+        .lines([("1/|1 − 2σ|", Stroke::solid(BLUE), curve)])
         .discs(measured.to_vec(), VERMILLION, Fill::Hollow)
         .labelled("measured by bisection")
         .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
@@ -167,8 +166,11 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let title = "λ*h* = −1 + i: growth of |*z*| in a step";
     let growth = Panel::linear(title, sigma, ("factor", [0.8, 3.8]))
         .guide([[0.0, 1.0], [1.0, 1.0]], "neither growth nor decay")
-        .line(sigmas().map(|s| [s, root(s)]).collect(), Stroke::solid(BLUE))
-        .labelled("larger root of the recursion")
+        .lines([(
+            "larger root of the recursion",
+            Stroke::solid(BLUE),
+            sigmas().map(|s| [s, root(s)]).collect(),
+        )])
         .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));
