@@ -5,7 +5,7 @@
 
 use anyhow::Result;
 
-use crate::figure::{Axis, Envelope, Panel, Stroke};
+use crate::figure::{Axis, Envelope, Line, Panel, Points, Stroke};
 use crate::numbers::{larger, least};
 use crate::output::Table;
 
@@ -46,7 +46,7 @@ impl Deviation {
     }
 
     /// The largest magnitude in each interval, for a line on a logarithmic axis.
-    pub fn magnitude(&self) -> Vec<[f64; 2]> {
+    pub fn magnitude(&self) -> Points {
         self.envelope.magnitude()
     }
 
@@ -136,7 +136,7 @@ pub struct Series<const N: usize> {
     pub name: String,
     pub stroke: Stroke,
     pub kept: [Deviation; N],
-    pub path: Vec<[f64; 2]>,
+    pub path: Points,
 }
 
 impl<const N: usize> Series<N> {
@@ -145,7 +145,7 @@ impl<const N: usize> Series<N> {
     }
 
     /// What the series is, for [`Panel::lines`], over any points.
-    pub fn line(&self, points: Vec<[f64; 2]>) -> (&str, Stroke, Vec<[f64; 2]>) {
+    pub fn line(&self, points: Points) -> Line<&str> {
         (&self.name, self.stroke, points)
     }
 }
@@ -182,7 +182,7 @@ impl<const N: usize> Decades<N> {
 pub fn magnitudes<'a, const N: usize>(
     all: impl IntoIterator<Item = &'a Series<N>>,
     quantity: usize,
-) -> Vec<(&'a str, Stroke, Vec<[f64; 2]>)> {
+) -> Vec<Line<&'a str>> {
     all.into_iter().map(|series| series.line(series.kept[quantity].envelope.magnitude())).collect()
 }
 

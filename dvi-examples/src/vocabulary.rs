@@ -9,8 +9,8 @@ pub use dvi_core::prelude::*;
 pub use crate::claim::{Bound, Check, Claim, beyond, says};
 pub use crate::deviation::*;
 pub use crate::figure::{
-    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, PURPLE, Panel, SEQUENCE,
-    SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
+    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, PURPLE, Panel, Points,
+    SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
 };
 pub use crate::gallery::Outcome;
 pub use crate::job::Job;

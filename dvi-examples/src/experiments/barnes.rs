@@ -18,11 +18,8 @@ const CORNERS: [usize; 4] = [100, 200, 400, 800];
 /// Of a regular polygon of 100 corners and radius ½, 100/8 sin(2π/100).
 const AREA: f64 = 0.784_881_494_116_417_2;
 
-/// Points (x, v) at every step, or the corners of a polygon.
-type Curve = Vec<[f64; 2]>;
-
 /// How a point moves in the (x, v) plane up to a time, step by step.
-type Flow = (&'static str, fn([f64; 2], end: usize) -> Result<Curve>, fn([f64; 2]) -> f64);
+type Flow = (&'static str, fn([f64; 2], end: usize) -> Result<Points>, fn([f64; 2]) -> f64);
 
 const FLOWS: [Flow; 3] = [
     ("*a* = −*x*", |start, end| spring(1.0, start, end), |[x, v]| (v * v + x * x) / 2.0),
@@ -30,24 +27,24 @@ const FLOWS: [Flow; 3] = [
     ("*a* = −sin *x*", pendulum, |[x, v]| v * v / 2.0 - x.cos()),
 ];
 
-fn spring(k: f64, [x, dot_x]: [f64; 2], end: usize) -> Result<Curve> {
+fn spring(k: f64, [x, dot_x]: [f64; 2], end: usize) -> Result<Points> {
     orbit(&Spring { k }, SpringState { x, dot_x }, end)
 }
 
-fn pendulum([x, dot_x]: [f64; 2], end: usize) -> Result<Curve> {
+fn pendulum([x, dot_x]: [f64; 2], end: usize) -> Result<Points> {
     orbit(&Pendulum {}, PendulumState { x, dot_x }, end)
 }
 
-fn orbit<S: RegularLagrangian>(system: &S, start: S::State<f64>, end: usize) -> Result<Curve> {
+fn orbit<S: RegularLagrangian>(system: &S, start: S::State<f64>, end: usize) -> Result<Points> {
     let mut run = Integrator::new(system, Variational::trapezoid(), 1.0 / STEPS as f64, start)?;
     // The mass is one: velocities are momenta.
     Ok(course(&mut run, (end * STEPS) as u64, |run| [run.q()[0], run.memory().p()[0]])?)
 }
 
 /// A regular polygon about (0, 1) at t = 0, 1, …, of whose corners `orbit` returns all steps.
-pub fn carried(corners: usize, orbit: impl Fn([f64; 2]) -> Result<Curve>) -> Result<Vec<Curve>> {
+pub fn carried(corners: usize, orbit: impl Fn([f64; 2]) -> Result<Points>) -> Result<Vec<Points>> {
     let angles = (0..corners).map(|j| (TAU * j as f64 / corners as f64).sin_cos());
-    let orbits: Vec<Curve> =
+    let orbits: Vec<Points> =
         angles.map(|(sin, cos)| orbit([0.5 * cos, 1.0 + 0.5 * sin])).collect::<Result<_>>()?;
     let times = (0..orbits[0].len()).step_by(STEPS);
     Ok(times.map(|step| orbits.iter().map(|orbit| orbit[step]).collect()).collect())
@@ -62,7 +59,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     Ok(Outcome { claims, references: references(&curves, &circles[2]), notes: vec![] })
 }
 
-fn claims(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3], refined: &[Vec<Curve>; 4]) -> Vec<Claim> {
+fn claims(curves: &[[Points; 3]; 3], circles: &[Vec<Points>; 3], refined: &[Vec<Points>; 4]) -> Vec<Claim> {
     // Relative to the size of the terms.
     let contours = |flow: usize| {
         let energy = FLOWS[flow].2;
@@ -88,7 +85,7 @@ fn claims(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3], refined: &[Vec<Cu
 }
 
 /// Numbers of independent programs.
-fn references(curves: &[[Curve; 3]; 3], pendulum: &[Curve]) -> Vec<Check> {
+fn references(curves: &[[Points; 3]; 3], pendulum: &[Points]) -> Vec<Check> {
     let ends = [
         (0, 0, [-0.145_822_118_200_617_4, -0.989_190_052_844_622]),
         (1, 0, [1_489.994_111_581_187, 1_490.175_648_915_25]),
@@ -105,14 +102,14 @@ fn references(curves: &[[Curve; 3]; 3], pendulum: &[Curve]) -> Vec<Check> {
 }
 
 /// Areas of the polygon of 100 corners under the pendulum, by independent programs.
-pub fn areas(name: &str, pendulum: &[Curve]) -> [Check; 2] {
+pub fn areas(name: &str, pendulum: &[Points]) -> [Check; 2] {
     [(2, 0.784_858_871_043), (4, 0.784_780_953_139)].map(|(t, exact)| {
         let quantity = format!("{name}: area of 100 corners at t = {t}");
         Check::new(quantity, area(&pendulum[t]), Bound::Near(exact, 1e-12))
     })
 }
 
-fn figure(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Figure {
+fn figure(curves: &[[Points; 3]; 3], circles: &[Vec<Points>; 3]) -> Figure {
     let plane = |flow: usize, what: &str, x: [f64; 2], v: [f64; 2]| {
         Panel::window(format!("{}: {what}", FLOWS[flow].0), ("position *x*", x), ("velocity *v*", v))
     };
@@ -146,7 +143,7 @@ fn figure(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Figure {
         .footer("After Barnes 1997, Second-Order Dynamical Systems, problems 6 and 7.")
 }
 
-fn table(curves: &[[Curve; 3]; 3], circles: &[Vec<Curve>; 3]) -> Result<Table> {
+fn table(curves: &[[Points; 3]; 3], circles: &[Vec<Points>; 3]) -> Result<Table> {
     let rows = FLOWS.iter().zip(curves).zip(circles).flat_map(|(((name, ..), curves), circles)| {
         let orbits = curves.iter().zip(STARTS).flat_map(|(curve, (x, _))| {
             curve

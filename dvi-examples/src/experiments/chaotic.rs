@@ -108,7 +108,7 @@ fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
 
 /// The region that an orbit fills: all places within a short distance of one of its crossings.
 struct Region {
-    cells: HashMap<[i64; 2], Vec<[f64; 2]>>,
+    cells: HashMap<[i64; 2], Points>,
 }
 
 impl Region {

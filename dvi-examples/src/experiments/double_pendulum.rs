@@ -51,7 +51,7 @@ fn error(energy: f64) -> f64 {
 
 fn figure(all: &[Series<1>; 3], end: f64) -> Figure {
     let [x, y] = ["*x*   [m]", "*y*   [m]"].map(|label| (label, [-2.1, 2.1]));
-    let path: Vec<[f64; 2]> = all[1].path.iter().map(|q| SYSTEM.lower_mass(q)).collect();
+    let path: Points = all[1].path.iter().map(|q| SYSTEM.lower_mass(q)).collect();
     let part = path.len().div_ceil(SEQUENCE.len()).max(1);
     let parts = SEQUENCE.into_iter().enumerate();
     let path = Panel::window("Path of the lower mass", x, y).each(parts, |panel, (i, colour)| {

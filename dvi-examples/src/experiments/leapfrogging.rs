@@ -7,7 +7,7 @@ const SHOWN: f64 = 200.0;
 
 struct Motion {
     /// The first points of each vortex.
-    trajectories: [Vec<[f64; 2]>; 4],
+    trajectories: [Points; 4],
     distance: Envelope,
     /// Times at which one of vortices 1 and 2 overtakes the other.
     overtakings: Vec<f64>,

@@ -18,8 +18,8 @@ const END: f64 = 1500.0;
 /// The parasitic mode of the two-step scheme: time and amplitude.
 struct Parasite {
     h: f64,
-    amplitudes: Vec<[f64; 2]>,
-    path: Vec<[f64; 2]>,
+    amplitudes: Points,
+    path: Points,
     /// The time at which no step was found.
     ended: Option<f64>,
 }
@@ -116,8 +116,7 @@ fn grows(parasites: &[Parasite; 3]) -> Claim {
 
 fn figure(all: &[Series<1>; 3], parasites: &[Parasite; 3], end: f64) -> Figure {
     let plane = Panel::window("Path", ("*x*", [-2.0, 2.0]), ("*y*", [-0.2, 4.2]))
-        .line(all[0].path.clone(), Stroke::solid(BLUE).width(2.5))
-        .labelled("along *x*, one step")
+        .lines([("along *x*, one step", Stroke::solid(BLUE).width(2.5), all[0].path.clone())])
         .dots(parasites[0].path.clone(), 1.3, VERMILLION)
         .labelled("symmetric, two steps");
     let strokes = [Stroke::solid(VERMILLION), Stroke::dashed(GREEN), Stroke::dashed(SLATE)];

@@ -19,13 +19,11 @@ const RESONANCE: f64 = 2.720_699_046_35;
 /// Four of the eight rules are drawn; the others lie among them, and are in the table.
 const SHOWN: [(usize, Colour); 4] = [(0, BLUE), (1, SLATE), (2, VERMILLION), (5, INK)];
 
-type Curve = Vec<[f64; 2]>;
-
 /// A rule, with max |q_k − exact orbit through q_0 and q_1|, and p/v by the first step of a run.
-type Row = (&'static str, Quadrature, Curve, Curve);
+type Row = (&'static str, Quadrature, Points, Points);
 
 /// A run from given position and velocity: max |q_k − exact|.
-type Given = (&'static str, Stroke, Curve);
+type Given = (&'static str, Stroke, Points);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let many = job.choose(100_000, 10_000);
@@ -70,11 +68,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 /// A number that is measured at each u, and what it is at u = 1.
-fn curve(measured: impl Fn(f64) -> Result<f64>) -> Result<Curve> {
+fn curve(measured: impl Fn(f64) -> Result<f64>) -> Result<Points> {
     (1..=STEPS).map(|k| f64::from(k) * 0.1).map(|u| Ok([u, measured(u)?])).collect()
 }
 
-fn at_one(curve: &Curve) -> Option<f64> {
+fn at_one(curve: &Points) -> Option<f64> {
     curve.iter().find(|[u, _]| *u == 1.0).map(|[_, value]| *value)
 }
 
@@ -99,7 +97,7 @@ fn momentum_factor(rule: Quadrature, u: f64) -> Result<f64> {
     Ok(u.sin() / run.q()[0])
 }
 
-fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Result<Curve> {
+fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Result<Points> {
     curve(|u| {
         let (mut run, mut largest) = (Integrator::new(&SYSTEM, method, u, START)?, 0.0f64);
         // Beyond its limit of stability, Verlet goes on to infinity.
@@ -128,7 +126,7 @@ fn condition(rule: &Quadrature, u: f64) -> f64 {
 
 fn claims(rows: &[Row; 8], given: &[Given; 7]) -> Result<Vec<Claim>> {
     let [_, _, _, phase, _, both, simpson_both] = given.each_ref().map(|(_, _, errors)| errors);
-    let most = |curve: &Curve| largest(curve.iter().map(|[_, error]| *error));
+    let most = |curve: &Points| largest(curve.iter().map(|[_, error]| *error));
     let well_placed = rows.iter().flat_map(|(_, rule, recursion, _)| {
         recursion.iter().filter(|[u, _]| condition(rule, *u) >= 0.1).map(|[_, error]| *error)
     });

@@ -130,7 +130,7 @@ fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
         let axis = Axis::logarithmic(label).within(1e-9, 30.0);
         let empty = Panel::new(title, Axis::linear("time *t*   [*L*²/Γ]"), axis);
         empty.legend_at(Corner::BottomRight).each(all.iter().zip(COLOURS), |panel, (run, colour)| {
-            let points: Vec<[f64; 2]> = run.points.iter().map(|point| [point[0], point[column]]).collect();
+            let points: Points = run.points.iter().map(|point| [point[0], point[column]]).collect();
             // Where an error ended the run.
             let end = points.last().filter(|_| run.failure.is_some()).copied();
             let panel = panel.line(points, Stroke::solid(colour).width(1.4));

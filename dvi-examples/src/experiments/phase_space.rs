@@ -12,7 +12,7 @@ const SYSTEM: PhasePendulum = PhasePendulum {};
 const START: PhasePendulumState = PhasePendulumState { x: 2.0, p: 0.0 };
 const H: f64 = 0.2;
 /// The corners of a polygon at t = 0, 1, …
-type Circles = Vec<Vec<[f64; 2]>>;
+type Circles = Vec<Points>;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
@@ -56,7 +56,7 @@ fn same_schemes() -> Result<Claim> {
         system: S,
         method: impl Method<S, f64>,
         start: S::State<f64>,
-    ) -> Result<Vec<[f64; 2]>> {
+    ) -> Result<Points> {
         Ok(course(&mut Integrator::new(&system, method, H, start)?, 500, place)?)
     }
     let trapezoid = of(SYSTEM, OneStep::trapezoid(), START)?;
@@ -104,7 +104,7 @@ fn periods() -> Result<Claim> {
 
 fn figure(all: &[Series<1>; 3], leapfrog: &Circles, end: f64) -> Figure {
     let energy = |p: f64, x: f64| p * p / 2.0 - x.cos();
-    let contour = |level: f64, sign: f64| -> Vec<[f64; 2]> {
+    let contour = |level: f64, sign: f64| -> Points {
         let xs = (-720..=720).map(|k| f64::from(k) / 200.0).filter(|&x| energy(0.0, x) <= level);
         xs.map(|x| [x, sign * (2.0 * (level + x.cos())).sqrt()]).collect()
     };

@@ -82,7 +82,7 @@ fn panel(run: &Crossings, curve: &Curve) -> Panel {
 
 /// A closed curve around its centre, as a polygon sorted by angle.
 struct Curve {
-    corners: Vec<[f64; 2]>,
+    corners: Points,
 }
 
 impl Curve {

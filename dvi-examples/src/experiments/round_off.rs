@@ -8,9 +8,6 @@
 
 use crate::vocabulary::*;
 
-/// [steps, error] in intervals of the logarithm of the steps.
-type Rows = Vec<[f64; 2]>;
-
 const H: f64 = 0.1;
 /// Runs from different points, over which the square of the error is averaged.
 const RUNS: [usize; 4] = [0, 1, 2, 3];
@@ -29,7 +26,7 @@ const CASES: [(&str, &str, f64); 4] = [
 ];
 
 /// The root mean square of the relative error over several runs, with plain and with compensated sums.
-type Pair = [Rows; 2];
+type Pair = [Points; 2];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(100_000_000, 1_000_000_u64);
@@ -53,7 +50,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 /// The errors of the run of a case that begins at its own angle, with so many looks.
-fn errors(job: &Job<'_>, case: usize, summation: Summation, run: usize, looks: u64) -> Result<Rows> {
+fn errors(job: &Job<'_>, case: usize, summation: Summation, run: usize, looks: u64) -> Result<Points> {
     let (sin, cos) = (0.2 + 1.1 * run as f64).sin_cos();
     let (midpoint, verlet) =
         (Sigma { summation, ..Sigma::midpoint() }, Variational { summation, ..Variational::trapezoid() });
@@ -92,7 +89,7 @@ fn follow<R: Run<Scalar = f64>>(
     mut run: R,
     looks: u64,
     value: impl Fn(&R) -> f64,
-) -> Result<Rows> {
+) -> Result<Points> {
     let (initial, mut rows, mut interval) = (value(&run), Vec::new(), (STRIDE as f64).log10() * PER_DECADE);
     let (mut squares, mut count) = (0.0, 0_u64);
     job.repeat(looks, || {
@@ -109,7 +106,7 @@ fn follow<R: Run<Scalar = f64>>(
 }
 
 /// The exponent of the growth with the number of steps, by least squares.
-fn exponent(rows: &Rows) -> Option<f64> {
+fn exponent(rows: &Points) -> Option<f64> {
     order(rows.iter().filter(|[n, error]| *n >= FIRST && *error > 0.0).map(|&[n, error]| (n, error)))
 }
 

@@ -109,14 +109,13 @@ fn own_breather() -> Result<Claim> {
 }
 
 fn figure(all: &[Excitation; 3], periods: f64) -> Figure {
-    let at_sites = |values: &Amplitudes| -> Vec<[f64; 2]> {
+    let at_sites = |values: &Amplitudes| -> Points {
         values.iter().zip(0..).map(|(value, n)| [f64::from(n - SITES as i32 / 2), *value]).collect()
     };
     let [(one_step, [begin, _]), (rk4, _), (weak, _)] = all;
     let (title, site) = ("Profile at the start and at the end", ("site *n*", [-7.7, 7.7]));
     let profile = Panel::semilog(title, site, ("|*ψ*ₙ|²", [1e-10, 1e5]))
-        .line(at_sites(begin), Stroke::solid(SLATE).width(4.0).opacity(0.4))
-        .labelled("start")
+        .lines([("start", Stroke::solid(SLATE).width(4.0).opacity(0.4), at_sites(begin))])
         .lines(all.iter().map(|(series, [_, end])| series.line(at_sites(end))))
         .legend_at(Corner::TopLeft);
     let time = ("time *t*   [periods 2π/*ω*]", [0.0, periods]);

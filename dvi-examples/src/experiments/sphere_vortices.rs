@@ -18,7 +18,7 @@ const EARLY: u64 = 4000;
 /// coordinates, and (M_z − M_z(0))/|M|.
 type Kept = Series<4>;
 
-type Paths = [Vec<[f64; 2]>; 3];
+type Paths = [Points; 3];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(400_000, 20_000);

@@ -168,7 +168,6 @@ fn figure(all: &[Series<3>; 3], long: Long) -> Result<Figure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::models::OnManifold as _;
 
     #[test]
     fn the_integrals_by_hand_are_those_of_the_declarations() {

@@ -32,7 +32,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
     // A bisection takes some 32 runs.
     job.expect(steps * (3 + 32 * SIGMAS.len() as u64));
-    let measured: Vec<[f64; 2]> =
+    let measured: Points =
         SIGMAS.par_iter().map(|&sigma| Ok([sigma, limit(job, sigma, steps)?])).collect::<Result<_>>()?;
     let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(job, 0.5, 1e3, steps))?;
     let damped = SIGMAS.into_iter().chain([0.5]).flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
@@ -151,13 +151,12 @@ impl Damped {
 fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let (bottom, top, sigma) = (0.5, 200.0, ("σ", [-0.02, 1.02]));
     let sigmas = || (0..=1000).map(|i| f64::from(i) / 1000.0);
-    let curve: Vec<[f64; 2]> = sigmas().map(|s| [s, formula(s).min(1e6)]).collect();
+    let curve: Points = sigmas().map(|s| [s, formula(s).min(1e6)]).collect();
     let stable = curve.iter().map(|&[sigma, limit]| [sigma, bottom, limit]).collect();
     let title = "Imaginary λ: where runs turn from bounded to unbounded";
     let border = Panel::semilog(title, sigma, ("|λ*h*|", [bottom, top]))
         .band(stable, BLUE)
-        .line(curve, Stroke::solid(BLUE))
-        .labelled("1/|1 − 2σ|")
+        .lines([("1/|1 − 2σ|", Stroke::solid(BLUE), curve)])
         .discs(measured.to_vec(), VERMILLION, Fill::Hollow)
         .labelled("measured by bisection")
         .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
@@ -167,8 +166,11 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let title = "λ*h* = −1 + i: growth of |*z*| in a step";
     let growth = Panel::linear(title, sigma, ("factor", [0.8, 3.8]))
         .guide([[0.0, 1.0], [1.0, 1.0]], "neither growth nor decay")
-        .line(sigmas().map(|s| [s, root(s)]).collect(), Stroke::solid(BLUE))
-        .labelled("larger root of the recursion")
+        .lines([(
+            "larger root of the recursion",
+            Stroke::solid(BLUE),
+            sigmas().map(|s| [s, root(s)]).collect(),
+        )])
         .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));

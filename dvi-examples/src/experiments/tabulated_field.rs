@@ -27,7 +27,7 @@ const COARSE: usize = 12;
 
 /// One kind of spline on all grids: the intervals across the section, and the root mean square of how far
 /// the orbits are at most from those of the formulas. And the power of their number by which it falls.
-type Differences = (Vec<[f64; 2]>, f64);
+type Differences = (Points, f64);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 10_000);
@@ -62,7 +62,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 /// r and u, which go to and fro, along the orbit.
-fn path<S: ProperlyDegenerate>(system: &S, start: S::State<f64>) -> Result<Vec<[f64; 2]>> {
+fn path<S: ProperlyDegenerate>(system: &S, start: S::State<f64>) -> Result<Points> {
     let mut run = Integrator::new(system, OneStep::midpoint(), H, start)?;
     let path = course(&mut run, COMPARED, |run| [run.q()[0], run.q()[3]])?;
     Ok(path.into_iter().skip(1).collect())
@@ -83,7 +83,7 @@ fn difference(path: &[[f64; 2]], orbit: &[[f64; 2]]) -> f64 {
 }
 
 fn differences<F: ScalarField<2>>(
-    orbits: &[Vec<[f64; 2]>],
+    orbits: &[Points],
     sampled: impl Fn(usize) -> Result<TabulatedTokamak<F>>,
 ) -> Result<Differences> {
     let of_grids = each(GRIDS, |n| {

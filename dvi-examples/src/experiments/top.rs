@@ -138,7 +138,6 @@ fn figure(all: &[Series<4>; 2], long: Long) -> Result<Figure> {
 mod tests {
     use super::super::geodesics::reference;
     use super::*;
-    use crate::models::OnManifold as _;
 
     #[test]
     fn the_integrals_by_hand_are_those_of_the_declaration() {

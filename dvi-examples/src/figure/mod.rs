@@ -28,7 +28,7 @@ pub use axis::{Axis, at_most, scientific};
 pub use decimate::{Envelope, thin};
 pub use mark::Fill;
 pub use palette::*;
-pub use panel::{Corner, Panel, Ranged};
+pub use panel::{Corner, Line, Panel, Points, Ranged};
 pub use svg::{Anchor, Stroke};
 use svg::{Label, Svg, number};
 

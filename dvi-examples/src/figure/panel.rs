@@ -17,6 +17,12 @@ pub enum Corner {
     Beside,
 }
 
+/// Points in their order.
+pub type Points = Vec<[f64; 2]>;
+
+/// The name of a line, how it is drawn, and its points.
+pub type Line<N> = (N, Stroke, Points);
+
 /// The label of an axis, and its range.
 pub type Ranged<'a> = (&'a str, [f64; 2]);
 
@@ -79,15 +85,12 @@ impl Panel {
     }
 
     /// A line through the points; of long series, what the pixels can show.
-    pub fn line(self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
+    pub fn line(self, points: Points, stroke: Stroke) -> Self {
         self.with(Mark::Line(points, stroke))
     }
 
     /// Lines with their names in the legend.
-    pub fn lines<N: Into<String>>(
-        self,
-        lines: impl IntoIterator<Item = (N, Stroke, Vec<[f64; 2]>)>,
-    ) -> Self {
+    pub fn lines<N: Into<String>>(self, lines: impl IntoIterator<Item = Line<N>>) -> Self {
         self.each(lines, |panel, (name, stroke, points)| panel.line(points, stroke).labelled(name))
     }
 
@@ -97,10 +100,7 @@ impl Panel {
     }
 
     /// Lines through few points, which are marked, with their names in the legend.
-    pub fn marked<N: Into<String>>(
-        self,
-        lines: impl IntoIterator<Item = (N, Stroke, Vec<[f64; 2]>)>,
-    ) -> Self {
+    pub fn marked<N: Into<String>>(self, lines: impl IntoIterator<Item = Line<N>>) -> Self {
         self.each(lines, |panel, (name, stroke, points)| {
             panel.line(points.clone(), stroke).labelled(name).dots(points, 2.6, stroke.colour())
         })
@@ -119,7 +119,7 @@ impl Panel {
     }
 
     /// A line below everything that was added before.
-    pub fn below(mut self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
+    pub fn below(mut self, points: Points, stroke: Stroke) -> Self {
         self.marks.insert(0, Mark::Line(points, stroke));
         self.legend.iter_mut().for_each(|(mark, _)| *mark += 1);
         self
@@ -131,12 +131,12 @@ impl Panel {
     }
 
     /// Small dots.
-    pub fn dots(self, points: Vec<[f64; 2]>, radius: f64, colour: Colour) -> Self {
+    pub fn dots(self, points: Points, radius: f64, colour: Colour) -> Self {
         self.with(Mark::Dots(points, radius, colour))
     }
 
     /// Large dots, for few points.
-    pub fn discs(self, points: Vec<[f64; 2]>, colour: Colour, fill: Fill) -> Self {
+    pub fn discs(self, points: Points, colour: Colour, fill: Fill) -> Self {
         self.with(Mark::Discs(points, colour, fill))
     }
 
@@ -187,7 +187,7 @@ impl Panel {
     }
 
     fn frame(&self, [left, top, width, height]: [f64; 4]) -> Frame {
-        let points: Vec<[f64; 2]> = self.marks.iter().flat_map(Mark::corners).collect();
+        let points: Points = self.marks.iter().flat_map(Mark::corners).collect();
         let span = |axis: &Axis, i: usize| {
             let values = points.iter().map(|point| [point[i]; 2]).filter(|value| axis.shows(value[0]));
             values.reduce(|[low, high], [v, _]| [low.min(v), high.max(v)])
