@@ -45,8 +45,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         error(rk_large, is_full, Bound::Within(0.1, 0.2)),
     ];
     let mut notes = sections::notes(&all);
-    let rounding = "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes regular, \
-                    differ between machines, and so do the last digits above.";
+    let rounding = "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes \
+                    regular, differ between machines, and so do the last digits above.";
     notes.push(rounding.to_owned());
     Ok(Outcome { claims: claims(job, &all, &region, exponent), references, notes })
 }
