@@ -104,8 +104,8 @@ impl Span {
     }
 }
 
-/// How long a run is of which the energy is watched, how many of its steps are its beginning, the intervals in
-/// which it is drawn, and how many of its first places are kept.
+/// How long a run is of which the energy is watched, how many of its steps are its beginning, the intervals
+/// in which it is drawn, and how many of its first places are kept.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
     pub steps: u64,

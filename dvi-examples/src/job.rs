@@ -204,7 +204,7 @@ impl<'a> Job<'a> {
         ended.map_or(Ok(series), |error| Err(error.into()))
     }
 
-    /// Writes the figure (SVG and PNG) and its data (CSV); the figure of a short or an interrupted run says so.
+    /// Writes the figure (SVG and PNG), which says if its run was short or interrupted, and its data (CSV).
     pub fn publish(&self, figure: Figure, data: Table) -> Result<()> {
         let figure = figure.titled(&format!("{}{}", title(self.name), self.choose("", " — short form")));
         let figure = if self.was_interrupted() { figure.interrupted() } else { figure };

@@ -45,8 +45,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         error(rk_large, is_full, Bound::Within(0.1, 0.2)),
     ];
     let mut notes = sections::notes(&all);
-    let rounding = "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes regular, \
-                    differ between machines, and so do the last digits above.";
+    let rounding = "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes \
+                    regular, differ between machines, and so do the last digits above.";
     notes.push(rounding.to_owned());
     Ok(Outcome { claims: claims(job, &all, &region, exponent), references, notes })
 }
@@ -74,9 +74,9 @@ fn claims(job: &Job<'_>, all: &[Crossings; 6], region: &Region, exponent: Option
     let inside = |claim: Claim, run: &Crossings| claim.at_most(share(run), outside(run), 2e-3);
     let growth = |run: &Crossings| format!("late growth of a displacement, {}", run.name());
     let drift = rk_small.error.last / rk_small.error.largest;
-    let text = "the motion is chaotic";
+    let chaotic = "the motion is chaotic";
     vec![
-        says("section 5", text).at_least("largest Lyapunov exponent up to t = 2·10⁴", exponent, 0.03),
+        says("section 5", chaotic).at_least("largest Lyapunov exponent up to t = 2·10⁴", exponent, 0.03),
         says("Fig. 5", "both schemes produce clear sections for h = 0.2").each([vi_small, rk_small], inside),
         says("Fig. 5", "for h = 0.5 the section of RK4 is blurred")
             .at_least(share(rk_middle), job.only_full(outside(rk_middle)), 8e-3)

@@ -50,7 +50,7 @@ fn claims(readings: &[Readings]) -> Vec<Claim> {
     let [near, far] = [1.0 - ORBIT.e, 1.0 + ORBIT.e].map(formula);
     // 2r² − r³ is largest at r = 4/3, where it is 32/27.
     let rises = [far / formula(4.0 / 3.0), 1e-3];
-    let text = "(19) rises again at the apocentre, where the motion is slowest";
+    let again = "(19) rises again at the apocentre, where the motion is slowest";
     vec![
         says("Fig. 4", "the frequency is smooth almost everywhere except at the perihelion")
             .at_most("share of time with ω above half its peak", share(&|x| x > 0.5 * highest), 0.01)
@@ -59,7 +59,7 @@ fn claims(readings: &[Readings]) -> Vec<Claim> {
         beyond("(19) is √(1 − e²)/(2r² − r³) in closed form, and √(|q''|/|q|) is r^(−3/2)")
             .at_most("(19): largest relative deviation", curvature, 2e-3)
             .at_most("√(|q''|/|q|): largest relative deviation", radial, 1e-12),
-        beyond(text).near("ω at the apocentre / lowest ω", far / lowest, rises),
+        beyond(again).near("ω at the apocentre / lowest ω", far / lowest, rises),
     ]
 }
 

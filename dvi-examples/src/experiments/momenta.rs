@@ -158,7 +158,7 @@ fn figure(all: &[Drifts]) -> Figure {
         let points = rows.filter_map(|(row, drifts)| Some([drifts.of[i]?.max(SMALLEST), row as f64 + lift]));
         panel.discs(points.collect(), colour, Fill::Solid).labelled(name)
     });
-    Figure::of(format!("Four equal vortices, *h* = {H}; deviations below 10⁻¹¹ are rounding"))
+    Figure::of(format!("Four equal vortices, *h* = {H}; below 10⁻¹¹: rounding, or finite differences"))
         .row(500.0, vec![panel.legend_at(Corner::Beside)])
         .footer("Rowley & Marsden 2002. Two-form: (17) of the σ-family, ΣΓ d*x* ∧ d*y* of one-step methods.")
 }

@@ -80,7 +80,7 @@ fn claims(rows: &[Row]) -> Vec<Claim> {
     };
     let but_one = from_two(0, &[SPECIAL]);
     let (second, fourth) = ([2.0, 0.02], [4.0, 0.02]);
-    let text = "σ = (3 − √3)/6 is fourth-order accurate";
+    let special = "σ = (3 − √3)/6 is fourth-order accurate";
     vec![
         says("section 4.1", "second order for every σ except (3 − √3)/6")
             .at_most("largest |order − 2| of the others, linear", but_one, 0.02)
@@ -88,7 +88,7 @@ fn claims(rows: &[Row]) -> Vec<Claim> {
             .near("order on z' = iz, σ = (3 + √3)/6", linear(MIRRORED), fourth)
             .at_most("largest |order − 2| of the rest, linear", from_two(0, &[SPECIAL, MIRRORED]), 0.02)
             .at_most("largest |order − 2| of all σ, vortices", from_two(1, &[]), 0.02),
-        says("section 4.1, on x' = λx", text).near("order on z' = iz", linear(SPECIAL), fourth),
+        says("section 4.1, on x' = λx", special).near("order on z' = iz", linear(SPECIAL), fourth),
         beyond("the fourth order is for linear equations only")
             .near("order on vortices, σ = (3 − √3)/6", vortices(SPECIAL), second)
             .near("order on vortices, σ = (3 + √3)/6", vortices(MIRRORED), second),

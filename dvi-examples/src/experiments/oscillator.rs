@@ -140,8 +140,8 @@ fn claims(rows: &[Row; 8], given: &[Given; 7]) -> Result<Vec<Claim>> {
         _ => f64::NAN,
     };
     let weighted = "largest error of the recursion times |S sin u|, u = 0.1 … 3";
-    let text = "only the positions are: p = s·v with s = uS/sin u";
-    let other = "where S = 0 the step does not exist, and a run is refused";
+    let positions = "only the positions are: p = s·v with s = uS/sin u";
+    let resonance = "where S = 0 the step does not exist, and a run is refused";
     Ok(vec![
         says("eqs. 13–15", "the phase-fitted family solves the oscillator exactly at any step")
             .each(rows, |claim, (name, rule, recursion, _)| {
@@ -149,12 +149,12 @@ fn claims(rows: &[Row; 8], given: &[Given; 7]) -> Result<Vec<Claim>> {
                 claim.of(name).at_most(weighted, largest(errors), 1e-9)
             })
             .at_most("all rules: largest error where |S sin u| ≥ 0.1", largest(well_placed), 1e-9),
-        beyond(text).at_most("largest relative deviation from the formula", largest(defects), 1e-11),
+        beyond(positions).at_most("largest relative deviation from the formula", largest(defects), 1e-11),
         beyond("a start from velocities costs |v(1/s − 1)/ω|, unless weights are fitted too")
             .near("phase only, midpoint at u = 1: max|q − exact|", at_one(phase), [expected, 1e-4])
             .at_most("momenta too, midpoint: max|q − exact|", most(both), 1e-10)
             .at_most("momenta too, Simpson: max|q − exact|", most(simpson_both), 1e-10),
-        beyond(other).at_most("two-point Gauss at u = √3 π/2: |S| in the error", refused, 1e-10),
+        beyond(resonance).at_most("two-point Gauss at u = √3 π/2: |S| in the error", refused, 1e-10),
     ])
 }
 

@@ -24,9 +24,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         claim.at_most(quantity, curve.largest_distance(run), 0.01)
     };
     let far = format!("largest distance from the exact section, {}", rk_middle.name());
-    let text = "the motion is quasi-periodic";
+    let regular = "the motion is quasi-periodic";
     let claims = vec![
-        says("section 5", text).at_most("largest Lyapunov exponent up to t = 2·10⁴", exponent, 1e-3),
+        says("section 5", regular).at_most("largest Lyapunov exponent up to t = 2·10⁴", exponent, 1e-3),
         says("Fig. 4", "both schemes give qualitatively correct results for h = 0.1")
             .each([vi_small, rk_small], near),
         says("Fig. 4", "RK4 gives spurious results for h = 0.2, VI2 does not")

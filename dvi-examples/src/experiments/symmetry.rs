@@ -96,8 +96,8 @@ impl Motion {
 
 fn claims(job: &Job<'_>, [symmetric, displaced]: &[Motion; 2]) -> Vec<Claim> {
     let lost = format!("time at which |ΔH| exceeds {LOST}");
-    let carried = "it does for the paper's time, carried by the mirror symmetry of its initial data; rounding \
-                   breaks the symmetry, and later the motion breaks up";
+    let carried = "it does for the paper's time, carried by the mirror symmetry of its initial data; \
+                   rounding breaks the symmetry, and later the motion breaks up";
     let all_time = job.only_full(symmetric.lost);
     let growth = symmetric.asymmetry(PAPER) / symmetric.asymmetry(0.1 * PAPER);
     vec![

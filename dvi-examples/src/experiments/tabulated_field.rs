@@ -51,12 +51,12 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let table = Table::of(&["spline", "intervals", "difference"], rows)?;
     job.publish(figure(&cubic, &quintic, &energy, span.end), table)?;
     let quantity = format!("cubic, {COARSE} intervals: max|ΔH| over all / over {EARLY} steps");
-    let text = "the energy of a table is kept as that of a formula is";
+    let kept = "the energy of a table is kept as that of a formula is";
     Ok(vec![
         beyond("orbits in a table tend to those of the formulas as the splines do")
             .near("order in the distances of the grid, cubic", cubic.1, [3.0, 0.3])
             .near("order in the distances of the grid, quintic", quintic.1, [5.0, 0.3]),
-        beyond(text).at_most(quantity, energy.growth(), 1.02),
+        beyond(kept).at_most(quantity, energy.growth(), 1.02),
     ]
     .into())
 }

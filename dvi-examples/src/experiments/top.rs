@@ -125,8 +125,8 @@ fn figure(all: &[Series<4>; 2], long: Long) -> Result<Figure> {
     ];
     let [first, second, third] = CURVES.map(|(precession, _)| precession.to_string().replace('-', "−"));
     let subtitle = format!(
-        "The axis from above, up to *t* = {DRAWN}, from {LEANING} off the vertical with the precession {first}, \
-         {second} and {third}; circles: the roots of the cubic"
+        "The axis from above, up to *t* = {DRAWN}, from {LEANING} off the vertical with the precession \
+         {first}, {second} and {third}; circles: the roots of the cubic"
     );
     Ok(Figure::of(subtitle)
         .row(380.0, each(CURVES, curve)?.into())
