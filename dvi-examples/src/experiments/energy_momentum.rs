@@ -124,9 +124,11 @@ fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
     [discrete, momentum, energy, lengths, accuracy]
 }
 
-/// What is drawn of the runs with the longest steps: the largest defect of E_d over the number of the step,
-/// and E − E(0) and h over time.
-fn drawn([spring, kepler]: &[Runs; 2]) -> [(String, Stroke, [Vec<[f64; 2]>; 3]); 4] {
+/// The largest defect of E_d over the number of the step, and E − E(0) and h over time.
+type Drawn = (String, Stroke, [Points; 3]);
+
+/// What is drawn of the runs with the longest steps.
+fn drawn([spring, kepler]: &[Runs; 2]) -> [Drawn; 4] {
     let one_length = |on: &Runs| format!("{}, one length", on.name);
     let varying = |on: &Runs| format!("{}, energy-momentum", on.name);
     [
