@@ -10,7 +10,6 @@ mod deviation;
 mod experiments;
 mod gallery;
 mod job;
-mod measures;
 mod motions;
 mod numbers;
 mod options;

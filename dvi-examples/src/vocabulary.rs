@@ -14,7 +14,6 @@ pub use crate::figure::{
 };
 pub use crate::gallery::Outcome;
 pub use crate::job::Job;
-pub use crate::measures::*;
 pub use crate::numbers::*;
 pub use crate::output::Table;
 pub use crate::runs::*;
