@@ -65,6 +65,11 @@ pub enum Verdict {
     Undecided,
 }
 
+/// What a paper says at a place.
+pub fn says(place: impl Into<String>, text: impl Into<String>) -> Claim {
+    Claim::new(place, text)
+}
+
 /// What no paper says.
 pub fn beyond(says: impl Into<String>) -> Claim {
     Claim::new(BEYOND, says)
@@ -84,18 +89,14 @@ impl Claim {
     }
 
     /// Adds a check; after [`instead`](Self::instead), to the list of what holds instead.
-    pub fn check(
-        mut self,
-        quantity: impl Into<String>,
-        value: impl Into<Option<f64>>,
-        bound: Bound,
-    ) -> Self {
-        let check = Check::new(self.subject.clone() + &quantity.into(), value, bound);
-        match &mut self.instead {
+    pub fn check(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, bound: Bound) -> Self {
+        let mut claim = self;
+        let check = Check::new(claim.subject.clone() + &quantity.into(), value, bound);
+        match &mut claim.instead {
             Some((_, checks)) => checks.push(check),
-            None => self.printed.push(check),
+            None => claim.printed.push(check),
         }
-        self
+        claim
     }
 
     /// The check that a number is at most `high`.
@@ -109,23 +110,13 @@ impl Claim {
     }
 
     /// The check that a number is between two others.
-    pub fn within(
-        self,
-        quantity: impl Into<String>,
-        value: impl Into<Option<f64>>,
-        [low, high]: [f64; 2],
-    ) -> Self {
-        self.check(quantity, value, Bound::Within(low, high))
+    pub fn within(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, ends: [f64; 2]) -> Self {
+        self.check(quantity, value, Bound::Within(ends[0], ends[1]))
     }
 
     /// The check that a number is another one, up to a tolerance.
-    pub fn near(
-        self,
-        quantity: impl Into<String>,
-        value: impl Into<Option<f64>>,
-        [target, tolerance]: [f64; 2],
-    ) -> Self {
-        self.check(quantity, value, Bound::Near(target, tolerance))
+    pub fn near(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, near: [f64; 2]) -> Self {
+        self.check(quantity, value, Bound::Near(near[0], near[1]))
     }
 
     /// Checks of each of some things; a name that these are of is that of the thing only.

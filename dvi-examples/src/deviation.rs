@@ -5,8 +5,8 @@
 
 use anyhow::Result;
 
-use crate::figure::{Axis, Envelope, Panel, Stroke};
-use crate::numbers::larger;
+use crate::figure::{Axis, Envelope, Line, Panel, Points, Stroke};
+use crate::numbers::{larger, least};
 use crate::output::Table;
 
 /// The deviation of one quantity, absolute or relative.
@@ -45,10 +45,15 @@ impl Deviation {
         self.largest / self.largest_early
     }
 
+    /// The largest magnitude in each interval, for a line on a logarithmic axis.
+    pub fn magnitude(&self) -> Points {
+        self.envelope.magnitude()
+    }
+
     /// The lowest and the highest value; not numbers if one of the values is not.
     pub fn range(&self) -> [f64; 2] {
         let rows = self.envelope.rows();
-        let low = -rows.iter().map(|row| -row[1]).fold(f64::NEG_INFINITY, larger);
+        let low = least(rows.iter().map(|row| row[1]));
         let high = rows.iter().map(|row| row[3]).fold(f64::NEG_INFINITY, larger);
         if self.largest.is_nan() { [f64::NAN; 2] } else { [low, high] }
     }
@@ -88,9 +93,31 @@ pub struct Span {
 }
 
 impl Span {
+    /// That of so many steps of length `h`, drawn in 400 intervals, of which so many are the beginning.
+    pub fn of(steps: u64, h: f64, early: u64) -> Self {
+        Self { end: steps as f64 * h, early: early as f64 * h, intervals: 400 }
+    }
+
     /// Of several quantities.
     pub fn deviations<const N: usize>(self) -> [Deviation; N] {
         std::array::from_fn(|_| Deviation::new(self.end, self.intervals, self.early))
+    }
+}
+
+/// How long a run is of which the energy is watched, how many of its steps are its beginning, the intervals
+/// in which it is drawn, and how many of its first places are kept.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    pub steps: u64,
+    pub h: f64,
+    pub early: u64,
+    pub intervals: usize,
+    pub places: usize,
+}
+
+impl Plan {
+    pub fn end(self) -> f64 {
+        self.steps as f64 * self.h
     }
 }
 
@@ -99,22 +126,55 @@ pub fn note<const N: usize>(kept: &mut [Deviation; N], t: f64, values: [f64; N])
     kept.iter_mut().zip(values).for_each(|(deviation, value)| deviation.push(t, value));
 }
 
-/// A run by its name, by the line that figures show it with, and by what it should keep.
+/// The name of a run, and the line that figures show it with.
+pub type Named<'a> = (&'a str, Stroke);
+
+/// A run by its name, by the line that figures show it with, by what it should keep, and by points of its
+/// path.
 #[derive(Clone, Debug)]
 pub struct Series<const N: usize> {
     pub name: String,
     pub stroke: Stroke,
     pub kept: [Deviation; N],
+    pub path: Points,
 }
 
 impl<const N: usize> Series<N> {
     pub fn new(name: impl Into<String>, stroke: Stroke, kept: [Deviation; N]) -> Self {
-        Self { name: name.into(), stroke, kept }
+        Self { name: name.into(), stroke, kept, path: Vec::new() }
     }
 
     /// What the series is, for [`Panel::lines`], over any points.
-    pub fn line(&self, points: Vec<[f64; 2]>) -> (&str, Stroke, Vec<[f64; 2]>) {
+    pub fn line(&self, points: Points) -> Line<&str> {
         (&self.name, self.stroke, points)
+    }
+}
+
+/// The largest values of several quantities in each interval of the logarithm of time.
+#[derive(Clone, Debug)]
+pub struct Decades<const N: usize> {
+    intervals_of_each: f64,
+    latest: f64,
+    /// The first time in each interval, and the largest values.
+    pub rows: Vec<(f64, [f64; N])>,
+}
+
+impl<const N: usize> Decades<N> {
+    /// With so many intervals in a factor of ten.
+    pub fn new(intervals_of_each: f64) -> Self {
+        Self { intervals_of_each, latest: f64::NEG_INFINITY, rows: Vec::new() }
+    }
+
+    /// Adds values at time `t`, which is later than those before.
+    pub fn push(&mut self, t: f64, values: [f64; N]) {
+        let interval = (t.log10() * self.intervals_of_each).floor();
+        if interval > self.latest {
+            self.latest = interval;
+            self.rows.push((t, [0.0; N]));
+        }
+        if let Some((_, row)) = self.rows.last_mut() {
+            *row = std::array::from_fn(|i| larger(row[i], values[i]));
+        }
     }
 }
 
@@ -122,7 +182,7 @@ impl<const N: usize> Series<N> {
 pub fn magnitudes<'a, const N: usize>(
     all: impl IntoIterator<Item = &'a Series<N>>,
     quantity: usize,
-) -> Vec<(&'a str, Stroke, Vec<[f64; 2]>)> {
+) -> Vec<Line<&'a str>> {
     all.into_iter().map(|series| series.line(series.kept[quantity].envelope.magnitude())).collect()
 }
 
@@ -152,6 +212,23 @@ pub fn magnitude_table<'a, const N: usize>(
             let time = magnitudes[0][k][0];
             let numbers = [time].into_iter().chain(magnitudes.iter().map(|of| of[k][1]));
             ([name], numbers.collect::<Vec<_>>())
+        })
+    });
+    Table::of(columns, rows)
+}
+
+/// A table with the name of each run, that of each of its quantities if there is a column for it, and
+/// lowest, mean and highest value in each interval of time.
+pub fn range_table<'a, const N: usize>(
+    columns: &[&str],
+    quantities: &[&str],
+    all: impl IntoIterator<Item = &'a Series<N>>,
+) -> Result<Table> {
+    let names = columns.len().saturating_sub(4);
+    let rows = all.into_iter().flat_map(|Series { name, kept, .. }| {
+        quantities.iter().zip(kept).flat_map(move |(quantity, of)| {
+            let texts = [name, *quantity].into_iter().take(names);
+            of.envelope.rows().into_iter().map(move |row| (texts.clone(), row))
         })
     });
     Table::of(columns, rows)

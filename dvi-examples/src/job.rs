@@ -4,14 +4,16 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Result;
-use dvi_core::error::StepError;
-use dvi_core::prelude::Run;
+use dvi_core::methods::Method;
+use dvi_core::prelude::*;
 use indicatif::ProgressBar;
 
-use crate::deviation::{Deviation, Span, note};
+use crate::deviation::{Deviation, Named, Plan, Series, Span, note};
+use crate::experiments::title;
 use crate::figure::Figure;
 use crate::motions;
 use crate::output::{Table, write_whole};
+use crate::runs::place;
 
 /// Full length as in the papers, or seconds instead of minutes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,8 +152,61 @@ impl<'a> Job<'a> {
         Ok(kept)
     }
 
-    /// Writes the figure (SVG and PNG) and its data (CSV); the figure of an interrupted run says so.
+    /// The same as a series of that name, with the points that `of` adds to its path.
+    ///
+    /// # Errors
+    /// That of the first step that fails.
+    pub fn series<R: Run<Scalar = f64>, const N: usize>(
+        &self,
+        (name, stroke): Named<'_>,
+        run: &mut R,
+        steps: u64,
+        span: Span,
+        mut of: impl FnMut(&R, &mut Vec<[f64; 2]>) -> [f64; N],
+    ) -> Result<Series<N>, StepError> {
+        let mut path = Vec::new();
+        let kept = self.keep(run, steps, span, |run| of(run, &mut path))?;
+        Ok(Series { path, ..Series::new(name, stroke, kept) })
+    }
+
+    /// E − E(0) of a run as a series of that name, with its first places, and the error that has ended it.
+    pub fn attempt<S: Lagrangian>(
+        &self,
+        (name, stroke): Named<'_>,
+        system: &S,
+        method: impl Method<S, f64>,
+        start: impl Into<S::State<f64>>,
+        plan: Plan,
+    ) -> Result<(Series<1>, Option<StepError>), StartError> {
+        let mut run = Integrator::new(system, method, plan.h, start.into())?;
+        let (energy, mut path) = (run.energy(), vec![place(&run)]);
+        let span = Span { intervals: plan.intervals, ..Span::of(plan.steps, plan.h, plan.early) };
+        let mut kept = span.deviations();
+        let followed = self.follow(&mut run, plan.steps, |run| {
+            note(&mut kept, run.time(), [run.energy() - energy]);
+            if path.len() < plan.places {
+                path.push(place(run));
+            }
+        });
+        Ok((Series { path, ..Series::new(name, stroke, kept) }, followed.err()))
+    }
+
+    /// The same of a run that comes to its end.
+    pub fn energy<S: Lagrangian>(
+        &self,
+        named: Named<'_>,
+        system: &S,
+        method: impl Method<S, f64>,
+        start: impl Into<S::State<f64>>,
+        plan: Plan,
+    ) -> Result<Series<1>> {
+        let (series, ended) = self.attempt(named, system, method, start, plan)?;
+        ended.map_or(Ok(series), |error| Err(error.into()))
+    }
+
+    /// Writes the figure (SVG and PNG), which says if its run was short or interrupted, and its data (CSV).
     pub fn publish(&self, figure: Figure, data: Table) -> Result<()> {
+        let figure = figure.titled(&format!("{}{}", title(self.name), self.choose("", " — short form")));
         let figure = if self.was_interrupted() { figure.interrupted() } else { figure };
         figure.save(&self.folder, self.name)?;
         data.save(&self.folder, self.name)

@@ -74,20 +74,15 @@ fn run(options: &Options) -> Result<ExitCode> {
     let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
     let parts = record::merged(record::load(&folder)?, new.clone(), &names);
     record::save(&folder, &parts)?;
-    output::write_whole(&folder.join("summary.md"), summary::markdown(&parts, title).as_bytes())?;
+    output::write_whole(
+        &folder.join("summary.md"),
+        summary::markdown(&parts, experiments::title).as_bytes(),
+    )?;
     let index = folder.join("index.html");
     output::write_whole(&index, page::html(&parts, &folder).as_bytes())?;
-    say(&format!("\n{}", summary::plain(&new, title, width())))?;
+    say(&format!("\n{}", summary::plain(&new, experiments::title, width())))?;
     eprintln!("look at {}", index.display());
     Ok(exit_code(&new))
-}
-
-/// The title of an experiment.
-fn title(name: &str) -> &'static str {
-    experiments::ALL
-        .iter()
-        .find(|experiment| experiment.name == name)
-        .map_or("", |experiment| experiment.title)
 }
 
 /// The width of the terminal that reads the summary; `None` if none does.

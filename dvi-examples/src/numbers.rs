@@ -2,6 +2,7 @@
 
 use anyhow::{Context as _, Result};
 use dvi_core::diagnostics::convergence_order;
+use rayon::prelude::*;
 
 /// The larger of two measured numbers; not a number if one of them is not, so that no bound holds for it.
 pub fn larger(a: f64, b: f64) -> f64 {
@@ -11,6 +12,11 @@ pub fn larger(a: f64, b: f64) -> f64 {
 /// The largest of some magnitudes.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, larger)
+}
+
+/// The smallest of some numbers.
+pub fn least(values: impl IntoIterator<Item = f64>) -> f64 {
+    -values.into_iter().map(|value| -value).fold(f64::NEG_INFINITY, larger)
 }
 
 /// The largest difference of a number of one from the number of the other in the same place.
@@ -28,9 +34,19 @@ pub fn farthest(one: &[[f64; 2]], other: &[[f64; 2]]) -> f64 {
     largest(one.iter().zip(other).map(|(&a, &b)| distance(a, b)))
 }
 
+/// The product of two vectors.
+pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    a.into_iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The difference of two vectors.
+pub fn difference<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
 /// The length of a vector.
-pub fn length(v: [f64; 3]) -> f64 {
-    v.into_iter().map(|x| x * x).sum::<f64>().sqrt()
+pub fn length<const N: usize>(v: [f64; N]) -> f64 {
+    dot(v, v).sqrt()
 }
 
 /// The order that errors show which belong to lengths of steps: see [`convergence_order`].
@@ -42,6 +58,31 @@ pub fn order(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
 pub fn each<T, U, const N: usize>(cases: [T; N], make: impl FnMut(T) -> Result<U>) -> Result<[U; N]> {
     let made = cases.into_iter().map(make).collect::<Result<Vec<_>>>()?;
     made.try_into().ok().context("not as many results as cases")
+}
+
+/// The same, side by side on the threads that there are.
+pub fn side_by_side<T: Send, U: Send, const N: usize>(
+    cases: [T; N],
+    make: impl Fn(T) -> Result<U> + Sync + Send,
+) -> Result<[U; N]> {
+    let made = cases.into_par_iter().with_max_len(1).map(make).collect::<Result<Vec<_>>>()?;
+    made.try_into().ok().context("not as many results as cases")
+}
+
+/// What `make` makes of each of the cases, and the names and errors of those in which it fails.
+pub fn attempts<T: Copy, U>(
+    cases: impl IntoIterator<Item = T>,
+    make: impl Fn(T) -> Result<U>,
+    name: impl Fn(T) -> String,
+) -> (Vec<U>, Vec<String>) {
+    let (mut made, mut failures) = (Vec::new(), Vec::new());
+    for case in cases {
+        match make(case) {
+            Ok(one) => made.push(one),
+            Err(error) => failures.push(format!("{}: {error}.", name(case))),
+        }
+    }
+    (made, failures)
 }
 
 /// The order that the errors of several cases show: `error` returns the length of the steps and the error.

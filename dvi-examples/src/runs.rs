@@ -1,10 +1,12 @@
-//! What is read of short runs.
+//! What is read of runs, and runs that several experiments take.
 
 use anyhow::Result;
+use dvi_core::discrete::{Trapezoid, Unfitted};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
-use crate::numbers::{apart, each};
+use crate::figure::{Colour, Points, SEQUENCE};
+use crate::numbers::{apart, each, indicator, larger, order_of};
 
 /// What `of` reads of a run, at its start and after each of so many steps.
 pub fn course<R: Run, T>(run: &mut R, steps: u64, mut of: impl FnMut(&R) -> T) -> Result<Vec<T>, StepError> {
@@ -32,6 +34,22 @@ pub fn up_to<S: Lagrangian>(
     let mut run = Integrator::new(system, method, h, start)?;
     run.take_steps((end / h).round() as u64)?;
     Ok(run.state())
+}
+
+/// The order that errors of the coordinates show after time `end`, of runs with so many steps.
+pub fn order_at<S: Lagrangian, const N: usize>(
+    system: &S,
+    method: impl Method<S, f64> + Clone,
+    start: &S::State<f64>,
+    end: f64,
+    counts: [u64; N],
+    error: impl Fn(&[f64]) -> f64,
+) -> Result<Option<f64>> {
+    order_of(counts, |steps| {
+        let mut run = Integrator::new(system, method.clone(), end / steps as f64, start.clone())?;
+        run.take_steps(steps)?;
+        Ok((end / steps as f64, error(run.q())))
+    })
 }
 
 /// The largest difference of a coordinate or velocity from the start, after steps there and as many back.
@@ -62,4 +80,69 @@ pub fn iterations<S: Lagrangian>(
     let mut run = Integrator::new(system, method, h, start)?;
     run.take_steps(steps)?;
     Ok(run.statistics().iterations as f64 / steps as f64)
+}
+
+/// The first of the momenta of a run; not numbers if it has not as many.
+pub fn momenta<const N: usize>(run: &impl Run<Scalar = f64>) -> [f64; N] {
+    std::array::from_fn(|k| run.momentum(k).unwrap_or(f64::NAN))
+}
+
+/// One if a run is lost within so many steps, and zero if not: if its energy grows by that factor, no number
+/// is left of it, or a step fails.
+pub fn is_lost(run: &mut impl Run<Scalar = f64>, steps: u64, factor: f64) -> f64 {
+    let begin = run.energy();
+    let grown = |energy: f64| energy.is_nan() || energy > factor * begin;
+    indicator((0..steps).any(|_| run.advance().is_err() || grown(run.energy())))
+}
+
+/// A time, a colour, and the shape then.
+pub type Shape = (f64, Colour, Points);
+
+/// The shapes of what begins at the origin, at six times up to the end of so many steps.
+pub fn shapes<S: System>(
+    mut run: impl Run<System = S, Scalar = f64>,
+    steps: f64,
+    of: impl Fn(S::State<f64>) -> Points,
+) -> Result<[Shape; 6]> {
+    each([0, 2, 3, 5, 6, 7], |colour: usize| {
+        if colour > 0 {
+            run.take_steps(steps as u64 / 5)?;
+        }
+        let shape = [[0.0; 2]].into_iter().chain(of(run.state())).collect();
+        Ok((run.time(), SEQUENCE[colour], shape))
+    })
+}
+
+/// Steps of the trapezoidal rule that are divided at impacts.
+pub type Bouncing = Impacts<Variational<Unfitted, Trapezoid>>;
+
+/// With that law of impact.
+pub fn trapezoid(collision: Collision) -> Bouncing {
+    Impacts { collision, ..Impacts::new(Variational::trapezoid()) }
+}
+
+/// The state after as many steps back as a run has taken.
+pub fn back<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: M,
+    run: &Integrator<&S, M>,
+) -> Result<S::State<f64>> {
+    let mut back = Integrator::resume(system, method, &run.checkpoint().with_step_size(-run.step_size()))?;
+    back.take_steps(run.steps())?;
+    Ok(back.state())
+}
+
+/// The largest relative deviation of rods from their length, and the largest velocity of their ends along
+/// them, from the places and velocities of one end as seen from the other.
+pub fn stretched(length: f64, rods: impl IntoIterator<Item = [f64; 4]>) -> [f64; 2] {
+    rods.into_iter().fold([0.0; 2], |[deviation, along], [x, y, dot_x, dot_y]| {
+        let found = x.hypot(y);
+        let rate = (x * dot_x + y * dot_y) / found;
+        [larger(deviation, (found / length - 1.0).abs()), larger(along, rate.abs())]
+    })
+}
+
+/// Points from their coordinates.
+pub fn points(x: &[f64], y: &[f64]) -> Points {
+    x.iter().zip(y).map(|(&x, &y)| [x, y]).collect()
 }

@@ -6,14 +6,15 @@ pub use anyhow::{Context as _, Result};
 pub use dvi_core::methods::Method;
 pub use dvi_core::prelude::*;
 
-pub use crate::claim::{Bound, Check, Claim, beyond};
-pub use crate::deviation::{Deviation, Series, Span, magnitude_table, magnitudes, note, over_time, ranges};
+pub use crate::claim::{Bound, Check, Claim, beyond, says};
+pub use crate::deviation::*;
 pub use crate::figure::{
-    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, PURPLE, Panel, SEQUENCE,
-    SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
+    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, PURPLE, Panel, Points,
+    SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
 };
 pub use crate::gallery::Outcome;
 pub use crate::job::Job;
 pub use crate::numbers::*;
 pub use crate::output::Table;
 pub use crate::runs::*;
+pub use dvi_examples::models::{self, *};

@@ -1,7 +1,8 @@
 //! Newmark's method with β = ¼ and γ = ½, the average acceleration method, written by hand for linear
 //! friction.
 
-use crate::models::{RadialFriction, RadialFrictionState};
+use super::decay::{Case, START};
+use crate::vocabulary::*;
 
 /// A point with its velocity and acceleration.
 #[derive(Clone, Debug)]
@@ -66,6 +67,24 @@ impl AverageAcceleration {
     }
 }
 
+/// With z' = F(z) Newmark's method is z1 − ½hF(z1) = z0 + ½hF(z0). So the points z − ½hF(z) are those of the
+/// implicit midpoint rule, which is what the variational midpoint rule is for this Lagrangian and these
+/// forces.
+pub fn is_midpoint(job: &Job<'_>, case: Case) -> Result<Claim> {
+    let mut newmark = AverageAcceleration::new(case.system(), case.h, START);
+    let mut run =
+        Integrator::new(case.system(), Variational::midpoint(), case.h, newmark.half_a_step_back())?;
+    let entries = |RadialFrictionState { x, y, dot_x, dot_y }| [x, y, dot_x, dot_y];
+    let mut most = 0.0;
+    job.follow(&mut run, case.steps(), |run| {
+        newmark.step();
+        most = larger(most, apart(&entries(run.state()), &entries(newmark.half_a_step_back())));
+    })?;
+    let text =
+        "Newmark's method with β = ¼ is the variational midpoint rule half a step back, with friction too";
+    Ok(beyond(text).at_most("largest difference of a coordinate or a velocity", most, 1e-10))
+}
+
 /// Velocity and acceleration at `next`.
 fn rates(h: f64, [q, v, a]: [[f64; 2]; 3], next: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     let mean: [f64; 2] = std::array::from_fn(|i| (next[i] - q[i]) / h);
@@ -73,10 +92,6 @@ fn rates(h: f64, [q, v, a]: [[f64; 2]; 3], next: [f64; 2]) -> ([f64; 2], [f64; 2
         std::array::from_fn(|i| 2.0 * mean[i] - v[i]),
         std::array::from_fn(|i| 4.0 / h * (mean[i] - v[i]) - a[i]),
     )
-}
-
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// The functions of the modulus k.
 #[derive(Clone, Copy, Debug)]
 pub struct Elliptic {
     /// k and √(1 − k²), each to its own rounding.
@@ -30,7 +29,6 @@ impl Elliptic {
         FRAC_PI_2 / self.means()[MEANS - 1][0]
     }
 
-    /// sn u
     pub fn sn(&self, u: f64) -> f64 {
         let means = self.means();
         let mut phi = 2f64.powi(MEANS as i32 - 1) * means[MEANS - 1][0] * u;

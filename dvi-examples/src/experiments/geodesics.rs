@@ -1,6 +1,5 @@
 //! Long runs along geodesics, beside RK4 on the entries of the states, and what is claimed of them.
 
-use crate::models::OnManifold;
 use crate::vocabulary::*;
 
 use super::rk4::{rk4, rk4_up_to};
@@ -14,12 +13,10 @@ pub const FEW_UNITS: f64 = 8.0 * f64::EPSILON;
 pub struct Long {
     pub steps: u64,
     pub every: u64,
-    /// The length of a step.
     pub h: f64,
 }
 
 impl Long {
-    /// When it ends.
     pub fn end(self) -> f64 {
         self.steps as f64 * self.h
     }
@@ -47,7 +44,6 @@ impl Long {
         Ok(kept)
     }
 
-    /// A run along geodesics.
     pub fn along_geodesics<const D: usize, S: OnManifold<D>, const N: usize>(
         self,
         job: &Job<'_>,
@@ -94,6 +90,12 @@ pub fn panels<const N: usize>(
     quantities.iter().map(panel).collect()
 }
 
+/// The circles of the heights between which something moves, from above.
+pub fn between_heights(panel: Panel, heights: &Heights) -> Panel {
+    let radii = heights.extremes().map(|height| (1.0 - height * height).sqrt());
+    panel.each(radii, |panel, radius| panel.line(circle([0.0; 2], radius), Stroke::dashed(SLATE).width(1.0)))
+}
+
 /// The entries of a state after time `end`, by RK4 with short steps.
 pub fn reference<const D: usize, S: OnManifold<D>>(
     system: S,
@@ -104,8 +106,8 @@ pub fn reference<const D: usize, S: OnManifold<D>>(
     rk4_up_to(S::entries(start), end, h, |y| system.motion(y))
 }
 
-/// The claim that R and ω of a body are of second order, and of fourth by a composition, at a time, for steps
-/// of these lengths, against RK4 with short steps.
+/// The claim that R and ω of a body are of second order, and of fourth by a composition, at a time, for
+/// steps of these lengths, against RK4 with short steps.
 pub fn order_claim<S: OnManifold<12>>(
     body: &str,
     system: S,
@@ -115,28 +117,26 @@ pub fn order_claim<S: OnManifold<12>>(
     fine: f64,
 ) -> Result<Claim> {
     let [exact, double] = [fine, 2.0 * fine].map(|h| reference(system, start, end, h));
-    let error = |h, state: S::State<f64>| (h, apart(&S::entries(&state), &exact));
-    let simple =
-        order_of(steps, |h| Ok(error(h, up_to(&system, Geodesic::trapezoid(), h, start.clone(), end)?)))?;
-    let composed = order_of(steps, |h| {
-        Ok(error(h, up_to(&system, Composition::suzuki(Geodesic::trapezoid()), h, start.clone(), end)?))
-    })?;
+    let error = |state: S::State<f64>| apart(&S::entries(&state), &exact);
+    let simple = |h| up_to(&system, Geodesic::trapezoid(), h, start.clone(), end);
+    let composed = |h| up_to(&system, Composition::suzuki(Geodesic::trapezoid()), h, start.clone(), end);
     let text = format!(
         "R and ω of {body} are of second order, and of fourth by Suzuki's composition, against RK4 with \
          short steps"
     );
+    let [second, fourth] = [
+        order_of(steps, |h| Ok((h, error(simple(h)?))))?,
+        order_of(steps, |h| Ok((h, error(composed(h)?))))?,
+    ];
     Ok(beyond(text)
         .at_most("largest difference of two references", apart(&exact, &double), 1e-9)
-        .near(format!("geodesics: order at t = {end}"), simple, [2.0, 0.05])
-        .near(format!("Suzuki's composition: order at t = {end}"), composed, [4.0, 0.1]))
+        .near(format!("geodesics: order at t = {end}"), second, [2.0, 0.05])
+        .near(format!("Suzuki's composition: order at t = {end}"), fourth, [4.0, 0.1]))
 }
 
 /// The checks that the energy error of a run is no larger than predicted, and has no trend.
 pub fn flat_energy(job: &Job<'_>, claim: Claim, run: &str, energy: &Deviation, predicted: f64) -> Claim {
     let trend = format!("{run}: max|ΔE|, last tenth of the time over the first");
-    claim.at_most(format!("{run}: max|ΔE|"), energy.largest, 1.02 * predicted).near(
-        trend,
-        job.only_full(energy.trend()),
-        [1.0, 0.01],
-    )
+    let claim = claim.at_most(format!("{run}: max|ΔE|"), energy.largest, 1.02 * predicted);
+    claim.near(trend, job.only_full(energy.trend()), [1.0, 0.01])
 }

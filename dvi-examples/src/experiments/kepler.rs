@@ -3,7 +3,6 @@
 use anyhow::ensure;
 use dvi_core::methods::VariableStep;
 
-use crate::models::{Kepler, Orbit};
 use crate::vocabulary::*;
 
 /// A run on a Kepler orbit, with fixed or with controlled steps.
@@ -11,38 +10,32 @@ pub trait KeplerRun: Run<System = Kepler, Scalar = f64> {}
 
 impl<R: Run<System = Kepler, Scalar = f64>> KeplerRun for R {}
 
+/// A method for it that takes steps of any length.
+pub trait KeplerMethod: VariableStep<Kepler, f64> {}
+
+impl<M: VariableStep<Kepler, f64>> KeplerMethod for M {}
+
 /// What a run has shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Course {
-    /// Steps per period.
     pub steps: f64,
     /// Evaluations of the force per period, those with its derivative included.
     pub evaluations: f64,
-    /// max |E − E(0)|.
     pub energy: f64,
     /// The largest distance from the exact position, where it was asked for.
     pub position: f64,
 }
 
-/// What is known at the end of a step.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    pub t: f64,
-    /// E − E(0).
-    pub energy: f64,
-    pub q: [f64; 2],
-}
-
 /// A run that takes more steps for one period has left its orbit.
 const MOST_STEPS: u64 = 3_000_000;
 
-/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the end of
-/// each step to `look`.
+/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the time,
+/// E − E(0) and the place at the end of each step to `look`.
 pub fn follow(
     job: &Job<'_>,
     run: &mut impl KeplerRun,
     periods: u64,
-    mut look: impl FnMut(Sample),
+    mut look: impl FnMut((f64, f64, [f64; 2])),
 ) -> Result<Course> {
     let initial = run.energy();
     let mut course = Course::default();
@@ -52,17 +45,13 @@ pub fn follow(
         let end = TAU * (done as f64 + 1.0 - 5e-7);
         let mut steps = 0;
         while run.time() < end {
-            ensure!(
-                steps < MOST_STEPS,
-                "more than {MOST_STEPS} steps for a period, at E = {:.3}",
-                run.energy()
-            );
+            let energy = run.energy();
+            ensure!(steps < MOST_STEPS, "more than {MOST_STEPS} steps for a period, at E = {energy:.3}");
             steps += 1;
             run.advance()?;
-            let t = run.time();
-            let sample = Sample { t, energy: run.energy() - initial, q: [run.q()[0], run.q()[1]] };
-            course.energy = larger(course.energy, sample.energy.abs());
-            look(sample);
+            let change = run.energy() - initial;
+            course.energy = larger(course.energy, change.abs());
+            look((run.time(), change, place(run)));
         }
         done += 1;
         job.proceed(1);
@@ -80,43 +69,27 @@ pub fn follow(
 /// Follows a run and compares it with the exact positions as well.
 pub fn compare(job: &Job<'_>, run: &mut impl KeplerRun, orbit: Orbit, periods: u64) -> Result<Course> {
     let mut position = 0.0f64;
-    let course =
-        follow(job, run, periods, |sample| position = larger(position, orbit.error(sample.t, &sample.q)))?;
+    let course = follow(job, run, periods, |(t, _, q)| position = larger(position, orbit.error(t, &q)))?;
     Ok(Course { position, ..course })
 }
 
-/// A run with controlled steps from the pericentre.
-type Controlled<M, C> = Result<ControlledIntegrator<Kepler, M, C>, StartError>;
+/// A run with `steps` steps of the same length per period.
+pub fn fixed(method: impl Method<Kepler, f64>, orbit: Orbit, steps: f64) -> Result<impl KeplerRun> {
+    Ok(Integrator::new(Kepler {}, method, TAU / steps, orbit.pericentre())?)
+}
 
 /// A run with steps by (23), as printed.
-pub fn osculating<M>(method: M, orbit: Orbit, tolerance: f64) -> Controlled<M, Osculating>
-where
-    M: VariableStep<Kepler, f64>,
-{
+pub fn osculating(method: impl KeplerMethod, orbit: Orbit, tolerance: f64) -> Result<impl KeplerRun> {
     let control = Osculating { tolerance, first_step: 1e-4, centre: CentreSpeed::AsPrinted };
-    ControlledIntegrator::new(Kepler {}, method, control, orbit.pericentre())
+    Ok(ControlledIntegrator::new(Kepler {}, method, control, orbit.pericentre())?)
 }
 
 /// A run with steps by (23), v_o read per unit of arc length.
-pub fn per_arc_length<M>(method: M, orbit: Orbit, tolerance: f64) -> Controlled<M, Osculating>
-where
-    M: VariableStep<Kepler, f64>,
-{
-    ControlledIntegrator::new(Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())
-}
-
-/// A run with `steps` steps of the same length per period.
-pub fn fixed<M>(method: M, orbit: Orbit, steps: f64) -> Result<Integrator<Kepler, M>, StartError>
-where
-    M: Method<Kepler, f64>,
-{
-    Integrator::new(Kepler {}, method, TAU / steps, orbit.pericentre())
+pub fn per_arc_length(method: impl KeplerMethod, orbit: Orbit, tolerance: f64) -> Result<impl KeplerRun> {
+    Ok(ControlledIntegrator::new(Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())?)
 }
 
 /// A run with steps in proportion to r^(3/2), about 1/ε of them per radian of the motion in the mean.
-pub fn reversible<M>(method: M, orbit: Orbit, epsilon: f64) -> Controlled<M, Reversible>
-where
-    M: VariableStep<Kepler, f64>,
-{
-    ControlledIntegrator::new(Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())
+pub fn reversible(method: impl KeplerMethod, orbit: Orbit, epsilon: f64) -> Result<impl KeplerRun> {
+    Ok(ControlledIntegrator::new(Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())?)
 }

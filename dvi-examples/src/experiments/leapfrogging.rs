@@ -1,26 +1,20 @@
 //! Rowley & Marsden 2002, Fig. 3: trajectories of two leapfrogging pairs, and what becomes of them under
 //! RK2 at the step that VE2 can take.
 
-use crate::models::{self, Case, FourVortices};
 use crate::vocabulary::*;
 
-/// How long the trajectories are that the figure shows.
 const SHOWN: f64 = 200.0;
 
 struct Motion {
     /// The first points of each vortex.
-    trajectories: [Vec<[f64; 2]>; 4],
-    /// The distance of vortices 1 and 2.
+    trajectories: [Points; 4],
     distance: Envelope,
-    /// Times at which one of vortices 1 and 2 overtakes the other, and the sign of x₁ − x₂.
+    /// Times at which one of vortices 1 and 2 overtakes the other.
     overtakings: Vec<f64>,
-    lead: f64,
     end: f64,
-    /// The largest coordinate at the end.
     extent: f64,
     /// The largest deviation from mirror symmetry about y = 0.
     asymmetry: f64,
-    /// The error that ended the run early.
     failure: Option<StepError>,
 }
 
@@ -31,11 +25,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let ve2 = Motion::new(job, Sigma { start, ..Sigma::leapfrog() }, 2.0, end)?;
     let rk2 = Motion::new(job, RungeKutta::midpoint(), 2.0, end)?;
     let exact = Motion::new(job, Gauss::<3>::new(), 0.5, SHOWN)?;
-    let columns = ["step", "x1", "y1", "x2", "y2", "x3", "y3", "x4", "y4"];
     let rows = (0..ve2.trajectories[0].len()).map(|k| {
         let places = ve2.trajectories.iter().flat_map(|trajectory| trajectory[k]);
         ([""; 0], [k as f64].into_iter().chain(places).collect::<Vec<_>>())
     });
+    let columns = ["step", "x1", "y1", "x2", "y2", "x3", "y3", "x4", "y4"];
     job.publish(figure(&ve2, &rk2, &exact), Table::of(&columns, rows)?)?;
     let note = format!(
         "RK2 at h = 2: the last overtaking is at t = {}. The mirror symmetry breaks by rounding, so this \
@@ -46,42 +40,43 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         .into_iter()
         .filter_map(|(name, run)| run.failure.map(|error| format!("{name} at h = 2 ended early: {error}.")));
     let notes = [note].into_iter().chain(failures).collect();
-    Ok(Outcome { claims: claims(job, &ve2, &rk2), references: vec![], notes })
+    let infinite = job.only_full(indicator(!rk2.extent.is_finite()));
+    let claims = vec![
+        says("Fig. 3", "the two pairs leapfrog past each other")
+            .at_most("longest time between overtakings, VE2 at h = 2", ve2.longest_interval(), 36.0)
+            .at_most("largest deviation from mirror symmetry, VE2", ve2.asymmetry, 1e-3),
+        says("section 5", "RK2 blows up at h = 2")
+            .at_least("infinite or undefined coordinates", infinite, 1.0)
+            .instead("the numbers stay finite, but the pairs come apart")
+            .at_least("longest time between overtakings, RK2 at h = 2", rk2.longest_interval(), 200.0)
+            .at_most("largest coordinate at the end", rk2.extent, 1e6),
+    ];
+    Ok(Outcome { claims, references: vec![], notes })
 }
 
 impl Motion {
     fn new(job: &Job<'_>, method: impl Method<FourVortices, f64>, h: f64, end: f64) -> Result<Self> {
         let Case { vortices, start } = models::leapfrogging();
         let mut run = Integrator::new(&vortices, method, h, start)?;
-        let mut found = Self {
-            trajectories: Default::default(),
-            distance: Envelope::new(end, 500),
-            overtakings: vec![0.0],
-            lead: 0.0,
-            end,
-            extent: 0.0,
-            asymmetry: 0.0,
-            failure: None,
+        let (mut trajectories, mut distance) = ([const { Vec::new() }; 4], Envelope::new(end, 500));
+        let (mut overtakings, mut lead, mut asymmetry) = (vec![0.0], 0.0, 0.0);
+        let mut look = |t: f64, q: &[f64]| {
+            let (x, y) = q.split_at(4);
+            if t <= SHOWN {
+                (0..4).for_each(|j| trajectories[j].push([x[j], y[j]]));
+            }
+            distance.push(t, (x[0] - x[1]).hypot(y[0] - y[1]));
+            asymmetry = largest([asymmetry, (x[0] - x[2]).abs(), (y[0] + y[2]).abs()]);
+            let now = (x[0] - x[1]).signum();
+            if now * lead < 0.0 {
+                overtakings.push(t);
+            }
+            lead = now;
         };
-        found.note(0.0, run.q());
-        let ended = job.follow(&mut run, (end / h) as u64, |run| found.note(run.time(), run.q()));
-        found.failure = ended.err();
-        found.extent = largest(run.q().iter().map(|q| q.abs()));
-        Ok(found)
-    }
-
-    fn note(&mut self, t: f64, q: &[f64]) {
-        let (x, y) = q.split_at(4);
-        if t <= SHOWN {
-            (0..4).for_each(|j| self.trajectories[j].push([x[j], y[j]]));
-        }
-        self.distance.push(t, (x[0] - x[1]).hypot(y[0] - y[1]));
-        self.asymmetry = larger(larger(self.asymmetry, (x[0] - x[2]).abs()), (y[0] + y[2]).abs());
-        let now = (x[0] - x[1]).signum();
-        if now * self.lead < 0.0 {
-            self.overtakings.push(t);
-        }
-        self.lead = now;
+        look(0.0, run.q());
+        let failure = job.follow(&mut run, (end / h) as u64, |run| look(run.time(), run.q())).err();
+        let extent = largest(run.q().iter().map(|q| q.abs()));
+        Ok(Self { trajectories, distance, overtakings, end, extent, asymmetry, failure })
     }
 
     fn longest_interval(&self) -> f64 {
@@ -90,20 +85,6 @@ impl Motion {
         let times = self.overtakings.iter().chain([&reached]);
         largest(times.clone().zip(times.skip(1)).map(|(before, after)| after - before))
     }
-}
-
-fn claims(job: &Job<'_>, ve2: &Motion, rk2: &Motion) -> Vec<Claim> {
-    let infinite = job.only_full(indicator(!rk2.extent.is_finite()));
-    vec![
-        Claim::new("Fig. 3", "the two pairs leapfrog past each other")
-            .at_most("longest time between overtakings, VE2 at h = 2", ve2.longest_interval(), 36.0)
-            .at_most("largest deviation from mirror symmetry, VE2", ve2.asymmetry, 1e-3),
-        Claim::new("section 5", "RK2 blows up at h = 2")
-            .at_least("infinite or undefined coordinates", infinite, 1.0)
-            .instead("the numbers stay finite, but the pairs come apart")
-            .at_least("longest time between overtakings, RK2 at h = 2", rk2.longest_interval(), 200.0)
-            .at_most("largest coordinate at the end", rk2.extent, 1e6),
-    ]
 }
 
 fn figure(ve2: &Motion, rk2: &Motion, exact: &Motion) -> Figure {
@@ -121,26 +102,9 @@ fn figure(ve2: &Motion, rk2: &Motion, exact: &Motion) -> Figure {
     let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, ve2.end);
     let axis = Axis::logarithmic("|*z*₁ − *z*₂|   [*L*]");
     let distance = Panel::new("Distance of vortices 1 and 2 (range and mean)", time, axis)
-        .band(rk2.distance.band(), SLATE)
-        .line(rk2.distance.mean(), Stroke::solid(SLATE))
-        .labelled("RK2, *h* = 2")
-        .band(ve2.distance.band(), GREEN)
-        .line(ve2.distance.mean(), Stroke::solid(GREEN))
-        .labelled("VE2, *h* = 2");
-    Figure::new(
-        "Two leapfrogging pairs with *h* = 2: trajectories, and the distance of two vortices with VE2 and \
-         RK2",
-        format!(
-            "Up to *t* = {}: the longest time without overtaking is {:.0} with VE2 and {:.0} with RK2",
-            scientific(ve2.distance.end()),
-            ve2.longest_interval(),
-            rk2.longest_interval()
-        ),
-    )
-    .row(400.0, vec![paths.legend_at(Corner::Beside)])
-    .row(300.0, vec![distance.legend_at(Corner::Beside)])
-    .footer(
-        "Γ = 1 above, Γ = −1 below. After Rowley & Marsden 2002, Fig. 3. Γ and *L*: units of \
-             circulation and length.",
-    )
+        .ranges([("RK2, *h* = 2", SLATE, &rk2.distance), ("VE2, *h* = 2", GREEN, &ve2.distance)]);
+    Figure::of("Γ = 1 above, Γ = −1 below; Γ and *L*: units of circulation and length")
+        .row(400.0, vec![paths.legend_at(Corner::Beside)])
+        .row(300.0, vec![distance.legend_at(Corner::Beside)])
+        .footer("After Rowley & Marsden 2002, Fig. 3.")
 }

@@ -1,18 +1,26 @@
-//! The experiments, a file each, and what several of them share.
+//! The experiments, a file each, and the ideas beside them, which several of them may share.
 
 mod accuracy_cost;
 mod average_acceleration;
 mod barnes;
 mod beam;
+mod beam_frequencies;
 mod billiard;
 mod bounces;
 mod chaotic;
+mod decay;
 mod disc;
+mod disc_energy;
 mod double_pendulum;
 mod elliptic;
 mod energy;
 mod energy_momentum;
+mod energy_steps;
+mod equal_errors;
+mod exchange;
 mod field_lines;
+mod flips;
+mod forced_noether;
 mod friction;
 mod geodesics;
 mod guiding_centre;
@@ -23,23 +31,29 @@ mod kepler_steps;
 mod kepler_work;
 mod leapfrogging;
 mod links;
+mod longest_steps;
 mod lotka_volterra;
 mod massless;
 mod molecules;
 mod momenta;
+mod no_energy_step;
 mod order;
 mod oscillator;
 mod parasitic;
 mod phase_space;
+mod poincare_map;
 mod quasi_periodic;
+mod random_walk;
 mod rigid_body;
 mod rivals;
 mod rk4;
 mod round_off;
 mod schroedinger;
+mod section_figures;
 mod sections;
 mod shadow;
 mod shear_layer;
+mod sleigh;
 mod sphere_vortices;
 mod spherical_pendulum;
 mod spring_chain;
@@ -49,6 +63,7 @@ mod tabulated_field;
 mod three_species;
 mod top;
 mod turnings;
+mod waves;
 
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -156,6 +171,11 @@ pub const ALL: &[Experiment] = &[
     of("three-species", 1.5, "", three_species::run,
         "Of three species one step keeps xyz to rounding, by a coordinate that is conjugate to the Casimir"),
 ];
+
+/// The title of an experiment.
+pub fn title(name: &str) -> &'static str {
+    ALL.iter().find(|experiment| experiment.name == name).map_or("", |experiment| experiment.title)
+}
 
 #[cfg(test)]
 mod tests {

@@ -3,7 +3,6 @@
 //! It decides whether a run can be used. The energy of Fig. 2 does not show it, because that motion is
 //! protected by its mirror symmetry. Beyond the paper.
 
-use crate::models::{self, Case};
 use crate::vocabulary::*;
 
 const COLOURS: [Colour; 4] = [BLUE, GREEN, VERMILLION, INK];
@@ -26,14 +25,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.expect(48_000 + 27_000);
     let runs = [(0.25, 0.5), (0.25, 0.25), (0.25, 0.125), (0.5, 0.5)];
     let leapfrogging =
-        each(runs, |run| Motion::new(job, "leapfrogging", &models::leapfrogging(), run, 3000.0))?;
+        each(runs, |run| Motion::new(job, "leapfrogging", models::leapfrogging(), run, 3000.0))?;
     let runs = [(0.0, 0.1), (0.0, 0.05), (0.0, 0.02), (0.5, 0.1)];
-    let chaotic = each(runs, |run| Motion::new(job, "chaotic", &models::chaotic(), run, 300.0))?;
+    let chaotic = each(runs, |run| Motion::new(job, "chaotic", models::chaotic(), run, 300.0))?;
     let all = || leapfrogging.iter().chain(&chaotic);
     let rows = all().flat_map(|Motion { motion, sigma, h, points, .. }| {
-        let numbers =
-            thin(points, 1000).into_iter().map(|[t, amplitude, error]| [*sigma, *h, t, amplitude, error]);
-        numbers.map(|numbers| ([*motion], numbers))
+        let points = thin(points, 1000).into_iter();
+        points.map(|[t, amplitude, error]| ([*motion], [*sigma, *h, t, amplitude, error]))
     });
     let table = Table::of(&["motion", "sigma", "h", "t", "amplitude", "largest_energy_error"], rows)?;
     job.publish(figure(&leapfrogging, &chaotic), table)?;
@@ -55,18 +53,16 @@ impl Motion {
     fn new(
         job: &Job<'_>,
         motion: &'static str,
-        case: &Case,
+        Case { vortices, start }: Case,
         (sigma, h): (f64, f64),
         end: f64,
     ) -> Result<Self> {
-        let Case { vortices, start } = case;
         // The Runge–Kutta start leaves a parasitic mode of size h³, which then does what it does.
         let second = Start::RungeKutta(RungeKutta::midpoint());
         let method = Sigma { start: second, parasitic_limit: None, ..Sigma::new(sigma) };
-        let mut run = Integrator::new(vortices, method, h, *start)?;
-        let initial = run.energy();
-        let (mut filter, mut points, mut largest) =
-            (AlternatingComponent::new(vortices), Vec::new(), 0.0f64);
+        let mut run = Integrator::new(&vortices, method, h, start)?;
+        let (initial, mut largest) = (run.energy(), 0.0f64);
+        let (mut filter, mut points) = (AlternatingComponent::new(&vortices), Vec::new());
         let ended = job.follow(&mut run, (end / h) as u64, |run| {
             largest = larger(largest, (run.energy() - initial).abs());
             points.extend(filter.amplitude(run.q()).map(|amplitude| [run.time(), amplitude, largest]));
@@ -104,26 +100,24 @@ impl Motion {
 }
 
 fn claims(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Vec<Claim> {
-    let (quarter, explicit) = (&leapfrogging[..3], &chaotic[..3]);
+    let [quarter, explicit] = [leapfrogging, chaotic].map(|all| &all[..3]);
     let halves = [&leapfrogging[3], &chaotic[3]];
     let first = quarter[0].rate();
     let energy = chaotic[3].points.last().map_or(f64::NAN, |point| point[2]);
+    let until = format!("time of |ΔH| > {LOST} or of an error that ends the run");
+    let independent = "for σ = ¼ the parasitic mode grows at a rate that does not depend on h";
+    let rates = |run: &Motion| run.rate().zip(first).map(|(rate, first)| rate / first);
     vec![
         beyond("with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not")
             .each(explicit, |claim, run| {
-                let quantity =
-                    format!("time of |ΔH| > {LOST} or of an error that ends the run, {}", run.name());
-                claim.at_most(quantity, run.lost(), 300.0)
+                claim.at_most(format!("{until}, {}", run.name()), run.lost(), 300.0)
             })
             .at_most(format!("max|ΔH| to t = 300, {}", chaotic[3].name()), energy, 1e-4),
-        beyond("for σ = ¼ the parasitic mode grows at a rate that does not depend on h").each(
-            &quarter[1..],
-            |claim, run| {
-                let name = run.name();
-                let quantity = format!("rate on the leapfrogging pairs, {name}, over that of the largest h");
-                claim.near(quantity, run.rate().zip(first).map(|(rate, first)| rate / first), [1.0, 0.1])
-            },
-        ),
+        beyond(independent).each(&quarter[1..], |claim, run| {
+            let name = run.name();
+            let quantity = format!("rate on the leapfrogging pairs, {name}, over that of the largest h");
+            claim.near(quantity, rates(run), [1.0, 0.1])
+        }),
         beyond("for σ = ½ it neither grows nor decays").each(halves, |claim, run| {
             let quantity = format!("late over early amplitude, {}, {}", run.motion, run.name());
             claim.near(quantity, run.growth(), [1.0, 0.2])
@@ -136,7 +130,7 @@ fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
         let axis = Axis::logarithmic(label).within(1e-9, 30.0);
         let empty = Panel::new(title, Axis::linear("time *t*   [*L*²/Γ]"), axis);
         empty.legend_at(Corner::BottomRight).each(all.iter().zip(COLOURS), |panel, (run, colour)| {
-            let points: Vec<[f64; 2]> = run.points.iter().map(|point| [point[0], point[column]]).collect();
+            let points: Points = run.points.iter().map(|point| [point[0], point[column]]).collect();
             // Where an error ended the run.
             let end = points.last().filter(|_| run.failure.is_some()).copied();
             let panel = panel.line(points, Stroke::solid(colour).width(1.4));
@@ -148,13 +142,7 @@ fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
     let left = panel("Leapfrogging pairs", amplitude, leapfrogging, 1);
     let middle = panel("Chaotic motion", amplitude, chaotic, 1);
     let right = panel("Chaotic motion: energy", "largest |*H* − *H*(0)| so far   [Γ²]", chaotic, 2);
-    Figure::new(
-        "The parasitic mode of the two-step map: the part of an orbit that alternates from step to step",
-        "All runs start with a step of RK2, which leaves a parasitic mode of size *h*³",
-    )
-    .row(460.0, vec![left, middle, right.without_legend()])
-    .footer(
-        "A circle: the run ended there with an error. Data of Rowley & Marsden 2002, Figs. 2 and 5. Γ \
-             and *L*: units of circulation and length.",
-    )
+    Figure::of("A first step of RK2 leaves a parasitic mode of size *h*³; a circle: the run ended there")
+        .row(460.0, vec![left, middle, right.without_legend()])
+        .footer("Data of Rowley & Marsden 2002, Figs. 2 and 5. Γ and *L*: units of circulation and length.")
 }

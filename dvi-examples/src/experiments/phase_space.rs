@@ -3,35 +3,28 @@
 //! There the trapezoidal scheme is leapfrog, kick–drift–kick, and the midpoint scheme is the implicit
 //! midpoint rule. Both preserve area.
 
+use super::barnes;
 use super::elliptic::Elliptic;
-use crate::models::{
-    Pendulum, PendulumState, PhasePendulum, PhasePendulumState, SymmetricPendulum, SymmetricPendulumState,
-};
 use crate::vocabulary::*;
 
-/// The step of long runs, and their start.
+const SYSTEM: PhasePendulum = PhasePendulum {};
+/// The start of long runs, and their step.
+const START: PhasePendulumState = PhasePendulumState { x: 2.0, p: 0.0 };
 const H: f64 = 0.2;
-const START: f64 = 2.0;
-/// Steps of the beginning, with which the whole is compared.
-const EARLY: u64 = 1000;
-/// Steps of the runs that are compared.
-const COMPARED: u64 = 500;
-/// The step of the circle that is carried along, and until when it is: those of the experiment `barnes`.
-const FINE: f64 = 1.0 / 32.0;
-const CARRIED: usize = 8;
-
-/// The points of a circle, carried along to t = 0, 1, …
-type Circles = Vec<Vec<[f64; 2]>>;
+/// The corners of a polygon at t = 0, 1, …
+type Circles = Vec<Points>;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(3 * steps);
+    let plan = Plan { steps, h: H, early: 1000, intervals: 400, places: 0 };
+    let [blue, green] = [BLUE, GREEN].map(Stroke::solid);
     let all = [
-        long_run(job, "one step, midpoint", Stroke::solid(BLUE), OneStep::midpoint(), steps)?,
-        long_run(job, "one step, trapezoid", Stroke::solid(GREEN), OneStep::trapezoid(), steps)?,
-        long_run(job, "RK4", Stroke::dashed(VERMILLION), RungeKutta::classical(), steps)?,
+        job.energy(("one step, midpoint", blue), &SYSTEM, OneStep::midpoint(), START, plan)?,
+        job.energy(("one step, trapezoid", green), &SYSTEM, OneStep::trapezoid(), START, plan)?,
+        job.energy(("RK4", Stroke::dashed(VERMILLION)), &SYSTEM, RungeKutta::classical(), START, plan)?,
     ];
-    let leapfrog = circles(OneStep::trapezoid(), 100)?;
+    let leapfrog = circles(OneStep::trapezoid(), 100, 8)?;
     let errors = all.iter().flat_map(|series| {
         ranges([&series.name], &series.kept[0].envelope)
             .map(|(name, [t, low, _, high])| (name, [t, low, high]))
@@ -40,65 +33,43 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         circle.iter().map(move |[x, p]| (["circle".to_owned()], [t as f64, *x, *p]))
     });
     let table = Table::of(&["series", "t", "x or lowest ΔH", "p or highest ΔH"], errors.chain(points))?;
-    job.publish(figure(&all, &leapfrog, steps as f64 * H), table)?;
+    job.publish(figure(&all, &leapfrog, plan.end()), table)?;
     let text = "the energy error of one-step schemes is no larger in the whole run than in its beginning";
-    let growth = |series: &Series<1>| format!("{}: max|ΔH| over all / over {EARLY} steps", series.name);
+    let growth = |series: &Series<1>| format!("{}: max|ΔH| over all / over 1000 steps", series.name);
     let flat = beyond(text)
         .each(&all[..2], |claim, series| claim.at_most(growth(series), series.kept[0].growth(), 1.001))
         .at_least(growth(&all[2]), all[2].kept[0].growth(), 5.0);
-    let references = [(2, 0.784_858_871_043), (4, 0.784_780_953_139)].map(|(t, exact)| {
-        let quantity = format!("trapezoid: area of 100 corners at t = {t}");
-        Check::new(quantity, area(&leapfrog[t]), Bound::Near(exact, 1e-12))
-    });
-    let claims = vec![flat, same_schemes()?, areas()?, periods()?];
-    Ok(Outcome { claims, references: references.into(), notes: vec![] })
+    let references = barnes::areas("trapezoid", &leapfrog).into();
+    Ok(Outcome { claims: vec![flat, same_schemes()?, areas()?, periods()?], references, notes: vec![] })
 }
 
-fn long_run(
-    job: &Job<'_>,
-    name: &str,
-    stroke: Stroke,
-    method: impl Method<PhasePendulum, f64>,
-    steps: u64,
-) -> Result<Series<1>> {
-    let mut run = Integrator::new(&PhasePendulum {}, method, H, PhasePendulumState { x: START, p: 0.0 })?;
-    let energy = run.energy();
-    let span = Span { end: steps as f64 * H, early: EARLY as f64 * H, intervals: 400 };
-    Ok(Series::new(name, stroke, job.keep(&mut run, steps, span, |run| [run.energy() - energy])?))
-}
-
-/// A regular polygon about (0, 1) at t = 0, 1, …
-fn circles(method: impl Method<PhasePendulum, f64> + Copy, corners: usize) -> Result<Circles> {
-    let mut circles = vec![Vec::new(); CARRIED + 1];
-    for j in 0..corners {
-        let (sin, cos) = (TAU * j as f64 / corners as f64).sin_cos();
-        let start = PhasePendulumState { x: 0.5 * cos, p: 1.0 + 0.5 * sin };
-        let mut run = Integrator::new(&PhasePendulum {}, method, FINE, start)?;
-        for circle in &mut circles {
-            circle.push([run.q()[0], run.q()[1]]);
-            run.take_steps(32)?;
-        }
-    }
-    Ok(circles)
+/// A regular polygon about (0, 1), carried along with the step of the experiment `barnes`.
+fn circles(method: impl Method<PhasePendulum, f64> + Copy, corners: usize, end: u64) -> Result<Circles> {
+    barnes::carried(corners, |[x, p]| {
+        let mut run = Integrator::new(&SYSTEM, method, 1.0 / 32.0, PhasePendulumState { x, p })?;
+        Ok(course(&mut run, 32 * end, place)?)
+    })
 }
 
 fn same_schemes() -> Result<Claim> {
-    let (system, start) = (PhasePendulum {}, PhasePendulumState { x: START, p: 0.0 });
-    let trapezoid = course(&mut Integrator::new(&system, OneStep::trapezoid(), H, start)?, COMPARED, place)?;
-    let midpoint = course(&mut Integrator::new(&system, OneStep::midpoint(), H, start)?, COMPARED, place)?;
-    let gauss = course(&mut Integrator::new(&system, Gauss::<1>::new(), H, start)?, COMPARED, place)?;
-    let start = PendulumState { x: START, dot_x: 0.0 };
+    fn of<S: DegenerateLagrangian>(
+        system: S,
+        method: impl Method<S, f64>,
+        start: S::State<f64>,
+    ) -> Result<Points> {
+        Ok(course(&mut Integrator::new(&system, method, H, start)?, 500, place)?)
+    }
+    let trapezoid = of(SYSTEM, OneStep::trapezoid(), START)?;
+    let midpoint = of(SYSTEM, OneStep::midpoint(), START)?;
+    let gauss = of(SYSTEM, Gauss::<1>::new(), START)?;
+    let two_step =
+        of(SymmetricPendulum {}, Sigma::midpoint(), SymmetricPendulumState { x: START.x, p: 0.0 })?;
+    let start = PendulumState { x: START.x, dot_x: 0.0 };
     let mut run = Integrator::new(&Pendulum {}, Variational::trapezoid(), H, start)?;
-    let verlet = course(&mut run, COMPARED, |run| [run.q()[0], run.memory().p()[0]])?;
-    let start = SymmetricPendulumState { x: START, p: 0.0 };
-    let mut run = Integrator::new(&SymmetricPendulum {}, Sigma::midpoint(), H, start)?;
-    let two_step = course(&mut run, COMPARED, place)?;
+    let verlet = course(&mut run, 500, |run| [run.q()[0], run.memory().p()[0]])?;
+    let from_verlet = farthest(&trapezoid, &verlet);
     Ok(beyond("with α = p dx the trapezoidal scheme is leapfrog and the midpoint one is implicit midpoint")
-        .at_most(
-            "500 steps: trapezoid from Störmer–Verlet on L(x, x')",
-            farthest(&trapezoid, &verlet),
-            1e-11,
-        )
+        .at_most("500 steps: trapezoid from Störmer–Verlet on L(x, x')", from_verlet, 1e-11)
         .at_most("500 steps: midpoint from Gauss of one stage", farthest(&midpoint, &gauss), 1e-11)
         .at_most("500 steps: midpoint from σ = ½ with ½(p dx − x dp)", farthest(&midpoint, &two_step), 1e-11)
         .at_least("500 steps: trapezoid from midpoint", farthest(&trapezoid, &midpoint), 1e-3))
@@ -108,31 +79,23 @@ fn same_schemes() -> Result<Claim> {
 fn areas() -> Result<Claim> {
     fn of(method: impl Method<PhasePendulum, f64> + Copy) -> Result<Option<f64>> {
         order_of([100, 200, 400, 800], |corners| {
-            let circles = circles(method, corners)?;
+            let circles = circles(method, corners, 4)?;
             Ok((1.0 / corners as f64, area(&circles[0]) - area(&circles[4])))
         })
     }
-    let (midpoint, trapezoid) = (of(OneStep::midpoint())?, of(OneStep::trapezoid())?);
     Ok(beyond("the polygon and not the scheme loses area")
-        .near("midpoint: order in 1/n of what is lost at t = 4", midpoint, [2.0, 0.01])
-        .near("trapezoid: order in 1/n of what is lost at t = 4", trapezoid, [2.0, 0.01]))
+        .near("midpoint: order in 1/n of what is lost at t = 4", of(OneStep::midpoint())?, [2.0, 0.01])
+        .near("trapezoid: order in 1/n of what is lost at t = 4", of(OneStep::trapezoid())?, [2.0, 0.01]))
 }
 
 /// Where a hundred steps lead that are a hundredth of the period each, against the start.
 fn periods() -> Result<Claim> {
-    fn of(method: impl Method<PhasePendulum, f64> + Copy) -> Result<Option<f64>> {
-        let (sin, cos) = (START / 2.0).sin_cos();
-        let period = 4.0 * Elliptic { modulus: sin, complementary: cos }.quarter();
-        order_of([100, 150, 200], |steps| {
-            let h = period / steps as f64;
-            let start = PhasePendulumState { x: START, p: 0.0 };
-            let mut run = Integrator::new(&PhasePendulum {}, method, h, start)?;
-            run.take_steps(steps)?;
-            Ok((h, (run.q()[0] - START).hypot(run.q()[1])))
-        })
-    }
-    let (midpoint, trapezoid) = (of(OneStep::midpoint())?, of(OneStep::trapezoid())?);
-    let gauss = of(OneStepGauss::<2>::new())?;
+    let (sin, cos) = (START.x / 2.0).sin_cos();
+    let period = 4.0 * Elliptic { modulus: sin, complementary: cos }.quarter();
+    let (counts, error) = ([100, 150, 200], |q: &[f64]| distance([q[0], q[1]], [START.x, START.p]));
+    let midpoint = order_at(&SYSTEM, OneStep::midpoint(), &START, period, counts, error)?;
+    let trapezoid = order_at(&SYSTEM, OneStep::trapezoid(), &START, period, counts, error)?;
+    let gauss = order_at(&SYSTEM, OneStepGauss::<2>::new(), &START, period, counts, error)?;
     Ok(beyond("the period comes out as the elliptic integral says, to the order of the scheme")
         .near("midpoint: order of the error after a period", midpoint, [2.0, 0.02])
         .near("trapezoid: order of the error after a period", trapezoid, [2.0, 0.02])
@@ -141,39 +104,22 @@ fn periods() -> Result<Claim> {
 
 fn figure(all: &[Series<1>; 3], leapfrog: &Circles, end: f64) -> Figure {
     let energy = |p: f64, x: f64| p * p / 2.0 - x.cos();
-    let contour = |level: f64, sign: f64| -> Vec<[f64; 2]> {
+    let contour = |level: f64, sign: f64| -> Points {
         let xs = (-720..=720).map(|k| f64::from(k) / 200.0).filter(|&x| energy(0.0, x) <= level);
         xs.map(|x| [x, sign * (2.0 * (level + x.cos())).sqrt()]).collect()
     };
     let levels = [0.0, 1.0, 2.0].into_iter().flat_map(|level| [(level, 1.0), (level, -1.0)]);
     let grey = Stroke::solid(SEQUENCE[0]).width(0.6).opacity(0.4);
-    let (x, p) =
-        (Axis::linear("angle *x*").within(-3.6, 3.6), Axis::linear("momentum *p*").within(-2.8, 4.4));
-    let plane = Panel::new("A circle of 100 points, by the trapezoidal scheme", x, p)
-        .equal()
+    let title = "A circle of 100 points, by the trapezoidal scheme";
+    let plane = Panel::window(title, ("angle *x*", [-3.6, 3.6]), ("momentum *p*", [-2.8, 4.4]))
         .each(levels, |plane, (level, sign)| plane.line(contour(level, sign), grey))
         .each(leapfrog.iter().enumerate().step_by(2), |plane, (t, circle)| {
             let colour = SEQUENCE[t.min(7)];
             let text = format!("*t* = {t}: area {:.6}", area(circle));
-            plane.line(closed(circle), Stroke::solid(colour)).labelled(text).dots(
-                circle.clone(),
-                1.3,
-                colour,
-            )
+            let plane = plane.line(closed(circle), Stroke::solid(colour)).labelled(text);
+            plane.dots(circle.clone(), 1.3, colour)
         });
-    let time = Axis::linear("time *t*   [1/*ω*₀]").within(0.0, end);
-    let axis = Axis::logarithmic("largest |*H* − *H*(0)| of each interval").within(1e-4, 10.0);
-    let energy = Panel::new("Error of the energy", time, axis).lines(magnitudes(all, 0)).weight(1.2);
-    let [midpoint, trapezoid, rk4] = all.each_ref().map(|series| series.kept[0].largest);
-    Figure::new(
-        "The pendulum in phase-space form: an area carried along, and the energy errors of three methods",
-        format!("*H* = ½*p*² − cos *x*; left *h* = 1/32, right *h* = {H} from ({START}, 0)"),
-    )
-    .row(500.0, vec![plane, energy])
-    .footer(format!(
-        "Largest |Δ*H*| of one step: midpoint {}, trapezoid {}. RK4 at the end: {}.",
-        at_most(midpoint),
-        at_most(trapezoid),
-        scientific(rk4)
-    ))
+    let labels = ["Error of the energy", "largest |*H* − *H*(0)| of each interval"];
+    Figure::of(format!("*H* = ½*p*² − cos *x*; left *h* = 1/32, right *h* = {H} from (2, 0)"))
+        .row(500.0, vec![plane, over_time(labels, end, [1e-4, 10.0], all, 0).weight(1.2)])
 }

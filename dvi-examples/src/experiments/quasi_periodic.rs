@@ -4,7 +4,6 @@
 //! collocation of order six.
 
 use super::sections::{self, CAVEAT, Crossings, LYAPUNOV_STEPS, Scheme, compare, cost, lyapunov_exponent};
-use crate::models;
 use crate::vocabulary::*;
 
 const RUNS: [(Scheme, f64); 6] = sections::runs([0.1, 0.2, 0.5]);
@@ -19,45 +18,37 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let curve = Curve::through(&exact.places());
     let exponent = lyapunov_exponent(job, &case)?;
     job.publish(figure(&all, &curve, end), sections::table(&all)?)?;
-    let references = references(job, &all, &curve);
-    Ok(Outcome { claims: claims(&all, &curve, exponent), references, notes: sections::notes(&all) })
-}
-
-fn claims(all: &[Crossings; 6], curve: &Curve, exponent: Option<f64>) -> Vec<Claim> {
-    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = all;
-    let distance = |run: &Crossings| curve.largest_distance(run);
-    let far = |run: &Crossings| format!("largest distance from the exact section, {}", run.name());
-    vec![
-        Claim::new("section 5", "the motion is quasi-periodic").at_most(
-            "largest Lyapunov exponent up to t = 2·10⁴",
-            exponent,
-            1e-3,
-        ),
-        Claim::new("Fig. 4", "both schemes give qualitatively correct results for h = 0.1")
-            .each([vi_small, rk_small], |claim, run| claim.at_most(far(run), distance(run), 0.01)),
-        Claim::new("Fig. 4", "RK4 gives spurious results for h = 0.2, VI2 does not")
-            .at_least(far(rk_middle), distance(rk_middle), 0.5)
-            .each([vi_middle, vi_large], |claim, run| claim.at_most(far(run), distance(run), 0.01)),
+    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = &all;
+    let near = |claim: Claim, run: &Crossings| {
+        let quantity = format!("largest distance from the exact section, {}", run.name());
+        claim.at_most(quantity, curve.largest_distance(run), 0.01)
+    };
+    let far = format!("largest distance from the exact section, {}", rk_middle.name());
+    let regular = "the motion is quasi-periodic";
+    let claims = vec![
+        says("section 5", regular).at_most("largest Lyapunov exponent up to t = 2·10⁴", exponent, 1e-3),
+        says("Fig. 4", "both schemes give qualitatively correct results for h = 0.1")
+            .each([vi_small, rk_small], near),
+        says("Fig. 4", "RK4 gives spurious results for h = 0.2, VI2 does not")
+            .at_least(far, curve.largest_distance(rk_middle), 0.5)
+            .each([vi_middle, vi_large], near),
         sections::stays_close(&all[..3]).at_least(rk_small.growth_name(), rk_small.error.growth(), 5.0),
-    ]
-}
-
-/// Numbers of independent programs.
-fn references(job: &Job<'_>, all: &[Crossings; 6], curve: &Curve) -> Vec<Check> {
-    let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = all;
-    let near = |run: &Crossings, target, tolerance| {
+    ];
+    // Numbers of independent programs.
+    let error = |run: &Crossings, target, tolerance| {
         Check::new(format!("max|ΔH|, {}", run.name()), run.error.largest, Bound::Near(target, tolerance))
     };
     let end = job.only_full(rk_small.error.last);
     let left = rk_middle.points.iter().find(|&&[_, r1, p1]| curve.distance([r1, p1]) > 0.1);
     let left = left.map(|point| point[0]);
-    vec![
-        near(vi_small, 3.847e-5, 5e-8),
-        near(vi_middle, 1.546e-4, 1e-7),
-        near(vi_large, 1.002e-3, 1e-6),
+    let references = vec![
+        error(vi_small, 3.847e-5, 5e-8),
+        error(vi_middle, 1.546e-4, 1e-7),
+        error(vi_large, 1.002e-3, 1e-6),
         Check::new("ΔH at the end, RK4 at h = 0.1", end, Bound::Near(6.518e-4, 1e-6)),
         Check::new("RK4 at h = 0.2 leaves the torus at t", left, Bound::Within(4e4, 4.6e4)),
-    ]
+    ];
+    Ok(Outcome { claims, references, notes: sections::notes(&all) })
 }
 
 fn figure(all: &[Crossings; 6], curve: &Curve, end: f64) -> Figure {
@@ -75,17 +66,14 @@ fn panel(run: &Crossings, curve: &Curve) -> Panel {
     let caption = format!("*d* = {}", scientific(curve.largest_distance(run)));
     let exact = closed(&curve.corners);
     let inside = |[r1, p1]: [f64; 2]| (left..=right).contains(&r1) && (low..=high).contains(&p1);
-    let axes = |r1: [f64; 2], p1: [f64; 2]| {
-        (Axis::linear("*R*₁").within(r1[0], r1[1]), Axis::linear("*P*₁").within(p1[0], p1[1]))
-    };
     if run.places().into_iter().all(inside) {
-        let panel = run.panel(axes([left, right], [low, high]), 1.0);
+        let panel = run.panel([left, right], [low, high], 1.0);
         let panel = panel.below(exact, Stroke::solid(SLATE).width(5.0).opacity(0.25));
         return panel.caption(Corner::TopRight, caption);
     }
-    let frame = vec![[left, low], [right, low], [right, high], [left, high], [left, low]];
+    let frame = closed(&[[left, low], [right, low], [right, high], [left, high]]);
     // Wide enough for words beside the dots, which stay within 2.4.
-    run.panel(axes([-2.6, 2.6], [-2.6, 3.4]), 1.0)
+    run.panel([-2.6, 2.6], [-2.6, 3.4], 1.0)
         .below(exact, Stroke::solid(SLATE).width(3.0).opacity(0.35))
         .line(frame, Stroke::solid(SLATE).width(1.0))
         .caption(Corner::TopLeft, "frame: the close-up above")
@@ -94,7 +82,7 @@ fn panel(run: &Crossings, curve: &Curve) -> Panel {
 
 /// A closed curve around its centre, as a polygon sorted by angle.
 struct Curve {
-    corners: Vec<[f64; 2]>,
+    corners: Points,
 }
 
 impl Curve {
@@ -107,15 +95,13 @@ impl Curve {
         Self { corners }
     }
 
-    /// The ranges of both coordinates with a margin.
     fn frame(&self) -> [[f64; 2]; 2] {
         if self.corners.is_empty() {
             return [[-2.6, 2.6]; 2];
         }
         [0, 1].map(|i| {
-            let values = self.corners.iter().map(|corner| corner[i]);
-            let (low, high) =
-                values.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), larger(high, v)));
+            let values = || self.corners.iter().map(|corner| corner[i]);
+            let (low, high) = (least(values()), -least(values().map(|v| -v)));
             let margin = 0.18 * (high - low);
             [low - margin, high + margin]
         })
@@ -132,10 +118,8 @@ impl Curve {
 }
 
 fn distance_to_segment(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let to = [point[0] - a[0], point[1] - a[1]];
-    let length = (along[0] * along[0] + along[1] * along[1]).max(f64::MIN_POSITIVE);
-    let share = ((to[0] * along[0] + to[1] * along[1]) / length).clamp(0.0, 1.0);
+    let (along, to) = (difference(b, a), difference(point, a));
+    let share = (dot(to, along) / dot(along, along).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     (to[0] - share * along[0]).hypot(to[1] - share * along[1])
 }
 

@@ -1,31 +1,19 @@
 //! A free body that turns about its middle axis and flips, by rotation matrices: against elliptic functions,
 //! and its angular momentum.
 //!
-//! Rotation about the axis of the middle moment of inertia is unstable (Landau & Lifshitz 1976, section 37):
-//! the body turns over and back, in a period that grows with the logarithm of the nearness to the axis.
 //! Steps along geodesics keep the angular momentum in space, as the motion does.
 
 use dvi_core::rotations;
 
-use super::elliptic::Elliptic;
+use super::flips::{BODY, Flips, OMEGA, Wave, begin};
 use super::geodesics::{FEW_UNITS, Long, flat_energy, order_claim, panels};
-use super::shadow::{self, Shadow};
-use super::turnings::crossing;
-use crate::models::{RigidBody, RigidBodyState};
+use super::shadow;
 use crate::vocabulary::*;
 
-const BODY: RigidBody = RigidBody { inertia: [1.0, 2.0, 3.0] };
-/// Close to the middle axis; the first component is zero where the second is largest.
-const OMEGA: [f64; 3] = [0.0, 1.0, 0.02];
-/// The step of the long runs, and of what is drawn, and so many steps from one look at the integrals to the
-/// next.
+/// The step of the long runs, and of what is drawn.
 const H: f64 = 0.05;
-const EVERY: u64 = 4;
 /// The steps with which flips are timed and the order is measured, the longest first.
 const STEPS: [f64; 3] = [0.1, 0.05, 0.025];
-/// The time at which the order is measured, and the step of the reference.
-const ORDER_TIME: f64 = 4.0;
-const FINE: f64 = 2e-3;
 /// How long ω₂ is drawn.
 const DRAWN: f64 = 80.0;
 /// Angular velocities of the curves that are drawn: around the first and the third axis, and through the
@@ -42,8 +30,8 @@ const AROUND: [[f64; 3]; 6] = [
 const VIEW: [f64; 2] = [1.05, 0.42];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
-    let long = Long { steps: job.choose(1_000_000, 5_000), every: EVERY, h: H };
-    job.expect(2 * long.steps / EVERY);
+    let long = Long { steps: job.choose(1_000_000, 5_000), every: 4, h: H };
+    job.expect(2 * long.steps / long.every);
     let (wave, start) = (Wave::new(&BODY, OMEGA), begin());
     let before = BODY.momentum_at(&start);
     let first = rotations::apply(&start.R, before);
@@ -51,8 +39,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let kept = |state: &RigidBodyState| {
         let now = BODY.momentum_at(state);
         let here = rotations::apply(&state.R, now);
-        let away = length([0, 1, 2].map(|k| here[k] - first[k]));
-        let energy = energy(state) - energy(&start);
+        let (energy, away) = (energy(state) - energy(&start), length(difference(here, first)));
         [energy, away / length(first), rotations::defect(&state.R), length(now) / length(before) - 1.0]
     };
     let geodesics = long.along_geodesics(job, "geodesics", BODY, &start, kept)?;
@@ -63,155 +50,54 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.publish(figure(&all, &wave, long)?, magnitude_table(&columns, &all)?)?;
     let [rk4, geodesics] = all.each_ref().map(|series| &series.kept);
     let text = "the energy error of a free body has no trend, and is that of the closed form all the time";
+    let [_, space, defect, body] = geodesics;
+    let keeps = "a free body keeps its angular momentum in space, in length and in direction, up to errors \
+                 no larger than a unit of rounding times the square root of the number of steps; the one in \
+                 the body keeps its length, and matrices are orthogonal to a few units of rounding";
+    let keeps = beyond(keeps)
+        .at_least("steps", job.only_full(long.steps as f64), 1e6)
+        .at_most("geodesics: largest |M − M(0)|/|M| in space", space.largest, long.random_walk())
+        .at_most("geodesics: largest relative change of |M| in the body", body.largest, long.random_walk())
+        .at_most("geodesics: max|RᵀR − 1|", defect.largest, FEW_UNITS);
+    let in_time = "a free body that turns about its middle axis flips with the period of the elliptic \
+                   functions, up to an error of the order h² that is less than h² of it";
+    let away = |flips: &Flips| flips.period / wave.period() - 1.0;
+    let [long_step, step, fine] = &flips;
+    let order = order(flips.iter().map(|flips| (flips.h, flips.error)));
+    let in_time = beyond(in_time)
+        .at_least("flips", job.only_full(f64::from(fine.count)), 38.0)
+        .at_most("h = 0.025: relative error of the period / h²", away(fine).abs() / (fine.h * fine.h), 1.0)
+        .near("error of the period, h = 0.1 over h = 0.05", away(long_step) / away(step), [4.0, 0.1])
+        .near("error of the period, h = 0.05 over h = 0.025", away(step) / away(fine), [4.0, 0.1])
+        .near("ω₂ against sn over a period: order", order, [2.0, 0.05]);
+    let [of_energy, of_space, of_defect, of_body] = rk4;
+    let loses = "RK4 on the entries of the matrix loses the angular momentum, the rotation and the energy \
+                in proportion to the time, but the energy by so little that its error is the smaller one \
+                all that time";
+    let far = |kept: usize| 1e6 * geodesics[kept].largest;
+    let trend = "last tenth of the time over the first";
+    let loses = beyond(loses)
+        .at_least("RK4: largest |M − M(0)|/|M| in space", job.only_full(of_space.largest), far(1))
+        .at_least("RK4: largest relative change of |M| in the body", job.only_full(of_body.largest), far(3))
+        .at_least("RK4: max|RᵀR − 1|", job.only_full(of_defect.largest), far(2))
+        .near(format!("RK4: max|RᵀR − 1|, {trend}"), job.only_full(of_defect.trend()), [10.0, 1.0])
+        .at_most("RK4: max|ΔE|", job.only_full(of_energy.largest), geodesics[0].largest)
+        .near(format!("RK4: max|ΔE|, {trend}"), job.only_full(of_energy.trend()), [10.0, 1.0]);
     Ok(vec![
-        momentum(job, long, geodesics),
-        flips_in_time(job, &wave, &flips),
+        keeps,
+        in_time,
         // The largest that h²g makes of it, by the run with the same step.
         flat_energy(job, beyond(text), "geodesics", &geodesics[0], flips[1].energy.predicted),
         shadow::claim("free body", &flips.map(|flips| flips.energy)),
-        loses(job, rk4, geodesics),
-        order_claim("a free body", BODY, &start, ORDER_TIME, STEPS, FINE)?,
+        loses,
+        order_claim("a free body", BODY, &start, 4.0, STEPS, 2e-3)?,
     ]
     .into())
-}
-
-fn begin() -> RigidBodyState {
-    RigidBody::turning(OMEGA)
 }
 
 fn energy(state: &RigidBodyState) -> f64 {
     let momentum = BODY.momentum_at(state);
     momentum.into_iter().zip(state.omega_R).map(|(m, omega)| 0.5 * m * omega).sum()
-}
-
-fn momentum(job: &Job<'_>, long: Long, [_, space, defect, body]: &[Deviation; 4]) -> Claim {
-    let text = "a free body keeps its angular momentum in space, in length and in direction, up to errors \
-                no larger than a unit of rounding times the square root of the number of steps; the one in \
-                the body keeps its length, and matrices are orthogonal to a few units of rounding";
-    beyond(text)
-        .at_least("steps", job.only_full(long.steps as f64), 1e6)
-        .at_most("geodesics: largest |M − M(0)|/|M| in space", space.largest, long.random_walk())
-        .at_most("geodesics: largest relative change of |M| in the body", body.largest, long.random_walk())
-        .at_most("geodesics: max|RᵀR − 1|", defect.largest, FEW_UNITS)
-}
-
-fn flips_in_time(job: &Job<'_>, wave: &Wave, flips: &[Flips; 3]) -> Claim {
-    let text = "a free body that turns about its middle axis flips with the period of the elliptic \
-                functions, up to an error of the order h² that is less than h² of it";
-    let [.., fine] = flips;
-    let away = |flips: &Flips| flips.period / wave.period() - 1.0;
-    let quantity = format!("h = {}: relative error of the period / h²", fine.h);
-    let order = order(flips.iter().map(|flips| (flips.h, flips.error)));
-    beyond(text)
-        .at_least("flips", job.only_full(f64::from(fine.count)), 38.0)
-        .at_most(quantity, away(fine).abs() / (fine.h * fine.h), 1.0)
-        .each(flips.windows(2), |claim, pair| {
-            let quantity = format!("error of the period, h = {} over h = {}", pair[0].h, pair[1].h);
-            claim.near(quantity, away(&pair[0]) / away(&pair[1]), [4.0, 0.1])
-        })
-        .near("ω₂ against sn over a period: order", order, [2.0, 0.05])
-}
-
-fn loses(
-    job: &Job<'_>,
-    [energy, space, defect, body]: &[Deviation; 4],
-    geodesics: &[Deviation; 4],
-) -> Claim {
-    let text = "RK4 on the entries of the matrix loses the angular momentum, the rotation and the energy \
-                in proportion to the time, but the energy by so little that its error is the smaller one \
-                all that time";
-    let far = |kept: usize| 1e6 * geodesics[kept].largest;
-    let trend = "last tenth of the time over the first";
-    beyond(text)
-        .at_least("RK4: largest |M − M(0)|/|M| in space", job.only_full(space.largest), far(1))
-        .at_least("RK4: largest relative change of |M| in the body", job.only_full(body.largest), far(3))
-        .at_least("RK4: max|RᵀR − 1|", job.only_full(defect.largest), far(2))
-        .near(format!("RK4: max|RᵀR − 1|, {trend}"), job.only_full(defect.trend()), [10.0, 1.0])
-        .at_most("RK4: max|ΔE|", job.only_full(energy.largest), geodesics[0].largest)
-        .near(format!("RK4: max|ΔE|, {trend}"), job.only_full(energy.trend()), [10.0, 1.0])
-}
-
-/// ω₂ = Ω sn(λt + K), which is Ω at t = 0 (Landau & Lifshitz 1976, section 37).
-#[derive(Clone, Copy, Debug)]
-struct Wave {
-    /// Ω
-    amplitude: f64,
-    /// λ
-    rate: f64,
-    functions: Elliptic,
-}
-
-impl Wave {
-    /// Of a body with growing moments that begins with ω₁ = 0, so close to the second axis that I₃ω₃ takes
-    /// it around the third.
-    fn new(body: &RigidBody, omega: [f64; 3]) -> Self {
-        let [a, b, c] = body.inertia;
-        let [_, y, z] = omega.map(|x| x * x);
-        // With M² = I₂²ω₂² + I₃²ω₃² and 2E = I₂ω₂² + I₃ω₃²: M² − 2E I₁, 2E I₃ − M² and M² − 2E I₂, without
-        // differences of large numbers.
-        let above = b * (b - a) * y + c * (c - a) * z;
-        let below = b * (c - b) * y;
-        let apart = c * (c - b) * z;
-        let divisor = (c - b) * above;
-        Self {
-            amplitude: (below / (b * (c - b))).sqrt(),
-            rate: (divisor / (a * b * c)).sqrt(),
-            functions: Elliptic {
-                modulus: ((b - a) * below / divisor).sqrt(),
-                complementary: ((c - a) * apart / divisor).sqrt(),
-            },
-        }
-    }
-
-    /// The time of two flips.
-    fn period(&self) -> f64 {
-        4.0 * self.functions.quarter() / self.rate
-    }
-
-    /// ω₂ at time t.
-    fn at(&self, t: f64) -> f64 {
-        self.amplitude * self.functions.sn(self.rate * t + self.functions.quarter())
-    }
-}
-
-/// The flips between the steps of a run with steps of one length.
-#[derive(Clone, Copy, Debug)]
-struct Flips {
-    h: f64,
-    /// The mean time of two flips.
-    period: f64,
-    /// How often ω₂ changes its sign.
-    count: u32,
-    /// The largest difference of ω₂ from the closed form in the first period.
-    error: f64,
-    energy: Shadow,
-}
-
-impl Flips {
-    fn new(wave: &Wave, h: f64, periods: f64) -> Result<Self> {
-        let start = begin();
-        let mut run = Integrator::new(&BODY, Geodesic::trapezoid(), h, start)?;
-        let mut energy = Shadow::new(h, run.energy(), BODY.shift(&start));
-        let (mut before, mut times, mut error) = ([start.omega_R[1], 0.0], Vec::new(), 0.0);
-        for _ in 0..(periods * wave.period() / h) as u64 {
-            let t = run.time();
-            run.advance()?;
-            let state = run.state();
-            let now = [state.omega_R[1], BODY.acceleration(state.omega_R)[1]];
-            if before[0] * now[0] < 0.0 {
-                times.push(t + h * crossing(before, now, h));
-            }
-            if run.time() < wave.period() {
-                error = larger(error, (now[0] - wave.at(run.time())).abs());
-            }
-            energy.push(run.energy(), BODY.shift(&state));
-            before = now;
-        }
-        let count = times.len();
-        let between = times.last().zip(times.first()).map_or(f64::NAN, |(last, first)| last - first);
-        let period = 2.0 * between / (count as f64 - 1.0);
-        Ok(Self { h, period, count: count as u32, error, energy })
-    }
 }
 
 /// The states at each step.
@@ -235,9 +121,8 @@ fn front(states: &[RigidBodyState]) -> Vec<[f64; 2]> {
 }
 
 fn sphere(flipping: &[RigidBodyState]) -> Result<Panel> {
-    let axis = || Axis::linear("").within(-1.15, 1.15);
-    let mut panel = Panel::new("Angular momentum in the body", axis(), axis())
-        .equal()
+    let axis = ("", [-1.15, 1.15]);
+    let mut panel = Panel::window("Angular momentum in the body", axis, axis)
         .line(circle([0.0; 2], 1.0), Stroke::solid(SLATE).width(1.0));
     for (k, omega) in AROUND.into_iter().enumerate() {
         let colour = if k < AROUND.len() / 2 { BLUE } else { GREEN };
@@ -258,8 +143,8 @@ fn figure(all: &[Series<4>; 2], wave: &Wave, long: Long) -> Result<Figure> {
     let flipping = states(OMEGA, H, DRAWN)?;
     let exact = (0..=1600).map(|k| DRAWN * f64::from(k) / 1600.0).map(|t| [t, wave.at(t)]).collect();
     let steps = flipping.iter().enumerate().step_by(20).map(|(k, state)| [k as f64 * H, state.omega_R[1]]);
-    let omega = Axis::linear("*ω*₂").within(-1.2, 1.5);
-    let middle = Panel::new("The middle component of the angular velocity", Axis::time(DRAWN), omega)
+    let title = "The middle component of the angular velocity";
+    let middle = Panel::linear(title, ("time *t*", [0.0, DRAWN]), ("*ω*₂", [-1.2, 1.5]))
         .line(exact, Stroke::solid(SLATE).width(1.2))
         .labelled("elliptic function")
         .dots(steps.collect(), 2.4, PURPLE)
@@ -270,34 +155,8 @@ fn figure(all: &[Series<4>; 2], wave: &Wave, long: Long) -> Result<Figure> {
         (1, ["Angular momentum in space", "|*M* − *M*(0)| / |*M*|"], [1e-17, 10.0]),
         (2, ["Orthogonality", "max |*R*ᵀ*R* − 1|"], [1e-17, 10.0]),
     ];
-    let ([a, b, c], [x, y, z]) = (BODY.inertia, OMEGA);
-    Ok(Figure::new(
-        "A free body that flips",
-        format!(
-            "Moments of inertia {a}, {b} and {c}; rotation matrices along geodesics of SO(3), trapezoidal \
-             rule, *h* = {H}. It begins with *ω* = ({x}, {y}, {z})."
-        ),
-    )
-    .row(400.0, vec![sphere(&flipping)?, middle])
-    .row(300.0, panels(long.end(), all, &quantities))
-    .footer(format!(
-        "The sphere shows directions of the angular momentum in the body, with the curve that flips in \
-         red. Below: {} steps.",
-        scientific(long.steps as f64)
-    )))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::geodesics::reference;
-    use super::*;
-
-    #[test]
-    fn the_closed_form_is_the_motion() {
-        let wave = Wave::new(&BODY, OMEGA);
-        let omega = reference(BODY, &begin(), ORDER_TIME, FINE)[10];
-        assert!((wave.at(ORDER_TIME) - omega).abs() < 1e-11);
-        assert!((wave.at(0.0) - OMEGA[1]).abs() < 1e-15);
-        assert!((wave.at(0.5 * wave.period()) + OMEGA[1]).abs() < 1e-13);
-    }
+    let subtitle = "Moments of inertia 1, 2 and 3; it begins with *ω* = (0, 1, 0.02). The sphere shows \
+                    directions of the angular momentum in the body, with the curve that flips in red.";
+    let figure = Figure::of(subtitle).row(400.0, vec![sphere(&flipping)?, middle]);
+    Ok(figure.row(300.0, panels(long.end(), all, &quantities)))
 }

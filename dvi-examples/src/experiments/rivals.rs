@@ -5,10 +5,8 @@
 //! solves exactly.
 
 use super::kepler::Course;
-use crate::models::{LeviCivita, LeviCivitaState, Orbit};
 use crate::vocabulary::*;
 
-/// What a rival has shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rival {
     pub course: Course,
@@ -32,44 +30,32 @@ impl Clock {
     }
 }
 
-impl Rival {
-    fn note(&mut self, orbit: Orbit, t: f64, [x, y]: [f64; 2], energy: f64) {
-        let Orbit { e } = orbit;
-        self.course.energy = larger(self.course.energy, (energy + 0.5).abs());
-        self.course.position = larger(self.course.position, orbit.error(t, &[x, y]));
-        self.off_orbit = larger(self.off_orbit, (x.hypot(y) + e * x - (1.0 - e * e)).abs());
-    }
-}
-
 /// Takes `steps` steps for each of the periods, each of which counts as one unit of progress, and notes
 /// what each of them returns: the time, the position and the energy.
 fn by_period(
     job: &Job<'_>,
-    orbit: Orbit,
+    Orbit { e }: Orbit,
     steps: u32,
     periods: u64,
     mut step: impl FnMut() -> (Clock, [f64; 2], f64),
-) -> Rival {
-    let mut rival = Rival::default();
-    for _ in 0..periods {
-        if job.is_stopping() {
-            job.cut_short();
-            break;
-        }
+) -> Result<Rival> {
+    let (mut course, mut off_orbit) = (Course::default(), 0.0);
+    job.repeat(periods, || {
         for _ in 0..steps {
-            let (clock, position, energy) = step();
-            rival.note(orbit, clock.sum, position, energy);
+            let (clock, [x, y], energy) = step();
+            course.energy = larger(course.energy, (energy + 0.5).abs());
+            course.position = larger(course.position, Orbit { e }.error(clock.sum, &[x, y]));
+            off_orbit = larger(off_orbit, (x.hypot(y) + e * x - (1.0 - e * e)).abs());
         }
-        job.proceed(1);
-    }
-    rival.course.steps = f64::from(steps);
-    rival.course.evaluations = f64::from(steps);
-    rival
+        Ok(())
+    })?;
+    (course.steps, course.evaluations) = (f64::from(steps), f64::from(steps));
+    Ok(Rival { course, off_orbit })
 }
 
 /// Leapfrog on Λ = ln(½p² + B) − ln(1/r), B = −E(0), with `steps` steps per period (Mikkola & Tanikawa 1999;
 /// Preto & Tremaine 1999): drift dq = p ds/(½p² + B), dt = ds/(½p² + B), kick dp = −q ds/r².
-pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Rival {
+pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Result<Rival> {
     let start = orbit.pericentre();
     let (mut q, mut p) = ([start.x, start.y], [start.dot_x, start.dot_y]);
     let (binding, ds) = (0.5, TAU / f64::from(steps));
@@ -77,15 +63,15 @@ pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods:
     // ds = dt/r advances by 2π each period, as the eccentric anomaly does.
     by_period(job, orbit, steps, periods, || {
         let drift = |q: [f64; 2], p: [f64; 2], clock: &mut Clock| {
-            let dt = 0.5 * ds / (0.5 * (p[0] * p[0] + p[1] * p[1]) + binding);
+            let dt = 0.5 * ds / (0.5 * dot(p, p) + binding);
             clock.advance(dt);
             [q[0] + dt * p[0], q[1] + dt * p[1]]
         };
         q = drift(q, p, &mut clock);
-        let kick = ds / (q[0] * q[0] + q[1] * q[1]);
+        let kick = ds / dot(q, q);
         p = [p[0] - kick * q[0], p[1] - kick * q[1]];
         q = drift(q, p, &mut clock);
-        let energy = 0.5 * (p[0] * p[0] + p[1] * p[1]) - 1.0 / q[0].hypot(q[1]);
+        let energy = 0.5 * dot(p, p) - 1.0 / q[0].hypot(q[1]);
         (clock, q, energy)
     })
 }
@@ -106,19 +92,19 @@ pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Res
     let mut clock = Clock::default();
     let (sin, cos) = (OMEGA * h).sin_cos();
     let half = (2.0 * OMEGA * h).sin() / (4.0 * OMEGA);
-    let square = |x: [f64; 2]| x[0] * x[0] + x[1] * x[1];
+    let square = |x: [f64; 2]| dot(x, x);
     let velocity = |u: [f64; 2], next: [f64; 2]| [0, 1].map(|i| OMEGA * (next[i] - cos * u[i]) / sin);
     let mut du = velocity(u, next);
-    Ok(by_period(job, orbit, steps, periods, || {
+    by_period(job, orbit, steps, periods, || {
         clock.advance(
             square(u) * (0.5 * h + half)
                 + square(du) / (OMEGA * OMEGA) * (0.5 * h - half)
-                + (u[0] * du[0] + u[1] * du[1]) * (sin / OMEGA).powi(2),
+                + dot(u, du) * (sin / OMEGA).powi(2),
         );
         // The recursion runs in both directions alike, rounding included.
         (u, next) = (next, [0, 1].map(|i| 2.0 * cos * next[i] - u[i]));
         du = velocity(u, next);
         let position = [u[0] * u[0] - u[1] * u[1], 2.0 * u[0] * u[1]];
         (clock, position, (2.0 * square(du) - 1.0) / square(u))
-    }))
+    })
 }

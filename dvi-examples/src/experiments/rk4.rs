@@ -4,7 +4,6 @@ use dvi_core::State;
 
 use crate::vocabulary::*;
 
-/// One step of it.
 pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
     let moved = |by: f64, slope: &[f64; N]| std::array::from_fn(|i| y[i] + by * slope[i]);
     let first = f(y);
@@ -22,6 +21,26 @@ pub fn rk4_up_to<const N: usize>(
     f: impl Fn(&[f64; N]) -> [f64; N],
 ) -> [f64; N] {
     (0..(end / h).round() as u64).fold(y, |y, _| rk4(&y, h, &f))
+}
+
+/// How far quantities are from their start in the course of so many steps; `of` returns that after each of
+/// them.
+pub fn keep_rk4<const D: usize, const N: usize>(
+    job: &Job<'_>,
+    mut y: [f64; D],
+    (h, steps): (f64, u64),
+    span: Span,
+    f: impl Fn(&[f64; D]) -> [f64; D],
+    of: impl Fn(&[f64; D]) -> [f64; N],
+) -> Result<[Deviation; N]> {
+    let (mut kept, mut step) = (span.deviations(), 0_u32);
+    job.repeat(steps, || {
+        y = rk4(&y, h, &f);
+        step += 1;
+        note(&mut kept, f64::from(step) * h, of(&y));
+        Ok(())
+    })?;
+    Ok(kept)
 }
 
 /// A run of it on what a system with constraints is without them: the equations of motion with the
@@ -61,7 +80,6 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
         Ok(())
     }
 
-    /// The state after time `end`.
     pub fn up_to(mut self, end: f64) -> Result<S::State<f64>> {
         (0..(end / self.h).round() as u64).try_for_each(|_| self.step())?;
         Ok(self.state())

@@ -6,7 +6,6 @@
 
 use std::f64::consts::SQRT_2;
 
-use crate::models::{SchroedingerLattice, SchroedingerLatticeState, breather};
 use crate::vocabulary::*;
 
 const SITES: usize = 15;
@@ -14,7 +13,6 @@ const OMEGA: f64 = 4.0;
 /// Steps for each period 2π/ω.
 const STEPS: u64 = 24;
 const H: f64 = TAU / (OMEGA * STEPS as f64);
-/// Periods of the beginning, with which the whole is compared.
 const EARLY: u64 = 100;
 /// By what the breather is too large at its centre at the start, and the amplitude of a weak excitation of
 /// one site.
@@ -24,17 +22,9 @@ const WEAK: f64 = 0.5;
 type Amplitudes = [f64; SITES];
 const LATTICE: SchroedingerLattice<SITES> = SchroedingerLattice {};
 
-/// What one run leaves.
-struct Excitation {
-    name: &'static str,
-    /// |ψ_n|² at the start and at the end.
-    profiles: [Amplitudes; 2],
-    /// (Σ|ψ|²)²/Σ|ψ|⁴ over time: the number of sites that are excited. And the relative changes of the norm
-    /// and of the energy.
-    sites: Deviation,
-    norm: Deviation,
-    energy: Deviation,
-}
+/// What one run leaves over time in periods: (Σ|ψ|²)²/Σ|ψ|⁴, the number of sites that are excited, and the
+/// relative changes of the norm and of the energy; and |ψ_n|² at the start and at the end.
+type Excitation = (Series<3>, [Amplitudes; 2]);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let periods = job.choose(10_000, 200);
@@ -42,35 +32,32 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (mut start, mut weak) = (breather(OMEGA), [0.0; SITES]);
     start[SITES / 2] *= EXCESS;
     weak[SITES / 2] = WEAK;
+    let by_midpoint = ("one step, midpoint", Stroke::solid(BLUE));
     let all = [
-        Excitation::new(job, "one step, midpoint", OneStep::midpoint(), start, periods)?,
-        Excitation::new(job, "RK4", RungeKutta::classical(), start, periods)?,
-        Excitation::new(job, "weak excitation", OneStep::midpoint(), weak, periods)?,
+        follow(job, by_midpoint, OneStep::midpoint(), start, periods)?,
+        follow(job, ("RK4", Stroke::dashed(VERMILLION)), RungeKutta::classical(), start, periods)?,
+        follow(job, ("weak excitation", Stroke::solid(GREEN)), OneStep::midpoint(), weak, periods)?,
     ];
-    let rows = all.iter().flat_map(|Excitation { name, sites, norm, energy, .. }| {
-        let of = [("sites", sites), ("ΔN/N", norm), ("ΔH/H", energy)].into_iter();
-        of.flat_map(|(quantity, kept)| ranges([*name, quantity], &kept.envelope))
-    });
-    let table = Table::of(&["series", "quantity", "period", "lowest", "mean", "highest"], rows)?;
-    job.publish(figure(&all, periods), table)?;
-    let [one_step, rk4, weak] = &all;
+    let columns = ["series", "quantity", "period", "lowest", "mean", "highest"];
+    let table = range_table(&columns, &["sites", "ΔN/N", "ΔH/H"], all.iter().map(|(series, _)| series))?;
+    job.publish(figure(&all, periods as f64), table)?;
+    let [[sites, norm, energy], [_, of_rk4, _], [weak, ..]] = all.each_ref().map(|(series, _)| &series.kept);
     let kept =
         "the one-step midpoint scheme keeps the norm to rounding errors, and the energy error does not grow";
     let most = "(Σ|ψ|²)²/Σ|ψ|⁴";
     Ok(vec![
         beyond(kept)
-            .at_most("one step: largest relative change of the norm", one_step.norm.largest, 1e-11)
-            .at_least("RK4: largest relative change of the norm", rk4.norm.largest, 1e-3)
-            .at_most("one step: max|ΔH| over all / over 100 periods", one_step.energy.growth(), 1.02),
+            .at_most("one step: largest relative change of the norm", norm.largest, 1e-11)
+            .at_least("RK4: largest relative change of the norm", of_rk4.largest, 1e-3)
+            .at_most("one step: max|ΔH| over all / over 100 periods", energy.growth(), 1.02),
         beyond("a breather that is disturbed stays at its site, and a weak excitation spreads")
-            .at_most(format!("breather: most sites {most} that are excited"), one_step.sites.largest, 1.5)
-            .at_least("weak excitation: most sites that are excited", weak.sites.largest, 5.0),
+            .at_most(format!("breather: most sites {most} that are excited"), sites.largest, 1.5)
+            .at_least("weak excitation: most sites that are excited", weak.largest, 5.0),
         own_breather()?,
     ]
     .into())
 }
 
-/// ψ = u, real.
 fn state(u: Amplitudes) -> SchroedingerLatticeState<SITES> {
     SchroedingerLatticeState { q: u.map(|u| SQRT_2 * u), p: [0.0; SITES] }
 }
@@ -80,29 +67,25 @@ fn densities(q: &[f64]) -> Amplitudes {
     std::array::from_fn(|n| (q[n] * q[n] + q[n + SITES] * q[n + SITES]) / 2.0)
 }
 
-impl Excitation {
-    fn new(
-        job: &Job<'_>,
-        name: &'static str,
-        method: impl Method<SchroedingerLattice<SITES>, f64>,
-        start: Amplitudes,
-        periods: u64,
-    ) -> Result<Self> {
-        let mut run = Integrator::new(&LATTICE, method, H, state(start))?;
-        let sum = |values: &Amplitudes| values.iter().sum::<f64>();
-        let (energy, norm) = (run.energy(), sum(&densities(run.q())));
-        let mut profiles = [densities(run.q()); 2];
-        let mut kept = Span { end: periods as f64, early: EARLY as f64, intervals: 400 }.deviations();
-        job.follow(&mut run, periods * STEPS, |run| {
-            let densities = densities(run.q());
-            let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));
-            let values = [sites, sum(&densities) / norm - 1.0, run.energy() / energy - 1.0];
-            note(&mut kept, run.time() * OMEGA / TAU, values);
-            profiles[1] = densities;
-        })?;
-        let [sites, norm, energy] = kept;
-        Ok(Self { name, profiles, sites, norm, energy })
-    }
+fn follow(
+    job: &Job<'_>,
+    (name, stroke): Named<'_>,
+    method: impl Method<SchroedingerLattice<SITES>, f64>,
+    start: Amplitudes,
+    periods: u64,
+) -> Result<Excitation> {
+    let mut run = Integrator::new(&LATTICE, method, H, state(start))?;
+    let sum = |values: &Amplitudes| values.iter().sum::<f64>();
+    let (energy, mut profiles) = (run.energy(), [densities(run.q()); 2]);
+    let mut kept = Span { end: periods as f64, early: EARLY as f64, intervals: 400 }.deviations();
+    job.follow(&mut run, periods * STEPS, |run| {
+        let densities = densities(run.q());
+        let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));
+        let norm = sum(&densities) / sum(&profiles[0]) - 1.0;
+        note(&mut kept, run.time() * OMEGA / TAU, [sites, norm, run.energy() / energy - 1.0]);
+        profiles[1] = densities;
+    })?;
+    Ok((Series::new(name, stroke, kept), profiles))
 }
 
 /// At the middle of a step the scheme solves ω u = u_{n+1} − 2u_n + u_{n−1} + u³ with ω = (2/h) tan ½θ if it
@@ -120,52 +103,35 @@ fn own_breather() -> Result<Claim> {
             largest = larger(largest, apart);
         }
     }
-    Ok(beyond(
-        "the scheme has the breathers of the equation, larger by 1/cos ½θ, that turn by θ = 2 arctan \
-               ½ωh a step",
-    )
-    .at_most("largest distance from that in 1000 steps", largest, 1e-10))
+    let text = "the scheme has the breathers of the equation, larger by 1/cos ½θ, that turn by θ = 2 arctan \
+                ½ωh a step";
+    Ok(beyond(text).at_most("largest distance from that in 1000 steps", largest, 1e-10))
 }
 
-fn figure([one_step, rk4, weak]: &[Excitation; 3], periods: u64) -> Figure {
-    let at_sites = |values: &Amplitudes| -> Vec<[f64; 2]> {
-        let place = |n: usize| n as f64 - (SITES / 2) as f64;
-        values.iter().enumerate().map(|(n, value)| [place(n), *value]).collect()
+fn figure(all: &[Excitation; 3], periods: f64) -> Figure {
+    let at_sites = |values: &Amplitudes| -> Points {
+        values.iter().zip(0..).map(|(value, n)| [f64::from(n - SITES as i32 / 2), *value]).collect()
     };
-    let density = Axis::logarithmic("|*ψ*ₙ|²").within(1e-10, 1e5);
-    let profile = Panel::new("Profile at the start and at the end", Axis::linear("site *n*"), density)
-        .lines([
-            ("start", Stroke::solid(SLATE).width(4.0).opacity(0.4), at_sites(&one_step.profiles[0])),
-            ("one step, midpoint", Stroke::solid(BLUE), at_sites(&one_step.profiles[1])),
-            ("RK4", Stroke::dashed(VERMILLION), at_sites(&rk4.profiles[1])),
-            ("weak excitation", Stroke::solid(GREEN), at_sites(&weak.profiles[1])),
-        ]);
-    let time = || Axis::linear("time *t*   [periods 2π/*ω*]").within(0.0, periods as f64);
-    let sites = Axis::linear("(Σ|*ψ*|²)² / Σ|*ψ*|⁴, mean of each interval").within(0.0, SITES as f64);
-    let sites = Panel::new("Excited sites", time(), sites).lines([
-        ("breather", Stroke::solid(BLUE), one_step.sites.envelope.mean()),
-        ("weak excitation", Stroke::solid(GREEN), weak.sites.envelope.mean()),
+    let [(one_step, [begin, _]), (rk4, _), (weak, _)] = all;
+    let (title, site) = ("Profile at the start and at the end", ("site *n*", [-7.7, 7.7]));
+    let profile = Panel::semilog(title, site, ("|*ψ*ₙ|²", [1e-10, 1e5]))
+        .lines([("start", Stroke::solid(SLATE).width(4.0).opacity(0.4), at_sites(begin))])
+        .lines(all.iter().map(|(series, [_, end])| series.line(at_sites(end))))
+        .legend_at(Corner::TopLeft);
+    let time = ("time *t*   [periods 2π/*ω*]", [0.0, periods]);
+    let sites = ("(Σ|*ψ*|²)² / Σ|*ψ*|⁴, mean of each interval", [0.0, SITES as f64]);
+    let sites = Panel::linear("Excited sites", time, sites)
+        .lines([one_step, weak].map(|series| series.line(series.kept[0].envelope.mean())));
+    let error = ("largest relative error of each interval", [1e-16, 10.0]);
+    let errors = Panel::semilog("Errors of the norm and of the energy", time, error).lines([
+        ("one step: *H*", Stroke::solid(BLUE), one_step.kept[2].magnitude()),
+        ("one step: norm", Stroke::dashed(BLUE), one_step.kept[1].magnitude()),
+        ("RK4: *H*", Stroke::solid(VERMILLION), rk4.kept[2].magnitude()),
+        ("RK4: norm", Stroke::dashed(AMBER), rk4.kept[1].magnitude()),
     ]);
-    let error = Axis::logarithmic("largest relative error of each interval").within(1e-16, 10.0);
-    let errors = Panel::new("Errors of the norm and of the energy", time(), error).lines([
-        ("one step: *H*", Stroke::solid(BLUE), one_step.energy.envelope.magnitude()),
-        ("one step: norm", Stroke::dashed(BLUE), one_step.norm.envelope.magnitude()),
-        ("RK4: *H*", Stroke::solid(VERMILLION), rk4.energy.envelope.magnitude()),
-        ("RK4: norm", Stroke::dashed(AMBER), rk4.norm.envelope.magnitude()),
-    ]);
-    let excess = 100.0 * (EXCESS - 1.0);
-    Figure::new(
-        "A discrete breather: where it is, and what two methods keep of it",
-        format!(
-            "{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by {excess:.0} \
-                 % at its centre"
-        ),
-    )
-    .row(380.0, vec![profile.legend_at(Corner::TopLeft), sites])
-    .row(330.0, vec![errors.legend_at(Corner::Beside)])
-    .footer(format!(
-        "Largest relative change of the norm: one step {}, RK4 {}.",
-        at_most(one_step.norm.largest),
-        scientific(rk4.norm.largest)
+    Figure::of(format!(
+        "{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by 5 % at its centre"
     ))
+    .row(380.0, vec![profile, sites])
+    .row(330.0, vec![errors.legend_at(Corner::Beside)])
 }

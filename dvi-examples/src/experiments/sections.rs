@@ -4,24 +4,14 @@
 //! section is R₂ = 0, dR₂/dt > 0. These pairs are canonical and remove translation and rotation, but the
 //! coordinates that Pullin & Saffman used, and the paper with them, may be others.
 
-use rayon::prelude::*;
-
-use crate::models::{Case, FourPoints, FourVortices};
+pub use super::section_figures::{CAVEAT, figure, notes, stays_close, table};
 use crate::vocabulary::*;
 
-pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ \
-                          e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
-
-/// More crossings than these make files larger, and no clearer.
-const SHOWN: usize = 15_000;
-
-/// The schemes that the sections compare.
+/// The schemes that the sections compare: VI2 with σ = ½, RK4, and Gauss collocation of order six.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
-    /// σ = ½.
     Vi2,
     Rk4,
-    /// Gauss collocation of order six.
     Gauss6,
 }
 
@@ -79,8 +69,7 @@ pub fn compare<const N: usize>(
     runs: [(Scheme, f64); N],
     end: f64,
 ) -> Result<[Crossings; N]> {
-    let all = runs.par_iter().map(|&run| crossings(job, case, run, end, LABELS[0]));
-    all.collect::<Result<Vec<_>>>()?.try_into().ok().context("a section for each run")
+    side_by_side(runs, |run| crossings(job, case, run, end, LABELS[0]))
 }
 
 /// The section of one run with the vortices in the given order.
@@ -100,15 +89,16 @@ pub fn crossings(
     }
 }
 
-fn collect<M>(job: &Job<'_>, case: &Case, method: M, mut result: Crossings) -> Result<Crossings>
-where
-    M: Method<FourVortices, f64> + Copy,
-{
+fn collect(
+    job: &Job<'_>,
+    case: &Case,
+    method: impl Method<FourVortices, f64> + Copy,
+    mut result: Crossings,
+) -> Result<Crossings> {
     let Case { vortices, start } = case;
     let (h, end, labels) = (result.h, result.end, result.labels);
     let mut run = Integrator::new(vortices, method, h, *start)?;
-    let initial = run.energy();
-    let steps = (end / h) as u64;
+    let (initial, steps) = (run.energy(), (end / h) as u64);
     let height = |state: &FourPoints| coordinates(state, labels)[2];
     let mut before = height(&run.state());
     let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
@@ -146,20 +136,23 @@ where
 
 /// By what factor a small displacement grows in 2000 units of time: exponential growth reaches the size
 /// of the motion and saturates at some 1e10, on a torus the growth is linear.
-fn growth<M>(vortices: &FourVortices, method: M, h: f64, start: &FourPoints) -> Result<f64>
-where
-    M: Method<FourVortices, f64> + Copy,
-{
+fn growth(
+    vortices: &FourVortices,
+    method: impl Method<FourVortices, f64> + Copy,
+    h: f64,
+    start: &FourPoints,
+) -> Result<f64> {
     const DISPLACEMENT: f64 = 1e-10;
     let mut displaced = *start;
     displaced.x[0] += DISPLACEMENT;
-    let mut pair = each([*start, displaced], |start| Ok(Integrator::new(vortices, method, h, start)?))?;
-    for run in &mut pair {
+    let [one, other] = each([*start, displaced], |start| {
+        let mut run = Integrator::new(vortices, method, h, start)?;
         while run.time() < 2000.0 {
             run.advance()?;
         }
-    }
-    Ok(apart(pair[0].q(), pair[1].q()) / DISPLACEMENT)
+        Ok(run.q().to_vec())
+    })?;
+    Ok(apart(&one, &other) / DISPLACEMENT)
 }
 
 /// What [`lyapunov_exponent`] takes.
@@ -173,105 +166,16 @@ pub fn lyapunov_exponent(job: &Job<'_>, Case { vortices, start }: &Case) -> Resu
     Ok(exponent.exponent())
 }
 
-impl Scheme {
-    pub fn name(self) -> &'static str {
-        match self {
-            Scheme::Vi2 => "VI2",
-            Scheme::Rk4 => "RK4",
-            Scheme::Gauss6 => "Gauss6",
-        }
-    }
-}
-
 impl Crossings {
-    pub fn name(&self) -> String {
-        format!("{} at h = {}", self.scheme.name(), self.h)
-    }
-
-    /// What the growth of the energy error is called.
-    pub fn growth_name(&self) -> String {
-        format!("max|ΔH| over all / over the first tenth, {}", self.name())
-    }
-
-    fn title(&self) -> String {
-        format!("{}, *h* = {}", self.scheme.name(), self.h)
-    }
-
     /// The time of the last crossing; 0 if there is none.
     pub fn last(&self) -> f64 {
         self.points.last().map_or(0.0, |&[t, ..]| t)
-    }
-
-    /// Says so if the vortices are not in their given order.
-    pub fn relabelling(&self) -> Option<String> {
-        let [a, b, c, d] = self.labels.map(|j| j + 1);
-        (self.labels != LABELS[0]).then(|| format!("*a* = 1, 2, 3, 4 are vortices {a}, {b}, {c}, {d}"))
     }
 
     /// (R₁, P₁) of each crossing.
     pub fn places(&self) -> Vec<[f64; 2]> {
         self.points.iter().map(|&[_, r1, p1]| [r1, p1]).collect()
     }
-
-    /// A panel with the section, coloured by time.
-    pub fn panel(&self, (r1, p1): (Axis, Axis), radius: f64) -> Panel {
-        let shown = thin(&self.points, SHOWN);
-        let interval = |t: f64| (t / self.end * SEQUENCE.len() as f64) as usize;
-        let colours = SEQUENCE.into_iter().enumerate();
-        Panel::new(self.title(), r1, p1).equal().each(colours, |panel, (i, colour)| {
-            let places = shown.iter().filter(|[t, ..]| interval(*t) == i).map(|&[_, r1, p1]| [r1, p1]);
-            panel.dots(places.collect(), radius, colour)
-        })
-    }
-}
-
-/// What the paper says of the energy in both figures, with the checks for VI2.
-pub fn stays_close(vi2: &[Crossings]) -> Claim {
-    let says = "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts";
-    Claim::new("section 5", says)
-        .each(vi2, |claim, run| claim.at_most(run.growth_name(), run.error.growth(), 1.1))
-}
-
-/// The sections of VI2, those of RK4, and |H − H(0)| of all runs over time.
-pub fn figure(
-    [title, subtitle]: [&str; 2],
-    all: &[Crossings; 6],
-    end: f64,
-    panel: impl Fn(&Crossings) -> Panel,
-) -> Figure {
-    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
-    let largest = "Largest error of the Hamiltonian in each interval of time";
-    let colours = [BLUE, GREEN, VERMILLION].into_iter().cycle();
-    let lines = all.iter().zip(colours).map(|(run, colour)| {
-        let stroke = if run.scheme == Scheme::Vi2 { Stroke::solid(colour) } else { Stroke::dashed(colour) };
-        (run.title(), stroke, run.error.envelope.magnitude())
-    });
-    let energy = Panel::new(largest, time, Axis::logarithmic("|*H*(*t*) − *H*(0)|   [Γ²]")).lines(lines);
-    Figure::new(title, subtitle)
-        .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
-        .row(370.0, all[..3].iter().map(&panel).collect())
-        .row(370.0, all[3..].iter().map(&panel).collect())
-        .row(330.0, vec![energy.legend_at(Corner::Beside)])
-}
-
-/// The section coordinates, and the runs that were relabelled or ended early.
-pub fn notes(all: &[Crossings]) -> Vec<String> {
-    let relabelled = all
-        .iter()
-        .filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?.replace('*', ""))));
-    let ends = all
-        .iter()
-        .filter_map(|run| run.failure.map(|error| format!("{} ended early: {error}.", run.name())));
-    [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(ends).collect()
-}
-
-/// The sections as a table.
-pub fn table(all: &[Crossings]) -> Result<Table> {
-    let rows = all.iter().flat_map(|section| {
-        let points = thin(&section.points, SHOWN).into_iter();
-        points.map(|[t, r1, p1]| ([section.scheme.name()], [section.h, t, r1, p1]))
-    });
-    Table::of(&["scheme", "h", "t", "R1", "P1"], rows)
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 
 use crate::vocabulary::*;
 
-/// What a run with steps of one length leaves.
 #[derive(Clone, Copy, Debug)]
 pub struct Shadow {
     pub h: f64,
@@ -20,7 +19,6 @@ impl Shadow {
         Self { h, begin: [energy, shift], largest: 0.0, predicted: 0.0, rest: 0.0 }
     }
 
-    /// Adds E and g at a point of the run.
     pub fn push(&mut self, energy: f64, shift: f64) {
         let (change, predicted) = (energy - self.begin[0], self.h * self.h * (shift - self.begin[1]));
         self.largest = larger(self.largest, change.abs());

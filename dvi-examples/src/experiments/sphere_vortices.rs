@@ -6,93 +6,69 @@
 //! M is conserved. In coordinates along an axis a scheme is symmetric about that axis only: the component
 //! along it is kept, and M turns slowly around it.
 
-use crate::models::SphereVortices;
 use crate::vocabulary::*;
 
 /// Three vortices whose moment is not along the axis of the coordinates.
 const THREE: SphereVortices<3> = SphereVortices { gamma: [1.0, 1.5, 2.0] };
 const PLACES: [[f64; 3]; 3] = [[0.9, 0.2, 0.5], [-0.4, 0.8, 0.3], [-0.5, -0.7, 0.7]];
 const H: f64 = 0.5;
-/// Steps of the beginning, with which the whole is compared.
 const EARLY: u64 = 4000;
 
 /// E − E(0), |M| over its value at the start less 1, by what angle M has turned around the axis of the
 /// coordinates, and (M_z − M_z(0))/|M|.
 type Kept = Series<4>;
 
-/// (x, y) of the vortices in the beginning, as seen from above the pole.
-type Paths = [Vec<[f64; 2]>; 3];
+type Paths = [Points; 3];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(400_000, 20_000);
     job.expect(3 * steps);
-    let [by_midpoint, by_gauss] = ["one step, midpoint", "one step, Gauss of order 4"];
-    let (midpoint, paths) = follow(job, by_midpoint, Stroke::solid(BLUE), OneStep::midpoint(), steps)?;
+    let gauss = ("one step, Gauss of order 4", Stroke::solid(SKY));
+    let (midpoint, paths) =
+        follow(job, ("one step, midpoint", Stroke::solid(BLUE)), OneStep::midpoint(), steps)?;
     let all = [
         midpoint,
-        follow(job, by_gauss, Stroke::solid(SKY), OneStepGauss::<2>::new(), steps)?.0,
-        follow(job, "RK4", Stroke::dashed(VERMILLION), RungeKutta::classical(), steps)?.0,
+        follow(job, gauss, OneStepGauss::<2>::new(), steps)?.0,
+        follow(job, ("RK4", Stroke::dashed(VERMILLION)), RungeKutta::classical(), steps)?.0,
     ];
-    let rows = all.iter().flat_map(|Series { name, kept, .. }| {
-        let quantities = ["ΔH", "Δ|M|/|M|", "angle of M"].into_iter().zip(kept);
-        quantities.flat_map(|(quantity, kept)| ranges([name, quantity], &kept.envelope))
-    });
-    let table = Table::of(&["method", "quantity", "t", "lowest", "mean", "highest"], rows)?;
+    let columns = ["method", "quantity", "t", "lowest", "mean", "highest"];
+    let table = range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?;
     job.publish(figure(&all, &paths, steps as f64 * H), table)?;
     Ok(vec![keep(&all), precession()?, pair()?, ring()?].into())
 }
 
-/// ΣΓr of a state in flat form.
 fn moment<const N: usize>(vortices: &SphereVortices<N>, q: &[f64]) -> [f64; 3] {
     let places = vortices.places(q);
     std::array::from_fn(|i| vortices.gamma.iter().zip(places).map(|(gamma, place)| gamma * place[i]).sum())
 }
 
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
 fn follow(
     job: &Job<'_>,
-    name: &str,
-    stroke: Stroke,
+    named: Named<'_>,
     method: impl Method<SphereVortices<3>, f64>,
     steps: u64,
 ) -> Result<(Kept, Paths)> {
     let mut run = Integrator::new(&THREE, method, H, SphereVortices::state(PLACES))?;
     let (energy, start) = (run.energy(), moment(&THREE, run.q()));
-    let (mut direction, mut paths) = (Around::new(start), Paths::default());
-    let span = Span { end: steps as f64 * H, early: EARLY as f64 * H, intervals: 100 };
-    let kept = job.keep(&mut run, steps, span, |run| {
+    let (mut before, mut turned, mut paths) = (start, 0.0, Paths::default());
+    let span = Span { intervals: 100, ..Span::of(steps, H, EARLY) };
+    let kept = job.series(named, &mut run, steps, span, |run, _| {
         let moment = moment(&THREE, run.q());
         if run.steps() <= 400 {
             let places = paths.iter_mut().zip(THREE.places(run.q()));
             places.for_each(|(path, [x, y, _])| path.push([x, y]));
         }
+        turned += angle(before, moment);
+        before = moment;
         let axial = (moment[2] - start[2]) / length(start);
-        [run.energy() - energy, length(moment) / length(start) - 1.0, direction.turned_to(moment), axial]
+        [run.energy() - energy, length(moment) / length(start) - 1.0, turned, axial]
     })?;
-    Ok((Series::new(name, stroke, kept), paths))
+    Ok((kept, paths))
 }
 
-/// The angle of a vector around the z axis, counted over more than one turn.
-struct Around {
-    angle: f64,
-    turn: f64,
-}
-
-impl Around {
-    fn new([x, y, _]: [f64; 3]) -> Self {
-        Self { angle: y.atan2(x), turn: 0.0 }
-    }
-
-    /// The angle since the start.
-    fn turned_to(&mut self, [x, y, _]: [f64; 3]) -> f64 {
-        let angle = y.atan2(x);
-        self.turn += (angle - self.angle + PI).rem_euclid(TAU) - PI;
-        self.angle = angle;
-        self.turn
-    }
+/// By what angle a vector has turned around the z axis, less than half a turn.
+fn angle(before: [f64; 3], [x, y, _]: [f64; 3]) -> f64 {
+    (y.atan2(x) - before[1].atan2(before[0]) + PI).rem_euclid(TAU) - PI
 }
 
 fn keep(all: &[Kept; 3]) -> Claim {
@@ -110,31 +86,23 @@ fn keep(all: &[Kept; 3]) -> Claim {
 
 /// The angle by which M has turned at t = 400, over the step.
 fn precession() -> Result<Claim> {
-    fn of(method: impl Method<SphereVortices<3>, f64> + Copy) -> Result<Option<f64>> {
-        order_of([400, 600, 800], |steps| {
-            let h = 400.0 / steps as f64;
-            let mut run = Integrator::new(&THREE, method, h, SphereVortices::state(PLACES))?;
-            let mut direction = Around::new(moment(&THREE, run.q()));
-            run.take_steps(steps)?;
-            Ok((h, direction.turned_to(moment(&THREE, run.q())).abs()))
-        })
-    }
-    let (midpoint, gauss) = (of(OneStep::midpoint())?, of(OneStepGauss::<2>::new())?);
-    Ok(beyond(
-        "the moment turns slowly around the axis of the coordinates, at a rate that falls with the \
-               order of the scheme",
-    )
-    .near("midpoint: order of the angle at t = 400", midpoint, [2.0, 0.1])
-    .near("Gauss of order 4: order of the angle at t = 400", gauss, [4.0, 0.2]))
+    let (start, counts) = (SphereVortices::state(PLACES), [400, 600, 800]);
+    let begin = Integrator::new(&THREE, OneStep::midpoint(), H, start)?;
+    let angle = |q: &[f64]| angle(moment(&THREE, begin.q()), moment(&THREE, q)).abs();
+    let midpoint = order_at(&THREE, OneStep::midpoint(), &start, 400.0, counts, angle)?;
+    let gauss = order_at(&THREE, OneStepGauss::<2>::new(), &start, 400.0, counts, angle)?;
+    let text = "the moment turns slowly around the axis of the coordinates, at a rate that falls with the \
+                order of the scheme";
+    let claim = beyond(text).near("midpoint: order of the angle at t = 400", midpoint, [2.0, 0.1]);
+    Ok(claim.near("Gauss of order 4: order of the angle at t = 400", gauss, [4.0, 0.2]))
 }
 
 /// `v` turned around an axis by an angle (Rodrigues).
 fn turned(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let k = axis.map(|x| x / length(axis));
     let cross = [k[1] * v[2] - k[2] * v[1], k[2] * v[0] - k[0] * v[2], k[0] * v[1] - k[1] * v[0]];
-    let dot: f64 = k.iter().zip(v).map(|(k, v)| k * v).sum();
     let (sin, cos) = angle.sin_cos();
-    std::array::from_fn(|i| v[i] * cos + cross[i] * sin + k[i] * dot * (1.0 - cos))
+    std::array::from_fn(|i| v[i] * cos + cross[i] * sin + k[i] * dot(k, v) * (1.0 - cos))
 }
 
 /// The largest distance of a vortex from its place at the start, turned.
@@ -175,13 +143,12 @@ fn ring() -> Result<Claim> {
 }
 
 fn figure(all: &[Kept; 3], paths: &Paths, end: f64) -> Figure {
-    let (x, y) = (Axis::linear("*x*").within(-1.1, 1.1), Axis::linear("*y*").within(-1.1, 1.75));
     let lines = [BLUE, VERMILLION, GREEN].into_iter().zip(THREE.gamma).zip(paths);
     let lines = lines.map(|((colour, gamma), path)| {
         (format!("Γ = {gamma}"), Stroke::solid(colour).width(1.1), path.clone())
     });
-    let seen = Panel::new("Paths, seen from above the pole", x, y)
-        .equal()
+    let (x, y) = (("*x*", [-1.1, 1.1]), ("*y*", [-1.1, 1.75]));
+    let seen = Panel::window("Paths, seen from above the pole", x, y)
         .line(circle([0.0; 2], 1.0), Stroke::solid(SLATE).width(1.0))
         .lines(lines);
     let over_time = |title: &str, label: &str, quantity: usize| {
@@ -190,15 +157,7 @@ fn figure(all: &[Kept; 3], paths: &Paths, end: f64) -> Figure {
     let energy = over_time("Error of the energy", "largest |Δ*H*| of each interval", 0);
     let moment = over_time("Length of the moment", "largest |Δ|*M*||/|*M*| of each interval", 1);
     let turn = over_time("Direction of the moment", "angle around the axis   [rad]", 2);
-    let [midpoint, gauss, rk4] = all.each_ref().map(|series| series.kept[0].largest);
-    let (midpoint, gauss, rk4) = (at_most(midpoint), at_most(gauss), scientific(rk4));
-    Figure::new(
-        "Three point vortices on a sphere",
-        format!("*h* = {H}; on the left the one-step midpoint scheme up to *t* = {}", 400.0 * H),
-    )
-    .row(430.0, vec![seen, energy.weight(1.4).legend_at(Corner::Beside)])
-    .row(300.0, vec![moment.without_legend(), turn.without_legend()])
-    .footer(format!(
-        "Largest |Δ*H*| of one step: midpoint {midpoint}, Gauss {gauss}. RK4 at the end: {rk4}."
-    ))
+    Figure::of(format!("*h* = {H}; on the left the one-step midpoint scheme up to *t* = {}", 400.0 * H))
+        .row(430.0, vec![seen, energy.weight(1.4).legend_at(Corner::Beside)])
+        .row(300.0, vec![moment.without_legend(), turn.without_legend()])
 }

@@ -4,10 +4,9 @@
 //! Steps along great circles stay on the sphere without a projection (Lee, Leok & McClamroch 2009); RATTLE
 //! takes the chord in place of the arc and finds the force that keeps the length.
 
-use super::geodesics::{FEW_UNITS, Long, flat_energy, panels, reference};
-use super::shadow::{self, Shadow};
-use super::turnings::{self, Extreme, Sample, Turnings};
-use crate::models::{ConstrainedPendulum, SphericalPendulum, SphericalPendulumState};
+use super::geodesics::{FEW_UNITS, Long, between_heights, flat_energy, panels, reference};
+use super::shadow;
+use super::turnings::{self, Sample, up_and_down};
 use crate::vocabulary::*;
 
 const PENDULUM: SphericalPendulum = SphericalPendulum { gravity: 1.0 };
@@ -24,16 +23,7 @@ const STEPS: [f64; 3] = [0.1, 0.05, 0.025];
 /// The time at which the order is measured, and the step of the reference.
 const ORDER_TIME: f64 = 8.0;
 const FINE: f64 = 2e-3;
-/// How long the path is drawn.
 const DRAWN: f64 = 37.0;
-
-/// Up and down with steps of one length.
-struct Swings {
-    extremes: [Extreme; 2],
-    energy: Shadow,
-    /// The place at [`ORDER_TIME`].
-    place: [f64; 3],
-}
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let long = Long { steps: job.choose(10_000_000, 8_000), every: EVERY, h: H };
@@ -42,97 +32,62 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     // E − E(0), |s|² − 1, and the relative change of the angular momentum about the vertical.
     let kept = |state: &SphericalPendulumState| {
         let now = PENDULUM.heights(state);
-        let length = state.s.iter().map(|x| x * x).sum::<f64>();
-        [now.energy - before.energy, length - 1.0, now.vertical / before.vertical - 1.0]
+        [now.energy - before.energy, dot(state.s, state.s) - 1.0, now.vertical / before.vertical - 1.0]
     };
-    let arcs = long.along_geodesics(job, "great circles", PENDULUM, &begin(), kept)?;
-    let mut run =
-        Integrator::new(&CONSTRAINED, Rattle::default(), H, ConstrainedPendulum::state_of(&begin()))?;
-    let rattle = long.watch(
-        job,
-        || {
-            run.take_steps(EVERY)?;
-            Ok(ConstrainedPendulum::on_sphere(&run.state()))
-        },
-        kept,
-    )?;
-    let rattle = Series::new("RATTLE", Stroke::solid(GREEN), rattle);
-    let all = [long.by_rk4(job, PENDULUM, &begin(), kept)?, rattle, arcs];
-    let end = job.choose(400.0, 25.0);
-    let (by_arcs, by_chords) = (each(STEPS, |h| arcs_of(h, end))?, each(STEPS, |h| chords_of(h, end))?);
+    let chord = ConstrainedPendulum::state_of(&begin());
+    let mut run = Integrator::new(&CONSTRAINED, Rattle::default(), H, chord)?;
+    let later = || {
+        run.take_steps(EVERY)?;
+        Ok(ConstrainedPendulum::on_sphere(&run.state()))
+    };
+    let all = [
+        long.by_rk4(job, PENDULUM, &begin(), kept)?,
+        Series::new("RATTLE", Stroke::solid(GREEN), long.watch(job, later, kept)?),
+        long.along_geodesics(job, "great circles", PENDULUM, &begin(), kept)?,
+    ];
     let columns =
         ["method", "t", "largest_energy_error", "largest_change_of_length", "largest_change_of_momentum"];
     job.publish(figure(&all, long)?, magnitude_table(&columns, &all)?)?;
+    let end = job.choose(400.0, 25.0);
+    let sample = |state: SphericalPendulumState, shift| {
+        let energy = PENDULUM.heights(&state).energy;
+        Sample { height: state.s[2], rate: state.dot_s[2], energy, shift }
+    };
+    let by_arcs = each(STEPS, |h| {
+        let mut run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), h, begin())?;
+        up_and_down([h, end], &before, sample(begin(), PENDULUM.shift(&begin())), || {
+            run.advance()?;
+            Ok(sample(run.state(), PENDULUM.shift(&run.state())))
+        })
+    })?;
+    let by_chords = each(STEPS, |h| {
+        let mut run = Integrator::new(&CONSTRAINED, Rattle::default(), h, chord)?;
+        up_and_down([h, end], &before, sample(begin(), CONSTRAINED.shift(&begin())), || {
+            run.advance()?;
+            let state = ConstrainedPendulum::on_sphere(&run.state());
+            Ok(sample(state, CONSTRAINED.shift(&state)))
+        })
+    })?;
     let [rk4, chords, arcs] = all.each_ref().map(|series| &series.kept);
     // The largest that h²g makes of it, by the runs with the same step.
-    let [by_arc, by_chord] = [&by_arcs, &by_chords].map(|swings| swings[1].energy.predicted);
+    let [by_arc, by_chord] = [&by_arcs, &by_chords].map(|runs| runs[1].1.predicted);
     let flat =
         beyond("the energy errors of a spherical pendulum have no trend, by great circles and by RATTLE");
     let flat = flat_energy(job, flat, "great circles", &arcs[0], by_arc);
     Ok(vec![
-        turnings::claim("a spherical pendulum", by_arcs.each_ref().map(|swings| &swings.extremes)),
+        turnings::claim("a spherical pendulum", by_arcs.each_ref().map(|(extremes, _)| extremes)),
         rounding(job, long, arcs, chords),
         flat_energy(job, flat, "RATTLE", &chords[0], by_chord),
-        shadow::claim("great circles", &by_arcs.each_ref().map(|swings| swings.energy)),
-        shadow::claim("RATTLE", &by_chords.each_ref().map(|swings| swings.energy)),
+        shadow::claim("great circles", &by_arcs.map(|(_, energy)| energy)),
+        shadow::claim("RATTLE", &by_chords.map(|(_, energy)| energy)),
         loses(job, rk4, arcs),
-        order_of_places(&by_arcs, &by_chords)?,
+        order_of_places()?,
     ]
     .into())
 }
 
 fn begin() -> SphericalPendulumState {
     SphericalPendulum::hanging(HANGING, RATES)
-}
-
-fn distance_of(one: [f64; 3], other: [f64; 3]) -> f64 {
-    length([0, 1, 2].map(|k| one[k] - other[k]))
-}
-
-/// Along great circles.
-fn arcs_of(h: f64, end: f64) -> Result<Swings> {
-    let mut run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), h, begin())?;
-    let next = || {
-        run.advance()?;
-        Ok(run.state())
-    };
-    Swings::new(h, end, |state| PENDULUM.shift(state), next)
-}
-
-/// By RATTLE.
-fn chords_of(h: f64, end: f64) -> Result<Swings> {
-    let start = ConstrainedPendulum::state_of(&begin());
-    let mut run = Integrator::new(&CONSTRAINED, Rattle::default(), h, start)?;
-    let next = || {
-        run.advance()?;
-        Ok(ConstrainedPendulum::on_sphere(&run.state()))
-    };
-    Swings::new(h, end, |state| CONSTRAINED.shift(state), next)
-}
-
-impl Swings {
-    /// Of a run whose steps `next` takes, with g of the energy E − h²g that it keeps.
-    fn new(
-        h: f64,
-        end: f64,
-        shift: impl Fn(&SphericalPendulumState) -> f64,
-        mut next: impl FnMut() -> Result<SphericalPendulumState, StepError>,
-    ) -> Result<Self> {
-        let (start, mut turnings) = (begin(), Turnings::new(h));
-        let (heights, begun) = (PENDULUM.heights(&start), shift(&start));
-        let (mut energy, mut place) = (Shadow::new(h, heights.energy, begun), [f64::NAN; 3]);
-        let compared = (ORDER_TIME / h).round() as u64;
-        for step in 1..=(end / h).round() as u64 {
-            let state = next()?;
-            let shift = shift(&state);
-            energy.push(PENDULUM.heights(&state).energy, shift);
-            turnings.push(Sample { height: state.s[2], rate: state.dot_s[2], shift });
-            if step == compared {
-                place = state.s;
-            }
-        }
-        Ok(Self { extremes: turnings.against(&heights, begun), energy, place })
-    }
 }
 
 fn rounding(job: &Job<'_>, long: Long, arcs: &[Deviation; 3], chords: &[Deviation; 3]) -> Claim {
@@ -163,64 +118,56 @@ fn loses(job: &Job<'_>, [energy, length, vertical]: &[Deviation; 3], arcs: &[Dev
         .near(format!("RK4: max|ΔE|, {trend}"), job.only_full(energy.trend()), [10.0, 1.0])
 }
 
-fn order_of_places(arcs: &[Swings; 3], chords: &[Swings; 3]) -> Result<Claim> {
+fn order_of_places() -> Result<Claim> {
     let text = "the place of a spherical pendulum is of second order by great circles and by RATTLE, which \
                 differ by a term of the order h², and of fourth by Suzuki's composition";
     let [fine, double] = [FINE, 2.0 * FINE].map(|h| {
         let [x, y, z, ..] = reference(PENDULUM, &begin(), ORDER_TIME, h);
         [x, y, z]
     });
-    let composed = order_of(STEPS, |h| {
-        let end = up_to(&PENDULUM, Composition::suzuki(Geodesic::trapezoid()), h, begin(), ORDER_TIME)?;
-        Ok((h, distance_of(end.s, fine)))
-    })?;
-    let of = |swings: &[Swings; 3]| {
-        order(STEPS.into_iter().zip(swings).map(|(h, swings)| (h, distance_of(swings.place, fine))))
+    let composition = Composition::suzuki(Geodesic::trapezoid());
+    let arc = |h| Ok(up_to(&PENDULUM, Geodesic::trapezoid(), h, begin(), ORDER_TIME)?.s);
+    let composed = |h| Ok(up_to(&PENDULUM, composition, h, begin(), ORDER_TIME)?.s);
+    let chord = |h| {
+        let start = ConstrainedPendulum::state_of(&begin());
+        let end = up_to(&CONSTRAINED, Rattle::default(), h, start, ORDER_TIME)?;
+        Ok(ConstrainedPendulum::on_sphere(&end).s)
     };
-    let both = arcs.iter().zip(chords).map(|(arcs, chords)| distance_of(arcs.place, chords.place));
-    let apart = order(STEPS.into_iter().zip(both));
+    let order = |place: &dyn Fn(f64) -> Result<[f64; 3]>, from: &dyn Fn(f64) -> Result<[f64; 3]>| {
+        order_of(STEPS, |h| Ok((h, length(difference(place(h)?, from(h)?)))))
+    };
+    let exact = |_| Ok(fine);
+    let fourth = order(&composed, &exact)?;
     Ok(beyond(text)
-        .at_most("distance of two references", distance_of(fine, double), 1e-9)
-        .near(format!("great circles: order at t = {ORDER_TIME}"), of(arcs), [2.0, 0.05])
-        .near(format!("Suzuki's composition: order at t = {ORDER_TIME}"), composed, [4.0, 0.1])
-        .near(format!("RATTLE: order at t = {ORDER_TIME}"), of(chords), [2.0, 0.05])
-        .near("order of the distance of great circles and RATTLE", apart, [2.0, 0.05]))
+        .at_most("distance of two references", length(difference(fine, double)), 1e-9)
+        .near(format!("great circles: order at t = {ORDER_TIME}"), order(&arc, &exact)?, [2.0, 0.05])
+        .near(format!("Suzuki's composition: order at t = {ORDER_TIME}"), fourth, [4.0, 0.1])
+        .near(format!("RATTLE: order at t = {ORDER_TIME}"), order(&chord, &exact)?, [2.0, 0.05])
+        .near("order of the distance of great circles and RATTLE", order(&arc, &chord)?, [2.0, 0.05]))
 }
 
 fn figure(all: &[Series<3>; 3], long: Long) -> Result<Figure> {
     let mut run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), H, begin())?;
     let path = course(&mut run, (DRAWN / H) as u64, place)?;
-    let radii = PENDULUM.heights(&begin()).extremes().map(|height| (1.0 - height * height).sqrt());
-    let grey = Stroke::dashed(SLATE).width(1.0);
-    let path = Panel::plane("The path", "*x*", "*y*")
-        .line(path, Stroke::solid(BLUE).width(1.2))
-        .each(radii, |panel, radius| panel.line(circle([0.0; 2], radius), grey));
+    let path = Panel::plane("The path", "*x*", "*y*").line(path, Stroke::solid(BLUE).width(1.2));
+    let path = between_heights(path, &PENDULUM.heights(&begin()));
     let energy = [(0, ["Energy", "largest |*E* − *E*(0)|"], [1e-11, 10.0])];
     let others = [
         (1, ["Length", "||*s*|² − 1|"], [1e-17, 10.0]),
         (2, ["Momentum about the vertical", "largest relative change"], [1e-17, 10.0]),
     ];
     let energy = panels(long.end(), all, &energy).into_iter().map(|panel| panel.weight(1.4));
-    Ok(Figure::new(
-        "A spherical pendulum",
-        format!(
-            "Mass, length and *g* are 1; unit vectors along great circles, trapezoidal rule, and a \
-                 constraint by RATTLE, *h* = {H}."
-        ),
-    )
-    .row(400.0, [path].into_iter().chain(energy).collect())
-    .row(300.0, panels(long.end(), all, &others))
-    .footer(format!(
-        "The path is from above, up to *t* = {DRAWN}; the roots of the cubic are the circles. The others: \
-         {} steps.",
-        scientific(long.steps as f64)
-    )))
+    let subtitle = format!(
+        "The path is from above, up to *t* = {DRAWN}; the roots of the cubic are the circles. *h* = {H}"
+    );
+    Ok(Figure::of(subtitle)
+        .row(400.0, [path].into_iter().chain(energy).collect())
+        .row(300.0, panels(long.end(), all, &others)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::models::OnManifold as _;
 
     #[test]
     fn the_integrals_by_hand_are_those_of_the_declarations() {

@@ -5,7 +5,6 @@
 
 use rayon::prelude::*;
 
-use crate::models::{Linear, LinearState, Rotation, RotationState};
 use crate::vocabulary::*;
 
 /// σ = ½ has no limit and is tested apart.
@@ -18,10 +17,8 @@ const SIGMAS: [f64; 18] = [
 const LARGE: f64 = 1e8;
 /// λh that damp, the first of which is drawn.
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
-/// Steps of the runs with them.
-const FEW: u64 = 1000;
+const FEW: usize = 1000;
 
-/// Both modes are wanted.
 fn unlimited(sigma: f64) -> Sigma {
     Sigma { parasitic_limit: None, ..Sigma::new(sigma) }
 }
@@ -34,50 +31,45 @@ fn formula(sigma: f64) -> f64 {
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
     // A bisection takes some 32 runs.
-    job.expect(steps * (3 + 32 * SIGMAS.len() as u64) + FEW * (19 * DAMPED.len() + 1) as u64);
-    let measured: Vec<[f64; 2]> =
+    job.expect(steps * (3 + 32 * SIGMAS.len() as u64));
+    let measured: Points =
         SIGMAS.par_iter().map(|&sigma| Ok([sigma, limit(job, sigma, steps)?])).collect::<Result<_>>()?;
     let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(job, 0.5, 1e3, steps))?;
     let damped = SIGMAS.into_iter().chain([0.5]).flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
-    let damped =
-        damped.map(|(sigma, lambda)| Damped::new(job, sigma, lambda)).collect::<Result<Vec<_>>>()?;
-    let right = Damped::new(job, 0.5, [0.01, 1.0])?;
-    let columns = ["quantity", "sigma", "lambda_h_real", "lambda_h_imaginary", "measured", "formula"];
-    let limits =
-        measured.iter().map(|&[sigma, limit]| (["limit"], [sigma, 0.0, limit, limit, formula(sigma)]));
-    let growths = damped.iter().map(|&Damped { sigma, lambda: [x, y], factor, .. }| {
-        (["growth per step"], [sigma, x, y, factor, Damped::root(sigma, [x, y])])
+    let damped: Vec<Damped> =
+        damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<_>>()?;
+    let right = Damped::new(0.5, [0.01, 1.0])?.factor;
+    let limits = measured.iter().map(|&[sigma, at]| (["limit"], [sigma, 0.0, at, at, formula(sigma)]));
+    let growths = damped.iter().map(|run| {
+        let [x, y] = run.lambda;
+        (["growth per step"], [run.sigma, x, y, run.factor, run.root()])
     });
+    let columns = ["quantity", "sigma", "lambda_h_real", "lambda_h_imaginary", "measured", "formula"];
     job.publish(figure(&measured, &damped), Table::of(&columns, limits.chain(growths))?)?;
-    Ok(claims(job, &measured, [twice / once, right.factor], &damped).into())
+
+    let (half, others): (Vec<_>, Vec<_>) = damped.iter().partition(|run| run.sigma == 0.5);
+    let away = others.iter().map(|run| (run.factor - run.root()).abs());
+    let quarter = Damped { sigma: 0.25, lambda: DAMPED[0], ..Damped::default() };
+    let from_formula = "largest relative deviation of the limit from the formula, 18 values of σ";
+    let smallest = "smallest growth per step of 18 values of σ ≠ ½, five λ with negative real part";
+    let bounded = "largest |z|, five λ with negative real part, both modes of size one";
+    Ok(vec![
+        says("section 4.1", "stable only when λ is imaginary, with |λh| < 1/|1 − 2σ|")
+            .at_most(from_formula, deviation(&measured), job.choose(1e-4, 1e-3))
+            .at_least(smallest, least(others.iter().map(|run| run.factor)), 1.0 + 1e-6)
+            .at_most("largest deviation of that growth from the root of the recursion", largest(away), 1e-3)
+            .at_least("the root for σ = ¼, λh = −1 + i", quarter.root(), 1.3),
+        says("section 4.1", "for σ = ½ the region of stability is the closed left half plane")
+            .at_most("growth of max|z| from step N to step 2N, λh = 1000i", twice / once, 1.001)
+            .at_most(bounded, largest(half.iter().map(|run| run.largest)), 4.0)
+            .at_least("growth per step to the right of it, λh = 0.01 + i", right, 1.001),
+    ]
+    .into())
 }
 
 /// The largest relative deviation of the limits from 1/|1 − 2σ|.
 fn deviation(measured: &[[f64; 2]]) -> f64 {
     largest(measured.iter().map(|[sigma, limit]| (limit * (1.0 - 2.0 * sigma).abs() - 1.0).abs()))
-}
-
-fn claims(job: &Job<'_>, measured: &[[f64; 2]], [growth, right]: [f64; 2], damped: &[Damped]) -> Vec<Claim> {
-    let half = damped.iter().filter(|run| run.sigma == 0.5);
-    let others = || damped.iter().filter(|run| run.sigma != 0.5);
-    let smallest = others().map(|run| run.factor).fold(f64::INFINITY, f64::min);
-    let away = largest(others().map(|run| (run.factor - Damped::root(run.sigma, run.lambda)).abs()));
-    let quarter = Damped::root(0.25, DAMPED[0]);
-    let accuracy = job.choose(1e-4, 1e-3);
-    let from_formula = "largest relative deviation of the limit from the formula, 18 values of σ";
-    let smallest_growth = "smallest growth per step of 18 values of σ ≠ ½, five λ with negative real part";
-    let bounded = "largest |z|, five λ with negative real part, both modes of size one";
-    vec![
-        Claim::new("section 4.1", "stable only when λ is imaginary, with |λh| < 1/|1 − 2σ|")
-            .at_most(from_formula, deviation(measured), accuracy)
-            .at_least(smallest_growth, smallest, 1.0 + 1e-6)
-            .at_most("largest deviation of that growth from the root of the recursion", away, 1e-3)
-            .at_least("the root for σ = ¼, λh = −1 + i", quarter, 1.3),
-        Claim::new("section 4.1", "for σ = ½ the region of stability is the closed left half plane")
-            .at_most("growth of max|z| from step N to step 2N, λh = 1000i", growth, 1.001)
-            .at_most(bounded, largest(half.map(|run| run.largest)), 4.0)
-            .at_least("growth per step to the right of it, λh = 0.01 + i", right, 1.001),
-    ]
 }
 
 /// The largest ω at which runs with h = 1 stay bounded.
@@ -100,19 +92,21 @@ fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Resul
     let [first, second] =
         [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
     let mut run = Integrator::from_two_points(&rotation, unlimited(sigma), 1.0, first, second)?;
-    let (mut largest, mut lost) = (0.0f64, false);
-    job.repeat(steps, || {
+    let mut largest = 0.0f64;
+    for _ in 0..steps {
         // Once it is large enough to be called unstable, or ended, there is no need to go on to infinity.
-        if largest < LARGE && !lost {
-            lost = run.advance().is_err();
-            largest = run.q().iter().fold(largest, |largest, q| larger(q.abs(), largest));
+        if run.advance().is_err() || largest >= LARGE {
+            largest = LARGE;
+            break;
         }
-        Ok(())
-    })?;
-    Ok(if lost { LARGE } else { largest })
+        largest = run.q().iter().fold(largest, |largest, q| larger(q.abs(), largest));
+    }
+    job.proceed(steps);
+    Ok(largest)
 }
 
 /// A run with h = 1 and a λ off the imaginary axis.
+#[derive(Default)]
 struct Damped {
     sigma: f64,
     lambda: [f64; 2],
@@ -122,22 +116,17 @@ struct Damped {
 }
 
 impl Damped {
-    fn new(job: &Job<'_>, sigma: f64, lambda: [f64; 2]) -> Result<Self> {
-        let [real, imaginary] = lambda;
+    fn new(sigma: f64, lambda: [f64; 2]) -> Result<Self> {
         let [first, second] = [[1.0, 0.0], [0.0, 1.0]].map(|z| LinearState { z, w: [0.0; 2] });
-        let system = Linear { real, imaginary };
+        let system = Linear { real: lambda[0], imaginary: lambda[1] };
         let mut run = Integrator::from_two_points(&system, unlimited(sigma), 1.0, first, second)?;
-        let (mut sizes, mut before, mut lost) = (vec![1.0f64], 1.0f64, false);
-        job.repeat(FEW, || {
-            if before < 1e60 && !lost {
-                lost = run.advance().is_err();
-                // Two points, so that no oscillation is mistaken for decay.
-                let now = run.q()[0].hypot(run.q()[1]);
-                sizes.push(larger(before, now));
-                before = now;
-            }
-            Ok(())
-        })?;
+        let (mut sizes, mut before) = (vec![1.0f64], 1.0f64);
+        while sizes.len() <= FEW && before < 1e60 && run.advance().is_ok() {
+            // Two points, so that no oscillation is mistaken for decay.
+            let now = run.q()[0].hypot(run.q()[1]);
+            sizes.push(larger(before, now));
+            before = now;
+        }
         let (middle, last) = (sizes.len() / 2, sizes.len() - 1);
         let factor = (sizes[last] / sizes[middle]).powf(1.0 / (last - middle).max(1) as f64);
         Ok(Self { sigma, lambda, factor, largest: largest(sizes) })
@@ -145,52 +134,49 @@ impl Damped {
 
     /// The larger modulus of the roots of (1 − bλ)ρ² − 2(1 − b)λρ − (1 + bλ) = 0, b = 2σ(1 − σ), h = 1:
     /// scheme (14) on z' = λz.
-    fn root(sigma: f64, [x, y]: [f64; 2]) -> f64 {
-        let b = 2.0 * sigma * (1.0 - sigma);
-        let times = |a: [f64; 2], c: [f64; 2]| [a[0] * c[0] - a[1] * c[1], a[0] * c[1] + a[1] * c[0]];
-        let modulus = |a: [f64; 2]| a[0].hypot(a[1]);
+    fn root(&self) -> f64 {
+        let (b, [x, y]) = (2.0 * self.sigma * (1.0 - self.sigma), self.lambda);
+        let square = |[x, y]: [f64; 2]| [x * x - y * y, x * y + y * x];
         // ρ = (m ± √(m² + 1 − b²λ²))/(1 − bλ) with m = (1 − b)λ.
-        let (lambda, m) = ([x, y], [(1.0 - b) * x, (1.0 - b) * y]);
-        let (mm, ll) = (times(m, m), times(lambda, lambda));
-        let square = [mm[0] + 1.0 - b * b * ll[0], mm[1] - b * b * ll[1]];
-        let (r, angle) = (modulus(square).sqrt(), 0.5 * square[1].atan2(square[0]));
+        let m = [(1.0 - b) * x, (1.0 - b) * y];
+        let (mm, ll) = (square(m), square([x, y]));
+        let under = [mm[0] + 1.0 - b * b * ll[0], mm[1] - b * b * ll[1]];
+        let (r, angle) = (under[0].hypot(under[1]).sqrt(), 0.5 * under[1].atan2(under[0]));
         let s = [r * angle.cos(), r * angle.sin()];
-        let [plus, minus] = [[m[0] + s[0], m[1] + s[1]], [m[0] - s[0], m[1] - s[1]]].map(modulus);
-        larger(plus, minus) / modulus([1.0 - b * x, -b * y])
+        larger((m[0] + s[0]).hypot(m[1] + s[1]), (m[0] - s[0]).hypot(m[1] - s[1]))
+            / (1.0 - b * x).hypot(-b * y)
     }
 }
 
 fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
-    let (bottom, top) = (0.5, 200.0);
+    let (bottom, top, sigma) = (0.5, 200.0, ("σ", [-0.02, 1.02]));
     let sigmas = || (0..=1000).map(|i| f64::from(i) / 1000.0);
-    let curve: Vec<[f64; 2]> = sigmas().map(|s| [s, formula(s).min(1e6)]).collect();
+    let curve: Points = sigmas().map(|s| [s, formula(s).min(1e6)]).collect();
     let stable = curve.iter().map(|&[sigma, limit]| [sigma, bottom, limit]).collect();
-    let [sigma, same] = [0, 1].map(|_| Axis::linear("σ").within(-0.02, 1.02));
     let title = "Imaginary λ: where runs turn from bounded to unbounded";
-    let border = Panel::new(title, sigma, Axis::logarithmic("|λ*h*|").within(bottom, top))
+    let border = Panel::semilog(title, sigma, ("|λ*h*|", [bottom, top]))
         .band(stable, BLUE)
-        .line(curve, Stroke::solid(BLUE))
-        .labelled("1/|1 − 2σ|")
+        .lines([("1/|1 − 2σ|", Stroke::solid(BLUE), curve)])
         .discs(measured.to_vec(), VERMILLION, Fill::Hollow)
         .labelled("measured by bisection")
         .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
         .note([0.1, 20.0], Anchor::Middle, SLATE, "unstable");
     let first = damped.iter().filter(|run| run.lambda == DAMPED[0]);
-    let factor = Axis::linear("factor").within(0.8, 3.8);
-    let growth = Panel::new("λ*h* = −1 + i: growth of |*z*| in a step", same, factor)
-        .line(vec![[0.0, 1.0], [1.0, 1.0]], Stroke::dashed(SLATE).width(1.2))
-        .labelled("neither growth nor decay")
-        .line(sigmas().map(|s| [s, Damped::root(s, DAMPED[0])]).collect(), Stroke::solid(BLUE))
-        .labelled("larger root of the recursion")
+    let root = |sigma| Damped { sigma, lambda: DAMPED[0], ..Damped::default() }.root();
+    let title = "λ*h* = −1 + i: growth of |*z*| in a step";
+    let growth = Panel::linear(title, sigma, ("factor", [0.8, 3.8]))
+        .guide([[0.0, 1.0], [1.0, 1.0]], "neither growth nor decay")
+        .lines([(
+            "larger root of the recursion",
+            Stroke::solid(BLUE),
+            sigmas().map(|s| [s, root(s)]).collect(),
+        )])
         .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));
-    Figure::new(
-        "The stability of the σ-family on *z*' = λ*z*, on the imaginary axis and to the left of it",
-        format!(
-            "Found by running the schemes; the limits on the left are those of the formula to {accuracy}"
-        ),
-    )
+    Figure::of(format!(
+        "Found by running the schemes; the limits on the left are those of the formula to {accuracy}"
+    ))
     .row(470.0, vec![border, growth])
     .footer("Rowley & Marsden 2002, section 4.1.")
 }

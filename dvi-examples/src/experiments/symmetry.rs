@@ -4,26 +4,22 @@
 //! the symmetry lasts, the parasitic mode of σ = 0 has nothing to grow from; rounding breaks it slowly. With
 //! one vortex displaced there is no symmetry, and the motion is lost within the paper's time.
 
-use crate::models::{self, Case};
 use crate::vocabulary::*;
 
 const H: f64 = 2.0;
-/// The paper's time.
 const PAPER: f64 = 2e5;
 /// How far vortex 1 is displaced.
 const DISPLACEMENT: [f64; 2] = [0.05, 0.035];
 /// An energy error that says that the motion is lost, some fifteen times that of the paper's run.
 const LOST: f64 = 0.05;
-/// Intervals of a decade of time.
-const PER_DECADE: f64 = 40.0;
 /// States are read every so many steps; an odd number, so that no phase of the motion is preferred.
 const STRIDE: u64 = 37;
 
 struct Motion {
     name: String,
     colour: Colour,
-    /// [t, largest asymmetry, largest |H − H(0)|] of each interval of the logarithm of time.
-    rows: Vec<[f64; 3]>,
+    /// The largest asymmetry and |H − H(0)|.
+    errors: Decades<2>,
     /// When |H − H(0)| exceeds `LOST`, or the run ends with an error; infinite if neither happens.
     lost: f64,
     end: f64,
@@ -32,19 +28,20 @@ struct Motion {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1.2e8, PAPER);
-    job.expect((end / H) as u64 + (PAPER / H) as u64);
-    let symmetric = Motion::new(job, "as in the paper", BLUE, [0.0; 2], end)?;
+    job.expect((end / H) as u64 / STRIDE + (PAPER / H) as u64 / STRIDE);
     let [x, y] = DISPLACEMENT;
-    let displaced =
-        Motion::new(job, &format!("vortex 1 displaced by ({x}, {y})"), VERMILLION, DISPLACEMENT, PAPER)?;
-    let claims = claims(job, &symmetric, &displaced);
-    let all = [symmetric, displaced];
-    let rows = all.iter().flat_map(|run| run.rows.iter().map(|row| ([&run.name], *row)));
+    let all = [
+        Motion::new(job, "as in the paper".into(), BLUE, [0.0; 2], end)?,
+        Motion::new(job, format!("vortex 1 displaced by ({x}, {y})"), VERMILLION, DISPLACEMENT, PAPER)?,
+    ];
+    let rows = all.iter().flat_map(|Motion { name, errors, .. }| {
+        errors.rows.iter().map(move |&(t, [asymmetry, error])| ([name], [t, asymmetry, error]))
+    });
     job.publish(figure(&all), Table::of(&["run", "t", "asymmetry", "energy_error"], rows)?)?;
     let rounding = "How rounding breaks the symmetry differs from program to program, and so does the time \
                     at which the symmetric run breaks up.";
     let notes = all.iter().map(Motion::ending).chain([rounding.to_owned()]).collect();
-    Ok(Outcome { claims, references: vec![], notes })
+    Ok(Outcome { claims: claims(job, &all), references: vec![], notes })
 }
 
 /// The largest difference between a vortex and the mirror image of its partner.
@@ -55,7 +52,7 @@ fn asymmetry(q: &[f64]) -> f64 {
 }
 
 impl Motion {
-    fn new(job: &Job<'_>, name: &str, colour: Colour, [dx, dy]: [f64; 2], end: f64) -> Result<Self> {
+    fn new(job: &Job<'_>, name: String, colour: Colour, [dx, dy]: [f64; 2], end: f64) -> Result<Self> {
         let Case { vortices, mut start } = models::leapfrogging();
         start.x[0] += dx;
         start.y[0] += dy;
@@ -63,49 +60,30 @@ impl Motion {
         let second_point = Start::RungeKutta(RungeKutta::midpoint());
         let method = Sigma { start: second_point, parasitic_limit: None, ..Sigma::leapfrog() };
         let mut run = Integrator::new(&vortices, method, H, start)?;
-        let initial = run.energy();
-        let (name, mut rows) = (name.to_owned(), Vec::new());
+        let (initial, mut errors) = (run.energy(), Decades::new(40.0));
         let (mut lost, mut failure) = (f64::INFINITY, None);
-        let mut interval = i64::MIN;
-        let strides = (end / H) as u64 / STRIDE;
-        let mut done = 0;
-        // A run that is lost tells nothing more.
-        while done < strides && lost.is_infinite() && !job.is_stopping() {
-            if let Err(error) = run.take_steps(STRIDE) {
-                (lost, failure) = (run.time(), Some(error));
-                break;
+        job.repeat((end / H) as u64 / STRIDE, || {
+            // A run that is lost tells nothing more.
+            if lost.is_infinite() {
+                failure = run.take_steps(STRIDE).err();
+                let (t, error) = (run.time(), (run.energy() - initial).abs());
+                if failure.is_none() {
+                    errors.push(t, [asymmetry(run.q()), error]);
+                }
+                if failure.is_some() || error.is_nan() || error > LOST {
+                    lost = t;
+                }
             }
-            done += 1;
-            if done % 1000 == 0 {
-                job.proceed(1000 * STRIDE);
-            }
-            let (t, error) = (run.time(), (run.energy() - initial).abs());
-            let current = (t.log10() * PER_DECADE).floor() as i64;
-            if current > interval {
-                interval = current;
-                rows.push([t, 0.0, 0.0]);
-            }
-            if let Some([_, largest_asymmetry, largest_error]) = rows.last_mut() {
-                *largest_asymmetry = larger(*largest_asymmetry, asymmetry(run.q()));
-                *largest_error = larger(*largest_error, error);
-            }
-            if error.is_nan() || error > LOST {
-                lost = t;
-            }
-        }
-        if done < strides && lost.is_infinite() {
-            job.cut_short();
-        }
-        job.proceed((strides - done) * STRIDE);
-        Ok(Self { name, colour, rows, lost, end, failure })
+            Ok(())
+        })?;
+        Ok(Self { name, colour, errors, lost, end, failure })
     }
 
     /// The largest asymmetry up to time `t`.
     fn asymmetry(&self, t: f64) -> f64 {
-        largest(self.rows.iter().filter(|row| row[0] <= t).map(|row| row[1]))
+        largest(self.errors.rows.iter().filter(|row| row.0 <= t).map(|row| row.1[0]))
     }
 
-    /// How the run ended, in words.
     fn ending(&self) -> String {
         let Self { name, lost, end, failure, .. } = self;
         match failure {
@@ -114,32 +92,18 @@ impl Motion {
             None => format!("{name}: |ΔH| stays below {LOST} up to t = {}.", scientific(*end)),
         }
     }
-
-    /// When the run was lost, for the figure.
-    fn short(&self, name: &str) -> String {
-        let verb = if self.failure.is_some() { "ended by an error" } else { "lost" };
-        if self.lost.is_finite() {
-            format!("{name}: {verb} at *t* = {}", scientific(self.lost))
-        } else {
-            format!(
-                "{name}: not lost up to *t* = {}",
-                scientific(self.rows.last().map_or(0.0, |row| row[0]))
-            )
-        }
-    }
 }
 
-fn claims(job: &Job<'_>, symmetric: &Motion, displaced: &Motion) -> Vec<Claim> {
+fn claims(job: &Job<'_>, [symmetric, displaced]: &[Motion; 2]) -> Vec<Claim> {
     let lost = format!("time at which |ΔH| exceeds {LOST}");
+    let carried = "it does for the paper's time, carried by the mirror symmetry of its initial data; \
+                   rounding breaks the symmetry, and later the motion breaks up";
     let all_time = job.only_full(symmetric.lost);
     let growth = symmetric.asymmetry(PAPER) / symmetric.asymmetry(0.1 * PAPER);
     vec![
-        Claim::new("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value for all time")
+        says("Fig. 2", "with VE2 the Hamiltonian remains close to its initial value for all time")
             .at_least(&lost, all_time, symmetric.end)
-            .instead(
-                "it does for the paper's time, carried by the mirror symmetry of its initial data; \
-                 rounding breaks the symmetry, and later the motion breaks up",
-            )
+            .instead(carried)
             .within(&lost, all_time, [PAPER, symmetric.end])
             .at_least("asymmetry up to t = 2·10⁵ / up to t = 2·10⁴", growth, 10.0)
             .at_least("asymmetry when it is lost", job.only_full(symmetric.asymmetry(f64::INFINITY)), 0.1),
@@ -149,26 +113,18 @@ fn claims(job: &Job<'_>, symmetric: &Motion, displaced: &Motion) -> Vec<Claim> {
 }
 
 fn figure(all: &[Motion; 2]) -> Figure {
-    let [symmetric, displaced] = all;
     let panel = |title: &str, label: &str, [low, high]: [f64; 2], column: usize| {
-        let time = Axis::logarithmic("time *t*   [*L*²/Γ]").within(10.0, symmetric.end);
-        let points = |run: &Motion| run.rows.iter().map(|row| [row[0], row[column]]).collect();
-        Panel::new(title, time, Axis::logarithmic(label).within(low, high))
+        let points = |run: &Motion| run.errors.rows.iter().map(|(t, row)| [*t, row[column]]).collect();
+        Panel::loglog(title, ("time *t*   [*L*²/Γ]", [10.0, all[0].end]), (label, [low, high]))
             .lines(all.iter().map(|run| (&run.name, Stroke::solid(run.colour), points(run))))
-            .line(vec![[PAPER, low], [PAPER, high]], Stroke::dashed(SLATE).width(1.2))
-            .labelled("the paper's time")
+            .guide([[PAPER, low], [PAPER, high]], "the paper's time")
             .legend_at(Corner::BottomRight)
     };
     let asymmetry =
-        panel("Distance from mirror symmetry", "largest in each interval   [*L*]", [1e-16, 1e4], 1);
-    let energy = panel("Energy", "largest |*H* − *H*(0)| in each interval   [Γ²]", [1e-4, 0.2], 2);
-    Figure::new(
-        "Two leapfrogging pairs with VE2, *h* = 2: mirror symmetry and energy over time",
-        format!("{}; {}", symmetric.short("symmetric"), displaced.short("displaced")),
-    )
-    .row(450.0, vec![asymmetry, energy.without_legend()])
-    .footer(format!(
-        "The run of Rowley & Marsden 2002, Fig. 2. A run is drawn until |Δ*H*| exceeds {LOST} or it ends \
-         by itself."
-    ))
+        panel("Distance from mirror symmetry", "largest in each interval   [*L*]", [1e-16, 1e4], 0);
+    let energy = panel("Energy", "largest |*H* − *H*(0)| in each interval   [Γ²]", [1e-4, 0.2], 1);
+    let subtitle = format!("A run is drawn until |Δ*H*| exceeds {LOST} or it ends by itself");
+    Figure::of(subtitle)
+        .row(450.0, vec![asymmetry, energy.without_legend()])
+        .footer("The run of Rowley & Marsden 2002, Fig. 2.")
 }

@@ -5,15 +5,13 @@
 //! conjugate to it, it has one, in the class of one-step schemes; s' = z then says that s counts the third
 //! species.
 
-use super::rk4::{rk4, rk4_up_to};
-use crate::models::{ThreeSpecies, ThreeSpeciesReduced, ThreeSpeciesReducedState, ThreeSpeciesState};
+use super::rk4::{keep_rk4, rk4_up_to};
 use crate::vocabulary::*;
 
 /// x, y and z at the start; the paths in the figure begin at others too.
 const START: Species = [0.3, 0.7, 2.0];
 const OTHERS: [Species; 3] = [[0.1, 0.9, 2.0], [0.6, 0.9, 1.5], [0.85, 1.0, 1.15]];
 const H: f64 = 0.1;
-/// Steps of the beginning, with which the whole is compared.
 const EARLY: u64 = 2000;
 
 type Species = [f64; 3];
@@ -30,29 +28,22 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(2 * steps);
     // Relative changes of x + y + z and of xyz.
-    let span = Span { end: steps as f64 * H, early: EARLY as f64 * H, intervals: 400 };
+    let span = Span::of(steps, H, EARLY);
     let mut run = Integrator::new(&ThreeSpecies {}, OneStep::midpoint(), H, state(START))?;
     let one_step = job.keep(&mut run, steps, span, |run| {
         [run.energy() / sum(START) - 1.0, (run.q()[3] - product(START).ln()).exp_m1()]
     })?;
-    let (mut by_rk4, mut species, mut step) = (span.deviations(), START, 0u32);
-    job.repeat(steps, || {
-        species = rk4(&species, H, rates);
-        step += 1;
-        let changes =
-            [sum(species) / sum(START), product(species) / product(START)].map(|ratio| ratio - 1.0);
-        note(&mut by_rk4, f64::from(step) * H, changes);
-        Ok(())
+    let rk4 = keep_rk4(job, START, (H, steps), span, rates, |&species| {
+        [sum(species) / sum(START), product(species) / product(START)].map(|ratio| ratio - 1.0)
     })?;
-    let rows = [("one step, midpoint", &one_step), ("RK4", &by_rk4)].into_iter().flat_map(|(name, kept)| {
-        let invariants = ["x + y + z", "xyz"].into_iter().zip(kept);
-        invariants.flat_map(move |(invariant, change)| ranges([name, invariant], &change.envelope))
-    });
-    let table = Table::of(&["method", "invariant", "t", "lowest", "mean", "highest"], rows)?;
-    job.publish(figure(&one_step, &by_rk4, span.end)?, table)?;
+    let all = [("one step, midpoint", BLUE, one_step), ("RK4", VERMILLION, rk4)]
+        .map(|(name, colour, kept)| Series::new(name, Stroke::solid(colour), kept));
+    let columns = ["method", "invariant", "t", "lowest", "mean", "highest"];
+    let table = range_table(&columns, &["x + y + z", "xyz"], &all)?;
+    job.publish(figure(&all, span.end)?, table)?;
     let text = "one step keeps xyz to rounding errors, and its error of x + y + z is no larger in the \
                 whole run than in its beginning; RK4 keeps the sum, which is linear, and loses the product";
-    let ([one_sum, one_product], [rk4_sum, rk4_product]) = (&one_step, &by_rk4);
+    let [[one_sum, one_product], [rk4_sum, rk4_product]] = all.each_ref().map(|series| &series.kept);
     let growth = |of: &str| format!("{of} over all / over {EARLY} steps");
     Ok(vec![
         beyond(text)
@@ -70,14 +61,12 @@ fn state(species: Species) -> ThreeSpeciesState {
     ThreeSpeciesState { x: species[0], s: 0.0, y: species[1], w: product(species).ln() }
 }
 
-/// The species at each step.
 fn orbit(start: Species, h: f64, steps: u64) -> Result<Vec<Species>> {
     let mut run = Integrator::new(&ThreeSpecies {}, OneStep::midpoint(), h, state(start))?;
     let species = |ThreeSpeciesState { x, y, w, .. }: ThreeSpeciesState| [x, y, w.exp() / (x * y)];
     Ok(course(&mut run, steps, |run| species(run.state()))?)
 }
 
-/// The equations of x, y and z as they are.
 fn rates(&[x, y, z]: &Species) -> Species {
     [x * (y - z), y * (z - x), z * (x - y)]
 }
@@ -94,11 +83,8 @@ fn same_motion() -> Result<Claim> {
         run.advance()?;
     }
     let exact = rk4_up_to(START, END, END / 20_000.0, rates);
-    let order = order_of([400, 600, 800], |steps| {
-        let h = END / steps as f64;
-        let end = orbit(START, h, steps)?.pop().unwrap_or(START);
-        Ok((h, apart(&end, &exact)))
-    })?;
+    let error = |q: &[f64]| apart(&[q[0], q[2], q[3].exp() / (q[0] * q[2])], &exact);
+    let order = order_at(&ThreeSpecies {}, OneStep::midpoint(), &state(START), END, [400, 600, 800], error)?;
     Ok(beyond("with w and s, or with xyz as a parameter, the motion is that of the three species")
         .at_most("largest difference of the two in 1000 steps", difference, 1e-11)
         .near("order of the difference from x, y, z at t = 20", order, [2.0, 0.05]))
@@ -115,55 +101,38 @@ fn means() -> Result<Claim> {
         total += 0.5 * (before + run.q()[0]);
     }
     let means = [total / STEPS as f64, run.q()[1] / (STEPS as f64 * H)];
-    Ok(beyond("s counts the third species, whose mean is that of the first").near(
-        "s/t over the mean of x, at t = 2000",
-        means[1] / means[0],
-        [1.0, 3e-3],
-    ))
+    let claim = beyond("s counts the third species, whose mean is that of the first");
+    Ok(claim.near("s/t over the mean of x, at t = 2000", means[1] / means[0], [1.0, 3e-3]))
 }
 
-fn figure(one_step: &[Deviation; 2], rk4: &[Deviation; 2], end: f64) -> Result<Figure> {
-    let [early, first, second, third] =
-        each([START, OTHERS[0], OTHERS[1], OTHERS[2]], |start| orbit(start, H, 300))?;
+fn figure(all: &[Series<2>; 2], end: f64) -> Result<Figure> {
+    let starts = [START, OTHERS[0], OTHERS[1], OTHERS[2]];
+    let orbits = each(starts, |start| orbit(start, H, 300))?;
     // The plane x + y + z = 3, with the corners at which one species is left.
     let flat = |[x, y, z]: Species| [(y - x) / 2.0f64.sqrt(), (2.0 * z - x - y) / 6.0f64.sqrt()];
     let corners = [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]].map(flat);
-    let x = Axis::linear("(*y* − *x*) / √2").within(-2.3, 2.3);
-    let y = Axis::linear("(2*z* − *x* − *y*) / √6").within(-1.5, 2.7);
-    let paths = [&early, &first, &second, &third].into_iter().zip([0, 2, 4, 6]);
-    let plane = Panel::new("Paths in the plane *x* + *y* + *z* = 3", x, y)
-        .equal()
+    let [x, y] = [("(*y* − *x*) / √2", [-2.3, 2.3]), ("(2*z* − *x* − *y*) / √6", [-1.5, 2.7])];
+    let plane = Panel::window("Paths in the plane *x* + *y* + *z* = 3", x, y)
         .line(closed(&corners), Stroke::solid(AMBER).width(1.2))
-        .each(paths, |plane, (path, colour)| {
+        .each(orbits.iter().zip([0, 2, 4, 6]), |plane, (path, colour)| {
             plane.line(path.iter().copied().map(flat).collect(), Stroke::solid(SEQUENCE[colour]).width(1.4))
         });
     let over_time =
-        |i: usize| early.iter().enumerate().map(|(k, species)| [k as f64 * H, species[i]]).collect();
-    let species = Panel::new("Species", Axis::time(20.0), Axis::linear("number").within(0.0, 3.0)).lines([
-        ("*x*", Stroke::solid(BLUE), over_time(0)),
-        ("*y*", Stroke::solid(GREEN), over_time(1)),
-        ("*z*", Stroke::solid(VERMILLION), over_time(2)),
+        |i: usize| orbits[0].iter().zip(0..).map(move |(species, k)| [f64::from(k) * H, species[i]]);
+    let species = Panel::linear("Species", ("time *t*", [0.0, 20.0]), ("number", [0.0, 3.0])).lines([
+        ("*x*", Stroke::solid(BLUE), over_time(0).collect()),
+        ("*y*", Stroke::solid(GREEN), over_time(1).collect()),
+        ("*z*", Stroke::solid(VERMILLION), over_time(2).collect()),
     ]);
-    let axis = Axis::logarithmic("largest relative error").within(1e-16, 10.0);
-    let errors = Panel::new("Errors of the invariants", Axis::time(end), axis).lines([
-        ("one step: *x* + *y* + *z*", Stroke::solid(BLUE), one_step[0].envelope.magnitude()),
-        ("RK4: *x* + *y* + *z*", Stroke::solid(VERMILLION), rk4[0].envelope.magnitude()),
-        ("RK4: *xyz*", Stroke::dashed(VERMILLION), rk4[1].envelope.magnitude()),
+    let [one_step, rk4] = all.each_ref().map(|series| series.kept.each_ref().map(Deviation::magnitude));
+    let ([one_sum, _], [rk4_sum, rk4_product]) = (one_step, rk4);
+    let axis = ("largest relative error", [1e-16, 10.0]);
+    let errors = Panel::semilog("Errors of the invariants", ("time *t*", [0.0, end]), axis).lines([
+        ("one step: *x* + *y* + *z*", Stroke::solid(BLUE), one_sum),
+        ("RK4: *x* + *y* + *z*", Stroke::solid(VERMILLION), rk4_sum),
+        ("RK4: *xyz*", Stroke::dashed(VERMILLION), rk4_product),
     ]);
-    Ok(Figure::new(
-        "Three species that eat each other in a circle",
-        format!(
-            "*x*′ = *x*(*y* − *z*), *y*′ = *y*(*z* − *x*), *z*′ = *z*(*x* − *y*); one-step midpoint \
-                 scheme, *h* = {H}"
-        ),
-    )
-    .row(430.0, vec![plane, species.weight(1.2)])
-    .row(300.0, vec![errors.legend_at(Corner::Beside)])
-    .footer(format!(
-        "Largest relative change of *x* + *y* + *z*: one step {}, RK4 {}; of *xyz*: one step {}, RK4 {}.",
-        at_most(one_step[0].largest),
-        at_most(rk4[0].largest),
-        at_most(one_step[1].largest),
-        scientific(rk4[1].largest)
-    )))
+    Ok(Figure::of(format!("*x*′ = *x*(*y* − *z*), *y*′ = *y*(*z* − *x*), *z*′ = *z*(*x* − *y*); *h* = {H}"))
+        .row(430.0, vec![plane, species.weight(1.2)])
+        .row(300.0, vec![errors.legend_at(Corner::Beside)]))
 }

@@ -7,10 +7,9 @@
 
 use dvi_core::rotations;
 
-use super::geodesics::{FEW_UNITS, Long, flat_energy, order_claim, panels};
-use super::shadow::{self, Shadow};
-use super::turnings::{self, Extreme, Sample, Turnings};
-use crate::models::{Heights, Top, TopState};
+use super::geodesics::{FEW_UNITS, Long, between_heights, flat_energy, order_claim, panels};
+use super::shadow;
+use super::turnings::{self, Sample, up_and_down};
 use crate::vocabulary::*;
 
 const TOP: Top = Top { across: 1.0, along: 0.5, weight: 1.0 };
@@ -45,7 +44,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let geodesics = long.along_geodesics(job, "geodesics", TOP, &begin(), kept)?;
     let all = [long.by_rk4(job, TOP, &begin(), kept)?, geodesics];
     let end = job.choose(400.0, 20.0);
-    let nutations = each(STEPS, |h| nutation(h, end))?;
+    let nutations = each(STEPS, |h| {
+        let mut run = Integrator::new(&TOP, Geodesic::trapezoid(), h, begin())?;
+        up_and_down([h, end], &before, sample(&begin(), energy(&before)), || {
+            run.advance()?;
+            Ok(sample(&run.state(), run.energy()))
+        })
+    })?;
     let table = magnitude_table(&["method", "t", "largest_energy_error", "largest_defect"], &all)?;
     job.publish(figure(&all, long)?, table)?;
     let [rk4, geodesics] = all.each_ref().map(|series| &series.kept);
@@ -67,24 +72,13 @@ fn begin() -> TopState {
     Top::leaning(LEANING, RATES)
 }
 
-/// The energy, with that of the spin.
 fn energy(heights: &Heights) -> f64 {
     heights.energy + heights.spin * heights.spin / (2.0 * TOP.along)
 }
 
-/// Up and down with steps of one length.
-fn nutation(h: f64, end: f64) -> Result<([Extreme; 2], Shadow)> {
-    let (heights, shift) = (TOP.heights(&begin()), TOP.shift(&begin()));
-    let (mut turnings, mut shadow) = (Turnings::new(h), Shadow::new(h, energy(&heights), shift));
-    let mut run = Integrator::new(&TOP, Geodesic::trapezoid(), h, begin())?;
-    for _ in 0..(end / h).round() as u64 {
-        run.advance()?;
-        let state = run.state();
-        let ([height, rate], shift) = (Top::height(&state), TOP.shift(&state));
-        shadow.push(run.energy(), shift);
-        turnings.push(Sample { height, rate, shift });
-    }
-    Ok((turnings.against(&heights, shift), shadow))
+fn sample(state: &TopState, energy: f64) -> Sample {
+    let [height, rate] = Top::height(state);
+    Sample { height, rate, energy, shift: TOP.shift(state) }
 }
 
 fn rounding(job: &Job<'_>, long: Long, [_, defect, spin, vertical]: &[Deviation; 4]) -> Claim {
@@ -120,13 +114,8 @@ fn curve((precession, name): (f64, &str)) -> Result<Panel> {
     let start = Top::leaning(LEANING, [0.0, precession, SPINNING]);
     let mut run = Integrator::new(&TOP, Geodesic::trapezoid(), 2.0 * H, start)?;
     let path = course(&mut run, (DRAWN / (2.0 * H)) as u64, |run| [run.q()[2], run.q()[5]])?;
-    let radii = TOP.heights(&start).extremes().map(|height| (1.0 - height * height).sqrt());
-    let axis = |name: &str| Axis::linear(name).within(-0.9, 0.9);
-    let grey = Stroke::dashed(SLATE).width(1.0);
-    Ok(Panel::new(name, axis("*x*"), axis("*y*"))
-        .equal()
-        .each(radii, |panel, radius| panel.line(circle([0.0; 2], radius), grey))
-        .line(path, Stroke::solid(BLUE).width(1.4)))
+    let empty = Panel::window(name, ("*x*", [-0.9, 0.9]), ("*y*", [-0.9, 0.9]));
+    Ok(between_heights(empty, &TOP.heights(&start)).line(path, Stroke::solid(BLUE).width(1.4)))
 }
 
 fn figure(all: &[Series<4>; 2], long: Long) -> Result<Figure> {
@@ -135,28 +124,20 @@ fn figure(all: &[Series<4>; 2], long: Long) -> Result<Figure> {
         (1, ["Orthogonality", "max |*R*ᵀ*R* − 1|"], [1e-17, 10.0]),
     ];
     let [first, second, third] = CURVES.map(|(precession, _)| precession.to_string().replace('-', "−"));
-    let steps = scientific(long.steps as f64);
-    Ok(Figure::new(
-        "The top of Lagrange",
-        format!(
-            "Moments of inertia 1 and 0.5, weight 1, *ω*₃ = {SPINNING}; rotation matrices along \
-                 geodesics of SO(3), trapezoidal rule."
-        ),
-    )
-    .row(380.0, each(CURVES, curve)?.into())
-    .row(300.0, panels(long.end(), all, &quantities))
-    .footer(format!(
-        "Above: the axis from above, up to *t* = {DRAWN}, from {LEANING} off the vertical with the \
-         precession {first}, {second} and {third}. The roots of the cubic are the circles. Below: {steps} \
-         steps with *h* = {H}."
-    )))
+    let subtitle = format!(
+        "The axis from above, up to *t* = {DRAWN}, from {LEANING} off the vertical with the precession \
+         {first}, {second} and {third}; circles: the roots of the cubic"
+    );
+    Ok(Figure::of(subtitle)
+        .row(380.0, each(CURVES, curve)?.into())
+        .row(300.0, panels(long.end(), all, &quantities))
+        .footer(format!("Moments of inertia 1 and 0.5, weight 1, *ω*₃ = {SPINNING}; below *h* = {H}.")))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::geodesics::reference;
     use super::*;
-    use crate::models::OnManifold as _;
 
     #[test]
     fn the_integrals_by_hand_are_those_of_the_declaration() {

@@ -1,83 +1,87 @@
 //! Where a height that goes up and down turns, between the steps of a run.
 
-use crate::models::Heights;
+use super::shadow::Shadow;
 use crate::vocabulary::*;
 
-/// The turnings of a run with steps of one length.
-#[derive(Clone, Debug)]
-pub struct Turnings {
+struct Turnings {
     h: f64,
     last: Option<Sample>,
-    /// The lowest and the highest ones.
-    found: [Vec<Turning>; 2],
+    /// The lowest and the highest ones: the height, and g.
+    found: [Vec<[f64; 2]>; 2],
 }
 
-/// The height, its rate, and g of the energy E − h²g that steps keep.
+/// The height, its rate, the energy E, and g of the energy E − h²g that steps keep.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     pub height: f64,
     pub rate: f64,
+    pub energy: f64,
     pub shift: f64,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Turning {
-    height: f64,
-    shift: f64,
 }
 
 /// How far the turnings of one side are from the root of the cubic.
 #[derive(Clone, Copy, Debug)]
 pub struct Extreme {
-    pub h: f64,
-    pub count: usize,
+    h: f64,
+    count: usize,
     /// The mean of height − root, the largest magnitude, and what the energy E + h²(g − g(0)) there makes of
     /// it.
-    pub mean: f64,
-    pub largest: f64,
-    pub predicted: f64,
+    mean: f64,
+    largest: f64,
+    predicted: f64,
+}
+
+/// Up and down with steps of length `h` up to a time, each of which `next` takes: the lowest and the highest
+/// turnings, and the energy.
+pub fn up_and_down(
+    [h, end]: [f64; 2],
+    heights: &Heights,
+    start: Sample,
+    mut next: impl FnMut() -> Result<Sample, StepError>,
+) -> Result<([Extreme; 2], Shadow)> {
+    let mut turnings = Turnings { h, last: None, found: [Vec::new(), Vec::new()] };
+    let mut shadow = Shadow::new(h, start.energy, start.shift);
+    for _ in 0..(end / h).round() as u64 {
+        let sample = next()?;
+        shadow.push(sample.energy, sample.shift);
+        turnings.push(sample);
+    }
+    Ok((turnings.against(heights, start.shift), shadow))
 }
 
 impl Turnings {
-    pub fn new(h: f64) -> Self {
-        Self { h, last: None, found: [Vec::new(), Vec::new()] }
-    }
-
-    /// Adds a point of the run, one step after the point before.
-    pub fn push(&mut self, sample: Sample) {
+    fn push(&mut self, sample: Sample) {
         if let Some(before) = self.last.replace(sample)
             && before.rate * sample.rate < 0.0
         {
-            let is_high = before.rate > 0.0;
-            self.found[usize::from(is_high)].push(self.between(before, sample));
+            self.found[usize::from(before.rate > 0.0)].push(self.between(before, sample));
         }
     }
 
     /// The extreme of the cubic polynomial through both heights with both rates.
-    fn between(&self, before: Sample, after: Sample) -> Turning {
+    fn between(&self, before: Sample, after: Sample) -> [f64; 2] {
         let [first, square, cube] =
             hermite([before.height, before.rate], [after.height, after.rate], self.h);
         let root = (square * square - 3.0 * cube * first).max(0.0).sqrt();
         let s = first / (first.signum() * root - square);
-        Turning {
-            height: before.height + s * (first + s * (square + s * cube)),
-            shift: before.shift + s * (after.shift - before.shift),
-        }
+        let height = before.height + s * (first + s * (square + s * cube));
+        [height, before.shift + s * (after.shift - before.shift)]
     }
 
     /// Against the roots at the start, of which g is `shift`: of the lowest and of the highest turnings.
-    pub fn against(&self, heights: &Heights, shift: f64) -> [Extreme; 2] {
+    fn against(&self, heights: &Heights, shift: f64) -> [Extreme; 2] {
         let roots = heights.extremes();
         [0, 1].map(|side| {
             let (root, found) = (roots[side], &self.found[side]);
-            let mean = |of: &dyn Fn(&Turning) -> f64| found.iter().map(of).sum::<f64>() / found.len() as f64;
-            let energy = |turning: &Turning| self.h * self.h * (turning.shift - shift);
+            let mean = |of: &dyn Fn([f64; 2]) -> f64| {
+                found.iter().copied().map(of).sum::<f64>() / found.len() as f64
+            };
             Extreme {
                 h: self.h,
                 count: found.len(),
-                mean: mean(&|turning| turning.height - root),
-                largest: largest(found.iter().map(|turning| (turning.height - root).abs())),
-                predicted: mean(&energy) / heights.stiffness(root),
+                mean: mean(&|[height, _]| height - root),
+                largest: largest(found.iter().map(|[height, _]| (height - root).abs())),
+                predicted: mean(&|[_, g]| self.h * self.h * (g - shift)) / heights.stiffness(root),
             }
         })
     }
@@ -90,30 +94,21 @@ pub fn claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
         "{what} goes up and down between the roots of its cubic, up to a multiple of h², which follows \
          from the energy error in closed form"
     );
-    let [low, high] = coarse;
+    let [[low, high], [_, Extreme { h: half, .. }], [_, Extreme { h, .. }]] = [coarse, middle, fine];
     let square = low.h * low.h;
     let bound = 1.1 * larger(low.predicted.abs(), high.predicted.abs()) / square;
+    let farthest = larger(low.largest, high.largest) / square;
+    let distance = format!("distance from the root, h = {half} over h = {h}");
     beyond(text)
-        .each(
-            ["lowest", "highest"].into_iter().zip(middle.iter().zip(fine)),
-            |claim, (name, (middle, fine))| {
-                let predicted = fine.predicted / (fine.h * fine.h);
-                let distance = format!("distance from the root, h = {} over h = {}", middle.h, fine.h);
-                let over_square = fine.mean / (fine.h * fine.h);
-                claim
-                    .of(name)
-                    .at_least("turnings", fine.count as f64, 5.0)
-                    .of(format!("{name}, h = {}", fine.h))
-                    .near("(height − root)/h²", over_square, [predicted, 0.02 * predicted.abs()])
-                    .of(name)
-                    .near(distance, middle.mean / fine.mean, [4.0, 0.1])
-            },
-        )
-        .at_most(
-            format!("h = {}: largest distance of a turning from its root / h²", low.h),
-            larger(low.largest, high.largest) / square,
-            bound,
-        )
+        .each([0, 1], |claim, side: usize| {
+            let (name, middle, fine) = (["lowest", "highest"][side], &middle[side], &fine[side]);
+            let [predicted, found] = [fine.predicted, fine.mean].map(|height| height / (h * h));
+            let claim = claim.of(name).at_least("turnings", fine.count as f64, 5.0);
+            let claim = claim.of(format!("{name}, h = {h}"));
+            let claim = claim.near("(height − root)/h²", found, [predicted, 0.02 * predicted.abs()]);
+            claim.of(name).near(&distance, middle.mean / fine.mean, [4.0, 0.1])
+        })
+        .at_most(format!("h = {}: largest distance of a turning from its root / h²", low.h), farthest, bound)
 }
 
 /// The coefficients of s, s² and s³ in the cubic polynomial through two values with their rates, a step of
@@ -150,15 +145,15 @@ mod tests {
 
     #[test]
     fn turnings_of_a_sine_are_found_between_the_steps() {
-        let mut turnings = Turnings::new(0.1);
+        let mut turnings = Turnings { h: 0.1, last: None, found: [Vec::new(), Vec::new()] };
         for k in 0..400 {
             let t = f64::from(k) * 0.1 + 0.03;
-            turnings.push(Sample { height: t.sin(), rate: t.cos(), shift: 0.0 });
+            turnings.push(Sample { height: t.sin(), rate: t.cos(), energy: 0.5, shift: 0.0 });
         }
         for (side, found) in turnings.found.iter().enumerate() {
             assert_eq!(found.len(), [6, 7][side]);
             let expected = [-1.0, 1.0][side];
-            assert!(found.iter().all(|turning| (turning.height - expected).abs() < 1e-6), "{found:?}");
+            assert!(found.iter().all(|[height, _]| (height - expected).abs() < 1e-6), "{found:?}");
         }
     }
 }

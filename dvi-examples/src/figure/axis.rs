@@ -1,7 +1,7 @@
 //! Axes: ranges, ticks at round numbers, and their labels.
 
 /// An axis with its label, linear or logarithmic.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Axis {
     pub(super) label: String,
     pub(super) range: Option<[f64; 2]>,
@@ -11,7 +11,7 @@ pub struct Axis {
 
 impl Axis {
     pub fn linear(label: impl Into<String>) -> Self {
-        Self { label: label.into(), range: None, logarithmic: false, names: Vec::new() }
+        Self { label: label.into(), ..Self::default() }
     }
 
     pub fn logarithmic(label: impl Into<String>) -> Self {
@@ -30,9 +30,12 @@ impl Axis {
     }
 
     /// Fixes the range; without it the data decide.
-    pub fn within(mut self, low: f64, high: f64) -> Self {
-        self.range = Some([low, high]);
-        self
+    pub fn within(self, low: f64, high: f64) -> Self {
+        self.range([low, high])
+    }
+
+    pub(super) fn range(self, range: [f64; 2]) -> Self {
+        Self { range: Some(range), ..self }
     }
 
     /// The range to draw for data that span `data`: fixed, or a little wider than the data.

@@ -6,43 +6,7 @@ use std::fmt::Write as _;
 use super::axis::{Axis, Scale};
 use super::decimate::by_column;
 use super::palette::{Colour, PAPER};
-use super::svg::{Pen, Svg, number};
-
-/// A line style.
-#[derive(Clone, Copy, Debug)]
-pub struct Stroke {
-    colour: Colour,
-    width: f64,
-    opacity: f64,
-    dash: Option<&'static str>,
-}
-
-impl Stroke {
-    pub fn solid(colour: Colour) -> Self {
-        Self { colour, width: 1.8, opacity: 1.0, dash: None }
-    }
-
-    pub fn dashed(colour: Colour) -> Self {
-        Self { dash: Some("7 5"), ..Self::solid(colour) }
-    }
-
-    pub fn width(self, width: f64) -> Self {
-        Self { width, ..self }
-    }
-
-    pub fn opacity(self, opacity: f64) -> Self {
-        Self { opacity, ..self }
-    }
-
-    /// The colour, for marks that belong to the line.
-    pub fn colour(self) -> Colour {
-        self.colour
-    }
-
-    fn pen(self) -> Pen {
-        Pen { colour: self.colour, width: self.width, opacity: self.opacity, dash: self.dash }
-    }
-}
+use super::svg::{Stroke, Svg, number};
 
 #[derive(Clone, Debug)]
 pub(super) enum Mark {
@@ -70,7 +34,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.x.place(x), self.y.place(y)]
     }
 
@@ -102,7 +66,7 @@ impl Mark {
                 let drawable = |point: &[f64; 2]| visible(point) && frame.is_near(frame.place(*point));
                 for run in points.split(|point| !drawable(point)).filter(|run| !run.is_empty()) {
                     let run = by_column(run.iter().map(|&point| frame.place(point)));
-                    svg.stroke(&polyline(&run), stroke.pen());
+                    svg.stroke(&polyline(&run), *stroke);
                 }
             }
             Mark::Band(edges, colour) => {
@@ -112,39 +76,37 @@ impl Mark {
             }
             Mark::Dots(points, radius, colour) => {
                 let path = dots(points.iter().filter(|point| visible(point)), frame);
-                svg.dots(&path, Pen { opacity: 0.8, ..Pen::new(*colour, 2.0 * radius) });
+                svg.dots(&path, Stroke::solid(*colour).width(2.0 * radius).opacity(0.8));
             }
             Mark::Discs(points, colour, fill) => {
                 let path = dots(points.iter().filter(|point| visible(point)), frame);
-                svg.dots(&path, Pen::new(PAPER, 12.0));
-                svg.dots(&path, Pen::new(*colour, 9.0));
-                if *fill == Fill::Hollow {
-                    svg.dots(&path, Pen::new(PAPER, 5.0));
-                }
+                svg.dots(&path, Stroke::solid(PAPER).width(12.0));
+                disc(svg, &path, *colour, *fill);
             }
         }
     }
 
     /// A sample of the mark for the legend, around the given point.
     pub(super) fn draw_sample(&self, svg: &mut Svg, [x, y]: [f64; 2]) {
-        let (left, right) = (x - 13.0, x + 13.0);
-        let dash = format!("M{} {y}H{}", number(left), number(right), y = number(y));
-        let dot = format!("M{} {}h0.01", number(x), number(y));
+        let [left, right, above, x, y] = [x - 13.0, x + 13.0, y - 5.0, x, y].map(number);
+        let dot = format!("M{x} {y}h0.01");
         match self {
-            Mark::Line(_, stroke) => svg.stroke(&dash, stroke.width(stroke.width.max(1.8)).pen()),
+            Mark::Line(_, stroke) => svg.stroke(&format!("M{left} {y}H{right}"), stroke.at_least(1.8)),
             Mark::Band(_, colour) => {
-                let patch =
-                    format!("M{} {}H{}v10H{}Z", number(left), number(y - 5.0), number(right), number(left));
-                svg.fill(&patch, *colour, 0.3);
+                svg.fill(&format!("M{left} {above}H{right}v10H{left}Z"), *colour, 0.3);
             }
-            Mark::Dots(_, radius, colour) => svg.dots(&dot, Pen::new(*colour, (2.0 * radius).max(5.0))),
-            Mark::Discs(_, colour, fill) => {
-                svg.dots(&dot, Pen::new(*colour, 9.0));
-                if *fill == Fill::Hollow {
-                    svg.dots(&dot, Pen::new(PAPER, 5.0));
-                }
+            Mark::Dots(_, radius, colour) => {
+                svg.dots(&dot, Stroke::solid(*colour).width((2.0 * radius).max(5.0)));
             }
+            Mark::Discs(_, colour, fill) => disc(svg, &dot, *colour, *fill),
         }
+    }
+}
+
+fn disc(svg: &mut Svg, path: &str, colour: Colour, fill: Fill) {
+    svg.dots(path, Stroke::solid(colour).width(9.0));
+    if fill == Fill::Hollow {
+        svg.dots(path, Stroke::solid(PAPER).width(5.0));
     }
 }
 

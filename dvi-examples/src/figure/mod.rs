@@ -26,11 +26,11 @@ use crate::output::write_whole;
 
 pub use axis::{Axis, at_most, scientific};
 pub use decimate::{Envelope, thin};
-pub use mark::{Fill, Stroke};
+pub use mark::Fill;
 pub use palette::*;
-pub use panel::{Corner, Panel};
-pub use svg::Anchor;
-use svg::{Label, Pen, Svg, number};
+pub use panel::{Corner, Line, Panel, Points, Ranged};
+pub use svg::{Anchor, Stroke};
+use svg::{Label, Svg, number};
 
 const WIDTH: f64 = 1200.0;
 const MARGIN: f64 = 22.0;
@@ -53,10 +53,29 @@ impl Figure {
         Self { title, subtitle, footer: String::new(), key: None, rows: Vec::new() }
     }
 
+    /// A figure that has the title of its experiment.
+    pub fn of(subtitle: impl Into<String>) -> Self {
+        Self::new("", subtitle)
+    }
+
+    /// Gives it this title if it has none.
+    pub fn titled(self, title: &str) -> Self {
+        if self.title.is_empty() { Self { title: title.to_owned(), ..self } } else { self }
+    }
+
     /// Adds a row of panels, `height` units high; a figure is 1200 wide.
     pub fn row(mut self, height: f64, panels: Vec<Panel>) -> Self {
         self.rows.push((height, panels));
         self
+    }
+
+    /// Adds a row of panels that have one legend: beside the last, which is wider by the factor `weight`.
+    pub fn row_with_legend(self, height: f64, mut panels: Vec<Panel>, weight: f64) -> Self {
+        if let Some(last) = panels.pop() {
+            panels = panels.into_iter().map(Panel::without_legend).collect();
+            panels.push(last.legend_at(Corner::Beside).weight(weight));
+        }
+        self.row(height, panels)
     }
 
     /// Small print: the source, and what the reader should be warned of.
@@ -81,7 +100,9 @@ impl Figure {
     pub fn svg(&self) -> String {
         let height = HEADER + self.rows.iter().map(|(height, _)| height).sum::<f64>() + FOOTER;
         let mut svg = Svg::new(WIDTH, height, &self.title);
-        svg.label(Label { bold: true, ..Label::new(&self.title, [MARGIN, 36.0], 20.0) });
+        // Bold letters are about 0.7 as wide as high.
+        let size = (WIDTH / (0.7 * self.title.chars().count() as f64)).min(20.0);
+        svg.label(Label { bold: true, ..Label::new(&self.title, [MARGIN, 36.0], size) });
         svg.label(Label { colour: SLATE, ..Label::new(&self.subtitle, [MARGIN, 59.0], 14.0) });
         self.draw_key(&mut svg);
         let mut top = HEADER;
@@ -105,7 +126,7 @@ impl Figure {
         let left = right - step * SEQUENCE.len() as f64;
         for (i, &colour) in SEQUENCE.iter().enumerate() {
             let x = number(left + step * i as f64);
-            svg.stroke(&format!("M{x} {y}h{}", step + 0.5), Pen::new(colour, 12.0));
+            svg.stroke(&format!("M{x} {y}h{}", step + 0.5), Stroke::solid(colour).width(12.0));
         }
         let label = |text, x, anchor| Label { anchor, ..Label::new(text, [x, y + 4.5], 13.0) };
         svg.label(label(from, left - 8.0, Anchor::End));

@@ -1,22 +1,33 @@
 //! One pair of axes with what is drawn on it.
 
 use super::axis::{Axis, Scale, Ticks};
-use super::mark::{Fill, Frame, Mark, Stroke};
+use super::decimate::Envelope;
+use super::mark::{Fill, Frame, Mark};
 use super::palette::{Colour, GRID, SLATE};
-use super::svg::{Anchor, Label, Pen, Svg, number};
+use super::svg::{Anchor, Label, Stroke, Svg, number};
 
 /// A corner of a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Corner {
     TopLeft,
+    #[default]
     TopRight,
     BottomRight,
     /// To the right of the panel, from the top, for legends that would cover data.
     Beside,
 }
 
+/// Points in their order.
+pub type Points = Vec<[f64; 2]>;
+
+/// The name of a line, how it is drawn, and its points.
+pub type Line<N> = (N, Stroke, Points);
+
+/// The label of an axis, and its range.
+pub type Ranged<'a> = (&'a str, [f64; 2]);
+
 /// One pair of axes with what is drawn on it, in the order in which it was added.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Panel {
     title: String,
     x: Axis,
@@ -24,18 +35,11 @@ pub struct Panel {
     marks: Vec<Mark>,
     legend: Vec<(usize, String)>,
     corner: Corner,
-    notes: Vec<Note>,
+    /// The place in data coordinates, the text, and how it hangs there.
+    notes: Vec<([f64; 2], String, Anchor, Colour)>,
     captions: Vec<(Corner, String)>,
     pub(super) weight: f64,
     equal: bool,
-}
-
-#[derive(Clone, Debug)]
-struct Note {
-    at: [f64; 2],
-    text: String,
-    anchor: Anchor,
-    colour: Colour,
 }
 
 const LEFT: f64 = 70.0;
@@ -52,18 +56,22 @@ const BESIDE: f64 = 150.0;
 
 impl Panel {
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
-        Self {
-            title: title.into(),
-            x,
-            y,
-            marks: Vec::new(),
-            legend: Vec::new(),
-            corner: Corner::TopRight,
-            notes: Vec::new(),
-            captions: Vec::new(),
-            weight: 1.0,
-            equal: false,
-        }
+        Self { title: title.into(), x, y, weight: 1.0, ..Self::default() }
+    }
+
+    /// Linear axes.
+    pub fn linear(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
+        Self::new(title, Axis::linear(x.0).range(x.1), Axis::linear(y.0).range(y.1))
+    }
+
+    /// A logarithmic y axis.
+    pub fn semilog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
+        Self::new(title, Axis::linear(x.0).range(x.1), Axis::logarithmic(y.0).range(y.1))
+    }
+
+    /// Logarithmic axes.
+    pub fn loglog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
+        Self::new(title, Axis::logarithmic(x.0).range(x.1), Axis::logarithmic(y.0).range(y.1))
     }
 
     /// A plane with the coordinates `x` and `y`.
@@ -71,16 +79,18 @@ impl Panel {
         Self::new(title, Axis::linear(x), Axis::linear(y)).equal()
     }
 
+    /// A part of a plane.
+    pub fn window(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
+        Self::linear(title, x, y).equal()
+    }
+
     /// A line through the points; of long series, what the pixels can show.
-    pub fn line(self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
+    pub fn line(self, points: Points, stroke: Stroke) -> Self {
         self.with(Mark::Line(points, stroke))
     }
 
     /// Lines with their names in the legend.
-    pub fn lines<N: Into<String>>(
-        self,
-        lines: impl IntoIterator<Item = (N, Stroke, Vec<[f64; 2]>)>,
-    ) -> Self {
+    pub fn lines<N: Into<String>>(self, lines: impl IntoIterator<Item = Line<N>>) -> Self {
         self.each(lines, |panel, (name, stroke, points)| panel.line(points, stroke).labelled(name))
     }
 
@@ -89,8 +99,27 @@ impl Panel {
         things.into_iter().fold(self, add)
     }
 
+    /// Lines through few points, which are marked, with their names in the legend.
+    pub fn marked<N: Into<String>>(self, lines: impl IntoIterator<Item = Line<N>>) -> Self {
+        self.each(lines, |panel, (name, stroke, points)| {
+            panel.line(points.clone(), stroke).labelled(name).dots(points, 2.6, stroke.colour())
+        })
+    }
+
+    /// The range of a quantity in each interval of time, and its mean, with their names in the legend.
+    pub fn ranges<'a>(self, all: impl IntoIterator<Item = (&'a str, Colour, &'a Envelope)>) -> Self {
+        self.each(all, |panel, (name, colour, of)| {
+            panel.band(of.band(), colour).line(of.mean(), Stroke::solid(colour)).labelled(name)
+        })
+    }
+
+    /// A straight line that others are to be seen beside, with its name in the legend.
+    pub fn guide(self, ends: [[f64; 2]; 2], name: impl Into<String>) -> Self {
+        self.line(ends.into(), Stroke::dashed(SLATE).width(1.2)).labelled(name)
+    }
+
     /// A line below everything that was added before.
-    pub fn below(mut self, points: Vec<[f64; 2]>, stroke: Stroke) -> Self {
+    pub fn below(mut self, points: Points, stroke: Stroke) -> Self {
         self.marks.insert(0, Mark::Line(points, stroke));
         self.legend.iter_mut().for_each(|(mark, _)| *mark += 1);
         self
@@ -102,12 +131,12 @@ impl Panel {
     }
 
     /// Small dots.
-    pub fn dots(self, points: Vec<[f64; 2]>, radius: f64, colour: Colour) -> Self {
+    pub fn dots(self, points: Points, radius: f64, colour: Colour) -> Self {
         self.with(Mark::Dots(points, radius, colour))
     }
 
     /// Large dots, for few points.
-    pub fn discs(self, points: Vec<[f64; 2]>, colour: Colour, fill: Fill) -> Self {
+    pub fn discs(self, points: Points, colour: Colour, fill: Fill) -> Self {
         self.with(Mark::Discs(points, colour, fill))
     }
 
@@ -119,7 +148,7 @@ impl Panel {
 
     /// Writes on the panel, at a point in data coordinates.
     pub fn note(mut self, at: [f64; 2], anchor: Anchor, colour: Colour, text: impl Into<String>) -> Self {
-        self.notes.push(Note { at, text: text.into(), anchor, colour });
+        self.notes.push((at, text.into(), anchor, colour));
         self
     }
 
@@ -158,12 +187,10 @@ impl Panel {
     }
 
     fn frame(&self, [left, top, width, height]: [f64; 4]) -> Frame {
-        let points: Vec<[f64; 2]> = self.marks.iter().flat_map(Mark::corners).collect();
+        let points: Points = self.marks.iter().flat_map(Mark::corners).collect();
         let span = |axis: &Axis, i: usize| {
-            let values = points.iter().map(|point| point[i]).filter(|&value| axis.shows(value));
-            values.fold(None, |span: Option<[f64; 2]>, v| {
-                Some(span.map_or([v, v], |[low, high]| [low.min(v), high.max(v)]))
-            })
+            let values = points.iter().map(|point| [point[i]; 2]).filter(|value| axis.shows(value[0]));
+            values.reduce(|[low, high], [v, _]| [low.min(v), high.max(v)])
         };
         let (mut x, mut y) = (self.x.fit(span(&self.x, 0)), self.y.fit(span(&self.y, 1)));
         if self.equal {
@@ -193,10 +220,9 @@ impl Panel {
             let ([x, y], anchor) = hold(*corner, inner, 10.0, 0.0);
             svg.label(Label { anchor, halo: true, ..Label::new(text, [x, y + 4.5], TEXT) });
         }
-        for note in &self.notes {
-            let at = [frame.x.place(note.at[0]), frame.y.place(note.at[1])];
-            let label = Label::new(&note.text, at, TEXT);
-            svg.label(Label { anchor: note.anchor, colour: note.colour, halo: true, ..label });
+        for &(at, ref text, anchor, colour) in &self.notes {
+            let label = Label::new(text, frame.place(at), TEXT);
+            svg.label(Label { anchor, colour, halo: true, ..label });
         }
     }
 
@@ -212,16 +238,8 @@ impl Panel {
         let (bottom, right) = (top + height, left + width);
         let (x, y) = (self.x.ticks(&frame.x, width / 95.0), self.y.ticks(&frame.y, height / 65.0));
         draw_grid(svg, frame, &x, &y);
-        svg.stroke(
-            &format!(
-                "M{l} {t}V{b}H{r}",
-                l = number(left),
-                t = number(top),
-                b = number(bottom),
-                r = number(right)
-            ),
-            Pen::new(SLATE, 1.0),
-        );
+        let [l, t, b, r] = [left, top, bottom, right].map(number);
+        svg.stroke(&format!("M{l} {t}V{b}H{r}"), Stroke::solid(SLATE).width(1.0));
         let label = |text, at, anchor| Label { anchor, ..Label::new(text, at, TEXT) };
         for (value, text) in &x.marks {
             svg.label(label(text, [frame.x.place(*value), bottom + 20.0], Anchor::Middle));
@@ -278,20 +296,15 @@ fn centred([low, high]: [f64; 2], width: f64) -> [f64; 2] {
 
 fn draw_grid(svg: &mut Svg, frame: &Frame, x: &Ticks, y: &Ticks) {
     let [left, top, width, height] = frame.rectangle().map(|v| (v * 100.0).round() / 100.0);
-    let labelled = |ticks: &Ticks, major: bool| {
-        let marks = ticks.marks.iter().filter(move |(_, label)| label.is_empty() != major);
-        marks.map(|(value, _)| *value).collect::<Vec<_>>()
+    let mut lines = |ticks: &Ticks, is_major: bool, line: &dyn Fn(f64) -> String| {
+        let marks = ticks.marks.iter().filter(|(_, label)| label.is_empty() != is_major);
+        let path: String = marks.map(|(value, _)| line(*value)).collect();
+        svg.stroke(&path, Stroke::solid(if is_major { GRID } else { SLATE }).width(1.0));
     };
-    let across = |y: f64| format!("M{left} {}h{width}", number(frame.y.place(y)));
-    let along = |x: f64| format!("M{} {top}v{height}", number(frame.x.place(x)));
-    let grid: String = labelled(y, true).into_iter().map(across).collect();
-    svg.stroke(&grid, Pen::new(GRID, 1.0));
-    let grid: String = labelled(x, true).into_iter().map(along).collect();
-    svg.stroke(&grid, Pen::new(GRID, 1.0));
-    let minor = |y: f64| format!("M{left} {}h4", number(frame.y.place(y)));
-    let ticks: String = labelled(y, false).into_iter().map(minor).collect();
-    svg.stroke(&ticks, Pen::new(SLATE, 1.0));
-    let minor = |x: f64| format!("M{} {}v-4", number(frame.x.place(x)), number(top + height));
-    let ticks: String = labelled(x, false).into_iter().map(minor).collect();
-    svg.stroke(&ticks, Pen::new(SLATE, 1.0));
+    let (across, along) = (|y| number(frame.y.place(y)), |x| number(frame.x.place(x)));
+    let bottom = number(top + height);
+    lines(y, true, &|y| format!("M{left} {}h{width}", across(y)));
+    lines(x, true, &|x| format!("M{} {top}v{height}", along(x)));
+    lines(y, false, &|y| format!("M{left} {}h4", across(y)));
+    lines(x, false, &|x| format!("M{} {bottom}v-4", along(x)));
 }

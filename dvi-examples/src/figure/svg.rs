@@ -35,16 +35,37 @@ impl<'a> Label<'a> {
 
 /// How a path is drawn.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pen {
-    pub(super) colour: Colour,
-    pub(super) width: f64,
-    pub(super) opacity: f64,
-    pub(super) dash: Option<&'static str>,
+pub struct Stroke {
+    colour: Colour,
+    width: f64,
+    opacity: f64,
+    dash: &'static str,
 }
 
-impl Pen {
-    pub(super) fn new(colour: Colour, width: f64) -> Self {
-        Self { colour, width, opacity: 1.0, dash: None }
+impl Stroke {
+    pub const fn solid(colour: Colour) -> Self {
+        Self { colour, width: 1.8, opacity: 1.0, dash: "" }
+    }
+
+    pub const fn dashed(colour: Colour) -> Self {
+        Self { dash: " stroke-dasharray=\"7 5\"", ..Self::solid(colour) }
+    }
+
+    pub const fn width(self, width: f64) -> Self {
+        Self { width, ..self }
+    }
+
+    pub(super) fn at_least(self, width: f64) -> Self {
+        self.width(self.width.max(width))
+    }
+
+    pub const fn opacity(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
+    }
+
+    /// The colour, for marks that belong to the line.
+    pub fn colour(self) -> Colour {
+        self.colour
     }
 }
 
@@ -68,31 +89,23 @@ impl Svg {
         Self { text, clips: 0 }
     }
 
-    pub(super) fn stroke(&mut self, path: &str, pen: Pen) {
-        if path.is_empty() {
-            return;
-        }
-        let dash = pen.dash.map_or(String::new(), |dash| format!(" stroke-dasharray=\"{dash}\""));
-        self.line(&format!(
-            "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\"{dash}/>",
-            pen.colour.0,
-            number(pen.width),
-            number(pen.opacity),
-        ));
+    pub(super) fn stroke(&mut self, path: &str, stroke: Stroke) {
+        self.path(path, stroke, stroke.dash);
     }
 
     /// Round dots, one for each `M x yh0` of the path.
-    pub(super) fn dots(&mut self, path: &str, pen: Pen) {
-        if path.is_empty() {
-            return;
+    pub(super) fn dots(&mut self, path: &str, stroke: Stroke) {
+        self.path(path, stroke, " stroke-linecap=\"round\"");
+    }
+
+    fn path(&mut self, path: &str, Stroke { colour, width, opacity, .. }: Stroke, more: &str) {
+        if !path.is_empty() {
+            let (colour, width, opacity) = (colour.0, number(width), number(opacity));
+            self.line(&format!(
+                "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" \
+                 stroke-opacity=\"{opacity}\"{more}/>"
+            ));
         }
-        self.line(&format!(
-            "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\" \
-             stroke-linecap=\"round\"/>",
-            pen.colour.0,
-            number(pen.width),
-            number(pen.opacity),
-        ));
     }
 
     pub(super) fn fill(&mut self, path: &str, colour: Colour, opacity: f64) {

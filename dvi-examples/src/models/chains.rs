@@ -1,9 +1,82 @@
-//! A chain of molecules of three atoms in the plane, rigid or with springs.
+//! Chains: a pendulum of many links, springs that are stiff and soft in turn, and molecules of three atoms.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_6, TAU};
 
 use dvi_core::error::StartError;
 use dvi_core::prelude::*;
+
+/// n equal masses on equal rods without mass, one below the other: in all of mass 1 and length 1, with g =
+/// 1.
+#[lagrangian(
+    coordinates(x[n], y[n]),
+    lagrangian = sum(0..n, |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - y[i]) / (n as f64),
+    constraint = x[0].powi(2) + y[0].powi(2) - 1.0 / (n as f64).powi(2),
+    constraint(i in 1..n) = (x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2) - 1.0 / (n as f64).powi(2),
+)]
+#[derive(Clone, Debug)]
+pub struct Links {
+    /// How many links there are.
+    pub n: usize,
+}
+
+impl Links {
+    /// The length of a rod.
+    pub fn rod(&self) -> f64 {
+        1.0 / self.n as f64
+    }
+
+    /// At rest, with angles from the vertical that grow from zero at the pivot to `angle` at the end.
+    pub fn bent(&self, angle: f64) -> LinksState {
+        let (mut x, mut y, mut place) = (Vec::new(), Vec::new(), [0.0; 2]);
+        for i in 0..self.n {
+            let theta = angle * (i as f64 + 0.5) * self.rod();
+            place = [place[0] + self.rod() * theta.sin(), place[1] - self.rod() * theta.cos()];
+            x.push(place[0]);
+            y.push(place[1]);
+        }
+        LinksState { x, y, dot_x: vec![0.0; self.n], dot_y: vec![0.0; self.n] }
+    }
+}
+
+/// 2m equal masses between two walls (Hairer, Lubich & Wanner 2006, section I.5.1). Masses 2i and 2i + 1 are
+/// joined by a stiff linear spring; the springs between these pairs and to the walls are soft, with the
+/// potential r⁴. So x = (q_{2i+1} − q_{2i})/√2 is an oscillator of frequency ω but for the soft springs.
+#[lagrangian(
+    coordinates(q[2 * m]),
+    lagrangian = sum(0..2 * m, |i| dot(q[i]).powi(2)) / 2.0
+        - omega.powi(2) / 4.0 * sum(0..m, |i| (q[2 * i + 1] - q[2 * i]).powi(2))
+        - q[0].powi(4) - sum(1..m, |i| (q[2 * i] - q[2 * i - 1]).powi(4)) - q[2 * m - 1].powi(4),
+)]
+#[derive(Clone, Debug)]
+pub struct SpringChain {
+    /// m, the number of stiff springs.
+    pub m: usize,
+    /// ω
+    pub omega: f64,
+}
+
+impl SpringChain {
+    /// All energy is in the first pair: its centre (q₀ + q₁)/√2 is at `centre` with velocity 1, and its
+    /// spring has the energy 1.
+    pub fn first_pair(&self, centre: f64) -> SpringChainState {
+        let (mut q, mut dot_q) = (vec![0.0; 2 * self.m], vec![0.0; 2 * self.m]);
+        if let ([q0, q1, ..], [v0, v1, ..]) = (&mut q[..], &mut dot_q[..]) {
+            let x = 1.0 / self.omega;
+            [*q0, *q1] = [FRAC_1_SQRT_2 * (centre - x), FRAC_1_SQRT_2 * (centre + x)];
+            [*v0, *v1] = [0.0, FRAC_1_SQRT_2 * 2.0];
+        }
+        SpringChainState { q, dot_q }
+    }
+
+    /// ½(x'² + sω²x²) of each stiff spring, for a factor s.
+    pub fn oscillatory(&self, state: &SpringChainState, s: f64) -> Vec<f64> {
+        let pairs = state.q.chunks_exact(2).zip(state.dot_q.chunks_exact(2));
+        let energy = |(q, dot_q): (&[f64], &[f64])| {
+            0.25 * ((dot_q[1] - dot_q[0]).powi(2) + s * (self.omega * (q[1] - q[0])).powi(2))
+        };
+        pairs.map(energy).collect()
+    }
+}
 
 /// n rigid triangles in a row. The atoms 3m, 3m + 1 and 3m + 2 of molecule m have mass 1 and are joined by
 /// rods of length 1. The last two of a molecule face the first two of the next one: each of these four pairs

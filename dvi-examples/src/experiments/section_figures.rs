@@ -1,0 +1,101 @@
+//! How sections of four vortices are shown, in figures and in tables.
+
+use super::sections::{Crossings, LABELS, Scheme};
+use crate::vocabulary::*;
+
+pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ \
+                          e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
+
+/// More crossings than these make files larger, and no clearer.
+const SHOWN: usize = 15_000;
+
+impl Scheme {
+    pub fn name(self) -> &'static str {
+        match self {
+            Scheme::Vi2 => "VI2",
+            Scheme::Rk4 => "RK4",
+            Scheme::Gauss6 => "Gauss6",
+        }
+    }
+}
+
+impl Crossings {
+    pub fn name(&self) -> String {
+        format!("{} at h = {}", self.scheme.name(), self.h)
+    }
+
+    /// What the growth of the energy error is called.
+    pub fn growth_name(&self) -> String {
+        format!("max|ΔH| over all / over the first tenth, {}", self.name())
+    }
+
+    fn title(&self) -> String {
+        format!("{}, *h* = {}", self.scheme.name(), self.h)
+    }
+
+    /// Says so if the vortices are not in their given order.
+    pub fn relabelling(&self) -> Option<String> {
+        let [a, b, c, d] = self.labels.map(|j| j + 1);
+        (self.labels != LABELS[0]).then(|| format!("*a* = 1, 2, 3, 4 are vortices {a}, {b}, {c}, {d}"))
+    }
+
+    /// A panel with the section, coloured by time.
+    pub fn panel(&self, r1: [f64; 2], p1: [f64; 2], radius: f64) -> Panel {
+        let shown = thin(&self.points, SHOWN);
+        let interval = |t: f64| (t / self.end * SEQUENCE.len() as f64) as usize;
+        let colours = SEQUENCE.into_iter().enumerate();
+        Panel::window(self.title(), ("*R*₁", r1), ("*P*₁", p1)).each(colours, |panel, (i, colour)| {
+            let places = shown.iter().filter(|[t, ..]| interval(*t) == i).map(|&[_, r1, p1]| [r1, p1]);
+            panel.dots(places.collect(), radius, colour)
+        })
+    }
+}
+
+/// What the paper says of the energy in both figures, with the checks for VI2.
+pub fn stays_close(vi2: &[Crossings]) -> Claim {
+    let says = "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts";
+    Claim::new("section 5", says)
+        .each(vi2, |claim, run| claim.at_most(run.growth_name(), run.error.growth(), 1.1))
+}
+
+/// The sections of VI2, those of RK4, and |H − H(0)| of all runs over time.
+pub fn figure(
+    [title, subtitle]: [&str; 2],
+    all: &[Crossings; 6],
+    end: f64,
+    panel: impl Fn(&Crossings) -> Panel,
+) -> Figure {
+    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
+    let largest = "Largest error of the Hamiltonian in each interval of time";
+    let colours = [BLUE, GREEN, VERMILLION].into_iter().cycle();
+    let lines = all.iter().zip(colours).map(|(run, colour)| {
+        let stroke = if run.scheme == Scheme::Vi2 { Stroke::solid(colour) } else { Stroke::dashed(colour) };
+        (run.title(), stroke, run.error.envelope.magnitude())
+    });
+    let energy = Panel::new(largest, time, Axis::logarithmic("|*H*(*t*) − *H*(0)|   [Γ²]")).lines(lines);
+    Figure::new(title, subtitle)
+        .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
+        .row(370.0, all[..3].iter().map(&panel).collect())
+        .row(370.0, all[3..].iter().map(&panel).collect())
+        .row(330.0, vec![energy.legend_at(Corner::Beside)])
+}
+
+/// The section coordinates, and the runs that were relabelled or ended early.
+pub fn notes(all: &[Crossings]) -> Vec<String> {
+    let relabelled = all
+        .iter()
+        .filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?.replace('*', ""))));
+    let ends = all
+        .iter()
+        .filter_map(|run| run.failure.map(|error| format!("{} ended early: {error}.", run.name())));
+    [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(ends).collect()
+}
+
+/// The sections as a table.
+pub fn table(all: &[Crossings]) -> Result<Table> {
+    let rows = all.iter().flat_map(|section| {
+        let points = thin(&section.points, SHOWN).into_iter();
+        points.map(|[t, r1, p1]| ([section.scheme.name()], [section.h, t, r1, p1]))
+    });
+    Table::of(&["scheme", "h", "t", "R1", "P1"], rows)
+}
