@@ -12,7 +12,7 @@
 //! # let path = folder.join(format!("dvi-archive-{}", std::process::id()));
 //! # let _ = std::fs::remove_file(&path);
 //! let begin = || {
-//!     let start: PendulumState = PendulumState { angle: 1.0, dot_angle: 0.0 };
+//!     let start = PendulumState { angle: 1.0, dot_angle: 0.0 };
 //!     Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)
 //! };
 //! let mut archive = Archive::new(&path, begin()?, Every::Steps(10_000))?;
@@ -52,7 +52,7 @@
 //! use dvi_core::prelude::*;
 //! # #[lagrangian(coordinates(angle), lagrangian = dot(angle).powi(2) / 2.0 + angle.cos())]
 //! # struct Pendulum;
-//! # let start: PendulumState = PendulumState { angle: 1.0, dot_angle: 0.0 };
+//! # let start = PendulumState { angle: 1.0, dot_angle: 0.0 };
 //! # let path = std::env::temp_dir().join(format!("dvi-checkpoint-{}", std::process::id()));
 //!
 //! let mut run = Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)?;

@@ -179,7 +179,7 @@ const LARGEST: f64 = 1e-2;
 /// let n = 500;
 /// let blobs = Blobs { weight: vec![1.0; n] };
 /// let angle = |j: usize| 0.1 * j as f64;
-/// let start: BlobsState = BlobsState {
+/// let start = BlobsState {
 ///     x: (0..n).map(|j| angle(j).cos() * (1.0 + j as f64 / 500.0)).collect(),
 ///     y: (0..n).map(|j| angle(j).sin()).collect(),
 /// };

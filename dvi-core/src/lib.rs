@@ -19,7 +19,7 @@
 //! }
 //!
 //! let pendulum = Pendulum { g: 9.81, length: 1.0 };
-//! let start: PendulumState = PendulumState { angle: 1.0, dot_angle: 0.0 };
+//! let start = PendulumState { angle: 1.0, dot_angle: 0.0 };
 //! let mut run = Integrator::new(&pendulum, Variational::trapezoid(), 0.01, start)?;
 //! let energy = run.energy();
 //! for state in run.by_ref().take(1000) {

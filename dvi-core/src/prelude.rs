@@ -7,7 +7,7 @@
 //! #[lagrangian(coordinates(angle), lagrangian = dot(angle).powi(2) / 2.0 + angle.cos())]
 //! struct Pendulum;
 //!
-//! let start: PendulumState = PendulumState { angle: 1.0, dot_angle: 0.0 };
+//! let start = PendulumState { angle: 1.0, dot_angle: 0.0 };
 //! let mut run = Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)?;
 //! run.take_steps(1000)?;
 //! assert!((run.energy() + 1_f64.cos()).abs() < 1e-4);

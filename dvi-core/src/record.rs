@@ -13,7 +13,7 @@
 //! )]
 //! struct Kepler;
 //!
-//! let start: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
+//! let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
 //! let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
 //! let record = run.record(10, 200)?; // now, and 200 times after 10 steps each
 //! let names: Vec<&str> = record.columns().iter().map(|column| column.name()).collect();
@@ -59,7 +59,7 @@
 //! #     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / x.hypot(y),
 //! # )]
 //! # struct Kepler;
-//! # let start: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
+//! # let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
 //! # let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
 //! use dvi_core::record::Recorder;
 //!

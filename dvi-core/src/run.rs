@@ -128,7 +128,7 @@ pub trait Run {
     /// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
     /// struct Oscillator;
     ///
-    /// let start: OscillatorState = OscillatorState { x: 1.0, dot_x: 0.0 };
+    /// let start = OscillatorState { x: 1.0, dot_x: 0.0 };
     /// let mut run = Integrator::new(&Oscillator, Gauss::<4>::new(), 0.2, start)?;
     /// for state in run.states_at([0.1, 0.123, 7.0, 70.7])? {
     ///     let (t, OscillatorState { x, .. }) = state?;
@@ -178,7 +178,7 @@ pub trait Run {
     /// )]
     /// struct Kepler;
     ///
-    /// let start: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
+    /// let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
     /// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
     /// let event = run.declared_events([Direction::Rising])?.next_until(20.0)?.ok_or("it comes back")?;
     /// assert_eq!(Kepler::REPORT.events[event.index], "pericentre");

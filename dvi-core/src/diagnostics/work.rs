@@ -30,7 +30,7 @@ const NODES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 /// )]
 /// struct Damped;
 ///
-/// let start: DampedState = DampedState { x: 1.0, dot_x: 0.0 };
+/// let start = DampedState { x: 1.0, dot_x: 0.0 };
 /// let mut run = Integrator::new(&Damped, Galerkin::<4>::new(), 0.1, start)?;
 /// let (mut work, begin) = (Work::new(&run), run.energy());
 /// for _ in 0..100 {

@@ -131,7 +131,7 @@ impl<T: Real> FrequencyIn<T> for Unfitted {
 /// #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - 2.0 * x * x)]
 /// struct Spring; // with frequency 2
 ///
-/// let start: SpringState = SpringState { x: 1.0, dot_x: 0.0 };
+/// let start = SpringState { x: 1.0, dot_x: 0.0 };
 /// let method = Variational::trapezoid().phase_fitted(Constant(2.0));
 /// let mut run = Integrator::new(&Spring, method, 0.5, start)?; // six steps a period
 /// run.take_steps(100)?;
@@ -208,7 +208,7 @@ fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
 /// ```
 #[doc = include_str!("../../docs/hidden/kepler.txt")]
 /// // On a circle the path turns with the frequency of the motion, and so do the steps.
-/// let circle: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
+/// let circle = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
 /// let method = Variational::simpson().phase_fitted(Curvature(Reading::Averaged));
 /// let mut run = Integrator::new(&Kepler, method, 0.1, circle)?;
 /// run.take_steps(100)?;

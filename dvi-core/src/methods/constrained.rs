@@ -72,7 +72,7 @@ use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 /// }
 ///
 /// let pendulum = Pendulum { g: 9.81, length: 1.0 };
-/// let start: PendulumState = PendulumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+/// let start = PendulumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
 /// let method = Constrained::new(Variational::trapezoid());
 /// let mut run = Integrator::new(&pendulum, method, 0.01, start)?;
 /// run.take_steps(10_000)?;

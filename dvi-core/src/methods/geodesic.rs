@@ -75,7 +75,7 @@ use memory::GeodesicMemory;
 ///
 /// let top = Top { across: 1.0, along: 0.5, weight: 1.0 };
 /// let tilted = rotations::exp([0.3, 0.0, 0.0]);
-/// let start: TopState = TopState { R: tilted, omega_R: [0.0, 0.0, 8.0] };
+/// let start = TopState { R: tilted, omega_R: [0.0, 0.0, 8.0] };
 /// let mut run = Integrator::new(&top, Geodesic::trapezoid(), 0.01, start)?;
 /// let [energy, vertical] = [run.energy(), run.momentum(1).unwrap()];
 /// run.take_steps(10_000)?;

@@ -21,7 +21,7 @@ use passage::Passage;
 /// #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y, impact = y)]
 /// struct Ball;
 ///
-/// let start: BallState = BallState { y: 1.0, dot_y: 0.0 };
+/// let start = BallState { y: 1.0, dot_y: 0.0 };
 /// let method = Impacts::reflecting(Variational::midpoint()).with_restitution(0.8);
 /// assert_eq!(method.collision, Collision::Reflection);
 /// let mut run = Integrator::new(&Ball, method, 0.01, start)?;
@@ -91,7 +91,7 @@ pub enum Collision {
 /// struct Ball;
 ///
 /// // It falls for √2 units of time, and rises again.
-/// let start: BallState = BallState { y: 1.0, dot_y: 0.0 };
+/// let start = BallState { y: 1.0, dot_y: 0.0 };
 /// let method = Impacts::new(Variational::midpoint());
 /// let mut run = Integrator::new(&Ball, method, 0.02, start)?;
 /// run.take_steps(70)?;

@@ -50,7 +50,7 @@ use crate::{Real, RegularLagrangian, Scalar, Separable, Space, System, Vector};
 /// struct Spring;
 ///
 /// let method = Langevin { friction: 1.0, temperature: 0.5, seed: 7 };
-/// let start: SpringState = SpringState { x: 0.0, dot_x: 0.0 };
+/// let start = SpringState { x: 0.0, dot_x: 0.0 };
 /// let mut run = Integrator::new(&Spring, method, 0.2, start)?;
 /// let mut sum = 0.0;
 /// for _ in 0..100_000 {

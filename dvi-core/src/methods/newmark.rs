@@ -50,7 +50,7 @@ use crate::{Linear, Real, RegularLagrangian, Separable, System, Vector, Weights}
 /// struct Stiff;
 ///
 /// // A hundred times the step up to which Störmer–Verlet is stable.
-/// let start: StiffState = StiffState { x: 1.0, dot_x: 0.0 };
+/// let start = StiffState { x: 1.0, dot_x: 0.0 };
 /// let mut run = Integrator::new(&Stiff, Newmark::new(0.25), 2.0, start)?;
 /// let energy = run.energy();
 /// run.take_steps(1000)?;

@@ -60,7 +60,7 @@ use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights}
 /// )]
 /// struct Predators;
 ///
-/// let start: PredatorsState = PredatorsState { x: 1.0, y: 0.5 };
+/// let start = PredatorsState { x: 1.0, y: 0.5 };
 /// let mut run = Integrator::new(&Predators, Projected::symmetric(), 0.05, start)?;
 /// let energy = run.energy();
 /// run.take_steps(10_000)?;

@@ -35,7 +35,7 @@ use memory::VariationalMemory;
 /// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
 /// struct Oscillator;
 ///
-/// let start: OscillatorState = OscillatorState { x: 0.0, dot_x: 1.0 };
+/// let start = OscillatorState { x: 0.0, dot_x: 1.0 };
 /// let end = |fitting| -> Result<f64, Box<dyn std::error::Error>> {
 ///     let method = Variational { fitting, ..Variational::midpoint().phase_fitted(Constant(1.0)) };
 ///     let mut run = Integrator::new(&Oscillator, method, 1.0, start.clone())?;

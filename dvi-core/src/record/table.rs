@@ -24,7 +24,7 @@ use crate::error::StepError;
 /// #[lagrangian(coordinates(angle), lagrangian = dot(angle).powi(2) / 2.0 + 9.81 * angle.cos())]
 /// struct Pendulum;
 ///
-/// let start: PendulumState = PendulumState { angle: 2.0, dot_angle: 0.0 };
+/// let start = PendulumState { angle: 2.0, dot_angle: 0.0 };
 /// let mut run = Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)?;
 /// let record = Recorder::new(&Pendulum)
 ///     .with_function("bob_x", |_, state, _| state.angle.sin())?

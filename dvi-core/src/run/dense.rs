@@ -37,7 +37,7 @@ pub use states_at::StatesAt;
 /// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
 /// struct Oscillator;
 ///
-/// let start: OscillatorState = OscillatorState { x: 1.0, dot_x: 0.0 };
+/// let start = OscillatorState { x: 1.0, dot_x: 0.0 };
 /// let mut run = Integrator::new(&Oscillator, Gauss::<3>::new(), 0.1, start)?;
 /// let mut dense = run.dense()?;
 /// dense.advance_to(0.75)?;

@@ -80,7 +80,7 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 /// #[lagrangian(coordinates(height), lagrangian = dot(height).powi(2) / 2.0 - height)]
 /// struct Ball;
 ///
-/// let start: BallState = BallState { height: 0.5, dot_height: 0.0 };
+/// let start = BallState { height: 0.5, dot_height: 0.0 };
 /// let mut run = Integrator::new(&Ball, Variational::trapezoid(), 0.1, start)?;
 /// // It is at the floor, and at the top of its way.
 /// let conditions = [Direction::Falling, Direction::Falling];

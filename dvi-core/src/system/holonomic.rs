@@ -27,7 +27,7 @@ use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, Syste
 /// let mut g = [0.0_f64];
 /// Rod.constraint(&[0.6, -0.8], 0.0, &mut g);
 /// assert!(g[0].abs() < 1e-15); // the rod has length 1
-/// let start: RodState = RodState { x: 0.6, y: -0.8, dot_x: 0.0, dot_y: 0.0 };
+/// let start = RodState { x: 0.6, y: -0.8, dot_x: 0.0, dot_y: 0.0 };
 /// let mut run = Integrator::new(&Rod, Rattle::default(), 0.01, start)?;
 /// run.take_steps(1000)?;
 /// assert!((run.state().x.hypot(run.state().y) - 1.0).abs() < 1e-14);

@@ -41,7 +41,7 @@ pub trait ManifoldSystem: System {
 /// struct Free;
 ///
 /// // It follows a great circle, around once in 2π units of time.
-/// let start: FreeState = FreeState { s: [1.0, 0.0, 0.0], dot_s: [0.0, 1.0, 0.0] };
+/// let start = FreeState { s: [1.0, 0.0, 0.0], dot_s: [0.0, 1.0, 0.0] };
 /// let mut run = Integrator::new(&Free, Geodesic::midpoint(), 0.1, start)?;
 /// run.take_steps(100)?;
 /// assert!((run.state().s[0] - 10_f64.cos()).abs() < 1e-12);

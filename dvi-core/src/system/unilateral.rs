@@ -24,7 +24,7 @@ use crate::system::{ConstrainedSystem, NondegenerateLagrangian, System, Unilater
 /// #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y, impact = y)]
 /// struct Ball;
 ///
-/// let start: BallState = BallState { y: 1.0, dot_y: 0.0 };
+/// let start = BallState { y: 1.0, dot_y: 0.0 };
 /// let mut run = Integrator::new(&Ball, Impacts::reflecting(Variational::midpoint()), 0.01, start)?;
 /// run.take_steps(1000)?;
 /// let mut gap = [0.0];

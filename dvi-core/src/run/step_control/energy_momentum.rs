@@ -67,7 +67,7 @@ const REACH: f64 = 4.0;
 /// )]
 /// struct Spring;
 ///
-/// let start: SpringState = SpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
+/// let start = SpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
 /// let mut run = ControlledIntegrator::new(&Spring, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
 /// run.take_steps(1000)?;
 /// assert!(run.control_memory().defect().abs() < 1e-13);

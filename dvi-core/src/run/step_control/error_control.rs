@@ -70,7 +70,7 @@ const STRETCH: f64 = 1.01;
 /// struct Kepler;
 ///
 /// // An orbit of eccentricity 0.9 at its pericentre.
-/// let start: KeplerState = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
+/// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
 /// let control = ErrorControl::new(1e-10, 0.01);
 /// let mut run = ControlledIntegrator::new(&Kepler, Gauss::<8>::new().in_lanes(), control, start)?;
 /// run.advance_to(TAU)?;
@@ -103,7 +103,7 @@ pub struct ErrorControl<'a> {
     /// struct Pushed;
     ///
     /// let control = ErrorControl { breaks: &[50.0, 50.2], ..ErrorControl::new(1e-9, 0.01) };
-    /// let start: PushedState = PushedState { x: 0.0, dot_x: 0.0 };
+    /// let start = PushedState { x: 0.0, dot_x: 0.0 };
     /// let mut run = ControlledIntegrator::new(&Pushed, Gauss::<8>::new(), control, start)?;
     /// run.advance_to(100.0)?;
     /// assert!((run.state().x - 9.98).abs() < 1e-11 && run.steps() < 20);

@@ -28,7 +28,7 @@ use crate::{Held, Lagrangian, Real, RegularLagrangian, Scalar, System, Vector};
 /// ```
 #[doc = include_str!("../../../docs/hidden/kepler.txt")]
 /// // An orbit of eccentricity 0.9, from its pericentre.
-/// let start: KeplerState = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
+/// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
 /// let control = Reversible::power(0.02, 1.5);
 /// let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
 /// let (energy, first) = (run.energy(), run.step_size());

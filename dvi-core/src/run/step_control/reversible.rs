@@ -92,7 +92,7 @@ impl<T: Real> Density<T> for Power {
 /// ```
 #[doc = include_str!("../../../docs/hidden/kepler.txt")]
 /// // An orbit of eccentricity 0.9, from its pericentre, over some 100 revolutions.
-/// let start: KeplerState = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
+/// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
 /// let control = Reversible::power(0.02, 1.5);
 /// let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
 /// let energy = run.energy();
