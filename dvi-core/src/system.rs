@@ -223,14 +223,16 @@ pub trait Lagrangian<T: Scalar = f64>: System {
     /// ∂L/∂v = ∂L/∂q + F; of a degenerate system, Ω q' = ∇H − F + ∂α/∂t (Marsden & West 2001, section 3.1).
     /// So F stands wherever ∂L/∂q does, in the motion and in the discrete equations of every method: with
     /// L_d come the forces that the same rule makes of F.
-    fn applied_force(&self, _q: &[T], _v: &[T], _t: T, out: &mut [T]) {
+    #[allow(unused_variables)]
+    fn applied_force(&self, q: &[T], v: &[T], t: T, out: &mut [T]) {
         out.fill(T::lift(0.0));
     }
 
     /// Whether L or a force is not a number at this point because a function that holds data is evaluated
     /// outside of its [domain](crate::ScalarField::domain), and which argument of which function: the first
     /// one that is.
-    fn outside(&self, _q: &[T], _v: &[T], _t: T) -> Option<OutsideError>
+    #[allow(unused_variables)]
+    fn outside(&self, q: &[T], v: &[T], t: T) -> Option<OutsideError>
     where
         T: Real,
     {
@@ -239,12 +241,14 @@ pub trait Lagrangian<T: Scalar = f64>: System {
 
     /// A finite number where L and forces are numbers, as far as that does not depend on velocities, and
     /// none outside, if the system [has a domain](System::HAS_DOMAIN).
-    fn domain(&self, _q: &[T], _t: T) -> T {
+    #[allow(unused_variables)]
+    fn domain(&self, q: &[T], t: T) -> T {
         T::lift(0.0)
     }
 
     /// What the time transformation of the system is at this point, if it has one ([`TimeTransformed`]).
-    fn time_transform(&self, _q: &[T]) -> Option<TimeTransform<T>> {
+    #[allow(unused_variables)]
+    fn time_transform(&self, q: &[T]) -> Option<TimeTransform<T>> {
         None
     }
 

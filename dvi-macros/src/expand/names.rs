@@ -1,5 +1,5 @@
 //! The names in generated code that users read in messages and documentation: that of the type of numbers,
-//! and those of the arguments of functions, which are called here as in the traits.
+//! and those of generics and arguments of functions, which are called here as in the traits.
 
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt as _;
@@ -9,6 +9,9 @@ const INTERNAL: &str = "__T";
 
 /// What it is called where the user has nothing of that name.
 const NUMBERS: [&str; 4] = ["T", "Number", "Numbers", "Scalar"];
+
+/// Generics besides, and what they are called in the traits, where the user has nothing of that name.
+const GENERICS: [(&str, &str); 2] = [("__K", "K"), ("__W", "W")];
 
 /// Arguments as the stages write them, and what they are called where the user has nothing of the first name.
 #[rustfmt::skip]
@@ -43,7 +46,9 @@ pub(super) fn renaming(inputs: [&TokenStream; 2]) -> Renaming {
     inputs.into_iter().for_each(|input| mentioned(input, &mut taken));
     let is_free = |name: &str| !taken.contains(&name);
     let numbers = NUMBERS.into_iter().find(|name| is_free(name)).map(|name| (INTERNAL, name));
-    numbers.into_iter().chain(ARGUMENTS.into_iter().filter(|(internal, _)| is_free(internal))).collect()
+    let generics = GENERICS.into_iter().filter(|(_, name)| is_free(name));
+    let arguments = ARGUMENTS.into_iter().filter(|(internal, _)| is_free(internal));
+    numbers.into_iter().chain(generics).chain(arguments).collect()
 }
 
 /// Adds those of the names above that stand in `tokens`.
@@ -52,7 +57,9 @@ fn mentioned(tokens: &TokenStream, taken: &mut Vec<&'static str>) {
         match token {
             TokenTree::Ident(ident) => {
                 let text = ident.unraw().to_string();
-                let mut known = NUMBERS.into_iter().chain(ARGUMENTS.map(|(internal, _)| internal));
+                let generics = GENERICS.map(|(_, name)| name);
+                let arguments = ARGUMENTS.map(|(internal, _)| internal);
+                let mut known = NUMBERS.into_iter().chain(generics).chain(arguments);
                 taken.extend(known.find(|name| *name == text));
             }
             TokenTree::Group(group) => mentioned(&group.stream(), taken),
