@@ -264,8 +264,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
 
     /// Takes `W` members at a time in lanes, as [`Together`] does: members of systems that are equal, or
     /// differ in parameters of a [generic type](crate::Parameter) only, which are neighbours in their
-    /// shard. It is faster, and the results are the same, as long as systems that are equal by `==` do the
-    /// same: 0.0 and −0.0 are equal.
+    /// shard; those with [limits](Self::until) or [exponents](Self::exponents) go alone. It is faster, and
+    /// the results are the same, as long as systems that are equal by `==` do the same: 0.0 and −0.0 are
+    /// equal.
     pub fn in_lanes<const W: usize>(mut self) -> Self
     where
         S: PartialEq,

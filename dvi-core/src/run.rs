@@ -26,7 +26,7 @@ use between::Between;
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
 pub use dense::{Dense, StatesAt};
-pub use events::{Direction, Event, Events};
+pub use events::{Declared, Direction, Event, Events};
 pub use integrator::Integrator;
 #[cfg(feature = "alloc")]
 pub use resume::Resume;
@@ -143,6 +143,53 @@ pub trait Run {
         G: FnMut(Self::Scalar, &<Self::System as System>::State<Self::Scalar>) -> [Self::Scalar; N],
     {
         Events::new(self.dense()?, directions, g)
+    }
+
+    /// The [events](Run::events) that are declared by `events(name = g, …)` in the attribute of the system, a
+    /// direction for each of them; their names are in [`Report::events`](crate::Report::events).
+    ///
+    /// # Errors
+    /// As [`events`](Self::events).
+    ///
+    /// ```
+    /// use dvi_core::prelude::*;
+    ///
+    /// #[lagrangian(
+    ///     coordinates(x, y),
+    ///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / x.hypot(y),
+    ///     events(pericentre = x * dot(x) + y * dot(y)),
+    /// )]
+    /// struct Kepler;
+    ///
+    /// let start: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
+    /// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
+    /// let event = run.declared_events([Direction::Rising])?.next_until(20.0)?.ok_or("it comes back")?;
+    /// assert_eq!(Kepler::REPORT.events[event.index], "pericentre");
+    /// assert!((event.state.x - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// So many directions as there are events are a condition that the compiler asks for:
+    ///
+    /// ```compile_fail
+    /// # use dvi_core::prelude::*;
+    /// # #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn = dot(x)))]
+    /// # struct Free;
+    /// # let mut run = Integrator::new(&Free, Gauss::<2>::new(), 0.1, FreeState { x: 0.0, dot_x: 1.0 })?;
+    /// let events = run.declared_events([Direction::Rising; 2])?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    fn declared_events<const N: usize>(
+        &mut self,
+        directions: [Direction; N],
+    ) -> Result<Events<&mut Self, Declared, N>, StartError>
+    where
+        Self: Sized,
+    {
+        const {
+            assert!(Self::System::REPORT.events.len() == N, "there is a direction for each declared event");
+        }
+        Events::of(self.dense()?, directions, Declared)
     }
 
     /// The run with the state at any time of its last step: see [`Dense`].

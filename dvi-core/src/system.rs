@@ -225,6 +225,18 @@ pub trait Lagrangian<T: Scalar = f64>: System {
     /// The value J(q, v, t) of declared momentum `index` (see [`Report::momenta`]). Momenta of degenerate
     /// systems do not depend on v, which may be empty there.
     fn momentum(&self, index: usize, q: &[T], v: &[T], t: T) -> T;
+
+    /// The value g(q, v, t) of the function whose zeros are declared event `index` (see
+    /// [`Report::events`]); not a number if there is no such event. Those of degenerate systems do not
+    /// depend on v, which may be empty there.
+    fn event(&self, _index: usize, _q: &[T], _v: &[T], _t: T) -> T {
+        T::lift(f64::NAN)
+    }
+
+    /// Sets `l_q` and `l_v` to ∂g/∂q and ∂g/∂v of declared event `index`, and returns ∂g/∂t.
+    fn event_gradient(&self, _index: usize, _q: &[T], _v: &[T], _t: T, _l_q: &mut [T], _l_v: &mut [T]) -> T {
+        T::lift(f64::NAN)
+    }
 }
 
 /// A system with L(q, v, t) = α(q, t)·v − H(q, t).

@@ -17,6 +17,7 @@ pub(crate) struct DegenerateFormulas {
     pub(crate) time: Option<TimeTransform<Expr>>,
     pub(crate) force: Force,
     pub(crate) momenta: Vec<Expr>,
+    pub(crate) events: Vec<Expr>,
 }
 
 /// What a time transformation is made of.
@@ -37,6 +38,7 @@ pub(crate) struct RegularFormulas {
     pub(crate) force: Force,
     pub(crate) constraints: Option<DeclaredConstraints>,
     pub(crate) momenta: Vec<Expr>,
+    pub(crate) events: Vec<Expr>,
 }
 
 /// A generalised force F: its components, each at the coordinate that it acts on. By the principle of

@@ -28,6 +28,7 @@ mod check;
 mod constraints;
 mod degenerate;
 mod document;
+mod events;
 mod manifold;
 mod packable;
 mod pairs;
@@ -376,6 +377,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             fn domain(&self, __q: &[__T], __t: __T) -> __T { #value }
         }
     });
+    let events = (!programs.events.is_empty()).then(|| events::events(emitter, &programs.events));
     let indices = 0..programs.momenta.len();
     let momenta = programs.momenta.iter().map(|value| emitter.value(value));
     let items = quote! {
@@ -405,6 +407,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
                     _ => <__T as #krate::Scalar>::lift(::core::primitive::f64::NAN),
                 }
             }
+            #events
     };
     in_numbers(emitter, &quote!(Lagrangian), &items)
 }

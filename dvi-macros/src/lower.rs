@@ -42,6 +42,7 @@ pub(crate) enum Role {
     Force,
     Constraint(Constrained),
     Momentum,
+    Event,
 }
 
 impl Role {
@@ -58,6 +59,7 @@ impl Role {
             Self::Constraint(Constrained::Velocities) => "a nonholonomic constraint",
             Self::Constraint(Constrained::Gaps) => "a gap function",
             Self::Momentum => "a momentum",
+            Self::Event => "an event",
         }
     }
 }

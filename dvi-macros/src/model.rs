@@ -10,7 +10,7 @@ use syn::{Ident, ItemStruct, Path, Type};
 
 use crate::errors::Errors;
 use crate::symbolic::{Index, Names};
-use crate::syntax::{Attribute, Declaration, Factor, Function, Kind, ScalarFieldPath};
+use crate::syntax::{Attribute, Declaration, Factor, Function, Kind, Named, ScalarFieldPath};
 use crate::words::{self, reserved};
 
 mod parameters;
@@ -83,8 +83,9 @@ pub(crate) struct Model {
     pub(crate) scalar_fields: Vec<ScalarField>,
     /// The coordinates that a time transformation adds, if there is one.
     pub(crate) extended: Option<Extended>,
-    /// The names of the momenta.
+    /// The names of the momenta, and of the events.
     pub(crate) momenta: Vec<String>,
+    pub(crate) events: Vec<String>,
     /// What the state derives beside what every state does.
     pub(crate) derives: Vec<Path>,
     pub(crate) crate_path: Path,
@@ -108,7 +109,8 @@ impl Model {
             declared_scalar_fields: std::mem::take(&mut attribute.scalar_fields),
             scalar_fields: Vec::new(),
             extended: None,
-            momenta: attribute.momenta.iter().map(|momentum| momentum.name.unraw().to_string()).collect(),
+            momenta: names(&attribute.momenta),
+            events: names(&attribute.events),
             derives: std::mem::take(&mut attribute.derives),
             crate_path,
             lost_coordinates: attribute.lost_coordinates,
@@ -150,6 +152,7 @@ impl Model {
             }
         }
         unique(attribute.momenta.iter().map(|momentum| &momentum.name), "momentum", errors);
+        unique(attribute.events.iter().map(|event| &event.name), "event", errors);
         model
     }
 
@@ -351,6 +354,10 @@ fn velocity_name(coordinate: &Ident, factor: Factor) -> Ident {
         Factor::Line | Factor::Sphere => format_ident!("dot_{}", coordinate),
         Factor::Rotation => format_ident!("omega_{}", coordinate),
     }
+}
+
+fn names(of: &[Named]) -> Vec<String> {
+    of.iter().map(|named| named.name.unraw().to_string()).collect()
 }
 
 fn unique<'a>(names: impl Iterator<Item = &'a Ident>, what: &str, errors: &mut Errors) {

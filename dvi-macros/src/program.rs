@@ -33,19 +33,40 @@ pub(crate) struct Programs {
     pub(crate) gradient: Routine,
     pub(crate) linearize: Routine,
     pub(crate) momenta: Vec<Routine>,
+    pub(crate) events: Vec<EventPrograms>,
     /// The second derivative of L, and the first ones of F.
     pub(crate) entries: Vec<SecondContribution>,
 }
 
+/// What is generated for an event.
+pub(crate) struct EventPrograms {
+    pub(crate) value: Routine,
+    /// ∂g/∂q and ∂g/∂v
+    pub(crate) gradient: Routine,
+    /// ∂g/∂t
+    pub(crate) by_time: Routine,
+}
+
+impl EventPrograms {
+    fn new(graph: &mut Graph, value: Expr) -> Self {
+        let gradient = first_derivatives(graph, value, Output::Lq, Output::Lv);
+        let time = graph.intern(Node::Time);
+        let by_time = result(graph.derivative(value, time));
+        let [value, gradient, by_time] =
+            [result(value), gradient, by_time].map(|statements| Routine::new(graph, statements));
+        Self { value, gradient, by_time }
+    }
+}
+
 impl Programs {
-    /// From L, its second derivative, the force, the constraints, and the momenta.
+    /// From L, its second derivative, the force, the constraints, the momenta, and the events.
     fn new(
         graph: &mut Graph,
         lagrangian: Expr,
         mut entries: Vec<SecondContribution>,
         force: &Force,
         constraints: Option<&DeclaredConstraints>,
-        momenta: &[Expr],
+        [momenta, events]: [&[Expr]; 2],
     ) -> Self {
         let gradient = gradient(graph, lagrangian, force);
         entries.extend(force_derivatives(graph, force));
@@ -60,6 +81,7 @@ impl Programs {
             gradient: Routine::new(graph, gradient),
             linearize: Routine::new(graph, linearize),
             momenta: momenta.iter().map(|value| Routine::new(graph, result(*value))).collect(),
+            events: events.iter().map(|value| EventPrograms::new(graph, *value)).collect(),
             entries,
         }
     }
@@ -125,6 +147,11 @@ impl Programs {
     pub(crate) fn dynamics(&self) -> impl Iterator<Item = &Routine> {
         let constraints = self.constraints.iter().map(|constraints| &constraints.value);
         [&self.lagrangian].into_iter().chain(&self.forces).chain(constraints)
+    }
+
+    /// The values of the momenta and of the events: what is looked at.
+    pub(crate) fn observed(&self) -> impl Iterator<Item = &Routine> {
+        self.momenta.iter().chain(self.events.iter().map(|event| &event.value))
     }
 
     /// Whether the time stands in L, in a force or in a constraint; not whether it stands in a gap.

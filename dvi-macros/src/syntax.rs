@@ -27,7 +27,7 @@ use elsewhere::mistaken;
 use tidy::Ungrouped;
 
 pub(crate) use declared::{
-    Declaration, Factor, Force, Function, Gauge, Momentum, ScalarFieldPath, TimeTransform,
+    Declaration, Factor, Force, Function, Gauge, Named, ScalarFieldPath, TimeTransform,
 };
 
 /// Which of the two attributes stands on a struct.
@@ -54,7 +54,9 @@ pub(crate) struct Attribute {
     pub(crate) constraints: Vec<Constraint>,
     /// What the constraints are of, if some were declared, readable or not.
     pub(crate) constrained: Option<Constrained>,
-    pub(crate) momenta: Vec<Momentum>,
+    pub(crate) momenta: Vec<Named>,
+    /// The functions whose zeros are events.
+    pub(crate) events: Vec<Named>,
     pub(crate) functions: Vec<Function>,
     pub(crate) scalar_fields: Vec<ScalarFieldPath>,
     /// What the state derives beside what every state does.
@@ -68,7 +70,7 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 14] = [
+const ARGUMENTS: [(&str, &str); 15] = [
     ("coordinates", "coordinates(x, y[n], R: SO3, s: S2)"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
@@ -80,6 +82,7 @@ const ARGUMENTS: [(&str, &str); 14] = [
     ("nonholonomic", "nonholonomic = a(q, v, t)`, or `nonholonomic(i in 0..n) = a(i)"),
     ("impact",      "impact = g(q, t)`, or `impact(i in 0..n) = g(i)"),
     ("momenta",     "momenta(p = …)"),
+    ("events",      "events(name = g(q, v, t))"),
     ("functions",   "functions(f = [f, df, d2f])"),
     ("derive",      "derive(Trait, path::Trait)"),
     ("crate",       "crate = ::path"),
@@ -87,13 +90,14 @@ const ARGUMENTS: [(&str, &str); 14] = [
 
 /// Other words, and the argument that is meant.
 #[rustfmt::skip]
-const OTHER_WORDS: [(&str, &[&str]); 6] = [
+const OTHER_WORDS: [(&str, &[&str]); 7] = [
     ("coordinates", &["coords", "variables", "vars", "q", "positions", "unknowns"]),
     ("lagrangian",  &["L", "l", "lagrange", "kinetic", "potential", "T", "V", "U"]),
     ("hamiltonian", &["H", "h", "energy"]),
     ("one_form",    &["alpha", "theta", "vartheta", "α", "ϑ", "θ", "symplectic"]),
     ("force",       &["damping", "dissipation", "drag", "drive", "forces", "forcing", "friction", "rayleigh"]),
     ("momenta",     &["conserved", "integrals", "invariants", "momentum"]),
+    ("events",      &["condition", "conditions", "crossings", "event", "section", "sections"]),
 ];
 
 /// Words for what stands in the struct.
@@ -215,12 +219,12 @@ impl Attribute {
             rate,
         ];
         let forces = self.forces.iter().flat_map(Force::formulas);
-        let momenta = self.momenta.iter().map(|momentum| &momentum.formula);
+        let named = self.momenta.iter().chain(&self.events).map(|named| &named.formula);
         let constraints = self
             .constraints
             .iter()
             .map(|constraint| (&constraint.formula, constraint.family.as_ref().map(|family| &family.index)));
-        let others = dynamics.into_iter().flatten().chain(forces).chain(momenta);
+        let others = dynamics.into_iter().flatten().chain(forces).chain(named);
         others.map(|formula| (formula, None)).chain(constraints)
     }
 
@@ -234,9 +238,9 @@ impl Attribute {
         let dynamics =
             [self.one_form.as_mut(), self.hamiltonian.as_mut(), self.lagrangian.as_mut(), gauge, rate];
         let forces = self.forces.iter_mut().flat_map(Force::formulas_mut);
-        let momenta = self.momenta.iter_mut().map(|momentum| &mut momentum.formula);
+        let named = self.momenta.iter_mut().chain(&mut self.events).map(|named| &mut named.formula);
         let constraints = self.constraints.iter_mut().map(|constraint| &mut constraint.formula);
-        dynamics.into_iter().flatten().chain(forces).chain(momenta).chain(constraints)
+        dynamics.into_iter().flatten().chain(forces).chain(named).chain(constraints)
     }
 
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {
@@ -259,7 +263,11 @@ impl Attribute {
             ("coordinates", Value::List(tokens)) => {
                 self.coordinates = list(tokens, errors, &mut self.lost_coordinates);
             }
-            ("momenta", Value::List(tokens)) => self.momenta = list(tokens, errors, &mut false),
+            ("momenta", Value::List(tokens)) => self.momenta = named(tokens, "momentum", errors),
+            ("events", Value::List(tokens)) if tokens.is_empty() => {
+                errors.push(&name, "no event is declared here: write `events(name = g)`, with a function g whose zeros are meant");
+            }
+            ("events", Value::List(tokens)) => self.events = named(tokens, "event", errors),
             ("functions", Value::List(tokens)) => {
                 for declared in list(tokens, errors, &mut self.lost_functions) {
                     match declared {
@@ -339,6 +347,11 @@ fn other_word(word: &str) -> &str {
 /// How an argument is written.
 fn form_of(argument: &str) -> &'static str {
     ARGUMENTS.iter().find(|(name, _)| *name == argument).map_or("", |(_, form)| form)
+}
+
+fn named(tokens: TokenStream, kind: &str, errors: &mut Errors) -> Vec<Named> {
+    let pieces = split_at_commas(tokens).into_iter();
+    pieces.filter_map(|piece| errors.taken(read_by(piece, |input| Named::parse(input, kind)))).collect()
 }
 
 fn list<T: Parse>(tokens: TokenStream, errors: &mut Errors, lost: &mut bool) -> Vec<T> {

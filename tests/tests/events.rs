@@ -1,5 +1,6 @@
 //! Events of a run are as accurate as the run, by every kind of method and with steps of all lengths.
 
+mod declared;
 mod edges;
 
 use approx::abs_diff_eq;

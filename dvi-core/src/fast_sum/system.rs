@@ -93,6 +93,20 @@ where
     fn momentum(&self, index: usize, q: &[f64], v: &[f64], t: f64) -> f64 {
         self.system.momentum(index, q, v, t)
     }
+    fn event(&self, index: usize, q: &[f64], v: &[f64], t: f64) -> f64 {
+        self.system.event(index, q, v, t)
+    }
+    fn event_gradient(
+        &self,
+        index: usize,
+        q: &[f64],
+        v: &[f64],
+        t: f64,
+        l_q: &mut [f64],
+        l_v: &mut [f64],
+    ) -> f64 {
+        self.system.event_gradient(index, q, v, t, l_q, l_v)
+    }
 }
 
 impl<S, const D: usize> FastSum<'_, S, D>

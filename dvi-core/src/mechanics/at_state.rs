@@ -3,7 +3,7 @@
 use crate::error::StartError;
 use crate::mechanics::motion::Rates;
 use crate::system::start::{evaluate, flatten, named, validate, velocities};
-use crate::{Lagrangian, Real, State, System};
+use crate::{Lagrangian, Real, Space, State, System};
 
 /// A system at a time t. Made by [`AtState::at_time`].
 #[derive(Debug)]
@@ -113,6 +113,24 @@ impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
         // Of either kind the first is the velocity.
         let [velocity, _] = self.rates([&q, &v])?;
         Ok(system.lagrangian(&q, &velocity, t))
+    }
+
+    /// dg/dt of declared event `index` along the motion through `state`: ∂g/∂t + ∂g/∂q·q' + ∂g/∂v·v'. Not a
+    /// number if there is no such event.
+    ///
+    /// # Errors
+    /// Those of [`vector_field`](Self::vector_field).
+    pub fn event_rate(&self, index: usize, state: &S::State<T>) -> Result<T, StartError>
+    where
+        S: System<Kind: Rates<S, T>>,
+    {
+        let Self { system, t } = *self;
+        let [q, v] = self.point(state)?;
+        let rates = self.rates([&q, &v])?;
+        let [mut l_q, mut l_v] = [system.space().vector(), system.space().vector()];
+        let by_time = system.event_gradient(index, &q, &v[..velocities(system)], t, &mut l_q, &mut l_v);
+        let along = l_q.iter().chain(l_v.iter()).zip(rates.iter().flat_map(|half| half.iter()));
+        Ok(along.fold(by_time, |sum, (&by, &rate)| sum + by * rate))
     }
 
     /// The rates of change of coordinates and velocities.

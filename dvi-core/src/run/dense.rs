@@ -59,10 +59,11 @@ pub struct Dense<R: Run> {
 }
 
 /// A state in flat form.
-pub(super) struct Flat<'a, S, T> {
-    system: &'a S,
-    q: &'a [T],
-    v: &'a [T],
+#[derive(Debug)]
+pub struct Flat<'a, S, T> {
+    pub(super) system: &'a S,
+    pub(super) q: &'a [T],
+    pub(super) v: &'a [T],
 }
 
 impl<S: System, T: Real> Flat<'_, S, T> {

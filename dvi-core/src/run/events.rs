@@ -6,6 +6,7 @@
 //! zero and away from it, g is followed down to its least value in between. Each crossing is found there to
 //! rounding.
 
+mod conditions;
 mod course;
 mod search;
 
@@ -17,9 +18,11 @@ use crate::error::{StartError, StepError, StepFailure};
 use crate::run::Run;
 use crate::scalar::norm::reported;
 use crate::{Real, Scalar};
+use conditions::Conditions;
 use course::Watched;
 use search::numbers;
 
+pub use conditions::Declared;
 pub use search::Direction;
 
 /// Where a run meets a condition.
@@ -125,9 +128,18 @@ where
     /// # Errors
     /// [`StartError::Starter`] if there are no velocities, or a condition is no number, at the present
     /// point.
-    pub fn new(mut dense: Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
-        let state = dense.at_end().map_err(StartError::Starter)?.state();
-        let values = numbers(g(dense.time(), &state)).map_err(StartError::Starter)?;
+    pub fn new(dense: Dense<R>, directions: [Direction; N], g: G) -> Result<Self, StartError> {
+        Self::of(dense, directions, g)
+    }
+}
+
+impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G, N> {
+    /// The same for conditions of either kind.
+    pub(super) fn of(mut dense: Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
+        let mut state = dense.at_end().map_err(StartError::Starter)?.state();
+        let t = dense.time();
+        let at = dense.at_end().map_err(StartError::Starter)?;
+        let values = numbers(g.values(t, at, &mut state)).map_err(StartError::Starter)?;
         let watched = values.map(|g| Watched { g, course: None });
         Ok(Self {
             dense,
@@ -318,10 +330,7 @@ fn are_one<T: Real>(least: T, part: T) -> bool {
     part <= least + T::lift(TOGETHER) * T::default_epsilon()
 }
 
-impl<R: Run, G, const N: usize> Iterator for Events<R, G, N>
-where
-    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
-{
+impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Iterator for Events<R, G, N> {
     type Item = Result<EventOf<R>, StepError>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -334,10 +343,7 @@ where
     }
 }
 
-impl<R: Run, G, const N: usize> FusedIterator for Events<R, G, N> where
-    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N]
-{
-}
+impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> FusedIterator for Events<R, G, N> {}
 
 impl<R: Run + fmt::Debug, G, const N: usize> fmt::Debug for Events<R, G, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

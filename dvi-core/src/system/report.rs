@@ -61,6 +61,8 @@ pub struct Report {
     pub coordinates: &'static [CoordinateBlock],
     /// The names of the declared momenta.
     pub momenta: &'static [&'static str],
+    /// The names of the declared events.
+    pub events: &'static [&'static str],
     /// The formulas, as declared and as differentiated, each with a `name`, such as `∂H/∂x[i]`, and a `text`.
     pub formulas: &'static [Formula],
     /// Statements on the structure, a sentence each: linear or nonlinear α, explicit or implicit steps.
@@ -82,13 +84,14 @@ impl Report {
         system: &'static str,
         coordinates: &'static [CoordinateBlock],
         momenta: &'static [&'static str],
+        events: &'static [&'static str],
         formulas: &'static [Formula],
         structure: &'static [&'static str],
         residual: &'static [OperationCount],
         jacobian: &'static [OperationCount],
         sparsity: &'static [Entry],
     ) -> Self {
-        Self { system, coordinates, momenta, formulas, structure, residual, jacobian, sparsity }
+        Self { system, coordinates, momenta, events, formulas, structure, residual, jacobian, sparsity }
     }
 }
 

@@ -9,15 +9,16 @@ use crate::lower::{Lowering, Role};
 use crate::model::Extended;
 use crate::structure::gauge::{self, Effort, Search};
 use crate::symbolic::{Coordinate, Expr, Graph, Index, Node};
-use crate::syntax::{self, Attribute, Gauge};
+use crate::syntax::{self, Attribute, Gauge, Named};
 
 impl Stages {
-    /// α·v, H and the momenta.
+    /// α·v, H, the momenta and the events.
     pub(super) fn degenerate_formulas(&mut self) -> Option<DegenerateFormulas> {
         let clean = self.check_coordinates()?;
         let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
         let pair = one_form_and_hamiltonian(&self.attribute, &mut lowering, clean);
-        let momenta = momenta(&self.attribute, &mut lowering);
+        let momenta = named(&self.attribute.momenta, Role::Momentum, &mut lowering);
+        let events = named(&self.attribute.events, Role::Event, &mut lowering);
         let force = lowering.forces(&self.attribute.forces);
         let time = time_transform(&self.attribute, &mut lowering, pair.map(|(_, hamiltonian)| hamiltonian));
         let pair = pair.zip(time).map(|(pair, time)| match time {
@@ -25,12 +26,22 @@ impl Stages {
             None => pair,
         });
         let gauge = self.gauge(pair.map(|(one_form, _)| one_form));
-        let (declared, momenta, force, gauge, time) = (pair?, momenta?, force?, gauge?, time?);
+        let (declared, momenta, events, force, gauge, time) =
+            (pair?, momenta?, events?, force?, gauge?, time?);
         let (one_form, hamiltonian) = match gauge {
             Some(gauge) => self.with_gauge(declared, gauge),
             None => declared,
         };
-        Some(DegenerateFormulas { one_form, hamiltonian, gauge, declared: declared.0, time, force, momenta })
+        Some(DegenerateFormulas {
+            one_form,
+            hamiltonian,
+            gauge,
+            declared: declared.0,
+            time,
+            force,
+            momenta,
+            events,
+        })
     }
 
     /// F, written or found; `None` inside if there is none.
@@ -123,7 +134,7 @@ impl Stages {
         (graph.subtract(one_form, conjugate), graph.multiply(rate, difference))
     }
 
-    /// L, the forces, the constraints and the momenta.
+    /// L, the forces, the constraints, the momenta and the events.
     pub(super) fn regular_formulas(&mut self) -> Option<RegularFormulas> {
         let clean = self.check_coordinates()?;
         let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
@@ -137,7 +148,8 @@ impl Stages {
                 None
             }
         };
-        let momenta = momenta(&self.attribute, &mut lowering);
+        let momenta = named(&self.attribute.momenta, Role::Momentum, &mut lowering);
+        let events = named(&self.attribute.events, Role::Event, &mut lowering);
         let force = lowering.forces(&self.attribute.forces);
         let constraints = self.attribute.constrained.map(|of| {
             let list = lowering.constraints(of, &self.attribute.constraints)?;
@@ -145,9 +157,9 @@ impl Stages {
         });
         let lagrangian = lagrangian?;
         let quadratic = lowering.is_quadratic(lagrangian);
-        let (force, constraints, momenta) =
-            (force?, constraints.map_or(Some(None), |declared| declared.map(Some))?, momenta?);
-        Some(RegularFormulas { lagrangian, quadratic, force, constraints, momenta })
+        let (force, constraints, momenta, events) =
+            (force?, constraints.map_or(Some(None), |declared| declared.map(Some))?, momenta?, events?);
+        Some(RegularFormulas { lagrangian, quadratic, force, constraints, momenta, events })
     }
 
     /// Whether no mistake was found so far; `None` without coordinates, over which formulas would only
@@ -187,11 +199,10 @@ fn time_transform(
     Some(Some(TimeTransform { rate, hamiltonian: hamiltonian? }))
 }
 
-fn momenta(attribute: &Attribute, lowering: &mut Lowering<'_>) -> Option<Vec<Expr>> {
-    let momenta = attribute.momenta.iter();
-    let momenta: Vec<Option<Expr>> =
-        momenta.map(|momentum| lowering.formula(&momentum.formula, Role::Momentum)).collect();
-    momenta.into_iter().collect()
+fn named(declared: &[Named], role: Role, lowering: &mut Lowering<'_>) -> Option<Vec<Expr>> {
+    let formulas: Vec<Option<Expr>> =
+        declared.iter().map(|named| lowering.formula(&named.formula, role)).collect();
+    formulas.into_iter().collect()
 }
 
 /// α·v and H, declared as they are, or split from L; `clean` if no mistake was found before.

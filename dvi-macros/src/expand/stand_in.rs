@@ -87,7 +87,7 @@ impl StandIn<'_> {
                 impl #impl_generics #krate::System for #name #type_generics #where_clause {
                     type Space = #space;
                     type State<__T: #krate::Scalar> = #state;
-                    const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[]);
+                    const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[], &[]);
                     type Kind = #kind;
                     fn space(&self) -> Self::Space #never
                     fn block_len(&self, _: ::core::primitive::usize) -> ::core::primitive::usize #never

@@ -48,7 +48,7 @@ struct Walk<'a> {
 pub(super) fn check(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     let mut walk =
         Walk { emitter, seen: HashSet::default(), visited: HashSet::default(), tokens: TokenStream::new() };
-    let routines: Vec<&Routine> = programs.dynamics().chain(&programs.momenta).collect();
+    let routines: Vec<&Routine> = programs.dynamics().chain(programs.observed()).collect();
     for statement in routines.iter().flat_map(|routine| &routine.statements) {
         walk.node(&Place { loops: statement.loops.clone(), names: Vec::new() }, statement.value.node);
     }

@@ -88,6 +88,7 @@ fn account(
     }
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
+    account.events(emitter, &formulas.events);
     account.forces(emitter, &programs.shared);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
     account.derived(emitter, &programs.one_form.statements, |_, entry| format!("α_{}", coordinate(entry)));

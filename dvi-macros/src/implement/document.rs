@@ -25,6 +25,7 @@ pub(super) struct Account {
     formulas: Vec<(String, String)>,
     sentences: Vec<String>,
     momenta: Vec<String>,
+    events: Vec<String>,
 }
 
 impl Account {
@@ -33,7 +34,7 @@ impl Account {
         declared: Vec<(String, String)>,
         sentences: Vec<String>,
     ) -> Self {
-        Self { opening, formulas: declared, sentences, momenta: Vec::new() }
+        Self { opening, formulas: declared, sentences, momenta: Vec::new(), events: Vec::new() }
     }
 
     /// Adds what is said of the system as a whole.
@@ -46,6 +47,14 @@ impl Account {
         for (name, value) in emitter.model.momenta.iter().zip(values) {
             self.formulas.push((name.clone(), quantity(emitter, *value)));
             self.momenta.push(name.clone());
+        }
+    }
+
+    /// Adds the declared events.
+    pub(super) fn events(&mut self, emitter: &Emitter<'_>, values: &[Expr]) {
+        for (name, value) in emitter.model.events.iter().zip(values) {
+            self.formulas.push((name.clone(), quantity(emitter, *value)));
+            self.events.push(name.clone());
         }
     }
 
@@ -115,7 +124,7 @@ impl Account {
 
     pub(super) fn report(&self, emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
         let krate = emitter.krate();
-        let Self { formulas, sentences, momenta, .. } = self;
+        let Self { formulas, sentences, momenta, events, .. } = self;
         let system = emitter.model.item.ident.to_string();
         let blocks = emitter.model.blocks.iter().map(|block| {
             let (name, size) =
@@ -135,7 +144,7 @@ impl Account {
         let sparsity = sparsity(emitter, programs);
         quote! {
             #krate::Report::new(
-                #system, &[#(#blocks),*], &[#(#momenta),*], &[#(#lines),*], &[#(#sentences),*],
+                #system, &[#(#blocks),*], &[#(#momenta),*], &[#(#events),*], &[#(#lines),*], &[#(#sentences),*],
                 #residual, #jacobian, #sparsity,
             )
         }

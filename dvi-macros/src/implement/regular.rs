@@ -56,6 +56,7 @@ fn account(
     );
     account.sentence(checked.sentence());
     account.momenta(emitter, &formulas.momenta);
+    account.events(emitter, &formulas.events);
     account.forces(emitter, &programs.shared);
     account.constraints(emitter, &programs.shared);
     account.derived(emitter, &programs.shared.gradient.statements, |output, entry| match output {

@@ -339,7 +339,7 @@ impl Lowering<'_> {
         let wanted = match self.role {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
-            Role::Momentum | Role::Force if self.model.kind == Kind::Regular => "dot",
+            Role::Momentum | Role::Event | Role::Force if self.model.kind == Kind::Regular => "dot",
             Role::Constraint(Constrained::Velocities) => "dot",
             Role::Constraint(Constrained::Positions) => {
                 let message = "a holonomic constraint has no velocities: it is a function g(q, t) of the positions and the time, \

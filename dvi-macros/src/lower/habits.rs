@@ -315,13 +315,14 @@ impl Lowering<'_> {
         let written = match self.role {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
-            Role::Momentum | Role::Force if self.model.has_velocities() => "dot",
+            Role::Momentum | Role::Event | Role::Force if self.model.has_velocities() => "dot",
             Role::Component
             | Role::Hamiltonian
             | Role::Gauge
             | Role::TimeTransform
             | Role::Force
-            | Role::Momentum => return None,
+            | Role::Momentum
+            | Role::Event => return None,
             Role::Constraint(Constrained::Velocities) => "dot",
             Role::Constraint(Constrained::Positions | Constrained::Gaps) => "",
         };

@@ -279,7 +279,8 @@ impl Lowering<'_> {
                 | Role::TimeTransform
                 | Role::Lagrangian
                 | Role::Force
-                | Role::Momentum => "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
+                | Role::Momentum
+                | Role::Event => "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
             },
             |near| format!("; did you mean `{near}`?"),
         )

@@ -310,6 +310,13 @@ impl<'a> Comparison<'a> {
         for (index, jet) in expected.momenta.iter().enumerate() {
             let value = self.call().index(index).slice(q).slice(v).real(*t).number("momentum")?;
             self.same(&format!("momentum {index}"), &[], jet.value, value)?;
+            let value = self.call().index(index).slice(q).slice(v).real(*t).number("event")?;
+            self.same(&format!("event {index}"), &[], jet.value, value)?;
+            let call = self.call().index(index).slice(q).slice(v).real(*t).slice(&before).slice(&before);
+            let (by_time, slices) = call.run("event_gradient")?;
+            self.same("event_gradient, ∂g/∂t", &[], jet.gradient(2 * n), by_time.real())?;
+            self.same_vector("event_gradient, ∂g/∂q", &slices[2], |i| jet.gradient(i))?;
+            self.same_vector("event_gradient, ∂g/∂v", &slices[3], |i| jet.gradient(n + i))?;
         }
         Ok(())
     }

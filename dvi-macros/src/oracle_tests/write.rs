@@ -88,8 +88,9 @@ impl System {
         text += &self.constraint_arguments(&dot);
         let momenta = self.momenta.iter().enumerate();
         let momenta: Vec<String> = momenta.map(|(n, value)| format!("p{n} = {}", dot.text(value))).collect();
+        // The same functions once more, whose zeros are events.
         if !momenta.is_empty() {
-            text += &format!(", momenta({})", momenta.join(", "));
+            text += &format!(", momenta({0}), events({0})", momenta.join(", "));
         }
         let used = OWN.iter().enumerate().filter(|(number, _)| self.calls(*number)).map(|(_, row)| row);
         let used = used.map(|(name, paths)| format!("{name} = [{}]", paths.join(", ")));

@@ -37,7 +37,8 @@ impl DegeneratePrograms {
     ) -> Self {
         let lagrangian = graph.subtract(formulas.one_form, formulas.hamiltonian);
         let entries = graph.hessian(lagrangian);
-        let shared = Programs::new(graph, lagrangian, entries, &formulas.force, None, &formulas.momenta);
+        let DegenerateFormulas { force, momenta, events, .. } = formulas;
+        let shared = Programs::new(graph, lagrangian, entries, force, None, [momenta, events]);
         let hamiltonian_gradient = hamiltonian_gradient(graph, formulas.hamiltonian, &formulas.force);
         let one_form = one_form(graph, formulas.one_form);
         let flow_source = flow_source(graph, &hamiltonian_gradient, &one_form);

@@ -30,8 +30,9 @@ impl RegularPrograms {
         entries: Vec<SecondContribution>,
         pairs: Option<&PairSum>,
     ) -> Self {
-        let RegularFormulas { lagrangian, force, constraints, momenta, .. } = formulas;
-        let shared = Programs::new(graph, *lagrangian, entries, force, constraints.as_ref(), momenta);
+        let RegularFormulas { lagrangian, force, constraints, momenta, events, .. } = formulas;
+        let shared =
+            Programs::new(graph, *lagrangian, entries, force, constraints.as_ref(), [momenta, events]);
         let energy = result(graph.energy(*lagrangian));
         let part = |output| shared.gradient.statements.iter().filter_map(move |s| as_vector(s, output));
         let [force, momentum]: [Vec<Statement>; 2] =

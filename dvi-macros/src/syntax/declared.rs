@@ -59,9 +59,9 @@ impl Factor {
     }
 }
 
-/// `name = formula` in `momenta(...)`.
+/// `name = formula` in `momenta(...)` and `events(...)`.
 #[derive(Debug)]
-pub(crate) struct Momentum {
+pub(crate) struct Named {
     pub(crate) name: Ident,
     pub(crate) formula: Expr,
 }
@@ -214,17 +214,19 @@ fn factor(input: ParseStream<'_>, name: &Ident, is_array: bool) -> syn::Result<F
     }
 }
 
-impl Parse for Momentum {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+impl Named {
+    /// Of a kind: momentum, or event.
+    pub(super) fn parse(input: ParseStream<'_>, kind: &str) -> syn::Result<Self> {
         let (all, at) = (input.fork(), input.span());
         let unnamed = |input: ParseStream<'_>| {
             let formula = input.parse::<TokenStream>()?;
-            let message = format!("a momentum has a name: write `name = {}`", text(&formula));
+            let article = if kind.starts_with('e') { "an" } else { "a" };
+            let message = format!("{article} {kind} has a name: write `name = {}`", text(&formula));
             Err(syn::Error::new_spanned(formula, message))
         };
         let Ok(name) = input.parse::<Ident>() else { return unnamed(&all) };
         if input.peek(Token![:]) || input.is_empty() {
-            return Err(syn::Error::new(at, format!("this momentum has no formula: write `{name} = …`")));
+            return Err(syn::Error::new(at, format!("this {kind} has no formula: write `{name} = …`")));
         }
         if !input.peek(Token![=]) {
             return unnamed(&all);

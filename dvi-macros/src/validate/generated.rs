@@ -34,7 +34,7 @@ impl Functions<'_> {
     pub(super) fn reads_outside(&self, graph: &Graph, model: &Model, point: &Point) -> bool {
         let machine = Machine { graph, model, point, directions: Directions::ALL, conjugates: None };
         let shared = self.shared();
-        shared.dynamics().chain(&shared.momenta).any(|routine| machine.run(routine).reads_outside)
+        shared.dynamics().chain(shared.observed()).any(|routine| machine.run(routine).reads_outside)
     }
 
     /// Each output of each function, along these directions.
@@ -92,6 +92,14 @@ impl Functions<'_> {
         }
         for (number, momentum) in shared.momenta.iter().enumerate() {
             add("momentum", Quantity::Momentum(number), value(momentum));
+        }
+        for (number, event) in shared.events.iter().enumerate() {
+            add("event", Quantity::Event(number), value(&event.value));
+            let gradient = machine.run(&event.gradient);
+            let function = "event_gradient";
+            add(function, Quantity::EventLq(number), gradient.along_first(statement::Output::Lq));
+            add(function, Quantity::EventLv(number), gradient.along_first(statement::Output::Lv));
+            add(function, Quantity::EventByTime(number), value(&event.by_time));
         }
         match self {
             Self::Degenerate(programs) => {

@@ -7,7 +7,7 @@ use super::point::{Directions, Point};
 use crate::internal::internal;
 use crate::model::Model;
 use crate::symbolic::Weight;
-use crate::syntax::{Attribute, Kind};
+use crate::syntax::{Attribute, Kind, Named};
 
 /// The formulas as written, with what their names stand for.
 #[derive(Clone, Copy)]
@@ -37,6 +37,7 @@ pub(super) struct Outputs {
     work: [Jet; 2],
     constraints: Option<Combination>,
     momenta: Vec<Jet>,
+    events: Vec<Jet>,
     pub(super) sides: Sides,
     is_delicate: bool,
     /// The operations that it took.
@@ -109,12 +110,11 @@ impl System<'_> {
             (Part::Form, _) | (Part::All, []) => None,
             (Part::All, declared) => Some(evaluation.constraints(declared)?),
         };
-        let momenta = attribute
-            .momenta
-            .iter()
-            .filter(|_| part == Part::All)
-            .map(|momentum| evaluation.number(&momentum.formula));
-        let momenta = momenta.collect::<Result<_, _>>()?;
+        let mut named = |declared: &[Named]| {
+            let declared = if part == Part::All { declared } else { &[] };
+            declared.iter().map(|named| evaluation.number(&named.formula)).collect::<Result<_, _>>()
+        };
+        let (momenta, events) = (named(&attribute.momenta)?, named(&attribute.events)?);
         let cost = budget - evaluation.budget;
         let Evaluation { sides, is_delicate, .. } = evaluation;
         Ok(Outputs {
@@ -125,6 +125,7 @@ impl System<'_> {
             work,
             constraints,
             momenta,
+            events,
             sides,
             is_delicate,
             cost,
@@ -136,8 +137,12 @@ impl Outputs {
     /// Whether everything is finite, and nothing on the way decided by rounding.
     pub(super) fn is_moderate(&self) -> bool {
         let jets = [&self.lagrangian, &self.form, &self.hamiltonian];
-        let mut jets =
-            jets.into_iter().chain(&self.momenta).chain(self.time.iter().flatten()).chain(&self.work);
+        let mut jets = jets
+            .into_iter()
+            .chain(&self.momenta)
+            .chain(&self.events)
+            .chain(self.time.iter().flatten())
+            .chain(&self.work);
         let constraints = self.constraints.as_ref().is_none_or(Combination::is_moderate);
         !self.is_delicate && constraints && jets.all(Jet::is_moderate)
     }
@@ -186,7 +191,8 @@ impl Outputs {
     }
 
     pub(super) fn expected(&self, output: &Output, point: &Point) -> Sized {
-        let Self { lagrangian, form, hamiltonian, work: [first_work, second_work], momenta, .. } = self;
+        let Self { lagrangian, form, hamiltonian, work: [first_work, second_work], momenta, events, .. } =
+            self;
         let minus = |value: Sized, other: Sized| value.plus(other.times(-1.0));
         let time = |part: usize| match &self.time {
             Some(time) => time[part].value(),
@@ -226,6 +232,10 @@ impl Outputs {
             Quantity::Energy => lagrangian.first(First::Stretch).plus(lagrangian.value().times(-1.0)),
             Quantity::Momentum(number) => momenta[number].value(),
             Quantity::MomentumGradient(number) => momenta[number].first(First::Q),
+            Quantity::Event(number) => events[number].value(),
+            Quantity::EventLq(number) => events[number].first(First::Q),
+            Quantity::EventLv(number) => events[number].first(First::V),
+            Quantity::EventByTime(number) => events[number].first(First::T),
             Quantity::Constraint | Quantity::VelocityConstraint => constraints().value(),
             Quantity::ConstraintJacobian => constraints().along_positions(),
             Quantity::VelocityConstraintJacobian => {

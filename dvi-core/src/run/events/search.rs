@@ -1,10 +1,10 @@
 //! The search for events in a step: by the signs of conditions at its ends, and by their slopes there.
 
+use super::conditions::Conditions;
 use super::course::{Course, Turn, Watched};
 use super::{Events, LEFT};
 use crate::error::StepFailure;
 use crate::run::Run;
-use crate::run::dense::StateOf;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::solve::crossing::{Sample, dip, zero};
@@ -42,17 +42,14 @@ impl Direction {
     }
 }
 
-impl<R: Run, G, const N: usize> Events<R, G, N>
-where
-    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
-{
+impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G, N> {
     /// The conditions where the run is.
     ///
     /// # Errors
     /// [`StepFailure::UndefinedEvent`].
     pub(super) fn at_end(&mut self) -> Result<[R::Scalar; N], StepFailure> {
-        self.dense.at_end()?.refill(&mut self.state);
-        numbers((self.g)(self.dense.time(), &self.state))
+        let t = self.dense.time();
+        numbers(self.g.values(t, self.dense.at_end()?, &mut self.state))
     }
 
     /// Finds the events of the last step.
@@ -168,8 +165,8 @@ where
     /// A condition at a part of the step.
     fn look(&mut self, index: usize, part: R::Scalar) -> Result<R::Scalar, StepFailure> {
         self.dense.reach(part * self.dense.step_size())?;
-        self.dense.reached()?.refill(&mut self.state);
-        Ok(numbers((self.g)(self.dense.reached_time(), &self.state))?[index])
+        let t = self.dense.reached_time();
+        Ok(numbers(self.g.values(t, self.dense.reached()?, &mut self.state))?[index])
     }
 }
 

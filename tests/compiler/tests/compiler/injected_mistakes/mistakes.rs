@@ -22,6 +22,9 @@ const fn mistake(file: &'static str, place: &'static str, wrong: &'static str) -
 }
 
 pub(crate) const MISTAKES: &[Mistake] = &[
+    // The derivatives of an event.
+    mistake("program.rs", "first_derivatives(graph, value, Output::Lq, «Output::Lv»)", "Output::Lq"),
+    mistake("program.rs", "let by_time = result(«graph.derivative(value, time)»);", "value"),
     // A factor enters a sum that it depends on.
     mistake("select.rs", "self.depth(*factor) > «over.depth»", "64"),
     mistake("select.rs", "self.multiplied(&[a, «b»])", "a"),

@@ -8,12 +8,14 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
          one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
          hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
              * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
-         momenta(angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))))",
+         momenta(angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2)))),
+         events(passage = sum(0..N, |j| x[j] * y[j]) - t.sin())",
         "struct Vortices<const N: usize> { gamma: [f64; N] }",
     ),
     (
         "regular",
-        "coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / (x * x + y * y).sqrt()",
+        "coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / (x * x + y * y).sqrt(),
+         events(pericentre = x * dot(x) + y * dot(y))",
         "struct Kepler { mu: f64 }",
     ),
     (
