@@ -87,6 +87,7 @@
 //! | [`Integrator`] | a run with steps of one length |
 //! | [`ControlledIntegrator`] | a run with steps of a control |
 //! | [`Run`] | what both can do |
+//! | [`WithMethod`] | what a run says of its method, where that is known when the program is compiled |
 //! | [`StepControl`] | what a control is to a run |
 //! | [`Reversible`] | steps that follow the motion, and lead back |
 //! | [`Density`] | where they are short |

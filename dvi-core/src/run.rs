@@ -306,6 +306,16 @@ pub trait Run {
 }
 
 /// A run whose method is known when the program is compiled.
+///
+/// ```
+#[doc = include_str!("../docs/hidden/kepler.txt")]
+/// /// The order of the method of any run.
+/// fn order<R: WithMethod>(run: &R) -> usize {
+///     run.method().order()
+/// }
+/// assert_eq!(order(&Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?), 8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait WithMethod: Run {
     /// The method that takes the steps.
     type Method: Method<Self::System, Self::Scalar>;

@@ -14,7 +14,7 @@ use syn::{BinOp, Expr as Syntax, Ident, Lit, Pat, UnOp};
 use crate::errors::{Errors, listed, nearest};
 use crate::model::{Model, Shape};
 use crate::symbolic::{Expr, Graph, Id, Index, Loop, Node, Parameter};
-use crate::syntax::Constrained;
+use crate::syntax::{Constrained, closure};
 
 mod admit;
 mod blocks;
@@ -32,7 +32,6 @@ mod sums;
 mod unsupported;
 
 use crate::words;
-pub(crate) use local::closure;
 use local::{Calls, Local};
 
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
@@ -125,7 +124,7 @@ impl<'ast> Visit<'ast> for IndexNames {
 
     /// The parameters of a function are no indices of a sum.
     fn visit_local(&mut self, local: &'ast syn::Local) {
-        match local.init.as_ref().map(|init| (local::closure(&init.expr), &init.expr)) {
+        match local.init.as_ref().map(|init| (closure(&init.expr), &init.expr)) {
             Some((Some(closure), _)) => self.visit_expr(&closure.body),
             Some((None, value)) => self.visit_expr(value),
             None => {}

@@ -12,6 +12,7 @@ use syn::{Expr, Path};
 use crate::errors::{Errors, listed, nearest};
 
 mod argument;
+mod closures;
 mod constraint;
 mod declared;
 pub(crate) mod depth;
@@ -21,6 +22,7 @@ mod rotation;
 pub(crate) mod tidy;
 
 use argument::{Argument, Value};
+pub(crate) use closures::closure;
 pub(crate) use constraint::{Constrained, Constraint, Family};
 use declared::Declared;
 use elsewhere::mistaken;

@@ -15,8 +15,7 @@ use syn::visit::Visit as _;
 use syn::{BinOp, Expr, ExprIf, Lit, Pat, Stmt, UnOp};
 
 use crate::errors::text;
-use crate::lower::closure;
-use crate::syntax::{Attribute, Factor};
+use crate::syntax::{Attribute, Factor, closure};
 use names::{Arrays, number};
 
 #[cfg(test)]

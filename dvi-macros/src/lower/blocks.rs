@@ -2,9 +2,10 @@
 
 use syn::{BinOp, Expr as Syntax, ExprIf, Pat, Stmt, UnOp};
 
-use super::{Binding, Lowering, Written, bound_name, local};
+use super::{Binding, Lowering, Written, bound_name};
 use crate::errors::text;
 use crate::symbolic::{Expr, Relation};
+use crate::syntax::closure;
 
 impl Lowering<'_> {
     /// `{ let a = …; let b = …; value }`
@@ -38,7 +39,7 @@ impl Lowering<'_> {
 
     fn binding(&mut self, local: &syn::Local) {
         let init = local.init.as_ref().filter(|init| init.diverge.is_none()).map(|init| &*init.expr);
-        if let Some(closure) = init.and_then(local::closure) {
+        if let Some(closure) = init.and_then(closure) {
             return self.define(&local.pat, closure);
         }
         if let Pat::Tuple(names) = &local.pat {

@@ -12,7 +12,7 @@ use quote::{quote, quote_spanned};
 use syn::visit::Visit;
 use syn::{Expr, Ident, Pat, Stmt};
 
-use super::local::closure;
+use crate::syntax::closure;
 
 /// A name of an inner scope.
 struct Local {

@@ -43,15 +43,6 @@ impl Calls {
     }
 }
 
-/// `|a, b| …`, in parentheses or not.
-pub(crate) fn closure(syntax: &Syntax) -> Option<&ExprClosure> {
-    match syntax {
-        Syntax::Paren(inner) => closure(&inner.expr),
-        Syntax::Closure(closure) => Some(closure),
-        _ => None,
-    }
-}
-
 impl Lowering<'_> {
     /// `let name = |a, b| body;`
     pub(super) fn define(&mut self, pattern: &Pat, closure: &ExprClosure) {
