@@ -57,18 +57,18 @@ fn oscillator() {
         "linearize",
         &expect![[r#"
             fn linearize() {
-                let (__q0, __rest) = q.split_at(1usize);
+                let (__q0, __rest) = q_.split_at(1usize);
                 let (__q1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                let (__v0, __rest) = v.split_at(1usize);
+                let (__v0, __rest) = v_.split_at(1usize);
                 let (__v1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                l_q.fill(T::lift(-0.0));
-                let (__l_q0, __rest) = l_q.split_at_mut(1usize);
+                l_q_.fill(T::lift(-0.0));
+                let (__l_q0, __rest) = l_q_.split_at_mut(1usize);
                 let (__l_q1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
-                l_v.fill(T::lift(-0.0));
-                let (__l_v0, __rest) = l_v.split_at_mut(1usize);
+                l_v_.fill(T::lift(-0.0));
+                let (__l_v0, __rest) = l_v_.split_at_mut(1usize);
                 let (__l_v1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let __offset0: usize = 0usize;
@@ -79,21 +79,21 @@ fn oscillator() {
                 );
                 let __r5 = T::lift(2f64) * __r4;
                 let __r10 = __q1[0usize];
-                let __r17 = __r4 * w.qq;
-                let __r19 = T::lift(0.5f64) * w.qv;
-                let __r21 = T::lift(0.5f64) * w.vq;
+                let __r17 = __r4 * w_.qq;
+                let __r19 = T::lift(0.5f64) * w_.qv;
+                let __r21 = T::lift(0.5f64) * w_.vq;
                 __l_q0[0usize]
                     += (T::lift(0.5f64) * (__v1[0usize] - (__r2 * __r5)));
                 __l_q1[0usize]
                     -= (T::lift(0.5f64) * (__v0[0usize] + (__r10 * __r5)));
                 __l_v1[0usize] += (T::lift(0.5f64) * __r2);
                 __l_v0[0usize] -= (T::lift(0.5f64) * __r10);
-                Sink::add(sink, __offset0 + 0usize, __offset0 + 0usize, (-__r17));
-                Sink::add(sink, __offset0 + 0usize, __offset1 + 0usize, __r19);
-                Sink::add(sink, __offset1 + 0usize, __offset0 + 0usize, __r21);
-                Sink::add(sink, __offset1 + 0usize, __offset1 + 0usize, (-__r17));
-                Sink::add(sink, __offset1 + 0usize, __offset0 + 0usize, (-__r19));
-                Sink::add(sink, __offset0 + 0usize, __offset1 + 0usize, (-__r21));
+                Sink::add(sink_, __offset0 + 0usize, __offset0 + 0usize, (-__r17));
+                Sink::add(sink_, __offset0 + 0usize, __offset1 + 0usize, __r19);
+                Sink::add(sink_, __offset1 + 0usize, __offset0 + 0usize, __r21);
+                Sink::add(sink_, __offset1 + 0usize, __offset1 + 0usize, (-__r17));
+                Sink::add(sink_, __offset1 + 0usize, __offset0 + 0usize, (-__r19));
+                Sink::add(sink_, __offset0 + 0usize, __offset1 + 0usize, (-__r21));
             }
         "#]],
     );
@@ -112,18 +112,18 @@ fn vortices() {
         "hamiltonian_gradient",
         &expect![[r#"
             fn hamiltonian_gradient() {
-                let (__q0, __rest) = q.split_at(N);
+                let (__q0, __rest) = q_.split_at(N);
                 let (__q1, __rest) = __rest.split_at(N);
                 let _ = __rest;
-                out.fill(T::lift(-0.0));
-                let (__vector0, __rest) = out.split_at_mut(N);
+                out_.fill(T::lift(-0.0));
+                let (__vector0, __rest) = out_.split_at_mut(N);
                 let (__vector1, __rest) = __rest.split_at_mut(N);
                 let _ = __rest;
                 __private::widest::<
                     T,
                     _,
                 >(
-                    q.len(),
+                    q_.len(),
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
                         if __private::are_many(N) {
@@ -277,11 +277,11 @@ fn function_of_a_sum() {
         "hamiltonian_gradient",
         &expect![[r#"
             fn hamiltonian_gradient() {
-                let (__q0, __rest) = q.split_at(self.n);
+                let (__q0, __rest) = q_.split_at(self.n);
                 let (__q1, __rest) = __rest.split_at(self.n);
                 let _ = __rest;
-                out.fill(T::lift(-0.0));
-                let (__vector0, __rest) = out.split_at_mut(self.n);
+                out_.fill(T::lift(-0.0));
+                let (__vector0, __rest) = out_.split_at_mut(self.n);
                 let (__vector1, __rest) = __rest.split_at_mut(self.n);
                 let _ = __rest;
                 let mut __r6 = T::lift(-0.0);
@@ -289,7 +289,7 @@ fn function_of_a_sum() {
                     T,
                     _,
                 >(
-                    q.len(),
+                    q_.len(),
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
                         let __whole = __private::whole(0usize, self.n);
@@ -317,7 +317,7 @@ fn function_of_a_sum() {
                     T,
                     _,
                 >(
-                    q.len(),
+                    q_.len(),
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
                         let __whole = __private::whole(0usize, self.n);

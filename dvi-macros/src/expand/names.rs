@@ -1,5 +1,5 @@
 //! The names in generated code that users read in messages and documentation: that of the type of numbers,
-//! and those of generics and arguments of functions, which are called here as in the traits.
+//! and those of generics and arguments of functions, which are called nearly as in the traits.
 
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt as _;
@@ -13,28 +13,30 @@ const NUMBERS: [&str; 4] = ["T", "Number", "Numbers", "Scalar"];
 /// Generics besides, and what they are called in the traits, where the user has nothing of that name.
 const GENERICS: [(&str, &str); 2] = [("__K", "K"), ("__W", "W")];
 
-/// Arguments as the stages write them, and what they are called where the user has nothing of the first name.
+/// Arguments as the stages write them, and what they are called where the user has nothing of the first name:
+/// as in the traits but for the last letter, since a constant of the user's may be called `q` or `t`, and no
+/// argument can be called as a constant is.
 #[rustfmt::skip]
 const ARGUMENTS: [(&str, &str); 19] = [
-    ("__q",          "q"),
-    ("__v",          "v"),
-    ("__t",          "t"),
-    ("__vector",     "out"),
-    ("__g",          "out"),
-    ("__l_q",        "l_q"),
-    ("__l_v",        "l_v"),
-    ("__w",          "w"),
-    ("__weights",    "w"),
-    ("__a",          "a"),
-    ("__b",          "b"),
-    ("__sink",       "sink"),
-    ("__index",      "index"),
-    ("__i",          "i"),
-    ("__coordinate", "coordinate"),
-    ("__axis",       "axis"),
-    ("__body",       "body"),
-    ("__block",      "block"),
-    ("__len",        "block_len"),
+    ("__q",          "q_"),
+    ("__v",          "v_"),
+    ("__t",          "t_"),
+    ("__vector",     "out_"),
+    ("__g",          "out_"),
+    ("__l_q",        "l_q_"),
+    ("__l_v",        "l_v_"),
+    ("__w",          "w_"),
+    ("__weights",    "w_"),
+    ("__a",          "a_"),
+    ("__b",          "b_"),
+    ("__sink",       "sink_"),
+    ("__index",      "index_"),
+    ("__i",          "i_"),
+    ("__coordinate", "coordinate_"),
+    ("__axis",       "axis_"),
+    ("__body",       "body_"),
+    ("__block",      "block_"),
+    ("__len",        "block_len_"),
 ];
 
 /// What is renamed, and to what.

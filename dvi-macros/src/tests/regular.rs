@@ -24,18 +24,18 @@ fn kepler_linearized() {
         "linearize",
         &expect![[r#"
             fn linearize() {
-                let (__q0, __rest) = q.split_at(1usize);
+                let (__q0, __rest) = q_.split_at(1usize);
                 let (__q1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                let (__v0, __rest) = v.split_at(1usize);
+                let (__v0, __rest) = v_.split_at(1usize);
                 let (__v1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                l_q.fill(T::lift(-0.0));
-                let (__l_q0, __rest) = l_q.split_at_mut(1usize);
+                l_q_.fill(T::lift(-0.0));
+                let (__l_q0, __rest) = l_q_.split_at_mut(1usize);
                 let (__l_q1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
-                l_v.fill(T::lift(-0.0));
-                let (__l_v0, __rest) = l_v.split_at_mut(1usize);
+                l_v_.fill(T::lift(-0.0));
+                let (__l_v0, __rest) = l_v_.split_at_mut(1usize);
                 let (__l_v1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let __offset0: usize = 0usize;
@@ -52,29 +52,29 @@ fn kepler_linearized() {
                         __private::Number::number(self.mu),
                     ) * __r9);
                 let __r17 = T::lift(3f64) * __r9;
-                let __r21 = w.qq * __r11;
+                let __r21 = w_.qq * __r11;
                 let __r25 = ((__r0 * __r3) * __r17) * __r21;
-                let __r26 = w.vv;
+                let __r26 = w_.vv;
                 __l_q0[0usize] -= (__r0 * __r11);
                 __l_v0[0usize] += __v0[0usize];
                 __l_q1[0usize] -= (__r3 * __r11);
                 __l_v1[0usize] += __v1[0usize];
                 Sink::add(
-                    sink,
+                    sink_,
                     __offset0 + 0usize,
                     __offset0 + 0usize,
                     (((__r17 * __r2) - T::lift(1f64)) * __r21),
                 );
-                Sink::add(sink, __offset0 + 0usize, __offset1 + 0usize, __r25);
-                Sink::add(sink, __offset1 + 0usize, __offset0 + 0usize, __r25);
-                Sink::add(sink, __offset0 + 0usize, __offset0 + 0usize, __r26);
+                Sink::add(sink_, __offset0 + 0usize, __offset1 + 0usize, __r25);
+                Sink::add(sink_, __offset1 + 0usize, __offset0 + 0usize, __r25);
+                Sink::add(sink_, __offset0 + 0usize, __offset0 + 0usize, __r26);
                 Sink::add(
-                    sink,
+                    sink_,
                     __offset1 + 0usize,
                     __offset1 + 0usize,
                     (((__r17 * __r4) - T::lift(1f64)) * __r21),
                 );
-                Sink::add(sink, __offset1 + 0usize, __offset1 + 0usize, __r26);
+                Sink::add(sink_, __offset1 + 0usize, __offset1 + 0usize, __r26);
             }
         "#]],
     );
@@ -87,10 +87,10 @@ fn energy_of_kepler() {
         "energy",
         &expect![[r#"
             fn energy() {
-                let (__q0, __rest) = q.split_at(1usize);
+                let (__q0, __rest) = q_.split_at(1usize);
                 let (__q1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                let (__v0, __rest) = v.split_at(1usize);
+                let (__v0, __rest) = v_.split_at(1usize);
                 let (__v1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
                 let __r1 = __v0[0usize];
@@ -117,11 +117,11 @@ fn force_of_kepler() {
         "force",
         &expect![[r#"
             fn force() {
-                let (__q0, __rest) = q.split_at(1usize);
+                let (__q0, __rest) = q_.split_at(1usize);
                 let (__q1, __rest) = __rest.split_at(1usize);
                 let _ = __rest;
-                out.fill(T::lift(-0.0));
-                let (__vector0, __rest) = out.split_at_mut(1usize);
+                out_.fill(T::lift(-0.0));
+                let (__vector0, __rest) = out_.split_at_mut(1usize);
                 let (__vector1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let __r0 = __q0[0usize];
@@ -153,9 +153,9 @@ fn energy_of_a_chain() {
         "energy",
         &expect![[r#"
             fn energy() {
-                let (__q0, __rest) = q.split_at(N);
+                let (__q0, __rest) = q_.split_at(N);
                 let _ = __rest;
-                let (__v0, __rest) = v.split_at(N);
+                let (__v0, __rest) = v_.split_at(N);
                 let _ = __rest;
                 let mut __r14 = T::lift(-0.0);
                 for __i0 in (0usize)..(N) {
@@ -187,14 +187,14 @@ fn state_of_kepler() {
         &expect![[r#"
             fn write() {
                 let mut __at = 0usize;
-                q[__at] = self.x;
+                q_[__at] = self.x;
                 __at += 1usize;
-                q[__at] = self.y;
+                q_[__at] = self.y;
                 __at += 1usize;
                 let mut __at = 0usize;
-                v[__at] = self.dot_x;
+                v_[__at] = self.dot_x;
                 __at += 1usize;
-                v[__at] = self.dot_y;
+                v_[__at] = self.dot_y;
                 __at += 1usize;
                 ::core::result::Result::Ok(())
             }
@@ -221,24 +221,24 @@ fn constraints_of_a_chain_with_their_jacobian() {
         "constraint_jacobian",
         &expect![[r#"
             fn constraint_jacobian() {
-                let (__q0, __rest) = q.split_at(self.n);
+                let (__q0, __rest) = q_.split_at(self.n);
                 let (__q1, __rest) = __rest.split_at(self.n);
                 let _ = __rest;
-                out.fill(T::lift(-0.0));
-                let (__g0, __rest) = out.split_at_mut((self.n).saturating_sub(1usize));
+                out_.fill(T::lift(-0.0));
+                let (__g0, __rest) = out_.split_at_mut((self.n).saturating_sub(1usize));
                 let (__g1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let __row0: usize = 0usize;
                 let __row1: usize = __row0 + (self.n).saturating_sub(1usize);
                 let __offset0: usize = 0usize;
                 let __offset1: usize = self.n;
-                let __r4 = t;
+                let __r4 = t_;
                 let mut __r10 = T::lift(-0.0);
                 for __i0 in (0usize)..(self.n) {
                     let __r0 = __q0[__i0];
                     let __r9 = __r0 * __r0;
                     Sink::add(
-                        sink,
+                        sink_,
                         __row1 + 0usize,
                         __offset0 + __i0,
                         (T::lift(2f64) * __r0),
@@ -254,9 +254,9 @@ fn constraints_of_a_chain_with_their_jacobian() {
                             - T::lift(
                                 __private::Number::number(self.rods[__i0]),
                             ));
-                    Sink::add(sink, __row0 + __i0, __offset0 + __i0, (-__r5));
-                    Sink::add(sink, __row0 + __i0, __offset1 + __i0, __r2);
-                    Sink::add(sink, __row0 + __i0, __offset0 + __i0 + 1usize, __r5);
+                    Sink::add(sink_, __row0 + __i0, __offset0 + __i0, (-__r5));
+                    Sink::add(sink_, __row0 + __i0, __offset1 + __i0, __r2);
+                    Sink::add(sink_, __row0 + __i0, __offset0 + __i0 + 1usize, __r5);
                 }
                 __g1[0usize] += __r10;
             }
@@ -271,11 +271,11 @@ fn constraints_of_a_chain_along_a_motion() {
         "constraint_curvature",
         &expect![[r#"
             fn constraint_curvature() {
-                let (__v0, __rest) = v.split_at(self.n);
+                let (__v0, __rest) = v_.split_at(self.n);
                 let (__v1, __rest) = __rest.split_at(self.n);
                 let _ = __rest;
-                out.fill(T::lift(-0.0));
-                let (__g0, __rest) = out.split_at_mut((self.n).saturating_sub(1usize));
+                out_.fill(T::lift(-0.0));
+                let (__g0, __rest) = out_.split_at_mut((self.n).saturating_sub(1usize));
                 let (__g1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let mut __r12 = T::lift(-0.0);
@@ -283,7 +283,7 @@ fn constraints_of_a_chain_along_a_motion() {
                     T,
                     _,
                 >(
-                    q.len(),
+                    q_.len(),
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     || {
                         let __whole = __private::whole(0usize, self.n);
@@ -388,14 +388,14 @@ fn constraints_of_velocities_with_their_weighted_derivatives() {
         "velocity_constraint_jacobian",
         &expect![[r#"
             fn velocity_constraint_jacobian() {
-                let (__q0, __rest) = q.split_at(self.n);
+                let (__q0, __rest) = q_.split_at(self.n);
                 let (__q1, __rest) = __rest.split_at(self.n);
                 let _ = __rest;
-                let (__v0, __rest) = v.split_at(self.n);
+                let (__v0, __rest) = v_.split_at(self.n);
                 let (__v1, __rest) = __rest.split_at(self.n);
                 let _ = __rest;
-                out.fill(T::lift(-0.0));
-                let (__g0, __rest) = out.split_at_mut(self.n);
+                out_.fill(T::lift(-0.0));
+                let (__g0, __rest) = out_.split_at_mut(self.n);
                 let (__g1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let __row0: usize = 0usize;
@@ -404,9 +404,9 @@ fn constraints_of_velocities_with_their_weighted_derivatives() {
                 let __offset1: usize = self.n;
                 let __r5 = T::lift(
                     __private::Number::number(self.slope),
-                ) * t;
-                let __r13 = w[1usize];
-                let __r15 = w[0usize];
+                ) * t_;
+                let __r13 = w_[1usize];
+                let __r15 = w_[0usize];
                 let mut __r11 = T::lift(-0.0);
                 for __i0 in (0usize)..(self.n) {
                     let __r0 = __v0[__i0];
@@ -415,16 +415,16 @@ fn constraints_of_velocities_with_their_weighted_derivatives() {
                     let __r9 = __v1[__i0];
                     let __r10 = __r8 * __r9;
                     __g0[__i0] += ((__r0 * __r1) - __r5);
-                    Sink::add(sink, __row0 + __i0, __offset0 + __i0, (__r13 * __r1));
-                    Sink::add(sink, __row0 + __i0, __offset1 + __i0, (__r15 * __r0));
+                    Sink::add(sink_, __row0 + __i0, __offset0 + __i0, (__r13 * __r1));
+                    Sink::add(sink_, __row0 + __i0, __offset1 + __i0, (__r15 * __r0));
                     Sink::add(
-                        sink,
+                        sink_,
                         __row1 + 0usize,
                         __offset0 + __i0,
                         (-(__r15 * __r9)),
                     );
                     Sink::add(
-                        sink,
+                        sink_,
                         __row1 + 0usize,
                         __offset1 + __i0,
                         (-(__r13 * __r8)),
@@ -432,7 +432,7 @@ fn constraints_of_velocities_with_their_weighted_derivatives() {
                     __r11 += __r10;
                 }
                 __g1[0usize] += (__v0[0usize] - __r11);
-                Sink::add(sink, __row1 + 0usize, __offset0 + 0usize, __r13);
+                Sink::add(sink_, __row1 + 0usize, __offset0 + 0usize, __r13);
             }
         "#]],
     );
@@ -445,11 +445,11 @@ fn constraints_of_velocities_along_a_motion() {
         "velocity_constraint_rate",
         &expect![[r#"
             fn velocity_constraint_rate() {
-                let (__v0, __rest) = v.split_at(self.n);
+                let (__v0, __rest) = v_.split_at(self.n);
                 let (__v1, __rest) = __rest.split_at(self.n);
                 let _ = __rest;
-                out.fill(T::lift(-0.0));
-                let (__g0, __rest) = out.split_at_mut(self.n);
+                out_.fill(T::lift(-0.0));
+                let (__g0, __rest) = out_.split_at_mut(self.n);
                 let (__g1, __rest) = __rest.split_at_mut(1usize);
                 let _ = __rest;
                 let __r0 = T::lift(

@@ -181,3 +181,24 @@ fn states_hold_coordinates_then_velocities() {
     let result = lengths.write(|block| if block == 0 { 3 } else { 1 }, &mut [0.0; 4], &mut [0.0; 4]);
     assert_eq!(result.map_err(|error| error.array), Err("dot_x"));
 }
+
+/// Constants with the names of arguments.
+mod constants {
+    #![allow(non_upper_case_globals, dead_code)]
+    use dvi_core::lagrangian;
+
+    const q: f64 = 2.0;
+    const out: f64 = 1.0;
+    const index: usize = 1;
+    static v: f64 = 1.0;
+    static t: f64 = 1.0;
+
+    /// A system beside them.
+    #[lagrangian(
+        coordinates(x, y[2]),
+        lagrangian = dot(x).powi(2) / 2.0 + sum(0..2, |j| dot(y[j]).powi(2)) - self::q * x * y[0],
+        momenta(p = dot(x)),
+    )]
+    #[derive(Clone, Debug)]
+    pub struct Beside;
+}
