@@ -233,7 +233,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
 
     /// Ends the run of a member where one of the functions `g` of system, state and time comes from below to
     /// zero, with its reason: such as "left the region" where `g` is the distance from the origin less the
-    /// radius of the region. A member that begins beyond a limit, where its g is positive, ends there.
+    /// radius of the region. A member that begins beyond a limit, where its g is positive, ends there; one that
+    /// begins where g is zero does not come to that limit before g has been negative. Another call replaces the
+    /// limits of the one before.
     ///
     /// These are [`Events`](crate::run::Events): time and state of the member are those at the limit, as
     /// accurate as its run is, whatever the length of a step, and a member that a step leads beyond a limit

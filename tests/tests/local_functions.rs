@@ -74,6 +74,9 @@ potential! {
     let shift = 7.0;
     let (s, c) = x.sin_cos();
     let (inner, outer) = (twice(s), { let twice = |b: f64| b * shift; twice(c) });
+    // The right sides are those before.
+    let (s, c) = (c, s);
+    let from = |a: f64, b: f64| from(a * c, b + s);
     if x < y { inner * outer } else { from(inner, outer) }
 }
 
@@ -85,5 +88,30 @@ fn a_formula_with_functions_is_what_rust_makes_of_it() -> Outcome {
         let expected = by_rust(system.depth, x, y);
         assert!(abs_diff_eq!(found, expected, epsilon = 1e-14 * expected.abs()), "{found}, not {expected}");
     }
+    Ok(())
+}
+
+/// Indices that a function passes on, that it makes numbers of, and that it does not read.
+#[lagrangian(
+    coordinates(x[4]),
+    lagrangian = {
+        let number = |i| i as f64;
+        let weight = |i| 1.0 + number(i) / 2.0;
+        let one = |_i| 1.0;
+        let x = |i| { let entry = |place| x[place]; entry(i) * entry((i + 1) % 4) };
+        sum(0..4, |i| strength[i] * weight(i) * x(i) * one(i))
+    } + sum(0..4, |i| dot(x[i]).powi(2)) / 2.0,
+)]
+struct Ring {
+    strength: [f64; 4],
+}
+
+#[test]
+fn indices_are_passed_on() -> Outcome {
+    let (system, x) = (Ring { strength: [0.5, -0.25, 2.0, 1.0] }, [0.3, 1.1, -0.7, 0.9]);
+    let state = RingState { x, dot_x: [0.0; 4] };
+    let terms = (0..4).map(|i| system.strength[i] * (1.0 + i as f64 / 2.0) * x[i] * x[(i + 1) % 4]);
+    let expected: f64 = terms.sum();
+    assert!(abs_diff_eq!(system.lagrangian_at(&state)?, expected, epsilon = 1e-15));
     Ok(())
 }

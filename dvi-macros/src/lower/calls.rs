@@ -291,6 +291,15 @@ impl Lowering<'_> {
             return;
         }
         let kind = format!("function {name}");
+        if self.calls.are_of(name) {
+            self.errors.push(at, format!("`{name}` calls itself: a formula has no recursion"));
+            return;
+        }
+        if self.scope.iter().any(|(known, _)| known == name) {
+            let message = format!("a function sees the names before it: `{name}` stands behind this one");
+            self.errors.push(at, message);
+            return;
+        }
         if self.model.parameters.iter().any(|parameter| parameter.text == name) {
             let listed: Vec<String> =
                 receiver.into_iter().chain(arguments.iter().copied()).map(text).collect();
@@ -385,6 +394,12 @@ impl Lowering<'_> {
                 .push(&call.func, format!("`{name}` takes one coordinate; {}", here(call.args.len())));
             return None;
         }
+        if let Some(name_of) = root(&call.args[0]).filter(|name| self.binding_of(name).is_some()) {
+            let message =
+                format!("`{name}` takes a coordinate, and `{name_of}` is a name of this formula here");
+            self.errors.push(&call.args[0], message);
+            return None;
+        }
         let coordinate = self.expr(&call.args[0])?;
         match (coordinate.scale == 1.0, self.graph.node(coordinate.node)) {
             (true, Node::Coordinate(coordinate)) => {
@@ -404,6 +419,16 @@ impl Lowering<'_> {
                 None
             }
         }
+    }
+}
+
+/// The name in `x` and `x[i]`.
+fn root(place: &Syntax) -> Option<String> {
+    match place {
+        Syntax::Paren(inner) => root(&inner.expr),
+        Syntax::Index(index) => root(&index.expr),
+        Syntax::Path(path) => path.path.get_ident().map(ToString::to_string),
+        _ => None,
     }
 }
 

@@ -1,8 +1,9 @@
 //! Names that a formula gives to functions and to pairs of values.
 //!
 //! `let gap = |a, b| …;` is called as `gap(i, j)`. A call is the body with its parameters bound to the
-//! arguments: to indices where the body takes a parameter for one, else to values. The body sees the names
-//! that stand before the function, and not those around the call.
+//! arguments: to indices where the body takes a parameter for one, to values where it takes it for one, and
+//! to what the argument is where it does neither. The body sees the names that stand before the function, and
+//! not those around the call.
 
 use std::cell::Cell;
 use std::ops::Range;
@@ -14,6 +15,7 @@ use syn::{Expr as Syntax, ExprCall, ExprClosure, Pat, Stmt};
 use super::{Binding, Lowering, Written, bound_name};
 use crate::errors::here;
 use crate::symbolic::{Expr, Unary};
+use crate::syntax::closure;
 use crate::words::SUMS;
 
 /// So many calls of functions of their own have the formulas of a system.
@@ -21,13 +23,21 @@ const MOST_CALLS: u32 = 10_000;
 
 #[derive(Debug)]
 pub(super) struct Local {
-    /// The names of the parameters, and whether they are indices.
-    parameters: Vec<(String, bool)>,
+    name: String,
+    parameters: Vec<(String, Use)>,
     body: Syntax,
-    /// The length of the scope behind the name of the function.
+    /// The length of the scope before the function.
     sees: usize,
     /// Whether a mistake in the body has been reported.
     is_wrong: Cell<bool>,
+}
+
+/// What a body takes a parameter for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Use {
+    index: bool,
+    /// Elsewhere than in `a as f64`.
+    number: bool,
 }
 
 /// The functions that are being called, and the names around each call that its body does not see.
@@ -40,6 +50,11 @@ pub(super) struct Calls {
 impl Calls {
     pub(super) fn hide(&self, position: usize) -> bool {
         self.open.iter().any(|(_, hidden)| hidden.contains(&position))
+    }
+
+    /// Whether a function of this name is being called.
+    pub(super) fn are_of(&self, name: &str) -> bool {
+        self.open.iter().any(|(local, _)| local.name == name)
     }
 }
 
@@ -54,8 +69,12 @@ impl Lowering<'_> {
         for input in &closure.inputs {
             match bound_name(input) {
                 Some(parameter) => {
-                    let is_index = self.is_index_in(&closure.body, &parameter);
-                    parameters.push((parameter, is_index));
+                    if parameter != "_" && parameters.iter().any(|(known, _)| *known == parameter) {
+                        self.errors.push(input, "two parameters have this name");
+                        is_wrong = true;
+                    }
+                    let used = Places::of(self, &[], &parameter, &closure.body);
+                    parameters.push((parameter, used));
                 }
                 None => {
                     self.errors.push(input, "a parameter is a name: write `|a, b| …`");
@@ -63,16 +82,9 @@ impl Lowering<'_> {
                 }
             }
         }
-        let (body, sees) = ((*closure.body).clone(), self.scope.len() + 1);
-        let local = Local { parameters, body, sees, is_wrong: Cell::new(is_wrong) };
+        let (body, sees) = ((*closure.body).clone(), self.scope.len());
+        let local = Local { name: name.clone(), parameters, body, sees, is_wrong: Cell::new(is_wrong) };
         self.scope.push((name, Binding::Function(Rc::new(local))));
-    }
-
-    /// Whether a name stands for an index in a formula.
-    fn is_index_in(&self, formula: &Syntax, name: &str) -> bool {
-        let mut places = Places { lowering: self, name, in_index: false, is_index: false };
-        places.visit_expr(formula);
-        places.is_index
     }
 
     pub(super) fn local(&self, name: &str) -> Option<Rc<Local>> {
@@ -83,10 +95,6 @@ impl Lowering<'_> {
     }
 
     pub(super) fn call_local(&mut self, name: &str, local: &Rc<Local>, call: &ExprCall) -> Option<Expr> {
-        if self.calls.open.iter().any(|(open, _)| Rc::ptr_eq(open, local)) {
-            self.errors.push(&call.func, format!("`{name}` calls itself: a formula has no recursion"));
-            return None;
-        }
         if local.is_wrong.get() {
             return None;
         }
@@ -105,8 +113,8 @@ impl Lowering<'_> {
             return None;
         }
         let (outside, mut arguments) = (self.scope.len(), Vec::new());
-        for ((parameter, is_index), argument) in local.parameters.iter().zip(&call.args) {
-            let binding = if *is_index {
+        for ((parameter, used), argument) in local.parameters.iter().zip(&call.args) {
+            let binding = if used.index || (!used.number && self.is_index(argument)) {
                 self.index(argument).map(|form| Binding::Index { form, over: None })
             } else {
                 let written = self.written(argument);
@@ -158,15 +166,24 @@ fn is_sin_cos(call: &syn::ExprMethodCall) -> bool {
     call.method == "sin_cos" && call.args.is_empty()
 }
 
-/// Looks for a name where an index stands.
+/// Looks for what a name is taken for.
 struct Places<'a, 'b> {
     lowering: &'a Lowering<'b>,
+    /// The functions inside of the body, with what they take their parameters for.
+    inside: Vec<(String, Vec<Use>)>,
     name: &'a str,
     in_index: bool,
-    is_index: bool,
+    used: Use,
 }
 
-impl Places<'_, '_> {
+impl<'a, 'b> Places<'a, 'b> {
+    fn of(lowering: &'a Lowering<'b>, inside: &[(String, Vec<Use>)], name: &'a str, body: &Syntax) -> Use {
+        let mut places =
+            Places { lowering, inside: inside.to_vec(), name, in_index: false, used: Use::default() };
+        places.visit_expr(body);
+        places.used
+    }
+
     fn visit(&mut self, syntax: &Syntax, in_index: bool) {
         let around = std::mem::replace(&mut self.in_index, in_index);
         self.visit_expr(syntax);
@@ -179,11 +196,31 @@ impl Places<'_, '_> {
             name => bound_name(name).is_some_and(|name| name == self.name),
         }
     }
+
+    /// What a function takes its parameters for, if there is one of this name.
+    fn uses(&self, function: &str) -> Option<Vec<Use>> {
+        let inside = self.inside.iter().rev().find(|(name, _)| name == function);
+        inside.map(|(_, uses)| uses.clone()).or_else(|| {
+            let local = self.lowering.local(function)?;
+            Some(local.parameters.iter().map(|(_, used)| *used).collect())
+        })
+    }
+
+    /// Takes down what a function of the body takes its parameters for.
+    fn define(&mut self, pattern: &Pat, closure: &ExprClosure) {
+        let Some(function) = bound_name(pattern) else { return };
+        let names = closure.inputs.iter().map(|input| bound_name(input).unwrap_or_default());
+        let uses = names.map(|name| Places::of(self.lowering, &self.inside, &name, &closure.body)).collect();
+        self.inside.push((function, uses));
+    }
 }
 
 impl<'ast> Visit<'ast> for Places<'_, '_> {
     fn visit_expr_path(&mut self, path: &'ast syn::ExprPath) {
-        self.is_index |= self.in_index && path.path.is_ident(self.name);
+        if path.path.is_ident(self.name) {
+            self.used.index |= self.in_index;
+            self.used.number |= !self.in_index;
+        }
     }
 
     fn visit_expr_index(&mut self, index: &'ast syn::ExprIndex) {
@@ -192,7 +229,9 @@ impl<'ast> Visit<'ast> for Places<'_, '_> {
     }
 
     fn visit_expr_cast(&mut self, cast: &'ast syn::ExprCast) {
-        self.visit(&cast.expr, false);
+        if !is_path(&cast.expr) {
+            self.visit(&cast.expr, false);
+        }
     }
 
     fn visit_expr_call(&mut self, call: &'ast ExprCall) {
@@ -200,13 +239,14 @@ impl<'ast> Visit<'ast> for Places<'_, '_> {
             Syntax::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
             _ => String::new(),
         };
-        let local = self.lowering.local(&name);
+        let uses = self.uses(&name);
         for (place, argument) in call.args.iter().enumerate() {
-            let in_index = match &local {
-                Some(local) => local.parameters.get(place).is_some_and(|(_, is_index)| *is_index),
-                None => place == 0 && SUMS.contains(&name.as_str()),
-            };
-            self.visit(argument, in_index);
+            match uses.as_ref().and_then(|uses| uses.get(place)) {
+                // What is nothing in particular there is nothing in particular here.
+                Some(used) if *used == Use::default() && is_path(argument) => {}
+                Some(used) => self.visit(argument, used.index),
+                None => self.visit(argument, place == 0 && SUMS.contains(&name.as_str())),
+            }
         }
     }
 
@@ -218,11 +258,25 @@ impl<'ast> Visit<'ast> for Places<'_, '_> {
     }
 
     fn visit_block(&mut self, block: &'ast syn::Block) {
+        let outside = self.inside.len();
         for statement in &block.stmts {
             visit::visit_stmt(self, statement);
-            if matches!(statement, Stmt::Local(local) if self.binds(&local.pat)) {
-                return;
+            let Stmt::Local(local) = statement else { continue };
+            if let Some(closure) = local.init.as_ref().and_then(|init| closure(&init.expr)) {
+                self.define(&local.pat, closure);
+            }
+            if self.binds(&local.pat) {
+                break;
             }
         }
+        self.inside.truncate(outside);
+    }
+}
+
+fn is_path(syntax: &Syntax) -> bool {
+    match syntax {
+        Syntax::Paren(inner) => is_path(&inner.expr),
+        Syntax::Path(_) => true,
+        _ => false,
     }
 }

@@ -203,8 +203,14 @@ impl Lowering<'_> {
             }
             Syntax::Path(path) => {
                 let name = path.path.get_ident().map(ToString::to_string).unwrap_or_default();
-                if let Some(Binding::Index { form, .. }) = self.binding_of(&name) {
-                    return Some(form.clone());
+                match self.binding_of(&name) {
+                    Some(Binding::Index { form, .. }) => return Some(form.clone()),
+                    Some(Binding::Value { .. } | Binding::Function(_)) => {
+                        let message = format!("`{name}` is a name of this formula here, and no index");
+                        self.errors.push(path, message);
+                        return None;
+                    }
+                    None => {}
                 }
                 if let Some(size) = self.model.size(syntax) {
                     return Some(size);

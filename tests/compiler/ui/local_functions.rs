@@ -74,4 +74,29 @@ struct Once {
 )]
 struct Later;
 
+/// What is no place has no velocity, and a name of the formula is no size.
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = {
+        let speed = |a| dot(a).powi(2);
+        let last = |a| x[n - 1] * a;
+        let n = 2.0;
+        sum(0..n, |i| dot(x[i]).powi(2)) - speed(x[0]) - last(n)
+    },
+)]
+struct Places {
+    n: usize,
+}
+
+#[lagrangian(
+    coordinates(x),
+    lagrangian = {
+        let twice = |a, a| a + a;
+        let outer = |a| inner(a);
+        let inner = |a| a;
+        dot(x).powi(2) - twice(x, x) - outer(x) - inner(x)
+    },
+)]
+struct Order;
+
 fn main() {}

@@ -18,8 +18,9 @@ impl Evaluation<'_> {
                 Ok(())
             }
             (Pat::Tuple(names), Expr::Tuple(values)) => {
-                for (name, value) in names.elems.iter().zip(&values.elems) {
-                    let value = self.number(value)?;
+                let values: Result<Vec<Jet>, _> =
+                    values.elems.iter().map(|value| self.number(value)).collect();
+                for (name, value) in names.elems.iter().zip(values?) {
                     self.bind(name, Binding::Number(value));
                 }
                 Ok(())
