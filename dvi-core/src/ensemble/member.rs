@@ -59,8 +59,7 @@ pub struct Member {
 ///
 /// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
 /// let results = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts)
-///     .until(|_, state| (state.dot_angle.abs() > 0.9).then_some("too fast"))
-///     .stride(1)
+///     .until(["too fast"], |_, state, _| [state.dot_angle.abs() - 0.9])
 ///     .take_steps(1000)?;
 /// // From 1 rad it passes the bottom with √(2 − 2 cos 1) = 0.96, from 0.9 rad with 0.87.
 /// let fast = |member: &&dvi_core::ensemble::Member| matches!(member.outcome, Outcome::Exited { .. });

@@ -43,7 +43,6 @@ impl<N: Number> Number for &N {
 /// frequency is read from the motion. A fixed point takes 64 more, which leave r⁶⁴ of an error of the
 /// derivatives at a rate of convergence r.
 ///
-///
 /// ```
 /// use dvi_core::prelude::*;
 /// use dvi_core::{Parameter, Varied};
@@ -54,7 +53,7 @@ impl<N: Number> Number for &N {
 ///
 /// // x(t) = cos(√k t) at k = 1, and its derivative −t sin(√k t) / (2√k) in k, after a time of 1.
 /// let spring = Spring { k: Varied(Dual64::from(1.0).derivative()) };
-/// let start = SpringState { x: Dual64::from(1.0), dot_x: Dual64::from(0.0) };
+/// let start = SpringStateOf { x: Dual64::from(1.0), dot_x: Dual64::from(0.0) };
 /// let h = Dual64::from(0.001);
 /// let mut run = Integrator::new(&spring, Variational::trapezoid(), h, start)?;
 /// run.take_steps(1000)?;
