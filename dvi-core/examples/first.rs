@@ -1,4 +1,4 @@
-//! The smallest program: a pendulum, a page that shows its first swings, and its energy after a million steps.
+//! The smallest program: a pendulum, a page with its first swings, and its energy after a million steps.
 
 use dvi_core::prelude::*;
 

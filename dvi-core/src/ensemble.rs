@@ -233,9 +233,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
 
     /// Ends the run of a member where one of the functions `g` of system, state and time comes from below to
     /// zero, with its reason: such as "left the region" where `g` is the distance from the origin less the
-    /// radius of the region. A member that begins beyond a limit, where its g is positive, ends there; one that
-    /// begins where g is zero does not come to that limit before g has been negative. Another call replaces the
-    /// limits of the one before.
+    /// radius of the region. A member that begins beyond a limit, where its g is positive, ends there; one
+    /// that begins where g is zero does not come to that limit before g has been negative. Another call
+    /// replaces the limits of the one before.
     ///
     /// These are [`Events`](crate::run::Events): time and state of the member are those at the limit, as
     /// accurate as its run is, whatever the length of a step, and a member that a step leads beyond a limit
@@ -314,7 +314,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// systems by their type, their formulas, energy and gradient at the start, and by what `Debug` says of
     /// them. So that must be the same in each process, which the address of a function is not. Of limits the
     /// reasons are compared; what they, sections and functions of your own in formulas compute cannot be:
-    /// remove the file when that changes. It is written between two [looks](Self::stride), so that a long stride makes it late.
+    /// remove the file when that changes. It is written between two [looks](Self::stride), so that a long
+    /// stride makes it late.
     pub fn checkpoints(mut self, path: impl AsRef<Path>, every: Duration) -> Self
     where
         S: fmt::Debug,

@@ -30,6 +30,7 @@ mod names;
 mod reach;
 mod sums;
 mod unsupported;
+mod velocities;
 
 use crate::words;
 use local::{Calls, Local};

@@ -2,8 +2,9 @@
 //! nodes of `Galerkin` in lanes beside the same one by one, of a rotating frame beside the same motion as p
 //! dq − H.
 //!
-//! `cargo bench -p dvi-benches --bench lanes [-- --markdown]`. Times are those of 512 steps of eight runs, and of 64 steps
-//! of Gauss collocation or `Galerkin`. Ratios of neighbouring rows are what counts.
+//! `cargo bench -p dvi-benches --bench lanes [-- --markdown]`. Times are those of 512 steps of eight
+//! runs, and of 64 steps of Gauss collocation or `Galerkin`. Ratios of neighbouring rows are what
+//! counts.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use dvi_core::Lagrangian;

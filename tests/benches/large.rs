@@ -2,8 +2,8 @@
 //! Ulam and Tsingou beside the same steps by hand; the gradient of rings; and Newton's method on vortices,
 //! each of which moves all others.
 //!
-//! `cargo bench -p dvi-benches --bench large [-- --markdown]`. Times are those of one step by Newton and of a hundred by
-//! Verlet; throughput counts masses times steps.
+//! `cargo bench -p dvi-benches --bench large [-- --markdown]`. Times are those of one step by Newton
+//! and of a hundred by Verlet; throughput counts masses times steps.
 
 mod fput_by_hand;
 

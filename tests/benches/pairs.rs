@@ -2,7 +2,8 @@
 //! and on two, beside three by hand; a fast sum beside the sum over all pairs; and the check of indices
 //! before a run.
 //!
-//! `cargo bench -p dvi-benches --bench pairs [-- --markdown]`. Throughput counts ordered pairs: n(n − 1) of n vortices.
+//! `cargo bench -p dvi-benches --bench pairs [-- --markdown]`. Throughput counts ordered pairs: n(n −
+//! 1) of n vortices.
 
 mod pairs_by_hand;
 

@@ -251,8 +251,8 @@ fn values_come_in_any_numbers() -> Outcome {
     Ok(())
 }
 
-/// A literal is a state of `f64`, whose numbers have methods without a type written anywhere, and is printed by
-/// the name that it was written with; other numbers are asked for by the second name.
+/// A literal is a state of `f64`, whose numbers have methods without a type written anywhere, and is printed
+/// by the name that it was written with; other numbers are asked for by the second name.
 #[test]
 fn states_are_of_f64_unless_another_name_is_written() {
     let start = KeplerState { x: -0.5, y: 0.0, dot_x: 0.0, dot_y: 1.0 };

@@ -173,8 +173,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
     }
 
     /// The next event that is not after time `t`; `None` if there is none, and the run has come to the step
-    /// that leads over `t`. Later events are handed out later, by these same `Events`: others, begun when the run
-    /// has come to the end of that step, look from there on.
+    /// that leads over `t`. Later events are handed out later, by these same `Events`: others, begun when the
+    /// run has come to the end of that step, look from there on.
     ///
     /// # Errors
     /// [`StepFailure::Unreachable`], with both times, if `t` lies before the last step or is not finite.

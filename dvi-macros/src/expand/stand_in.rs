@@ -172,7 +172,8 @@ fn lost_state(
         #[doc(hidden)]
         #allow
         #[allow(dead_code)]
-        #visibility type #of_f64<#(const #constants: #types),*> = #name<#(#constants,)* ::core::primitive::f64>;
+        #visibility type #of_f64<#(const #constants: #types),*> =
+            #name<#(#constants,)* ::core::primitive::f64>;
     };
     (quote!(#krate::Fixed<1usize, 1usize>), quote!(#name<#(#constants,)* __T>), item)
 }

@@ -127,9 +127,10 @@ where
         &self.control
     }
 
-    /// What the step control carries from step to step. Of [`EnergyMomentum`](super::EnergyMomentum) one reads
-    /// here `discrete_energy()`, and its `defect()` in the last step; of [`ErrorControl`](super::ErrorControl)
-    /// the `error()` of the last step in units of the tolerance, and the length of the `next_step()`.
+    /// What the step control carries from step to step. Of [`EnergyMomentum`](super::EnergyMomentum) one
+    /// reads here `discrete_energy()`, and its `defect()` in the last step; of
+    /// [`ErrorControl`](super::ErrorControl) the `error()` of the last step in units of the tolerance, and
+    /// the length of the `next_step()`.
     pub fn control_memory(&self) -> &C::Memory {
         &self.control_memory
     }

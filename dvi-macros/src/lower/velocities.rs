@@ -1,0 +1,103 @@
+//! Velocities: `dot(x)`, and `d(x)` of a one-form.
+
+use syn::{Expr as Syntax, ExprCall};
+
+use super::{Lowering, Role};
+use crate::errors::{here, text};
+use crate::symbolic::{Expr, Node};
+use crate::syntax::{Constrained, Kind};
+
+impl Lowering<'_> {
+    /// `d(x)` in a one-form, `dot(x)` in a Lagrangian.
+    pub(super) fn velocity(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
+        if let ("dot", [x, y]) = (name, call.args.iter().collect::<Vec<_>>().as_slice()) {
+            let message = format!(
+                "`dot` is the velocity of one coordinate; a scalar product is written \
+                 `sum(0..n, |j| {}[j] * {}[j])`",
+                text(x),
+                text(y)
+            );
+            self.errors.push(call, message);
+            return None;
+        }
+        let wanted = match self.role {
+            Role::OneForm => "d",
+            Role::Lagrangian => "dot",
+            Role::Momentum | Role::Event | Role::Force if self.model.kind == Kind::Regular => "dot",
+            Role::Constraint(Constrained::Velocities) => "dot",
+            Role::Constraint(Constrained::Positions) => {
+                let message = "a holonomic constraint has no velocities: it is a function g(q, t) of the positions and the time, \
+                               and its rate of change is kept at zero with it; a constraint of the velocities is declared by \
+                               `nonholonomic = …`";
+                self.errors.push(call, message);
+                return None;
+            }
+            Role::Constraint(Constrained::Gaps) => {
+                let message = "a gap has no velocities: it is a function g(q, t) of the positions and the time, which no motion makes \
+                               negative";
+                self.errors.push(call, message);
+                return None;
+            }
+            role => {
+                let advice = match role {
+                    Role::Force => {
+                        "so are the velocities of a degenerate system, by the equations of motion; write out the one that is meant"
+                    }
+                    Role::Component => {
+                        "write the one-form as a sum of `… * d(x)`, or its components without `d`"
+                    }
+                    Role::Hamiltonian => "what is linear in velocities belongs to `one_form`",
+                    _ => "no velocity may stand in it",
+                };
+                let message = format!("{} is a function of the coordinates: {advice}", role.name());
+                self.errors.push(call, message);
+                return None;
+            }
+        };
+        if name != wanted {
+            let message = format!("in {} a velocity is written `{wanted}(x)`", self.role.name());
+            self.errors.push(&call.func, message);
+            return None;
+        }
+        if call.args.len() != 1 {
+            self.errors
+                .push(&call.func, format!("`{name}` takes one coordinate; {}", here(call.args.len())));
+            return None;
+        }
+        if let Some(name_of) = root(&call.args[0]).filter(|name| self.binding_of(name).is_some()) {
+            let message =
+                format!("`{name}` takes a coordinate, and `{name_of}` is a name of this formula here");
+            self.errors.push(&call.args[0], message);
+            return None;
+        }
+        let coordinate = self.expr(&call.args[0])?;
+        match (coordinate.scale == 1.0, self.graph.node(coordinate.node)) {
+            (true, Node::Coordinate(coordinate)) => {
+                let coordinate = coordinate.clone();
+                if self.model.extended.is_some_and(|extended| extended.time == coordinate.block as usize) {
+                    let message = "`t` is the physical time: its velocity is the time transformation";
+                    self.errors.push(call, message);
+                    return None;
+                }
+                Some(self.graph.intern(Node::Velocity(coordinate)).into())
+            }
+            _ => {
+                self.errors.push(
+                    &call.args[0],
+                    format!("`{name}` takes a coordinate, as in `{name}(x)` or `{name}(x[j])`"),
+                );
+                None
+            }
+        }
+    }
+}
+
+/// The name in `x` and `x[i]`.
+fn root(place: &Syntax) -> Option<String> {
+    match place {
+        Syntax::Paren(inner) => root(&inner.expr),
+        Syntax::Index(index) => root(&index.expr),
+        Syntax::Path(path) => path.path.get_ident().map(ToString::to_string),
+        _ => None,
+    }
+}
