@@ -1,6 +1,7 @@
 //! A run: a system, a method, and where they have got to, whatever chooses the lengths of the steps.
 
 mod between;
+mod borrowed;
 #[cfg(feature = "alloc")]
 mod checkpoint;
 mod dense;
@@ -14,10 +15,11 @@ mod step_control;
 mod stepper;
 #[cfg(feature = "alloc")]
 mod together;
+mod with_method;
 
 use crate::error::{StartError, StepError};
 use crate::mechanics::motion::Rates;
-use crate::methods::{Carries, Clock, Method};
+use crate::methods::Clock;
 use crate::state::Statistics;
 use crate::system::start::extended;
 use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed, Vector};
@@ -38,6 +40,7 @@ pub(crate) use stepper::Stepper;
 
 #[cfg(feature = "alloc")]
 pub use together::Together;
+pub use with_method::WithMethod;
 
 /// A run of a method on a system: what [`Integrator`], with a fixed step, and
 /// [`ControlledIntegrator`], with steps of a control, can both do. States at given times,
@@ -304,128 +307,3 @@ pub trait Run {
         names.filter_map(|(index, &name)| self.momentum(index).map(|value| (name, value)))
     }
 }
-
-/// A run whose method is known when the program is compiled.
-///
-/// ```
-#[doc = include_str!("../docs/hidden/kepler.txt")]
-/// /// The order of the method of any run.
-/// fn order<R: WithMethod>(run: &R) -> usize {
-///     run.method().order()
-/// }
-/// assert_eq!(order(&Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?), 8);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub trait WithMethod: Run {
-    /// The method that takes the steps.
-    type Method: Method<Self::System, Self::Scalar>;
-
-    /// The method.
-    fn method(&self) -> &Self::Method;
-
-    /// What the method carries from step to step. Of this can be read:
-    ///
-    /// | method | functions of its memory |
-    /// |---|---|
-    /// | `Variational`, `Galerkin`, `Newmark`, `Geodesic`, `Langevin` | `p()`: the momenta ∂L/∂v, with a place for each coordinate; of a rotation the first three are the angular momentum in the body |
-    /// | `Rattle`, `Constrained` | `p()`; `multipliers()`: λ of the last step, one for each constraint; `impulses()` at its two ends |
-    /// | `Impacts` | `impacts()` of the last step, each an [`Impact`](crate::methods::Impact); how many there were, in `total()` and `grazing()` |
-    /// | `Sigma` | `defect()`: p − α(q); `parasitic_mode()`, as it was measured last, and `parasitic_amplitude()` |
-    /// | `Impacts`, `Composition`, `EnergyLimit` | `inner()`: the memory of the method inside |
-    ///
-    /// ```
-    #[doc = include_str!("../docs/hidden/kepler.txt")]
-    /// let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
-    /// run.take_steps(1000)?;
-    /// let ([x, y], [p_x, p_y]) = (run.q(), run.memory().p()) else { panic!("a plane") };
-    /// assert!((x * p_y - y * p_x - 1.2).abs() < 1e-12); // the area law, in momenta
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    fn memory(&self) -> &<Self::Method as Carries<Self::System, Self::Scalar>>::Memory;
-}
-
-/// What holds or borrows a run is one.
-macro_rules! run {
-    ($Borrowed:ty) => {
-        impl<R: Run + ?Sized> Run for $Borrowed {
-            type System = R::System;
-            type Scalar = R::Scalar;
-
-            #[inline]
-            fn system(&self) -> &R::System {
-                (**self).system()
-            }
-
-            #[inline]
-            fn between(&mut self) -> (&R::System, &mut dyn Between<R::System, R::Scalar>) {
-                (**self).between()
-            }
-
-            #[inline]
-            fn q(&self) -> &[R::Scalar] {
-                (**self).q()
-            }
-
-            #[inline]
-            fn v(&self) -> Vector<R::System, R::Scalar> {
-                (**self).v()
-            }
-
-            #[inline]
-            fn statistics(&self) -> Statistics {
-                (**self).statistics()
-            }
-
-            #[inline]
-            fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-                (**self).take_steps(count)
-            }
-
-            #[inline]
-            fn time(&self) -> R::Scalar {
-                (**self).time()
-            }
-
-            #[inline]
-            fn step_size(&self) -> R::Scalar {
-                (**self).step_size()
-            }
-
-            #[inline]
-            fn clock(&self) -> Option<Clock<R::Scalar>> {
-                (**self).clock()
-            }
-
-            fn set_state(
-                &mut self,
-                t: R::Scalar,
-                state: <R::System as System>::State<R::Scalar>,
-            ) -> Result<(), StartError> {
-                (**self).set_state(t, state)
-            }
-
-            #[cfg(feature = "alloc")]
-            fn checkpoint(&self) -> Checkpoint<R::Scalar> {
-                (**self).checkpoint()
-            }
-        }
-
-        impl<R: WithMethod + ?Sized> WithMethod for $Borrowed {
-            type Method = R::Method;
-
-            #[inline]
-            fn method(&self) -> &R::Method {
-                (**self).method()
-            }
-
-            #[inline]
-            fn memory(&self) -> &<R::Method as Carries<R::System, R::Scalar>>::Memory {
-                (**self).memory()
-            }
-        }
-    };
-}
-
-run!(&mut R);
-#[cfg(feature = "alloc")]
-run!(alloc::boxed::Box<R>);
