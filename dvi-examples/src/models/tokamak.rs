@@ -11,23 +11,16 @@ use dvi_core::prelude::*;
 /// In toroidal coordinates: α has components along θ and φ only, which is in the class of one-step schemes.
 #[degenerate_lagrangian(
     coordinates(r, theta, phi, u),
-    one_form    = {
+    one_form    = (r * r / 2.0 * (1.0 - 2.0 * x / 3.0) + u * r * poloidal / b) * d(theta) + p_phi * d(phi),
+    hamiltonian = u * u / 2.0 + mu * b,
+    momenta(toroidal = p_phi),
+    let = {
         let x = r * theta.cos();
         let toroidal = 1.0 - x;
         let poloidal = r / (q * (1.0 + x));
         let b = toroidal.hypot(poloidal);
-        (r * r / 2.0 * (1.0 - 2.0 * x / 3.0) + u * r * poloidal / b) * d(theta)
-            + (u * (1.0 + x) * toroidal / b - r * r / (2.0 * q)) * d(phi)
+        let p_phi = u * (1.0 + x) * toroidal / b - r * r / (2.0 * q);
     },
-    hamiltonian = {
-        let x = r * theta.cos();
-        u * u / 2.0 + mu * (1.0 - x).hypot(r / (q * (1.0 + x)))
-    },
-    momenta(toroidal = {
-        let x = r * theta.cos();
-        let toroidal = 1.0 - x;
-        u * (1.0 + x) * toroidal / toroidal.hypot(r / (q * (1.0 + x))) - r * r / (2.0 * q)
-    }),
 )]
 #[derive(Clone, Debug)]
 pub struct TokamakInClass {
@@ -41,18 +34,14 @@ pub struct TokamakInClass {
 /// a half of them, since u stands in each.
 #[degenerate_lagrangian(
     coordinates(x, z, phi, u),
-    one_form    = {
-        let toroidal = 1.0 - x;
+    one_form    = (0.5 - x / 3.0 + u / (q * radius * b)) * (x * d(z) - z * d(x)) + p_phi * d(phi),
+    hamiltonian = u * u / 2.0 + mu * b,
+    momenta(toroidal = p_phi),
+    let = {
         let radius = 1.0 + x;
-        let b = (toroidal.powi(2) + (x * x + z * z) / (q * radius).powi(2)).sqrt();
-        (0.5 - x / 3.0 + u / (q * radius * b)) * (x * d(z) - z * d(x))
-            + (u * radius * toroidal / b - (x * x + z * z) / (2.0 * q)) * d(phi)
+        let b = ((1.0 - x).powi(2) + (x * x + z * z) / (q * radius).powi(2)).sqrt();
+        let p_phi = u * radius * (1.0 - x) / b - (x * x + z * z) / (2.0 * q);
     },
-    hamiltonian = u * u / 2.0 + mu * ((1.0 - x).powi(2) + (x * x + z * z) / (q * (1.0 + x)).powi(2)).sqrt(),
-    momenta(toroidal = {
-        let b = ((1.0 - x).powi(2) + (x * x + z * z) / (q * (1.0 + x)).powi(2)).sqrt();
-        u * (1.0 + x) * (1.0 - x) / b - (x * x + z * z) / (2.0 * q)
-    }),
 )]
 #[derive(Clone, Debug)]
 pub struct TokamakOutOfClass {

@@ -6,10 +6,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use quote::ToTokens;
-use syn::{BinOp, Expr, ExprClosure, Stmt, UnOp};
+use syn::{BinOp, Expr, ExprClosure, Pat, Stmt, UnOp};
 
 use super::jet::Jet;
 use super::point::{Branches, Directions, Point, Variable};
+use super::system::System;
 use crate::internal::internal;
 use crate::model::{Extended, Model};
 use crate::syntax::Force;
@@ -37,8 +38,9 @@ type Value<T> = Result<T, NoValue>;
 
 /// What a name of an inner scope stands for.
 #[derive(Clone)]
-enum Binding {
+enum Binding<'a> {
     Number(Jet),
+    Shared(Shared<'a>),
     Index(i64),
     /// An argument: what it is as a number, and as an index.
     Argument(Option<Jet>, Option<i64>),
@@ -46,16 +48,25 @@ enum Binding {
     Function(Rc<ExprClosure>, usize),
 }
 
-/// The names of the scopes that are open.
-#[derive(Default)]
-struct Scope {
-    names: Vec<Rc<str>>,
-    /// What each of them stands for, the bindings scope last.
-    bindings: HashMap<Rc<str>, Vec<Binding>>,
+/// A name that all formulas share: a part of what is defined behind so many names.
+#[derive(Clone, Copy)]
+struct Shared<'a> {
+    names: &'a Pat,
+    init: &'a Expr,
+    sees: usize,
+    part: usize,
 }
 
-impl Scope {
-    fn push(&mut self, name: Rc<str>, binding: Binding) {
+/// The names of the scopes that are open.
+#[derive(Default)]
+struct Scope<'a> {
+    names: Vec<Rc<str>>,
+    /// What each of them stands for, the bindings scope last.
+    bindings: HashMap<Rc<str>, Vec<Binding<'a>>>,
+}
+
+impl<'a> Scope<'a> {
+    fn push(&mut self, name: Rc<str>, binding: Binding<'a>) {
         self.bindings.entry(name.clone()).or_default().push(binding);
         self.names.push(name);
     }
@@ -65,7 +76,7 @@ impl Scope {
     }
 
     /// Closes the names from `outside` on, and gives what they stood for.
-    fn set_aside(&mut self, outside: usize) -> Vec<(Rc<str>, Binding)> {
+    fn set_aside(&mut self, outside: usize) -> Vec<(Rc<str>, Binding<'a>)> {
         let mut aside = Vec::new();
         while self.names.len() > outside
             && let Some(name) = self.names.pop()
@@ -76,7 +87,7 @@ impl Scope {
         aside
     }
 
-    fn put_back(&mut self, aside: Vec<(Rc<str>, Binding)>) {
+    fn put_back(&mut self, aside: Vec<(Rc<str>, Binding<'a>)>) {
         aside.into_iter().rev().for_each(|(name, binding)| self.push(name, binding));
     }
 
@@ -135,13 +146,14 @@ pub(super) struct Evaluation<'a> {
     /// Whether rounding may decide what comes out: some part of the formulas has a huge value, even if the
     /// whole has not, or two sides of a comparison cannot be told apart.
     pub(super) is_delicate: bool,
-    scope: Scope,
+    scope: Scope<'a>,
+    /// The values of shared names that were used, each by the place of its definition and by how it was asked for.
+    known: HashMap<(usize, [bool; 3]), Vec<Jet>>,
 }
 
 impl<'a> Evaluation<'a> {
     pub(super) fn new(
-        model: &'a Model,
-        texts: &'a Texts,
+        System { model, attribute, texts }: System<'a>,
         point: &'a Point,
         directions: Directions<'a>,
         budget: u64,
@@ -149,7 +161,7 @@ impl<'a> Evaluation<'a> {
         let names = model.blocks.iter().map(|block| texts.of(&block.name, || block.name.to_string()));
         let own = model.functions.iter();
         let functions = own.map(|own| texts.of(&own.name, || own.name.to_string())).collect();
-        Self {
+        let mut evaluation = Self {
             model,
             texts,
             blocks: names.zip(0..).collect(),
@@ -164,7 +176,10 @@ impl<'a> Evaluation<'a> {
             sides: Sides::default(),
             is_delicate: false,
             scope: Scope::default(),
-        }
+            known: HashMap::default(),
+        };
+        evaluation.share(&attribute.shared);
+        evaluation
     }
 
     /// α·v of a list of components.
@@ -322,14 +337,16 @@ impl<'a> Evaluation<'a> {
         side
     }
 
-    fn bound(&self, name: &str) -> Option<Binding> {
+    fn bound(&self, name: &str) -> Option<Binding<'a>> {
         self.scope.bindings.get(name).and_then(|bindings| bindings.last()).cloned()
     }
 
     fn name(&mut self, syntax: &Expr, path: &syn::Path) -> Value<Jet> {
         let text = self.texts.of(syntax, || written(path));
-        if let Some(Binding::Number(value) | Binding::Argument(Some(value), _)) = self.bound(&text) {
-            return Ok(value);
+        match self.bound(&text) {
+            Some(Binding::Number(value) | Binding::Argument(Some(value), _)) => return Ok(value),
+            Some(Binding::Shared(shared)) => return self.shared(shared),
+            Some(Binding::Argument(None, _) | Binding::Index(_) | Binding::Function(..)) | None => {}
         }
         if self.block(&text).is_some() || self.parameter(&text).is_some() {
             return self.entry(syntax);
