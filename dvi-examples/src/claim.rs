@@ -9,6 +9,10 @@
 
 use std::fmt;
 
+use anyhow::Result;
+
+use crate::gallery::Outcome;
+
 /// The place of claims that no paper makes; they are counted apart.
 pub const BEYOND: &str = "beyond the paper";
 
@@ -73,6 +77,11 @@ pub fn says(place: impl Into<String>, text: impl Into<String>) -> Claim {
 /// What no paper says.
 pub fn beyond(says: impl Into<String>) -> Claim {
     Claim::new(BEYOND, says)
+}
+
+/// What an experiment has to say that has claims only.
+pub fn claims<const N: usize>(all: [Claim; N]) -> Result<Outcome> {
+    Ok(Vec::from(all).into())
 }
 
 impl Claim {

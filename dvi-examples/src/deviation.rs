@@ -7,7 +7,7 @@ use anyhow::Result;
 
 use crate::figure::{Axis, Envelope, Line, Panel, Points, Stroke};
 use crate::numbers::{larger, least};
-use crate::output::Table;
+use crate::output::{Cell, Table};
 
 /// The deviation of one quantity, absolute or relative.
 #[derive(Clone, Debug)]
@@ -234,13 +234,21 @@ pub fn range_table<'a, const N: usize>(
     Table::of(columns, rows)
 }
 
-/// Rows of a table: texts, and lowest, mean and highest value of a quantity in each interval of time.
-pub fn ranges<const T: usize>(
-    texts: [&str; T],
-    envelope: &Envelope,
-) -> impl Iterator<Item = ([String; T], [f64; 4])> {
-    let texts = texts.map(str::to_owned);
-    envelope.rows().into_iter().map(move |row| (texts.clone(), row))
+/// A table of curves, each with its names, the numbers that belong to all of it, and its points.
+pub fn curve_table<T, N, P, C: Cell>(
+    columns: &[&str],
+    curves: impl IntoIterator<Item = (T, N, P)>,
+) -> Result<Table>
+where
+    T: IntoIterator<Item: AsRef<str>> + Clone,
+    N: IntoIterator<Item = C> + Clone,
+    P: IntoIterator<Item: IntoIterator<Item = C>>,
+{
+    let rows = curves.into_iter().flat_map(|(names, numbers, points)| {
+        let rows = points.into_iter();
+        rows.map(move |point| (names.clone(), numbers.clone().into_iter().chain(point)))
+    });
+    Table::of(columns, rows)
 }
 
 #[cfg(test)]

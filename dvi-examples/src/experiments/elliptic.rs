@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Elliptic {
     /// k and √(1 − k²), each to its own rounding.
     pub modulus: f64,

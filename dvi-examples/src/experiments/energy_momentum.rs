@@ -4,8 +4,7 @@
 //! and on a Kepler orbit, beside the same rule with steps of one length: discrete energy, energy, angular
 //! momentum, lengths of the steps and distance from the motion.
 
-use super::energy_steps::{BEGINNING, COMPARED, Motion, Runs, Steps, most, order_in_length};
-use super::no_energy_step::NoStep;
+use super::energy_steps::*;
 use crate::vocabulary::*;
 
 pub const START: StiffeningSpringState = StiffeningSpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
@@ -127,7 +126,6 @@ fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
 /// The largest defect of E_d over the number of the step, and E − E(0) and h over time.
 type Drawn = (String, Stroke, [Points; 3]);
 
-/// What is drawn of the runs with the longest steps.
 fn drawn([spring, kepler]: &[Runs; 2]) -> [Drawn; 4] {
     let one_length = |on: &Runs| format!("{}, one length", on.name);
     let varying = |on: &Runs| format!("{}, energy-momentum", on.name);
@@ -140,7 +138,7 @@ fn drawn([spring, kepler]: &[Runs; 2]) -> [Drawn; 4] {
     .map(|(name, colour, steps)| {
         let [lengths, energy] =
             [1, 2].map(|k| steps.beginning.iter().map(|step| [step[0], step[k]]).collect());
-        (name, Stroke::solid(colour), [steps.kept[0].envelope.magnitude(), energy, lengths])
+        (name, solid(colour), [steps.kept[0].envelope.magnitude(), energy, lengths])
     })
 }
 

@@ -5,9 +5,7 @@
 //! principle of Lagrange and d'Alembert. The angular momentum decays as e^{−γt}, and by the forced discrete
 //! Noether theorem its discrete rate is known in closed form.
 
-use super::average_acceleration::is_midpoint;
-use super::decay::{Case, Decay, FINE, GAMMA, Reference, Runs, STEPS, Setting, WINDOW};
-use super::forced_noether::noether;
+use super::decay::{Case, *};
 use crate::vocabulary::*;
 
 const COLOURS: [Colour; 4] = [BLUE, GREEN, PURPLE, VERMILLION];
@@ -115,17 +113,17 @@ fn orders(job: &Job<'_>, steps: &[Runs; 4]) -> Claim {
 }
 
 fn figure(reference: &Reference, steps: &[Runs; 4], rk4_alone: &Decay) -> Figure {
-    let stroke = |method: usize| Stroke::solid(COLOURS[method]).width(if method == 0 { 2.4 } else { 1.8 });
+    let stroke = |method: usize| solid(COLOURS[method]).width(if method == 0 { 2.4 } else { 1.8 });
     let lines = |points: fn(&Decay) -> Vec<[f64; 2]>| {
         steps[0].iter().enumerate().map(move |(method, run)| (run.name, stroke(method), points(run)))
     };
     let time = ("time *t*", [0.0, steps[0][0].case.end]);
     let energies = reference.energies.iter().zip(1..).map(|(e, n)| [f64::from(n) * FINE, *e]);
     let decay = Panel::linear("Energy", time, ("*E*", [0.0, 0.45]))
-        .line(energies.collect(), Stroke::solid(SLATE).width(5.0).opacity(0.4))
+        .line(energies.collect(), solid(SLATE).width(5.0).opacity(0.4))
         .labelled("reference")
         .lines(lines(|run| run.energy.mean()))
-        .line(rk4_alone.energy.mean(), Stroke::dashed(VERMILLION))
+        .line(rk4_alone.energy.mean(), dashed(VERMILLION))
         .labelled("RK4 without friction");
     let means = format!("relative, |mean| over {WINDOW} units of time");
     let deviation =

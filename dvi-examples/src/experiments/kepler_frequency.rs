@@ -69,8 +69,8 @@ fn figure(readings: &[Readings]) -> Figure {
         let points = |of: usize| inside().map(|reading| [reading[0] / TAU, reading[of]]).collect();
         let frequency = ("frequency ω   [√(μ/*a*³)]", [0.1, 200.0]);
         Panel::semilog(title, ("time *t*   [periods]", [from, to]), frequency).lines([
-            ("|*q*' × *q*''|/|*q*'|²  (19)", Stroke::solid(BLUE), points(2)),
-            ("√(|*q*''|/|*q*|) = *r*^(−3/2)", Stroke::solid(VERMILLION), points(3)),
+            ("|*q*' × *q*''|/|*q*'|²  (19)", solid(BLUE), points(2)),
+            ("√(|*q*''|/|*q*|) = *r*^(−3/2)", solid(VERMILLION), points(3)),
         ])
     };
     let all = panel("Ten periods", 0.0, PERIODS as f64).without_legend().weight(1.3);

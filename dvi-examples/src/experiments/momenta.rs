@@ -13,10 +13,7 @@ const ANGULAR: usize = 2;
 /// The largest deviations of one scheme from the initial values: ΣΓx, ΣΓy, ΣΓ|z|², J_d of the variational
 /// schemes, and the largest change of the two-form under the tangent map of a step: of the discrete one
 /// (17), of one-step methods Ω.
-struct Drifts {
-    scheme: &'static str,
-    of: [Option<f64>; 5],
-}
+type Drifts = (&'static str, [Option<f64>; 5]);
 
 const QUANTITIES: [(&str, Colour); 5] = [
     ("ΣΓ*x*", BLUE),
@@ -41,8 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         drifts(&case, "Gauss, order 4", Gauss::<2>::new(), one_step)?,
     ];
     let columns = ["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"];
-    let rows = all.iter().map(|drifts| ([drifts.scheme], drifts.of));
-    job.publish(figure(&all), Table::of(&columns, rows)?)?;
+    job.publish(figure(&all), Table::of(&columns, all.iter().map(|(scheme, of)| ([*scheme], *of)))?)?;
     Ok(claims(&all).into())
 }
 
@@ -53,11 +49,11 @@ fn drifts<M: Method<FourVortices, f64> + Copy>(
     method: M,
     more: fn(&Case, M) -> Result<[Option<f64>; 2]>,
 ) -> Result<Drifts> {
-    let mut run = Integrator::new(&case.vortices, method, H, case.start)?;
-    let all = course(&mut run, STEPS, |run| [0, 1, 2].map(|k| run.momentum(k).unwrap_or(f64::NAN)))?;
+    let mut run = Problem::new(&case.vortices, case.start).run(method, H)?;
+    let all = course(&mut run, STEPS, momenta::<3>)?;
     let largest = |k: usize| largest(all.iter().map(|momenta| (momenta[k] - all[0][k]).abs()));
     let ([x, y, angular], [discrete, two_form]) = ([0, 1, 2].map(|k| Some(largest(k))), more(case, method)?);
-    Ok(Drifts { scheme, of: [x, y, angular, discrete, two_form] })
+    Ok((scheme, [x, y, angular, discrete, two_form]))
 }
 
 /// The largest change of the two-form Ω = ΣΓ dx ∧ dy under the tangent map of a step, by finite differences
@@ -121,9 +117,8 @@ fn two_step(Case { vortices, start }: &Case, method: Sigma) -> Result<[Option<f6
 
 fn claims(all: &[Drifts; 7]) -> Vec<Claim> {
     let [vi2, started, quarter, ve2, rk2, rk4, gauss] = all;
-    let most =
-        |all: &[Drifts], quantity: usize| largest(all.iter().filter_map(|drifts| drifts.of[quantity]));
-    let [angular, two_form] = [ANGULAR, 4].map(|quantity| move |drifts: &Drifts| drifts.of[quantity]);
+    let most = |all: &[Drifts], quantity: usize| largest(all.iter().filter_map(|(_, of)| of[quantity]));
+    let [angular, two_form] = [ANGULAR, 4].map(|quantity| move |(_, of): &Drifts| of[quantity]);
     let impulses = larger(most(all, 0), most(all, 1));
     let change = "largest change under the tangent map of a step, σ = 0, ¼, ½";
     let text =
@@ -148,14 +143,14 @@ fn claims(all: &[Drifts; 7]) -> Vec<Claim> {
 fn figure(all: &[Drifts]) -> Figure {
     // Exact conservation has no place on a logarithmic axis.
     const SMALLEST: f64 = 1e-17;
-    let names = all.iter().rev().map(|drifts| drifts.scheme.to_owned()).collect();
+    let names = all.iter().rev().map(|(scheme, _)| (*scheme).to_owned()).collect();
     let label = "largest deviation from the initial value; of the two-form, largest change in a step";
     let drift = Axis::logarithmic(label).within(0.5 * SMALLEST, 10.0);
     let empty = Panel::new("Deviations over 1000 steps", drift, Axis::names("", names));
     let panel = empty.each(QUANTITIES.into_iter().enumerate(), |panel, (i, (name, colour))| {
         let lift = 0.3 - 0.15 * i as f64;
         let rows = all.iter().rev().enumerate();
-        let points = rows.filter_map(|(row, drifts)| Some([drifts.of[i]?.max(SMALLEST), row as f64 + lift]));
+        let points = rows.filter_map(|(row, (_, of))| Some([of[i]?.max(SMALLEST), row as f64 + lift]));
         panel.discs(points.collect(), colour, Fill::Solid).labelled(name)
     });
     Figure::of(format!("Four equal vortices, *h* = {H}; below 10⁻¹¹: rounding, or finite differences"))

@@ -8,7 +8,6 @@ use crate::vocabulary::*;
 
 /// Steps for each turn, after which the field is the same.
 pub const STEPS: u64 = 24;
-/// Points on a loop.
 const POINTS: usize = 256;
 
 /// A point of the plane in which the lines are seen.

@@ -13,7 +13,6 @@ pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; 
     std::array::from_fn(|i| y[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
 }
 
-/// Where it leads from `y` in time `end`.
 pub fn rk4_up_to<const N: usize>(
     y: [f64; N],
     end: f64,
@@ -69,11 +68,14 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
     }
 
     pub fn step(&mut self) -> Result<(), StartError> {
-        let h = self.h;
-        let first = self.slope(&self.y)?;
-        let second = self.slope(&self.moved(0.5 * h, &first))?;
-        let third = self.slope(&self.moved(0.5 * h, &second))?;
-        let fourth = self.slope(&self.moved(h, &third))?;
+        let (h, y) = (self.h, self.y.clone());
+        let moved = |by: f64, slope: &[f64]| -> Vec<f64> {
+            y.iter().zip(slope).map(|(y, slope)| y + by * slope).collect()
+        };
+        let first = self.slope(&y)?;
+        let second = self.slope(&moved(0.5 * h, &first))?;
+        let third = self.slope(&moved(0.5 * h, &second))?;
+        let fourth = self.slope(&moved(h, &third))?;
         for (i, y) in self.y.iter_mut().enumerate() {
             *y += h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]);
         }
@@ -83,10 +85,6 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
     pub fn up_to(mut self, end: f64) -> Result<S::State<f64>> {
         (0..(end / self.h).round() as u64).try_for_each(|_| self.step())?;
         Ok(self.state())
-    }
-
-    fn moved(&self, h: f64, slope: &[f64]) -> Vec<f64> {
-        self.y.iter().zip(slope).map(|(y, slope)| y + h * slope).collect()
     }
 
     fn read(&self, y: &[f64]) -> S::State<f64> {

@@ -41,11 +41,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             Ok((0..len).map(|k| [runs[0][k][0], square(k).sqrt()]).collect())
         })
     })?;
-    let rows = CASES.iter().zip(&pairs).flat_map(|((name, ..), pair)| {
-        let both = ["plain", "compensated"].into_iter().zip(pair);
-        both.flat_map(move |(sums, rows)| rows.iter().map(move |row| ([name, sums], *row)))
+    let curves = CASES.iter().zip(&pairs).flat_map(|((name, ..), pair)| {
+        ["plain", "compensated"]
+            .into_iter()
+            .zip(pair)
+            .map(move |(sums, rows)| ([*name, sums], [], rows.clone()))
     });
-    job.publish(figure(&pairs, steps as f64), Table::of(&["quantity", "sums", "steps", "error"], rows)?)?;
+    let table = curve_table(&["quantity", "sums", "steps", "error"], curves)?;
+    job.publish(figure(&pairs, steps as f64), table)?;
     Ok(Outcome { claims: claims(job, &pairs), references: vec![], notes: notes(&pairs) })
 }
 
@@ -61,15 +64,15 @@ fn errors(job: &Job<'_>, case: usize, summation: Summation, run: usize, looks: u
             follow(job, run, looks, |run| run.energy())
         }
         1 => {
-            let start = SpringState { x: cos, dot_x: sin };
-            follow(job, Integrator::new(&Spring { k: 1.0 }, verlet, H, start)?, looks, |run| {
+            let run = Integrator::new(&Spring { k: 1.0 }, verlet, H, SpringState { x: cos, dot_x: sin })?;
+            follow(job, run, looks, |run| {
                 let (q, p) = (run.q()[0], run.memory().p()[0]);
                 p * p + (1.0 - H * H / 4.0) * q * q
             })
         }
         2 => {
             let Case { vortices, mut start } = models::quasi_periodic();
-            for (x, y) in start.x.iter_mut().zip(start.y.iter_mut()) {
+            for (x, y) in start.x.iter_mut().zip(&mut start.y) {
                 (*x, *y) = (cos * *x - sin * *y, sin * *x + cos * *y);
             }
             let run = Integrator::new(&vortices, midpoint, H, start)?;
@@ -150,8 +153,8 @@ fn figure(pairs: &[Pair; 4], steps: f64) -> Figure {
     let panel = |((_, title, _), [plain, compensated]): (&(&str, &str, f64), &Pair)| {
         Panel::loglog(*title, n, ("relative error, root mean square", [1e-17, 1e-10]))
             .lines([
-                ("plain sums", Stroke::solid(VERMILLION), plain.clone()),
-                ("compensated sums", Stroke::solid(BLUE), compensated.clone()),
+                ("plain sums", solid(VERMILLION), plain.clone()),
+                ("compensated sums", solid(BLUE), compensated.clone()),
             ])
             .guide([at(100.0), at(steps)], "0.1 ε*h*√*n*")
             .legend_at(Corner::TopLeft)

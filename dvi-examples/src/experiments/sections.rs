@@ -4,7 +4,6 @@
 //! section is R₂ = 0, dR₂/dt > 0. These pairs are canonical and remove translation and rotation, but the
 //! coordinates that Pullin & Saffman used, and the paper with them, may be others.
 
-pub use super::section_figures::{CAVEAT, figure, notes, stays_close, table};
 use crate::vocabulary::*;
 
 /// The schemes that the sections compare: VI2 with σ = ½, RK4, and Gauss collocation of order six.
@@ -21,12 +20,10 @@ pub const fn runs([small, middle, large]: [f64; 3]) -> [(Scheme, f64); 6] {
     [(vi2, small), (vi2, middle), (vi2, large), (rk4, small), (rk4, middle), (rk4, large)]
 }
 
-/// The section of one run.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Crossings {
     pub scheme: Scheme,
     pub h: f64,
-    /// The time at which the run ends.
     pub end: f64,
     pub labels: Labels,
     /// [t, R₁, P₁] of each crossing.
@@ -35,7 +32,6 @@ pub struct Crossings {
     pub error: Deviation,
     /// By what factor a displacement of 1e-10 at the end grows in 2000 units of time more.
     pub growth: f64,
-    /// Where the run ended early, and why.
     pub failure: Option<StepError>,
 }
 
@@ -57,7 +53,6 @@ fn coordinates(state: &FourPoints, labels: Labels) -> [f64; 3] {
     [q2[0] * cos + q2[1] * sin, q2[1] * cos - q2[0] * sin, q1[1] * cos - q1[0] * sin]
 }
 
-/// The number of steps of runs up to time `end`.
 pub fn cost(runs: &[(Scheme, f64)], end: f64) -> u64 {
     runs.iter().map(|(_, h)| (end / h) as u64).sum()
 }
@@ -155,7 +150,6 @@ fn growth(
     Ok(apart(&one, &other) / DISPLACEMENT)
 }
 
-/// What [`lyapunov_exponent`] takes.
 pub const LYAPUNOV_STEPS: u64 = 100_000;
 
 /// The largest Lyapunov exponent by the tangent map of VI2 (h = 0.2, t = 2·10⁴).
@@ -167,15 +161,103 @@ pub fn lyapunov_exponent(job: &Job<'_>, Case { vortices, start }: &Case) -> Resu
 }
 
 impl Crossings {
-    /// The time of the last crossing; 0 if there is none.
     pub fn last(&self) -> f64 {
         self.points.last().map_or(0.0, |&[t, ..]| t)
     }
 
-    /// (R₁, P₁) of each crossing.
     pub fn places(&self) -> Vec<[f64; 2]> {
         self.points.iter().map(|&[_, r1, p1]| [r1, p1]).collect()
     }
+}
+
+pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ \
+                          e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
+
+/// More crossings than these make files larger, and no clearer.
+const SHOWN: usize = 15_000;
+
+impl Scheme {
+    pub fn name(self) -> &'static str {
+        match self {
+            Scheme::Vi2 => "VI2",
+            Scheme::Rk4 => "RK4",
+            Scheme::Gauss6 => "Gauss6",
+        }
+    }
+}
+
+impl Crossings {
+    pub fn name(&self) -> String {
+        format!("{} at h = {}", self.scheme.name(), self.h)
+    }
+
+    pub fn growth_name(&self) -> String {
+        format!("max|ΔH| over all / over the first tenth, {}", self.name())
+    }
+
+    fn title(&self) -> String {
+        format!("{}, *h* = {}", self.scheme.name(), self.h)
+    }
+
+    /// Says so if the vortices are not in their given order.
+    pub fn relabelling(&self) -> Option<String> {
+        let [a, b, c, d] = self.labels.map(|j| j + 1);
+        (self.labels != LABELS[0]).then(|| format!("*a* = 1, 2, 3, 4 are vortices {a}, {b}, {c}, {d}"))
+    }
+
+    pub fn panel(&self, r1: [f64; 2], p1: [f64; 2], radius: f64) -> Panel {
+        let shown = thin(&self.points, SHOWN);
+        let interval = |t: f64| (t / self.end * SEQUENCE.len() as f64) as usize;
+        let colours = SEQUENCE.into_iter().enumerate();
+        Panel::window(self.title(), ("*R*₁", r1), ("*P*₁", p1)).each(colours, |panel, (i, colour)| {
+            let places = shown.iter().filter(|[t, ..]| interval(*t) == i).map(|&[_, r1, p1]| [r1, p1]);
+            panel.dots(places.collect(), radius, colour)
+        })
+    }
+}
+
+/// What the paper says of the energy in both figures, with the checks for VI2.
+pub fn stays_close(vi2: &[Crossings]) -> Claim {
+    let says = "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts";
+    Claim::new("section 5", says)
+        .each(vi2, |claim, run| claim.at_most(run.growth_name(), run.error.growth(), 1.1))
+}
+
+/// The sections of VI2, those of RK4, and |H − H(0)| of all runs over time.
+pub fn figure(
+    [title, subtitle]: [&str; 2],
+    all: &[Crossings; 6],
+    end: f64,
+    panel: impl Fn(&Crossings) -> Panel,
+) -> Figure {
+    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
+    let largest = "Largest error of the Hamiltonian in each interval of time";
+    let colours = [BLUE, GREEN, VERMILLION].into_iter().cycle();
+    let lines = all.iter().zip(colours).map(|(run, colour)| {
+        let stroke = if run.scheme == Scheme::Vi2 { solid(colour) } else { dashed(colour) };
+        (run.title(), stroke, run.error.envelope.magnitude())
+    });
+    let energy = Panel::new(largest, time, Axis::logarithmic("|*H*(*t*) − *H*(0)|   [Γ²]")).lines(lines);
+    Figure::new(title, subtitle)
+        .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
+        .row(370.0, all[..3].iter().map(&panel).collect())
+        .row(370.0, all[3..].iter().map(&panel).collect())
+        .row(330.0, vec![energy.legend_at(Corner::Beside)])
+}
+
+/// The section coordinates, and the runs that were relabelled or ended early.
+pub fn notes(all: &[Crossings]) -> Vec<String> {
+    let relabelled = all.iter().filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?)));
+    let relabelled = relabelled.map(|note| note.replace('*', ""));
+    let ended = |run: &Crossings| run.failure.map(|error| format!("{} ended early: {error}.", run.name()));
+    let ends = all.iter().filter_map(ended);
+    [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(ends).collect()
+}
+
+pub fn table(all: &[Crossings]) -> Result<Table> {
+    let curves =
+        all.iter().map(|section| ([section.scheme.name()], [section.h], thin(&section.points, SHOWN)));
+    curve_table(&["scheme", "h", "t", "R1", "P1"], curves)
 }
 
 #[cfg(test)]

@@ -34,10 +34,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         Motion::new(job, "as in the paper".into(), BLUE, [0.0; 2], end)?,
         Motion::new(job, format!("vortex 1 displaced by ({x}, {y})"), VERMILLION, DISPLACEMENT, PAPER)?,
     ];
-    let rows = all.iter().flat_map(|Motion { name, errors, .. }| {
-        errors.rows.iter().map(move |&(t, [asymmetry, error])| ([name], [t, asymmetry, error]))
+    let curves = all.iter().map(|Motion { name, errors, .. }| {
+        ([name], [], errors.rows.iter().map(|&(t, [asymmetry, error])| [t, asymmetry, error]))
     });
-    job.publish(figure(&all), Table::of(&["run", "t", "asymmetry", "energy_error"], rows)?)?;
+    job.publish(figure(&all), curve_table(&["run", "t", "asymmetry", "energy_error"], curves)?)?;
     let rounding = "How rounding breaks the symmetry differs from program to program, and so does the time \
                     at which the symmetric run breaks up.";
     let notes = all.iter().map(Motion::ending).chain([rounding.to_owned()]).collect();
@@ -79,17 +79,16 @@ impl Motion {
         Ok(Self { name, colour, errors, lost, end, failure })
     }
 
-    /// The largest asymmetry up to time `t`.
     fn asymmetry(&self, t: f64) -> f64 {
         largest(self.errors.rows.iter().filter(|row| row.0 <= t).map(|row| row.1[0]))
     }
 
     fn ending(&self) -> String {
-        let Self { name, lost, end, failure, .. } = self;
-        match failure {
-            Some(error) => format!("{name}: ended at t = {}, {error}.", scientific(*lost)),
-            None if lost.is_finite() => format!("{name}: |ΔH| exceeds {LOST} at t = {}.", scientific(*lost)),
-            None => format!("{name}: |ΔH| stays below {LOST} up to t = {}.", scientific(*end)),
+        let (name, at) = (&self.name, scientific(self.lost.min(self.end)));
+        match &self.failure {
+            Some(error) => format!("{name}: ended at t = {at}, {error}."),
+            None if self.lost.is_finite() => format!("{name}: |ΔH| exceeds {LOST} at t = {at}."),
+            None => format!("{name}: |ΔH| stays below {LOST} up to t = {at}."),
         }
     }
 }
@@ -116,7 +115,7 @@ fn figure(all: &[Motion; 2]) -> Figure {
     let panel = |title: &str, label: &str, [low, high]: [f64; 2], column: usize| {
         let points = |run: &Motion| run.errors.rows.iter().map(|(t, row)| [*t, row[column]]).collect();
         Panel::loglog(title, ("time *t*   [*L*²/Γ]", [10.0, all[0].end]), (label, [low, high]))
-            .lines(all.iter().map(|run| (&run.name, Stroke::solid(run.colour), points(run))))
+            .lines(all.iter().map(|run| (&run.name, solid(run.colour), points(run))))
             .guide([[PAPER, low], [PAPER, high]], "the paper's time")
             .legend_at(Corner::BottomRight)
     };
