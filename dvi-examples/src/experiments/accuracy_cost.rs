@@ -27,8 +27,7 @@ const PROBLEMS: [(&str, &str, [f64; 6]); 3] = [
     ("planets", "Outer solar system", [1e6, 2e5, 2e4, 2e5, 2e4, 4e3]),
 ];
 
-/// The steps of one run, its evaluations of ∇H or of the force, the same one after another if all stages of
-/// a step are evaluated at once, and max |H − H(0)| / |H(0)| over all steps.
+/// Steps, evaluations of ∇H or of the force, those in turn with all stages at once, and max|ΔH| / |H|.
 type Course = [f64; 4];
 const ALL: usize = 1;
 const IN_TURN: usize = 2;

@@ -50,8 +50,7 @@ fn loaded(beam: &Beam) -> Problem<'_, Beam> {
     Problem::new(beam, beam.loaded(DEFLECTION))
 }
 
-/// One run: E/E(0) − 1, the step, and the time of the last step before it is lost, in periods of the first
-/// mode.
+/// E/E(0) − 1, the step, and when the run is lost, in periods of the first mode.
 type Vibration = (Series<1>, f64, Option<f64>);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {

@@ -56,8 +56,7 @@ impl Frequencies {
                     (format!("mode {}, segments", k + 1), dashed(colour), points(RODS, &self.1, k)),
                 ])
             })
-            .line(slope(14.0, 1e-8, 4), solid(SLATE).width(1.2))
-            .labelled("orders 4 and 2")
+            .lines([("orders 4 and 2", solid(SLATE).width(1.2), slope(14.0, 1e-8, 4))])
             .line(slope(50.0, 1.5e-2, 2), solid(SLATE).width(1.2))
             .legend_at(Corner::Beside)
     }

@@ -21,13 +21,11 @@ const SHOWN: usize = 3000;
 
 #[derive(Default)]
 struct Orbit {
-    /// The polar angle of the first impacts, over π, and the component of the velocity along the curve after
-    /// it.
+    /// The polar angle of the first impacts, over π, and the velocity along the curve after them.
     section: Vec<[f64; 2]>,
     /// The largest |gap| at an impact.
     gap: f64,
-    /// The largest |E − E(0)| at the end of a step, and the same of the product of the angular momenta about
-    /// the foci, in the ellipse.
+    /// The largest |E − E(0)|, and the same of the product of the angular momenta about the foci.
     energy: f64,
     product: f64,
     in_a_step: usize,
@@ -122,9 +120,6 @@ impl Orbit {
                 orbit.product = larger(orbit.product, (now - begin).abs());
             }
             job.proceed(of_step.len() as u64);
-        }
-        if run.memory().total() < impacts {
-            job.cut_short();
         }
         Ok(orbit)
     }

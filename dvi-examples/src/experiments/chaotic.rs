@@ -15,19 +15,18 @@ const REGULAR: f64 = 1e5;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e6, 1e5);
-    let exact = [(Scheme::Gauss6, 0.4)];
-    let accurate = job.choose(1e6, 4e5);
+    let (exact, accurate) = ([(Scheme::Gauss6, 0.4)], job.choose(1e6, 4e5));
     job.expect(cost(&RUNS, end) + cost(&exact, accurate) + LYAPUNOV_STEPS);
-    let case = models::chaotic();
-    let all = each(compare(job, &case, RUNS, end)?, |run| to_the_end(job, &case, run))?;
-    let [exact] = compare(job, &case, exact, accurate)?;
+    let motion = Motion { job, case: &models::chaotic(), end };
+    let all = each(motion.compare(RUNS)?, |run| to_the_end(motion, run))?;
+    let [exact] = Motion { end: accurate, ..motion }.compare(exact)?;
     let region = Region::around(&exact.places());
-    let exponent = lyapunov_exponent(job, &case)?;
+    let exponent = motion.lyapunov_exponent()?;
     let titles = [
         "Chaotic motion of four equal vortices: Poincaré sections of VI2 and RK4",
         "*R*₂ = 0, d*R*₂/d*t* > 0; stray: the share of crossings outside of the region of accurate orbits",
     ];
-    let figure = sections::figure(titles, &all, end, |run| panel(job, run, &region))
+    let figure = sections::figure(titles, &all, end, |run| panel(run, &region))
         .footer(format!("After Rowley & Marsden 2002, Fig. 5. {CAVEAT}"));
     job.publish(figure, sections::table(&all)?)?;
     // Brackets around what earlier runs have found.
@@ -51,13 +50,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 /// A run that has become regular may never meet the section again; with the equal vortices in another
 /// order in Q₁, Q₂, Q₃ it may.
-fn to_the_end(job: &Job<'_>, case: &Case, mut run: Crossings) -> Result<Crossings> {
+fn to_the_end(motion: Motion<'_>, mut run: Crossings) -> Result<Crossings> {
     for labels in LABELS {
-        if run.last() > 0.9 * run.end || job.is_stopping() {
+        if run.last() > 0.9 * run.end || motion.job.is_stopping() {
             break;
         }
-        job.expect(cost(&[(run.scheme, run.h)], run.end));
-        let other = crossings(job, case, (run.scheme, run.h), run.end, labels)?;
+        motion.job.expect(cost(&[(run.scheme, run.h)], run.end));
+        let other = motion.crossings((run.scheme, run.h), labels)?;
         if other.last() > run.last() {
             run = other;
         }
@@ -90,17 +89,10 @@ fn claims(job: &Job<'_>, all: &[Crossings; 6], region: &Region, exponent: Option
     ]
 }
 
-fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
-    let panel = run.panel([-2.6, 2.6], [-2.6, 2.6], 0.7);
-    if job.was_interrupted() {
-        return panel;
-    }
-    let caption = if run.growth < REGULAR {
-        "regular at the end".to_owned()
-    } else {
-        format!("{:.1} % stray", 100.0 * region.share_outside(run))
-    };
-    let panel = panel.caption(Corner::TopRight, caption);
+fn panel(run: &Crossings, region: &Region) -> Panel {
+    let stray = || format!("{:.1} % stray", 100.0 * region.share_outside(run));
+    let caption = if run.growth < REGULAR { "regular at the end".to_owned() } else { stray() };
+    let panel = run.panel([-2.6, 2.6], [-2.6, 2.6], 0.7).caption(Corner::TopRight, caption);
     match run.relabelling() {
         Some(text) => panel.note([0.0, -2.53], Anchor::Middle, INK, text),
         None => panel,

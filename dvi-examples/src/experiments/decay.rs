@@ -85,13 +85,12 @@ pub struct Setting<'a> {
 
 impl Setting<'_> {
     pub fn runs(self) -> Result<Runs> {
-        let case = self.case;
+        let (case, mut steps) = (self.case, 0);
         let mut newmark = AverageAcceleration::new(case, START);
-        let (begin, mut steps) = ([newmark.energy(), newmark.angular_momentum()], 0);
-        let newmark = self.decay("Newmark, *β* = ¼", begin, || {
+        let newmark = self.decay("Newmark, *β* = ¼", newmark.integrals(), || {
             newmark.step();
             steps += 1;
-            Ok((f64::from(steps) * case.h, [newmark.energy(), newmark.angular_momentum()]))
+            Ok((f64::from(steps) * case.h, newmark.integrals()))
         });
         let midpoint = self.by("variational midpoint", Variational::midpoint())?;
         let trapezoid = self.by("variational trapezoid", Variational::trapezoid())?;
@@ -104,11 +103,13 @@ impl Setting<'_> {
 
     pub fn by(self, name: &'static str, method: impl Method<RadialFriction, f64>) -> Result<Decay> {
         let mut run = self.case.run(method)?;
-        let [l] = momenta(&run);
-        Ok(self.decay(name, [run.energy(), l], || {
+        let integrals = |run: &Integrator<_, _>| {
+            let [l] = momenta(run);
+            [run.energy(), l]
+        };
+        Ok(self.decay(name, integrals(&run), || {
             run.advance()?;
-            let [l] = momenta(&run);
-            Ok((run.time(), [run.energy(), l]))
+            Ok((run.time(), integrals(&run)))
         }))
     }
 
@@ -147,8 +148,7 @@ impl Decay {
         largest(self.error.envelope.mean().iter().map(|[_, mean]| mean.abs()))
     }
 
-    /// By how much the energy decays faster than it should, between the first and the last window, in units
-    /// of γ.
+    /// By how much faster the energy decays than it should, from first to last window, in units of γ.
     pub fn excess(&self) -> f64 {
         let [first, last] = self.means();
         ((1.0 + first) / (1.0 + last)).ln() / (GAMMA * (self.case.end - WINDOW))
@@ -208,13 +208,10 @@ impl AverageAcceleration {
         RadialFrictionState { x, y, dot_x, dot_y }
     }
 
-    pub fn energy(&self) -> f64 {
-        let r2 = dot(self.q, self.q);
-        0.5 * dot(self.v, self.v) + r2 * (r2 - 1.0).powi(2)
-    }
-
-    pub fn angular_momentum(&self) -> f64 {
-        self.q[0] * self.v[1] - self.q[1] * self.v[0]
+    /// The energy and the angular momentum.
+    fn integrals(&self) -> [f64; 2] {
+        let ([x, y], [u, w], r2) = (self.q, self.v, dot(self.q, self.q));
+        [0.5 * dot(self.v, self.v) + r2 * (r2 - 1.0).powi(2), x * w - y * u]
     }
 }
 
@@ -230,9 +227,10 @@ pub fn is_midpoint(job: &Job<'_>, case: Case) -> Result<Claim> {
         newmark.step();
         most = larger(most, apart(&entries(run.state()), &entries(newmark.half_a_step_back())));
     })?;
-    let text =
-        "Newmark's method with β = ¼ is the variational midpoint rule half a step back, with friction too";
-    Ok(beyond(text).at_most("largest difference of a coordinate or a velocity", most, 1e-10))
+    Ok(beyond(
+        "Newmark's method with β = ¼ is the variational midpoint rule half a step back, with friction too",
+    )
+    .at_most("largest difference of a coordinate or a velocity", most, 1e-10))
 }
 
 fn rates(h: f64, [q, v, a]: [[f64; 2]; 3], next: [f64; 2]) -> ([f64; 2], [f64; 2]) {
@@ -268,8 +266,8 @@ pub fn noether(job: &Job<'_>, case: Case, steps: &[Runs; 4]) -> Result<Claim> {
         .near("midpoint: order of that at the end in h", order(0), [2.0, 0.05]))
 }
 
-/// The largest relative deviation of l from l of the step before times the factor of the step, which follows
-/// from c, and from l(0) times the product of the factors of all steps.
+/// The largest relative deviations of l from that before times the factor of the step, which follows from c,
+/// and from l(0) times the product of the factors of all steps.
 fn defects(
     job: &Job<'_>,
     method: impl Method<RadialFriction, f64>,

@@ -9,8 +9,7 @@ use crate::vocabulary::*;
 /// The end of the beginning, and of runs with half the step.
 const EARLY: f64 = 100.0;
 const HALVED: f64 = 1e4;
-/// How many starts there are, in equally spaced directions from one place, and times in a factor of ten at
-/// which the error is noted.
+/// How many directions there are to start in, and times in a factor of ten at which the error is noted.
 pub const STARTS: u64 = 8;
 const PER_DECADE: f64 = 8.0;
 

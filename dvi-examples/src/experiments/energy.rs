@@ -78,8 +78,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     Ok(Outcome { claims, references, notes: vec![] })
 }
 
-/// The time that RK2 takes for the run of Fig. 2 over the time that VE2 takes: each state being read, and
-/// none.
+/// The time of RK2 for the run of Fig. 2 over that of VE2, with each state read, and with few.
 fn time_ratios() -> Result<[f64; 2]> {
     let mut least = [[f64::INFINITY; 2]; 2];
     for k in 0..2 * TIMINGS as usize {

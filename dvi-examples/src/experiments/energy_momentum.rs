@@ -36,7 +36,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let between = largest(pairs.map(|(a, b)| (a.x - b.x).hypot(a.y - b.y)));
     let none = NoStep::new()?;
     job.publish(figure(&all, &none), table(&all, &none)?)?;
-    Ok(claims(&all, between).into_iter().chain([none.claim()]).collect::<Vec<_>>().into())
+    outcome(&all, between, &none)
 }
 
 /// Points of the motion of the spring at multiples of a time.
@@ -57,7 +57,7 @@ fn position(states: &[StiffeningSpringState], t: f64) -> [f64; 2] {
     states.get(index as usize).copied().and_then(place).unwrap_or([f64::NAN; 2])
 }
 
-fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
+fn outcome(all: &[Runs; 2], between_references: f64, none: &NoStep) -> Result<Outcome> {
     let one_length = |of: &Runs| format!("{}, steps of one length", of.name);
     let (second, width) = ([2.0, 0.02], |steps: &Steps, k: usize| steps.kept[k].width());
     let discrete = "the steps keep the discrete energy to rounding, and steps of one length up to terms of \
@@ -120,7 +120,7 @@ fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
                 .at_least("largest distance / that with the same work", behind(0), farther)
                 .at_least("the same with the shortest first step", behind(3), farther)
         });
-    [discrete, momentum, energy, lengths, accuracy]
+    claims([discrete, momentum, energy, lengths, accuracy, none.claim()])
 }
 
 /// The largest defect of E_d over the number of the step, and E − E(0) and h over time.
@@ -167,8 +167,6 @@ fn table(all: &[Runs; 2], none: &NoStep) -> Result<Table> {
         let named = quantities.map(|(quantity, over)| [name.clone(), quantity.to_owned(), over.to_owned()]);
         named.into_iter().zip(curves)
     });
-    let rows = of_runs
-        .chain(none.curves())
-        .flat_map(|(names, points)| points.into_iter().map(move |point| (names.clone(), point)));
-    Table::of(&["run", "quantity", "over", "at", "value"], rows)
+    let curves = of_runs.chain(none.curves()).map(|(names, points)| (names, [], points));
+    curve_table(&["run", "quantity", "over", "at", "value"], curves)
 }

@@ -33,9 +33,8 @@ pub struct Steps {
     pub beginning: Vec<[f64; 3]>,
 }
 
-/// Runs on one system for the lengths of the first step: with steps that keep the discrete energy, with as
-/// many steps of one length, the mean of those, and with steps of one length and at most as many evaluations
-/// of derivatives in the same time as the first.
+/// Runs with steps that keep the discrete energy, with as many of one length, the mean of those, and with
+/// steps of one length and at most as many evaluations of derivatives in the same time.
 pub struct Runs {
     pub name: &'static str,
     pub kept: [Steps; 4],
@@ -46,16 +45,12 @@ pub struct Runs {
 impl<S: RegularLagrangian<f64>> Motion<'_, S> {
     pub fn runs(&self, job: &Job<'_>, name: &'static str, first: [f64; 4], steps: u64) -> Result<Runs> {
         let rule = Variational::midpoint();
-        let of_one_length = |h: f64, steps| {
-            self.steps(job, Integrator::new(self.system, rule, h, self.start.clone())?, steps)
-        };
+        let begin = || self.start.clone();
+        let of_one_length =
+            |h: f64, steps| self.steps(job, Integrator::new(self.system, rule, h, begin())?, steps);
         let kept = each(first, |h| {
-            let control = EnergyMomentum::new(h);
-            self.steps(
-                job,
-                ControlledIntegrator::new(self.system, rule, control, self.start.clone())?,
-                steps,
-            )
+            let run = ControlledIntegrator::new(self.system, rule, EnergyMomentum::new(h), begin())?;
+            self.steps(job, run, steps)
         })?;
         let mean = each(kept.each_ref(), |kept| of_one_length(kept.length, steps))?;
         let work = each([0, 1, 2, 3], |i| {
@@ -113,8 +108,8 @@ const REACH: f64 = 4.0;
 const SHOWN: f64 = 0.25;
 
 pub struct NoStep {
-    pub steps: u64,
-    /// E_d − e over the length of the step, of both.
+    steps: u64,
+    /// E_d − e over the length of the last step, and of the one that the run cannot take.
     curves: [Vec<[f64; 2]>; 2],
     /// The length of the last step, with its defect by hand.
     last: [f64; 2],
@@ -155,14 +150,13 @@ impl NoStep {
         let smallest = least(failed.iter().map(|[_, defect]| *defect));
         let of_lengths = format!("smallest E_d − e of lengths up to {REACH} times the last, by hand");
         let difference = "that of the best length that the control has found, less that by hand";
-        beyond(
-            "with the trapezoidal rule on the spring the scheme ends, because no length within reach of \
-                the last has the discrete energy e",
-        )
-        .near("steps that it takes", self.steps as f64, [3.0, 0.0])
-        .at_most("|E_d − e| of the last of them, by hand", self.last[1].abs(), 5e-14)
-        .near(of_lengths, smallest, [2.758e-3, 1e-6])
-        .near(difference, found - by_hand, [0.0, 1e-13])
+        let text = "with the trapezoidal rule on the spring the scheme ends, because no length within reach \
+                    of the last has the discrete energy e";
+        beyond(text)
+            .near("steps that it takes", self.steps as f64, [3.0, 0.0])
+            .at_most("|E_d − e| of the last of them, by hand", self.last[1].abs(), 5e-14)
+            .near(of_lengths, smallest, [2.758e-3, 1e-6])
+            .near(difference, found - by_hand, [0.0, 1e-13])
     }
 
     pub fn panel(&self) -> Panel {
@@ -173,12 +167,10 @@ impl NoStep {
         let defects = ("10³ (*E*_d(*h*) − *e*)", [-10.0, 16.0]);
         Panel::linear("The equation for *h*, trapezoidal rule", ("*h*", [0.0, SHOWN]), defects)
             .line(vec![[0.0, 0.0], [SHOWN, 0.0]], solid(SLATE).width(1.0))
-            .line(last, dashed(BLUE))
-            .labelled("at the last step")
+            .lines([("at the last step", dashed(BLUE), last)])
             .discs(vec![[length, 0.0]], BLUE, Fill::Solid)
             .labelled(format!("its length, {length:.3}"))
-            .line(failed, solid(VERMILLION))
-            .labelled("where the run ends")
+            .lines([("where the run ends", solid(VERMILLION), failed)])
             .discs(vec![[h, 1e3 * defect]], VERMILLION, Fill::Hollow)
             .labelled(format!("nearest to zero, {}", scientific(defect)))
             .legend_at(Corner::TopLeft)

@@ -104,8 +104,7 @@ impl Exchange {
         squares.sum::<f64>() / self.0.len() as f64
     }
 
-    /// How many times as fast as in `motion` the energies are exchanged: the factor of time with the least
-    /// mean square of differences.
+    /// How many times as fast as in `motion` the exchange is, by the least mean square of differences.
     pub fn speed(&self, motion: &Self) -> f64 {
         let factors = (0..=1000).map(|i| 0.4 + 0.001 * f64::from(i));
         let apart = factors.map(|factor| (factor, self.apart(motion, factor)));

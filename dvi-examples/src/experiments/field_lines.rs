@@ -91,11 +91,7 @@ fn starts() -> [Vec<Place>; 2] {
 /// Where the line through `start` meets the plane after each of `count` turns.
 fn section(job: &Job<'_>, field: &impl Field, start: Place, count: u64) -> Result<Vec<Place>> {
     let (mut place, mut places) = (start, Vec::new());
-    for _ in 0..count {
-        if job.is_stopping() {
-            job.cut_short();
-            break;
-        }
+    for _ in (0..count).take_while(|_| !job.is_stopping()) {
         place = turned(field, OneStep::midpoint(), STEPS, place)?;
         places.push(place);
         job.proceed(STEPS);

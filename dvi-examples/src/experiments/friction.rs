@@ -38,7 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
                       the motion";
     let is_known = beyond(references).at_most("largest relative difference of two energies", between, 2e-11);
     let gain = beyond("Runge–Kutta methods of second order gain energy at that step instead of losing it");
-    Ok(vec![
+    claims([
         is_known.at_most("largest |l/(l(0) exp(−γt)) − 1|", reference.momentum, 1e-12),
         noether(job, long, &steps)?,
         follows(job, &steps[0]),
@@ -49,8 +49,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         }),
         orders(job, &steps),
         is_midpoint(job, long)?,
-    ]
-    .into())
+    ])
 }
 
 fn follows(job: &Job<'_>, runs: &Runs) -> Claim {
@@ -120,11 +119,9 @@ fn figure(reference: &Reference, steps: &[Runs; 4], rk4_alone: &Decay) -> Figure
     let time = ("time *t*", [0.0, steps[0][0].case.end]);
     let energies = reference.energies.iter().zip(1..).map(|(e, n)| [f64::from(n) * FINE, *e]);
     let decay = Panel::linear("Energy", time, ("*E*", [0.0, 0.45]))
-        .line(energies.collect(), solid(SLATE).width(5.0).opacity(0.4))
-        .labelled("reference")
+        .lines([("reference", solid(SLATE).width(5.0).opacity(0.4), energies.collect())])
         .lines(lines(|run| run.energy.mean()))
-        .line(rk4_alone.energy.mean(), dashed(VERMILLION))
-        .labelled("RK4 without friction");
+        .lines([("RK4 without friction", dashed(VERMILLION), rk4_alone.energy.mean())]);
     let means = format!("relative, |mean| over {WINDOW} units of time");
     let deviation =
         Panel::semilog("Deviation of the energy", time, (&means, [1e-3, 2.0])).lines(lines(|run| {

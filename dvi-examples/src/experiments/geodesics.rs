@@ -4,8 +4,7 @@
 use super::rk4::{rk4, rk4_up_to};
 use crate::vocabulary::*;
 
-/// What a few operations leave that are not repeated: the errors of a matrix of products, or of the square
-/// of a length.
+/// What a few operations leave that are not repeated, as those of a matrix of products.
 pub const FEW_UNITS: f64 = 8.0 * f64::EPSILON;
 
 /// A long run that is looked at every so many steps.
@@ -102,8 +101,7 @@ pub fn reference<const D: usize, S: OnManifold<D>>(
     rk4_up_to(S::entries(start), end, h, |y| system.motion(y))
 }
 
-/// The claim that R and ω of a body are of second order, and of fourth by a composition, at a time, for
-/// steps of these lengths, against RK4 with short steps.
+/// The claim that R and ω of a body are of second order, and of fourth by a composition.
 pub fn order_claim<S: OnManifold<12>>(
     body: &str,
     (system, start): (S, S::State<f64>),
@@ -150,8 +148,7 @@ impl Shadow {
     }
 }
 
-/// The claim that the energy error is as predicted, of runs of a `method` with steps of several lengths, the
-/// longest first.
+/// The claim that the energy error is as predicted, of runs with several steps, the longest first.
 pub fn shadow_claim(method: &str, runs: &[Shadow]) -> Claim {
     let order = |error: fn(&Shadow) -> f64| order(runs.iter().map(|run| (run.h, error(run))));
     let ratio = runs.last().map(|run| run.largest / run.predicted);
@@ -188,8 +185,7 @@ pub struct Sample {
 pub struct Extreme {
     h: f64,
     count: usize,
-    /// The mean of height − root, the largest magnitude, and what the energy E + h²(g − g(0)) there makes of
-    /// it.
+    /// The mean of height − root, the largest magnitude, and what the energy E + h²(g − g(0)) makes of it.
     mean: f64,
     largest: f64,
     predicted: f64,
@@ -249,8 +245,7 @@ impl Turnings {
     }
 }
 
-/// The claim that `what` turns at the roots, by the lowest and highest turnings of runs with three steps,
-/// each half of the one before.
+/// The claim that `what` turns at the roots, by runs with three steps, each half of the one before.
 pub fn turning_claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
     let [[low, high], [_, Extreme { h: half, .. }], [_, Extreme { h, .. }]] = [coarse, middle, fine];
     let square = low.h * low.h;
@@ -276,16 +271,14 @@ pub fn turning_claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> 
     )
 }
 
-/// The coefficients of s, s² and s³ in the cubic polynomial through two values with their rates, a step of
-/// length `h` apart, for s from 0 to 1.
+/// The coefficients of s, s² and s³ in the cubic through two values with their rates, for s from 0 to 1.
 fn hermite(before: [f64; 2], after: [f64; 2], h: f64) -> [f64; 3] {
     let [first, last] = [h * before[1], h * after[1]];
     let rise = after[0] - before[0];
     [first, 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise]
 }
 
-/// The part of a step of length `h` after which a value is zero that changes its sign in it: each of both
-/// points is a value with its rate.
+/// The part of a step after which a value is zero that changes its sign in it, by values with their rates.
 pub fn crossing(before: [f64; 2], after: [f64; 2], h: f64) -> f64 {
     let [first, square, cube] = hermite(before, after, h);
     let value = |s: f64| before[0] + s * (first + s * (square + s * cube));

@@ -15,8 +15,7 @@ const ORBITS: [(&str, f64); 2] = [("banana", 4e-3), ("passing orbit", 1.2e-2)];
 const H: f64 = 60.0;
 const EARLY: u64 = 2000;
 
-/// The runs of one orbit, in class, out of class, and RK4: the relative changes of the energy and of the
-/// toroidal momentum, and R and Z of the beginning.
+/// Runs in class, out of class, and by RK4: the relative changes of the energy and of the toroidal momentum.
 type Orbit = [Series<2>; 3];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {

@@ -32,8 +32,7 @@ pub struct Course {
 /// A run that takes more steps for one period has left its orbit.
 const MOST_STEPS: u64 = 3_000_000;
 
-/// Follows a run for `periods` periods, each of which counts as one unit of progress, and shows the time,
-/// E − E(0) and the place at the end of each step to `look`.
+/// Follows a run for so many periods, and shows time, E − E(0) and place after each step to `look`.
 pub fn follow(
     job: &Job<'_>,
     run: &mut impl KeplerRun,
@@ -58,9 +57,6 @@ pub fn follow(
         }
         done += 1;
         job.proceed(1);
-    }
-    if done < periods {
-        job.cut_short();
     }
     let statistics = run.statistics();
     let per_period = |count: u64| count as f64 / done.max(1) as f64;
@@ -144,11 +140,7 @@ pub fn equal_errors(job: &Job<'_>, steps: Steps, e: f64, fineness: f64) -> Resul
     let needed = |&(reference, rule, _): &(&'static str, Quadrature, Colour)| {
         // For the same energy error, by bisection.
         let (mut low, mut high) = (fineness / 30.0, fineness * 30.0);
-        for _ in 0..BISECTIONS {
-            if job.is_stopping() {
-                job.cut_short();
-                break;
-            }
+        for _ in (0..BISECTIONS).take_while(|_| !job.is_stopping()) {
             let middle = (low * high).sqrt();
             // Very coarse runs may fail: they are too coarse.
             let is_fine = |course: Course| course.energy <= fitted.energy;
@@ -206,8 +198,7 @@ impl Clock {
     }
 }
 
-/// Takes `steps` steps for each of the periods, each of which counts as one unit of progress, and notes
-/// what each of them returns: the time, the position and the energy.
+/// Takes so many steps for each of the periods; each returns the time, the position and the energy.
 fn by_period(
     job: &Job<'_>,
     Orbit { e }: Orbit,

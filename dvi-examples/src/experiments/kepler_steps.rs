@@ -45,8 +45,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     Ok(Outcome { claims: claims(&all), references: references(&all), notes: notes.collect() })
 }
 
-/// The ratios with the given choice of steps, at the given eccentricity, against midpoint and trapezoid or,
-/// if `simpson`, against linear Simpson.
+/// The ratios against midpoint and trapezoid or, if `simpson`, against linear Simpson.
 fn ratios(all: &[Comparison], steps: Steps, e: f64, simpson: bool) -> Vec<f64> {
     let is_asked = |c: &&Comparison| c.steps == steps && c.e == e && (c.reference == SIMPSON) == simpson;
     all.iter().filter(is_asked).map(Comparison::ratio).collect()

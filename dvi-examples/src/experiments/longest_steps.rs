@@ -6,8 +6,7 @@ use crate::vocabulary::*;
 /// What the energy error may be, over the energy.
 const BOUND: f64 = 0.01;
 
-/// Lengths of steps, the shortest first, each with the largest |E − E(0)| over E(0); infinite where the run
-/// is lost.
+/// Lengths of steps, each with the largest |E/E(0) − 1|, which is infinite where the run is lost.
 type Scan = Vec<[f64; 2]>;
 
 /// Those of the rods, and of the soft and the stiff springs.

@@ -89,8 +89,8 @@ impl Parasite {
         Ok(Self { h, amplitudes, path, ended: ended.err().map(|error| error.step as f64 * h) })
     }
 
-    /// The exponential rate of growth, from the medians of two windows of two turns, three turns apart.
-    /// Where the path bends most, the smooth motion is seen in the amplitude too.
+    /// The rate of growth from the medians of two windows of two turns, three turns apart: where the path
+    /// bends most, the smooth motion is seen in the amplitude too.
     fn rate(&self) -> f64 {
         const TURN: f64 = 65.0;
         let median = |start: f64| {

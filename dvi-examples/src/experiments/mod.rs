@@ -11,7 +11,6 @@ mod decay;
 mod disc;
 mod disc_energy;
 mod double_pendulum;
-mod elliptic;
 mod energy;
 mod energy_momentum;
 mod energy_steps;
@@ -76,8 +75,7 @@ const fn of(
 }
 
 /// All experiments, in the order of the papers: Rowley & Marsden, Kosmas & Vlachos, and what goes beyond.
-/// Each with the seconds that it takes on one core, its source if it has one, and a sentence on what it
-/// shows.
+/// Each with its seconds on one core, its source if it has one, and a sentence on what it shows.
 #[rustfmt::skip]
 pub const ALL: &[Experiment] = &[
     of("order", 0.1, ROWLEY, order::run,

@@ -44,7 +44,33 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let notes = rows.iter().map(|(sigma, _, [linear, vortices])| {
         format!("σ = {sigma:.4}: order {linear:.3} linear, {vortices:.3} vortices.")
     });
-    Ok(Outcome { claims: claims(&rows), references: vec![], notes: notes.collect() })
+    let at = |problem: usize, at| rows.iter().find(|(sigma, ..)| *sigma == at).map(|row| row.2[problem]);
+    let (linear, vortices) = (|sigma| at(0, sigma), |sigma| at(1, sigma));
+    let from_two = |problem: usize, exceptions: &[f64]| {
+        let others = rows.iter().filter(|(sigma, ..)| !exceptions.contains(sigma));
+        largest(others.map(|(.., orders)| (orders[problem] - 2.0).abs()))
+    };
+    let but_one = from_two(0, &[SPECIAL]);
+    let (second, fourth) = ([2.0, 0.02], [4.0, 0.02]);
+    let special = "σ = (3 − √3)/6 is fourth-order accurate";
+    let claims = vec![
+        says("section 4.1", "second order for every σ except (3 − √3)/6")
+            .at_most("largest |order − 2| of the others, linear", but_one, 0.02)
+            .instead("on linear equations (3 + √3)/6 is an exception too; on vortices there is none")
+            .near("order on z' = iz, σ = (3 + √3)/6", linear(MIRRORED), fourth)
+            .at_most("largest |order − 2| of the rest, linear", from_two(0, &[SPECIAL, MIRRORED]), 0.02)
+            .at_most("largest |order − 2| of all σ, vortices", from_two(1, &[]), 0.02),
+        says("section 4.1, on x' = λx", special).near("order on z' = iz", linear(SPECIAL), fourth),
+        beyond("the fourth order is for linear equations only")
+            .near("order on vortices, σ = (3 − √3)/6", vortices(SPECIAL), second)
+            .near("order on vortices, σ = (3 + √3)/6", vortices(MIRRORED), second),
+        says("section 4.1", "the scheme with σ = (3 − √3)/2 is the most accurate")
+            .near("order on z' = iz, σ = (3 − √3)/2", linear(PRINTED), fourth)
+            .instead("a misprint of (3 − √3)/6")
+            .near("order on z' = iz, σ = (3 − √3)/2", linear(PRINTED), second)
+            .near("order on z' = iz, σ = (3 − √3)/6", linear(SPECIAL), fourth),
+    ];
+    Ok(Outcome { claims, references: vec![], notes: notes.collect() })
 }
 
 /// |z − e^{it}| at t = 10.
@@ -63,35 +89,6 @@ fn vortex_error(Case { vortices, start }: &Case, end: &FourPoints, sigma: f64, h
     let mut run = Integrator::from_two_points(vortices, Sigma::new(sigma), h, *start, second)?;
     run.take_steps((END / h).round() as u64)?;
     Ok(apart(run.q(), end.x.iter().chain(&end.y)))
-}
-
-fn claims(rows: &[Row]) -> Vec<Claim> {
-    let at = |problem: usize, at| rows.iter().find(|(sigma, ..)| *sigma == at).map(|row| row.2[problem]);
-    let (linear, vortices) = (|sigma| at(0, sigma), |sigma| at(1, sigma));
-    let from_two = |problem: usize, exceptions: &[f64]| {
-        let others = rows.iter().filter(|(sigma, ..)| !exceptions.contains(sigma));
-        largest(others.map(|(.., orders)| (orders[problem] - 2.0).abs()))
-    };
-    let but_one = from_two(0, &[SPECIAL]);
-    let (second, fourth) = ([2.0, 0.02], [4.0, 0.02]);
-    let special = "σ = (3 − √3)/6 is fourth-order accurate";
-    vec![
-        says("section 4.1", "second order for every σ except (3 − √3)/6")
-            .at_most("largest |order − 2| of the others, linear", but_one, 0.02)
-            .instead("on linear equations (3 + √3)/6 is an exception too; on vortices there is none")
-            .near("order on z' = iz, σ = (3 + √3)/6", linear(MIRRORED), fourth)
-            .at_most("largest |order − 2| of the rest, linear", from_two(0, &[SPECIAL, MIRRORED]), 0.02)
-            .at_most("largest |order − 2| of all σ, vortices", from_two(1, &[]), 0.02),
-        says("section 4.1, on x' = λx", special).near("order on z' = iz", linear(SPECIAL), fourth),
-        beyond("the fourth order is for linear equations only")
-            .near("order on vortices, σ = (3 − √3)/6", vortices(SPECIAL), second)
-            .near("order on vortices, σ = (3 + √3)/6", vortices(MIRRORED), second),
-        says("section 4.1", "the scheme with σ = (3 − √3)/2 is the most accurate")
-            .near("order on z' = iz, σ = (3 − √3)/2", linear(PRINTED), fourth)
-            .instead("a misprint of (3 − √3)/6")
-            .near("order on z' = iz, σ = (3 − √3)/2", linear(PRINTED), second)
-            .near("order on z' = iz, σ = (3 − √3)/6", linear(SPECIAL), fourth),
-    ]
 }
 
 fn figure(rows: &[Row]) -> Figure {

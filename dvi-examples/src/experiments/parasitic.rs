@@ -43,7 +43,28 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         Check::new(quantity, run.rate(), Bound::Near(7e-3, 7e-4))
     });
     let (notes, references) = (notes.collect(), references.collect());
-    Ok(Outcome { claims: claims(&leapfrogging, &chaotic), references, notes })
+    let [quarter, explicit] = [&leapfrogging, &chaotic].map(|all| &all[..3]);
+    let halves = [&leapfrogging[3], &chaotic[3]];
+    let first = quarter[0].rate();
+    let energy = chaotic[3].points.last().map_or(f64::NAN, |point| point[2]);
+    let until = format!("time of |ΔH| > {LOST} or of an error that ends the run");
+    let rate =
+        |run: &Motion| format!("rate on the leapfrogging pairs, {}, over that of the largest h", run.name());
+    let rates = |run: &Motion| run.rate().zip(first).map(|(rate, first)| rate / first);
+    let claims = vec![
+        beyond("with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not")
+            .each(explicit, |claim, run| {
+                claim.at_most(format!("{until}, {}", run.name()), run.lost(), 300.0)
+            })
+            .at_most(format!("max|ΔH| to t = 300, {}", chaotic[3].name()), energy, 1e-4),
+        beyond("for σ = ¼ the parasitic mode grows at a rate that does not depend on h")
+            .each(&quarter[1..], |claim, run| claim.near(rate(run), rates(run), [1.0, 0.1])),
+        beyond("for σ = ½ it neither grows nor decays").each(halves, |claim, run| {
+            let quantity = format!("late over early amplitude, {}, {}", run.motion, run.name());
+            claim.near(quantity, run.growth(), [1.0, 0.2])
+        }),
+    ];
+    Ok(Outcome { claims, references, notes })
 }
 
 impl Motion {
@@ -94,30 +115,6 @@ impl Motion {
         let largest = |points: &[[f64; 3]]| largest(points.iter().map(|point| point[1]));
         largest(&self.points[self.points.len() - part..]) / largest(&self.points[..part])
     }
-}
-
-fn claims(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Vec<Claim> {
-    let [quarter, explicit] = [leapfrogging, chaotic].map(|all| &all[..3]);
-    let halves = [&leapfrogging[3], &chaotic[3]];
-    let first = quarter[0].rate();
-    let energy = chaotic[3].points.last().map_or(f64::NAN, |point| point[2]);
-    let until = format!("time of |ΔH| > {LOST} or of an error that ends the run");
-    let rate =
-        |run: &Motion| format!("rate on the leapfrogging pairs, {}, over that of the largest h", run.name());
-    let rates = |run: &Motion| run.rate().zip(first).map(|(rate, first)| rate / first);
-    vec![
-        beyond("with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not")
-            .each(explicit, |claim, run| {
-                claim.at_most(format!("{until}, {}", run.name()), run.lost(), 300.0)
-            })
-            .at_most(format!("max|ΔH| to t = 300, {}", chaotic[3].name()), energy, 1e-4),
-        beyond("for σ = ¼ the parasitic mode grows at a rate that does not depend on h")
-            .each(&quarter[1..], |claim, run| claim.near(rate(run), rates(run), [1.0, 0.1])),
-        beyond("for σ = ½ it neither grows nor decays").each(halves, |claim, run| {
-            let quantity = format!("late over early amplitude, {}, {}", run.motion, run.name());
-            claim.near(quantity, run.growth(), [1.0, 0.2])
-        }),
-    ]
 }
 
 fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {

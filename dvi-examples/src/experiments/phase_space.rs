@@ -4,7 +4,7 @@
 //! midpoint rule. Both preserve area.
 
 use super::barnes;
-use super::elliptic::Elliptic;
+use super::flips::Elliptic;
 use crate::vocabulary::*;
 
 const SYSTEM: PhasePendulum = PhasePendulum {};

@@ -12,11 +12,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e5, 4.5e4);
     let exact = [(Scheme::Gauss6, 0.2)];
     job.expect(cost(&RUNS, end) + cost(&exact, 1e5) + LYAPUNOV_STEPS);
-    let case = models::quasi_periodic();
-    let all = compare(job, &case, RUNS, end)?;
-    let [exact] = compare(job, &case, exact, 1e5)?;
+    let motion = Motion { job, case: &models::quasi_periodic(), end };
+    let all = motion.compare(RUNS)?;
+    let [exact] = Motion { end: 1e5, ..motion }.compare(exact)?;
     let curve = Curve::through(&exact.places());
-    let exponent = lyapunov_exponent(job, &case)?;
+    let exponent = motion.lyapunov_exponent()?;
     job.publish(figure(&all, &curve, end), sections::table(&all)?)?;
     let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = &all;
     let distance = |run: &Crossings| format!("largest distance from the exact section, {}", run.name());

@@ -6,8 +6,7 @@ use crate::vocabulary::*;
 /// Numbers of bounces, each twice the one before, after which the change of the energy is looked at.
 const BOUNCES: [u64; 9] = [8, 16, 32, 64, 128, 256, 512, 1024, 2048];
 
-/// The root mean square of E − E(0) after each number of bounces: where the discrete energy is kept, the
-/// same with half the step, and where the energy is kept.
+/// The root mean square of E − E(0): by the discrete energy, with half the step, by the energy.
 pub struct Walks([Vec<[f64; 2]>; 3]);
 
 impl Walks {

@@ -15,8 +15,7 @@ const H: f64 = 0.05;
 const STEPS: [f64; 3] = [0.1, 0.05, 0.025];
 /// How long ω₂ is drawn.
 const DRAWN: f64 = 80.0;
-/// Angular velocities of the curves that are drawn: around the first and the third axis, and through the
-/// neighbourhood of the second.
+/// Angular velocities of the curves that are drawn, around the first axis and around the third.
 #[rustfmt::skip]
 const AROUND: [[f64; 3]; 6] = [
     [2.0, 0.4, 0.0], [1.8, 0.65, 0.0], [1.3, 0.85, 0.0],
@@ -135,8 +134,7 @@ fn figure(all: &[Series<4>; 2], wave: &Wave, long: Long<'_>) -> Result<Figure> {
     let steps = flipping.iter().enumerate().step_by(20).map(|(k, state)| [k as f64 * H, state.omega_R[1]]);
     let title = "The middle component of the angular velocity";
     let middle = Panel::linear(title, ("time *t*", [0.0, DRAWN]), ("*ω*₂", [-1.2, 1.5]))
-        .line(exact, solid(SLATE).width(1.2))
-        .labelled("elliptic function")
+        .lines([("elliptic function", solid(SLATE).width(1.2), exact)])
         .dots(steps.collect(), 2.4, PURPLE)
         .labelled("every 20th step")
         .weight(1.7);

@@ -22,8 +22,7 @@ pub fn rk4_up_to<const N: usize>(
     (0..(end / h).round() as u64).fold(y, |y, _| rk4(&y, h, &f))
 }
 
-/// How far quantities are from their start in the course of so many steps; `of` returns that after each of
-/// them.
+/// How far quantities are from their start, as `of` says after each of so many steps.
 pub fn keep_rk4<const D: usize, const N: usize>(
     job: &Job<'_>,
     mut y: [f64; D],

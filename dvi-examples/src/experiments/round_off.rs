@@ -16,8 +16,8 @@ const STRIDE: u64 = 37;
 const PER_DECADE: f64 = 8.0;
 const FIRST: f64 = 1e4;
 
-/// What is conserved but for rounding, with its title; and the share of the steps that are taken, which is
-/// less where they are dear. The first two are energies.
+/// What is conserved but for rounding, with its title, and the share of the steps that are taken. The first
+/// two are energies.
 const CASES: [(&str, &str, f64); 4] = [
     ("oscillator, σ = ½", "Energy of an oscillator, σ = ½", 1.0),
     ("oscillator, Verlet", "Energy of an oscillator, Störmer–Verlet", 1.0),
@@ -49,7 +49,20 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     });
     let table = curve_table(&["quantity", "sums", "steps", "error"], curves)?;
     job.publish(figure(&pairs, steps as f64), table)?;
-    Ok(Outcome { claims: claims(job, &pairs), references: vec![], notes: notes(&pairs) })
+    let cases = || CASES.iter().zip(&pairs);
+    let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ \
+                  steps, as independent ones do";
+    let fifth = "with compensated sums they are at most a fifth of those of plain sums";
+    let claims = vec![
+        beyond(growth).each(cases().take(2), |claim, ((name, ..), [_, compensated])| {
+            claim.of(name).within("exponent of growth", job.only_full(exponent(compensated)), [0.3, 0.7])
+        }),
+        beyond(fifth).each(cases(), |claim, ((name, ..), [plain, compensated])| {
+            let ratio = plain.last().zip(compensated.last()).map(|(plain, other)| other[1] / plain[1]);
+            claim.of(name).at_most("compensated/plain, at the end", ratio, 0.2)
+        }),
+    ];
+    Ok(Outcome { claims, references: vec![], notes: notes(&pairs) })
 }
 
 /// The errors of the run of a case that begins at its own angle, with so many looks.
@@ -111,22 +124,6 @@ fn follow<R: Run<Scalar = f64>>(
 /// The exponent of the growth with the number of steps, by least squares.
 fn exponent(rows: &Points) -> Option<f64> {
     order(rows.iter().filter(|[n, error]| *n >= FIRST && *error > 0.0).map(|&[n, error]| (n, error)))
-}
-
-fn claims(job: &Job<'_>, pairs: &[Pair; 4]) -> Vec<Claim> {
-    let cases = || CASES.iter().zip(pairs);
-    let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ \
-                  steps, as independent ones do";
-    let fifth = "with compensated sums they are at most a fifth of those of plain sums";
-    vec![
-        beyond(growth).each(cases().take(2), |claim, ((name, ..), [_, compensated])| {
-            claim.of(name).within("exponent of growth", job.only_full(exponent(compensated)), [0.3, 0.7])
-        }),
-        beyond(fifth).each(cases(), |claim, ((name, ..), [plain, compensated])| {
-            let ratio = plain.last().zip(compensated.last()).map(|(plain, other)| other[1] / plain[1]);
-            claim.of(name).at_most("compensated/plain, at the end", ratio, 0.2)
-        }),
-    ]
 }
 
 fn notes(pairs: &[Pair; 4]) -> Vec<String> {

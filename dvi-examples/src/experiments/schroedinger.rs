@@ -14,16 +14,15 @@ const OMEGA: f64 = 4.0;
 const STEPS: u64 = 24;
 const H: f64 = TAU / (OMEGA * STEPS as f64);
 const EARLY: u64 = 100;
-/// By what the breather is too large at its centre at the start, and the amplitude of a weak excitation of
-/// one site.
+/// By what the breather is too large at its centre, and the amplitude of a weak excitation of one site.
 const EXCESS: f64 = 1.05;
 const WEAK: f64 = 0.5;
 
 type Amplitudes = [f64; SITES];
 const LATTICE: SchroedingerLattice<SITES> = SchroedingerLattice {};
 
-/// What one run leaves over time in periods: (Σ|ψ|²)²/Σ|ψ|⁴, the number of sites that are excited, and the
-/// relative changes of the norm and of the energy; and |ψ_n|² at the start and at the end.
+/// (Σ|ψ|²)²/Σ|ψ|⁴, the number of sites that are excited, and the relative changes of norm and energy over
+/// time in periods; |ψ_n|² at the start and at the end.
 type Excitation = (Series<3>, [Amplitudes; 2]);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {

@@ -35,8 +35,7 @@ pub struct Crossings {
     pub failure: Option<StepError>,
 }
 
-/// The order in which the vortices are numbered. They are equal, so any order is as good; up to symmetry
-/// there are these three.
+/// The orders of the vortices, which are equal: up to symmetry there are these three.
 pub type Labels = [usize; 4];
 pub const LABELS: [Labels; 3] = [[0, 1, 2, 3], [0, 2, 1, 3], [0, 1, 3, 2]];
 
@@ -57,90 +56,94 @@ pub fn cost(runs: &[(Scheme, f64)], end: f64) -> u64 {
     runs.iter().map(|(_, h)| (end / h) as u64).sum()
 }
 
-/// The sections of the same motion by several schemes and steps, up to time `end`.
-pub fn compare<const N: usize>(
-    job: &Job<'_>,
-    case: &Case,
-    runs: [(Scheme, f64); N],
-    end: f64,
-) -> Result<[Crossings; N]> {
-    side_by_side(runs, |run| crossings(job, case, run, end, LABELS[0]))
+/// A motion of four vortices up to a time.
+#[derive(Clone, Copy)]
+pub struct Motion<'a> {
+    pub job: &'a Job<'a>,
+    pub case: &'a Case,
+    pub end: f64,
 }
 
-/// The section of one run with the vortices in the given order.
-pub fn crossings(
-    job: &Job<'_>,
-    case: &Case,
-    (scheme, h): (Scheme, f64),
-    end: f64,
-    labels: Labels,
-) -> Result<Crossings> {
-    let (error, points) = (Deviation::new(end, 300, 0.1 * end), Vec::new());
-    let blank = Crossings { scheme, h, end, labels, points, error, growth: f64::NAN, failure: None };
-    match scheme {
-        Scheme::Vi2 => collect(job, case, Sigma::midpoint(), blank),
-        Scheme::Rk4 => collect(job, case, RungeKutta::classical(), blank),
-        Scheme::Gauss6 => collect(job, case, Gauss::<3>::new(), blank),
-    }
-}
+/// The steps that [`Motion::lyapunov_exponent`] takes.
+pub const LYAPUNOV_STEPS: u64 = 100_000;
 
-fn collect(
-    job: &Job<'_>,
-    case: &Case,
-    method: impl Method<FourVortices, f64> + Copy,
-    mut result: Crossings,
-) -> Result<Crossings> {
-    let Case { vortices, start } = case;
-    let (h, end, labels) = (result.h, result.end, result.labels);
-    let mut run = Integrator::new(vortices, method, h, *start)?;
-    let (initial, steps) = (run.energy(), (end / h) as u64);
-    let height = |state: &FourPoints| coordinates(state, labels)[2];
-    let mut before = height(&run.state());
-    let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
-    let mut done = 0;
-    while done < steps && !job.is_stopping() {
-        let found = events.advance();
-        let after = height(&events.run().state());
-        match found {
-            // Where the motion only touches the section within a step, the place is as accurate as the root
-            // of the error of the step.
-            Ok(Some(Event { time, state, .. })) if before < 0.0 && after >= 0.0 => {
-                let [r1, p1, _] = coordinates(&state, labels);
-                result.points.push([time, r1, p1]);
-            }
-            Ok(_) => {}
-            Err(error) => {
-                result.failure = Some(error);
-                break;
-            }
-        }
-        let run = events.run();
-        if run.steps() > done {
-            (done, before) = (run.steps(), after);
-            result.error.push(run.time(), run.energy() - initial);
-            job.proceed(1);
+impl Motion<'_> {
+    /// The sections by several schemes and steps.
+    pub fn compare<const N: usize>(self, runs: [(Scheme, f64); N]) -> Result<[Crossings; N]> {
+        side_by_side(runs, |run| self.crossings(run, LABELS[0]))
+    }
+
+    /// The section of one run with the vortices in the given order.
+    pub fn crossings(self, (scheme, h): (Scheme, f64), labels: Labels) -> Result<Crossings> {
+        let (end, points, error) = (self.end, Vec::new(), Deviation::new(self.end, 300, 0.1 * self.end));
+        let blank = Crossings { scheme, h, end, labels, points, error, growth: f64::NAN, failure: None };
+        match scheme {
+            Scheme::Vi2 => self.collect(Sigma::midpoint(), blank),
+            Scheme::Rk4 => self.collect(RungeKutta::classical(), blank),
+            Scheme::Gauss6 => self.collect(Gauss::<3>::new(), blank),
         }
     }
-    if done < steps && result.failure.is_none() {
-        job.cut_short();
+
+    fn collect(
+        self,
+        method: impl Method<FourVortices, f64> + Copy,
+        mut all: Crossings,
+    ) -> Result<Crossings> {
+        let Self { job, case: Case { vortices, start }, end } = self;
+        let (h, labels) = (all.h, all.labels);
+        let mut run = Integrator::new(vortices, method, h, *start)?;
+        let (initial, steps) = (run.energy(), (end / h) as u64);
+        let height = |state: &FourPoints| coordinates(state, labels)[2];
+        let mut before = height(&run.state());
+        let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
+        let mut done = 0;
+        while done < steps && !job.is_stopping() {
+            let found = events.advance();
+            let after = height(&events.run().state());
+            match found {
+                // Where the motion only touches the section within a step, the place is as accurate as the
+                // root of the error of the step.
+                Ok(Some(Event { time, state, .. })) if before < 0.0 && after >= 0.0 => {
+                    let [r1, p1, _] = coordinates(&state, labels);
+                    all.points.push([time, r1, p1]);
+                }
+                Ok(_) => {}
+                Err(error) => {
+                    all.failure = Some(error);
+                    break;
+                }
+            }
+            let run = events.run();
+            if run.steps() > done {
+                (done, before) = (run.steps(), after);
+                all.error.push(run.time(), run.energy() - initial);
+                job.proceed(1);
+            }
+        }
+        job.proceed(steps - done);
+        all.growth = growth(vortices, run.state(), method, h).unwrap_or(f64::NAN);
+        Ok(all)
     }
-    job.proceed(steps - done);
-    result.growth = growth(vortices, method, h, &run.state()).unwrap_or(f64::NAN);
-    Ok(result)
+
+    /// The largest Lyapunov exponent by the tangent map of VI2 (h = 0.2, t = 2·10⁴).
+    pub fn lyapunov_exponent(self) -> Result<Option<f64>> {
+        let mut run = Integrator::new(&self.case.vortices, Sigma::midpoint(), 0.2, self.case.start)?;
+        let mut exponent = LyapunovExponent::new(&run);
+        self.job.repeat(LYAPUNOV_STEPS, || exponent.advance(&mut run))?;
+        Ok(exponent.exponent())
+    }
 }
 
 /// By what factor a small displacement grows in 2000 units of time: exponential growth reaches the size
 /// of the motion and saturates at some 1e10, on a torus the growth is linear.
-fn growth(
-    vortices: &FourVortices,
-    method: impl Method<FourVortices, f64> + Copy,
-    h: f64,
-    start: &FourPoints,
-) -> Result<f64> {
+fn growth<M>(vortices: &FourVortices, start: FourPoints, method: M, h: f64) -> Result<f64>
+where
+    M: Method<FourVortices, f64> + Copy,
+{
     const DISPLACEMENT: f64 = 1e-10;
-    let mut displaced = *start;
+    let mut displaced = start;
     displaced.x[0] += DISPLACEMENT;
-    let [one, other] = each([*start, displaced], |start| {
+    let [one, other] = each([start, displaced], |start| {
         let mut run = Integrator::new(vortices, method, h, start)?;
         while run.time() < 2000.0 {
             run.advance()?;
@@ -148,16 +151,6 @@ fn growth(
         Ok(run.q().to_vec())
     })?;
     Ok(apart(&one, &other) / DISPLACEMENT)
-}
-
-pub const LYAPUNOV_STEPS: u64 = 100_000;
-
-/// The largest Lyapunov exponent by the tangent map of VI2 (h = 0.2, t = 2·10⁴).
-pub fn lyapunov_exponent(job: &Job<'_>, Case { vortices, start }: &Case) -> Result<Option<f64>> {
-    let mut run = Integrator::new(vortices, Sigma::midpoint(), 0.2, *start)?;
-    let mut exponent = LyapunovExponent::new(&run);
-    job.repeat(LYAPUNOV_STEPS, || exponent.advance(&mut run))?;
-    Ok(exponent.exponent())
 }
 
 impl Crossings {

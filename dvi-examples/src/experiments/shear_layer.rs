@@ -85,11 +85,7 @@ impl RollUp {
         let (energy, before, mut snapshots) = (run.energy(), momenta(&run), vec![]);
         let end = SHOWN[2] as f64 * H;
         let mut kept = Span { end, early: end, intervals: SHOWN[2] as usize }.deviations();
-        for step in 1..=SHOWN[2] {
-            if job.is_stopping() {
-                job.cut_short();
-                break;
-            }
+        for step in (1..=SHOWN[2]).take_while(|_| !job.is_stopping()) {
             run.advance()?;
             job.proceed(1);
             let [x, y, angular]: [f64; 3] = difference(momenta(&run), before).map(f64::abs);

@@ -13,8 +13,7 @@ const SLIDING: [f64; 2] = [-1.0, 2.0];
 pub const STEPS: [f64; 4] = [0.1, 0.1 / 2.0, 0.1 / 4.0, 0.1 / 8.0];
 pub const H: f64 = STEPS[0];
 const FINE: f64 = 0.00125;
-/// The times at which it has turned around, up to which the rate of rotation is drawn, and of straight
-/// motion.
+/// Times at which it has turned around, up to which its rotation is drawn, and of straight motion.
 const TURNED: f64 = 8.0;
 const DRAWN: f64 = 12.0;
 const STRAIGHT: f64 = 24.0;

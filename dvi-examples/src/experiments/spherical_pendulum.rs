@@ -12,8 +12,7 @@ const CONSTRAINED: ConstrainedPendulum = ConstrainedPendulum { gravity: 1.0 };
 /// The angle from the direction downwards at the start, its rate, and the rate around the vertical.
 const HANGING: f64 = 0.8;
 const RATES: [f64; 2] = [0.3, 0.35];
-/// The step of the long runs, and of what is drawn, and so many steps from one look at the integrals to the
-/// next.
+/// The step of the long runs, and so many steps from one look at the integrals to the next.
 const H: f64 = 0.05;
 const EVERY: u64 = 4;
 /// The steps with which turnings and both methods are compared, the longest first.

@@ -12,8 +12,7 @@ use crate::vocabulary::*;
 const SIGMAS: [f64; 18] = [
     0.0, 0.1, 0.2, 0.3, 0.4, 0.45, 0.47, 0.48, 0.49, 0.51, 0.52, 0.53, 0.55, 0.6, 0.7, 0.8, 0.9, 1.0,
 ];
-/// A mode that grows reaches this size unless it grows more slowly than we resolve; at the limit itself
-/// the growth is linear and does not.
+/// A mode that grows reaches this size, unless the growth is linear, as at the limit itself.
 const LARGE: f64 = 1e8;
 /// λh that damp, the first of which is drawn.
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];

@@ -12,8 +12,8 @@ use crate::vocabulary::*;
 const Q: f64 = 2.0;
 const MU: f64 = 6e-5;
 const VELOCITY: f64 = 4e-3;
-/// The bananas that are compared begin at these distances from the magnetic axis: how large the error of a
-/// spline is along an orbit depends on where that lies between the points of the grid.
+/// The distances from the magnetic axis at which bananas begin that are compared: the error of a spline
+/// along an orbit depends on where that lies between the points of the grid.
 const RADII: [f64; 12] = [0.19, 0.195, 0.198, 0.202, 0.206, 0.209, 0.214, 0.218, 0.221, 0.225, 0.231, 0.235];
 /// The one whose energy is watched.
 const RADIUS: f64 = 0.2;
@@ -24,8 +24,8 @@ const EARLY: u64 = 2000;
 const GRIDS: [usize; 14] = [8, 9, 11, 13, 15, 18, 21, 25, 29, 34, 40, 47, 55, 64];
 const COARSE: usize = 12;
 
-/// One kind of spline on all grids: the intervals across the section, and the root mean square of how far
-/// the orbits are at most from those of the formulas. And the power of their number by which it falls.
+/// The intervals across the section with the root mean square of how far the orbits are at most from those
+/// of the formulas, and the power of their number by which that falls.
 type Differences = (Points, f64);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
@@ -71,8 +71,7 @@ fn start(r: f64) -> TabulatedTokamakState {
     TabulatedTokamakState { r, theta: 0.0, phi: 0.0, u: VELOCITY }
 }
 
-/// How far two orbits are apart at most, in units of the width of the banana and of the velocity at the
-/// start.
+/// How far two orbits are apart, in units of the width of the banana and of the velocity at the start.
 fn difference(path: &[[f64; 2]], orbit: &[[f64; 2]]) -> f64 {
     let radii = || orbit.iter().map(|[r, _]| *r);
     let width = largest(radii()) - least(radii());

@@ -72,8 +72,7 @@ fn rates(&[x, y, z]: &Species) -> Species {
     [x * (y - z), y * (z - x), z * (x - y)]
 }
 
-/// The four coordinates against the two of x and y with xyz as a parameter, and against RK4 on x, y and z
-/// with small steps.
+/// Against x and y with xyz as a parameter, and against RK4 on x, y and z with small steps.
 fn same_motion() -> Result<Claim> {
     const END: f64 = 20.0;
     let ([_, product], [x, y, _]) = (invariants(&START), START);

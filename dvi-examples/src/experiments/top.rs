@@ -24,8 +24,7 @@ const STEPS: [f64; 3] = [0.04, 0.02, 0.01];
 /// The time at which the order is measured, and the step of the reference.
 const ORDER_TIME: f64 = 2.0;
 const FINE: f64 = 1e-3;
-/// The precession at the start of the curves that are drawn, from the upper turning, and what they are
-/// called.
+/// The precession at the start of the curves that are drawn, from the upper turning.
 const CURVES: [(f64, &str); 3] = [(-0.4, "Loops"), (0.0, "Cusps"), (0.2, "Waves")];
 const DRAWN: f64 = 30.0;
 

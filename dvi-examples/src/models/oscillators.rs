@@ -31,10 +31,7 @@ pub struct Linear {
 }
 
 /// x'' = −kx: an oscillator of frequency √k, or, with negative k, what runs away from its origin.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = (dot(x).powi(2) - k * x * x) / 2.0,
-)]
+#[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - k * x * x) / 2.0)]
 #[derive(Clone, Debug)]
 pub struct Spring {
     /// Stiffness over mass.
@@ -42,19 +39,12 @@ pub struct Spring {
 }
 
 /// x'' = −sin x, x in radians from the lowest point.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0 + x.cos(),
-)]
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + x.cos())]
 #[derive(Clone, Debug)]
 pub struct Pendulum {}
 
 /// The same pendulum in phase space, with p = x' and a one-form along x only.
-#[degenerate_lagrangian(
-    coordinates(x, p),
-    one_form    = p * d(x),
-    hamiltonian = p * p / 2.0 - x.cos(),
-)]
+#[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0 - x.cos())]
 #[derive(Clone, Debug)]
 pub struct PhasePendulum {}
 
