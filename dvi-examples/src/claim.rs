@@ -280,8 +280,7 @@ mod tests {
 
     #[test]
     fn a_known_error_of_the_paper_is_confirmed_by_measurement_too() {
-        let with =
-            |it, other| claim(it).instead("it is two").check("it", other, Bound::AtLeast(1.9)).verdict();
+        let with = |it, two| claim(it).instead("it is two").check("it", two, Bound::AtLeast(1.9)).verdict();
         assert_eq!(with(1.0, 1.0), Verdict::Reproduced);
         assert_eq!(with(2.0, 2.0), Verdict::Differs("it is two".into()));
         assert_eq!(with(1.5, 1.5), Verdict::NotReproduced);

@@ -51,19 +51,13 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
 
     /// The largest difference of a coordinate or velocity from the start, after steps there and as many
     /// back.
-    pub fn there_and_back(
-        &self,
-        method: impl Method<S, f64> + Copy + 'a,
-        h: f64,
-        steps: u64,
-    ) -> Result<f64> {
-        let mut there = self.run(method, h)?;
+    pub fn there_and_back(&self, by: impl Method<S, f64> + Copy + 'a, h: f64, steps: u64) -> Result<f64> {
+        let mut there = self.run(by, h)?;
         there.take_steps(steps)?;
-        let mut back = Integrator::new_at(self.system, method, there.time(), -h, there.state())?;
+        let mut back = Integrator::new_at(self.system, by, there.time(), -h, there.state())?;
         back.take_steps(steps)?;
-        let [end, start] = each([&back.state(), &self.start], |state| {
-            Ok(self.system.values(state)?.collect::<Vec<f64>>())
-        })?;
+        let values = |state| Ok(self.system.values(state)?.collect::<Vec<f64>>());
+        let [end, start] = each([&back.state(), &self.start], values)?;
         Ok(apart(&end, &start))
     }
 
@@ -74,34 +68,29 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
         Ok(run.statistics().iterations as f64 / steps as f64)
     }
 
-    /// What is to be seen of the order of methods: errors of the coordinates at time `end`, of runs with so
-    /// many steps.
-    pub fn errors<E: Fn(&[f64]) -> f64, const N: usize>(
-        self,
-        end: f64,
-        counts: [u64; N],
-        error: E,
-    ) -> Errors<'a, S, E, N> {
-        Errors { problem: self, end, counts, error }
+    /// Errors of the coordinates at time `end`, of runs with so many steps, which show the order of methods.
+    pub fn errors<E: Fn(&[f64]) -> f64>(self, end: f64, counts: &[u64], error: E) -> Errors<'a, S, E> {
+        Errors { problem: self, end, counts: counts.into(), error }
     }
 }
 
 /// The errors of the coordinates of a motion at a time, of runs with so many steps.
-pub struct Errors<'a, S: System, E, const N: usize> {
+pub struct Errors<'a, S: System, E> {
     problem: Problem<'a, S>,
     end: f64,
-    counts: [u64; N],
+    counts: Vec<u64>,
     error: E,
 }
 
-impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64, const N: usize> Errors<'a, S, E, N> {
+impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Errors<'a, S, E> {
     /// The lengths of the steps of a method, each with the error.
-    pub fn of(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<[(f64, f64); N]> {
-        each(self.counts, |steps| {
+    pub fn of(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Vec<(f64, f64)>> {
+        let error = |&steps: &u64| {
             let mut run = self.problem.run(method.clone(), self.end / steps as f64)?;
             run.take_steps(steps)?;
             Ok((self.end / steps as f64, (self.error)(run.q())))
-        })
+        };
+        self.counts.iter().map(error).collect()
     }
 
     /// The order that they show of a method.
@@ -150,12 +139,9 @@ pub fn trapezoid(collision: Collision) -> Bouncing {
 }
 
 /// The state after as many steps back as a run has taken.
-pub fn back<S: Lagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: M,
-    run: &Integrator<&S, M>,
-) -> Result<S::State<f64>> {
-    let mut back = Integrator::resume(system, method, &run.checkpoint().with_step_size(-run.step_size()))?;
+pub fn back<S: Lagrangian, M: Method<S, f64>>(by: M, run: &Integrator<&S, M>) -> Result<S::State<f64>> {
+    let back = run.checkpoint().with_step_size(-run.step_size());
+    let mut back = Integrator::resume(run.system(), by, &back)?;
     back.take_steps(run.steps())?;
     Ok(back.state())
 }

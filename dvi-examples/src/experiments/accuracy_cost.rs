@@ -37,10 +37,9 @@ type Curve = (Vec<Course>, Vec<String>);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     // Many runs in a full one, and few that are shorter.
-    let (runs, ratio) = job.choose((33, 2f64.powf(0.25)), (5, 4.0));
+    let (runs, by) = job.choose((33, 2f64.powf(0.25)), (5, 4.0));
     let share = job.choose(1.0, 0.05);
-    let counts =
-        |most: f64| (0..runs).rev().map(move |k| (share * most / f64::powi(ratio, k)).round() as u64);
+    let counts = |most: f64| (0..runs).rev().map(move |k| (share * most / f64::powi(by, k)).round() as u64);
     job.expect(PROBLEMS.iter().flat_map(|(.., most)| most.map(counts)).flatten().sum());
     let all = side_by_side([0, 1, 2], |problem: usize| {
         let (problem_name, _, most) = PROBLEMS[problem];
@@ -51,12 +50,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     })?;
     let curves = || {
         let all = all.iter().zip(PROBLEMS);
-        all.flat_map(|(of, (problem, ..))| {
-            of.iter().zip(METHODS).map(move |(curve, of)| (problem, of.0, curve))
-        })
+        all.flat_map(|(of, (name, ..))| of.iter().zip(METHODS).map(move |(curve, of)| (name, of.0, curve)))
     };
-    let rows =
-        curves().map(|(problem, method, (courses, _))| ([problem, method], [], courses.iter().copied()));
+    let rows = curves().map(|(problem, method, (all, _))| ([problem, method], [], all.iter().copied()));
     let columns = ["problem", "method", "steps", "evaluations", "evaluations_in_turn", "energy_error"];
     job.publish(figure(&all), curve_table(&columns, rows)?)?;
     let notes = curves().flat_map(|(.., (_, failures))| failures.clone()).collect();
@@ -134,9 +130,7 @@ fn claims(job: &Job<'_>, all: &[[Curve; 6]; 3]) -> Vec<Claim> {
     let of_planets = ratio(planets, KAHAN_LI, 1e-6, ALL);
     vec![
         beyond("Gauss collocation of order 16 keeps the energy to rounding errors")
-            .each(named(), |claim, (name, of)| {
-                claim.of(name).at_most("smallest max|ΔH|/|H|", best(of), 1e-14)
-            }),
+            .each(named(), |all, (name, of)| all.of(name).at_most("smallest max|ΔH|/|H|", best(of), 1e-14)),
         beyond(fewer).each(named().zip([5.0, 2.0, 1.5]), |claim, ((name, of), low)| {
             claim.of(name).at_least("Kahan–Li 8 / Gauss 16", ratio(of, KAHAN_LI, 1e-13, ALL), low)
         }),

@@ -44,8 +44,7 @@ fn orbit<S: RegularLagrangian>(system: &S, start: S::State<f64>, end: usize) -> 
 /// A regular polygon about (0, 1) at t = 0, 1, …, of whose corners `orbit` returns all steps.
 pub fn carried(corners: usize, orbit: impl Fn([f64; 2]) -> Result<Points>) -> Result<Vec<Points>> {
     let angles = (0..corners).map(|j| (TAU * j as f64 / corners as f64).sin_cos());
-    let orbits: Vec<Points> =
-        angles.map(|(sin, cos)| orbit([0.5 * cos, 1.0 + 0.5 * sin])).collect::<Result<_>>()?;
+    let orbits = angles.map(|(sin, cos)| orbit([0.5 * cos, 1.0 + 0.5 * sin])).collect::<Result<Vec<_>>>()?;
     let times = (0..orbits[0].len()).step_by(STEPS);
     Ok(times.map(|step| orbits.iter().map(|orbit| orbit[step]).collect()).collect())
 }
@@ -129,15 +128,14 @@ fn figure(curves: &[[Points; 3]; 3], circles: &[Vec<Points>; 3]) -> Figure {
         })
     };
     let (wide, narrow) = ([-3.6, 3.6], [-2.3, 2.3]);
-    let portraits =
-        vec![portrait(0, wide, wide), portrait(1, [0.0, 7.2], [-1.2, 6.0]), portrait(2, wide, wide)];
+    let above = vec![portrait(0, wide, wide), portrait(1, [0.0, 7.2], [-1.2, 6.0]), portrait(2, wide, wide)];
     let carried = vec![
         circle(0, narrow, narrow).without_legend(),
         circle(1, [-0.9, 6.9], [-0.2, 7.6]),
         circle(2, [-1.6, 3.0], narrow).without_legend(),
     ];
     Figure::of(format!("Kick–drift–kick with *h* = 1/32; above to *t* = {END}, below a circle about (0, 1)"))
-        .row(400.0, portraits)
+        .row(400.0, above)
         .row(400.0, carried)
         .footer("After Barnes 1997, Second-Order Dynamical Systems, problems 6 and 7.")
 }

@@ -38,17 +38,15 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         orbits(|start| {
             let run = Integrator::new(&ELLIPSE, trapezoid(Collision::Reflection), h, start)?;
             let [a2, b2] = [ELLIPSE.a, ELLIPSE.b].map(|half| half * half);
-            Orbit::of(job, run, impacts, |x, y| {
-                (1.0 - x * x / a2 - y * y / b2, [-2.0 * x / a2, -2.0 * y / b2])
-            })
+            let curve = |x, y| (1.0 - x * x / a2 - y * y / b2, [-2.0 * x / a2, -2.0 * y / b2]);
+            Orbit::of(job, run, impacts, curve)
         })
     })?;
     let square = orbits(|EllipseBilliardState { x, y, dot_x, dot_y }| {
         let start = RoundedSquareBilliardState { x: x / ELLIPSE.a, y, dot_x, dot_y };
         let run = Integrator::new(&RoundedSquareBilliard, trapezoid(Collision::Reflection), H, start)?;
-        Orbit::of(job, run, impacts, |x, y| {
-            (1.0 - x.powi(4) - y.powi(4), [-4.0 * x.powi(3), -4.0 * y.powi(3)])
-        })
+        let curve = |x: f64, y: f64| (1.0 - x.powi(4) - y.powi(4), [-4.0 * x.powi(3), -4.0 * y.powi(3)]);
+        Orbit::of(job, run, impacts, curve)
     })?;
     let sections = [("ellipse", &ellipse), ("rounded square", &square)].into_iter();
     let sections = sections.flat_map(|(curve, orbits)| {
@@ -147,7 +145,7 @@ fn there_and_back() -> Result<f64> {
     while run.memory().total() < 12 {
         run.advance()?;
     }
-    let RoundedSquareBilliardState { x, y, .. } = back(&RoundedSquareBilliard, method, &run)?;
+    let RoundedSquareBilliardState { x, y, .. } = back(method, &run)?;
     Ok(distance([x, y], [start.x, start.y]))
 }
 

@@ -70,13 +70,10 @@ fn claims(job: &Job<'_>, all: &[Crossings; 6], region: &Region, exponent: Option
     let share = |run: &Crossings| format!("share of crossings outside of the exact region, {}", run.name());
     let inside = |claim: Claim, run: &Crossings| claim.at_most(share(run), outside(run), 2e-3);
     let growth = |run: &Crossings| format!("late growth of a displacement, {}", run.name());
+    let chaotic = "the motion is chaotic";
     let drift = rk_small.error.last / rk_small.error.largest;
     vec![
-        says("section 5", "the motion is chaotic").at_least(
-            "largest Lyapunov exponent up to t = 2·10⁴",
-            exponent,
-            0.03,
-        ),
+        says("section 5", chaotic).at_least("largest Lyapunov exponent up to t = 2·10⁴", exponent, 0.03),
         says("Fig. 5", "both schemes produce clear sections for h = 0.2").each([vi_small, rk_small], inside),
         says("Fig. 5", "for h = 0.5 the section of RK4 is blurred")
             .at_least(share(rk_middle), job.only_full(outside(rk_middle)), 8e-3)

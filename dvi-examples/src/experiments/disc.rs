@@ -6,7 +6,7 @@
 //! others (Modin & Verdier 2020).
 
 use super::disc_energy::{Errors, STARTS};
-use super::rk4::rk4_up_to;
+use super::rk4::rk4_to;
 use super::sleigh::{H, STEPS, Sleigh, midpoint};
 use crate::vocabulary::*;
 
@@ -24,12 +24,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     job.publish(figure(&errors, &sleigh)?, errors.table()?)?;
     let [springs, magnet] = errors.claims(job);
     let undone = Problem::new(&MAGNET, begin(&MAGNET)).there_and_back(midpoint(), H, 200)?;
-    let of_disc = "disc with a magnet, 200 steps: largest difference from the start";
     claims([
         free(job)?,
         order_of_places(&sleigh)?,
         beyond(format!("steps are undone by as many steps of length −{H}"))
-            .at_most(of_disc, undone, 1e-12)
+            .at_most("disc with a magnet, 200 steps: largest difference from the start", undone, 1e-12)
             .at_most("sleigh: largest difference from the start", Sleigh::undone()?, 1e-12),
         springs,
         magnet,
@@ -75,13 +74,13 @@ fn free(job: &Job<'_>) -> Result<Claim> {
 fn order_of_places(sleigh: &Sleigh) -> Result<Claim> {
     // With a magnet, by RK4.
     let [fine, double] = [0.00125, 0.0025].map(|h| {
-        let [x, y, ..] = rk4_up_to(begin(&MAGNET).reduced(), 8.0, h, |y| MAGNET.reduced(y));
+        let [x, y, ..] = rk4_to(begin(&MAGNET).reduced(), 8.0, h, |y| MAGNET.reduced(y));
         [x, y]
     });
     // The same steps as those of the sleigh.
     let counts = STEPS.map(|h| (8.0 / h).round() as u64);
     let [free, magnet] = [(&FREE, on_circle(8.0)), (&MAGNET, fine)].map(|(disc, place)| {
-        Problem::new(disc, begin(disc)).errors(8.0, counts, move |q| distance([q[0], q[1]], place))
+        Problem::new(disc, begin(disc)).errors(8.0, &counts, move |q| distance([q[0], q[1]], place))
     });
     let composed = magnet.order(Composition::suzuki(midpoint()))?;
     let text = "places are of second order: against the circle of a free disc, and against RK4 on equations \

@@ -58,7 +58,7 @@ fn position(states: &[StiffeningSpringState], t: f64) -> [f64; 2] {
 }
 
 fn outcome(all: &[Runs; 2], between_references: f64, none: &NoStep) -> Result<Outcome> {
-    let one_length = |of: &Runs| format!("{}, steps of one length", of.name);
+    let plain = |of: &Runs| format!("{}, steps of one length", of.name);
     let (second, width) = ([2.0, 0.02], |steps: &Steps, k: usize| steps.kept[k].width());
     let discrete = "the steps keep the discrete energy to rounding, and steps of one length up to terms of \
                     the second order";
@@ -69,14 +69,13 @@ fn outcome(all: &[Runs; 2], between_references: f64, none: &NoStep) -> Result<Ou
         let growth = most(&of.kept, |steps| steps.kept[0].growth());
         let claim = claim.at_most("largest |E_d − e| of all runs", defect, rounding);
         let claim = claim.at_most("the same over all steps / over the first tenth", growth, 2.0);
-        let claim =
-            claim.of(one_length(of)).near("largest difference of two E_d", width(&of.mean[0], 0), varies);
+        let claim = claim.of(plain(of)).near("largest difference of two E_d", width(&of.mean[0], 0), varies);
         claim.near("order of that in h", order_in_length(&of.mean, |steps| width(steps, 0)), second)
     });
     let momentum = beyond("both keep the angular momentum to rounding").each(all, |claim, of| {
         let [kept, mean] = [&of.kept, &of.mean].map(|runs| most(runs, |steps| steps.kept[2].largest));
         let claim = claim.of(of.name).at_most("largest |l − l(0)| of all runs", kept, 2e-13);
-        claim.of(one_length(of)).at_most("the same", mean, 2e-13)
+        claim.of(plain(of)).at_most("the same", mean, 2e-13)
     });
     let energy = "the energy at the points of the run varies by terms of the second order, on the spring a \
                   little more than with steps of one length, on the orbit a third as much";
@@ -84,7 +83,7 @@ fn outcome(all: &[Runs; 2], between_references: f64, none: &NoStep) -> Result<Ou
     let energy = beyond(energy).each(all.iter().zip(ratios), |claim, (of, range)| {
         let [kept, mean] = [&of.kept, &of.mean].map(|runs| order_in_length(runs, |steps| width(steps, 1)));
         let claim = claim.of(of.name).near("order of the largest difference of two E in h", kept, second);
-        let claim = claim.of(one_length(of)).near("the same", mean, second).of(of.name);
+        let claim = claim.of(plain(of)).near("the same", mean, second).of(of.name);
         let ratio = width(&of.kept[0], 1) / width(&of.mean[0], 1);
         claim.within("largest difference of two E / that with steps of one length", ratio, range)
     });
@@ -136,8 +135,7 @@ fn drawn([spring, kepler]: &[Runs; 2]) -> [Drawn; 4] {
         (varying(kepler), GREEN, &kepler.kept[0]),
     ]
     .map(|(name, colour, steps)| {
-        let [lengths, energy] =
-            [1, 2].map(|k| steps.beginning.iter().map(|step| [step[0], step[k]]).collect());
+        let [lengths, energy] = [1, 2].map(|k| steps.beginning.iter().map(|of| [of[0], of[k]]).collect());
         (name, solid(colour), [steps.kept[0].envelope.magnitude(), energy, lengths])
     })
 }

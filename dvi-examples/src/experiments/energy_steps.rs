@@ -46,18 +46,17 @@ impl<S: RegularLagrangian<f64>> Motion<'_, S> {
     pub fn runs(&self, job: &Job<'_>, name: &'static str, first: [f64; 4], steps: u64) -> Result<Runs> {
         let rule = Variational::midpoint();
         let begin = || self.start.clone();
-        let of_one_length =
-            |h: f64, steps| self.steps(job, Integrator::new(self.system, rule, h, begin())?, steps);
+        let plain = |h: f64, steps| self.steps(job, Integrator::new(self.system, rule, h, begin())?, steps);
         let kept = each(first, |h| {
             let run = ControlledIntegrator::new(self.system, rule, EnergyMomentum::new(h), begin())?;
             self.steps(job, run, steps)
         })?;
-        let mean = each(kept.each_ref(), |kept| of_one_length(kept.length, steps))?;
+        let mean = each(kept.each_ref(), |kept| plain(kept.length, steps))?;
         let work = each([0, 1, 2, 3], |i| {
             let h = mean[i].length * mean[i].work / kept[i].work;
             let steps = (COMPARED / h).ceil() as u64;
             job.expect(steps);
-            of_one_length(h, steps)
+            plain(h, steps)
         })?;
         Ok(Runs { name, kept, mean, work })
     }

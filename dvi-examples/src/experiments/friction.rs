@@ -20,10 +20,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let reference = Reference::new(job, Gauss::<4>::new(), fine)?;
     let other = Reference::new(job, Galerkin::<5>::new(), double)?;
     let without = Reference::new(job, Gauss::<4>::new(), Case { gamma: 0.0, ..fine })?;
-    let setting = Setting { job, case: long, reference: &reference };
-    let lost =
-        [setting.by("Heun", RungeKutta::heun())?, setting.by("explicit midpoint", RungeKutta::midpoint())?];
-    let steps = each(by_step, |case| Setting { case, ..setting }.runs())?;
+    let with = Setting { job, case: long, reference: &reference };
+    let lost = [with.by("Heun", RungeKutta::heun())?, with.by("explicit midpoint", RungeKutta::midpoint())?];
+    let steps = each(by_step, |case| Setting { case, ..with }.runs())?;
     let conservative = Setting { case: Case { gamma: 0.0, ..long }, reference: &without, job }.runs()?;
     let all = steps.iter().flatten().chain(&lost).chain(&conservative);
     let rows = all.flat_map(|Decay { name, case, error, momentum, .. }| {
@@ -95,8 +94,7 @@ fn orders(job: &Job<'_>, steps: &[Runs; 4]) -> Claim {
     let order = |method: usize| {
         order(steps[1..].iter().map(|runs| (runs[method].case.h, runs[method].excess().abs())))
     };
-    let worse =
-        |index: usize| job.only_full(steps[index][3].largest_mean() / steps[index][0].largest_mean());
+    let worse = |k: usize| job.only_full(steps[k][3].largest_mean() / steps[k][0].largest_mean());
     let same_cost = steps[2][1].largest_mean() / steps[0][3].largest_mean();
     let dearest = "four forces in 0.2: largest deviation of E, trapezoid with h = 0.05 / RK4 with h = 0.2";
     let text = "the error of that rate is of second order, with RK4 of the fifth, so that RK4 is behind at \
@@ -127,9 +125,8 @@ fn figure(reference: &Reference, steps: &[Runs; 4], rk4_alone: &Decay) -> Figure
         Panel::semilog("Deviation of the energy", time, (&means, [1e-3, 2.0])).lines(lines(|run| {
             run.error.envelope.mean().into_iter().map(|[t, mean]| [t, mean.abs()]).collect()
         }));
-    let change = ("largest |*l*/(*l*(0) exp(−*γt*)) − 1|", [1e-13, 1.0]);
-    let momentum =
-        Panel::semilog("Angular momentum", time, change).lines(lines(|run| run.momentum.magnitude()));
+    let l = ("largest |*l*/(*l*(0) exp(−*γt*)) − 1|", [1e-13, 1.0]);
+    let momentum = Panel::semilog("Angular momentum", time, l).lines(lines(|run| run.momentum.magnitude()));
     let h = Axis::logarithmic("step *h*").within(0.02, 0.25);
     let rate = Axis::logarithmic("|error| of the rate of *E*   [*γ*]");
     let excess = |method: usize| {

@@ -1,7 +1,7 @@
 //! Long runs along geodesics, beside RK4 on the entries of the states, what is claimed of them, and where a
 //! height that goes up and down turns, between their steps.
 
-use super::rk4::{rk4, rk4_up_to};
+use super::rk4::{rk4, rk4_to};
 use crate::vocabulary::*;
 
 /// What a few operations leave that are not repeated, as those of a matrix of products.
@@ -52,10 +52,10 @@ impl Long<'_> {
         start: &S::State<f64>,
         of: impl Fn(&S::State<f64>) -> [f64; N],
     ) -> Result<[Series<N>; 2]> {
-        let mut y = S::entries(start);
+        let mut y = system.entries(start);
         let by_rk4 = || {
             y = (0..self.every).fold(y, |y, _| rk4(&y, self.h, |y| system.motion(y)));
-            Ok(S::state(&y))
+            Ok(system.state(&y))
         };
         let mut run = Integrator::new(&system, Geodesic::trapezoid(), self.h, start.clone())?;
         let along = || {
@@ -98,7 +98,7 @@ pub fn reference<const D: usize, S: OnManifold<D>>(
     start: &S::State<f64>,
     [end, h]: [f64; 2],
 ) -> [f64; D] {
-    rk4_up_to(S::entries(start), end, h, |y| system.motion(y))
+    rk4_to(system.entries(start), end, h, |y| system.motion(y))
 }
 
 /// The claim that R and ω of a body are of second order, and of fourth by a composition.
@@ -110,7 +110,7 @@ pub fn order_claim<S: OnManifold<12>>(
 ) -> Result<Claim> {
     let [exact, double] = [fine, 2.0 * fine].map(|h| reference(system, &start, [end, h]));
     let (motion, simple) = (Problem::new(&system, start), Geodesic::trapezoid());
-    let error = |state| apart(&S::entries(&state), &exact);
+    let error = |state| apart(&system.entries(&state), &exact);
     let second = order_of(steps, |h| Ok((h, error(motion.up_to(simple, h, end)?))))?;
     let fourth = order_of(steps, |h| Ok((h, error(motion.up_to(Composition::suzuki(simple), h, end)?))))?;
     Ok(beyond(format!(
@@ -156,13 +156,10 @@ pub fn shadow_claim(method: &str, runs: &[Shadow]) -> Claim {
         "{method}: backward error analysis gives the energy error in closed form, h² times a function of \
          the state, and the rest is of the order h⁴"
     ))
-    .near(format!("{method}: order of max|ΔE|"), order(|run| run.largest), [2.0, 0.05])
-    .near(format!("{method}: max|ΔE| / the predicted one, shortest step"), ratio, [1.0, 0.01])
-    .near(
-        format!("{method}: order of the largest |ΔE − prediction|"),
-        order(|run| run.rest),
-        [4.0, 0.1],
-    )
+    .of(method)
+    .near("order of max|ΔE|", order(|run| run.largest), [2.0, 0.05])
+    .near("max|ΔE| / the predicted one, shortest step", ratio, [1.0, 0.01])
+    .near("order of the largest |ΔE − prediction|", order(|run| run.rest), [4.0, 0.1])
 }
 
 #[derive(Default)]
@@ -211,17 +208,16 @@ pub fn up_and_down<R: Run<Scalar = f64>>(
 }
 
 impl Turnings {
-    fn push(&mut self, h: f64, sample: Sample) {
-        if let Some(before) = self.last.replace(sample)
-            && before.rate * sample.rate < 0.0
+    fn push(&mut self, h: f64, now: Sample) {
+        if let Some(before) = self.last.replace(now)
+            && before.rate * now.rate < 0.0
         {
             // The extreme of the cubic polynomial through both heights with both rates.
-            let [first, square, cube] =
-                hermite([before.height, before.rate], [sample.height, sample.rate], h);
+            let [first, square, cube] = hermite([before.height, before.rate], [now.height, now.rate], h);
             let root = (square * square - 3.0 * cube * first).max(0.0).sqrt();
             let s = first / (first.signum() * root - square);
             let height = before.height + s * (first + s * (square + s * cube));
-            let g = before.shift + s * (sample.shift - before.shift);
+            let g = before.shift + s * (now.shift - before.shift);
             self.found[usize::from(before.rate > 0.0)].push([height, g]);
         }
     }
@@ -264,11 +260,8 @@ pub fn turning_claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> 
         let claim = claim.near("(height − root)/h²", found, [predicted, 0.02 * predicted.abs()]);
         claim.of(name).near(&distance, middle.mean / fine.mean, [4.0, 0.1])
     })
-    .at_most(
-        format!("h = {}: largest distance of a turning from its root / h²", low.h),
-        farthest,
-        bound,
-    )
+    .of(format!("h = {}", low.h))
+    .at_most("largest distance of a turning from its root / h²", farthest, bound)
 }
 
 /// The coefficients of s, s² and s³ in the cubic through two values with their rates, for s from 0 to 1.

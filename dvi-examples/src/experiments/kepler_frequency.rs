@@ -35,8 +35,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let share = |is_so: &dyn Fn(f64) -> bool| {
         curvatures().filter(|&curvature| is_so(curvature)).count() as f64 / readings.len() as f64
     };
-    let curvature =
-        largest(readings.iter().map(|[_, r, curvature, _]| (curvature / formula(*r) - 1.0).abs()));
+    let curvature = largest(readings.iter().map(|[_, r, omega, _]| (omega / formula(*r) - 1.0).abs()));
     let radial = largest(readings.iter().map(|[_, r, _, radial]| (radial / r.powf(-1.5) - 1.0).abs()));
     let [near, far] = [1.0 - ORBIT.e, 1.0 + ORBIT.e].map(formula);
     // 2r² − r³ is largest at r = 4/3, where it is 32/27.

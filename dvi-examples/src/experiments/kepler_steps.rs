@@ -16,11 +16,9 @@ const HIGH: f64 = 0.95;
 const THIRD: f64 = 1.0 / 3.0;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
-    let (count, eccentricities) = job.choose((3, &ECCENTRICITIES[..]), (2, &ECCENTRICITIES[3..]));
-    let cases =
-        [Fixed, Controlled].into_iter().flat_map(|steps| eccentricities.iter().map(move |&e| (steps, e)));
-    let of_each =
-        |(steps, e)| finenesses(steps, e).into_iter().take(count).map(move |fine| (steps, e, fine));
+    let (count, orbits) = job.choose((3, &ECCENTRICITIES[..]), (2, &ECCENTRICITIES[3..]));
+    let cases = [Fixed, Controlled].into_iter().flat_map(|steps| orbits.iter().map(move |&e| (steps, e)));
+    let of_each = |(steps, e)| finenesses(steps, e).into_iter().take(count).map(move |of| (steps, e, of));
     let cases: Vec<_> = cases.flat_map(of_each).collect();
     job.expect(cases.len() as u64 * (1 + 3 * u64::from(BISECTIONS + 1)));
     let compared = cases.into_par_iter().map(|(steps, e, fine)| equal_errors(job, steps, e, fine));
@@ -126,8 +124,7 @@ fn figure(all: &[Comparison]) -> Figure {
         }));
     let compared = |title: &str, steps: Steps| {
         let e = Axis::names("eccentricity", ECCENTRICITIES.iter().map(f64::to_string).collect());
-        let place =
-            |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |place| place as f64);
+        let place = |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |k| k as f64);
         let shown = REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]);
         Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within(0.0, 1.7))
             .guide([[-0.6, THIRD], [3.6, THIRD]], "one third")

@@ -80,8 +80,7 @@ struct Curve {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (periods, long) = (job.choose(100, 10), job.choose(100_000, 1000));
-    let pairs: Vec<_> =
-        ECCENTRICITIES.iter().flat_map(|&e| (0..13).map(move |method| (method, e))).collect();
+    let pairs: Vec<_> = ECCENTRICITIES.iter().flat_map(|&e| (0..13).map(move |k| (k, e))).collect();
     let runs: usize = CONTENDERS.iter().map(|(.., knobs)| 4 * knobs.len()).sum();
     job.expect(runs as u64 * periods + 3 * long);
     let curve = |(contender, e): (usize, f64)| {
@@ -143,9 +142,8 @@ fn figure(curves: &[Curve]) -> Figure {
                 let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
                 (name, stroke, points.collect())
             });
-            let (work, error) =
-                (("evaluations of the force per period", [5.0, 5e4]), (label, [1e-15, 10.0]));
-            Panel::loglog(format!("{title} error over work, *e* = {e}"), work, error).marked(lines)
+            let (x, y) = (("evaluations of the force per period", [5.0, 5e4]), (label, [1e-15, 10.0]));
+            Panel::loglog(format!("{title} error over work, *e* = {e}"), x, y).marked(lines)
         });
         panels.into()
     };

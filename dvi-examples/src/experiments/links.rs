@@ -87,8 +87,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 fn deviations(energy: f64, LinksState { x, y, dot_x, dot_y }: &LinksState) -> [f64; 3] {
     let ends = (0..LINKS).map(|i| [x[i], y[i], dot_x[i], dot_y[i]]);
     let before = [[0.0; 4]].into_iter().chain(ends.clone());
-    let [length, along] =
-        stretched(PENDULUM.rod(), ends.zip(before).map(|(end, before)| difference(end, before)));
+    let [length, along] = stretched(PENDULUM.rod(), ends.zip(before).map(|(a, b)| difference(a, b)));
     [energy, length, along]
 }
 
@@ -120,7 +119,7 @@ fn order_of_positions() -> Result<Claim> {
         Ok(shape(Accelerations::new(&PENDULUM, h, &PENDULUM.bent(ANGLE))?.up_to(2.0)?))
     })?;
     let error = |q: &[f64]| farthest(&points(&q[..LINKS], &q[LINKS..]), &fine);
-    let errors = bent(&PENDULUM).errors(2.0, [100, 200, 400, 800], error);
+    let errors = bent(&PENDULUM).errors(2.0, &[100, 200, 400, 800], error);
     Ok(beyond("the positions are of second order, against RK4 with half the shortest step")
         .at_most("largest distance of the masses of two references", farthest(&fine, &double), 3e-8)
         .near("trapezoid: order at t = 2", errors.order(trapezoid())?, [2.0, 0.05])
@@ -159,14 +158,13 @@ fn figure(all: &[Motion; 4], end: f64) -> Result<Figure> {
     let along = panel(["Velocities along the rods", "largest difference at the ends"], [1e-18, 1e-2], 2);
     let run = bent(&PENDULUM).run(trapezoid(), H)?;
     let axes = (Axis::linear("*x*"), Axis::linear("*y*").within(-1.02, 0.02));
-    let half_a_swing = Panel::new("The pendulum over half a swing", axes.0, axes.1).equal().each(
-        shapes(run, 250.0, shape)?,
-        |panel, (t, colour, line)| {
-            let masses = line[1..].to_vec();
-            let rods = panel.line(line, solid(colour).width(1.2)).labelled(format!("*t* = {t:.1}"));
-            rods.dots(masses, 2.0, colour)
-        },
-    );
+    let shapes = shapes(run, 250.0, shape)?;
+    let half_a_swing = Panel::new("The pendulum over half a swing", axes.0, axes.1).equal();
+    let half_a_swing = half_a_swing.each(shapes, |panel, (t, colour, line)| {
+        let masses = line[1..].to_vec();
+        let rods = panel.line(line, solid(colour).width(1.2)).labelled(format!("*t* = {t:.1}"));
+        rods.dots(masses, 2.0, colour)
+    });
     let subtitle = format!(
         "Released at rest with angles that grow from 0 to {ANGLE} along the pendulum; *h* = {H}. The three \
          constrained methods take the same steps."

@@ -36,8 +36,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         let rows = of.kept[0].magnitude().into_iter().zip(of.kept[1].magnitude());
         rows.map(move |([t, energy], [_, length])| (["over time"], [k, h, t, energy, length].map(Some)))
     });
-    let over_step =
-        scans.rows().map(|[k, h, error]| (["over step"], [Some(k), Some(h), None, Some(error), None]));
+    let over_step = scans.rows().map(|[k, h, e]| (["over step"], [Some(k), Some(h), None, Some(e), None]));
     let columns = ["series", "k", "h", "t", "energy", "length"];
     let figure = figure([&springs, &rods], &scans, end)?;
     job.publish(figure, Table::of(&columns, over_time.chain(over_step))?)?;
@@ -92,7 +91,7 @@ fn order_of_positions() -> Result<Claim> {
         Ok(atoms(&Accelerations::new(&RIGID, h, &RIGID.chain(SPEED)?)?.up_to(2.0)?))
     })?;
     let error = |q: &[f64]| farthest(&points(&q[..3 * MOLECULES], &q[3 * MOLECULES..]), &fine);
-    let errors = Problem::new(&RIGID, RIGID.chain(SPEED)?).errors(2.0, [50, 100, 200, 400], error);
+    let errors = Problem::new(&RIGID, RIGID.chain(SPEED)?).errors(2.0, &[50, 100, 200, 400], error);
     Ok(beyond("the positions by RATTLE are of second order, against RK4 on the accelerations")
         .at_most("largest distance of the atoms of two references", farthest(&fine, &double), 2e-9)
         .near("order at t = 2", errors.order(Rattle::default())?, [2.0, 0.05]))

@@ -78,10 +78,8 @@ fn drifts<M: Method<FourVortices, f64> + Copy>(
 }
 
 /// The largest change of the two-form Ω = ΣΓ dx ∧ dy under the tangent map, by differences of fourth order.
-fn one_step<M: Method<FourVortices, f64> + Copy>(
-    Case { vortices, start }: &Case,
-    method: M,
-) -> Result<[Option<f64>; 2]> {
+fn one_step<M: Method<FourVortices, f64> + Copy>(case: &Case, method: M) -> Result<[Option<f64>; 2]> {
+    let Case { vortices, start } = case;
     const DISPLACEMENT: f64 = 1e-3;
     let flat = |run: &[f64]| -> [f64; 8] { std::array::from_fn(|i| run[i]) };
     let stepped = |q: [f64; 8]| -> Result<[f64; 8]> {

@@ -54,8 +54,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let of_rules = rows.iter().flat_map(|(name, _, recursion, factor)| {
         [(["recursion error", name], [], recursion.clone()), (["momentum factor", name], [], factor.clone())]
     });
-    let curves =
-        given.iter().map(|(name, _, errors)| (["error from velocities", *name], [], errors.clone()));
+    let curves = given.iter().map(|(name, _, all)| (["error from velocities", *name], [], all.clone()));
     let table = curve_table(&["quantity", "rule", "u", "value"], of_rules.chain(curves))?;
     job.publish(figure(&rows, &given, many), table)?;
     // Numbers of independent programs.

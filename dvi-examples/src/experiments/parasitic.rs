@@ -24,13 +24,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     // The sum of t/h over the runs below.
     job.expect(48_000 + 27_000);
     let runs = [(0.25, 0.5), (0.25, 0.25), (0.25, 0.125), (0.5, 0.5)];
-    let leapfrogging =
-        each(runs, |run| Motion::new(job, "leapfrogging", models::leapfrogging(), run, 3000.0))?;
+    let leapfrogging = each(runs, |run| Motion::new(job, "leapfrogging", leapfrogging(), run, 3000.0))?;
     let runs = [(0.0, 0.1), (0.0, 0.05), (0.0, 0.02), (0.5, 0.1)];
     let chaotic = each(runs, |run| Motion::new(job, "chaotic", models::chaotic(), run, 300.0))?;
     let all = || leapfrogging.iter().chain(&chaotic);
-    let curves =
-        all().map(|Motion { motion, sigma, h, points, .. }| ([*motion], [*sigma, *h], thin(points, 1000)));
+    let curves = all().map(|run| ([run.motion], [run.sigma, run.h], thin(&run.points, 1000)));
     let table = curve_table(&["motion", "sigma", "h", "t", "amplitude", "largest_energy_error"], curves)?;
     job.publish(figure(&leapfrogging, &chaotic), table)?;
     let notes = all().filter_map(|run| {
@@ -53,9 +51,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let rates = |run: &Motion| run.rate().zip(first).map(|(rate, first)| rate / first);
     let claims = vec![
         beyond("with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not")
-            .each(explicit, |claim, run| {
-                claim.at_most(format!("{until}, {}", run.name()), run.lost(), 300.0)
-            })
+            .each(explicit, |all, run| all.at_most(format!("{until}, {}", run.name()), run.lost(), 300.0))
             .at_most(format!("max|ΔH| to t = 300, {}", chaotic[3].name()), energy, 1e-4),
         beyond("for σ = ¼ the parasitic mode grows at a rate that does not depend on h")
             .each(&quarter[1..], |claim, run| claim.near(rate(run), rates(run), [1.0, 0.1])),

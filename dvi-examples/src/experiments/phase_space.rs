@@ -86,7 +86,7 @@ fn periods() -> Result<Claim> {
     let (sin, cos) = (START.x / 2.0).sin_cos();
     let period = 4.0 * Elliptic { modulus: sin, complementary: cos }.quarter();
     let error = |q: &[f64]| distance([q[0], q[1]], [START.x, START.p]);
-    let errors = Problem::new(&SYSTEM, START).errors(period, [100, 150, 200], error);
+    let errors = Problem::new(&SYSTEM, START).errors(period, &[100, 150, 200], error);
     let after = "order of the error after a period";
     Ok(beyond("the period comes out as the elliptic integral says, to the order of the scheme")
         .near(format!("midpoint: {after}"), errors.order(OneStep::midpoint())?, [2.0, 0.02])

@@ -19,19 +19,15 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let exponent = motion.lyapunov_exponent()?;
     job.publish(figure(&all, &curve, end), sections::table(&all)?)?;
     let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = &all;
-    let distance = |run: &Crossings| format!("largest distance from the exact section, {}", run.name());
-    let near =
-        |claim: Claim, run: &Crossings| claim.at_most(distance(run), curve.largest_distance(run), 0.01);
+    let name = |run: &Crossings| format!("largest distance from the exact section, {}", run.name());
+    let near = |claim: Claim, run: &Crossings| claim.at_most(name(run), curve.largest_distance(run), 0.01);
+    let regular = "the motion is quasi-periodic";
     let claims = vec![
-        says("section 5", "the motion is quasi-periodic").at_most(
-            "largest Lyapunov exponent up to t = 2·10⁴",
-            exponent,
-            1e-3,
-        ),
+        says("section 5", regular).at_most("largest Lyapunov exponent up to t = 2·10⁴", exponent, 1e-3),
         says("Fig. 4", "both schemes give qualitatively correct results for h = 0.1")
             .each([vi_small, rk_small], near),
         says("Fig. 4", "RK4 gives spurious results for h = 0.2, VI2 does not")
-            .at_least(distance(rk_middle), curve.largest_distance(rk_middle), 0.5)
+            .at_least(name(rk_middle), curve.largest_distance(rk_middle), 0.5)
             .each([vi_middle, vi_large], near),
         sections::stays_close(&all[..3]).at_least(rk_small.growth_name(), rk_small.error.growth(), 5.0),
     ];

@@ -13,12 +13,7 @@ pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; 
     std::array::from_fn(|i| y[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
 }
 
-pub fn rk4_up_to<const N: usize>(
-    y: [f64; N],
-    end: f64,
-    h: f64,
-    f: impl Fn(&[f64; N]) -> [f64; N],
-) -> [f64; N] {
+pub fn rk4_to<const N: usize>(y: [f64; N], end: f64, h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
     (0..(end / h).round() as u64).fold(y, |y, _| rk4(&y, h, &f))
 }
 
@@ -104,7 +99,7 @@ mod tests {
 
     #[test]
     fn rk4_is_of_fourth_order_on_a_pendulum() {
-        let end = |h: f64| rk4_up_to([1.0, 0.0], 2.0, h, |&[x, v]: &[f64; 2]| [v, -x.sin()]);
+        let end = |h: f64| rk4_to([1.0, 0.0], 2.0, h, |&[x, v]: &[f64; 2]| [v, -x.sin()]);
         let exact = end(1e-3);
         let order = order([0.1, 0.05, 0.025].map(|h| (h, apart(&end(h), &exact))));
         assert!(order.is_some_and(|order| (order - 4.0).abs() < 0.1), "{order:?}");

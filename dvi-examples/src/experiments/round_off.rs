@@ -74,11 +74,11 @@ fn errors(job: &Job<'_>, case: usize, summation: Summation, run: usize, looks: u
         0 => {
             let start = RotationState { x: cos, y: sin };
             let run = Integrator::new(&Rotation { omega: 1.0 }, midpoint, H, start)?;
-            follow(job, run, looks, |run| run.energy())
+            watch(job, run, looks, |run| run.energy())
         }
         1 => {
             let run = Integrator::new(&Spring { k: 1.0 }, verlet, H, SpringState { x: cos, dot_x: sin })?;
-            follow(job, run, looks, |run| {
+            watch(job, run, looks, |run| {
                 let (q, p) = (run.q()[0], run.memory().p()[0]);
                 p * p + (1.0 - H * H / 4.0) * q * q
             })
@@ -89,28 +89,23 @@ fn errors(job: &Job<'_>, case: usize, summation: Summation, run: usize, looks: u
                 (*x, *y) = (cos * *x - sin * *y, sin * *x + cos * *y);
             }
             let run = Integrator::new(&vortices, midpoint, H, start)?;
-            follow(job, run, looks, |run| run.momentum(2).unwrap_or(f64::NAN))
+            watch(job, run, looks, |run| run.momentum(2).unwrap_or(f64::NAN))
         }
         _ => {
             let start = Orbit { e: 0.1 + 0.1 * run as f64 }.pericentre();
             let run = Integrator::new(&Kepler {}, verlet, H, start)?;
-            follow(job, run, looks, |run| run.momentum(0).unwrap_or(f64::NAN))
+            watch(job, run, looks, |run| run.momentum(0).unwrap_or(f64::NAN))
         }
     }
 }
 
 /// The root mean square of (f − f(0))/f(0) in each interval of the logarithm of the number of steps.
-fn follow<R: Run<Scalar = f64>>(
-    job: &Job<'_>,
-    mut run: R,
-    looks: u64,
-    value: impl Fn(&R) -> f64,
-) -> Result<Points> {
-    let (initial, mut rows, mut interval) = (value(&run), Vec::new(), (STRIDE as f64).log10() * PER_DECADE);
+fn watch<R: Run<Scalar = f64>>(job: &Job<'_>, mut run: R, n: u64, of: impl Fn(&R) -> f64) -> Result<Points> {
+    let (initial, mut rows, mut interval) = (of(&run), Vec::new(), (STRIDE as f64).log10() * PER_DECADE);
     let (mut squares, mut count) = (0.0, 0_u64);
-    job.repeat(looks, || {
+    job.repeat(n, || {
         run.take_steps(STRIDE)?;
-        squares += ((value(&run) - initial) / initial).powi(2);
+        squares += ((of(&run) - initial) / initial).powi(2);
         count += 1;
         if (run.steps() as f64).log10() * PER_DECADE >= interval {
             rows.push([run.steps() as f64, (squares / count as f64).sqrt()]);

@@ -78,17 +78,13 @@ impl Motion<'_> {
         let (end, points, error) = (self.end, Vec::new(), Deviation::new(self.end, 300, 0.1 * self.end));
         let blank = Crossings { scheme, h, end, labels, points, error, growth: f64::NAN, failure: None };
         match scheme {
-            Scheme::Vi2 => self.collect(Sigma::midpoint(), blank),
-            Scheme::Rk4 => self.collect(RungeKutta::classical(), blank),
-            Scheme::Gauss6 => self.collect(Gauss::<3>::new(), blank),
+            Scheme::Vi2 => self.gather(Sigma::midpoint(), blank),
+            Scheme::Rk4 => self.gather(RungeKutta::classical(), blank),
+            Scheme::Gauss6 => self.gather(Gauss::<3>::new(), blank),
         }
     }
 
-    fn collect(
-        self,
-        method: impl Method<FourVortices, f64> + Copy,
-        mut all: Crossings,
-    ) -> Result<Crossings> {
+    fn gather(self, method: impl Method<FourVortices, f64> + Copy, mut all: Crossings) -> Result<Crossings> {
         let Self { job, case: Case { vortices, start }, end } = self;
         let (h, labels) = (all.h, all.labels);
         let mut run = Integrator::new(vortices, method, h, *start)?;
@@ -248,8 +244,7 @@ pub fn notes(all: &[Crossings]) -> Vec<String> {
 }
 
 pub fn table(all: &[Crossings]) -> Result<Table> {
-    let curves =
-        all.iter().map(|section| ([section.scheme.name()], [section.h], thin(&section.points, SHOWN)));
+    let curves = all.iter().map(|run| ([run.scheme.name()], [run.h], thin(&run.points, SHOWN)));
     curve_table(&["scheme", "h", "t", "R1", "P1"], curves)
 }
 

@@ -77,7 +77,7 @@ fn keep(all: &[Kept; 3]) -> Claim {
 fn precession() -> Result<Claim> {
     let begin = three().run(OneStep::midpoint(), H)?;
     let angle = |q: &[f64]| angle(moment(&THREE, begin.q()), moment(&THREE, q)).abs();
-    let angles = three().errors(400.0, [400, 600, 800], angle);
+    let angles = three().errors(400.0, &[400, 600, 800], angle);
     let (midpoint, gauss) = (OneStep::midpoint(), OneStepGauss::<2>::new());
     let text = "the moment turns slowly around the axis of the coordinates, at a rate that falls with the \
                 order of the scheme";
@@ -106,7 +106,7 @@ fn pair() -> Result<Claim> {
     let (places, axis) = (pair.places(begin.q()), moment(&pair, begin.q()));
     let rate = length(axis) / (TAU * length(difference(places[0], places[1])).powi(2));
     let distance = |q: &[f64]| away(pair.places(q), places, axis, rate * 40.0);
-    let errors = motion.errors(40.0, [100, 150, 200], distance).of(OneStep::midpoint())?;
+    let errors = motion.errors(40.0, &[100, 150, 200], distance).of(OneStep::midpoint())?;
     Ok(beyond("a pair turns around its moment with the rate |M|/2πl², to the order of the scheme")
         .at_most("distance from that at t = 40, 200 steps", errors[2].1, 0.05)
         .near("order of it", order(errors), [2.0, 0.05]))

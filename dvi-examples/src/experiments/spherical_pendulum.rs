@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn the_motion_by_hand_keeps_the_integrals() {
-        let end = SphericalPendulum::state(&reference(PENDULUM, &begin(), [ORDER_TIME, FINE]));
+        let end = PENDULUM.state(&reference(PENDULUM, &begin(), [ORDER_TIME, FINE]));
         let [before, after] = [begin(), end].map(|state| PENDULUM.heights(&state));
         assert!((before.energy - after.energy).abs() < 1e-11);
         assert!((before.vertical - after.vertical).abs() < 1e-11);

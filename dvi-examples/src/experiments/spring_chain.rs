@@ -77,17 +77,11 @@ fn first() -> Problem<'static, SpringChain> {
     Problem::new(&CHAIN, CHAIN.first_pair(CENTRES[0]))
 }
 
-fn kept(
-    job: &Job<'_>,
-    named: Named<'_>,
-    mut run: AnyRun<'_, SpringChain>,
-    stiffness: f64,
-    end: f64,
-) -> Result<Kept> {
-    let sum = |state| CHAIN.oscillatory(&state, stiffness).iter().sum::<f64>();
+fn kept(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, SpringChain>, s: f64, t: f64) -> Result<Kept> {
+    let sum = |state| CHAIN.oscillatory(&state, s).iter().sum::<f64>();
     let (energy, begin, mut left) = (run.energy(), sum(run.state()), f64::NAN);
-    let span = Span { end, early: 0.01 * end, intervals: 300 };
-    let series = job.series(named, &mut run, (end / H).round() as u64, span, |run, _| {
+    let span = Span { end: t, early: 0.01 * t, intervals: 300 };
+    let series = job.series(named, &mut run, (t / H).round() as u64, span, |run, _| {
         let now = sum(run.state());
         if run.steps() == (20.0 / H).round() as u64 {
             left = now / begin;
@@ -102,8 +96,7 @@ fn long_steps(motion: &Exchange, long: &Exchange) -> Result<Claim> {
     let begin = run.energy();
     let energies =
         course(&mut run, (COMPARED as f64 / LONG).round() as u64, |run| (run.energy() - begin).abs())?;
-    let [motion, long] =
-        [motion, long].map(|of| of.0.get(COMPARED as usize - 1).map_or(f64::NAN, |mean| mean[0]));
+    let [motion, long] = [motion, long].map(|of| of.0.get(COMPARED as usize - 1).map_or(f64::NAN, |m| m[0]));
     let first = format!("energy of the first stiff spring at t = {COMPARED}");
     Ok(beyond(format!(
         "hω = {}: with β = 1/4 the energy does not drift, but there is next to no exchange: the step is \
@@ -134,7 +127,7 @@ fn stability() -> Result<Claim> {
 
 fn order_of_coordinates() -> Result<Claim> {
     let expected = first().up_to(Gauss::<4>::new(), 0.002, 1.0)?.q;
-    let errors = first().errors(1.0, [500, 1000, 2000, 4000], |q| apart(q, &expected));
+    let errors = first().errors(1.0, &[500, 1000, 2000, 4000], |q| apart(q, &expected));
     let orders = each(BETAS, |(beta, ..)| errors.order(Newmark::new(beta)))?;
     let claim = beyond("the coordinates at t = 1 are of second order for all β");
     Ok(claim.each(BETAS.into_iter().zip(orders), |claim, ((_, name, _), order)| {
@@ -142,17 +135,11 @@ fn order_of_coordinates() -> Result<Claim> {
     }))
 }
 
-fn figure(
-    all: &[&Series<2>],
-    motion: &Exchange,
-    exchanges: &[Exchange; 4],
-    long: &Exchange,
-    end: f64,
-) -> Figure {
+fn figure(all: &[&Series<2>], motion: &Exchange, of: &[Exchange; 4], long: &Exchange, end: f64) -> Figure {
     let titled = |k: usize| {
         let (beta, name, _) = BETAS[k];
         let title = format!("{name} ({:.2})", expected_speed(beta, H));
-        exchanges[k].panel(motion, title)
+        of[k].panel(motion, title)
     };
     let long = long.panel(motion, format!("β = 1/4, *h* = {LONG}")).without_legend();
     let energy = over_time(["Energy", "largest |*E* − *E*(0)|"], end, [1e-4, 10.0], all.iter().copied(), 0);

@@ -85,8 +85,7 @@ fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
 /// max |z| over a run with h = 1 from 1 and from a second point that excites both modes.
 fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Result<f64> {
     let rotation = Rotation { omega };
-    let [first, second] =
-        [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
+    let [first, second] = [0.0, omega.min(1.0)].map(|a| RotationState { x: a.cos(), y: a.sin() });
     let mut run = Integrator::from_two_points(&rotation, unlimited(sigma), 1.0, first, second)?;
     let mut largest = 0.0f64;
     for _ in 0..steps {

@@ -32,12 +32,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 10_000);
     job.expect(steps);
     let exact = TokamakInClass { q: Q, mu: MU };
-    let orbits =
-        each(RADII, |r| path(&exact, TokamakInClassState { r, theta: 0.0, phi: 0.0, u: VELOCITY }))?;
+    let paths = each(RADII, |r| path(&exact, TokamakInClassState { r, theta: 0.0, phi: 0.0, u: VELOCITY }))?;
     let by_cubic = |n| TabulatedTokamak::sampled(Q, MU, n, |axes, of| Ok(Spline::sample(axes, of)?));
-    let by_quintic =
-        |n| TabulatedTokamak::sampled(Q, MU, n, |axes, of| Ok(Spline::sample_quintic(axes, of)?));
-    let (cubic, quintic) = (differences(&orbits, by_cubic)?, differences(&orbits, by_quintic)?);
+    let by_quintic = |n| TabulatedTokamak::sampled(Q, MU, n, |axes, f| Ok(Spline::sample_quintic(axes, f)?));
+    let (cubic, quintic) = (differences(&paths, by_cubic)?, differences(&paths, by_quintic)?);
     // The relative energy error in the coarse table.
     let coarse = by_cubic(COARSE)?;
     let mut run = Problem::new(&coarse, start(RADIUS)).run(OneStep::midpoint(), H)?;
@@ -48,15 +46,12 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let table = curve_table(&["spline", "intervals", "difference"], curves)?;
     job.publish(figure(&cubic, &quintic, &energy, span.end), table)?;
     let quantity = format!("cubic, {COARSE} intervals: max|ΔH| over all / over {EARLY} steps");
+    let kept = "the energy of a table is kept as that of a formula is";
     claims([
         beyond("orbits in a table tend to those of the formulas as the splines do")
             .near("order in the distances of the grid, cubic", cubic.1, [3.0, 0.3])
             .near("order in the distances of the grid, quintic", quintic.1, [5.0, 0.3]),
-        beyond("the energy of a table is kept as that of a formula is").at_most(
-            quantity,
-            energy.growth(),
-            1.02,
-        ),
+        beyond(kept).at_most(quantity, energy.growth(), 1.02),
     ])
 }
 

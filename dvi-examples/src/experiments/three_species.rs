@@ -5,7 +5,7 @@
 //! conjugate to it, it has one, in the class of one-step schemes; s' = z then says that s counts the third
 //! species.
 
-use super::rk4::{keep_rk4, rk4_up_to};
+use super::rk4::{keep_rk4, rk4_to};
 use crate::vocabulary::*;
 
 /// x, y and z at the start; the paths in the figure begin at others too.
@@ -81,9 +81,9 @@ fn same_motion() -> Result<Claim> {
     let other = course(&mut run, 1000, place)?;
     let pairs = orbit(START, 1000)?.into_iter().zip(other);
     let difference = largest(pairs.map(|([x, y, _], [u, v])| larger((u - x).abs(), (v - y).abs())));
-    let exact = rk4_up_to(START, END, END / 20_000.0, rates);
+    let exact = rk4_to(START, END, END / 20_000.0, rates);
     let error = |q: &[f64]| apart(&[q[0], q[2], q[3].exp() / (q[0] * q[2])], &exact);
-    let order = begin(START).errors(END, [400, 600, 800], error).order(OneStep::midpoint())?;
+    let order = begin(START).errors(END, &[400, 600, 800], error).order(OneStep::midpoint())?;
     Ok(beyond("with w and s, or with xyz as a parameter, the motion is that of the three species")
         .at_most("largest difference of the two in 1000 steps", difference, 1e-11)
         .near("order of the difference from x, y, z at t = 20", order, [2.0, 0.05]))
@@ -115,8 +115,7 @@ fn figure(all: &[Series<2>; 2], end: f64) -> Result<Figure> {
         .each(orbits.iter().zip([0, 2, 4, 6]), |plane, (path, colour)| {
             plane.line(path.iter().copied().map(flat).collect(), solid(SEQUENCE[colour]).width(1.4))
         });
-    let over_time =
-        |i: usize| orbits[0].iter().zip(0..).map(move |(species, k)| [f64::from(k) * H, species[i]]);
+    let over_time = |i: usize| orbits[0].iter().zip(0..).map(move |(of, k)| [f64::from(k) * H, of[i]]);
     let species = Panel::linear("Species", ("time *t*", [0.0, 20.0]), ("number", [0.0, 3.0])).lines([
         ("*x*", solid(BLUE), over_time(0).collect()),
         ("*y*", solid(GREEN), over_time(1).collect()),

@@ -142,10 +142,9 @@ mod tests {
 
     #[test]
     fn the_motion_by_hand_keeps_the_integrals() {
-        let end = Top::state(&reference(TOP, &begin(), [ORDER_TIME, FINE]));
-        let [before, after] = [begin(), end].map(|state| TOP.heights(&state));
-        let pairs =
-            [(before.energy, after.energy), (before.spin, after.spin), (before.vertical, after.vertical)];
+        let end = TOP.state(&reference(TOP, &begin(), [ORDER_TIME, FINE]));
+        let [then, now] = [begin(), end].map(|state| TOP.heights(&state));
+        let pairs = [(then.energy, now.energy), (then.spin, now.spin), (then.vertical, now.vertical)];
         assert!(pairs.into_iter().all(|(before, after)| (before - after).abs() < 1e-11), "{pairs:?}");
     }
 }

@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use dvi_core::State;
 use dvi_core::prelude::*;
 
 /// What the height u of a top depends on: (A u̇)² = (1 − u²) 2A(E − weight u) − (vertical − spin u)², by its
@@ -68,11 +69,17 @@ impl Heights {
 
 /// A system on a manifold whose states are so many numbers, for methods that know nothing of the manifold.
 pub trait OnManifold<const D: usize>: ManifoldLagrangian + Copy {
-    /// The entries of a state, coordinates first.
-    fn entries(state: &Self::State<f64>) -> [f64; D];
+    /// The places and the velocities, of which there are three.
+    fn entries(&self, state: &Self::State<f64>) -> [f64; D] {
+        let values: Vec<f64> = self.values(state).into_iter().flatten().collect();
+        std::array::from_fn(|i| values[i])
+    }
 
     /// The state with these entries.
-    fn state(y: &[f64; D]) -> Self::State<f64>;
+    fn state(&self, y: &[f64; D]) -> Self::State<f64> {
+        let (q, v) = y.split_at(D - 3);
+        State::read(|block| self.block_len(block), q, v)
+    }
 
     /// The rates of the entries in the motion.
     fn motion(&self, y: &[f64; D]) -> [f64; D];
@@ -136,14 +143,6 @@ impl SphericalPendulum {
 
 /// s and ṡ.
 impl OnManifold<6> for SphericalPendulum {
-    fn entries(SphericalPendulumState { s, dot_s }: &SphericalPendulumState) -> [f64; 6] {
-        [s[0], s[1], s[2], dot_s[0], dot_s[1], dot_s[2]]
-    }
-
-    fn state(&[x, y, z, u, v, w]: &[f64; 6]) -> SphericalPendulumState {
-        SphericalPendulumState { s: [x, y, z], dot_s: [u, v, w] }
-    }
-
     /// s̈ = −g e₃ − (|ṡ|² − g s₃) s
     fn motion(&self, &[x, y, z, u, v, w]: &[f64; 6]) -> [f64; 6] {
         let tension = u * u + v * v + w * w - self.gravity * z;
