@@ -6,7 +6,7 @@ use syn::Ident;
 
 use super::{Emitter, local};
 use crate::internal::internal;
-use crate::symbolic::{Atom, Index, Loop, Range};
+use crate::symbolic::{Atom, Count, Index, Loop, Range, Rows};
 
 pub(super) fn open(depth: u32) -> Ident {
     local(format_args!("i{depth}"))
@@ -28,6 +28,33 @@ impl Emitter<'_> {
     /// The bound of a range: a negative one is zero.
     pub(crate) fn range_bound(&self, index: &Index) -> TokenStream {
         self.difference(index, &quote!(saturating_sub))
+    }
+
+    /// The number of members of a family.
+    pub(crate) fn length(&self, length: &Count) -> TokenStream {
+        match (length.as_literal(), &length.rows) {
+            (Some(literal), Some(_)) => self.index(&Index::literal(literal)),
+            (None, Some(rows)) => self.rows(rows),
+            (_, None) => self.range_bound(&length.rest),
+        }
+    }
+
+    /// The number of a member of a family.
+    pub(super) fn member(&self, member: &Count) -> TokenStream {
+        let place = self.index(&member.rest);
+        match &member.rows {
+            Some(rows) => {
+                let rows = self.rows(rows);
+                quote!(#rows + #place)
+            }
+            None => place,
+        }
+    }
+
+    fn rows(&self, Rows { first, step, count }: &Rows) -> TokenStream {
+        let (krate, first, count) = (self.krate(), self.signed_index(first), self.range_bound(count));
+        let step = Literal::i64_suffixed(*step);
+        quote!(#krate::__private::members_before(#first, #step, #count))
     }
 
     fn difference(&self, index: &Index, subtract: &TokenStream) -> TokenStream {

@@ -148,7 +148,10 @@ impl Run<'_> {
 
     fn along_row(&self, row: &Row) -> f64 {
         let Machine { point, directions, .. } = self.machine;
-        point.row(directions.first, row.constraint as usize, self.index(&row.member))
+        let Some(member) = row.member.value(|index| Some(self.index(index))) else {
+            internal("too many constraints")
+        };
+        point.row(directions.first, row.constraint as usize, member)
     }
 
     fn register(&self, register: Register) -> f64 {
