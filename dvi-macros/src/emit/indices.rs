@@ -19,6 +19,12 @@ fn plain(value: u64) -> Literal {
     }
 }
 
+/// `a * b`, of one factor at least.
+fn product(factors: impl Iterator<Item = TokenStream>) -> TokenStream {
+    let product = factors.reduce(|before, factor| quote!(#before * #factor));
+    product.unwrap_or_else(|| internal("a product without factors"))
+}
+
 impl Emitter<'_> {
     /// An index as an expression of type `usize`; negative intermediate values do not occur.
     pub(crate) fn index(&self, index: &Index) -> TokenStream {
@@ -88,6 +94,10 @@ impl Emitter<'_> {
                 let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
                 quote!(#krate::__private::wrap(#value, #modulus))
             }
+            Atom::Product(factors) => {
+                let product = product(factors.iter().map(|factor| self.atom(factor)));
+                quote!((#product))
+            }
         }
     }
 
@@ -106,24 +116,28 @@ impl Emitter<'_> {
     }
 
     fn integer(&self, index: &Index, kind: &TokenStream, literal: fn(i64) -> Literal) -> TokenStream {
-        let krate = self.krate();
         let constant = literal(index.constant);
         let mut terms = vec![quote!(#constant)];
         for (atom, coefficient) in index.counted_terms() {
-            let atom = match atom {
-                Atom::Remainder(value, modulus) => {
-                    let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
-                    quote!((#krate::__private::remainder(#value, #modulus) as #kind))
-                }
-                Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => {
-                    let value = self.atom(atom);
-                    quote!((#value as #kind))
-                }
-            };
-            let coefficient = literal(*coefficient);
+            let (atom, coefficient) = (self.integer_atom(atom, kind), literal(*coefficient));
             terms.push(quote!(#coefficient * #atom));
         }
         quote!((#(#terms)+*))
+    }
+
+    fn integer_atom(&self, atom: &Atom, kind: &TokenStream) -> TokenStream {
+        match atom {
+            Atom::Remainder(value, modulus) => {
+                let krate = self.krate();
+                let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
+                quote!((#krate::__private::remainder(#value, #modulus) as #kind))
+            }
+            Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => {
+                let value = self.atom(atom);
+                quote!((#value as #kind))
+            }
+            Atom::Product(factors) => product(factors.iter().map(|factor| self.integer_atom(factor, kind))),
+        }
     }
 
     fn range(&self, range: &Range) -> TokenStream {

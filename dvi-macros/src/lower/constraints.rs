@@ -75,10 +75,13 @@ impl Lowering<'_> {
         let depth = loops.len() as u32;
         let (form, over) = natural(depth, &lower, &upper);
         let length = over.range.upper.plus(&over.range.lower, -1);
-        let is_turned =
-            |atom: &Atom| matches!(atom, Atom::Remainder(..)) && Index::atom(atom.clone()).free().open != 0;
+        let is_turned = |atom: &Atom| {
+            let is_known = matches!(atom, Atom::Open(_));
+            !is_known && Index::atom(atom.clone()).free().open != 0
+        };
         if length.terms.iter().any(|(atom, _)| is_turned(atom)) {
-            let message = "the range of an index of a family depends on the other one by sums and multiples: it has no `%`";
+            let message =
+                "the range of an index of a family depends on the other one by sums and literal multiples";
             self.errors.push(range, message);
             return None;
         }

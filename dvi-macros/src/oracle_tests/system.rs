@@ -19,6 +19,8 @@ pub(super) enum SizeKind {
     Field(&'static str),
     /// The length of an array of the struct.
     Length(&'static str),
+    /// Two sizes of the table.
+    Product(usize, usize),
 }
 
 /// The type of a field.

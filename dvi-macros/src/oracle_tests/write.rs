@@ -198,6 +198,7 @@ impl System {
             SizeKind::Literal => self.sizes[size].value.to_string(),
             SizeKind::Constant(name) | SizeKind::Field(name) => name.into(),
             SizeKind::Length(field) => format!("{field}.len()"),
+            SizeKind::Product(a, b) => format!("({} * {})", self.size_text(a), self.size_text(b)),
         }
     }
 }
@@ -373,6 +374,9 @@ impl<'a> Writer<'a> {
             let atom = match atom {
                 Atom::Bound(level) => INDICES[*level].to_string(),
                 Atom::Size(size) => self.system.size_text(*size),
+                Atom::Times(size, level) => {
+                    format!("{} * {}", self.system.size_text(*size), INDICES[*level])
+                }
                 Atom::Remainder(value, modulus) => {
                     format!("(({}) % {})", self.index(value), self.index(modulus))
                 }
