@@ -19,7 +19,7 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
     let known = *random.pick(&[Known::Literal, Known::Constant, Known::RunTime, Known::Mixed]);
     let sizes = sizes(random, known);
     let fields = fields(random, &sizes);
-    let blocks = blocks(random, regular);
+    let blocks = blocks(random, regular, &sizes);
     let dynamics = Dynamics::Regular(Formula::Time);
     let (gauge, time_transform) = (Gauge::None, None);
     let (forces, constraints, momenta) = (Vec::new(), Vec::new(), Vec::new());
@@ -55,6 +55,10 @@ fn sizes(random: &mut Random, known: Known) -> Vec<Size> {
     ];
     if matches!(known, Known::RunTime | Known::Mixed) {
         sizes.push(Size { kind: SizeKind::Length("g"), value: 2 + random.below(2) as i64 });
+    }
+    if random.chance(20) {
+        let (a, b) = *random.pick(&[(0, 1), (1, 0), (1, 1)]);
+        sizes.push(Size { kind: SizeKind::Product(a, b), value: sizes[a].value * sizes[b].value });
     }
     sizes
 }
@@ -98,8 +102,12 @@ fn fields(random: &mut Random, sizes: &[Size]) -> Vec<Field> {
     fields
 }
 
-fn blocks(random: &mut Random, regular: bool) -> Vec<Block> {
+fn blocks(random: &mut Random, regular: bool, sizes: &[Size]) -> Vec<Block> {
     let block = |name, size| Block { name, size };
+    let square = sizes.iter().position(|size| matches!(size.kind, SizeKind::Product(..)));
+    if square.is_some() && random.chance(60) {
+        return vec![block("x", square), block("y", square)];
+    }
     let pair = vec![block("x", Some(0)), block("y", Some(0))];
     let singles = vec![block("u", None), block("w", None)];
     match random.below(5) {
