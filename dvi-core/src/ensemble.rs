@@ -268,9 +268,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     }
 
     /// Counts how often each member crosses the section g = 0, up to its end. The crossings are
-    /// [`Events`](crate::run::Events) of its run: none is lost between two points, however long the steps
-    /// are. A function that is not a number is a failure, and members go alone, not in lanes, as with
-    /// [limits](Self::until).
+    /// [`Events`](crate::run::Events) of its run, and are seen within long steps too. A function that is not a
+    /// number is a failure, and members go alone, not in lanes, as with [limits](Self::until).
     ///
     /// ```
     /// use dvi_core::ensemble::Ensemble;
@@ -312,8 +311,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// Takes `W` members at a time in lanes, as [`Together`] does: members of systems that are equal, or
     /// differ in parameters of a [generic type](crate::Parameter) only, which are neighbours in their
     /// shard; those with [limits](Self::until), a [section](Self::section) or [exponents](Self::exponents) go
-    /// alone. It is faster, and the results are the same, as long as systems that are equal by `==` do the same: 0.0 and −0.0 are
-    /// equal.
+    /// alone. It is faster, and the results are the same, as long as systems that are equal by `==` do the
+    /// same: 0.0 and −0.0 are equal.
     pub fn in_lanes<const W: usize>(mut self) -> Self
     where
         S: PartialEq,

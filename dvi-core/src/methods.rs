@@ -268,6 +268,25 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         self.step(part, memory)
     }
 
+    /// The number of places within a step that are known when it has been taken, such as the stages of a
+    /// method of high order, whose steps are long: a search for events looks at up to eight of them. There are
+    /// none if nothing else is said.
+    fn places(&self) -> usize {
+        0
+    }
+
+    /// Sets `q` and `v` to such a place of the last step, the `index`-th, and returns the part of the step;
+    /// in their order, from the first one on. Of degenerate systems there is no `v`.
+    fn place(
+        &self,
+        _memory: &mut Self::Memory,
+        _index: usize,
+        _q: &mut Vector<S, T>,
+        _v: &mut Vector<S, T>,
+    ) -> Option<T> {
+        None
+    }
+
     /// Sets `v` to the velocity at the current point. There is nothing to do for degenerate systems.
     ///
     /// # Errors

@@ -190,7 +190,34 @@ where
         let Here { system, q, t } = here;
         S::Kind::velocity(&memory.path.equations, system, q, t, v)
     }
+
+    fn places(&self) -> usize {
+        if STAGES < LONG { 0 } else { STAGES }
+    }
+
+    fn place(
+        &self,
+        memory: &mut Self::Memory,
+        index: usize,
+        q: &mut Vector<S, T>,
+        v: &mut Vector<S, T>,
+    ) -> Option<T> {
+        let path = &mut memory.path;
+        if index == 0 {
+            path.set_stages();
+        }
+        let c = path.coefficients.c.0.get(index)?;
+        for (half, packs) in [(q, &path.stages[0]), (v, &path.slopes[0])] {
+            for (number, pack) in half.iter_mut().zip(packs.iter()) {
+                *number = pack.0[index];
+            }
+        }
+        Some(*c)
+    }
 }
+
+/// From so many stages on a step may lead over more than one turn of a motion.
+const LONG: usize = 6;
 
 impl<const STAGES: usize, E, S, T: Real> VariableStep<S, T> for Gauss<STAGES, E>
 where

@@ -14,10 +14,11 @@ use crate::{Lagrangian, Real, System, Vector};
 /// and a copy of it is moved within the last one.
 pub trait Between<S: System, T: Real> {
     /// Makes room, and keeps the present point, which is reached at time `t`. All memory is allocated here.
+    /// Returns the number of places within a step that are known when it has been taken.
     ///
     /// # Errors
     /// [`StartError`] if no run of the method can begin here.
-    fn begin(&mut self, system: &S, t: T, h: T) -> Result<(), StartError>;
+    fn begin(&mut self, system: &S, t: T, h: T) -> Result<usize, StartError>;
 
     /// Keeps the present point.
     fn keep(&mut self);
@@ -41,6 +42,10 @@ pub trait Between<S: System, T: Real> {
     /// As [`Method::velocity`].
     fn reached(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<&[T], StepFailure>;
 
+    /// The coordinates at one of the places within the last step that are known, with the part of the step;
+    /// their velocities are written to `v`.
+    fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])>;
+
     /// The same at the end of the step.
     ///
     /// # Errors
@@ -56,14 +61,14 @@ pub(super) struct Points<S: System, M: Carries<S, T>, T: Real> {
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M, T> {
     #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
-    fn begin(&mut self, system: &S, t: T, h: T) -> Result<(), StartError> {
+    fn begin(&mut self, system: &S, t: T, h: T) -> Result<usize, StartError> {
         let Self { method, memory, q, .. } = self;
         let mut v = q.clone();
         method.velocity(Here { system, q, t }, memory, &mut v).map_err(StartError::Starter)?;
         let point = || Kept::new(q, || method.begin_again(system, q, &v[..velocities(system)], t, h));
         self.points = Some(Aside::from(Points { begun: point()?, reached: point()? }));
         self.keep();
-        Ok(())
+        Ok(self.method.places())
     }
 
     #[inline]
@@ -102,6 +107,13 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         let Kept { q, memory } = &points.reached;
         self.method.velocity(Here { system, q, t }, memory, v)?;
         Ok(q)
+    }
+
+    fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])> {
+        let Self { method, memory, points, .. } = self;
+        let points: &mut Points<S, M, T> = points.as_mut()?;
+        let q = &mut points.reached.q;
+        method.place(memory, index, q, v).map(|part| (part, &q[..]))
     }
 
     #[inline]

@@ -55,6 +55,8 @@ pub struct Dense<R: Run> {
     most: u64,
     /// When a part of the last step has ended.
     reached: R::Scalar,
+    /// How many places within a step are known when it has been taken.
+    places: usize,
     v: Vector<R::System, R::Scalar>,
 }
 
@@ -82,6 +84,9 @@ type FlatOf<'a, R> = Flat<'a, <R as Run>::System, <R as Run>::Scalar>;
 /// A state of the system of a run `R`.
 pub(crate) type StateOf<R> = <<R as Run>::System as System>::State<<R as Run>::Scalar>;
 
+/// The places within a step that are looked at, at most.
+pub(super) const PLACES: usize = 8;
+
 /// Steps that may be taken again where nobody asks for states in between.
 const LONGEST: u64 = 64;
 
@@ -93,8 +98,8 @@ impl<R: Run> Dense<R> {
     pub fn new(mut run: R) -> Result<Self, StartError> {
         let (t, h, v) = (run.time(), run.step_size(), run.system().space().vector());
         let (system, between) = run.between();
-        between.begin(system, t, h)?;
-        Ok(Self { run, begun: t, taken: 0, most: 1, reached: t, v })
+        let places = between.begin(system, t, h)?.min(PLACES);
+        Ok(Self { run, begun: t, taken: 0, most: 1, reached: t, places, v })
     }
 
     /// The run, at the end of its last step.
@@ -265,6 +270,20 @@ impl<R: Run> Dense<R> {
         let whole = self.run.step_size();
         let (system, between) = self.run.between();
         between.reach(system, self.begun, [h, whole])
+    }
+
+    /// How many places within the last step are known.
+    #[inline]
+    pub(super) fn places(&self) -> usize {
+        self.places
+    }
+
+    /// One of them: the part of the step, the time, and the state there.
+    pub(super) fn at_place(&mut self, index: usize) -> Option<(R::Scalar, R::Scalar, FlatOf<'_, R>)> {
+        let (begun, h) = (self.last_begun(), self.run.step_size());
+        let (system, between) = self.run.between();
+        let (part, q) = between.place(index, &mut self.v)?;
+        Some((part, begun + part * h, Flat { system, q, v: &self.v }))
     }
 
     /// The end of the step.

@@ -3,8 +3,9 @@
 //! They lie on the [continuous extension](Dense) of the run. After each step the sign of g tells whether it
 //! has crossed. A step that begins and ends on one side may have crossed twice: if g is near enough to zero,
 //! as its changes in the steps before say, its slopes at both ends are looked at, and where these point to
-//! zero and away from it, g is followed down to its least value in between. Each crossing is found there to
-//! rounding.
+//! zero and away from it, g is followed down to its least value in between. Methods of many stages take steps
+//! over several turns: there the stages divide a step into parts, each of which is searched so. Each crossing
+//! is found to rounding.
 
 mod conditions;
 mod course;
@@ -67,8 +68,9 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 ///
 /// Of several events at one time the first in the array comes first. Where a run begins with g = 0 there is
 /// no event, and one that lies at the end of a step counts once. A step that begins and ends on one side is
-/// seen to cross zero in between if g turns once on the way; what turns more often within one step may pass
-/// unseen, and what is flat for many steps and dips in a part of one. A condition that jumps across zero,
+/// seen to cross zero in between if g turns once on the way, and with [`Gauss`](crate::methods::Gauss) of six
+/// stages and more if it turns once between two of these; what turns more often may pass unseen, and what is
+/// flat for many steps and dips in a part of one. A condition that jumps across zero,
 /// as a velocity does at an impact, is an event where it jumps. Events within a step that fails are not
 /// found, those before it are. Where events follow each other ever faster, as those of a ball that comes to
 /// rest, the run ends with [`StepFailure::Hops`].
@@ -211,7 +213,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
     fn step(&mut self) -> Result<(), StepError> {
         self.watch.check_known()?;
         self.dense.advance()?;
-        self.watch.search(&mut self.dense)
+        self.watch.search_next(&mut self.dense)
     }
 }
 

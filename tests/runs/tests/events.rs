@@ -37,3 +37,78 @@ fn no_graze_is_missed_and_none_is_made_up() -> Outcome {
     }
     Ok(())
 }
+
+/// (1 − cos x)² − d, which is flat in the middle of each period to the fourth order.
+#[test]
+fn no_flat_graze_is_missed_and_none_is_made_up() -> Outcome {
+    const PERIODS: u32 = 300;
+    let mut numbers = Numbers(13);
+    let mut within = |low: f64, high: f64| low + (high - low) * (1.0 + numbers.next()) / 2.0;
+    for k in 0..100 {
+        let (h, depth) = (within(0.1, 1.5), 10_f64.powf(within(-8.0, -1.0)));
+        let depth = if k % 2 == 0 { depth } else { -depth };
+        let start = FreeState { x: -PI - within(0.0, h), dot_x: 1.0 };
+        let mut run = Integrator::new(&Free, Variational::trapezoid(), h, start)?;
+        let bowl = |_, state: &FreeState| [(1.0 - state.x.cos()).powi(2) - depth];
+        let (mut events, mut count) = (run.events([Direction::Either], bowl)?, 0);
+        while let Some(Event { state: FreeState { x, .. }, .. }) =
+            events.next_until(TAU * f64::from(PERIODS))?
+        {
+            let off = (x - TAU * (x / TAU).round()).abs() - (1.0 - depth.sqrt()).acos();
+            assert!(off.abs() < 1e-8, "{off:e} at {x}, h = {h}, depth {depth:e}");
+            count += 1;
+        }
+        assert_eq!(count, if depth > 0.0 { 2 * PERIODS } else { 0 }, "h = {h}, depth {depth:e}");
+    }
+    Ok(())
+}
+
+/// An oscillator that turns.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - x * x - y * y) / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct Planar;
+
+/// Steps of eight stages over up to 1.4 periods, with several turns in each: every change of sign that is
+/// seen between 40 places to the radian of the same steps is an event, and each event is a zero.
+#[test]
+fn turns_within_long_steps_are_seen() -> Outcome {
+    let mut numbers = Numbers(12);
+    let mut within = |low: f64, high: f64| low + (high - low) * (1.0 + numbers.next()) / 2.0;
+    let (steps, mut count) = (20_u32, 0);
+    for _ in 0..200 {
+        let (h, level, phase) = (within(0.5, 9.0), within(-1.0, 1.0), within(0.0, TAU));
+        let (sin, cos) = phase.sin_cos();
+        let start = PlanarState { x: cos, y: sin, dot_x: -sin, dot_y: cos };
+        let run = || Integrator::new(&Planar, Gauss::<8>::new(), h, start);
+        let (mut found, mut searched) = (Vec::new(), run()?);
+        let mut events = searched.events([Direction::Either], |_, state| [state.x - level])?;
+        while events.run().steps() < u64::from(steps) {
+            if let Some(Event { time, state, .. }) = events.advance()? {
+                assert!((state.x - level).abs() < 1e-13, "{state:?}, h = {h}, level {level}");
+                found.push(time);
+            }
+        }
+        let (mut sampled, mut expected, places) = (run()?, Vec::new(), (40.0 * h).ceil());
+        let mut states = sampled.dense()?;
+        let mut last = [0.0, cos - level];
+        for k in 1..(f64::from(steps - 1) * places) as u32 {
+            let t = f64::from(k) * h / places;
+            let next = [t, states.state_at(t)?.x - level];
+            if (last[1] < 0.0) != (next[1] < 0.0) {
+                expected.push([last[0], next[0]]);
+            }
+            last = next;
+        }
+        for &[before, after] in &expected {
+            let is_seen = found.iter().any(|t| (before..=after).contains(t));
+            assert!(is_seen, "between {before} and {after}, h = {h}, level {level}, phase {phase}");
+        }
+        count += expected.len();
+    }
+    // Twenty steps of 4.75 on average are fifteen periods, with two in each.
+    assert!((4000..8000).contains(&count), "{count}");
+    Ok(())
+}

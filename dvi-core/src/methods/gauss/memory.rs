@@ -158,6 +158,21 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         combine(&coefficients.mu, &terms[part], from, &mut stages[part]);
     }
 
+    /// Sets the positions of the stages of the last step, and their velocities.
+    pub(super) fn set_stages(&mut self) {
+        let is_reduced = first_part::<S, T>(&self.equations) > 0;
+        if is_reduced {
+            self.set_velocities();
+        }
+        let Self { coefficients, completed, last, slopes, terms, stages, y, .. } = self;
+        if !is_reduced {
+            slopes[0].copy_from_slice(&completed[0]);
+        }
+        weigh(|_| Lanes::all(*last) * coefficients.b, &slopes[0], &mut terms[0]);
+        let from = |k: usize| (y[0][k], Lanes::all(T::lift(0.0)));
+        combine(&coefficients.mu, &terms[0], from, &mut stages[0]);
+    }
+
     /// Evaluates one part of the slopes at the points of all stages, and returns the largest change of a
     /// velocity.
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -5,8 +5,9 @@ use crate::{Real, Scalar};
 
 /// Of the rate at which g changes, what is kept from step to step.
 const FORGETTING: f64 = 0.9;
-/// The largest rate within a step in units of the mean rates of the last steps.
-const STEEPER: f64 = 16.0;
+/// The largest rate within a step in units of the mean rates of the last steps, and between places within
+/// a step.
+const STEEPER: [f64; 2] = [16.0, 4.0];
 /// An unknown bend in units of what bends have changed by, if a turn is likely, and at most.
 const MARGINS: [f64; 2] = [2.0, 32.0];
 
@@ -68,8 +69,10 @@ impl<T: Real> Course<T> {
     /// are on one side, where its course was another before: if it falls at the beginning and rises at the
     /// end. The rates there are those of a parabola, but for what the course has bent otherwise in the step
     /// before.
-    pub(super) fn turns(&self, before: &Self, [a, b]: [T; 2], h: T) -> Turn {
-        if Scalar::abs(a) + Scalar::abs(b) > T::lift(STEEPER) * self.rate * h {
+    pub(super) fn turns(&self, before: &Self, [a, b]: [T; 2], h: T, is_whole: bool) -> Turn {
+        let [whole, part] = STEEPER;
+        let steeper = if is_whole { whole } else { part };
+        if Scalar::abs(a) + Scalar::abs(b) > T::lift(steeper) * self.rate * h {
             return Turn::No;
         }
         let (Some(bend), Some(bent)) = (self.bend, before.bend) else { return Turn::Likely };

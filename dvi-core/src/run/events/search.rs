@@ -63,43 +63,46 @@ pub(super) struct Within<'a, R: Run, G, const N: usize> {
 }
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, R, G, N> {
-    /// Whether the condition comes nearer to zero at the beginning of the step, and goes away from it at the
-    /// end.
-    pub(super) fn is_turned(&mut self, [a, b]: [R::Scalar; 2]) -> Result<bool, StepFailure> {
-        let [one, chord] = [1.0, CHORD].map(R::Scalar::lift);
-        Ok(Scalar::abs(self.look(chord)?) < Scalar::abs(a)
-            && Scalar::abs(self.look(one - chord)?) < Scalar::abs(b))
+    /// Whether the condition comes nearer to zero at the beginning of a part of the step, and goes away from
+    /// it at the end. Both ends are given with their values.
+    pub(super) fn is_turned(
+        &mut self,
+        [[from, a], [to, b]]: [[R::Scalar; 2]; 2],
+    ) -> Result<bool, StepFailure> {
+        let chord = R::Scalar::lift(CHORD);
+        Ok(Scalar::abs(self.look(from + chord)?) < Scalar::abs(a)
+            && Scalar::abs(self.look(to - chord)?) < Scalar::abs(b))
     }
 
-    /// The parts of the step at which the condition is met, from its values at both ends.
+    /// Where in a part of the step the condition is met, from its values at both ends.
     pub(super) fn events(
         &mut self,
-        [mut a, b]: [R::Scalar; 2],
+        [[from, mut a], [to, b]]: [[R::Scalar; 2]; 2],
     ) -> Result<[Option<R::Scalar>; 2], StepFailure> {
         let [zero, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
-        let (mut begin, mut hop) = (zero, None);
+        let (mut begin, mut hop) = (from, None);
         if a == zero {
             // The side to which it leads, or from which it comes back at once.
-            (begin, a) = (chord, self.look(chord)?);
-            let slope = self.sample(one, [zero, zero])?.slope;
+            (begin, a) = (from + chord, self.look(from + chord)?);
+            let slope = self.sample(one, [from, zero])?.slope;
             if a != zero && slope != zero && (a < zero) != (slope < zero) {
-                let top = R::Scalar::lift(0.5) * slope * chord * chord / (slope * chord - a);
+                let top = from + R::Scalar::lift(0.5) * slope * chord * chord / (slope * chord - a);
                 let at_top = self.look(top)?;
-                hop = self.locate([[top, at_top], [chord, a]])?;
+                hop = self.locate([[top, at_top], [begin, a]])?;
             }
         }
         let side = if a < zero { -one } else { one };
         if b == zero || (b < zero) != (a < zero) || hop.is_some() {
-            return Ok([hop, self.locate([[begin, a], [one, b]])?]);
+            return Ok([hop, self.locate([[begin, a], [to, b]])?]);
         }
-        let [from, to] = [self.sample(side, [begin, a])?, self.sample(side, [one, b])?];
+        let [from, to] = [self.sample(side, [begin, a])?, self.sample(side, [to, b])?];
         let low = dip([from, to], SURE, |place| {
             let value = self.look(place)?;
             self.sample(side, [place, value])
         })?;
         let Some(low) = low else { return Ok([None; 2]) };
         let middle = [low, self.look(low)?];
-        Ok([self.locate([[begin, a], middle])?, self.locate([middle, [one, b]])?])
+        Ok([self.locate([[begin, a], middle])?, self.locate([middle, [to.place, b]])?])
     }
 
     /// The part of the step at which the condition crosses zero between two others, if it does so in its
@@ -139,7 +142,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
     }
 
     /// The condition at a part of the step.
-    fn look(&mut self, part: R::Scalar) -> Result<R::Scalar, StepFailure> {
+    pub(super) fn look(&mut self, part: R::Scalar) -> Result<R::Scalar, StepFailure> {
         self.run.reach(part * self.run.step_size())?;
         let t = self.run.reached_time();
         Ok(numbers(self.g.values(t, self.run.reached()?, self.state))?[self.index])

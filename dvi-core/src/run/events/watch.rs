@@ -8,9 +8,9 @@ use super::search::{Within, numbers};
 use super::{Direction, Event, EventOf};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::run::Run;
-use crate::run::dense::{Dense, StateOf};
+use crate::run::dense::{Dense, PLACES, StateOf};
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::reported;
+use crate::scalar::norm::{larger, reported};
 use crate::{Real, Scalar};
 
 /// Conditions that are watched on a run: [`Events`](super::Events) for those who take the steps themselves.
@@ -39,7 +39,10 @@ pub struct Watch<R: Run, G, const N: usize> {
     /// Of each condition, at the end of the last step.
     watched: [Watched<R::Scalar>; N],
     /// Parts of the last step at which events are, that have not been handed out.
-    found: [[Option<R::Scalar>; 2]; N],
+    found: [[Option<R::Scalar>; FOUND]; N],
+    /// How many of each condition have been found in it.
+    count: [usize; N],
+    has_found: bool,
     /// Where states that are looked at are read to.
     state: StateOf<R>,
     /// When it has looked last.
@@ -54,6 +57,14 @@ pub struct Watch<R: Run, G, const N: usize> {
     lost: Option<StepError>,
 }
 
+/// Two between neighbours of the ends of a step and of places within it.
+const FOUND: usize = 2 * (PLACES + 1);
+/// A condition is far from zero if its values are larger than so many of its largest changes in a step.
+const FAR: f64 = 3.0;
+/// In one of so many steps places are looked at wherever zero is.
+const RENEWED: u64 = 32;
+/// Of the change of a condition between two such places, what interpolation may be wrong by.
+const UNSURE: f64 = 0.05;
 /// Where the state is changed a condition is zero if it is no more than this part of what changes in a step.
 const LEFT: f64 = 1e-9;
 /// Parts of a step that differ by no more than so many rounding errors are one.
@@ -86,8 +97,21 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         let at = run.at_end().map_err(StartError::Starter)?;
         let values = numbers(g.values(time, at, &mut state)).map_err(StartError::Starter)?;
         let watched = values.map(|g| Watched { g, course: None });
-        let found = [[None; 2]; N];
-        Ok(Self { g, directions, watched, found, state, time, last: None, steps: 2, hops: 0, lost: None })
+        let (found, count) = ([[None; FOUND]; N], [0; N]);
+        Ok(Self {
+            has_found: false,
+            g,
+            directions,
+            watched,
+            found,
+            count,
+            state,
+            time,
+            last: None,
+            steps: 2,
+            hops: 0,
+            lost: None,
+        })
     }
 
     /// Finds the events of the last step: to be called after each step.
@@ -100,8 +124,16 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         if run.last_begun() != self.time {
             return Err(run.unreachable(self.time));
         }
-        (self.time, self.found) = (run.time(), [[None; 2]; N]);
-        self.steps += 1;
+        self.time = run.time();
+        self.search_next(run)
+    }
+
+    /// The same where each step has been searched.
+    ///
+    /// # Errors
+    /// As [`search`](Self::search).
+    #[inline]
+    pub(super) fn search_next(&mut self, run: &mut Dense<R>) -> Result<(), StepError> {
         self.find(run).map_err(|failure| {
             let error = run.error(failure);
             self.lost = Some(error);
@@ -146,39 +178,110 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         numbers(self.g.values(t, run.at_end()?, &mut self.state))
     }
 
-    /// Finds the events of the last step.
+    /// Finds the events of the last step: between the places of it that are known, if zero is not far.
     ///
     /// # Errors
     /// [`StepFailure::UndefinedEvent`], and those of parts of the step.
+    #[inline]
     fn find(&mut self, run: &mut Dense<R>) -> Result<(), StepFailure> {
+        if self.has_found {
+            self.forget();
+        }
+        self.steps += 1;
         let end = self.at_end(run)?;
+        let [mut from, one] = [0.0, 1.0].map(R::Scalar::lift);
+        if run.places() == 0 {
+            return self.find_between::<true>(run, [from, one], end);
+        }
+        if !self.is_near(run, &end) {
+            self.pass_over(run, end);
+            return Ok(());
+        }
+        for place in 0..run.places() {
+            let Some((part, t, at)) = run.at_place(place) else { break };
+            let values = numbers(self.g.values(t, at, &mut self.state))?;
+            self.find_between::<false>(run, [from, part], values)?;
+            from = part;
+        }
+        self.find_between::<false>(run, [from, one], end)
+    }
+
+    /// Whether a condition may have come to zero in the last step, whose end is given, as far as the rates
+    /// say that were seen within steps; these are seen anew in some steps.
+    fn is_near(&self, run: &Dense<R>, end: &[R::Scalar; N]) -> bool {
         let (zero, h) = (R::Scalar::lift(0.0), Scalar::abs(run.step_size()));
-        for (index, b) in end.into_iter().enumerate() {
+        let is_far = |(&Watched { g: a, course }, &b): (&Watched<R::Scalar>, &R::Scalar)| {
+            let change = |course: Course<R::Scalar>| R::Scalar::lift(FAR) * course.rate * h;
+            let stays = (a > zero && b > zero) || (a < zero && b < zero);
+            stays && course.is_some_and(|course| Scalar::abs(a) + Scalar::abs(b) > change(course))
+        };
+        self.steps == 1 || run.steps().is_multiple_of(RENEWED) || !self.watched.iter().zip(end).all(is_far)
+    }
+
+    /// Passes over a step in which there are none. The rates that were seen within a step hold until these are
+    /// looked at again.
+    fn pass_over(&mut self, run: &Dense<R>, end: [R::Scalar; N]) {
+        let h = Scalar::abs(run.step_size());
+        for (watched, b) in self.watched.iter_mut().zip(end) {
+            let mut course = Course::after(watched.course, (b - watched.g) / h);
+            course.rate = watched.course.map_or(course.rate, |before| larger(course.rate, before.rate));
+            *watched = Watched { g: b, course: Some(course) };
+        }
+    }
+
+    /// Finds the events of a part of the last step, or of the whole, with the values of the conditions at its
+    /// end.
+    #[inline]
+    fn find_between<const WHOLE: bool>(
+        &mut self,
+        run: &mut Dense<R>,
+        [from, to]: [R::Scalar; 2],
+        end: [R::Scalar; N],
+    ) -> Result<(), StepFailure> {
+        let [zero, one, left, unsure] = [0.0, 1.0, LEFT, UNSURE].map(R::Scalar::lift);
+        let h = Scalar::abs(run.step_size());
+        let h = if WHOLE { h } else { h * (to - from) };
+        for (index, mut b) in end.into_iter().enumerate() {
             let Watched { g: a, course } = self.watched[index];
             // Of another motion, before the state was set.
-            let before = course.filter(|_| self.steps != 1);
+            let before = course.filter(|_| self.steps != 1 || (!WHOLE && from > zero));
             let course = Course::after(before, (b - a) / h);
+            let change = course.rate * h;
+            if !WHOLE && to < one && Scalar::abs(b) <= unsure * change {
+                // At a stage values are as accurate as the polynomial through all of them.
+                run.settle()?;
+                b = self.within(run, index).look(to)?;
+            }
             // What lies at the end of a step but for rounding has no derivative in the next one.
-            let is_at_end = carries_derivatives::<R::Scalar>()
-                && Scalar::abs(b) <= R::Scalar::lift(LEFT) * course.rate * h;
-            let b = if is_at_end { zero } else { b };
+            if carries_derivatives::<R::Scalar>() && Scalar::abs(b) <= left * change {
+                b = zero;
+            }
             self.watched[index] = Watched { g: b, course: Some(course) };
             let stays = (a > zero && b > zero) || (a < zero && b < zero);
             let turn = match before {
-                Some(before) if stays => course.turns(&before, [a, b], h),
+                Some(before) if stays => course.turns(&before, [a, b], h, WHOLE),
                 _ => Turn::Likely,
             };
             if turn == Turn::No {
                 continue;
             }
             run.settle()?;
-            let Self { g, state, .. } = self;
-            let mut within = Within { run, g, state, index, direction: self.directions[index] };
-            if turn == Turn::Likely || within.is_turned([a, b])? {
-                self.found[index] = within.events([a, b])?;
+            let (mut within, ends) = (self.within(run, index), [[from, a], [to, b]]);
+            if turn == Turn::Perhaps && !within.is_turned(ends)? {
+                continue;
+            }
+            for part in within.events(ends)?.into_iter().flatten() {
+                self.found[index][self.count[index]] = Some(part);
+                self.count[index] += 1;
+                self.has_found = true;
             }
         }
         Ok(())
+    }
+
+    fn within<'a>(&'a mut self, run: &'a mut Dense<R>, index: usize) -> Within<'a, R, G, N> {
+        let Self { g, state, directions, .. } = self;
+        Within { run, g, state, index, direction: directions[index] }
     }
 
     /// Goes on where the state of the run has just been set.
@@ -188,17 +291,21 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     pub(super) fn begin_anew(&mut self, run: &mut Dense<R>) -> Result<(), StartError> {
         self.time = run.time();
         let values = self.at_end(run).map_err(|failure| {
-            (self.lost, self.found) = (Some(run.error(failure)), [[None; 2]; N]);
+            self.lost = Some(run.error(failure));
+            self.forget();
             StartError::Starter(failure)
         })?;
         let h = Scalar::abs(run.step_size());
         let [zero, left] = [0.0, LEFT].map(R::Scalar::lift);
-        for ((watched, found), g) in self.watched.iter_mut().zip(&mut self.found).zip(values) {
+        let conditions = self.watched.iter_mut().zip(&mut self.found).zip(&mut self.count);
+        for (((watched, found), count), g) in conditions.zip(values) {
             let rounding = watched.course.map_or(zero, |course| left * course.rate * h);
             let is_zero = Scalar::abs(g) <= rounding;
             let is_now = |part| self.last.is_some_and(|(_, last)| part <= last + left);
+            self.has_found |= is_zero;
             let is_due = is_zero && found.iter().flatten().any(|&part| is_now(part));
-            *found = [is_due.then_some(zero), None];
+            (*found, *count) = ([None; FOUND], usize::from(is_due));
+            found[0] = is_due.then_some(zero);
             watched.g = if is_zero { zero } else { g };
         }
         (self.steps, self.lost) = (0, None);
@@ -214,8 +321,14 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     }
 
     /// Whether an event of the last step has not been handed out.
+    #[inline]
     pub(super) fn is_left(&self) -> bool {
         self.first().is_some()
+    }
+
+    /// Forgets the events of the last step.
+    fn forget(&mut self) {
+        (self.found, self.count, self.has_found) = ([[None; FOUND]; N], [0; N], false);
     }
 
     /// The next event of the last step, if one is left that is not after `end`.
@@ -234,9 +347,15 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
 
     /// The first event of the last step that has not been handed out: its part of the step, its condition,
     /// and which of two it is. Of those at one time but for rounding it is the first in the array.
+    #[inline]
     fn first(&self) -> Option<(R::Scalar, usize, usize)> {
-        let all = self.found.iter().flatten().filter_map(|part| *part);
-        let least = all.reduce(|least, part| if part < least { part } else { least })?;
+        if self.has_found { self.first_found() } else { None }
+    }
+
+    fn first_found(&self) -> Option<(R::Scalar, usize, usize)> {
+        let all = self.found.iter().zip(self.count).flat_map(|(found, count)| &found[..count]);
+        let least =
+            all.filter_map(|part| *part).reduce(|least, part| if part < least { part } else { least })?;
         self.found.iter().enumerate().find_map(|(index, found)| {
             let which = found.iter().position(|part| part.is_some_and(|part| are_one(least, part)))?;
             found[which].map(|part| (part, index, which))
