@@ -96,7 +96,15 @@ impl Programs {
         let mut known: Vec<Expr> = Vec::new();
         for &[a, b] in seams {
             let difference = graph.subtract(a, b);
-            let is_known = known.iter().any(|seam| [*seam, seam.negated()].contains(&difference));
+            // The same seam from its other side.
+            let opposite = match graph.node(difference.node).clone() {
+                Node::Sum(terms) => {
+                    let terms: Vec<Expr> = terms.iter().map(|term| term.scaled(-difference.scale)).collect();
+                    graph.sum(&terms)
+                }
+                _ => difference.negated(),
+            };
+            let is_known = known.iter().any(|seam| [difference, opposite].contains(seam));
             if !is_known && graph.depends(difference.node, varies) {
                 known.push(difference);
                 self.seams.push(Routine::new(graph, result(difference)));
