@@ -7,7 +7,7 @@
 //!
 //! with the sign that makes each seam gₖ positive where the step begins. It ends behind that place by some
 //! rounding errors, so that the next step begins on the other side, and its error is estimated where it is
-//! as much before it.
+//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors.
 
 use super::ControlledRun;
 use crate::error::StepFailure;
@@ -20,6 +20,8 @@ use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// By how many rounding errors of the step and of the time a step ends behind a seam, at least.
 const BEHIND: f64 = 4.0;
+/// The same of one that leaves a seam on which it begins.
+const LEAVING: f64 = 256.0;
 /// How often a step may end this many times farther behind a seam, if it is not on the other side yet.
 const WIDER: (usize, f64) = (6, 8.0);
 /// Iterations for the derivatives of a length, of numbers that carry some.
@@ -84,14 +86,28 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         h: T,
     ) -> Result<Option<AtSeam<T>>, StepFailure> {
         let [nothing, one] = [0.0, 1.0].map(T::lift);
+        let rounding = T::default_epsilon() * (one + Scalar::abs(self.t / h));
+        if let Some(behind) = self.leave(run, h, T::lift(LEAVING) * rounding)? {
+            return Ok(Some(AtSeam { before: nothing, behind }));
+        }
         let (at_end, _) = self.ahead(run, h)?;
         // What is no number is no crossing.
-        let has_crossed = at_end < nothing;
+        let has_crossed = at_end <= nothing;
         if !has_crossed {
             return Ok(None);
         }
-        let at_begin = self.look(run, nothing)?;
-        let found = zero([[nothing, at_begin], [one, at_end]], |place| self.look(run, place * h))?;
+        let (at_begin, half) = (self.look(run, nothing)?, T::lift(0.5));
+        let mut found = zero([[nothing, at_begin], [one, at_end]], |place| self.look(run, place * h))?;
+        loop {
+            // A long step may have crossed it three times.
+            let middle = half * found.place;
+            let at_middle = self.look(run, middle * h)?;
+            let is_first = at_middle >= nothing;
+            if is_first {
+                break;
+            }
+            found = zero([[nothing, at_begin], [middle, at_middle]], |place| self.look(run, place * h))?;
+        }
         let mut place = found.place;
         if carries_derivatives::<T>() {
             // That values have converged says nothing of the derivatives.
@@ -99,11 +115,14 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
                 place -= self.look(run, place * h)? / found.slope;
             }
         }
-        let mut margin = T::lift(BEHIND) * T::default_epsilon() * (one + Scalar::abs(self.t / h));
+        let mut margin = T::lift(BEHIND) * rounding;
         for _ in 0..WIDER.0 {
             let behind = if place + margin < one { (place + margin) * h } else { h };
             let before = if place > margin { (place - margin) * h } else { nothing };
-            if self.look(run, behind)? < nothing && self.look(run, before)? >= nothing {
+            let (at_behind, at_before) = (self.look(run, behind)?, self.look(run, before)?);
+            // Where the step was to end on the seam, the next one leaves it.
+            let is_behind = at_behind < nothing || (at_behind == nothing && behind == h);
+            if is_behind && at_before >= nothing {
                 return Ok(Some(AtSeam { before, behind }));
             }
             margin *= T::lift(WIDER.1);
@@ -111,6 +130,29 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         // The motion touches the seam, or leaves it where the step begins.
         self.look(run, h)?;
         Ok(None)
+    }
+
+    /// The length of this `part` of a step, if it leads away from a seam on which the step begins: there a
+    /// formula has the value of neither side, or of the wrong one.
+    fn leave<M: VariableStep<S, T>>(
+        &mut self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        h: T,
+        part: T,
+    ) -> Result<Option<T>, StepFailure> {
+        let (system, nothing) = (run.system(), T::lift(0.0));
+        let is_on = |seams: &Self, seam: usize| seams.at_begin(system, seam) == nothing;
+        if !(0..S::SEAMS).any(|seam| is_on(self, seam)) {
+            return Ok(None);
+        }
+        let behind = part * h;
+        self.look(run, behind)?;
+        let (t, q, v) = (self.t + behind, run.q(), &self.v_end);
+        let leaves = (0..S::SEAMS).any(|seam| is_on(self, seam) && system.seam(seam, q, v, t) != nothing);
+        if !leaves {
+            self.look(run, h)?;
+        }
+        Ok(leaves.then_some(behind))
     }
 
     /// Counts a step of length `h` where steps usually have another, whether it has ended at a seam or not.
@@ -162,7 +204,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     }
 
     /// How far ahead the nearest seam is after a step of length `h`, negative if it has been crossed, and
-    /// which one that is. A step that begins on a seam is on neither side of it.
+    /// which one that is. A step that begins on a seam, and stays there at first, is on neither side of it.
     fn ahead<M: VariableStep<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,
