@@ -117,7 +117,8 @@ fn a_long_motion_over_a_kink_takes_few_steps() -> Outcome {
                 measured(motion, (method, control), (50.0, well(hidden, 50.0)))?;
             let tolerance = control.tolerance.relative;
             println!(
-                "{tolerance:e}: {error:.2} in {steps} + {rejected}, {without:.2} in {more_steps} + {more_rejected}"
+                "{tolerance:e}: {error:.2} in {steps} + {rejected}, \
+                 {without:.2} in {more_steps} + {more_rejected}"
             );
             // The kink is met 18 times.
             assert!(

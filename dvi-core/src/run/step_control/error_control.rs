@@ -269,7 +269,9 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         }
         let Accepted { h: tried, found: (error, at_seam), is_first } =
             step_of_at_most(run, t, first, AFTER_FAILURE, |run, h| {
-                let at_seam = seams.as_mut().map_or(Ok(None), |seams| seams.end(run, h))?;
+                let at_seam = seams.as_mut().map_or(Ok(None), |seams| {
+                    seams.end(run, h, breaks::between(self.breaks, [t, h])[0] != t)
+                })?;
                 let judged = at_seam.map_or(h, |AtSeam { before, .. }| before);
                 let [start, length] = breaks::between(self.breaks, [t, judged]);
                 let error = match at_seam {

@@ -76,7 +76,8 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     }
 
     /// Where a step of length `h`, which has been taken, is to end instead, if it leads to the other side of
-    /// a seam. The run has then been moved to the place before that.
+    /// a seam. The run has then been moved to the place before that. Where the step begins `at_break`, a seam
+    /// that is there is left to the break.
     ///
     /// # Errors
     /// Those of the steps to that place.
@@ -84,10 +85,11 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
         h: T,
+        at_break: bool,
     ) -> Result<Option<AtSeam<T>>, StepFailure> {
         let [nothing, one] = [0.0, 1.0].map(T::lift);
         let rounding = T::default_epsilon() * (one + Scalar::abs(self.t / h));
-        if let Some(behind) = self.leave(run, h, T::lift(LEAVING) * rounding)? {
+        if !at_break && let Some(behind) = self.leave(run, h, T::lift(LEAVING) * rounding)? {
             return Ok(Some(AtSeam { before: nothing, behind }));
         }
         let (at_end, _) = self.ahead(run, h)?;
@@ -116,7 +118,10 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
             }
         }
         let mut margin = T::lift(BEHIND) * rounding;
-        for _ in 0..WIDER.0 {
+        // By rounding, one has ended before the break.
+        let is_left_to_break = at_break && place <= T::lift(2.0) * margin;
+        let tries = if is_left_to_break { 0 } else { WIDER.0 };
+        for _ in 0..tries {
             let behind = if place + margin < one { (place + margin) * h } else { h };
             let before = if place > margin { (place - margin) * h } else { nothing };
             let (at_behind, at_before) = (self.look(run, behind)?, self.look(run, before)?);
