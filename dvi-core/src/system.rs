@@ -128,6 +128,9 @@ pub trait System: Held<System = Self> {
     /// what may be negative is: then a run looks at its [domain](Lagrangian::domain) where steps end.
     const HAS_DOMAIN: bool = false;
 
+    /// How many [seams](Lagrangian::seam) L and the forces have.
+    const SEAMS: usize = 0;
+
     /// Whether the time is transformed ([`TimeTransformed`]).
     const TIME_TRANSFORMED: bool = false;
 
@@ -267,6 +270,14 @@ pub trait Lagrangian<T: Scalar = f64>: System {
 
     /// Sets `l_q` and `l_v` to ∂g/∂q and ∂g/∂v of declared event `index`, and returns ∂g/∂t.
     fn event_gradient(&self, _index: usize, _q: &[T], _v: &[T], _t: T, _l_q: &mut [T], _l_v: &mut [T]) -> T {
+        T::lift(f64::NAN)
+    }
+
+    /// The value of seam `index` of [`System::SEAMS`], a number at whose zeros L or a force is not smooth:
+    /// the argument of `abs` or `signum`, or a − b where `min`, `max` or the condition of an `if` compares a
+    /// with b. What depends on the index of a sum, and so is another number in each term, is no seam; not a
+    /// number if there is no such seam. Those of degenerate systems do not depend on v.
+    fn seam(&self, _index: usize, _q: &[T], _v: &[T], _t: T) -> T {
         T::lift(f64::NAN)
     }
 }

@@ -39,8 +39,9 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
         stages.barrier()?;
         let canonical = structure.canonical;
         let pairs = PairSum::find(&mut stages.graph, &stages.model, formulas.hamiltonian);
-        let programs =
+        let mut programs =
             DegeneratePrograms::new(&mut stages.graph, &formulas, &form_entries, canonical, pairs.as_ref());
+        programs.shared.add_seams(&mut stages.graph, &formulas.seams);
         let Stages { graph, model, attribute, .. } = &*stages;
         let checked = validate::degenerate(graph, model, attribute, &programs, &structure);
         let checked = stages.agrees(checked)?;
@@ -67,7 +68,8 @@ pub(crate) fn lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStre
         let is_free = formulas.constraints.is_none() && !stages.model.is_on_manifold();
         let find = || PairSum::in_lagrangian(&mut stages.graph, &stages.model, formulas.lagrangian);
         let pairs = is_free.then(find).flatten();
-        let programs = RegularPrograms::new(&mut stages.graph, &formulas, entries, pairs.as_ref());
+        let mut programs = RegularPrograms::new(&mut stages.graph, &formulas, entries, pairs.as_ref());
+        programs.shared.add_seams(&mut stages.graph, &formulas.seams);
         let Stages { graph, model, attribute, .. } = &*stages;
         let checked = validate::regular(graph, model, attribute, &programs, &structure);
         let checked = stages.agrees(checked)?;

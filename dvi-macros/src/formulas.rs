@@ -18,6 +18,7 @@ pub(crate) struct DegenerateFormulas {
     pub(crate) force: Force,
     pub(crate) momenta: Vec<Expr>,
     pub(crate) events: Vec<Expr>,
+    pub(crate) seams: Seams,
 }
 
 /// What a time transformation is made of.
@@ -39,7 +40,11 @@ pub(crate) struct RegularFormulas {
     pub(crate) constraints: Option<DeclaredConstraints>,
     pub(crate) momenta: Vec<Expr>,
     pub(crate) events: Vec<Expr>,
+    pub(crate) seams: Seams,
 }
+
+/// Pairs of numbers: where two are equal, L or a force is not smooth.
+pub(crate) type Seams = Vec<[Expr; 2]>;
 
 /// A generalised force F: its components, each at the coordinate that it acts on. By the principle of
 /// Lagrange and d'Alembert, d/dt ∂L/∂v = ∂L/∂q + F: it stands wherever ∂L/∂q does.

@@ -308,6 +308,12 @@ fn configuration(
             const HAS_DOMAIN: ::core::primitive::bool = true;
         )
     });
+    let count = programs.seams.len();
+    let seams = (count > 0).then(|| {
+        quote!(
+            const SEAMS: ::core::primitive::usize = #count;
+        )
+    });
     let constrained = programs.constraints.as_ref().map(|constraints| constraints.of);
     let (check, kind) = (
         check::check(emitter, programs),
@@ -325,6 +331,7 @@ fn configuration(
             const REPORT: #krate::Report = #report;
             const HAS_SCALAR_FIELDS: ::core::primitive::bool = #has_scalar_fields;
             #has_domain
+            #seams
             const TIME_TRANSFORMED: ::core::primitive::bool = #time_transformed;
             const FORCED: ::core::primitive::bool = #forced;
             const AUTONOMOUS: ::core::primitive::bool = #autonomous;
@@ -378,6 +385,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
         }
     });
     let events = (!programs.events.is_empty()).then(|| events::events(emitter, &programs.events));
+    let seams = (!programs.seams.is_empty()).then(|| events::seams(emitter, &programs.seams));
     let indices = 0..programs.momenta.len();
     let momenta = programs.momenta.iter().map(|value| emitter.value(value));
     let items = quote! {
@@ -408,6 +416,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
                 }
             }
             #events
+            #seams
     };
     in_numbers(emitter, &quote!(Lagrangian), &items)
 }

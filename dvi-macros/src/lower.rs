@@ -28,6 +28,7 @@ pub(crate) mod lints;
 mod local;
 mod names;
 mod reach;
+mod seams;
 mod shared;
 mod sums;
 mod unsupported;
@@ -115,6 +116,8 @@ pub(crate) struct Lowering<'a> {
     /// Names that some closure of the formula binds, to recognise an index outside of its sum.
     index_names: HashSet<String>,
     measures: HashMap<Id, admit::Measure>,
+    /// Pairs of numbers: where two are equal, a formula of the motion is not smooth.
+    pub(crate) seams: Vec<[Expr; 2]>,
 }
 
 const DEEPEST: u32 = 400;
@@ -173,6 +176,7 @@ impl<'a> Lowering<'a> {
             depth: 0,
             index_names: HashSet::default(),
             measures: HashMap::default(),
+            seams: Vec::new(),
         }
     }
 

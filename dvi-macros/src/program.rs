@@ -4,7 +4,7 @@
 //! list of them here, by differentiation alone: the discrete equations of any scheme are weighted sums of
 //! these, and the schemes supply the weights. `degenerate` and `regular` add what is special to each.
 
-use crate::formulas::{Constraint, DeclaredConstraints, Force, Variable, variable};
+use crate::formulas::{Constraint, DeclaredConstraints, Force, Seams, Variable, variable};
 use crate::routine::Routine;
 use crate::statement::{Output, Place, Statement};
 use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Loop, Node, SecondContribution, Weight};
@@ -34,6 +34,8 @@ pub(crate) struct Programs {
     pub(crate) linearize: Routine,
     pub(crate) momenta: Vec<Routine>,
     pub(crate) events: Vec<EventPrograms>,
+    /// Numbers at whose zeros L or a force is not smooth.
+    pub(crate) seams: Vec<Routine>,
     /// The second derivative of L, and the first ones of F.
     pub(crate) entries: Vec<SecondContribution>,
 }
@@ -82,7 +84,31 @@ impl Programs {
             linearize: Routine::new(graph, linearize),
             momenta: momenta.iter().map(|value| Routine::new(graph, result(*value))).collect(),
             events: events.iter().map(|value| EventPrograms::new(graph, *value)).collect(),
+            seams: Vec::new(),
             entries,
+        }
+    }
+
+    /// Adds the seams, each once, where it moves. They come last: what they make in the graph changes the
+    /// order of no sum of another function.
+    pub(crate) fn add_seams(&mut self, graph: &mut Graph, seams: &Seams) {
+        let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Velocity(_) | Node::Time);
+        let mut known: Vec<Expr> = Vec::new();
+        for &[a, b] in seams {
+            let difference = graph.subtract(a, b);
+            // The same seam from its other side.
+            let opposite = match graph.node(difference.node).clone() {
+                Node::Sum(terms) => {
+                    let terms: Vec<Expr> = terms.iter().map(|term| term.scaled(-difference.scale)).collect();
+                    graph.sum(&terms)
+                }
+                _ => difference.negated(),
+            };
+            let is_known = known.iter().any(|seam| [difference, opposite].contains(seam));
+            if !is_known && graph.depends(difference.node, varies) {
+                known.push(difference);
+                self.seams.push(Routine::new(graph, result(difference)));
+            }
         }
     }
 }
@@ -149,9 +175,9 @@ impl Programs {
         [&self.lagrangian].into_iter().chain(&self.forces).chain(constraints)
     }
 
-    /// The values of the momenta and of the events: what is looked at.
+    /// The values of the momenta, of the events and of the seams: what is looked at.
     pub(crate) fn observed(&self) -> impl Iterator<Item = &Routine> {
-        self.momenta.iter().chain(self.events.iter().map(|event| &event.value))
+        self.momenta.iter().chain(self.events.iter().map(|event| &event.value)).chain(&self.seams)
     }
 
     /// Whether the time stands in L, in a force or in a constraint; not whether it stands in a gap.

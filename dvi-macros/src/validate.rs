@@ -16,9 +16,10 @@ use quote::ToTokens;
 use self::claims::Claims;
 use self::formula::{NoValue, Texts};
 use self::generated::Functions;
+use self::jet::{First, Sized};
 use self::output::Output;
 use self::point::{Branches, Directions, Point, Support, mix_text};
-use self::system::{Part, System};
+use self::system::{Part, System, difference};
 use crate::model::Model;
 use crate::program::{DegeneratePrograms, RegularPrograms};
 use crate::structure::{MassMatrix, OneForm};
@@ -37,6 +38,8 @@ mod system;
 
 /// Differences beyond this part of the sum of the absolute terms are no rounding.
 const TOLERANCE: f64 = 1e-8;
+/// A derivative that is a smaller part of the sum of its absolute terms may be rounding.
+const MOVES: f64 = 1e-6;
 /// Points that are checked with each way of taking comparisons, if they are not too dear.
 const POINTS: usize = 2;
 /// Points that are drawn before none is said to be found.
@@ -152,6 +155,7 @@ impl Check<'_> {
                 accepted += 1;
                 sides.extend(&outputs.sides);
                 self.compare(&point, &outputs, functions, &mut checked)?;
+                self.compare_seams(&point, &outputs, functions)?;
                 self.system.check_claims(self.graph, claims, functions, &point, &outputs, &mut checked)?;
             }
             checked.points += accepted;
@@ -184,6 +188,35 @@ impl Check<'_> {
                     expected: outputs.expected(&output, point).value,
                     found,
                 }));
+            }
+        }
+        Ok(())
+    }
+
+    /// What the formulas have been found to compare is among the seams, if it moves.
+    fn compare_seams(
+        &self,
+        point: &Point,
+        outputs: &system::Outputs,
+        functions: &Functions<'_>,
+    ) -> Result<(), Difference> {
+        let found = functions.seams(self.graph, self.system.model, point);
+        for written in &outputs.seams {
+            let moves = [First::Q, First::V, First::T].iter().any(|&direction| {
+                let Sized { value, size } = written.first(direction);
+                value.abs() > MOVES * size
+            });
+            let expected = written.value();
+            let off = |seam: &f64| difference(expected, *seam).min(difference(expected, -seam));
+            let nearest = found.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(f64::NAN);
+            if moves && off(&nearest) > TOLERANCE {
+                let quantity = "a number at whose zero a formula is not smooth".to_string();
+                return Err(Difference {
+                    function: "seam",
+                    quantity,
+                    expected: expected.value,
+                    found: nearest,
+                });
             }
         }
         Ok(())

@@ -64,6 +64,17 @@ struct Rubbed {
     n: usize,
 }
 
+/// Bodies that are drawn to a wall each.
+#[lagrangian(
+    coordinates(x[walls.len()]),
+    lagrangian = sum(0..walls.len(), |i| dot(x[i]).powi(2)) / 2.0 - (x[0] - walls[0]).abs()
+        - (x[1] - walls[1]).abs(),
+)]
+#[derive(Debug)]
+struct Seamed {
+    walls: Vec<f64>,
+}
+
 /// Masses on rods, one below the other.
 #[lagrangian(
     coordinates(x[rod.len()], y[rod.len()]),
@@ -274,6 +285,10 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     let by_error = ErrorControl { breaks: &[0.1, 0.2, 20.0], ..ErrorControl::new(1e-9, 10.0) };
     assert_none_controlled!(kepler, kepler_start, by_error, Gauss::<2>::new(), Gauss::<8>::new().in_lanes());
     assert_none_controlled!(chain, chain_start, by_error, Gauss::<2>::new());
+    // Steps that end at seams, which are located.
+    let seamed = Seamed { walls: vec![0.3, -0.2] };
+    let seamed_start = SeamedState { x: vec![1.0, -0.5], dot_x: vec![0.0, 0.1] };
+    assert_none_controlled!(seamed, seamed_start, by_error, Gauss::<2>::new(), Gauss::<4>::new());
     assert_none_controlled!(chain, chain_start, reversible, Variational::trapezoid(), fitted());
     assert_none_controlled!(chain, chain_start, osculating, Variational::trapezoid(), fitted());
     assert_none!(chain, chain_start, Langevin { friction: 0.3, temperature: 0.1, seed: 1 });

@@ -14,6 +14,7 @@ use dvi_tests::zoo::regular::{DoublePendulum, DoublePendulumState, Kepler, Keple
 mod breaks;
 mod problems;
 mod rough;
+mod seams;
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
 const TOLERANCES: [f64; 9] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];

@@ -151,6 +151,19 @@ pub enum StepFailure {
         /// The time of the last one.
         time: f64,
     },
+    /// The motion is led back to a [seam](crate::Lagrangian::seam) from either side, as by dry friction at
+    /// rest: it has crossed it again and again in small parts of a step, and does not leave it.
+    #[error(
+        "the motion crosses seam {seam}, where a formula is not smooth, again and again, the last time at \
+         t = {time}: it does not leave it, as a body at rest does not under dry friction; there write it \
+         without a jump, as with `tanh`"
+    )]
+    Seam {
+        /// Its number, counted from 0, as the report lists them.
+        seam: usize,
+        /// The time of the last crossing.
+        time: f64,
+    },
     /// A gap function, or its rate of change, is infinite or not a number.
     #[error(
         "the gap of surface {surface}, or its rate of change, became {value}: its formula left its domain"

@@ -28,6 +28,7 @@ impl<S: System, const D: usize> System for FastSum<'_, S, D> {
     const REPORT: Report = S::REPORT;
     const HAS_SCALAR_FIELDS: bool = S::HAS_SCALAR_FIELDS;
     const HAS_DOMAIN: bool = S::HAS_DOMAIN;
+    const SEAMS: usize = S::SEAMS;
     const TIME_TRANSFORMED: bool = S::TIME_TRANSFORMED;
     const AUTONOMOUS: bool = S::AUTONOMOUS;
     const FORCED: bool = S::FORCED;
@@ -95,6 +96,9 @@ where
     }
     fn event(&self, index: usize, q: &[f64], v: &[f64], t: f64) -> f64 {
         self.system.event(index, q, v, t)
+    }
+    fn seam(&self, index: usize, q: &[f64], v: &[f64], t: f64) -> f64 {
+        self.system.seam(index, q, v, t)
     }
     fn event_gradient(
         &self,

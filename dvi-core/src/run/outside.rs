@@ -57,6 +57,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
             | StepFailure::Unreachable { .. }
             | StepFailure::UndefinedEvent { .. }
             | StepFailure::Hops { .. }
+            | StepFailure::Seam { .. }
             | StepFailure::Outside(_) => false,
         };
         if !S::HAS_SCALAR_FIELDS || !is_suspect {

@@ -14,6 +14,7 @@ mod integrator;
 mod osculating;
 mod rejection;
 mod reversible;
+mod seams;
 
 use core::fmt::Debug;
 

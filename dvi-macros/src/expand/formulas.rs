@@ -23,6 +23,7 @@ impl Stages {
         let force = lowering.forces(&self.attribute.forces);
         let time = time_transform(&self.attribute, &mut lowering, pair.map(|(_, hamiltonian)| hamiltonian));
         let gauge = self.attribute.gauge().map(|formula| lowering.formula(formula, Role::Gauge));
+        let seams = lowering.seams;
         let pair = pair.zip(time).map(|(pair, time)| match time {
             Some(time) => self.extended(pair.0, time),
             None => pair,
@@ -43,6 +44,7 @@ impl Stages {
             force,
             momenta,
             events,
+            seams,
         })
     }
 
@@ -170,7 +172,8 @@ impl Stages {
         let quadratic = lowering.is_quadratic(lagrangian);
         let (force, constraints, momenta, events) =
             (force?, constraints.map_or(Some(None), |declared| declared.map(Some))?, momenta?, events?);
-        Some(RegularFormulas { lagrangian, quadratic, force, constraints, momenta, events })
+        let seams = lowering.seams;
+        Some(RegularFormulas { lagrangian, quadratic, force, constraints, momenta, events, seams })
     }
 
     /// Whether no mistake was found so far; `None` without coordinates, over which formulas would only

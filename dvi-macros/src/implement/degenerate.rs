@@ -94,6 +94,7 @@ fn account(
     account.momenta(emitter, &formulas.momenta);
     account.events(emitter, &formulas.events);
     account.forces(emitter, &programs.shared);
+    account.seams(emitter, &programs.shared.seams);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
     account.derived(emitter, &programs.one_form.statements, |typesetter, _, entry| {
         let along = coordinate(entry);

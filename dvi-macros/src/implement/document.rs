@@ -9,6 +9,7 @@ use crate::errors::text;
 use crate::formulas::{Variable, variable};
 use crate::operations::Operations;
 use crate::program::Programs;
+use crate::routine::Routine;
 use crate::statement::{Output, Place, Row, Statement};
 use crate::symbolic::{
     Coordinate, Count, Expr, Index, Rows, print_coordinate, print_expr, print_index, print_loops,
@@ -70,6 +71,16 @@ impl Account {
         for (name, value) in emitter.model.events.iter().zip(values) {
             self.formulas.push((name.clone(), quantity(emitter, *value)));
             self.events.push(name.clone());
+        }
+    }
+
+    /// Says where the formulas are not smooth.
+    pub(super) fn seams(&mut self, emitter: &Emitter<'_>, seams: &[Routine]) {
+        let values = seams.iter().flat_map(|seam| &seam.statements).map(|statement| statement.value);
+        let values: Vec<String> = values.map(|value| format!("{} = 0", quantity(emitter, value))).collect();
+        if !values.is_empty() {
+            let places = values.join(", ");
+            self.sentence(format!("Not smooth where {places}: there steps of `ErrorControl` end."));
         }
     }
 

@@ -63,6 +63,7 @@ fn account(
     account.momenta(emitter, &formulas.momenta);
     account.events(emitter, &formulas.events);
     account.forces(emitter, &programs.shared);
+    account.seams(emitter, &programs.shared.seams);
     account.constraints(emitter, &programs.shared);
     if let Some(energy) = energy {
         account.typeset(emitter, "E".to_string(), energy.value);

@@ -125,6 +125,7 @@ impl Lowering<'_> {
                 let (left, right) = (self.expr(&binary.left), self.expr(&binary.right));
                 let (left, right) = (left?, right?);
                 self.check_at_rest(condition, "this condition", &[left, right])?;
+                self.note_seam(left, right);
                 let value = self.graph.choose(left, relation, right, then?, otherwise?);
                 self.admitted(condition, value)
             }

@@ -9,7 +9,7 @@ use super::{Binding, Lowering};
 use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
-use crate::symbolic::{Expr, Partial, Relation};
+use crate::symbolic::{Expr, Partial, Relation, Unary};
 use crate::words::{Arithmetic, Method, SUMS, VELOCITIES, callable, is_method};
 
 impl Lowering<'_> {
@@ -84,7 +84,12 @@ impl Lowering<'_> {
     /// The method of `x` and as many `arguments` as it takes.
     fn apply(&mut self, method: Method, x: Expr, arguments: &[Expr]) -> Expr {
         match (method, arguments) {
-            (Method::Unary(function), []) => self.graph.unary(function, x),
+            (Method::Unary(function), []) => {
+                if matches!(function, Unary::Abs | Unary::Signum) {
+                    self.note_seam(x, Expr::ZERO);
+                }
+                self.graph.unary(function, x)
+            }
             (Method::Binary(function), [y]) => self.graph.binary(function, x, *y),
             (Method::Arithmetic(Arithmetic::MulAdd), [y, z]) => {
                 let product = self.graph.multiply(x, *y);
@@ -101,6 +106,7 @@ impl Lowering<'_> {
 
     /// The first of `values` where a ≤ b, the second elsewhere: `a.min(b)` is a where a ≤ b.
     fn smaller(&mut self, a: Expr, b: Expr, values: (Expr, Expr)) -> Expr {
+        self.note_seam(a, b);
         self.graph.choose(a, Relation::LessOrEqual, b, values.0, values.1)
     }
 

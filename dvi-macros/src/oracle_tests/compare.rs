@@ -16,6 +16,9 @@ pub(super) const TOLERANCE: f64 = 1e-10;
 /// Second derivatives of a gauge are no larger than this, or not by much.
 const GAUGES: f64 = 10.0;
 
+/// A derivative that is a smaller part of its terms may be rounding.
+const MOVES: f64 = 1e-6;
+
 /// The number of points that a system is compared at, and of points that are drawn to find them.
 const POINTS: usize = 2;
 const DRAWN: usize = 40;
@@ -30,6 +33,8 @@ pub(super) struct Expected {
     pub(super) forces: Vec<Jet>,
     pub(super) constraints: Vec<Jet>,
     pub(super) momenta: Vec<Jet>,
+    /// At whose zeros L or a force is not smooth, as far as they do not stand in sums.
+    pub(super) seams: Vec<Jet>,
     /// Whether other velocities leave ∂²L/∂v∂v as it is.
     pub(super) is_quadratic: bool,
 }
@@ -138,10 +143,12 @@ fn points(system: &System, random: &mut Random) -> Result<Vec<Expected>, Outside
 
 fn expected(system: &System, point: Point) -> Result<Expected, Outside> {
     let rest = Point { v: vec![0.0; point.v.len()], ..point.clone() };
-    let lagrangian = Oracle::new(system, &point).lagrangian()?;
+    let mut oracle = Oracle::new(system, &point);
+    let lagrangian = oracle.lagrangian()?;
+    let forces = oracle.forces()?;
+    let seams = oracle.seams;
     let momenta = system.momenta.iter().map(|formula| Oracle::new(system, &point).value(formula));
     let momenta = momenta.collect::<Result<_, _>>()?;
-    let forces = Oracle::new(system, &point).forces()?;
     let constraints = Oracle::new(system, &point).constraints()?;
     // A regular L need not exist at rest.
     let at_rest =
@@ -154,7 +161,7 @@ fn expected(system: &System, point: Point) -> Result<Expected, Outside> {
         }),
         Err(_) => true,
     };
-    Ok(Expected { point, lagrangian, at_rest, forces, constraints, momenta, is_quadratic })
+    Ok(Expected { point, lagrangian, at_rest, forces, constraints, momenta, seams, is_quadratic })
 }
 
 /// A difference: the output and both numbers.
@@ -317,6 +324,29 @@ impl<'a> Comparison<'a> {
             self.same("event_gradient, ∂g/∂t", &[], jet.gradient(2 * n), by_time.real())?;
             self.same_vector("event_gradient, ∂g/∂q", &slices[2], |i| jet.gradient(i))?;
             self.same_vector("event_gradient, ∂g/∂v", &slices[3], |i| jet.gradient(n + i))?;
+        }
+        self.seams(expected)
+    }
+
+    /// What the formulas compare is among the seams, if it moves; either side of it may stand first.
+    fn seams(&mut self, expected: &Expected) -> Result<(), Difference> {
+        let Expected { point: Point { q, v, t }, seams, .. } = expected;
+        let moves = |seam: &&Jet| {
+            (0..=2 * q.len()).any(|i| {
+                let Sized { value, size } = seam.gradient(i);
+                value.abs() > MOVES * size
+            })
+        };
+        for seam in seams.iter().filter(moves) {
+            let mut nearest = f64::NAN;
+            for index in 0..self.expansion.seams {
+                let found = self.call().index(index).slice(q).slice(v).real(*t).number("seam")?;
+                for found in [found, -found] {
+                    let is_nearer = (found - seam.value.value).abs() < (nearest - seam.value.value).abs();
+                    nearest = if is_nearer || nearest.is_nan() { found } else { nearest };
+                }
+            }
+            self.same("seam", &[], seam.value, nearest)?;
         }
         Ok(())
     }

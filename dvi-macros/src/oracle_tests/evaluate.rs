@@ -1,7 +1,7 @@
 //! The oracle: formulas evaluated on jets, as they are written.
 
 use super::formula::{Condition, Formula, Index, Loops, Relation};
-use super::functions::{own, scalar_field};
+use super::functions::{BinaryFunction, own, scalar_field};
 use super::jet::{Jet, Sized};
 use super::rate;
 use super::system::{Constraint, Dynamics, Gauge, System};
@@ -29,6 +29,8 @@ pub(super) struct Oracle<'a> {
     point: &'a Point,
     bound: Vec<i64>,
     names: Vec<(usize, Jet)>,
+    /// At whose zeros what has been evaluated is not smooth, outside of sums.
+    pub(super) seams: Vec<Jet>,
 }
 
 /// Conditions that are nearer to equality than this decide nothing.
@@ -36,7 +38,14 @@ const NEAR: f64 = 1e-6;
 
 impl<'a> Oracle<'a> {
     pub(super) fn new(system: &'a System, point: &'a Point) -> Self {
-        Self { system, sizes: system.size_values(), point, bound: Vec::new(), names: Vec::new() }
+        Self {
+            system,
+            sizes: system.size_values(),
+            point,
+            bound: Vec::new(),
+            names: Vec::new(),
+            seams: Vec::new(),
+        }
     }
 
     /// The number of variables of a jet: q, v and t.
@@ -160,10 +169,16 @@ impl<'a> Oracle<'a> {
                 if !(function.domain)(of.value.value) {
                     return Err(Outside::Domain);
                 }
+                if ["abs", "signum"].contains(&function.name) {
+                    self.note_seam(&of);
+                }
                 of.unary(&function.at)
             }
             Formula::Binary(function, a, b) => {
                 let (a, b) = (self.value(a)?, self.value(b)?);
+                if matches!(function, BinaryFunction::Min | BinaryFunction::Max) {
+                    self.note_seam(&a.plus(&b.scaled(-1.0)));
+                }
                 a.binary(*function, &b).ok_or(Outside::Domain)?
             }
             Formula::MultiplyAdd(a, b, c) => self.value(a)?.times(&self.value(b)?).plus(&self.value(c)?),
@@ -213,6 +228,12 @@ impl<'a> Oracle<'a> {
                 sum
             }
         })
+    }
+
+    fn note_seam(&mut self, seam: &Jet) {
+        if self.bound.is_empty() {
+            self.seams.push(seam.clone());
+        }
     }
 
     /// The force on each coordinate.
@@ -279,7 +300,9 @@ impl<'a> Oracle<'a> {
     fn holds(&mut self, condition: &Condition) -> Result<bool, Outside> {
         Ok(match condition {
             Condition::Compare(left, relation, right) => {
-                let (left, right) = (self.value(left)?.value, self.value(right)?.value);
+                let (left, right) = (self.value(left)?, self.value(right)?);
+                self.note_seam(&left.plus(&right.scaled(-1.0)));
+                let (left, right) = (left.value, right.value);
                 let difference = left.value - right.value;
                 if difference.abs() < NEAR * (1.0 + left.size + right.size) {
                     return Err(Outside::Domain);

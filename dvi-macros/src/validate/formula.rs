@@ -146,6 +146,10 @@ pub(super) struct Evaluation<'a> {
     /// Whether rounding may decide what comes out: some part of the formulas has a huge value, even if the
     /// whole has not, or two sides of a comparison cannot be told apart.
     pub(super) is_delicate: bool,
+    /// At whose zeros what has been evaluated is not smooth, outside of sums.
+    pub(super) seams: Vec<Jet>,
+    /// The closures around.
+    closures: usize,
     scope: Scope<'a>,
     /// The values of shared names that were used, each by the place of its definition and by how it was asked for.
     known: HashMap<(usize, [bool; 3]), Vec<Jet>>,
@@ -175,6 +179,8 @@ impl<'a> Evaluation<'a> {
             budget,
             sides: Sides::default(),
             is_delicate: false,
+            seams: Vec::new(),
+            closures: 0,
             scope: Scope::default(),
             known: HashMap::default(),
         };
@@ -324,9 +330,17 @@ impl<'a> Evaluation<'a> {
                 };
                 let (left, right) = (self.number(&binary.left)?, self.number(&binary.right)?);
                 self.is_delicate |= !left.value().is_distinct_from(right.value());
+                self.note_seam(|| left.clone().minus(right.clone()));
                 Ok(self.side(binary, compared(left.value().value, right.value().value)))
             }
             _ => unknown(condition),
+        }
+    }
+
+    /// Notes that what is evaluated is not smooth at the zeros of a number.
+    fn note_seam(&mut self, seam: impl FnOnce() -> Jet) {
+        if self.closures == 0 {
+            self.seams.push(seam());
         }
     }
 

@@ -37,6 +37,12 @@ impl Functions<'_> {
         shared.dynamics().chain(shared.observed()).any(|routine| machine.run(routine).reads_outside)
     }
 
+    /// The numbers at whose zeros L or a force is not smooth.
+    pub(super) fn seams(&self, graph: &Graph, model: &Model, point: &Point) -> Vec<f64> {
+        let machine = Machine { graph, model, point, directions: Directions::ALL, conjugates: None };
+        self.shared().seams.iter().map(|seam| machine.run(seam).value).collect()
+    }
+
     /// Each output of each function, along these directions.
     pub(super) fn carried_out(
         &self,

@@ -38,6 +38,8 @@ pub(super) struct Outputs {
     constraints: Option<Combination>,
     momenta: Vec<Jet>,
     events: Vec<Jet>,
+    /// At whose zeros L or a force is not smooth, as far as they do not stand in sums.
+    pub(super) seams: Vec<Jet>,
     pub(super) sides: Sides,
     is_delicate: bool,
     /// The operations that it took.
@@ -98,6 +100,8 @@ impl System<'_> {
             }
         };
         let time = time.map(|(rate, _)| [rate, untransformed]);
+        // A gauge changes no motion.
+        let seams = std::mem::take(&mut evaluation.seams);
         let (lagrangian, form, hamiltonian) = match attribute.gauge() {
             None => (lagrangian, form, hamiltonian),
             Some(gauge) => {
@@ -105,7 +109,9 @@ impl System<'_> {
                 (lagrangian.plus(&moving), form.plus(&moving).minus(still.clone()), hamiltonian.minus(still))
             }
         };
+        evaluation.seams = seams;
         let work = evaluation.work(&attribute.forces)?;
+        let seams = std::mem::take(&mut evaluation.seams);
         let constraints = match (part, attribute.constraints.as_slice()) {
             (Part::Form, _) | (Part::All, []) => None,
             (Part::All, declared) => Some(evaluation.constraints(declared)?),
@@ -126,6 +132,7 @@ impl System<'_> {
             constraints,
             momenta,
             events,
+            seams,
             sides,
             is_delicate,
             cost,

@@ -7,7 +7,10 @@
 //! proportional–integral controller of Gustafsson 1991, with the constants of Hairer & Wanner 1996, section
 //! IV.2. Steps settle at e = 1. After a step that is taken back h' = h/e.
 
+use core::fmt;
+
 use super::rejection::{Accepted, Verdict, step_of_at_most};
+use super::seams::{AtSeam, Seams};
 use super::{ControlledRun, StepControl, breaks};
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
@@ -51,12 +54,19 @@ const STRETCH: f64 = 1.01;
 /// twelve motions, four of them not smooth, at 10⁻⁶, 10⁻⁹ and 10⁻¹² it was within 30 tolerances for four and
 /// eight stages, and 200 for two (`tests/tests/error_control/problems.rs`). Below some 10⁻¹⁴ it is rounding.
 ///
+/// Steps end where a formula is not smooth, at its [seams](crate::Lagrangian::seam): where the argument of
+/// `abs` or `signum` changes its sign, or a comparison by `if`, `min` or `max` its outcome, outside of sums.
+/// A step that leads to the other side of one is taken again so that it ends there, to rounding, forward and
+/// backward, so that none sees both sides. Where a motion crosses a seam twice within a step nothing is found
+/// by that; one that does not leave a seam, as a body at rest under dry friction, ends the run with
+/// [`StepFailure::Seam`], or with that of a step that does not succeed.
+///
 /// The estimate looks at the whole step: at the `S` stages, at both ends, and between each two stages. A
-/// jump or a kink of a force, or the knot of a spline, makes steps short where the motion meets it, and the
-/// error falls with the tolerance there too. Where the times of jumps are known, [`breaks`](Self::breaks)
-/// spare these steps. What comes and goes between two of these points is not seen. A step is at most twice
-/// as long as the one before; but on a body at rest or in free motion steps become longer without end: a
-/// pulse there needs its times among the `breaks`, or a [`longest_step`](Self::longest_step).
+/// jump or a kink in a term of a sum or in a function of your own, or the knot of a spline, makes steps short
+/// where the motion meets it, and the error falls with the tolerance there too. What comes and goes between
+/// two of these points is not seen. A step is at most twice as long as the one before; but on a body at rest
+/// or in free motion steps become longer without end: a pulse that such a function gives there needs its
+/// times among the [`breaks`](Self::breaks), or a [`longest_step`](Self::longest_step).
 ///
 /// ```
 /// use core::f64::consts::TAU;
@@ -88,19 +98,30 @@ pub struct ErrorControl<'a> {
     /// goes within a step is seen if it lasts longer than the largest distance of the points that are looked
     /// at: 0.29, 0.17 and 0.092 of a step of 2, 4 and 8 stages.
     pub longest_step: f64,
-    /// Times in ascending order at which formulas break, as where a force is switched on: steps end there,
-    /// to the rounding of the time, forward and backward, and none sees both sides of a jump. Default: none.
+    /// Times in ascending order at which functions break that a formula calls, as where one of your own
+    /// switches a force on: steps end there, to the rounding of the time, forward and backward, and none sees
+    /// both sides of a jump. What an `if` of a formula does needs none. Default: none.
     ///
     /// ```
     /// use dvi_core::prelude::*;
+    /// use dvi_core::Scalar;
     ///
     /// /// A mass that is pushed for a short time.
     /// #[lagrangian(
     ///     coordinates(x),
+    ///     functions(push = [push, none, none]),
     ///     lagrangian = dot(x).powi(2) / 2.0,
-    ///     force(x) = if t > 50.0 { if t < 50.2 { 1.0 } else { 0.0 } } else { 0.0 },
+    ///     force(x) = push(t),
     /// )]
     /// struct Pushed;
+    ///
+    /// fn push<T: Scalar>(t: T) -> T {
+    ///     t.piecewise(|t| if t > 50.0 && t < 50.2 { 1.0 } else { 0.0 })
+    /// }
+    ///
+    /// fn none<T: Scalar>(_: T) -> T {
+    ///     T::lift(0.0)
+    /// }
     ///
     /// let control = ErrorControl { breaks: &[50.0, 50.2], ..ErrorControl::new(1e-9, 0.01) };
     /// let start = PushedState { x: 0.0, dot_x: 0.0 };
@@ -134,8 +155,7 @@ impl ErrorControl<'_> {
 }
 
 /// What [`ErrorControl`] carries from step to step.
-#[derive(Debug)]
-pub struct ErrorControlMemory<T> {
+pub struct ErrorControlMemory<S: System, T: Real> {
     /// The length of the next step.
     h: T,
     /// The estimated error of the last step, in units of the tolerance; before the first step 1.
@@ -146,13 +166,28 @@ pub struct ErrorControlMemory<T> {
     usual: T,
     /// A time that no step goes beyond, if there is one.
     end: Option<T>,
+    /// If the system has some.
+    seams: Option<Seams<S, T>>,
 }
 
-impl<T: Real> Memory<T> for ErrorControlMemory<T> {
-    lasting!(T; number h, number error, number excess, number usual; is_sound);
+impl<S: System, T: Real> Memory<T> for ErrorControlMemory<S, T> {
+    lasting!(T; number h, number error, number excess, number usual, parts seams; is_sound);
 }
 
-impl<T: Real> ErrorControlMemory<T> {
+impl<S: System, T: Real + fmt::Debug> fmt::Debug for ErrorControlMemory<S, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { h, error, excess, usual, end, .. } = self;
+        f.debug_struct("ErrorControlMemory")
+            .field("h", h)
+            .field("error", error)
+            .field("excess", excess)
+            .field("usual", usual)
+            .field("end", end)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<S: System, T: Real> ErrorControlMemory<S, T> {
     /// The estimated error of the last step, in units of the tolerance; before the first step 1.
     pub fn error(&self) -> T {
         self.error
@@ -181,13 +216,13 @@ fn within<T: Real>(factor: T, least: f64, most: f64) -> T {
 }
 
 impl<S: System, T: Real> Carries<S, T> for ErrorControl<'_> {
-    type Memory = ErrorControlMemory<T>;
+    type Memory = ErrorControlMemory<S, T>;
 }
 
 impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
     const REJECTS: bool = true;
 
-    fn begin(&self, _system: &S, _q: &[T], _v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
+    fn begin(&self, system: &S, _q: &[T], _v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
         self.tolerance.validate::<T>()?;
         if !is_length(self.first_step) {
             return Err(StartError::Step { h: self.first_step });
@@ -201,7 +236,8 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
             return Err(StartError::Parameter { name: "breaks", value, range });
         }
         let (h, one) = (self.at_most_longest(T::lift(self.first_step)), T::lift(1.0));
-        Ok((ErrorControlMemory { h, error: one, excess: one, usual: h, end: None }, h))
+        let seams = (S::SEAMS > 0).then(|| Seams::new(system));
+        Ok((ErrorControlMemory { h, error: one, excess: one, usual: h, end: None, seams }, h))
     }
 
     fn admit<M: VariableStep<S, T>>(&self, method: &M) -> Result<(), StartError> {
@@ -227,26 +263,55 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
             ends.map(|end| end - t).reduce(|a, b| if Scalar::abs(b) < Scalar::abs(a) { b } else { a });
         let is_last = |left: &T| Scalar::abs(*left) <= T::lift(STRETCH) * Scalar::abs(memory.h);
         let first = self.at_most_longest(left.filter(is_last).unwrap_or(memory.h));
-        let Accepted { h, found: error, is_first } =
+        let mut seams = if S::SEAMS > 0 { memory.seams.as_mut() } else { None };
+        if let Some(seams) = &mut seams {
+            seams.keep(run, t)?;
+        }
+        let Accepted { h: tried, found: (error, at_seam), is_first } =
             step_of_at_most(run, t, first, AFTER_FAILURE, |run, h| {
-                let [start, length] = breaks::between(self.breaks, [t, h]);
-                let error = run.local_error(start, [length, usual], self.tolerance)?;
-                // A method without an estimate has not been admitted.
-                let error = error.unwrap_or(T::lift(f64::NAN));
+                let at_seam = seams.as_mut().map_or(Ok(None), |seams| {
+                    seams.end(run, h, breaks::between(self.breaks, [t, h])[0] != t)
+                })?;
+                let judged = at_seam.map_or(h, |AtSeam { before, .. }| before);
+                let [start, length] = breaks::between(self.breaks, [t, judged]);
+                let error = match at_seam {
+                    // A step that begins there and crosses it is too short to have one.
+                    Some(AtSeam { before, .. }) if t + before == t => T::lift(0.0),
+                    _ => {
+                        let error = run.local_error(start, [length, usual], self.tolerance)?;
+                        // A method without an estimate has not been admitted.
+                        error.unwrap_or(T::lift(f64::NAN))
+                    }
+                };
                 if error <= one {
-                    return Ok(Verdict::Accepted(error));
+                    if let Some(AtSeam { behind, .. }) = at_seam {
+                        run.go_back();
+                        run.step(t, behind)?;
+                    }
+                    return Ok(Verdict::Accepted((error, at_seam)));
                 }
-                let factor = within(one / excess(error), FACTORS[0], 1.0);
-                let failure = StepFailure::Tolerance { h: reported(h), error: reported(error) };
+                let mut factor = within(one / excess(error), FACTORS[0], 1.0);
+                if at_seam.is_some() {
+                    factor *= judged / h;
+                }
+                let failure = StepFailure::Tolerance { h: reported(judged), error: reported(error) };
                 Ok(Verdict::TooLong { factor, failure: Some(failure) })
             })?;
+        let h = at_seam.map_or(tried, |AtSeam { behind, .. }| behind);
+        if let Some(seams) = seams
+            && let Err(failure) = seams.count(run, [h, usual], at_seam.is_some())
+        {
+            run.go_back();
+            return Err(failure);
+        }
         let (e, [now, before]) = (excess(error), EXPONENTS.map(T::lift));
         let factor = Scalar::powf(e, now) * Scalar::powf(memory.excess, before);
         let next =
             self.at_most_longest(h * within(factor, FACTORS[0], if is_first { FACTORS[1] } else { 1.0 }));
-        // A step that is cut short by the end of the run says little of the next one.
-        let is_cut = left == Some(h) && Scalar::abs(next) < Scalar::abs(memory.h);
-        memory.h = if is_cut { memory.h } else { next };
+        // A step that is cut short, by the end of the run or by a seam, says little of the next one.
+        let uncut = if at_seam.is_some() { tried } else { memory.h };
+        let is_cut = (left == Some(h) || at_seam.is_some()) && Scalar::abs(next) < Scalar::abs(uncut);
+        memory.h = if is_cut { uncut } else { next };
         (memory.error, memory.excess, memory.usual) = (error, larger(T::lift(LEAST_BEFORE), e), usual);
         Ok(h)
     }

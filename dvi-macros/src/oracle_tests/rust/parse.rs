@@ -16,6 +16,8 @@ use super::value::Value;
 pub(crate) struct Expansion {
     pub(super) functions: HashMap<String, Function>,
     pub(crate) constants: HashMap<String, bool>,
+    /// The number of seams.
+    pub(crate) seams: usize,
     /// The paths of the user's functions by the names that formulas call them by.
     pub(super) own: HashMap<String, String>,
     /// The places of their functions of several variables, likewise.
@@ -111,10 +113,15 @@ impl Expansion {
     fn member(&mut self, item: &ImplItem) {
         match item {
             ImplItem::Const(constant) => {
-                if let Expr::Lit(literal) = &constant.expr
-                    && let Lit::Bool(value) = &literal.lit
-                {
-                    self.constants.insert(constant.ident.to_string(), value.value);
+                let Expr::Lit(literal) = &constant.expr else { return };
+                match &literal.lit {
+                    Lit::Bool(value) => {
+                        self.constants.insert(constant.ident.to_string(), value.value);
+                    }
+                    Lit::Int(value) if constant.ident == "SEAMS" => {
+                        self.seams = value.base10_parse().expect("a count");
+                    }
+                    _ => {}
                 }
             }
             // The shape of the configuration space is a type; dimensions are compared by `block_len`. What

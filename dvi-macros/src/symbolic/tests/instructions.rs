@@ -210,6 +210,7 @@ fn check_programs(tree: &Tree, point: &Point) -> Result<(), TestCaseError> {
         force: Vec::new(),
         momenta: Vec::new(),
         events: Vec::new(),
+        seams: Vec::new(),
     };
     let entries = graph.hessian(one_form);
     let programs = DegeneratePrograms::new(&mut graph, &formulas, &entries, false, None);

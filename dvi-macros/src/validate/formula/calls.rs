@@ -30,6 +30,9 @@ impl Evaluation<'_> {
         }
         // These see the sign of a zero, which another order of operations may exchange.
         self.is_delicate |= ["signum", "atan2"].contains(&name) && receiver.value().value == 0.0;
+        if ["abs", "signum"].contains(&name) {
+            self.note_seam(|| receiver.clone());
+        }
         let degree = std::f64::consts::PI / 180.0;
         let value = match (name, arguments.as_slice()) {
             ("recip", []) => receiver.reciprocal(),
@@ -39,6 +42,7 @@ impl Evaluation<'_> {
             ("min" | "max", [other]) => {
                 let (a, b) = (receiver.value().value, other.value().value);
                 self.is_delicate |= !receiver.value().is_distinct_from(other.value());
+                self.note_seam(|| receiver.clone().minus(other.clone()));
                 let holds = if name == "min" { a <= b } else { a >= b };
                 match (self.side(call, holds), a.is_nan() || b.is_nan()) {
                     // Which of the two is taken differs from what Rust does: such a point is drawn again.
@@ -127,7 +131,9 @@ impl Evaluation<'_> {
             let name = self.texts.of(input, || pattern(input));
             self.scope.push(name, Binding::Index(*index));
         }
+        self.closures += 1;
         let value = self.number(&closure.body);
+        self.closures -= 1;
         self.scope.truncate(outside);
         value
     }

@@ -25,6 +25,10 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     // The derivatives of an event.
     mistake("program.rs", "first_derivatives(graph, value, Output::Lq, «Output::Lv»)", "Output::Lq"),
     mistake("program.rs", "let by_time = result(«graph.derivative(value, time)»);", "value"),
+    // A seam is another number, or is forgotten.
+    mistake("program.rs", "let difference = «graph.subtract(a, b)»;", "a"),
+    mistake("lower/blocks.rs", "self.note_seam(left, «right»);", "left"),
+    mistake("lower/calls.rs", "self.note_seam(x, «Expr::ZERO»);", "x"),
     // A factor enters a sum that it depends on.
     mistake("select.rs", "self.depth(*factor) > «over.depth»", "64"),
     mistake("select.rs", "self.multiplied(&[a, «b»])", "a"),

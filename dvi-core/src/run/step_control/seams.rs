@@ -1,0 +1,231 @@
+//! Steps that end at the seams of a system, where L or a force is not smooth.
+//!
+//! A step sees one side of a seam if all of its stages are there. One that leads to the other side is taken
+//! again so that it ends where it meets the first seam on its way: the zero, as a function of its length, of
+//!
+//! min over k of ± gₖ at the end of the step
+//!
+//! with the sign that makes each seam gₖ positive where the step begins. It ends behind that place by some
+//! rounding errors, so that the next step begins on the other side, and its error is estimated where it is
+//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors.
+
+use super::ControlledRun;
+use crate::error::StepFailure;
+use crate::memory::{Memory, lasting};
+use crate::methods::VariableStep;
+use crate::scalar::carries_derivatives;
+use crate::scalar::norm::reported;
+use crate::solve::crossing::zero;
+use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
+
+/// By how many rounding errors of the step and of the time a step ends behind a seam, at least.
+const BEHIND: f64 = 4.0;
+/// The same of one that leaves a seam on which it begins.
+const LEAVING: f64 = 256.0;
+/// How often a step may end this many times farther behind a seam, if it is not on the other side yet.
+const WIDER: (usize, f64) = (6, 8.0);
+/// Iterations for the derivatives of a length, of numbers that carry some.
+const POLISHED: usize = 3;
+/// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
+/// hop is a step that begins or ends at a seam and is shorter than usual ones by the square root of the
+/// machine precision, or is shorter by all of it.
+const HOPS: usize = 8;
+
+/// What the seams of a system ask for.
+pub(super) struct Seams<S: System, T: Real> {
+    /// Where the step begins.
+    t: T,
+    q: Vector<S, T>,
+    v: Vector<S, T>,
+    /// The velocity where it ends.
+    v_end: Vector<S, T>,
+    /// Hops without a longer step between them.
+    hops: usize,
+    /// How long steps were before them.
+    usual: T,
+}
+
+/// The lengths of a step that ends on either side of a seam.
+#[derive(Clone, Copy)]
+pub(super) struct AtSeam<T> {
+    /// Zero if the step begins there.
+    pub(super) before: T,
+    pub(super) behind: T,
+}
+
+impl<S: System, T: Real> Memory<T> for Seams<S, T> {
+    lasting!(T; count hops, number usual);
+}
+
+impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
+    pub(super) fn new(system: &S) -> Self {
+        let [q, v, v_end] = [(); 3].map(|()| system.space().vector());
+        let zero = T::lift(0.0);
+        Self { t: zero, q, v, v_end, hops: 0, usual: zero }
+    }
+
+    /// Keeps the present point, at time `t`, where steps begin.
+    pub(super) fn keep<M: VariableStep<S, T>>(
+        &mut self,
+        run: &ControlledRun<'_, S, M, T>,
+        t: T,
+    ) -> Result<(), StepFailure> {
+        self.t = t;
+        self.q.copy_from_slice(run.q());
+        run.velocity(t, &mut self.v)
+    }
+
+    /// Where a step of length `h`, which has been taken, is to end instead, if it leads to the other side of
+    /// a seam. The run has then been moved to the place before that. Where the step begins `at_break`, a seam
+    /// that is there is left to the break.
+    ///
+    /// # Errors
+    /// Those of the steps to that place.
+    pub(super) fn end<M: VariableStep<S, T>>(
+        &mut self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        h: T,
+        at_break: bool,
+    ) -> Result<Option<AtSeam<T>>, StepFailure> {
+        let [nothing, one] = [0.0, 1.0].map(T::lift);
+        let rounding = T::default_epsilon() * (one + Scalar::abs(self.t / h));
+        if !at_break && let Some(behind) = self.leave(run, h, T::lift(LEAVING) * rounding)? {
+            return Ok(Some(AtSeam { before: nothing, behind }));
+        }
+        let (at_end, _) = self.ahead(run, h)?;
+        // What is no number is no crossing.
+        let has_crossed = at_end <= nothing;
+        if !has_crossed {
+            return Ok(None);
+        }
+        let (at_begin, half) = (self.look(run, nothing)?, T::lift(0.5));
+        let mut found = zero([[nothing, at_begin], [one, at_end]], |place| self.look(run, place * h))?;
+        loop {
+            // A long step may have crossed it three times.
+            let middle = half * found.place;
+            let at_middle = self.look(run, middle * h)?;
+            let is_first = at_middle >= nothing;
+            if is_first {
+                break;
+            }
+            found = zero([[nothing, at_begin], [middle, at_middle]], |place| self.look(run, place * h))?;
+        }
+        let mut place = found.place;
+        if carries_derivatives::<T>() {
+            // That values have converged says nothing of the derivatives.
+            for _ in 0..POLISHED {
+                place -= self.look(run, place * h)? / found.slope;
+            }
+        }
+        let mut margin = T::lift(BEHIND) * rounding;
+        // By rounding, one has ended before the break.
+        let is_left_to_break = at_break && place <= T::lift(2.0) * margin;
+        let tries = if is_left_to_break { 0 } else { WIDER.0 };
+        for _ in 0..tries {
+            let behind = if place + margin < one { (place + margin) * h } else { h };
+            let before = if place > margin { (place - margin) * h } else { nothing };
+            let (at_behind, at_before) = (self.look(run, behind)?, self.look(run, before)?);
+            // Where the step was to end on the seam, the next one leaves it.
+            let is_behind = at_behind < nothing || (at_behind == nothing && behind == h);
+            if is_behind && at_before >= nothing {
+                return Ok(Some(AtSeam { before, behind }));
+            }
+            margin *= T::lift(WIDER.1);
+        }
+        // The motion touches the seam, or leaves it where the step begins.
+        self.look(run, h)?;
+        Ok(None)
+    }
+
+    /// The length of this `part` of a step, if it leads away from a seam on which the step begins: there a
+    /// formula has the value of neither side, or of the wrong one.
+    fn leave<M: VariableStep<S, T>>(
+        &mut self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        h: T,
+        part: T,
+    ) -> Result<Option<T>, StepFailure> {
+        let (system, nothing) = (run.system(), T::lift(0.0));
+        let is_on = |seams: &Self, seam: usize| seams.at_begin(system, seam) == nothing;
+        if !(0..S::SEAMS).any(|seam| is_on(self, seam)) {
+            return Ok(None);
+        }
+        let behind = part * h;
+        self.look(run, behind)?;
+        let (t, q, v) = (self.t + behind, run.q(), &self.v_end);
+        let leaves = (0..S::SEAMS).any(|seam| is_on(self, seam) && system.seam(seam, q, v, t) != nothing);
+        if !leaves {
+            self.look(run, h)?;
+        }
+        Ok(leaves.then_some(behind))
+    }
+
+    /// Counts a step of length `h` where steps usually have another, whether it has ended at a seam or not.
+    ///
+    /// # Errors
+    /// [`StepFailure::Seam`]: nothing is counted then.
+    pub(super) fn count<M: VariableStep<S, T>>(
+        &mut self,
+        run: &ControlledRun<'_, S, M, T>,
+        [h, usual]: [T; 2],
+        ends_at_seam: bool,
+    ) -> Result<(), StepFailure> {
+        if self.hops == 0 {
+            self.usual = usual;
+        }
+        let (length, rounding) = (Scalar::abs(h), T::default_epsilon());
+        if length > Scalar::sqrt(rounding) * self.usual {
+            self.hops = 0;
+            return Ok(());
+        }
+        let begins_at = (0..S::SEAMS).find(|&seam| self.at_begin(run.system(), seam) == T::lift(0.0));
+        if !(ends_at_seam || begins_at.is_some() || length < rounding * self.usual) {
+            return Ok(());
+        }
+        if self.hops >= HOPS * S::SEAMS {
+            let seam = begins_at.map_or_else(|| self.ahead(run, h).map(|(_, seam)| seam), Ok)?;
+            return Err(StepFailure::Seam { seam, time: reported(self.t + h) });
+        }
+        self.hops += 1;
+        Ok(())
+    }
+
+    /// A seam where the step begins.
+    fn at_begin(&self, system: &S, seam: usize) -> T {
+        system.seam(seam, &self.q, &self.v, self.t)
+    }
+
+    /// Moves the run from where the step begins by a length `h`, and looks ahead there.
+    fn look<M: VariableStep<S, T>>(
+        &mut self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        h: T,
+    ) -> Result<T, StepFailure> {
+        run.go_back();
+        if self.t + h != self.t {
+            run.step(self.t, h)?;
+        }
+        self.ahead(run, h).map(|(ahead, _)| ahead)
+    }
+
+    /// How far ahead the nearest seam is after a step of length `h`, negative if it has been crossed, and
+    /// which one that is. A step that begins on a seam, and stays there at first, is on neither side of it.
+    fn ahead<M: VariableStep<S, T>>(
+        &mut self,
+        run: &ControlledRun<'_, S, M, T>,
+        h: T,
+    ) -> Result<(T, usize), StepFailure> {
+        let (system, t, nothing) = (run.system(), self.t + h, T::lift(0.0));
+        run.velocity(t, &mut self.v_end)?;
+        let mut nearest = (T::lift(f64::INFINITY), 0);
+        for seam in 0..S::SEAMS {
+            let begin = self.at_begin(system, seam);
+            let end = system.seam(seam, run.q(), &self.v_end, t);
+            let ahead = if begin < nothing { -end } else { end };
+            if begin != nothing && ahead < nearest.0 {
+                nearest = (ahead, seam);
+            }
+        }
+        Ok(nearest)
+    }
+}

@@ -1,0 +1,428 @@
+//! Steps that end where a formula is not smooth: where such places are, that no step sees both sides of one,
+//! and what becomes of motions that touch one, or do not leave it.
+
+use core::f64::consts::{PI, SQRT_2};
+
+use approx::assert_abs_diff_eq;
+use dvi_core::methods::VariableStep;
+use dvi_core::prelude::*;
+use dvi_core::{Lagrangian, Scalar};
+
+use super::{Outcome, distance};
+
+/// All that makes a seam, and what makes none: sums over what differs from term to term, parameters,
+/// momenta and events.
+#[lagrangian(
+    coordinates(x, y, z[3]),
+    lagrangian = {
+        let gap = |a, b| (a - b).abs();
+        (dot(x).powi(2) + dot(y).powi(2) + sum(0..3, |i| dot(z[i]).powi(2))) / 2.0
+            - gap(x, y) - gap(y, x) - x.max(k * y) - k.abs() * sum(0..3, |i| z[i].abs())
+            - (if x > 1.0 && !(y > 2.0 * t) { x } else { y })
+            - sum(0..3, |i| if t > 5.0 { z[i] } else { 2.0 * z[i] })
+    },
+    force(x) = -dot(x).signum(),
+    momenta(weighted = (x - 3.0).abs() * dot(x)),
+    events(far = y.abs() - 3.0),
+)]
+struct Seamed {
+    k: f64,
+}
+
+/// A gauge changes no motion, and makes no seam.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = (x + y * y.abs()) * d(y),
+    hamiltonian = x.min(2.0 * y) + y * y,
+    gauge       = (x - 7.0).abs() * y,
+)]
+struct Gauged;
+
+#[test]
+fn seams_are_what_formulas_compare() {
+    const { assert!(Seamed::SEAMS == 6 && Gauged::SEAMS == 2) };
+    let check = |found: &[f64], expected: &[f64]| {
+        for seam in expected {
+            let is_there = |value: &f64| (value - seam).abs() < 1e-15 || (value + seam).abs() < 1e-15;
+            assert_eq!(found.iter().filter(|value| is_there(value)).count(), 1, "{seam}: {found:?}");
+        }
+    };
+    let (q, v, t) = ([0.3, -0.7, 1.0, 2.0, 3.0], [0.9, 0.1, 0.0, 0.0, 0.0], 0.2);
+    let system = Seamed { k: 1.7 };
+    let found: Vec<f64> = (0..6).map(|seam| system.seam(seam, &q, &v, t)).collect();
+    check(&found, &[0.3 + 0.7, 0.3 + 1.7 * 0.7, 0.3 - 1.0, -0.7 - 0.4, 0.2 - 5.0, 0.9]);
+    assert!(system.seam(6, &q, &v, t).is_nan());
+    let found = [0, 1].map(|seam| Gauged.seam(seam, &[0.3, -0.7], &[], t));
+    check(&found, &[-0.7, 0.3 + 1.4]);
+    let report = Seamed::REPORT.to_string();
+    let named = report.lines().find(|line| line.trim().starts_with("Not smooth where "));
+    assert!(named.is_some_and(|sentence| sentence.contains("dot(x) = 0")), "{report}");
+}
+
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.abs())]
+struct Well;
+
+/// The same with a function of its own in the place of `abs`, into which the compiler does not see.
+#[lagrangian(
+    coordinates(x),
+    functions(size = [size, side, nothing]),
+    lagrangian = dot(x).powi(2) / 2.0 - size(x),
+)]
+struct Hidden;
+
+fn size<T: Scalar>(x: T) -> T {
+    x.abs()
+}
+
+fn side<T: Scalar>(x: T) -> T {
+    x.sign()
+}
+
+fn nothing<T: Scalar>(x: T) -> T {
+    T::lift(0.0) * x
+}
+
+/// From `a` at rest under −|x|: parabolas, a quarter of a period of √(2a) each.
+fn well(a: f64, t: f64) -> f64 {
+    let quarter = (2.0 * a).sqrt();
+    let t = (t + quarter).rem_euclid(4.0 * quarter) - quarter;
+    if t < quarter { a - t * t / 2.0 } else { (t - 2.0 * quarter).powi(2) / 2.0 - a }
+}
+
+/// The error of x at time `end` in units of the tolerance, the steps taken and those taken back.
+fn measured<S: Lagrangian, M: VariableStep<S, f64>>(
+    (system, start): (&S, &S::State<f64>),
+    (method, control): (M, ErrorControl<'_>),
+    (end, exact): (f64, f64),
+) -> Outcome<(f64, u64, u64)> {
+    let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+    run.advance_to(end)?;
+    let statistics = run.statistics();
+    let error = (run.q()[0] - exact).abs() / control.tolerance.relative;
+    Ok((error, statistics.steps, statistics.rejected))
+}
+
+#[test]
+fn a_long_motion_over_a_kink_takes_few_steps() -> Outcome {
+    let (start, hidden) = (WellState { x: 1.0, dot_x: 0.0 }, HiddenState { x: 1.0, dot_x: 0.0 });
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        fn compare<M>(method: M, control: ErrorControl<'_>, [start, hidden]: [f64; 2]) -> Outcome
+        where
+            M: VariableStep<Well, f64> + VariableStep<Hidden, f64> + Copy,
+        {
+            let motion = (&Well, &WellState { x: start, dot_x: 0.0 });
+            let (error, steps, rejected) = measured(motion, (method, control), (50.0, well(start, 50.0)))?;
+            let motion = (&Hidden, &HiddenState { x: hidden, dot_x: 0.0 });
+            let (without, more_steps, more_rejected) =
+                measured(motion, (method, control), (50.0, well(hidden, 50.0)))?;
+            let tolerance = control.tolerance.relative;
+            println!(
+                "{tolerance:e}: {error:.2} in {steps} + {rejected}, \
+                 {without:.2} in {more_steps} + {more_rejected}"
+            );
+            // The kink is met 18 times.
+            assert!(
+                error < 10.0 && steps < 80 && rejected < 30,
+                "{tolerance:e}: {error} {steps} {rejected}"
+            );
+            assert!(more_steps > 9 * steps, "{tolerance:e}: {steps} {more_steps}");
+            Ok(())
+        }
+        let (control, starts) = (ErrorControl::new(tolerance, 0.01), [start.x, hidden.x]);
+        compare(Gauss::<2>::new(), control, starts)?;
+        compare(Gauss::<4>::new(), control, starts)?;
+        compare(Gauss::<8>::new().in_lanes(), control, starts)?;
+        // And back.
+        let mut run = ControlledIntegrator::new(&Well, Gauss::<8>::new(), control, start)?;
+        run.advance_to(50.0)?;
+        let control = ErrorControl::new(tolerance, -0.01);
+        let mut back =
+            ControlledIntegrator::new_at(&Well, Gauss::<8>::new(), control, run.time(), run.state())?;
+        back.advance_to(0.0)?;
+        assert_abs_diff_eq!(back.state().x, 1.0, epsilon = 30.0 * tolerance);
+        assert!(back.steps() < 80, "{}", back.steps());
+    }
+    Ok(())
+}
+
+/// An oscillator with dry friction.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = (dot(x).powi(2) - x * x) / 2.0,
+    force(x) = if dot(x) > 0.0 { -friction } else { friction },
+)]
+struct Dry {
+    friction: f64,
+}
+
+/// Two springs.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - (if x > 0.0 { 100.0 } else { 1.0 }) * x * x / 2.0,
+)]
+struct Bilinear;
+
+/// A body at rest that is pushed for a short time.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0,
+    force(x) = if t > 50.0 && t < 50.2 { 1.0 } else { 0.0 },
+)]
+struct Pushed;
+
+/// A kink, and a force that is switched on when it is met.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - x.abs(),
+    force(x) = if t * t > 2.0 { 0.5 } else { 0.0 },
+)]
+struct Switched;
+
+#[test]
+fn forces_by_if_are_met_where_they_change() -> Outcome {
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        let (method, control) = (Gauss::<8>::new(), ErrorControl::new(tolerance, 0.01));
+        let check = |(error, steps, rejected): (f64, u64, u64), most: u64| {
+            assert!(error < 10.0 && steps + rejected < most, "{tolerance:e}: {error} {steps} {rejected}");
+        };
+        // Each half period takes 2μ from the amplitude.
+        let (mu, halves) = (0.01, 6.0);
+        let exact = mu + (1.0 - mu - 2.0 * mu * halves) * (20.0 - halves * PI).cos();
+        let dry = Dry { friction: mu };
+        let motion = (&dry, &DryState { x: 1.0, dot_x: 0.0 });
+        check(measured(motion, (method, control), (20.0, exact))?, 30);
+        // Half periods of π and π/10.
+        let since = (20.0 - PI / 2.0) % (1.1 * PI);
+        let exact = if since < 0.1 * PI { (10.0 * since).sin() / 10.0 } else { -(since - 0.1 * PI).sin() };
+        let motion = (&Bilinear, &BilinearState { x: -1.0, dot_x: 0.0 });
+        check(measured(motion, (method, control), (20.0, exact))?, 120);
+        // Steps of a body at rest become longer without end, and do not miss the push; with one of its
+        // times among the breaks, or as the end of a run, it is met once.
+        let motion = (&Pushed, &PushedState { x: 0.0, dot_x: 0.0 });
+        check(measured(motion, (method, control), (100.0, 9.98))?, 20);
+        let with_breaks = ErrorControl { breaks: &[50.0, 60.0], ..control };
+        check(measured(motion, (method, with_breaks), (100.0, 9.98))?, 24);
+        let mut run = ControlledIntegrator::new(motion.0, method, control, *motion.1)?;
+        for end in [50.0, 50.2, 100.0] {
+            run.advance_to(end)?;
+        }
+        check(((run.state().x - 9.98).abs() / tolerance, run.steps(), run.statistics().rejected), 30);
+        // Two seams at one time.
+        let exact = 0.75 * (3.0 - SQRT_2).powi(2) - SQRT_2 * (3.0 - SQRT_2);
+        let motion = (&Switched, &SwitchedState { x: 1.0, dot_x: 0.0 });
+        check(measured(motion, (method, control), (3.0, exact))?, 20);
+    }
+    Ok(())
+}
+
+/// y' = ∂H/∂x, x' = −∂H/∂y, with corners on the axes.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = x * d(y),
+    hamiltonian = x.abs() + y.abs(),
+)]
+struct Corners;
+
+#[test]
+fn no_step_sees_both_sides() -> Outcome {
+    fn check<S: Lagrangian, M: VariableStep<S, f64>>(
+        (system, start): (&S, &S::State<f64>),
+        (method, first_step, end): (M, f64, f64),
+        sides: impl Fn(f64, S::State<f64>) -> Vec<bool>,
+    ) -> Outcome {
+        let control = ErrorControl::new(1e-9, first_step);
+        let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+        let (mut dense, mut changes) = (run.dense()?, 0);
+        let mut before = Vec::new();
+        while dense.time().abs() < end {
+            let begun = dense.time();
+            dense.advance()?;
+            // What ends before a seam by rounding goes over it in a step of that length.
+            if dense.step_size().abs() < 1e-12 {
+                continue;
+            }
+            let mut look = |part: f64| {
+                let t = begun + part * dense.step_size();
+                Ok::<_, StepError>(sides(t, dense.state_at(t)?))
+            };
+            let first = look(1e-6)?;
+            for part in [0.3, 0.9, 1.0 - 1e-6] {
+                let name = S::REPORT.system;
+                assert_eq!(look(part)?, first, "{name} at {begun}, {first_step}, part {part}");
+            }
+            changes += usize::from(!before.is_empty() && before != first);
+            before = first;
+        }
+        assert!(changes > 1, "{}: {changes}", S::REPORT.system);
+        Ok(())
+    }
+    let well = (&Well, &WellState { x: 1.0, dot_x: 0.0 });
+    let of_x = |_, state: WellState| vec![state.x > 0.0];
+    check(well, (Gauss::<2>::new(), 0.01, 20.0), of_x)?;
+    check(well, (Gauss::<3>::new(), 0.01, 20.0), of_x)?;
+    check(well, (Gauss::<8>::new().in_lanes(), -0.01, 20.0), of_x)?;
+    let limited = EnergyLimit { method: Gauss::<4>::new(), limit: 1e-3 };
+    check(well, (limited, 0.01, 20.0), of_x)?;
+    let dry = (&Dry { friction: 0.01 }, &DryState { x: 1.0, dot_x: 0.0 });
+    check(dry, (Gauss::<5>::new(), 0.01, 20.0), |_, state| vec![state.dot_x > 0.0])?;
+    let pushed = (&Pushed, &PushedState { x: 0.0, dot_x: 0.0 });
+    check(pushed, (Gauss::<5>::new(), 0.01, 100.0), |t, _| vec![t > 50.0, t < 50.2])?;
+    let corners = (&Corners, &CornersState { x: 1.0, y: 0.3 });
+    check(corners, (Gauss::<4>::new(), 0.01, 20.0), |_, state| vec![state.x > 0.0, state.y > 0.0])
+}
+
+#[test]
+fn a_run_over_seams_goes_on_from_a_checkpoint() -> Outcome {
+    fn check<S: Lagrangian<State<f64>: PartialEq>>(
+        (system, start): (&S, &S::State<f64>),
+        control: ErrorControl<'_>,
+        end: f64,
+    ) -> Outcome<Option<StepFailure>>
+    where
+        Gauss<4>: VariableStep<S, f64>,
+    {
+        let method = Gauss::<4>::new();
+        let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+        while run.time() < end {
+            let mut again = ControlledIntegrator::resume(system, method, control, &run.checkpoint())?;
+            let (one, other) = (run.advance(), again.advance());
+            assert_eq!(one, other);
+            assert_eq!((run.time(), run.state()), (again.time(), again.state()));
+            if let Err(error) = one {
+                return Ok(Some(error.failure));
+            }
+        }
+        Ok(None)
+    }
+    let control = ErrorControl::new(1e-9, 0.01);
+    assert_eq!(check((&Well, &WellState { x: 1.0, dot_x: 0.0 }), control, 20.0)?, None);
+    assert_eq!(check((&Corners, &CornersState { x: 1.0, y: 0.3 }), control, 20.0)?, None);
+    // The hops before a failure are those of the checkpoint too.
+    let failure = check((&Sliding, &SlidingState { x: 0.0, dot_x: 1.0 }), control, 20.0)?;
+    assert!(matches!(failure, Some(StepFailure::Seam { seam: 0, .. })), "{failure:?}");
+    Ok(())
+}
+
+/// A body that comes to rest: dry friction pushes it back from either side.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0,
+    force(x) = if dot(x) > 0.0 { -0.3 } else { 0.1 },
+)]
+struct Sliding;
+
+/// The same with a function without a value between.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -0.3 * dot(x).signum())]
+struct Rubbing;
+
+/// A groove, along which a spring moves the body.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - y * y) / 2.0,
+    force(x) = if x > 0.0 { -1.0 } else { 1.0 },
+)]
+struct Groove;
+
+#[test]
+fn motions_that_do_not_leave_a_seam_end_soon() -> Outcome {
+    fn check<S: Lagrangian, M: VariableStep<S, f64>>(
+        (system, start): (&S, S::State<f64>),
+        (method, tolerance): (M, f64),
+        stops: f64,
+    ) -> Outcome {
+        let control = ErrorControl::new(tolerance, 0.01);
+        let mut run = ControlledIntegrator::new(system, method, control, start)?;
+        let error = run.advance_to(10.0).err().ok_or("it does not leave the seam")?;
+        let (name, statistics) = (S::REPORT.system, run.statistics());
+        println!("{name}, {tolerance:e}: {} + {}, {error}", statistics.steps, statistics.rejected);
+        assert!(statistics.steps + statistics.rejected < 1200, "{name}: {statistics:?}");
+        assert_abs_diff_eq!(run.time(), stops, epsilon = 100.0 * tolerance);
+        // It stays where it was.
+        let (steps, state) = (run.steps(), run.q().to_vec());
+        assert!(run.advance().is_err() && run.steps() == steps && run.q() == state);
+        Ok(())
+    }
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        for dot_x in [1.0, 0.0] {
+            let stops = dot_x / 0.3;
+            let start = SlidingState { x: 0.0, dot_x };
+            check((&Sliding, start), (Gauss::<2>::new(), tolerance), stops)?;
+            check((&Sliding, start), (Gauss::<8>::new(), tolerance), stops)?;
+            let start = RubbingState { x: 0.0, dot_x };
+            check((&Rubbing, start), (Gauss::<4>::new(), tolerance), stops)?;
+            check((&Rubbing, start), (Gauss::<8>::new().in_lanes(), tolerance), stops)?;
+        }
+        let groove = GrooveState { x: 0.0, y: 1.0, dot_x: 0.0, dot_y: 0.0 };
+        check((&Groove, groove), (Gauss::<2>::new(), tolerance), 0.0)?;
+        check((&Groove, groove), (Gauss::<8>::new(), tolerance), 0.0)?;
+    }
+    Ok(())
+}
+
+/// A force that is greater beyond x = 0 and leads back from there.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - y * y) / 2.0 + x - x.abs() / 2.0 - y.abs(),
+)]
+struct Touching;
+
+/// A motion that comes to one seam and turns there, all along another one that does not push it away.
+#[test]
+fn seams_that_are_touched_are_no_obstacle() -> Outcome {
+    for above in [0.0, 1e-16, 1e-14, 1e-11, 1e-8, 1e-5] {
+        let start = TouchingState { x: 0.25 + above, y: 0.0, dot_x: -0.5, dot_y: 0.0 };
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            for first_step in [0.01, 0.9, 1.0] {
+                let control = ErrorControl::new(tolerance, first_step);
+                let mut run = ControlledIntegrator::new(&Touching, Gauss::<8>::new(), control, start)?;
+                run.advance_to(2.0)?;
+                // To the height above and back again.
+                assert_abs_diff_eq!(run.state().x, start.x, epsilon = tolerance);
+                assert_eq!((run.state().y, run.state().dot_y), (0.0, 0.0));
+                assert!(run.steps() + run.statistics().rejected < 20, "{above:e}: {:?}", run.statistics());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Numbers of 32 bits, and the derivative of a place by the amplitude: the time at which a seam is met has
+/// one too.
+#[test]
+fn seams_are_met_in_other_numbers() -> Outcome {
+    use num_dual::Dual64;
+    let control = ErrorControl::new(1e-5, 0.01);
+    let start = WellStateOf { x: 1.0_f32, dot_x: 0.0 };
+    let mut run = ControlledIntegrator::new(&Well, Gauss::<4>::new(), control, start)?;
+    run.advance_to(20.0)?;
+    assert!((run.state().x - well(1.0, 20.0) as f32).abs() < 1e-3 && run.steps() < 60, "{}", run.steps());
+    let start = WellStateOf { x: Dual64::new(1.0, 1.0), dot_x: Dual64::from(0.0) };
+    let control = ErrorControl::new(1e-9, 0.01);
+    let mut run = ControlledIntegrator::new(&Well, Gauss::<4>::new(), control, start)?;
+    run.advance_to(Dual64::from(4.0))?;
+    // x = (t − 2q)²/2 − a with q = √(2a) and dq/da = 1/q.
+    let slope = -2.0 * (4.0 - 2.0 * SQRT_2) / SQRT_2 - 1.0;
+    assert_abs_diff_eq!(run.state().x.re, well(1.0, 4.0), epsilon = 1e-9);
+    assert_abs_diff_eq!(run.state().x.eps, slope, epsilon = 1e-7);
+    Ok(())
+}
+
+/// A force that changes its side a thousand times within a step is no motion that does not leave a seam.
+#[test]
+fn many_seams_in_a_step_are_met_one_by_one() -> Outcome {
+    #[lagrangian(
+        coordinates(x),
+        lagrangian = dot(x).powi(2) / 2.0,
+        force(x) = if (1000.0 * t).sin() > 0.0 { 1.0 } else { -1.0 },
+    )]
+    struct Shaken;
+    let control = ErrorControl::new(1e-9, 0.01);
+    let start = ShakenState { x: 0.0, dot_x: 0.0 };
+    let mut run = ControlledIntegrator::new(&Shaken, Gauss::<4>::new(), control, start)?;
+    // Whole periods, in each of which it moves by the square of a half.
+    let half = PI / 1000.0;
+    run.advance_to(100.0 * half)?;
+    let error = distance(run.q(), &[50.0 * half * half]);
+    assert!(error < 1e-9, "{error:e}");
+    Ok(())
+}
