@@ -104,7 +104,6 @@ pub trait ScalarField<const D: usize> {
 macro_rules! pointer {
     ($($pointer:ty),*) => {$(
         impl<const D: usize, F: ScalarField<D>> ScalarField<D> for $pointer {
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn expansion<T: Scalar>(&self, at: [T; D]) -> Expansion<D, T> {
                 (**self).expansion(at)
             }

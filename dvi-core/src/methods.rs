@@ -171,20 +171,17 @@ impl<T: Real> Clock<T> {
 
     /// The clock after `steps` steps.
     #[must_use]
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn after(self, steps: u64) -> Self {
         Self { step: self.step.wrapping_add(steps), ..self }
     }
 
     /// The present time.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn time(self) -> T {
         // Signed integers convert in one instruction; no run takes 2⁶³ steps.
         self.start + T::lift(self.step as i64 as f64) * self.h
     }
 
     /// The step h.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn step_size(self) -> T {
         self.h
     }

@@ -67,7 +67,6 @@ macro_rules! scalar {
             /// `self` raised to an integer power.
             fn powi(self, exponent: i32) -> Self;
             /// −1, 0 or 1: the derivative of |`self`|, taken to be 0 at 0.
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sign(self) -> Self {
                 let (zero, one) = (Self::lift(0.0), Self::lift(1.0));
                 let below = Self::choose(self, Comparison::Less, zero, -one, zero * self);
@@ -75,14 +74,12 @@ macro_rules! scalar {
             }
             /// `self`/`root` for a `root` ≥ |`self`|, and 0 where `root` is 0: derivatives hold such a
             /// quotient where the term that it stands in has the limit 0.
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn over_root(self, root: Self) -> Self {
                 let zero = Self::lift(0.0);
                 Self::choose(root, Comparison::LessOrEqual, zero, zero * self, self / root)
             }
             /// `self`/(`self`² + `other`²) without undue overflow: derivatives of [`atan2`](Self::atan2) are
             /// made of it. The larger of the two is taken out of the squares (Smith 1962, algorithm 116).
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn over_squares(self, other: Self) -> Self {
                 let (size, other_size) = (self.abs(), other.abs());
                 let if_less =
@@ -114,11 +111,9 @@ macro_rules! scalar {
         #[diagnostic::do_not_recommend]
         impl<T: RealField + Copy> Scalar for T {
             type Pack = Lanes<{ pack::CHUNK }, T>;
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn lift(value: f64) -> Self {
                 nalgebra::convert(value)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self {
                 let holds = match comparison {
                     Comparison::Less => a < b,
@@ -128,28 +123,22 @@ macro_rules! scalar {
                 };
                 if holds { then } else { otherwise }
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn piecewise(self, of: impl Fn(f64) -> f64) -> Self {
                 Self::lift(of(norm::reported(self)))
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(self, x: Self) -> Self {
                 RealField::atan2(self, x)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn hypot(self, y: Self) -> Self {
                 nalgebra::ComplexField::hypot(self, y)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powf(self, exponent: Self) -> Self {
                 nalgebra::ComplexField::powf(self, exponent)
             }
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powi(self, exponent: i32) -> Self {
                 nalgebra::ComplexField::powi(self, exponent)
             }
-            $(#[cfg_attr(not(debug_assertions), inline(always))]
-            fn $name(self) -> Self {
+            $(fn $name(self) -> Self {
                 nalgebra::ComplexField::$name(self)
             })*
         }
@@ -219,19 +208,16 @@ impl<T: RealField + Copy> Real for T {}
 
 /// Whether a number has parts that comparisons do not see, as the derivative of a dual number: it is larger
 /// than its digits need.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn carries_derivatives<T: Real>() -> bool {
     size_of::<T>() > if is_single::<T>() { size_of::<f32>() } else { size_of::<f64>() }
 }
 
 /// The smallest number that has all digits: those below are multiples of one number.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn smallest_normal<T: Real>() -> T {
     T::lift(if is_single::<T>() { f64::from(f32::MIN_POSITIVE) } else { f64::MIN_POSITIVE })
 }
 
 /// Whether it has the digits of `f32`.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_single<T: Real>() -> bool {
     T::default_epsilon() > T::lift(1e-10)
 }

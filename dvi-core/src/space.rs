@@ -68,7 +68,6 @@ pub trait Space: Copy + Debug + PartialEq {
     /// A vector of zeros.
     fn vector<T: Scalar>(self) -> Self::Vector<T>;
     /// So many of them.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn vectors<T: Scalar, const COUNT: usize>(self) -> [Self::Vector<T>; COUNT] {
         core::array::from_fn(|_| self.vector())
     }
@@ -105,13 +104,11 @@ pub trait Space: Copy + Debug + PartialEq {
 }
 
 /// The rows of a row-major matrix with so many columns: none where there are none.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn lines<T>(matrix: &[T], columns: usize) -> core::slice::ChunksExact<'_, T> {
     matrix.chunks_exact(columns.max(1))
 }
 
 /// The same, to be written.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn lines_mut<T>(matrix: &mut [T], columns: usize) -> core::slice::ChunksExactMut<'_, T> {
     matrix.chunks_exact_mut(columns.max(1))
 }

@@ -46,6 +46,35 @@ impl Numbers {
     }
 }
 
+/// A run that must fail, and its error: it ends at the last good state, and the same step fails again.
+///
+/// # Errors
+/// That of the start, and that no step fails.
+///
+/// # Panics
+/// If the run is elsewhere.
+pub fn failing<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: M,
+    h: f64,
+    start: S::State<f64>,
+) -> Outcome<(Integrator<&S, M>, StepError)> {
+    let mut run = Integrator::new(system, method, h, start)?;
+    for _ in 0..100_000 {
+        let before = (bits(run.q()), bits(&run.v()), run.steps(), run.time());
+        let Err(error) = run.advance() else { continue };
+        for _ in 0..2 {
+            assert_eq!((bits(run.q()), bits(&run.v()), run.steps(), run.time()), before, "{error}");
+            assert_eq!((error.step, error.time), (run.steps(), run.time()));
+            // What is no number is equal to nothing.
+            assert_eq!(format!("{:?}", run.advance().err()), format!("{:?}", Some(error)));
+        }
+        assert!(run.next().is_none());
+        return Ok((run, error));
+    }
+    Err("no step fails".into())
+}
+
 /// The coordinates at `time`.
 ///
 /// # Errors

@@ -29,6 +29,7 @@ use crate::zoo::constrained::{
     Bead, BeadParameterState, Charge, Double, DoubleAngles, DoubleAnglesState, Links, Spherical, Swing,
     SwingAngleState, on_ring, swinging,
 };
+use crate::zoo::nonholonomic::{Particle, Steered};
 use crate::zoo::particles::Mirror;
 use crate::zoo::regular::*;
 
@@ -97,7 +98,7 @@ fn fitted(nodes: Nodes) -> Equations {
 }
 
 const OMEGA: f64 = 1.3;
-use Equations::{Collocation, Elsewhere};
+use Equations::{Collocation, Elsewhere, Shifted};
 
 /// Two-forms that are constant, or depend on time alone.
 pub fn affine() -> Vec<Case> {
@@ -115,12 +116,17 @@ pub fn affine() -> Vec<Case> {
     for (sigma, options) in [(0.0, &PLAIN[..]), (0.2, &PLAIN), (0.5, &PLAIN), (0.7, &PLAIN), (1.0, &PLAIN)] {
         let (node, parasitic_limit) = (|| discrete(&[sigma], &[1.0]), None);
         // A one-form that depends on time takes one order from all but the midpoint.
+        let order = if sigma == 0.0 || sigma == 1.0 { HIDDEN } else { Sigma::new(sigma).order() };
+        rows!(table, [breathing()], |at| {
+            Sigma { solver: at.solver, summation: at.summation, parasitic_limit, ..Sigma::new(real(sigma)) }
+                => options.iter().copied(), node(), order;
+        });
         rows!(table, [driven()], |at| {
             Sigma { solver: at.solver, summation: at.summation, parasitic_limit, ..Sigma::new(real(sigma)) }
                 => options.iter().copied(), node();
         });
         let order = if sigma == 0.5 { 2 } else { HIDDEN };
-        rows!(table, [breathing(), quadratic()], |at| {
+        rows!(table, [quadratic()], |at| {
             Sigma { solver: at.solver, summation: at.summation, parasitic_limit, ..Sigma::new(real(sigma)) }
                 => options.iter().copied(), node(), order;
         });
@@ -146,10 +152,14 @@ pub fn affine() -> Vec<Case> {
         Gauss { solver: at.solver, summation: at.summation, ..Gauss::<2>::new() } => ALL, Collocation(2);
         Gauss { solver: at.solver, summation: at.summation, ..Gauss::<4>::new() }.in_lanes()
             => ALL, Collocation(4);
+    });
+    rows!(table, [driven()], |at| {
         Projected::symmetric() => ONE, Elsewhere;
         Projected::standard() => ONE, Elsewhere;
     });
     rows!(table, [four()], |at| {
+        Projected::symmetric() => ONE, Collocation(1);
+        Projected::standard() => ONE, Collocation(1);
         RungeKutta::midpoint() => ONE, Elsewhere;
         RungeKutta::heun() => ONE, Elsewhere;
         RungeKutta::classical() => ONE, Elsewhere;
@@ -221,8 +231,8 @@ pub fn in_class() -> Vec<Case> {
     rows!(table, [mixed(), belt(), sphere(), canonical(), harvested()], |at| {
         OneStep::midpoint() => ONE, Elsewhere;
         OneStep::trapezoid() => ONE, Elsewhere;
-        OneStep::scheme_a() => ONE, Elsewhere;
-        OneStep::scheme_b() => ONE, Elsewhere;
+        OneStep::scheme_a() => ONE, Shifted(-1.0);
+        OneStep::scheme_b() => ONE, Shifted(1.0);
         OneStepGauss::<2>::new() => ONE, Elsewhere;
         OneStepGauss::<3>::new() => ONE, Elsewhere;
         Composition::suzuki(OneStep::midpoint()) => ONE, Elsewhere;
@@ -335,6 +345,8 @@ fn rules() -> Vec<Quadrature> {
         Ok(Quadrature::sigma(0.3)),
         Ok(Quadrature::sigma(1.0)),
         Quadrature::new(&[0.9, 0.1, 0.4], &[0.5, 0.75, -0.25]),
+        // Of Radau.
+        Quadrature::new(&[1.0 / 3.0, 1.0], &[0.75, 0.25]),
         Quadrature::new(&[0.0, 1.0 / 3.0, 0.5, 0.8, 1.0], &[0.1, 0.3, 0.2, 0.25, 0.15]),
         Quadrature::gauss(2),
         Quadrature::gauss(5),
@@ -484,9 +496,25 @@ pub fn constrained() -> Vec<Case> {
     table
 }
 
+/// Constraints of the velocities, of which one moves, with friction.
+pub fn nonholonomic() -> Vec<Case> {
+    let mut table = Vec::new();
+    let particle = || on(Particle, [&[1.0, 0.5, 0.2], &[0.4, -0.8, 0.2]], 0.05);
+    let steered = || on(Steered, [&[0.5, 0.0], &[1.0, 0.5 + f64::cos(0.7)]], 0.05);
+    rows!(table, [particle(), steered()], |at| {
+        Constrained::new(Variational::midpoint()) => ONE, discrete(&[0.5], &[1.0]);
+        Constrained::new(Variational::new(Quadrature::trapezoid()))
+            => ONE, discrete(&[0.0, 1.0], &[0.5, 0.5]);
+        Constrained::new(Variational::sigma(0.3)) => ONE, discrete(&[0.3], &[1.0]);
+        Composition::suzuki(Constrained::new(Variational::midpoint())) => ONE, Elsewhere;
+        Composition::kahan_li_6(Constrained::new(Variational::midpoint())) => ONE, Elsewhere;
+    });
+    table
+}
+
 /// All of them.
 pub fn all() -> Vec<Case> {
-    [affine(), at_large(), in_class(), separable(), regular(), stiff(&STIFF), constrained()]
+    [affine(), at_large(), in_class(), separable(), regular(), stiff(&STIFF), constrained(), nonholonomic()]
         .into_iter()
         .flatten()
         .collect()

@@ -1,4 +1,4 @@
-//! Steps of the σ-family: sizes, precision, a given second point, what a step costs, and time in the form.
+//! Steps of the σ-family: precision, a given second point, what a step costs, and time in the form.
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
@@ -6,24 +6,6 @@ use dvi_tests::Outcome;
 use dvi_tests::apart;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
-
-#[test]
-fn sizes_fixed_and_at_run_time_agree() -> Outcome {
-    let (fixed, state) = quasi_periodic();
-    let many = ManyVortices { gamma: fixed.gamma.to_vec() };
-    let start = ManyVorticesState { x: state.x.to_vec(), y: state.y.to_vec() };
-    for sigma in [0.0, 0.5, 0.3] {
-        let mut a = Integrator::new(&fixed, Sigma::new(sigma), 0.05, state)?;
-        let mut b = Integrator::new(&many, Sigma::new(sigma), 0.05, start.clone())?;
-        for _ in 0..50 {
-            a.advance()?;
-            b.advance()?;
-        }
-        let apart = dvi_tests::apart(a.q(), b.q());
-        assert!(apart < 1e-13, "sigma = {sigma}: {apart:e}");
-    }
-    Ok(())
-}
 
 #[test]
 fn single_precision_steps_to_its_own_rounding() -> Outcome {

@@ -162,19 +162,6 @@ fn where_no_length_keeps_the_energy_the_run_ends_at_the_last_good_state() -> Out
 }
 
 #[test]
-fn a_run_is_resumed_from_its_checkpoint_to_the_bit() -> Outcome {
-    let control = EnergyMomentum::new(0.1);
-    let mut whole = ControlledIntegrator::new(&Spring, Variational::midpoint(), control, SPRING)?;
-    whole.take_steps(70)?;
-    let checkpoint = whole.checkpoint();
-    let mut resumed = ControlledIntegrator::resume(&Spring, Variational::midpoint(), control, &checkpoint)?;
-    whole.take_steps(100)?;
-    resumed.take_steps(100)?;
-    assert_eq!((whole.state(), whole.time()), (resumed.state(), resumed.time()));
-    Ok(())
-}
-
-#[test]
 fn what_has_no_conserved_energy_is_refused() {
     #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0, force(x) = -dot(x))]
     struct Friction;

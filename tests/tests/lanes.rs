@@ -1,12 +1,12 @@
-//! Packs of numbers: formulas on them are those on their lanes, and Gauss collocation with its stages in
-//! lanes is Gauss collocation, bit for bit.
+//! Packs of numbers: formulas on them are those on their lanes, and methods with their stages or nodes in
+//! lanes are those methods, bit for bit.
 
-use dvi_core::mechanics::InLanes;
 use dvi_core::methods::{Here, Method, Step};
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
 use dvi_core::state::Statistics;
 use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian, Space, System, Varied};
+use dvi_examples::models::outer_solar_system;
 use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::configurations::quasi_periodic;
@@ -99,29 +99,23 @@ fn history<S: Lagrangian, M: Method<S, f64>>(
     Ok((passed, statistics))
 }
 
-/// Compares steps whose stages are evaluated one by one with steps whose stages are in lanes.
-fn steps_are_the_same<const STAGES: usize, S: Lagrangian>(system: &S, start: [&[f64]; 2], h: f64) -> Outcome
-where
-    Gauss<STAGES>: Tabulated,
-    Gauss<STAGES>: Method<S, f64>,
-    Gauss<STAGES, InLanes>: Method<S, f64>,
-{
-    for summation in [Summation::Compensated, Summation::Plain] {
-        let method = Gauss { summation, ..Gauss::<STAGES>::new() };
-        let alone = history(system, &method, start, h)?;
-        let together = history(system, &method.in_lanes(), start, h)?;
-        assert_eq!(alone, together, "{}, {STAGES} stages, {summation:?}", S::REPORT.system);
-    }
-    Ok(())
-}
-
-/// With so many stages: all numbers of them on one system of each kind, and on each system one that fills
-/// registers and one that does not.
+/// Compares steps whose stages or nodes are evaluated one by one with steps in which these are in lanes, with
+/// so many of them: all numbers on one system of each kind, and on each system one that fills registers and
+/// one that does not.
 macro_rules! stages {
     ($system:expr, $q:expr, $v:expr, $h:expr) => { stages!($system, $q, $v, $h; 3 8) };
-    ($system:expr, $q:expr, $v:expr, $h:expr; $($stages:literal)*) => {{
+    ($system:expr, $q:expr, $v:expr, $h:expr; $($stages:literal)*) => {
+        stages!(@ $system, $q, $v, $h; $(Gauss<$stages>)*)
+    };
+    (@ $system:expr, $q:expr, $v:expr, $h:expr; $($method:ident<$stages:literal>)*) => {{
         let (system, start): (_, [&[f64]; 2]) = (&$system, [&$q, &$v]);
-        $(steps_are_the_same::<$stages, _>(system, start, $h)?;)*
+        for summation in [Summation::Compensated, Summation::Plain] {
+            for solver in [Solver::Automatic, Solver::Newton] {$(
+                let method = $method { summation, solver, ..$method::<$stages>::new() };
+                let alone = history(system, &method, start, $h)?;
+                assert_eq!(alone, history(system, &method.in_lanes(), start, $h)?, "{method:?}");
+            )*}
+        }
     }};
 }
 
@@ -162,6 +156,21 @@ fn stages_in_lanes_are_those_one_by_one_on_regular_systems() -> Outcome {
     stages!(GrowingMass {}, [0.8, 0.4], [0.3, -0.9], 0.05);
     let chain = RunTimeChain { mass: vec![1.0, 1.5, 0.8], coupling: 0.2 };
     stages!(chain, [0.1, 0.3, -0.2, 0.4], [0.2, -0.1, 0.3, 0.0], 0.05);
+    Ok(())
+}
+
+/// Two lanes, four and eight, full and not; with coupled masses.
+#[test]
+fn interior_nodes_in_lanes_are_those_one_by_one() -> Outcome {
+    stages!(@ Kepler { mu: 1.0 }, [0.7, 0.0], [0.0, 1.36], 0.15;
+        Galerkin<4> Galerkin<5> Galerkin<6> Galerkin<7> Galerkin<9>);
+    stages!(@ DrivenOscillator { depth: 0.3, omega: 1.7 }, [0.8], [0.3], 0.2; Galerkin<8>);
+    let chain = RunTimeChain { mass: vec![1.0, 1.5, 0.7], coupling: 0.2 };
+    stages!(@ chain, [0.1, -0.2, 0.4, 0.3], [0.5, 0.0, -0.1, 0.2], 0.2; Galerkin<6>);
+    let (planets, start) = outer_solar_system();
+    let values: Vec<f64> = planets.values(&start)?.collect();
+    let (q, v) = values.split_at(values.len() / 2);
+    stages!(@ planets, q, v, 150.0; Galerkin<9>);
     Ok(())
 }
 

@@ -177,7 +177,7 @@ fn the_limits_are_the_trapezoidal_integrator_and_friction_alone() -> Outcome {
 }
 
 #[test]
-fn runs_are_repeated_and_resumed_to_the_bit() -> Outcome {
+fn runs_are_repeated_to_the_bit() -> Outcome {
     let start = SpringsState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 0.3 };
     let of = |seed: u64| Langevin { friction: 0.8, temperature: 0.7, seed };
     let run = |seed: u64, steps: u64| {
@@ -188,9 +188,6 @@ fn runs_are_repeated_and_resumed_to_the_bit() -> Outcome {
     let whole = run(4, 1000)?;
     assert_eq!(whole.state(), run(4, 1000)?.state());
     assert_ne!(whole.state(), run(5, 1000)?.state());
-    let mut resumed = Integrator::resume(&Springs, of(4), &run(4, 400)?.checkpoint())?;
-    resumed.take_steps(600)?;
-    assert_eq!(whole.state(), resumed.state());
     Ok(())
 }
 

@@ -9,7 +9,8 @@ mod momenta;
 mod motion;
 mod order;
 mod reversal;
-mod structure;
+mod solvers;
+pub(crate) mod structure;
 
 use core::fmt::Debug;
 use dvi_tests::Outcome;
@@ -31,7 +32,7 @@ fn below(found: f64, bound: f64, what: &str) -> Outcome {
 /// A test of the law for each kind of system, so that they share the processor.
 macro_rules! of_every_kind {
     ($law:expr) => {
-        crate::laws::of_every_kind!($law, affine at_large in_class separable regular constrained);
+        crate::laws::of_every_kind!($law, affine at_large in_class separable regular constrained nonholonomic);
     };
     ($law:expr, $($kind:ident)+) => {$(
         #[test]

@@ -4,9 +4,8 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::Scalar;
 use dvi_core::methods::PreservedForm;
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
 use dvi_tests::zoo::regular::*;
-use dvi_tests::{apart, larger};
+use dvi_tests::{Outcome, apart, failing, larger};
 use num_dual::Dual64;
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
@@ -107,47 +106,6 @@ fn newmark_is_conjugate_to_verlet_in_the_modified_potential() -> Outcome {
     Ok(())
 }
 
-/// The derivative of (q(x1), p1) in the direction of entry `direction` of (x0, p0), for q = x − βh² a(x).
-fn tangent(beta: f64, h: f64, direction: usize) -> Outcome<[[f64; 4]; 2]> {
-    let planet = planet();
-    let start = [planet.x, planet.y, planet.dot_x, planet.dot_y];
-    let [x, y, dot_x, dot_y] =
-        core::array::from_fn(|i| Dual64::new(start[i], if i == direction { 1.0 } else { 0.0 }));
-    let method = Newmark { solver: Solver::Newton, ..Newmark::new(Dual64::from_re(beta)) };
-    let mut run =
-        Integrator::new(&KEPLER, method, Dual64::from_re(h), KeplerStateOf { x, y, dot_x, dot_y })?;
-    let column = |q: &[Dual64], p: &[Dual64]| {
-        let r3 = q[0].hypot(q[1]).powi(3);
-        let conjugate = |x: Dual64| (x + Dual64::from_re(beta * h * h) * x / r3).eps;
-        [conjugate(q[0]), conjugate(q[1]), p[0].eps, p[1].eps]
-    };
-    let before = column(run.q(), run.memory().p());
-    run.take_steps(5)?;
-    Ok([before, column(run.q(), run.memory().p())])
-}
-
-fn two_form(a: &[f64; 4], b: &[f64; 4]) -> f64 {
-    a[0] * b[2] - a[2] * b[0] + a[1] * b[3] - a[3] * b[1]
-}
-
-#[test]
-fn the_conjugate_two_form_is_preserved() -> Outcome {
-    assert_eq!(Newmark::new(0.25).preserved_form(), PreservedForm::Conjugate);
-    for beta in BETAS {
-        let mut columns = Vec::new();
-        for direction in 0..4 {
-            columns.push(tangent(beta, 0.2, direction)?);
-        }
-        for a in &columns {
-            for b in &columns {
-                let change = two_form(&a[1], &b[1]) - two_form(&a[0], &b[0]);
-                assert!(change.abs() < 1e-11, "beta = {beta}: {change:e}");
-            }
-        }
-    }
-    Ok(())
-}
-
 #[test]
 fn a_beta_out_of_range_is_refused() {
     for beta in [-0.1, 0.6, f64::NAN] {
@@ -156,30 +114,19 @@ fn a_beta_out_of_range_is_refused() {
     }
 }
 
-fn fails(method: Newmark, h: f64, start: KeplerState) -> Outcome<StepFailure> {
-    let mut run = Integrator::new(&KEPLER, method, h, start)?;
-    for _ in 0..100 {
-        let before = (run.q().to_vec(), run.memory().p().to_vec(), run.steps());
-        if let Err(error) = run.advance() {
-            assert_eq!((run.q().to_vec(), run.memory().p().to_vec(), run.steps()), before);
-            return Ok(error.failure);
-        }
-    }
-    Err("it did not fail".into())
-}
-
 #[test]
 fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
     // Straight into the sun, which a step of length 2 hits exactly: p½ = −¾ − ¼.
     let fall = KeplerState { x: 2.0, y: 0.0, dot_x: -0.75, dot_y: 0.0 };
-    let failure = fails(Newmark::new(0.0), 2.0, fall)?;
-    assert!(matches!(failure, StepFailure::NotFinite { .. }), "{failure:?}");
+    let (_, error) = failing(&KEPLER, Newmark::new(0.0), 2.0, fall)?;
+    assert!(matches!(error.failure, StepFailure::NotFinite { .. }), "{error:?}");
     let stopping = Stopping { max_iterations: 2, ..Stopping::default() };
     for solver in [Solver::FixedPoint, Solver::Automatic] {
-        let failure = fails(Newmark { solver, stopping, ..Newmark::new(0.25) }, 0.5, planet())?;
+        let (_, error) =
+            failing(&KEPLER, Newmark { solver, stopping, ..Newmark::new(0.25) }, 0.5, planet())?;
         assert!(
-            matches!(failure, StepFailure::NotConverged { iterations: 2, .. }),
-            "{solver:?}: {failure:?}"
+            matches!(error.failure, StepFailure::NotConverged { iterations: 2, .. }),
+            "{solver:?}: {error:?}"
         );
     }
     Ok(())

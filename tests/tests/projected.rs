@@ -1,13 +1,13 @@
-//! Projected schemes: what becomes of Ω, failures, and the scheme that they are where α is affine.
+//! Projected schemes: what becomes of Ω, and failures.
 
 use dvi_core::Real;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
-use dvi_tests::Outcome;
 use dvi_tests::steps::{apart, jacobian, stepped};
 use dvi_tests::systems::{LotkaVolterra, SphereForm, SphereFormState};
 use dvi_tests::zoo::particles::Mirror;
+use dvi_tests::{Outcome, failing};
 use nalgebra::DMatrix;
 use num_dual::Dual64;
 
@@ -154,24 +154,6 @@ fn a_step_preserves_the_form_of_its_ends() -> Outcome {
     Ok(())
 }
 
-/// Where α is affine, λ = 0, and both are the implicit midpoint rule.
-#[test]
-fn projections_are_the_midpoint_rule_where_the_form_is_affine() -> Outcome {
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = 0.5 * (x * d(y) - y * d(x)) + x * d(x),
-        hamiltonian = y * y / 2.0 - x.cos() + (x * y).sin() / 8.0,
-    )]
-    struct Affine;
-    let q0 = [0.7, -0.4];
-    let rule = stepped(&Affine, &Gauss::<1>::new(), &q0, [0.0, 0.1], 500)?;
-    for method in [Projected::symmetric(), Projected::standard()] {
-        let found = stepped(&Affine, &method, &q0, [0.0, 0.1], 500)?;
-        assert!(apart(&found, &rule) < 1e-11, "{method:?}: {found:?} and {rule:?}");
-    }
-    Ok(())
-}
-
 #[test]
 fn failures_are_values() -> Outcome {
     // Ω is zero for γ = 0.
@@ -182,10 +164,8 @@ fn failures_are_values() -> Outcome {
     // Prey beyond zero has no logarithm; the last good state is kept.
     let q0 = [1e-3, 30.0];
     let start = dvi_tests::systems::LotkaVolterraState { x: q0[0], y: q0[1] };
-    let mut run = Integrator::new(&PREY, Projected::symmetric(), 2.0, start)?;
-    let error = run.take_steps(1000).err().ok_or("no error")?;
+    let (run, error) = failing(&PREY, Projected::symmetric(), 2.0, start)?;
     assert!(run.state().x > 0.0 && run.state().y > 0.0, "{error}");
-    assert_eq!(run.steps(), error.step);
     Ok(())
 }
 

@@ -8,13 +8,11 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
-use dvi_tests::schemes::equations::Nodes;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::{
     DoublePendulum, Gravity, Kepler, MagneticParticle, Relativistic, RunTimeChain,
 };
 use dvi_tests::{apart, larger};
-use num_dual::HyperDual64;
 
 const SIGMAS: [f64; 6] = [0.0, 0.25, 0.211_324_865_405_187_1, 0.5, 0.75, 1.0];
 
@@ -105,37 +103,6 @@ fn an_undeclared_momentum_is_none() -> Outcome {
     assert_eq!(run.discrete_momentum(3)?, None);
     let names: Vec<_> = run.momenta().map(|(name, _)| name).collect();
     assert_eq!(names, ["impulse_x", "impulse_y", "angular"]);
-    Ok(())
-}
-
-#[test]
-fn second_derivatives_of_the_discrete_lagrangian_agree_with_hyper_dual_numbers() -> Outcome {
-    let (q0, q1) = ([1.3, 1.6], [1.35, 1.52]);
-    let system = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
-    let (sigma, h) = (0.3, 0.1);
-    let nodes = Nodes::new(&[sigma], &[1.0]);
-    let mut map = TangentMap::new(&system, &Sigma::new(sigma));
-    map.evaluate(&system, Interval { t: 0.0, h }, &q0, &q1)?;
-    let hessian = map.hessian();
-    for (matrix, first, second) in [(&hessian.d11, 0, 0), (&hessian.d12, 0, 2), (&hessian.d22, 2, 2)] {
-        for i in 0..2 {
-            for j in 0..2 {
-                let entry = |k: usize, value: f64| {
-                    let unit = |on: bool| if on { 1.0 } else { 0.0 };
-                    HyperDual64::new(value, unit(k == first + i), unit(k == second + j), 0.0)
-                };
-                let a: Vec<_> = q0.iter().enumerate().map(|(k, &q)| entry(k, q)).collect();
-                let b: Vec<_> = q1.iter().enumerate().map(|(k, &q)| entry(2 + k, q)).collect();
-                let lagrangian = |q: &[_], v: &[_], t| system.lagrangian(q, v, t);
-                let expected = nodes.discrete_lagrangian(lagrangian, [0.0, h], [&a, &b], &[]).eps1eps2;
-                let found = matrix[2 * i + j];
-                assert!(
-                    abs_diff_eq!(found, expected, epsilon = 1e-14),
-                    "({first}, {second}) ({i}, {j}): {found} {expected}"
-                );
-            }
-        }
-    }
     Ok(())
 }
 

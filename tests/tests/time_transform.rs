@@ -219,19 +219,6 @@ fn what_is_wrong_is_said() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn a_resumed_run_is_the_same() -> Outcome {
-    let start = Transformed.with_energy(START)?;
-    let mut whole = Integrator::new(&Transformed, OneStep::midpoint(), 0.1, start)?;
-    let mut first = Integrator::new(&Transformed, OneStep::midpoint(), 0.1, start)?;
-    whole.take_steps(30)?;
-    first.take_steps(13)?;
-    let mut second = Integrator::resume(&Transformed, OneStep::midpoint(), &first.checkpoint())?;
-    second.take_steps(17)?;
-    assert_eq!(whole.q(), second.q());
-    Ok(())
-}
-
 /// ρ is negative for |x| < √0.2: a long step jumps across, and ends where ρ is positive. The physical time
 /// has run backwards in it.
 #[degenerate_lagrangian(

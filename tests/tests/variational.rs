@@ -7,6 +7,5 @@ mod failures;
 mod frequencies;
 mod kepler;
 mod oscillator;
-mod phase_space;
 mod structure;
 mod tangent_maps;

@@ -33,7 +33,6 @@ pub(super) struct Local<T> {
 
 impl<T: Scalar> Local<T> {
     /// Nothing yet.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn none() -> Self {
         let zero = T::lift(0.0);
         Self { cell: zero, reciprocal: zero, functions: [[zero; 3]; ORDER] }
@@ -101,7 +100,6 @@ impl<const P: usize> Basis<P> {
     }
 
     /// The number itself, or what it is in the first period; not a number outside of the domain.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn position(&self, x: f64) -> f64 {
         let (first, last) = self.ends();
         if first <= x && x <= last { x } else { self.wrapped(x) }
@@ -117,7 +115,6 @@ impl<const P: usize> Basis<P> {
     }
 
     /// The cell of a position, and 0 of what is not a number.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cell(&self, x: f64) -> usize {
         let (last, ends) = (self.cells() - 1, &self.knots[P..]);
         match self.density {
@@ -132,7 +129,6 @@ impl<const P: usize> Basis<P> {
     }
 
     /// The B-splines at `x`, not numbers outside of the domain.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn at<T: Scalar>(&self, x: T) -> Local<T> {
         let position = x.piecewise(|x| self.position(x));
         let cell = position.piecewise(|x| self.cell(x) as f64);
@@ -161,7 +157,7 @@ impl<const P: usize> Basis<P> {
 
 /// An entry of a row of a table. One beyond its end is not a number: a wrong index is seen in what is
 /// computed from it.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(super) fn entry(table: &[f64], start: usize, width: usize, at: usize) -> f64 {
     // All entries of a row ask the same question, and one answer serves them.
     match table.get(start..start.wrapping_add(width)) {
@@ -171,7 +167,6 @@ pub(super) fn entry(table: &[f64], start: usize, width: usize, at: usize) -> f64
 }
 
 /// A polynomial with its first two derivatives.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn horner<const P: usize, T: Scalar>(coefficient: impl Fn(usize) -> T, s: T) -> [T; 3] {
     let (mut value, mut first, mut half_second) = (coefficient(P), T::lift(0.0), T::lift(0.0));
     for power in (0..P).rev() {

@@ -214,7 +214,6 @@ impl<const D: usize, const DEGREE: usize> ScalarField<D> for Spline<D, DEGREE> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn constant<const D: usize, T: Scalar>(value: f64) -> Expansion<D, T> {
     let zero = T::lift(0.0);
     Expansion { value: T::lift(value), gradient: [zero; D], hessian: [[zero; D]; D] }
@@ -222,7 +221,6 @@ fn constant<const D: usize, T: Scalar>(value: f64) -> Expansion<D, T> {
 
 /// Multiplies a function of the variables before `axis` by one of that variable, given with its two
 /// derivatives. Of the matrix of second derivatives the lower half is computed.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn multiply<const D: usize, T: Scalar>(f: &mut Expansion<D, T>, axis: usize, [g, dg, ddg]: [T; 3]) {
     for i in 0..axis {
         for j in 0..=i {
@@ -237,7 +235,6 @@ fn multiply<const D: usize, T: Scalar>(f: &mut Expansion<D, T>, axis: usize, [g,
 }
 
 /// Σ cᵢ Bᵢ with its two derivatives.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn combination<const P: usize, T: Scalar>(coefficient: impl Fn(usize) -> T, functions: &[[T; 3]]) -> [T; 3] {
     let first = coefficient(0);
     let mut sum = functions[0].map(|f| first * f);
@@ -250,7 +247,6 @@ fn combination<const P: usize, T: Scalar>(coefficient: impl Fn(usize) -> T, func
     sum
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn add<const D: usize, T: Scalar>(sum: &mut Expansion<D, T>, term: &Expansion<D, T>) {
     sum.value += term.value;
     for i in 0..D {

@@ -182,7 +182,6 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> fo
 impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S, T> for RungeKutta {}
 
 /// Sets `out` to y + h Σ wⱼ kⱼ.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn combine<S: System<Kind: Motion<S, T>>, T: Real>(
     y: &PointOf<S, T>,
     h: T,

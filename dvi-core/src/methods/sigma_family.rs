@@ -162,7 +162,6 @@ impl<T: Real> Sigma<T> {
 
     /// How many iterations the fixed point gets: a slow contraction is given up as soon as Newton would be
     /// cheaper, whose advantage shrinks with the dimension.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn budget<N>(&self, ladder: &Ladder<N>, dimension: usize) -> usize {
         ladder.budget(self.stopping.max_iterations, 12 + dimension)
     }
@@ -227,12 +226,10 @@ struct Step<'a, S, T> {
 
 impl<S, T: Real> Step<'_, S, T> {
     /// The time at which the discrete Lagrangian is evaluated.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn node_time(&self) -> T {
         self.t + self.method.sigma * self.h
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn interval(&self) -> Interval<T> {
         Interval { t: self.t, h: self.h }
     }

@@ -69,7 +69,6 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
     for FixedVector<T, BLOCKS, N, SINGLES, R>
 {
     type Target = [T];
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref(&self) -> &[T] {
         self.0.entries(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
     }
@@ -78,7 +77,6 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
 impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
     for FixedVector<T, BLOCKS, N, SINGLES, R>
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref_mut(&mut self) -> &mut [T] {
         self.0.entries_mut(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
     }
@@ -88,7 +86,6 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
     for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
     type Target = [T];
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref(&self) -> &[T] {
         let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
         self.0.entries(dimension * dimension)
@@ -98,7 +95,6 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
 impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
     for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn deref_mut(&mut self) -> &mut [T] {
         let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
         self.0.entries_mut(dimension * dimension)
@@ -108,7 +104,6 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
 impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Sink<T>
     for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self[row * Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION + column] += entry;
     }
@@ -128,15 +123,12 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     type Rows<C: Space, T: Scalar> = FullRows<C::Array<FixedVector<T, BLOCKS, N, SINGLES, R>>>;
     type Permutation = FixedVector<usize, BLOCKS, N, SINGLES, R>;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn dimension(self) -> usize {
         Self::DIMENSION
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn vector<T: Scalar>(self) -> Self::Vector<T> {
         FixedVector(Store::new(Self::DIMENSION, || T::lift(0.0)))
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> FixedVector<E, BLOCKS, N, SINGLES, R> {
         FixedVector(Store::new(Self::DIMENSION, of))
     }
@@ -147,15 +139,12 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     ) -> Self::Rows<C, T> {
         FullRows(over.array(|| self.vector()))
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
         FixedMatrix(Store::new(Self::DIMENSION * Self::DIMENSION, || T::lift(0.0)))
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
         FixedSquare::new(self)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn linear<T: Real>(
         self,
         _storing: Storing,
@@ -163,7 +152,6 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     ) -> Self::Linear<T> {
         FixedSolver::new(self)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn coupled<const NODES: usize, T: Real>(
         self,
         _unknown: usize,
@@ -172,7 +160,6 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     ) -> Self::Coupled<NODES, T> {
         FixedCoupled::new(self)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn permutation(self) -> Self::Permutation {
         FixedVector(Store::new(Self::DIMENSION, || 0))
     }

@@ -27,6 +27,11 @@ pub trait Formula {
     fn constraints<T: RealField + Copy>(&self, _q: &[T], _t: T) -> Vec<T> {
         Vec::new()
     }
+
+    /// The constraints of the velocities.
+    fn slips<T: RealField + Copy>(&self, _q: &[T], _v: &[T], _t: T) -> Vec<T> {
+        Vec::new()
+    }
 }
 
 /// A [`Formula`] on the numbers that oracles need.
@@ -35,6 +40,7 @@ trait Evaluated {
     fn hyper(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> HyperDual64;
     fn force(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64>;
     fn constraints(&self, q: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64>;
+    fn slips(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64>;
 }
 
 impl<F: Formula> Evaluated for F {
@@ -49,6 +55,9 @@ impl<F: Formula> Evaluated for F {
     }
     fn constraints(&self, q: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64> {
         Formula::constraints(self, q, t)
+    }
+    fn slips(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64> {
+        Formula::slips(self, q, v, t)
     }
 }
 
@@ -260,20 +269,33 @@ impl Subject {
         (0..q.len()).map(|i| self.twice(&point, &along(v, Some(i)), t).eps1eps2).collect()
     }
 
-    /// The gradients of the constraints, a row for each.
+    /// The gradients of the constraints, a row for each, by the velocities where these are constrained.
     pub fn constraint_rows(&self, q: &[f64], t: f64) -> DMatrix<f64> {
-        let n = q.len();
-        let by = |i| self.formula.constraints(&hyper(q, unit(i), none), HyperDual64::from(t));
+        let (n, t, still, rest) = (q.len(), HyperDual64::from(t), hyper(q, none, none), vec![0.0; q.len()]);
+        let by = |i| {
+            let mut values = self.formula.constraints(&hyper(q, unit(i), none), t);
+            values.extend(self.formula.slips(&still, &hyper(&rest, unit(i), none), t));
+            values
+        };
         let columns: Vec<Vec<HyperDual64>> = (0..n).map(by).collect();
         DMatrix::from_fn(columns[0].len(), n, |k, i| columns[i][k].eps1)
     }
 
-    /// The constraints, and how fast they change: g, ġ and what g̈ is without an acceleration.
+    /// The constraints, and how fast they change: g, ġ and what g̈ is without an acceleration; behind ġ and
+    /// g̈ the constraints of the velocities and what their rates are.
     pub fn constraint_rates(&self, q: &[f64], v: &[f64], t: f64) -> [Vec<f64>; 3] {
         let (q, t) = (hyper(q, |i| v[i], |i| v[i]), HyperDual64::new(t, 1.0, 1.0, 0.0));
-        let values = self.formula.constraints(&q, t);
-        let of = |read: fn(&HyperDual64) -> f64| values.iter().map(read).collect();
-        [of(|x| x.re), of(|x| x.eps1), of(|x| x.eps1eps2)]
+        let (values, slips) =
+            (self.formula.constraints(&q, t), self.formula.slips(&q, &hyper(v, none, none), t));
+        let first = values.iter().map(|x| x.eps1).chain(slips.iter().map(|x| x.re));
+        let second = values.iter().map(|x| x.eps1eps2).chain(slips.iter().map(|x| x.eps1));
+        [values.iter().map(|x| x.re).collect(), first.collect(), second.collect()]
+    }
+
+    /// By how much velocities do not fulfil their constraints.
+    pub fn slips(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
+        let [values, rates, _] = self.constraint_rates(q, v, t);
+        rates[values.len()..].to_vec()
     }
 
     /// The rates of change of coordinates and velocities, by d/dt ∂L/∂v = ∂L/∂q + F + Gᵀλ with Gv̇ + ġ =
@@ -305,6 +327,20 @@ impl Subject {
         });
         let right = DVector::from_fn(n + m, |i, _| if i < n { pull[i] - rate[i] } else { -bent[i - n] });
         [v, &solved(matrix, &right).as_slice()[..n]].concat()
+    }
+
+    /// The derivative of the rates along that of a point, by central differences of eighth order.
+    pub fn varied_rates(&self, values: &[Dual64], t: f64) -> Vec<f64> {
+        const APART: f64 = 1.0 / 256.0;
+        let at = |by: f64| -> Vec<f64> {
+            self.rates(&values.iter().map(|x| x.re + by * APART * x.eps).collect::<Vec<_>>(), t)
+        };
+        let mut sum = vec![0.0; values.len()];
+        for (by, weight) in [(1.0, 4.0 / 5.0), (2.0, -1.0 / 5.0), (3.0, 4.0 / 105.0), (4.0, -1.0 / 280.0)] {
+            let ends = at(by).into_iter().zip(at(-by));
+            sum.iter_mut().zip(ends).for_each(|(sum, (b, a))| *sum += weight / APART * (b - a));
+        }
+        sum
     }
 
     /// Coordinates and velocities at the end of the time, by extrapolation of Gragg's midpoint rule in

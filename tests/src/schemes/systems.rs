@@ -10,6 +10,7 @@ use super::fuse;
 use crate::systems::{Curved, LotkaVolterra, ManyVortices, PointVortices, Quadratic, SphereForm};
 use crate::zoo::constrained::{Bead, Charge, Double, Links, Spherical, Swing};
 use crate::zoo::gauges::OneSided;
+use crate::zoo::nonholonomic::{Particle, Steered};
 use crate::zoo::particles::Mirror;
 use crate::zoo::regular::{
     DoublePendulum, DrivenOscillator, GrowingMass, Kepler, MagneticParticle, MixedVelocities, Relativistic,
@@ -518,7 +519,8 @@ generated!(
 
 /// The same with constraints by hand, and forces.
 macro_rules! constrained {
-    ($($system:ty, |$this:ident, $q:ident, $t:ident| $constraints:expr $(, force |$v:ident| $force:expr)?;)+) => {$(
+    ($($system:ty, |$this:ident, $q:ident, $t:ident| $constraints:expr
+        $(, force |$v:ident| $force:expr)? $(, slips |$u:ident| $slips:expr)?;)+) => {$(
         impl Formula for $system {
             fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
                 Lagrangian::<T>::lagrangian(self, q, v, t)
@@ -528,9 +530,13 @@ macro_rules! constrained {
                 let $this = self;
                 $constraints
             }
-            $(fn force(&self, _q: &[f64], $v: &[f64], _t: f64) -> Vec<f64> {
+            $(#[allow(unused_variables)]
+            fn force(&self, _q: &[f64], $v: &[f64], _t: f64) -> Vec<f64> {
                 let $this = self;
                 $force
+            })?
+            $(fn slips<T: RealField + Copy>(&self, $q: &[T], $u: &[T], $t: T) -> Vec<T> {
+                $slips
             })?
         }
     )+};
@@ -552,6 +558,10 @@ constrained! {
     }, force |v| v.iter().map(|v| -this.gamma * v).collect();
     Bead, |this, q, t| vec![square(&[q[0], q[1], q[1]]) - real(1.0)];
     Charge, |this, q, t| vec![square(q) - real(1.0)];
+    Particle, |this, q, _t| Vec::new(), slips |v| vec![v[2] - q[1] * v[0]];
+    Steered, |this, q, t| Vec::new(), force |v| vec![-0.2 * v[0]], slips |v| {
+        vec![(v[1] - q[0] * v[0] - t.cos()) * (real::<T>(2.0) + q[0].sin())]
+    };
     Spherical, |this, q, t| vec![square(q) - real(1.0)];
     Links, |this, q, t| {
         let n = this.rod.len();

@@ -19,3 +19,22 @@ pub struct Bundle {
     /// What a constraint has beside the velocities.
     pub c: [f64; 2],
 }
+
+/// A particle in space with ż = y ẋ, in a potential (x² + y²)/2.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0 - (x * x + y * y) / 2.0,
+    nonholonomic = dot(z) - y * dot(x),
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct Particle;
+
+/// A constraint that depends on the time, A v + b(t) = 0, and friction.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - x * x / 2.0,
+    force(x) = -0.2 * dot(x),
+    nonholonomic = (dot(y) - x * dot(x) - t.cos()) * (2.0 + x.sin()),
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct Steered;

@@ -70,6 +70,11 @@ fn so_are_those_of_controlled_steps() -> Outcome {
     check("reversible", Every::Steps(50), 400, || {
         ControlledIntegrator::new(Kepler { mu: 1.0 }, Variational::trapezoid(), reversible, start)
     })?;
+    let control = EnergyMomentum::new(0.05);
+    let planet = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.8 };
+    check("energy-momentum", Every::Steps(40), 170, || {
+        ControlledIntegrator::new(Kepler { mu: 1.0 }, Variational::midpoint(), control, planet)
+    })?;
     let control = ErrorControl::new(1e-8, 0.01);
     check("error-control", Every::Steps(33), 200, || {
         ControlledIntegrator::new(Kepler { mu: 1.0 }, Gauss::<3>::new(), control, start)

@@ -13,7 +13,7 @@ use super::Outcome;
 use super::systems::{Beads, ByHand, Chain, Driven, Hung, Linked, Pendulum, Three, surface};
 
 /// Numbers that have nothing to do with each other.
-fn point(n: usize, seed: f64) -> Vec<f64> {
+pub(super) fn point(n: usize, seed: f64) -> Vec<f64> {
     (0..n).map(|i| 0.9 * (seed + 1.7 * i as f64).sin() + 0.05).collect()
 }
 
@@ -38,7 +38,7 @@ fn generated<S: HolonomicLagrangian>(system: &S, q: &[f64], v: &[f64], t: f64) -
     Generated { g, jacobian, rate, curvature }
 }
 
-fn close(found: &[f64], expected: &[f64], what: &str) {
+pub(super) fn close(found: &[f64], expected: &[f64], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
         assert!(

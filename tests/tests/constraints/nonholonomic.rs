@@ -1,6 +1,5 @@
 //! Constraints of the velocities: what is generated for them, against closed forms and num-dual.
 
-use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{
@@ -10,6 +9,7 @@ use dvi_core::{
 use num_dual::Dual64;
 
 use super::Outcome;
+use super::declarations::{close, point};
 use super::systems::{Number, surface};
 
 /// A system and its a, written a second time.
@@ -96,21 +96,6 @@ impl<const N: usize> ByHand for Ring<N> {
     fn by_hand<D: Number>(&self, q: &[D], v: &[D], t: D) -> Vec<D> {
         let one = |i: usize| if q[i].re() > 0.0 { v[N + i] - q[i] * v[(i + 1) % N] } else { v[i] + t };
         (0..N).map(one).collect()
-    }
-}
-
-/// Numbers that have nothing to do with each other.
-fn point(n: usize, seed: f64) -> Vec<f64> {
-    (0..n).map(|i| 0.9 * (seed + 1.7 * i as f64).sin() + 0.05).collect()
-}
-
-fn close(found: &[f64], expected: &[f64], what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
-        assert!(
-            abs_diff_eq!(found, expected, epsilon = 1e-12 * (1.0 + expected.abs())),
-            "{what} {k}: {found} {expected}"
-        );
     }
 }
 

@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
+use dvi_tests::failing;
 use dvi_tests::zoo::regular::*;
 
 use crate::galerkin::systems::{KEPLER, Outcome, double_pendulum, pericentre, relativistic};
@@ -45,25 +46,6 @@ fn what_cannot_be_done_is_refused() {
     );
 }
 
-/// The failure of a run that must fail, which keeps its last good state.
-fn failure<S: RegularLagrangian>(
-    (system, start): (S, S::State<f64>),
-    method: Galerkin<4>,
-    h: f64,
-) -> Outcome<StepFailure> {
-    let mut run = Integrator::new(&system, method, h, start)?;
-    for _ in 0..1000 {
-        let before = (run.q().to_vec(), run.memory().p().to_vec(), run.steps());
-        if let Err(error) = run.advance() {
-            assert_eq!((run.q().to_vec(), run.memory().p().to_vec(), run.steps()), before);
-            assert_eq!(error.step, before.2);
-            assert!(run.next().is_none());
-            return Ok(error.failure);
-        }
-    }
-    Err("it did not fail".into())
-}
-
 #[test]
 fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
     let method = Galerkin::<4>::new();
@@ -76,14 +58,18 @@ fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
         "{found:?}"
     );
     // Far beyond the speed of light in the first iterate.
-    let found = failure(relativistic(), method, 50.0)?;
-    assert!(matches!(found, StepFailure::NotFinite { .. }), "{found:?}");
+    let ((relativistic, start), (pendulum, begin)) = (relativistic(), double_pendulum());
+    let (_, error) = failing(&relativistic, method, 50.0, start)?;
+    assert!(matches!(error.failure, StepFailure::NotFinite { .. }), "{error:?}");
     let stopping = Stopping { max_iterations: 2, ..Stopping::default() };
     for solver in [Solver::FixedPoint, Solver::Automatic] {
-        let found = failure((KEPLER, pericentre(0.3)), Galerkin { solver, stopping, ..method }, 0.5)?;
-        assert!(matches!(found, StepFailure::NotConverged { iterations: 2, .. }), "{solver:?}: {found:?}");
+        let (_, error) = failing(&KEPLER, Galerkin { solver, stopping, ..method }, 0.5, pericentre(0.3))?;
+        assert!(
+            matches!(error.failure, StepFailure::NotConverged { iterations: 2, .. }),
+            "{solver:?}: {error:?}"
+        );
     }
-    let found = failure(double_pendulum(), Galerkin { stopping, ..method }, 0.1)?;
-    assert!(matches!(found, StepFailure::NotConverged { iterations: 2, .. }), "{found:?}");
+    let (_, error) = failing(&pendulum, Galerkin { stopping, ..method }, 0.1, begin)?;
+    assert!(matches!(error.failure, StepFailure::NotConverged { iterations: 2, .. }), "{error:?}");
     Ok(())
 }

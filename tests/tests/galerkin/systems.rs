@@ -19,10 +19,6 @@ pub(crate) fn relativistic() -> (Relativistic, RelativisticState) {
     (Relativistic { m: 1.0 }, RelativisticState { x: 0.8, y: 0.1, dot_x: -0.2, dot_y: 0.6 })
 }
 
-pub(crate) fn driven() -> (DrivenOscillator, DrivenOscillatorState) {
-    (DrivenOscillator { depth: 0.3, omega: 1.7 }, DrivenOscillatorState { x: 0.8, dot_x: 0.3 })
-}
-
 pub(crate) fn chain() -> (RunTimeChain, RunTimeChainState) {
     let system = RunTimeChain { mass: vec![1.0, 1.5, 0.7], coupling: 0.2 };
     let start =

@@ -2,7 +2,8 @@
 //! solved and added up. Their derivatives are taken by dual numbers from a Lagrangian in plain Rust.
 //!
 //! - p0 + D₁L_d + F⁻ = 0 and p1 = D₂L_d + F⁺ of a discrete Lagrangian, where it is stationary in
-//!   interior displacements; up to multiples of the gradients of constraints, which both ends fulfil.
+//!   interior displacements; up to multiples of the gradients of constraints, which both ends fulfil, and the
+//!   middle of the step where they are of velocities.
 //! - D₂L_d(q0, q1) + D₁L_d(q1, q2) = 0 if states have no momenta.
 //! - M(x1 − x0)/h = p0 + h[(½ − β)F0 + βF1] and p1 = p0 + (h/2)(F0 + F1) of Newmark's method.
 //! - Gauss collocation: ∂L/∂v = p + h Σ aᵢⱼ (∂L/∂q + F) at the stages of a regular system, and d/dt
@@ -88,7 +89,13 @@ impl Step<'_> {
         let ends =
             [self.off_constraints(0, sum(&p0, 1.0, &left)), self.off_constraints(1, sum(&p1, -1.0, &right))];
         let [g, rate, _] = self.subject.constraint_rates(self.q()[1], self.v()[1], self.times()[1]);
-        let on = larger(size(&g), size(&rate));
+        let (q0, q1) = (self.q()[0], self.q()[1]);
+        let [middle, mean]: [Vec<f64>; 2] = [
+            q0.iter().zip(q1).map(|(a, b)| (a + b) / 2.0).collect(),
+            q0.iter().zip(q1).map(|(a, b)| (b - a) / self.h).collect(),
+        ];
+        let slips = self.subject.slips(&middle, &mean, self.t + self.h / 2.0);
+        let on = larger(larger(size(&g), size(&rate)), size(&slips));
         Ok(larger(larger(size(&ends[0]), size(&ends[1])) / scale, on))
     }
 
@@ -221,7 +228,7 @@ pub(super) fn steps_solve_their_equations(case: &Case) -> Outcome {
             let t = subject.t + k as f64 * h;
             let step = Step { subject, t, h, ends: [&window[0], &window[1]] };
             let (found, bound) = match &case.equations {
-                Equations::Elsewhere => return Ok(()),
+                Equations::Elsewhere | Equations::Shifted(_) => return Ok(()),
                 Equations::Discrete(nodes) if subject.regular => (step.of_lagrangian(nodes)?, 1e-14),
                 Equations::Discrete(nodes) => {
                     let [q0, q1, q2] = [0, 1, 2].map(|i| &window[i][..]);

@@ -8,7 +8,7 @@ use dvi_core::prelude::*;
 use dvi_core::state::{Memory, Reader, Record};
 use dvi_core::{Real, Vector};
 use dvi_tests::schemes::equations::{Equations, Nodes};
-use dvi_tests::schemes::systems::{FusedSeparable, Shaken};
+use dvi_tests::schemes::systems::{FusedSeparable, Shaken, real};
 use dvi_tests::schemes::{Case, Fused, Options, on};
 
 use super::checkpoint::runs_go_on;
@@ -163,5 +163,12 @@ fn each_claim_is_seen() {
     claims.order = 2;
     claims.form = PreservedForm::Nothing;
     assert!(forms_are_preserved(&claims).is_err());
+    // Of a conjugate form in other coordinates than those that it is preserved in.
+    let newmark = |beta: f64| {
+        let (system, subject) = on(Shaken { depth: 0.4 }, [&[0.5, -0.2], &[0.4, -0.3]], 0.06);
+        let methods = (Newmark::new(0.25), Newmark::new(real(0.25)));
+        Case::new(system, &subject, Options::default(), methods, (Equations::Newmark(beta), None))
+    };
+    assert!(forms_are_preserved(&newmark(0.25)).is_ok() && forms_are_preserved(&newmark(0.24)).is_err());
     assert!(steps_back_undo_steps(&case(Mistake::Sign)).is_err());
 }

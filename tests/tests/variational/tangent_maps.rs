@@ -2,34 +2,32 @@
 //! maps and exponents of runs on regular systems.
 
 use super::Outcome;
-use super::phase_space::Start;
 use approx::abs_diff_eq;
-use dvi_core::discrete::{FrequencyIn, GivenFrequency, Interval, Rule, TwiceDifferentiable};
-use dvi_core::methods::VariationalMethod;
+use dvi_core::discrete::{Interval, Rule, TwiceDifferentiable};
+use dvi_core::methods::{Method, VariationalMethod};
 use dvi_core::prelude::*;
-use dvi_core::{Space, State};
+use dvi_core::{Lagrangian, Space, State};
 use dvi_tests::larger;
 use dvi_tests::schemes::equations::Nodes;
+use dvi_tests::systems::LotkaVolterra;
 use dvi_tests::zoo::regular::*;
 use num_dual::HyperDual64;
 
+/// Coordinates and velocities.
+type Start = (Vec<f64>, Vec<f64>);
+
 #[track_caller]
-fn check<
-    S: RegularLagrangian + RegularLagrangian<HyperDual64>,
-    F: FrequencyIn<f64> + GivenFrequency + Copy,
-    R: Rule + Copy,
->(
-    system: &S,
-    method: Variational<F, R>,
-    omega: f64,
-    (q, v): &Start,
-) -> Outcome {
+fn check<S, M>(system: &S, method: M, nodes: &Nodes, (q, v): &Start) -> Outcome
+where
+    S: Lagrangian + Lagrangian<HyperDual64>,
+    M: Method<S, f64> + VariationalMethod<S, f64, DiscreteLagrangian: TwiceDifferentiable<S, f64>>,
+    M: Clone + core::fmt::Debug,
+{
     let (t, h, n) = (0.4, 0.07, q.len());
     let state = S::State::read(|block| system.block_len(block), q, v);
-    let mut run = Integrator::new_at(system, method, t, h, state)?;
+    let mut run = Integrator::new_at(system, method.clone(), t, h, state)?;
     run.advance()?;
     let (interval, q1) = (Interval { t, h }, run.q());
-    let nodes = Nodes::new(method.rule.nodes(), method.rule.weights()).fitted(omega);
     let mut map = TangentMap::new(system, &method);
     map.evaluate(system, interval, q, q1)?;
     let hessian = map.hessian();
@@ -63,18 +61,19 @@ fn second_derivatives_agree_with_hyper_dual_numbers() -> Outcome {
     for rule in
         [Quadrature::sigma(0.4), Quadrature::lobatto(2)?, Quadrature::lobatto(3)?, Quadrature::gauss(3)?]
     {
-        let linear = Variational::new(rule);
-        let fitted = linear.phase_fitted(Constant(1.3));
-        check(&Kepler { mu: 1.0 }, linear, 0.0, &planar)?;
-        check(&Kepler { mu: 1.0 }, fitted, 1.3, &planar)?;
-        check(&pendulums, linear, 0.0, &planar)?;
-        check(&pendulums, fitted, 1.3, &planar)?;
-        check(&MixedVelocities {}, fitted, 1.3, &planar)?;
-        check(&driven, fitted, 1.3, &(vec![0.4], vec![0.9]))?;
-        check(&particle, linear, 0.0, &(vec![0.3, 0.2, 0.1], vec![0.4, -0.6, 0.2]))?;
-        check(&chain, linear, 0.0, &(vec![0.1, -0.2, 0.3, 0.0], vec![0.5, 0.1, -0.4, 0.2]))?;
+        let (linear, nodes) = (Variational::new(rule), &Nodes::new(rule.nodes(), rule.weights()));
+        let (fitted, bent) = (linear.phase_fitted(Constant(1.3)), &nodes.clone().fitted(1.3));
+        check(&Kepler { mu: 1.0 }, linear, nodes, &planar)?;
+        check(&Kepler { mu: 1.0 }, fitted, bent, &planar)?;
+        check(&pendulums, linear, nodes, &planar)?;
+        check(&pendulums, fitted, bent, &planar)?;
+        check(&MixedVelocities {}, fitted, bent, &planar)?;
+        check(&driven, fitted, bent, &(vec![0.4], vec![0.9]))?;
+        check(&particle, linear, nodes, &(vec![0.3, 0.2, 0.1], vec![0.4, -0.6, 0.2]))?;
+        check(&chain, linear, nodes, &(vec![0.1, -0.2, 0.3, 0.0], vec![0.5, 0.1, -0.4, 0.2]))?;
     }
-    Ok(())
+    let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
+    check(&prey, Sigma::new(0.3), &Nodes::new(&[0.3], &[1.0]), &(vec![1.3, 1.6], Vec::new()))
 }
 
 /// With fixed and with controlled steps.

@@ -133,7 +133,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
     }
 
     /// Ends the last step.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn complete(&mut self) {
         if core::mem::take(&mut self.owed) {
             for (p, &f) in self.p1.iter_mut().zip(self.f1.iter()) {
@@ -156,7 +155,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
         self.system.force(q1, &[], self.clock.after(number + 1).time(), f1);
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn examine(&mut self, _steps: u64) -> Result<(), StepFailure> {
         self.complete();
         scratch!(examined = self.system, *self.v);
@@ -167,12 +165,10 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
         norm::finite(examined)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self) {
         self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 });
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_back(&mut self) {
         self.owed = false;
         self.q1.copy_from_slice(self.q);

@@ -57,7 +57,6 @@ impl<T: Scalar> Banded<T> {
         3 * self.bandwidth + 1
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn add(&mut self, row: usize, column: usize, entry: T) {
         let (i, j) = (self.place[row] as usize, self.place[column] as usize);
         if i.abs_diff(j) > self.bandwidth {
