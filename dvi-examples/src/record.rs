@@ -32,29 +32,22 @@ pub struct Part {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum State {
     Complete,
-    Interrupted,
-    /// Asked for, but the run was interrupted before.
-    NotStarted,
     /// With the words of the error.
     Failed(String),
 }
 
-/// The parts of earlier runs, those of the same experiments replaced by the new ones, in the order of
-/// `names`. What did not start replaces nothing.
-pub fn merged(old: Vec<Part>, new: Vec<Part>, names: &[&str]) -> Vec<Part> {
-    let mut parts = Vec::new();
-    for name in names {
-        let of = |parts: &[Part]| parts.iter().find(|part| part.experiment == *name).cloned();
-        let started = of(&new).filter(|part| part.state != State::NotStarted);
-        parts.extend(started.or_else(|| of(&old)).or_else(|| of(&new)));
-    }
-    parts
+/// Puts a part in the place of that of an earlier run, in the order of `names`; what has another name goes.
+pub fn put(parts: &mut Vec<Part>, new: Part, names: &[&str]) {
+    let place = |part: &Part| names.iter().position(|name| *name == part.experiment);
+    parts.retain(|old| old.experiment != new.experiment && place(old).is_some());
+    parts.push(new);
+    parts.sort_by_key(place);
 }
 
 /// A row of the table; the columns that a kind of row does not use are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Row {
-    /// `complete`, `interrupted`, `not started` or `failed` begin a part; `claim`, `check`, `instead`,
+    /// `complete` or `failed` begin a part; `claim`, `check`, `instead`,
     /// `reference` and `note`.
     kind: String,
     place: String,
@@ -112,15 +105,12 @@ impl Row {
 fn rows(part: &Part) -> Vec<Row> {
     let mut rows = vec![match &part.state {
         State::Complete => Row::new("complete", ""),
-        State::Interrupted => Row::new("interrupted", ""),
-        State::NotStarted => Row::new("not started", ""),
         State::Failed(words) => Row::new("failed", words),
     }];
     let Outcome { claims, references, notes } = &part.outcome;
     for claim in claims {
         let Claim { place, says, printed, instead, .. } = claim;
-        let verdict = if part.state == State::Complete { claim.judgement() } else { String::new() };
-        rows.push(Row { place: place.clone(), verdict, ..Row::new("claim", says) });
+        rows.push(Row { place: place.clone(), verdict: claim.judgement(), ..Row::new("claim", says) });
         rows.extend(printed.iter().map(|check| Row::check("check", check)));
         if let Some((text, checks)) = instead {
             rows.push(Row::new("instead", text));
@@ -180,8 +170,6 @@ fn parse(text: &str) -> Result<Vec<Part>> {
         };
         let state = match row.kind.as_str() {
             "complete" => Some(State::Complete),
-            "interrupted" => Some(State::Interrupted),
-            "not started" => Some(State::NotStarted),
             "failed" => Some(State::Failed(row.text.clone())),
             _ => None,
         };
@@ -250,14 +238,10 @@ mod tests {
 
     #[test]
     fn a_run_replaces_its_own_parts_and_keeps_the_others() {
-        let old = vec![part("a", Length::Full, Some(1.0)), part("b", Length::Full, Some(1.0))];
-        let parts = merged(old, vec![part("b", Length::Short, None)], &["b", "a", "c"]);
+        let mut parts = ["a", "b", "gone"].map(|name| part(name, Length::Full, Some(1.0))).to_vec();
+        put(&mut parts, part("b", Length::Short, None), &["b", "a", "c"]);
         let shown: Vec<_> = parts.iter().map(|part| (part.experiment.as_str(), part.length)).collect();
         assert_eq!(shown, [("b", Length::Short), ("a", Length::Full)]);
-        let idle = |name| Part { state: State::NotStarted, ..part(name, Length::Short, None) };
-        let parts = merged(parts, vec![idle("a"), idle("c")], &["b", "a", "c"]);
-        let shown: Vec<_> = parts.into_iter().map(|part| part.state).collect();
-        assert_eq!(shown, [State::Complete, State::Complete, State::NotStarted]);
     }
 
     #[test]

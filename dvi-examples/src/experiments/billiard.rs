@@ -110,7 +110,7 @@ impl Orbit {
         curve: impl Fn(f64, f64) -> (f64, [f64; 2]),
     ) -> Result<Self> {
         let (energy, product, mut orbit) = (run.energy(), run.momentum(0), Self::default());
-        while run.memory().total() < impacts && !job.is_stopping() {
+        while run.memory().total() < impacts {
             run.advance()?;
             let of_step = run.memory().impacts();
             for impact in of_step {
@@ -128,9 +128,6 @@ impl Orbit {
                 orbit.product = larger(orbit.product, (now - begin).abs());
             }
             job.proceed(of_step.len() as u64);
-        }
-        if run.memory().total() < impacts {
-            job.cut_short();
         }
         Ok(orbit)
     }

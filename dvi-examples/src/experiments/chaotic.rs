@@ -29,7 +29,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         "Chaotic motion of four equal vortices: Poincaré sections of VI2 and RK4",
         "*R*₂ = 0, d*R*₂/d*t* > 0; stray: the share of crossings outside of the region of accurate orbits",
     ];
-    let figure = sections::figure(titles, &all, end, |run| panel(job, run, &region))
+    let figure = sections::figure(titles, &all, end, |run| panel(run, &region))
         .footer(format!("After Rowley & Marsden 2002, Fig. 5. {CAVEAT}"));
     job.publish(figure, sections::table(&all)?)?;
     // Brackets around what earlier runs have found.
@@ -55,7 +55,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 /// order in Q₁, Q₂, Q₃ it may.
 fn to_the_end(job: &Job<'_>, case: &Case, mut run: Crossings) -> Result<Crossings> {
     for labels in LABELS {
-        if run.last() > 0.9 * run.end || job.is_stopping() {
+        if run.last() > 0.9 * run.end {
             break;
         }
         job.expect(cost(&[(run.scheme, run.h)], run.end));
@@ -89,11 +89,8 @@ fn claims(job: &Job<'_>, all: &[Crossings; 6], region: &Region, exponent: Option
     ]
 }
 
-fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
+fn panel(run: &Crossings, region: &Region) -> Panel {
     let panel = run.panel([-2.6, 2.6], [-2.6, 2.6], 0.7);
-    if job.was_interrupted() {
-        return panel;
-    }
     let caption = if run.growth < REGULAR {
         "regular at the end".to_owned()
     } else {

@@ -53,10 +53,6 @@ pub fn compare(job: &Job<'_>, steps: Steps, e: f64, fineness: f64) -> Result<Vec
         // For the same energy error, by bisection.
         let (mut low, mut high) = (fineness / 30.0, fineness * 30.0);
         for _ in 0..BISECTIONS {
-            if job.is_stopping() {
-                job.cut_short();
-                break;
-            }
             let middle = (low * high).sqrt();
             // Very coarse runs may fail: they are too coarse.
             let is_fine = |course: Course| course.energy <= fitted.energy;

@@ -82,10 +82,6 @@ fn starts() -> [Vec<Place>; 2] {
 fn section(job: &Job<'_>, field: &impl Field, start: Place, count: u64) -> Result<Vec<Place>> {
     let (mut place, mut places) = (start, Vec::new());
     for _ in 0..count {
-        if job.is_stopping() {
-            job.cut_short();
-            break;
-        }
         place = turned(field, OneStep::midpoint(), STEPS, place)?;
         places.push(place);
         job.proceed(STEPS);

@@ -39,10 +39,9 @@ pub fn follow(
 ) -> Result<Course> {
     let initial = run.energy();
     let mut course = Course::default();
-    let mut done = 0;
-    while done < periods && !job.is_stopping() {
+    for period in 1..=periods {
         // Half a millionth of a period: what fixed steps may be short of.
-        let end = TAU * (done as f64 + 1.0 - 5e-7);
+        let end = TAU * (period as f64 - 5e-7);
         let mut steps = 0;
         while run.time() < end {
             let energy = run.energy();
@@ -53,14 +52,10 @@ pub fn follow(
             course.energy = larger(course.energy, change.abs());
             look((run.time(), change, place(run)));
         }
-        done += 1;
         job.proceed(1);
     }
-    if done < periods {
-        job.cut_short();
-    }
     let statistics = run.statistics();
-    let per_period = |count: u64| count as f64 / done.max(1) as f64;
+    let per_period = |count: u64| count as f64 / periods as f64;
     course.steps = per_period(statistics.steps);
     course.evaluations = per_period(statistics.gradients + statistics.linearizations);
     Ok(course)

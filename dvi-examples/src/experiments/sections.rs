@@ -103,7 +103,7 @@ fn collect(
     let mut before = height(&run.state());
     let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
     let mut done = 0;
-    while done < steps && !job.is_stopping() {
+    while done < steps {
         let found = events.advance();
         let after = height(&events.run().state());
         match found {
@@ -125,9 +125,6 @@ fn collect(
             result.error.push(run.time(), run.energy() - initial);
             job.proceed(1);
         }
-    }
-    if done < steps && result.failure.is_none() {
-        job.cut_short();
     }
     job.proceed(steps - done);
     result.growth = growth(vortices, method, h, &run.state()).unwrap_or(f64::NAN);

@@ -93,10 +93,6 @@ impl RollUp {
         let end = SHOWN[2] as f64 * H;
         let mut kept = Span { end, early: end, intervals: SHOWN[2] as usize }.deviations();
         for step in 1..=SHOWN[2] {
-            if job.is_stopping() {
-                job.cut_short();
-                break;
-            }
             run.advance()?;
             job.proceed(1);
             let [x, y, angular]: [f64; 3] = difference(momenta(&run), before).map(f64::abs);

@@ -76,10 +76,10 @@ fn deviation(measured: &[[f64; 2]]) -> f64 {
 fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
     let is_stable = |omega: f64| anyhow::Ok(largest_amplitude(job, sigma, omega, steps)? < LARGE);
     let (mut low, mut high) = (0.0, 0.5);
-    while is_stable(high)? && !job.is_stopping() {
+    while is_stable(high)? {
         (low, high) = (high, 2.0 * high);
     }
-    while high - low > 1e-9 * high && !job.is_stopping() {
+    while high - low > 1e-9 * high {
         let middle = 0.5 * (low + high);
         if is_stable(middle)? { low = middle } else { high = middle }
     }

@@ -88,13 +88,6 @@ impl Figure {
         self
     }
 
-    /// Marks the figure as one of a run that was cut short; what its subtitle says of complete series goes.
-    pub fn interrupted(mut self) -> Self {
-        self.title += " — interrupted";
-        self.subtitle = "The run was interrupted: its series end early.".into();
-        self
-    }
-
     pub fn svg(&self) -> String {
         let height = HEADER + self.rows.iter().map(|(height, _)| height).sum::<f64>() + FOOTER;
         let mut svg = Svg::new(WIDTH, height, &self.title);
@@ -173,18 +166,6 @@ mod tests {
         {
             assert!(texts.iter().any(|text| text == wanted), "`{wanted}` is not among {texts:?}");
         }
-    }
-
-    #[test]
-    fn an_interrupted_figure_says_nothing_of_complete_series() {
-        let svg = sample().interrupted().svg();
-        assert!(svg.contains("interrupted: its series end early") && !svg.contains("and more<"), "{svg}");
-    }
-
-    #[test]
-    fn long_series_do_not_make_large_files() {
-        let size = sample().svg().len();
-        assert!(size < 150_000, "{size} bytes");
     }
 
     #[test]
