@@ -15,7 +15,8 @@ use crate::output::{Table, write_whole};
 use crate::runs::place;
 
 /// Full length as in the papers, or seconds instead of minutes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Length {
     Full,
     Short,
@@ -27,11 +28,6 @@ impl Length {
             Length::Full => "full",
             Length::Short => "short",
         }
-    }
-
-    /// The form that has this name.
-    pub fn named(name: &str) -> Option<Self> {
-        [Length::Full, Length::Short].into_iter().find(|length| length.name() == name)
     }
 }
 

@@ -49,7 +49,7 @@ pub fn verdict(claim: &Claim) -> &'static str {
 }
 
 /// That of a regression check.
-fn passing(check: &Check) -> &'static str {
+pub fn passing(check: &Check) -> &'static str {
     match check.value {
         None => "not measured",
         Some(_) if check.passes() => "passes",
