@@ -92,8 +92,8 @@ impl Progress {
     }
 }
 
-/// The work that was done in the seconds on the clock that it took, each with a weight that fades. `indicatif`
-/// itself forgets within 15 seconds: beside other work what it says jumps by a factor of two.
+/// The work that was done in the seconds on the clock that it took, each with a weight that fades.
+/// `indicatif` forgets within 15 seconds: beside other work what it says jumps by a factor of two.
 #[derive(Debug, Default)]
 struct Speed {
     done: f64,

@@ -103,8 +103,8 @@ mod tests {
     fn a_summary_tells_verdicts_and_numbers() -> Result<()> {
         let page = markdown(&[part(Length::Short)])?;
         for wanted in [
-            "The short form, experiments: 1. Claims of the papers: reproduced 1, fails 1; claims beyond them: \
-             holds 1, undecided 1; regression checks: passes 1.",
+            "The short form, experiments: 1. Claims of the papers: reproduced 1, fails 1; claims beyond \
+             them: holds 1, undecided 1; regression checks: passes 1.",
             "The short form, today.\n",
             "- **reproduced**: |x| is small (p. 1)\n  - |x| = 0.5 (at most 1)\n",
             "- **fails**: |x| is small (p. 1)\n  - |x| = 2 (not at most 1)\n",

@@ -4,9 +4,10 @@
 //! of a Poincaré section costs a dozen bytes in one long path where an element of its own costs ten
 //! times as much, and the picture is the same on every machine because the fonts are carried along.
 //!
-//! No library that was looked at sets a variable in italics within a label, nor thins out long series: the
-//! SVG of `plotters` is an element for each dot, and that of `kuva` 0.6 differs from run to run, has 8.3 MB for
-//! `kepler-frequency` in place of 60 kB, and puts all below 10⁻¹⁰ on one line of a logarithmic axis.
+//! No library that was looked at sets a variable in italics within a label, nor thins out long series. The
+//! SVG of `plotters` has an element for each dot, at whole pixels. That of `kuva` 0.6 differs from run to
+//! run, has 8.3 MB for `kepler-frequency` in place of 60 kB, and puts all that is below 10⁻¹⁰ on one line of
+//! a logarithmic axis.
 
 mod axis;
 mod decimate;

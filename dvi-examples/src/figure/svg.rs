@@ -73,7 +73,8 @@ impl Svg {
         let [width, height] = [width, height].map(number);
         Self(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" xml:space=\"preserve\">\n<title>{title}</title>\n<style>\n{style}</style>\n\
+             viewBox=\"0 0 {width} {height}\" xml:space=\"preserve\">\n\
+             <title>{title}</title>\n<style>\n{style}</style>\n\
              <rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
             PAPER.0
         ))
