@@ -1,7 +1,6 @@
 //! Runs experiments side by side.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 
 use anyhow::{Context as _, Result};
@@ -53,75 +52,56 @@ impl From<Vec<Claim>> for Outcome {
     }
 }
 
-/// Runs the experiments, the shortest first, and returns what each has left, in their order.
+/// Runs the experiments, the shortest first, and hands what each has left to `keep` as soon as it has ended.
 pub fn run(
     experiments: &[Experiment],
     folder: &Path,
     length: Length,
     threads: Option<u16>,
-    stop: &AtomicBool,
-) -> Result<Vec<Part>> {
+    keep: impl Fn(Part) -> Result<()> + Sync,
+) -> Result<()> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
     let pool = pool.context("cannot start the threads")?;
     let progress = Progress::new(experiments);
     let one = |number: usize| {
         let Experiment { name, run, .. } = experiments[number];
-        let ended = |how: &str, state, outcome| {
-            progress.end(number, how);
-            (number, Part { experiment: name.to_owned(), length, when: now(), state, outcome })
+        let job = Job { name, folder, length, bar: progress.start(number) };
+        let (how, state, outcome) = match run(&job).and_then(|outcome| Ok((job.publish_motion()?, outcome)))
+        {
+            Ok(((), outcome)) => ("done", State::Complete, outcome),
+            Err(error) => ("failed", State::Failed(format!("{error:#}")), Outcome::default()),
         };
-        if stop.load(Ordering::Relaxed) {
-            return ended("not started", State::NotStarted, Outcome::default());
-        }
-        let (bar, cut) = (progress.start(number), AtomicBool::new(false));
-        let job = Job { name, folder, length, bar, stop, cut };
-        let ran = run(&job).and_then(|outcome| job.publish_motion().map(|()| outcome));
-        match (ran, job.was_interrupted()) {
-            (Ok(outcome), false) => ended("done", State::Complete, outcome),
-            (Ok(outcome), true) => ended("interrupted", State::Interrupted, outcome),
-            (Err(error), _) => ended("failed", State::Failed(format!("{error:#}")), Outcome::default()),
-        }
+        keep(Part { experiment: name.to_owned(), length, when: now(), state, outcome })?;
+        progress.end(number, how);
+        Ok(())
     };
     let mut order: Vec<usize> = (0..experiments.len()).collect();
     order.sort_by(|&i, &j| experiments[i].share.total_cmp(&experiments[j].share));
-    let mut parts: Vec<(usize, Part)> = std::thread::scope(|scope| {
+    std::thread::scope(|scope| {
         // Until this is dropped, which a panic does too.
         let (_running, ended) = mpsc::channel();
         scope.spawn(|| progress.watch(ended));
         // A bridge hands out one at a time, in this order.
-        pool.install(|| order.into_iter().par_bridge().map(one).collect())
-    });
-    parts.sort_by_key(|(number, _)| *number);
-    Ok(parts.into_iter().map(|(_, part)| part).collect())
+        pool.install(|| order.into_iter().par_bridge().try_for_each(one))
+    })
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Mutex;
+
     use super::*;
 
-    fn quick(_: &Job<'_>) -> Result<Outcome> {
-        Ok(Outcome::default())
-    }
-
-    fn broken(_: &Job<'_>) -> Result<Outcome> {
-        anyhow::bail!("no ink")
-    }
-
     #[test]
-    fn one_failure_does_not_stop_the_others() {
+    fn one_failure_does_not_stop_the_others() -> Result<()> {
         let named = |name, run| Experiment { name, title: "", source: "", share: 1.0, run };
-        let both = [named("a", broken as fn(&Job<'_>) -> _), named("b", quick)];
-        let stop = AtomicBool::new(false);
-        let parts = run(&both, Path::new("."), Length::Short, Some(2), &stop).expect("threads");
-        let states: Vec<_> = parts.into_iter().map(|part| part.state).collect();
-        assert_eq!(states, [State::Failed("no ink".into()), State::Complete]);
-    }
-
-    #[test]
-    fn nothing_starts_after_an_interrupt() {
-        let stop = AtomicBool::new(true);
-        let one = [Experiment { name: "a", title: "", source: "", share: 1.0, run: broken }];
-        let parts = run(&one, Path::new("."), Length::Full, None, &stop).expect("threads");
-        assert!(parts.iter().all(|part| part.state == State::NotStarted), "{parts:?}");
+        let both = [named("a", |_| anyhow::bail!("no ink")), named("b", |_| Ok(Outcome::default()))];
+        let states = Mutex::new(Vec::new());
+        run(&both, Path::new("."), Length::Short, Some(1), |part| {
+            states.lock().expect("one thread").push(part.state);
+            Ok(())
+        })?;
+        assert_eq!(*states.lock().expect("one thread"), [State::Failed("no ink".into()), State::Complete]);
+        Ok(())
     }
 }

@@ -1,7 +1,6 @@
 //! What an experiment is given: a folder, a length, and somebody to tell how far it is.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Result;
 use dvi_core::methods::Method;
@@ -16,7 +15,8 @@ use crate::output::{Table, write_whole};
 use crate::runs::place;
 
 /// Full length as in the papers, or seconds instead of minutes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Length {
     Full,
     Short,
@@ -29,11 +29,6 @@ impl Length {
             Length::Short => "short",
         }
     }
-
-    /// The form that has this name.
-    pub fn named(name: &str) -> Option<Self> {
-        [Length::Full, Length::Short].into_iter().find(|length| length.name() == name)
-    }
 }
 
 /// The surroundings of one experiment.
@@ -44,13 +39,9 @@ pub struct Job<'a> {
     pub folder: &'a Path,
     pub length: Length,
     pub bar: ProgressBar,
-    /// Whether the user has asked to stop.
-    pub stop: &'a AtomicBool,
-    /// Whether a series ended before its time because of that.
-    pub cut: AtomicBool,
 }
 
-/// Steps between two looks at the clock and at the interrupt flag.
+/// Steps that are counted at once.
 const CHUNK: u64 = 4096;
 
 impl Job<'_> {
@@ -72,42 +63,26 @@ impl Job<'_> {
         self.bar.inc_length(steps);
     }
 
-    /// Whether the user has asked to stop.
-    pub fn is_stopping(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
     /// Counts `steps` more of those that were expected.
     pub fn proceed(&self, steps: u64) {
         self.bar.inc(steps);
     }
 
-    /// Notes that a series ends before its time because the user wants to stop.
-    pub fn cut_short(&self) {
-        self.cut.store(true, Ordering::Relaxed);
-    }
-
-    /// Calls `step` `count` times; fewer, if the user interrupts.
+    /// Calls `step` `count` times, or until it fails.
     pub fn repeat(
         &self,
         count: u64,
         mut step: impl FnMut() -> Result<(), StepError>,
     ) -> Result<(), StepError> {
-        let mut done = 0;
-        while done < count && !self.is_stopping() {
+        for done in (0..count).step_by(CHUNK as usize) {
             let chunk = CHUNK.min(count - done);
             (0..chunk).try_for_each(|_| step())?;
             self.proceed(chunk);
-            done += chunk;
-        }
-        if done < count {
-            self.cut_short();
         }
         Ok(())
     }
 
-    /// Takes so many steps of a run, fewer if the user interrupts, and shows the state after each of them to
-    /// `look`.
+    /// Takes so many steps of a run, and shows the state after each of them to `look`.
     pub fn follow<R: Run>(
         &self,
         run: &mut R,
@@ -184,10 +159,9 @@ impl Job<'_> {
         ended.map_or(Ok(series), |error| Err(error.into()))
     }
 
-    /// Writes the figure (SVG and PNG), which says if its run was short or interrupted, and its data (CSV).
+    /// Writes the figure (SVG and PNG), which says if its run was short, and its data (CSV).
     pub fn publish(&self, figure: Figure, data: Table) -> Result<()> {
         let figure = figure.titled(&format!("{}{}", title(self.name), self.choose("", " — short form")));
-        let figure = if self.was_interrupted() { figure.interrupted() } else { figure };
         figure.save(self.folder, self.name)?;
         data.save(self.folder, self.name)
     }
@@ -198,34 +172,5 @@ impl Job<'_> {
         let mut page = Vec::new();
         record.write_page(&mut page)?;
         write_whole(&self.folder.join(format!("{}.html", self.name)), &page)
-    }
-
-    /// Whether a series of this experiment was cut short by the user.
-    pub fn was_interrupted(&self) -> bool {
-        self.cut.load(Ordering::Relaxed)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_series_ends_at_the_interrupt_and_says_so() {
-        let (stop, mut count) = (AtomicBool::new(false), 0);
-        let (folder, bar, cut) = (Path::new(""), ProgressBar::hidden(), AtomicBool::new(false));
-        let job = Job { name: "", folder, length: Length::Short, bar, stop: &stop, cut };
-        let mut steps = |number, last| {
-            let done = job.repeat(number, || {
-                count += 1;
-                stop.store(count > last, Ordering::Relaxed);
-                Ok(())
-            });
-            assert_eq!(done, Ok(()));
-            (count, job.was_interrupted())
-        };
-        assert_eq!(steps(10_000, 20_000), (10_000, false));
-        let (count, interrupted) = steps(1_000_000, 20_000);
-        assert!(interrupted && (20_000..20_000 + 2 * CHUNK).contains(&count), "{count}");
     }
 }

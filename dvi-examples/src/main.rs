@@ -21,8 +21,9 @@ mod summary;
 mod vocabulary;
 
 use std::io::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context as _, Result};
 use clap::Parser as _;
@@ -34,9 +35,6 @@ use crate::gallery::Experiment;
 use crate::job::Length;
 use crate::options::Options;
 use crate::record::{Part, State};
-
-static STOP: AtomicBool = AtomicBool::new(false);
-const INTERRUPTED: u8 = 130;
 
 fn main() -> ExitCode {
     let options = Options::parse();
@@ -56,8 +54,7 @@ fn run(options: &Options) -> Result<ExitCode> {
     let folder = options.folder();
     output::prepare_folder(&folder)?;
     // A summary that cannot be completed is an error before the first number is computed.
-    record::load(&folder)?;
-    ctrlc::set_handler(interrupt).context("cannot listen to Ctrl-C")?;
+    let parts = Mutex::new(record::load(&folder)?);
     let wanted = |experiment: &Experiment| {
         let is_named = options.only.iter().any(|name| name == experiment.name);
         is_named || options.only.is_empty() && (options.all || experiment.is_of_a_paper())
@@ -66,34 +63,25 @@ fn run(options: &Options) -> Result<ExitCode> {
     let length = if options.short { Length::Short } else { Length::Full };
     eprintln!("experiments: {}; results go to {}", chosen.len(), folder.display());
 
-    let new = gallery::run(&chosen, &folder, length, options.threads, &STOP)?;
     let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
-    let parts = record::merged(record::load(&folder)?, new.clone(), &names);
-    record::save(&folder, &parts)?;
-    output::write_whole(&folder.join("summary.md"), summary::markdown(&parts)?.as_bytes())?;
-    let index = folder.join("index.html");
-    output::write_whole(&index, page::html(&parts, &folder)?.as_bytes())?;
-    say(&format!("\n{}", summary::markdown(&new)?))?;
-    eprintln!("look at {}", index.display());
-    Ok(exit_code(&new))
+    gallery::run(&chosen, &folder, length, options.threads, |part| {
+        let mut parts = parts.lock().unwrap_or_else(PoisonError::into_inner);
+        record::put(&mut parts, part, &names);
+        write(&folder, &parts)
+    })?;
+    let mut parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);
+    parts.retain(|part| chosen.iter().any(|experiment| experiment.name == part.experiment));
+    say(&format!("\n{}", summary::markdown(&parts)?))?;
+    eprintln!("look at {}", folder.join("index.html").display());
+    let has_failed = parts.iter().any(|part| matches!(part.state, State::Failed(_)));
+    Ok(if has_failed { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
-/// The first Ctrl-C lets the experiments write what they have; a second one does not wait for them.
-fn interrupt() {
-    if STOP.swap(true, Ordering::Relaxed) {
-        std::process::exit(INTERRUPTED.into());
-    }
-}
-
-fn exit_code(parts: &[Part]) -> ExitCode {
-    let any = |what: fn(&State) -> bool| parts.iter().any(|part| what(&part.state));
-    if any(|state| matches!(state, State::Failed(_))) {
-        ExitCode::FAILURE
-    } else if any(|state| *state != State::Complete) {
-        ExitCode::from(INTERRUPTED)
-    } else {
-        ExitCode::SUCCESS
-    }
+/// Writes what the parts of a folder say together, so that a run can be looked at, or stopped, at any time.
+fn write(folder: &Path, parts: &[Part]) -> Result<()> {
+    record::save(folder, parts)?;
+    output::write_whole(&folder.join("summary.md"), summary::markdown(parts)?.as_bytes())?;
+    output::write_whole(&folder.join("index.html"), page::html(parts, folder)?.as_bytes())
 }
 
 /// Prints, on a terminal in lines that break between words, and does not mind a reader who has seen enough.

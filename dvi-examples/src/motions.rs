@@ -43,8 +43,7 @@ fn links() -> Result<Record> {
     let pendulum = Links { n: 50 };
     let start = pendulum.bent(0.5);
     let record = Integrator::new(pendulum, Rattle::default(), 0.01, start)?.record(4, 500)?;
-    let every_other = |column: &Column| numbered(column.name()).is_some_and(|(_, k)| k % 2 == 1);
-    thinned(&record, "Every other mass of a pendulum of 50 links", every_other)
+    thinned(&record, "Every other mass of a pendulum of 50 links", |k| k % 2 == 1)
 }
 
 fn top() -> Result<Record> {
@@ -81,21 +80,20 @@ fn shear_layer() -> Result<Record> {
     let stopping = Stopping { tolerance: 1e-7, ..Stopping::default() };
     let method = Gauss { stopping, ..Gauss::<3>::new() };
     let record = Integrator::new(&fast, method, 0.1, layer.state())?.record(1, 100)?;
-    let some = |column: &Column| numbered(column.name()).is_some_and(|(_, k)| k % 7 == 0);
-    thinned(&record, "One in seven of the 1560 blobs of a shear layer", some)
+    thinned(&record, "One in seven of the 1560 blobs of a shear layer", |k| k % 7 == 0)
 }
 
-/// `("x", 3)` of `x[3]`.
-fn numbered(name: &str) -> Option<(&str, usize)> {
+/// 3 of `x[3]`.
+fn index(name: &str) -> Option<usize> {
     let (name, index) = name.strip_suffix(']')?.split_once('[')?;
-    (!name.starts_with("dot_")).then_some((name, index.parse().ok()?))
+    if name.starts_with("dot_") { None } else { index.parse().ok() }
 }
 
-/// The time and some columns of many, in thousandths: a page is as long as its digits.
-fn thinned(record: &Record, title: &str, wanted: impl Fn(&Column) -> bool) -> Result<Record> {
+/// The time and the coordinates of some of many bodies, in thousandths: a page is as long as its digits.
+fn thinned(record: &Record, title: &str, wanted: impl Fn(usize) -> bool) -> Result<Record> {
     let mut thin = Record::new(title);
     for column in record.columns() {
-        if column.name() == "time" || wanted(column) {
+        if column.name() == "time" || index(column.name()).is_some_and(&wanted) {
             let values = record.numbers(column.name())?.iter().map(|x| (x * 1e3).round() / 1e3);
             let column =
                 Column::new(column.name(), values.collect::<Vec<_>>()).with_quantity(column.quantity());

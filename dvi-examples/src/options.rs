@@ -52,9 +52,9 @@ impl Options {
 }
 
 const AFTER_HELP: &str = "\
-Ctrl-C stops early: what was computed until then is written and marked as interrupted.
+Experiments that have ended are in the summary and on the page at once, also if Ctrl-C stops the others.
 
-Exit status: 0 all experiments ran, 1 an error, 2 a bad argument, 130 interrupted.";
+Exit status: 0 all experiments ran, 1 an error, 2 a bad argument.";
 
 fn names() -> Vec<&'static str> {
     experiments::ALL.iter().map(|experiment| experiment.name).collect()

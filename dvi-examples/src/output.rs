@@ -43,35 +43,24 @@ pub fn number(value: f64) -> String {
 pub struct Table(csv::Writer<Vec<u8>>);
 
 impl Table {
-    /// A table with these columns and no rows.
-    pub fn new(columns: &[&str]) -> Result<Self> {
-        let mut table = Self(csv::Writer::from_writer(Vec::new()));
-        table.row(columns)?;
-        Ok(table)
-    }
-
     /// A table of rows that have texts first, from which the marks of italics are taken out, and then
     /// numbers, some of which may be missing.
+    ///
+    /// # Errors
+    /// If a row has more or fewer cells than there are columns.
     pub fn of<T, N>(columns: &[&str], rows: impl IntoIterator<Item = (T, N)>) -> Result<Self>
     where
         T: IntoIterator<Item: AsRef<str>>,
         N: IntoIterator<Item: Into<Option<f64>>>,
     {
-        let mut table = Self::new(columns)?;
+        let mut table = csv::Writer::from_writer(Vec::new());
+        table.write_record(columns)?;
         for (texts, numbers) in rows {
             let texts = texts.into_iter().map(|text| text.as_ref().replace('*', ""));
             let numbers = numbers.into_iter().map(|value| value.into().map(number).unwrap_or_default());
-            table.row(texts.chain(numbers))?;
+            table.write_record(texts.chain(numbers)).context("a row cannot be added to a table")?;
         }
-        Ok(table)
-    }
-
-    /// Adds a row.
-    ///
-    /// # Errors
-    /// If it has more or fewer cells than there are columns.
-    pub fn row(&mut self, cells: impl IntoIterator<Item: AsRef<[u8]>>) -> Result<()> {
-        self.0.write_record(cells).context("a row cannot be added to a table")
+        Ok(Self(table))
     }
 
     /// Writes `name.csv` into the folder.

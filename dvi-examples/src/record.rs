@@ -7,15 +7,17 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use anyhow::{Context as _, Result, bail, ensure};
+use anyhow::{Context as _, Result, bail};
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::claim::{Bound, Check, Claim};
 use crate::gallery::Outcome;
 use crate::job::Length;
-use crate::output::{Table, number};
+use crate::output::{number, write_whole};
+use crate::summary::passing;
 
-/// The name of the table, without its extension.
-const NAME: &str = "summary";
+/// The name of the table.
+const NAME: &str = "summary.csv";
 
 /// One experiment, as it was run last.
 #[derive(Clone, Debug)]
@@ -32,117 +34,115 @@ pub struct Part {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum State {
     Complete,
-    Interrupted,
-    /// Asked for, but the run was interrupted before.
-    NotStarted,
     /// With the words of the error.
     Failed(String),
 }
 
-/// The parts of earlier runs, those of the same experiments replaced by the new ones, in the order of
-/// `names`. What did not start replaces nothing.
-pub fn merged(old: Vec<Part>, new: Vec<Part>, names: &[&str]) -> Vec<Part> {
-    let mut parts = Vec::new();
-    for name in names {
-        let of = |parts: &[Part]| parts.iter().find(|part| part.experiment == *name).cloned();
-        let started = of(&new).filter(|part| part.state != State::NotStarted);
-        parts.extend(started.or_else(|| of(&old)).or_else(|| of(&new)));
-    }
-    parts
+/// Puts a part in the place of that of an earlier run, in the order of `names`; what has another name goes.
+pub fn put(parts: &mut Vec<Part>, new: Part, names: &[&str]) {
+    let place = |part: &Part| names.iter().position(|name| *name == part.experiment);
+    parts.retain(|old| old.experiment != new.experiment && place(old).is_some());
+    parts.push(new);
+    parts.sort_by_key(place);
 }
 
 /// A row of the table; the columns that a kind of row does not use are empty.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Row {
-    /// `complete`, `interrupted`, `not started` or `failed` begin a part; `claim`, `check`, `instead`,
-    /// `reference` and `note`.
-    kind: String,
+    experiment: String,
+    form: Length,
+    when: String,
+    row: Kind,
     place: String,
     text: String,
-    value: String,
+    #[serde(serialize_with = "digits")]
+    value: Option<f64>,
     bound: String,
-    low: String,
-    high: String,
-    /// The verdict of a claim, `passes` or `fails` of a check: for readers, and computed again when read.
+    #[serde(serialize_with = "digits")]
+    low: Option<f64>,
+    #[serde(serialize_with = "digits")]
+    high: Option<f64>,
+    /// That of a claim or a check: for readers, and computed again when read.
     verdict: String,
 }
 
-const COLUMNS: [&str; 11] =
-    ["experiment", "form", "when", "row", "place", "text", "value", "bound", "low", "high", "verdict"];
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    /// Begins a part, as `Failed` does.
+    Complete,
+    Failed,
+    Claim,
+    Check,
+    Instead,
+    Reference,
+    Note,
+}
+
+/// As tables have numbers.
+fn digits<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&value.map(number).unwrap_or_default())
+}
 
 impl Row {
-    fn new(kind: &str, text: &str) -> Self {
-        Self { kind: kind.into(), text: text.into(), ..Self::default() }
+    fn new(part: &Part, row: Kind, text: &str) -> Self {
+        let [place, bound, verdict] = [const { String::new() }; 3];
+        let (experiment, when, text) = (part.experiment.clone(), part.when.clone(), text.to_owned());
+        let (form, value, low, high) = (part.length, None, None, None);
+        Self { experiment, form, when, row, place, text, value, bound, low, high, verdict }
     }
 
-    fn check(kind: &str, check: &Check) -> Self {
+    fn check(part: &Part, row: Kind, check: &Check) -> Self {
         let (bound, low, high) = match check.bound {
             Bound::AtMost(high) => ("at most", None, Some(high)),
             Bound::AtLeast(low) => ("at least", Some(low), None),
             Bound::Within(low, high) => ("within", Some(low), Some(high)),
             Bound::Near(target, tolerance) => ("near", Some(target), Some(tolerance)),
         };
-        let text = |value: Option<f64>| value.map(number).unwrap_or_default();
-        let verdict = check.value.map(|_| if check.passes() { "passes" } else { "fails" });
-        Self {
-            value: text(check.value),
-            bound: bound.into(),
-            low: text(low),
-            high: text(high),
-            verdict: verdict.unwrap_or("not measured").into(),
-            ..Self::new(kind, &check.quantity)
-        }
+        let (bound, verdict) = (bound.to_owned(), passing(check).to_owned());
+        Self { value: check.value, bound, low, high, verdict, ..Self::new(part, row, &check.quantity) }
     }
 
     fn to_check(&self) -> Result<Check> {
-        let parse = |text: &str| text.parse::<f64>().with_context(|| format!("`{text}` is not a number"));
-        let bound = match self.bound.as_str() {
-            "at most" => Bound::AtMost(parse(&self.high)?),
-            "at least" => Bound::AtLeast(parse(&self.low)?),
-            "within" => Bound::Within(parse(&self.low)?, parse(&self.high)?),
-            "near" => Bound::Near(parse(&self.low)?, parse(&self.high)?),
-            other => bail!("`{other}` is not a bound"),
+        let bound = match (self.bound.as_str(), self.low, self.high) {
+            ("at most", None, Some(high)) => Bound::AtMost(high),
+            ("at least", Some(low), None) => Bound::AtLeast(low),
+            ("within", Some(low), Some(high)) => Bound::Within(low, high),
+            ("near", Some(target), Some(tolerance)) => Bound::Near(target, tolerance),
+            (other, ..) => bail!("`{other}` is not a bound with its numbers"),
         };
-        let value = if self.value.is_empty() { None } else { Some(parse(&self.value)?) };
-        Ok(Check::new(&self.text, value, bound))
+        Ok(Check::new(&self.text, self.value, bound))
     }
 }
 
 /// The rows of a part: how it ended, its claims with their checks, reference values, notes.
 fn rows(part: &Part) -> Vec<Row> {
     let mut rows = vec![match &part.state {
-        State::Complete => Row::new("complete", ""),
-        State::Interrupted => Row::new("interrupted", ""),
-        State::NotStarted => Row::new("not started", ""),
-        State::Failed(words) => Row::new("failed", words),
+        State::Complete => Row::new(part, Kind::Complete, ""),
+        State::Failed(words) => Row::new(part, Kind::Failed, words),
     }];
-    let Outcome { claims, references, notes } = &part.outcome;
-    for claim in claims {
-        let Claim { place, says, printed, instead, .. } = claim;
-        let verdict = if part.state == State::Complete { claim.judgement() } else { String::new() };
-        rows.push(Row { place: place.clone(), verdict, ..Row::new("claim", says) });
-        rows.extend(printed.iter().map(|check| Row::check("check", check)));
-        if let Some((text, checks)) = instead {
-            rows.push(Row::new("instead", text));
-            rows.extend(checks.iter().map(|check| Row::check("check", check)));
+    let checks = |kind, checks: &[Check]| -> Vec<Row> {
+        checks.iter().map(|check| Row::check(part, kind, check)).collect()
+    };
+    for claim in &part.outcome.claims {
+        let (place, verdict) = (claim.place.clone(), claim.judgement());
+        rows.push(Row { place, verdict, ..Row::new(part, Kind::Claim, &claim.says) });
+        rows.extend(checks(Kind::Check, &claim.printed));
+        if let Some((text, instead)) = &claim.instead {
+            rows.push(Row::new(part, Kind::Instead, text));
+            rows.extend(checks(Kind::Check, instead));
         }
     }
-    rows.extend(references.iter().map(|check| Row::check("reference", check)));
-    rows.extend(notes.iter().map(|note| Row::new("note", note)));
+    rows.extend(checks(Kind::Reference, &part.outcome.references));
+    rows.extend(part.outcome.notes.iter().map(|note| Row::new(part, Kind::Note, note)));
     rows
 }
 
 /// Writes the table of the parts into the folder.
 pub fn save(folder: &Path, parts: &[Part]) -> Result<()> {
-    let mut table = Table::new(&COLUMNS)?;
-    for part in parts {
-        for row in rows(part) {
-            let Row { kind, place, text, value, bound, low, high, verdict } = row;
-            let head = [part.experiment.clone(), part.length.name().into(), part.when.clone()];
-            table.row(head.into_iter().chain([kind, place, text, value, bound, low, high, verdict]))?;
-        }
-    }
-    table.save(folder, NAME)
+    let mut table = csv::Writer::from_writer(Vec::new());
+    parts.iter().flat_map(rows).try_for_each(|row| table.serialize(row))?;
+    write_whole(&folder.join(NAME), &table.into_inner()?)
 }
 
 /// The parts that earlier runs have left in the folder.
@@ -150,7 +150,7 @@ pub fn save(folder: &Path, parts: &[Part]) -> Result<()> {
 /// # Errors
 /// A table of that name which is not one of these.
 pub fn load(folder: &Path) -> Result<Vec<Part>> {
-    let path = folder.join(format!("{NAME}.csv"));
+    let path = folder.join(NAME);
     let text = match fs::read_to_string(&path) {
         Ok(text) => text,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
@@ -162,57 +162,37 @@ pub fn load(folder: &Path) -> Result<Vec<Part>> {
 }
 
 fn parse(text: &str) -> Result<Vec<Part>> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    ensure!(reader.headers()?.iter().eq(COLUMNS), "its columns are others");
     let mut parts: Vec<Part> = Vec::new();
-    for record in reader.records() {
-        let record = record?;
-        let cell = |i: usize| record.get(i).unwrap_or_default().to_owned();
-        let row = Row {
-            kind: cell(3),
-            place: cell(4),
-            text: cell(5),
-            value: cell(6),
-            bound: cell(7),
-            low: cell(8),
-            high: cell(9),
-            verdict: cell(10),
-        };
-        let state = match row.kind.as_str() {
-            "complete" => Some(State::Complete),
-            "interrupted" => Some(State::Interrupted),
-            "not started" => Some(State::NotStarted),
-            "failed" => Some(State::Failed(row.text.clone())),
-            _ => None,
-        };
-        if let Some(state) = state {
-            let length = Length::named(&cell(1)).with_context(|| format!("`{}` is not a form", cell(1)))?;
-            let outcome = Outcome::default();
-            parts.push(Part { experiment: cell(0), length, when: cell(2), state, outcome });
-            continue;
-        }
-        add(&mut parts.last_mut().context("it does not begin with a part")?.outcome, &row)?;
+    for row in csv::Reader::from_reader(text.as_bytes()).deserialize() {
+        add(&mut parts, row?)?;
     }
     Ok(parts)
 }
 
-fn add(outcome: &mut Outcome, row: &Row) -> Result<()> {
-    let last = || "a row without its claim";
-    match row.kind.as_str() {
-        "claim" => outcome.claims.push(Claim::new(&row.place, &row.text)),
-        "instead" => {
-            outcome.claims.last_mut().with_context(last)?.instead = Some((row.text.clone(), Vec::new()));
+fn add(parts: &mut Vec<Part>, row: Row) -> Result<()> {
+    let (experiment, length, when) = (row.experiment.clone(), row.form, row.when.clone());
+    let begin = |state| Part { experiment, length, when, state, outcome: Outcome::default() };
+    match row.row {
+        Kind::Complete => parts.push(begin(State::Complete)),
+        Kind::Failed => parts.push(begin(State::Failed(row.text))),
+        Kind::Claim => last(parts)?.claims.push(Claim::new(row.place, row.text)),
+        Kind::Instead => claim(parts)?.instead = Some((row.text, Vec::new())),
+        Kind::Check => {
+            let Claim { printed, instead, .. } = claim(parts)?;
+            instead.as_mut().map_or(printed, |(_, checks)| checks).push(row.to_check()?);
         }
-        "check" => {
-            let claim = outcome.claims.last_mut().with_context(last)?;
-            let list = claim.instead.as_mut().map_or(&mut claim.printed, |(_, checks)| checks);
-            list.push(row.to_check()?);
-        }
-        "reference" => outcome.references.push(row.to_check()?),
-        "note" => outcome.notes.push(row.text.clone()),
-        other => bail!("`{other}` is not a row"),
+        Kind::Reference => last(parts)?.references.push(row.to_check()?),
+        Kind::Note => last(parts)?.notes.push(row.text),
     }
     Ok(())
+}
+
+fn last(parts: &mut [Part]) -> Result<&mut Outcome> {
+    Ok(&mut parts.last_mut().context("it does not begin with a part")?.outcome)
+}
+
+fn claim(parts: &mut [Part]) -> Result<&mut Claim> {
+    last(parts)?.claims.last_mut().context("a row without its claim")
 }
 
 #[cfg(test)]
@@ -250,19 +230,16 @@ mod tests {
 
     #[test]
     fn a_run_replaces_its_own_parts_and_keeps_the_others() {
-        let old = vec![part("a", Length::Full, Some(1.0)), part("b", Length::Full, Some(1.0))];
-        let parts = merged(old, vec![part("b", Length::Short, None)], &["b", "a", "c"]);
+        let mut parts = ["a", "b", "gone"].map(|name| part(name, Length::Full, Some(1.0))).to_vec();
+        put(&mut parts, part("b", Length::Short, None), &["b", "a", "c"]);
         let shown: Vec<_> = parts.iter().map(|part| (part.experiment.as_str(), part.length)).collect();
         assert_eq!(shown, [("b", Length::Short), ("a", Length::Full)]);
-        let idle = |name| Part { state: State::NotStarted, ..part(name, Length::Short, None) };
-        let parts = merged(parts, vec![idle("a"), idle("c")], &["b", "a", "c"]);
-        let shown: Vec<_> = parts.into_iter().map(|part| part.state).collect();
-        assert_eq!(shown, [State::Complete, State::Complete, State::NotStarted]);
     }
 
     #[test]
     fn a_table_of_somebody_else_is_refused() {
         assert!(parse("a,b\n1,2\n").is_err());
-        assert!(parse(&format!("{}\na,full,now,check,,,1,at most,,2,\n", COLUMNS.join(","))).is_err());
+        let columns = "experiment,form,when,row,place,text,value,bound,low,high,verdict";
+        assert!(parse(&format!("{columns}\na,full,now,check,,,1,at most,,2,\n")).is_err());
     }
 }

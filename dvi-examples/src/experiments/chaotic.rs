@@ -52,7 +52,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 /// order in Q₁, Q₂, Q₃ it may.
 fn to_the_end(motion: Motion<'_>, mut run: Crossings) -> Result<Crossings> {
     for labels in LABELS {
-        if run.last() > 0.9 * run.end || motion.job.is_stopping() {
+        if run.last() > 0.9 * run.end {
             break;
         }
         motion.job.expect(cost(&[(run.scheme, run.h)], run.end));

@@ -51,7 +51,7 @@ impl Reference {
         Ok(Self { energies, momentum })
     }
 
-    /// The energy at time `t`; not a number if the reference was interrupted before.
+    /// The energy at time `t`; not a number where the reference has none.
     pub fn energy(&self, t: f64) -> f64 {
         let index = ((t / FINE).round() as usize).checked_sub(1);
         index.and_then(|index| self.energies.get(index)).copied().unwrap_or(f64::NAN)

@@ -84,11 +84,16 @@ impl<S: RegularLagrangian<f64>> Motion<'_, S> {
             }
             (before, end) = (after, t);
         })?;
-        let (steps, statistics) = (run.steps().max(1) as f64, run.statistics());
+        let (steps, statistics) = (run.steps() as f64, run.statistics());
         let work = (statistics.gradients + statistics.linearizations).max(1) as f64 / steps;
-        // A run that was interrupted at its beginning has no mean length.
-        let length = if end > 0.0 { end / steps } else { run.step_size() };
-        Ok(Steps { kept, length, lengthening: tenths[1] / tenths[0], work, distance: farthest, beginning })
+        Ok(Steps {
+            kept,
+            length: end / steps,
+            lengthening: tenths[1] / tenths[0],
+            work,
+            distance: farthest,
+            beginning,
+        })
     }
 }
 

@@ -37,9 +37,9 @@ pub fn follow(
 ) -> Result<Course> {
     let initial = run.energy();
     let mut course = Course::default();
-    for done in 0..periods {
+    for period in 1..=periods {
         // Half a millionth of a period: what fixed steps may be short of.
-        let end = TAU * (done as f64 + 1.0 - 5e-7);
+        let end = TAU * (period as f64 - 5e-7);
         let mut steps = 0;
         while run.time() < end {
             let energy = run.energy();

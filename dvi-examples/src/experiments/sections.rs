@@ -93,7 +93,7 @@ impl Motion<'_> {
         let mut before = height(&run.state());
         let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
         let mut done = 0;
-        while done < steps && !job.is_stopping() {
+        while done < steps {
             let found = events.advance();
             let after = height(&events.run().state());
             match found {

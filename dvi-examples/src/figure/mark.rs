@@ -70,7 +70,7 @@ impl Mark {
             }
             Mark::Dots(points, strokes) => {
                 let path = dots(points, frame);
-                strokes.iter().for_each(|&stroke| svg.dots(&path, stroke));
+                strokes.iter().for_each(|stroke| svg.stroke(&path, stroke.round()));
             }
         }
     }
@@ -86,8 +86,8 @@ impl Mark {
                 svg.fill(&polyline(corners), *colour);
             }
             Mark::Dots(_, strokes) => {
-                let path = dot([x, y]);
-                strokes.iter().for_each(|stroke| svg.dots(&path, stroke.at_least(5.0).opacity(1.0)));
+                let large = |stroke: &Stroke| stroke.round().at_least(5.0).opacity(1.0);
+                strokes.iter().for_each(|stroke| svg.stroke(&dot([x, y]), large(stroke)));
             }
         }
     }

@@ -1,6 +1,6 @@
 //! One pair of axes with what is drawn on it.
 
-use super::axis::{Axis, Scale, Ticks};
+use super::axis::{Axis, Scale};
 use super::decimate::Envelope;
 use super::mark::{Fill, Frame, Mark};
 use super::palette::{Colour, GRID, PAPER, SLATE};
@@ -241,16 +241,24 @@ impl Panel {
     fn draw_axes(&self, svg: &mut Svg, frame: &Frame) {
         let [left, top, width, height] = frame.rectangle();
         let (bottom, right) = (top + height, left + width);
-        let (x, y) = (self.x.ticks(&frame.x, width / 95.0), self.y.ticks(&frame.y, height / 65.0));
-        draw_grid(svg, frame, &x, &y);
         let [l, t, b, r] = [left, top, bottom, right].map(number);
-        svg.stroke(&format!("M{l} {t}V{b}H{r}"), Stroke::solid(SLATE).width(1.0));
-        for (value, text) in &x.marks {
-            svg.text("middle", [frame.x.place(*value), bottom + 20.0], text);
+        let (x, y) = (self.x.ticks(&frame.x, width / 95.0), self.y.ticks(&frame.y, height / 65.0));
+        // Lines from side to side where there is a label, and short ones where there is none.
+        let (mut grid, mut short) = (String::new(), String::new());
+        for (value, text) in y.marks {
+            let y = frame.y.place(value);
+            svg.text("end", [left - 8.0, y + RISE], &text);
+            let y = number(y);
+            if text.is_empty() { short += &format!("M{l} {y}h4") } else { grid += &format!("M{l} {y}H{r}") }
         }
-        for (value, text) in &y.marks {
-            svg.text("end", [left - 8.0, frame.y.place(*value) + RISE], text);
+        for (value, text) in x.marks {
+            let x = frame.x.place(value);
+            svg.text("middle", [x, bottom + 20.0], &text);
+            let x = number(x);
+            if text.is_empty() { short += &format!("M{x} {b}v-4") } else { grid += &format!("M{x} {t}V{b}") }
         }
+        svg.stroke(&grid, Stroke::solid(GRID).width(1.0));
+        svg.stroke(&(short + &format!("M{l} {t}V{b}H{r}")), Stroke::solid(SLATE).width(1.0));
         svg.text("end grey", [right, bottom + 38.0], &x.factor);
         svg.text("middle grey", [left - 8.0, top - 10.0], &y.factor);
         svg.text("middle strong", [left + width / 2.0, top - 12.0], &self.title);
@@ -295,19 +303,4 @@ fn hold(
 fn centred([low, high]: [f64; 2], width: f64) -> [f64; 2] {
     let middle = 0.5 * (low + high);
     [middle - 0.5 * width, middle + 0.5 * width]
-}
-
-fn draw_grid(svg: &mut Svg, frame: &Frame, x: &Ticks, y: &Ticks) {
-    let [left, top, width, height] = frame.rectangle().map(|v| (v * 100.0).round() / 100.0);
-    let mut lines = |ticks: &Ticks, is_major: bool, line: &dyn Fn(f64) -> String| {
-        let marks = ticks.marks.iter().filter(|(_, label)| label.is_empty() != is_major);
-        let path: String = marks.map(|(value, _)| line(*value)).collect();
-        svg.stroke(&path, Stroke::solid(if is_major { GRID } else { SLATE }).width(1.0));
-    };
-    let (across, along) = (|y| number(frame.y.place(y)), |x| number(frame.x.place(x)));
-    let bottom = number(top + height);
-    lines(y, true, &|y| format!("M{left} {}h{width}", across(y)));
-    lines(x, true, &|x| format!("M{} {top}v{height}", along(x)));
-    lines(y, false, &|y| format!("M{left} {}h4", across(y)));
-    lines(x, false, &|x| format!("M{} {bottom}v-4", along(x)));
 }

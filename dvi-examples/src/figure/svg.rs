@@ -28,16 +28,17 @@ pub struct Stroke {
     colour: Colour,
     width: f64,
     opacity: f64,
-    dash: &'static str,
+    /// More attributes.
+    more: &'static str,
 }
 
 impl Stroke {
     pub const fn solid(colour: Colour) -> Self {
-        Self { colour, width: 1.8, opacity: 1.0, dash: "" }
+        Self { colour, width: 1.8, opacity: 1.0, more: "" }
     }
 
     pub const fn dashed(colour: Colour) -> Self {
-        Self { dash: " stroke-dasharray=\"7 5\"", ..Self::solid(colour) }
+        Self { more: " stroke-dasharray=\"7 5\"", ..Self::solid(colour) }
     }
 
     pub const fn width(self, width: f64) -> Self {
@@ -46,6 +47,11 @@ impl Stroke {
 
     pub(super) fn at_least(self, width: f64) -> Self {
         self.width(self.width.max(width))
+    }
+
+    /// With round ends, which make a dot of a line without a length.
+    pub(super) fn round(self) -> Self {
+        Self { more: " stroke-linecap=\"round\"", ..self }
     }
 
     pub const fn opacity(self, opacity: f64) -> Self {
@@ -67,22 +73,14 @@ impl Svg {
         let [width, height] = [width, height].map(number);
         Self(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" xml:space=\"preserve\">\n<title>{title}</title>\n<style>\n{style}</style>\n\
+             viewBox=\"0 0 {width} {height}\" xml:space=\"preserve\">\n\
+             <title>{title}</title>\n<style>\n{style}</style>\n\
              <rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
             PAPER.0
         ))
     }
 
-    pub(super) fn stroke(&mut self, path: &str, stroke: Stroke) {
-        self.path(path, stroke, stroke.dash);
-    }
-
-    /// Round dots, one for each `M x yh0` of the path.
-    pub(super) fn dots(&mut self, path: &str, stroke: Stroke) {
-        self.path(path, stroke, " stroke-linecap=\"round\"");
-    }
-
-    fn path(&mut self, path: &str, Stroke { colour, width, opacity, .. }: Stroke, more: &str) {
+    pub(super) fn stroke(&mut self, path: &str, Stroke { colour, width, opacity, more }: Stroke) {
         if !path.is_empty() {
             let (colour, width, opacity) = (colour.0, number(width), number(opacity));
             self.line(&format!(

@@ -1,4 +1,4 @@
-//! The gallery as a person starts it: arguments, files, exit codes, interruption.
+//! The gallery as a person starts it: arguments, files, exit codes, Ctrl-C.
 
 #[path = "../../../tests/src/browser.rs"]
 mod browser;
@@ -62,7 +62,7 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
         let svg = String::from_utf8(read("svg")).expect("UTF-8");
         let document = roxmltree::Document::parse(&svg).expect("well-formed");
         assert_eq!(document.root_element().tag_name().name(), "svg", "{name}");
-        assert!(!svg.contains("NaN") && svg.len() < 2_000_000, "{name}: {} bytes", svg.len());
+        assert!(!svg.contains("NaN") && svg.len() < 500_000, "{name}: {} bytes", svg.len());
         assert!(read("png").starts_with(b"\x89PNG") && read("png").ends_with(b"IEND\xaeB`\x82"), "{name}");
         assert!(read("csv").iter().filter(|&&byte| byte == b'\n').count() > 3, "{name}");
     }
@@ -212,28 +212,19 @@ fn bad_arguments_are_refused_before_anything_is_written() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_leaves_complete_files_and_a_summary_that_says_so() {
+fn what_has_ended_is_there_when_ctrl_c_stops_the_rest() {
     let folder = tempdir().expect("a folder");
-    let mut command = gallery(&["--only", "fig5-chaotic", "parasitic", "--threads", "1"], folder.path());
+    let mut command = gallery(&["--only", "fig5-chaotic", "momenta", "--threads", "1"], folder.path());
     let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("starts");
-    // The line is printed when the handler is installed and before the first step.
-    let mut line = String::new();
-    let mut messages = BufReader::new(child.stderr.take().expect("piped"));
-    messages.read_line(&mut line).expect("readable");
-    assert!(line.starts_with("experiments: 2"), "{line}");
+    let messages = BufReader::new(child.stderr.take().expect("piped")).lines();
+    let mut messages = messages.map(|line| line.expect("readable"));
+    assert!(messages.any(|line| line.starts_with("momenta ") && line.contains(" done, ")));
     let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill starts");
-    assert!(kill.success());
-    assert_eq!(child.wait().expect("ends").code(), Some(130));
-    let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
-    assert!(
-        summary.contains("**Interrupted**") && summary.contains("Claims of the papers: none"),
-        "{summary}"
-    );
-    for name in names(folder.path()) {
-        assert!(!name.ends_with(".partial"), "{name}");
-        if name.ends_with(".svg") {
-            let svg = fs::read_to_string(folder.path().join(&name)).expect("readable");
-            assert!(roxmltree::Document::parse(&svg).is_ok(), "{name}");
-        }
+    assert!(kill.success() && !child.wait().expect("ends").success());
+    let files = ["index.html", "momenta.csv", "momenta.png", "momenta.svg", "summary.csv", "summary.md"];
+    assert_eq!(names(folder.path()).into_iter().collect::<Vec<_>>(), files);
+    for file in ["index.html", "summary.csv", "summary.md"] {
+        let page = fs::read_to_string(folder.path().join(file)).expect("readable");
+        assert!(page.contains("momenta") && !page.contains("fig5-chaotic"), "{page}");
     }
 }

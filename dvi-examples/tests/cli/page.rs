@@ -21,14 +21,8 @@ pub(crate) fn has_all(folder: &Path, verdicts: &BTreeMap<[String; 3], String>) {
             verdicts.iter().filter(|(claim, _)| claim[0] == name).map(|(_, verdict)| word(verdict));
         let found = card.split("<li data-verdict=\"").skip(1).filter_map(|claim| claim.split('"').next());
         assert_eq!(sorted(found), sorted(expected), "{name}");
-        let files = [("csv", true), ("svg", true), ("html", MOTIONS.contains(&name.as_str()))];
-        for (extension, is_there) in files {
-            assert_eq!(
-                card.contains(&format!("href=\"{name}.{extension}\"")),
-                is_there,
-                "{name}.{extension}"
-            );
-        }
+        let has = |extension| card.contains(&format!("href=\"{name}.{extension}\""));
+        assert!(has("csv") && has("svg") && has("html") == MOTIONS.contains(&name.as_str()), "{name}");
     }
     for (width, theme) in [(1200, 0), (400, 1)] {
         let file = folder.with_file_name(format!("index-{width}.html"));

@@ -6,7 +6,7 @@ use anyhow::Result;
 use dvi_examples::figure::{
     AMBER, Axis, BLUE, Colour, Corner, Figure, GREEN, INK, PURPLE, Panel, SKY, SLATE, Stroke, VERMILLION,
 };
-use dvi_examples::output::{Table, number};
+use dvi_examples::output::Table;
 
 use crate::measure::Point;
 use crate::problem::Problem;
@@ -94,14 +94,11 @@ fn stroke(i: usize, colours: [Colour; 7]) -> Stroke {
 /// Writes `accuracy.csv` with all points.
 pub(crate) fn write(all: &[Measured<'_>], folder: &Path) -> Result<()> {
     let columns = ["problem", "method", "steps_or_tolerance", "milliseconds", "energy_error", "evaluations"];
-    let mut table = Table::new(&columns)?;
-    for Measured { problem, points } in all {
-        for Point { method, knob, milliseconds, error, evaluations } in points {
-            let evaluations = evaluations.map(|count| count.to_string()).unwrap_or_default();
-            let numbers = [*knob, *milliseconds, *error].map(number);
-            let names = [problem.name.to_owned(), method.clone()];
-            table.row(names.into_iter().chain(numbers).chain([evaluations]))?;
-        }
-    }
-    table.save(folder, "accuracy")
+    let rows = all.iter().flat_map(|Measured { problem, points }| {
+        points.iter().map(|Point { method, knob, milliseconds, error, evaluations }| {
+            let evaluations = evaluations.map(|count| count as f64);
+            ([problem.name, method], [Some(*knob), Some(*milliseconds), Some(*error), evaluations])
+        })
+    });
+    Table::of(&columns, rows)?.save(folder, "accuracy")
 }
