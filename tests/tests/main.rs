@@ -62,3 +62,4 @@ mod together;
 mod together_parameters;
 mod units;
 mod variational;
+mod vectors;

@@ -57,6 +57,7 @@ impl Lowering<'_> {
         }
         let (form, over) = natural(0, &lower, &upper);
         let value = self.inside(&[(index.to_string(), form, &over)], formula)?;
+        let value = self.number_of(formula, Role::Constraint(of), value)?;
         Some(Constraint { member: Index::open(0).plus(&over.range.lower, -1), over: Some(over), value })
     }
 

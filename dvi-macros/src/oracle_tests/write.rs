@@ -65,9 +65,11 @@ impl Spelling {
 impl System {
     /// The arguments of the attribute.
     pub(super) fn attribute(&self) -> String {
-        let blocks = self.declared_blocks().iter().map(|block| match block.size {
-            None => block.name.to_string(),
-            Some(size) => format!("{}[{}]", block.name, self.size_text(size)),
+        let blocks = self.coordinates().into_iter().map(|first| {
+            let block = &self.blocks[first];
+            let size = block.size.map_or_else(String::new, |size| format!("[{}]", self.size_text(size)));
+            let axes = block.axis.map_or_else(String::new, |[_, of]| format!("[{of}]"));
+            format!("{}{size}{axes}", block.name)
         });
         let mut text = format!("coordinates({})", blocks.collect::<Vec<_>>().join(", "));
         let writer = |velocity| Writer::new(self, velocity);
@@ -77,9 +79,9 @@ impl System {
                 format!(", one_form = {}, hamiltonian = {}", d.text(one_form), d.text(hamiltonian))
             }
             Dynamics::Components(components, hamiltonian) => {
-                let components = components.iter().zip(&self.blocks).map(|(component, block)| {
-                    let index = if block.size.is_some() { "|i| " } else { "" };
-                    format!("{index}{}", d.text(component))
+                let components = components.iter().zip(self.coordinates());
+                let components = components.map(|(component, block)| {
+                    format!("{}{}", self.indexed(block, component), d.text(component))
                 });
                 let components = components.collect::<Vec<_>>().join(", ");
                 format!(", one_form = [{components}], hamiltonian = {}", d.text(hamiltonian))
@@ -96,11 +98,11 @@ impl System {
         if let Some(rate) = &self.time_transform {
             text += &format!(", time_transform = {}", d.text(rate));
         }
-        let entries = self.forces.iter().map(|(block, force)| {
-            let index = if self.blocks[*block].size.is_some() { "|i| " } else { "" };
-            format!("{index}{}", dot.text(force))
-        });
-        let all = self.forces.iter().map(|(block, _)| *block).eq(0..self.blocks.len());
+        let entries = self
+            .forces
+            .iter()
+            .map(|(block, force)| format!("{}{}", self.indexed(*block, force), dot.text(force)));
+        let all = self.forces.iter().map(|(block, _)| *block).eq(self.coordinates());
         if all {
             text += &format!(", force = [{}]", entries.collect::<Vec<_>>().join(", "));
         } else {
@@ -121,6 +123,12 @@ impl System {
         let fields = fields.filter_map(|(_, field)| Some(format!("{} = {}", field.name, field.path?)));
         let own: Vec<String> = used.chain(fields).collect();
         if own.is_empty() { text } else { text + &format!(", functions({})", own.join(", ")) }
+    }
+
+    /// What stands in front of a component along a coordinate: the index of its entry, if it has one.
+    fn indexed(&self, first: usize, component: &Formula) -> &'static str {
+        let is_whole = self.axes(first) == 1 && component.is_vector();
+        if self.blocks[first].size.is_some() && !is_whole { "|i| " } else { "" }
     }
 
     /// Constraints that follow each other without an index are a list.
@@ -174,6 +182,7 @@ impl System {
             Container::Slice => "&'a [f64]".into(),
             Container::Matrix => format!("[[f64; {}]; {}]", size(1), size(0)),
             Container::VectorOfVectors => "Vec<Vec<f64>>".into(),
+            Container::VectorOfArrays => format!("Vec<[f64; {}]>", size(1)),
         }
     }
 
@@ -219,12 +228,26 @@ impl<'a> Writer<'a> {
             Formula::Number(text) => postfix((*text).into()),
             Formula::Pi => postfix("PI".into()),
             Formula::Time => postfix("t".into()),
-            Formula::Name(name) => postfix(format!("a{name}")),
+            Formula::Name(name) | Formula::VectorName(name) => postfix(format!("a{name}")),
+            Formula::Vector(block, index) => postfix(self.whole(*block, index.as_ref())),
+            Formula::VectorVelocity(block, index) => {
+                postfix(format!("{}({})", self.velocity, self.whole(*block, index.as_ref())))
+            }
+            Formula::List(components) => {
+                let components: Vec<String> =
+                    components.iter().map(|component| self.text(component)).collect();
+                postfix(format!("[{}]", components.join(", ")))
+            }
+            Formula::Cross(a, b) => method(a, "cross", self.text(b)),
+            Formula::Dot(a, b) => method(a, "dot", self.text(b)),
+            Formula::Norm(of) => method(of, "norm", String::new()),
+            Formula::NormSquared(of) => method(of, "norm_squared", String::new()),
+            Formula::Component(of, number) => postfix(format!("{}[{number}]", self.bound(of, Postfix))),
             Formula::Coordinate(block, index) => postfix(self.place(*block, index.as_ref())),
             Formula::Velocity(block, index) => {
                 postfix(format!("{}({})", self.velocity, self.place(*block, index.as_ref())))
             }
-            Formula::Parameter(field, indices) => {
+            Formula::Parameter(field, indices) | Formula::VectorParameter(field, indices) => {
                 let indices: String =
                     indices.iter().map(|index| format!("[{}]", self.index(index))).collect();
                 let of_self = if self.spelling.is_other() { "self." } else { "" };
@@ -309,7 +332,13 @@ impl<'a> Writer<'a> {
                     "{{ let times = |left| {{ let by = |right| left * right; by({b}) }}; times({a}) }}"
                 ))
             }
-            Formula::Coordinate(block, Some(index)) if self.spelling.is_rare() => {
+            Formula::Vector(block, Some(index)) if self.spelling.is_rare() => {
+                let (name, index) = (self.system.blocks[*block].name, self.index(index));
+                Some(format!("{{ let entry = |place| {name}[place]; entry({index}) }}"))
+            }
+            Formula::Coordinate(block, Some(index))
+                if self.system.axes(*block) == 1 && self.spelling.is_rare() =>
+            {
                 let (name, index) = (self.system.blocks[*block].name, self.index(index));
                 Some(format!("{{ let entry = |place| {name}[place]; entry({index}) }}"))
             }
@@ -345,6 +374,12 @@ impl<'a> Writer<'a> {
     }
 
     fn place(&self, block: usize, index: Option<&Index>) -> String {
+        let component = self.system.blocks[block].axis.map(|[number, _]| format!("[{number}]"));
+        format!("{}{}", self.whole(block, index), component.unwrap_or_default())
+    }
+
+    /// Without the index of a component.
+    fn whole(&self, block: usize, index: Option<&Index>) -> String {
         let name = self.system.blocks[block].name;
         index.map_or_else(|| name.into(), |index| format!("{name}[{}]", self.index(index)))
     }

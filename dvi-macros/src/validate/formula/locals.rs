@@ -4,9 +4,8 @@ use syn::punctuated::Punctuated;
 use syn::{BinOp, Expr, ExprClosure, Lit, Pat, Token};
 
 use super::super::functions;
-use super::super::jet::Jet;
 use super::words::pattern;
-use super::{Binding, Evaluation, Value, place_text, unknown, written};
+use super::{Binding, Evaluation, Quantity, Value, place_text, unknown, written};
 
 impl Evaluation<'_> {
     pub(super) fn binding(&mut self, names: &Pat, init: &Expr) -> Value<()> {
@@ -18,10 +17,10 @@ impl Evaluation<'_> {
                 Ok(())
             }
             (Pat::Tuple(names), Expr::Tuple(values)) => {
-                let values: Result<Vec<Jet>, _> =
-                    values.elems.iter().map(|value| self.number(value)).collect();
+                let values: Result<Vec<Quantity>, _> =
+                    values.elems.iter().map(|value| self.quantity(value)).collect();
                 for (name, value) in names.elems.iter().zip(values?) {
-                    self.bind(name, Binding::Number(value));
+                    self.bind(name, Binding::Value(value));
                 }
                 Ok(())
             }
@@ -29,13 +28,13 @@ impl Evaluation<'_> {
                 let x = self.number(&call.receiver)?;
                 for (name, function) in names.elems.iter().zip(["sin", "cos"]) {
                     let value = functions::unary(function, &x).unwrap_or_else(|| unknown(call));
-                    self.bind(name, Binding::Number(value));
+                    self.bind(name, Binding::Value(Quantity::Number(value)));
                 }
                 Ok(())
             }
             _ => {
-                let value = self.number(init)?;
-                self.bind(names, Binding::Number(value));
+                let value = self.quantity(init)?;
+                self.bind(names, Binding::Value(value));
                 Ok(())
             }
         }
@@ -52,7 +51,7 @@ impl Evaluation<'_> {
         closure: &ExprClosure,
         sees: usize,
         arguments: &Punctuated<Expr, Token![,]>,
-    ) -> Value<Jet> {
+    ) -> Value<Quantity> {
         let mut bindings = Vec::new();
         for argument in arguments {
             bindings.push(self.argument(argument)?);
@@ -61,7 +60,7 @@ impl Evaluation<'_> {
         for (input, binding) in closure.inputs.iter().zip(bindings) {
             self.bind(input, binding);
         }
-        let value = self.number(&closure.body);
+        let value = self.quantity(&closure.body);
         self.scope.truncate(sees);
         self.scope.put_back(aside);
         value
@@ -70,7 +69,7 @@ impl Evaluation<'_> {
     /// An argument as a number and as an index, as far as it is one.
     fn argument(&mut self, syntax: &Expr) -> Value<Binding> {
         let index = if self.is_integer(syntax) { Some(self.index(syntax)?) } else { None };
-        let number = if self.is_number(syntax) { Some(self.number(syntax)?) } else { None };
+        let number = if self.is_number(syntax) { Some(self.quantity(syntax)?) } else { None };
         Ok(Binding::Argument(number, index))
     }
 
@@ -87,7 +86,7 @@ impl Evaluation<'_> {
                 let text = self.texts.of(syntax, || place_text(syntax));
                 match self.bound(&text) {
                     Some(Binding::Index(_) | Binding::Argument(_, Some(_))) => true,
-                    Some(Binding::Number(_) | Binding::Argument(_, None) | Binding::Function(..)) => false,
+                    Some(Binding::Value(_) | Binding::Argument(_, None) | Binding::Function(..)) => false,
                     None => self.size(&text).is_some(),
                 }
             }
