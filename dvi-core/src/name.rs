@@ -37,6 +37,13 @@ impl Factor {
 }
 
 /// Which component of a vector a block of coordinates has: `r[n][3]` has a block for each.
+///
+/// ```
+/// use dvi_core::system::Axis;
+///
+/// assert_eq!(Axis { number: 1, of: 3 }.to_string(), ".y");
+/// assert_eq!(Axis { number: 1, of: 4 }.to_string(), "[1]");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Axis {
     /// Counted from 0.

@@ -216,8 +216,15 @@ impl Model {
                 format!("coordinate `{name}` has the name of a field of the struct; rename one of them"),
             );
         }
+        let axes = components.as_ref().and_then(|components| {
+            let count = errors.taken(vectors::components(name, components));
+            self.lost_coordinates |= count.is_none();
+            // What is said of its uses is that of vectors.
+            count.or(Some(3))
+        });
+        let count = axes.unwrap_or(1);
         let array = size.as_ref().map(|size| {
-            let index = self.declared_size(name, size).unwrap_or_else(|message| {
+            let index = self.declared_size(name, size, count as i64).unwrap_or_else(|message| {
                 let kind = format!("size {}", size.to_token_stream());
                 errors.push_once(&kind, size, message);
                 self.lost_coordinates = true;
@@ -227,14 +234,9 @@ impl Model {
         });
         let array =
             factor.coordinates().map_or(array, |size| Some((Index::literal(size), size.to_string())));
-        let axes = components.as_ref().and_then(|components| {
-            let count = errors.taken(vectors::components(name, components));
-            self.lost_coordinates |= count.is_none();
-            count
-        });
         let axis = |number| axes.map(|of| Axis { number, of });
         let block = |number| Block { name: name.clone(), array: array.clone(), axis: axis(number), factor };
-        self.blocks.extend((0..axes.unwrap_or(1)).map(block));
+        self.blocks.extend((0..count).map(block));
     }
 
     /// Whether states carry velocities beside the coordinates.

@@ -64,7 +64,9 @@ impl Lowering<'_> {
                 }
             }
             for argument in &call.args {
-                self.expr(argument);
+                if !self.is_long_array(argument) {
+                    self.value(argument);
+                }
             }
             return None;
         };

@@ -132,7 +132,9 @@ impl Lowering<'_> {
                 let over = Loop { depth: 0, range: Range::up_to(size) };
                 let value = self.inside(&[(index, Index::open(0), &over)], &closure.body)?;
                 let values = match axis {
-                    Some(axis) => self.vector_of(&closure.body, axis.of, &format!("{name}[i]"), value)?,
+                    Some(axis) => {
+                        self.vector_of(&closure.body, axis.of, [&format!("{name}[i]"), ""], value)?
+                    }
                     None => vec![self.number_of(&closure.body, role, value)?],
                 };
                 let part = |(block, value)| Component {
@@ -152,7 +154,9 @@ impl Lowering<'_> {
                 };
                 self.begin(component, role);
                 let value = self.value(component)?;
-                let values = self.vector_of(component, size as usize, &name, value)?.into_iter().zip(0..);
+                let each = ", or a component for each entry, as `|i| …`";
+                let values = self.vector_of(component, size as usize, [&name, each], value)?;
+                let values = values.into_iter().zip(0..);
                 let part = |(value, entry)| Component {
                     block: first,
                     index: Index::literal(entry),
@@ -164,8 +168,14 @@ impl Lowering<'_> {
         }
     }
 
-    /// The components of what acts on a vector of so many.
-    fn vector_of(&mut self, at: &Syntax, count: usize, name: &str, value: Value) -> Option<Vec<Expr>> {
+    /// The components of what acts on a vector of so many, or else what there is to write, and what instead.
+    fn vector_of(
+        &mut self,
+        at: &Syntax,
+        count: usize,
+        [name, instead]: [&str; 2],
+        value: Value,
+    ) -> Option<Vec<Expr>> {
         match value {
             Value::Vector(components) if components.len() == count => return Some(components),
             Value::Vector(components) => {
@@ -176,7 +186,7 @@ impl Lowering<'_> {
             Value::Number(_) => {
                 let components = vec!["…"; count].join(", ");
                 let message = format!(
-                    "`{name}` is a vector of {count} components, and this is a number: write a vector, as `[{components}]`"
+                    "`{name}` is a vector of {count} components, and this is a number: write a vector, as `[{components}]`{instead}"
                 );
                 self.errors.push(at, message);
             }

@@ -164,6 +164,7 @@ pub(super) fn as_receiver(syntax: &Syntax) -> String {
         | Syntax::Call(_)
         | Syntax::MethodCall(_)
         | Syntax::Index(_)
+        | Syntax::Array(_)
         | Syntax::Field(_) => text(syntax),
         Syntax::Lit(literal) if text(literal).contains('.') => text(syntax),
         Syntax::Lit(ExprLit { lit: Lit::Int(value), .. }) if value.suffix().is_empty() => {

@@ -107,7 +107,7 @@ impl Lowering<'_> {
         }
         let (at, vector) = if matches!(a, Value::Number(_)) { (left, right) } else { (right, left) };
         let advice = match (&a, &b) {
-            (Value::Vector(_), Value::Vector(_)) => "vectors have as many components".to_string(),
+            (Value::Vector(_), Value::Vector(_)) => "both need the same number of components".to_string(),
             _ => format!(
                 "write a component of the vector, as `{0}[0]`, or a number that is made of it, as `{0}.norm()`",
                 name_of(vector)
@@ -192,15 +192,15 @@ impl Lowering<'_> {
         Some(components[place].into())
     }
 
-    /// A literal index of a component.
+    /// The index of a component, which is known.
     pub(super) fn axis(&mut self, index: &Syntax, count: usize, name: &str) -> Option<usize> {
-        let Some(literal) = self.literal_index(index) else {
+        let Some(literal) = self.index(index)?.as_literal() else {
             let message = format!("a component has a literal for its index, as in `{name}[0]`");
             self.errors.push(index, message);
             return None;
         };
         let place = usize::try_from(literal).ok().filter(|place| *place < count);
-        if place.is_none() {
+        if place.is_none() && !self.model.lost_coordinates {
             let message = format!(
                 "index {literal} is out of range: the components of `{name}` are numbered 0 to {}",
                 count - 1

@@ -1,10 +1,11 @@
 //! Systems to text: the attribute and the struct as a user writes them.
 
-use std::cell::Cell;
+mod spelling;
 
 use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
 use super::functions::{BinaryFunction, OWN, SCALAR_FIELDS};
 use super::system::{Constraint, Container, Dynamics, Field, Gauge, SizeKind, System};
+use spelling::{Spelling, is_in_brackets};
 
 const INDICES: [&str; 10] = ["i", "j", "k", "l", "o", "i5", "i6", "i7", "i8", "i9"];
 
@@ -19,47 +20,12 @@ enum Binding {
     Postfix,
 }
 
-/// Whether a text has a name in brackets, where indices stand.
-fn is_in_brackets(text: &str, name: &str) -> bool {
-    let (mut depth, mut word, mut found) = (0_u32, String::new(), false);
-    for letter in text.chars().chain([' ']) {
-        if letter.is_alphanumeric() || letter == '_' {
-            word.push(letter);
-            continue;
-        }
-        found |= depth > 0 && word == name;
-        word.clear();
-        depth = match letter {
-            '[' => depth + 1,
-            ']' => depth - 1,
-            _ => depth,
-        };
-    }
-    found
-}
-
 /// Writes the formulas of one system.
 pub(super) struct Writer<'a> {
     pub(super) system: &'a System,
     /// `d` or `dot`.
     pub(super) velocity: &'static str,
     spelling: Spelling,
-}
-
-/// Where the language has two spellings, sometimes the other one is taken: the same ones for the same
-/// system.
-struct Spelling(Cell<u32>);
-
-impl Spelling {
-    fn is_other(&self) -> bool {
-        let next = self.0.get().wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        self.0.set(next);
-        next >> 30 == 0
-    }
-
-    fn is_rare(&self) -> bool {
-        self.is_other() && self.is_other()
-    }
 }
 
 impl System {
@@ -202,7 +168,7 @@ impl System {
 
 impl<'a> Writer<'a> {
     pub(super) fn new(system: &'a System, velocity: &'static str) -> Self {
-        Self { system, velocity, spelling: Spelling(Cell::new(system.fields.len() as u32)) }
+        Self { system, velocity, spelling: Spelling::new(system.fields.len() as u32) }
     }
 
     pub(super) fn text(&self, formula: &Formula) -> String {

@@ -3,7 +3,6 @@
 
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 use std::cell::RefCell;
-use std::ops::Range as Blocks;
 use std::rc::Rc;
 
 use quote::ToTokens;
@@ -13,11 +12,11 @@ use super::jet::Jet;
 use super::point::{Branches, Directions, Point, Variable};
 use crate::internal::internal;
 use crate::model::{Extended, Model};
-use crate::syntax::Force;
 use crate::work::step;
 
 mod calls;
 mod constraints;
+mod covectors;
 mod indices;
 mod locals;
 mod places;
@@ -150,9 +149,9 @@ impl<'a> Evaluation<'a> {
         directions: Directions<'a>,
         budget: u64,
     ) -> Self {
-        let coordinates = model.coordinates().into_iter().map(|Blocks { start, .. }| {
-            let name = &model.blocks[start].name;
-            (texts.of(name, || name.to_string()), start)
+        let coordinates = model.coordinates().into_iter().map(|blocks| {
+            let name = &model.blocks[blocks.start].name;
+            (texts.of(name, || name.to_string()), blocks.start)
         });
         let own = model.functions.iter();
         let functions = own.map(|own| texts.of(&own.name, || own.name.to_string())).collect();
@@ -172,69 +171,6 @@ impl<'a> Evaluation<'a> {
             is_delicate: false,
             scope: Scope::default(),
         }
-    }
-
-    /// α·v of a list of components.
-    pub(super) fn components(&mut self, list: &syn::ExprArray) -> Value<Jet> {
-        let mut total = Jet::number(0.0);
-        for (blocks, component) in self.model.coordinates().into_iter().zip(&list.elems) {
-            for (block, index, component) in self.entries(blocks, component)? {
-                let velocity = self.variable(Variable::Velocity, block, index)?;
-                total = total.plus(&component.times(&velocity));
-            }
-        }
-        Ok(total)
-    }
-
-    /// The forces times the displacements along both directions: the work of a displacement.
-    pub(super) fn work(&mut self, forces: &[Force]) -> Value<[Jet; 2]> {
-        let mut work = [Jet::number(0.0), Jet::number(0.0)];
-        for force in forces {
-            let components: Vec<(Blocks<usize>, &Expr)> = match force {
-                Force::Components(list) => self.model.coordinates().into_iter().zip(&list.elems).collect(),
-                Force::On(name, formula) => match self.block(&name.to_string()) {
-                    Some(block) => vec![(self.model.coordinate_at(block), formula)],
-                    None => unknown(name),
-                },
-            };
-            for (blocks, component) in components {
-                for (block, index, value) in self.entries(blocks, component)? {
-                    let Directions { first, second } = self.directions;
-                    for (work, (support, is_second)) in work.iter_mut().zip([(first, false), (second, true)])
-                    {
-                        let displacement = self.point.direction(support, is_second, block, index);
-                        *work = work.clone().plus(&value.clone().scaled(displacement));
-                    }
-                }
-            }
-        }
-        Ok(work)
-    }
-
-    /// The components of a covector along a coordinate, each with its block and the index there.
-    fn entries(&mut self, blocks: Blocks<usize>, component: &Expr) -> Value<Vec<(usize, i64, Jet)>> {
-        let first = blocks.start;
-        let Expr::Closure(closure) = component else {
-            return Ok(match self.quantity(component)? {
-                Quantity::Vector(components) => {
-                    components.into_iter().zip(0..).map(|(value, index)| (first, index, value)).collect()
-                }
-                Quantity::Number(value) | Quantity::Empty(value) => vec![(first, 0, value)],
-            });
-        };
-        let mut entries = Vec::new();
-        for index in self.point.visited(0, self.block_size(first)) {
-            match self.closure(closure, &[index])? {
-                Quantity::Vector(components) => {
-                    entries
-                        .extend(blocks.clone().zip(components).map(|(block, value)| (block, index, value)));
-                }
-                Quantity::Number(value) | Quantity::Empty(value) => {
-                    entries.extend(blocks.clone().map(|block| (block, index, value.clone())));
-                }
-            }
-        }
-        Ok(entries)
     }
 
     /// The rate of the physical time, and the energy that is conjugate to it.
