@@ -99,6 +99,7 @@
 //! | [`CentreSpeed`] | what these compare |
 //! | [`Dense`] | the state at any time of the last step |
 //! | [`Events`] | where conditions cross zero |
+//! | [`Watch`] | the same for those who take the steps themselves |
 //! | [`Event`] | one of these: which condition, when, and the state |
 //! | [`Direction`] | which crossings count |
 //! | [`Together`](../run/struct.Together.html) | several runs in lanes |
@@ -139,7 +140,7 @@ pub use crate::methods::{
 pub use crate::record::Recorded;
 pub use crate::run::{
     CentreSpeed, ControlledIntegrator, Dense, Density, Direction, EnergyMomentum, ErrorControl, Event,
-    Events, Integrator, Osculating, Power, Reversible, Run, StepControl, WithMethod,
+    Events, Integrator, Osculating, Power, Reversible, Run, StepControl, Watch, WithMethod,
 };
 #[cfg(feature = "alloc")]
 pub use crate::run::{Checkpoint, Together};

@@ -28,7 +28,7 @@ use between::Between;
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
 pub use dense::{Dense, StatesAt};
-pub use events::{Declared, Direction, Event, Events};
+pub use events::{Declared, Direction, Event, Events, Watch};
 pub use integrator::Integrator;
 #[cfg(feature = "alloc")]
 pub use resume::Resume;

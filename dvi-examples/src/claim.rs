@@ -9,6 +9,10 @@
 
 use std::fmt;
 
+use anyhow::Result;
+
+use crate::gallery::Outcome;
+
 /// The place of claims that no paper makes; they are counted apart.
 pub const BEYOND: &str = "beyond the paper";
 
@@ -73,6 +77,11 @@ pub fn says(place: impl Into<String>, text: impl Into<String>) -> Claim {
 /// What no paper says.
 pub fn beyond(says: impl Into<String>) -> Claim {
     Claim::new(BEYOND, says)
+}
+
+/// What an experiment has to say that has claims only.
+pub fn claims<const N: usize>(all: [Claim; N]) -> Result<Outcome> {
+    Ok(Vec::from(all).into())
 }
 
 impl Claim {
@@ -271,8 +280,7 @@ mod tests {
 
     #[test]
     fn a_known_error_of_the_paper_is_confirmed_by_measurement_too() {
-        let with =
-            |it, other| claim(it).instead("it is two").check("it", other, Bound::AtLeast(1.9)).verdict();
+        let with = |it, two| claim(it).instead("it is two").check("it", two, Bound::AtLeast(1.9)).verdict();
         assert_eq!(with(1.0, 1.0), Verdict::Reproduced);
         assert_eq!(with(2.0, 2.0), Verdict::Differs("it is two".into()));
         assert_eq!(with(1.5, 1.5), Verdict::NotReproduced);

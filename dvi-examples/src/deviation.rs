@@ -205,16 +205,18 @@ pub fn magnitude_table<'a, const N: usize>(
     all: impl IntoIterator<Item = &'a Series<N>>,
 ) -> Result<Table> {
     let quantities = columns.len().saturating_sub(2).min(N);
-    let rows = all.into_iter().flat_map(|Series { name, kept, .. }| {
-        let magnitudes: Vec<_> = kept[..quantities].iter().map(|kept| kept.envelope.magnitude()).collect();
+    let curves = all.into_iter().map(|Series { name, kept, .. }| {
+        let magnitudes: Vec<_> = kept[..quantities].iter().map(Deviation::magnitude).collect();
         let intervals = magnitudes.iter().map(Vec::len).min().unwrap_or(0);
-        (0..intervals).map(move |k| {
-            let time = magnitudes[0][k][0];
-            let numbers = [time].into_iter().chain(magnitudes.iter().map(|of| of[k][1]));
-            ([name], numbers.collect::<Vec<_>>())
-        })
+        let row = move |k: usize| {
+            [magnitudes[0][k][0]]
+                .into_iter()
+                .chain(magnitudes.iter().map(move |of| of[k][1]))
+                .collect::<Vec<_>>()
+        };
+        ([name], [], (0..intervals).map(row))
     });
-    Table::of(columns, rows)
+    curve_table(columns, curves)
 }
 
 /// A table with the name of each run, that of each of its quantities if there is a column for it, and
@@ -225,22 +227,28 @@ pub fn range_table<'a, const N: usize>(
     all: impl IntoIterator<Item = &'a Series<N>>,
 ) -> Result<Table> {
     let names = columns.len().saturating_sub(4);
-    let rows = all.into_iter().flat_map(|Series { name, kept, .. }| {
-        quantities.iter().zip(kept).flat_map(move |(quantity, of)| {
-            let texts = [name, *quantity].into_iter().take(names);
-            of.envelope.rows().into_iter().map(move |row| (texts.clone(), row))
-        })
+    let curves = all.into_iter().flat_map(|Series { name, kept, .. }| {
+        let named = quantities.iter().map(move |quantity| [name, *quantity].into_iter().take(names));
+        named.zip(kept).map(|(texts, of)| (texts, [], of.envelope.rows()))
     });
-    Table::of(columns, rows)
+    curve_table(columns, curves)
 }
 
-/// Rows of a table: texts, and lowest, mean and highest value of a quantity in each interval of time.
-pub fn ranges<const T: usize>(
-    texts: [&str; T],
-    envelope: &Envelope,
-) -> impl Iterator<Item = ([String; T], [f64; 4])> {
-    let texts = texts.map(str::to_owned);
-    envelope.rows().into_iter().map(move |row| (texts.clone(), row))
+/// A table of curves, each with its names, the numbers that belong to all of it, and its points.
+pub fn curve_table<T, N, P, C: Into<Option<f64>>>(
+    columns: &[&str],
+    curves: impl IntoIterator<Item = (T, N, P)>,
+) -> Result<Table>
+where
+    T: IntoIterator<Item: AsRef<str>> + Clone,
+    N: IntoIterator<Item = C> + Clone,
+    P: IntoIterator<Item: IntoIterator<Item = C>>,
+{
+    let rows = curves.into_iter().flat_map(|(names, numbers, points)| {
+        let rows = points.into_iter();
+        rows.map(move |point| (names.clone(), numbers.clone().into_iter().chain(point).map(Into::into)))
+    });
+    Table::of(columns, rows)
 }
 
 #[cfg(test)]

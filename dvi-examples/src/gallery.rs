@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
 
 use anyhow::{Context as _, Result};
 use rayon::ThreadPoolBuilder;
@@ -72,7 +73,8 @@ pub fn run(
         if stop.load(Ordering::Relaxed) {
             return ended("not started", State::NotStarted, Outcome::default());
         }
-        let job = Job::new(name, folder.to_owned(), length, progress.start(number), stop);
+        let (bar, cut) = (progress.start(number), AtomicBool::new(false));
+        let job = Job { name, folder, length, bar, stop, cut };
         let ran = run(&job).and_then(|outcome| job.publish_motion().map(|()| outcome));
         match (ran, job.was_interrupted()) {
             (Ok(outcome), false) => ended("done", State::Complete, outcome),
@@ -82,24 +84,15 @@ pub fn run(
     };
     let mut order: Vec<usize> = (0..experiments.len()).collect();
     order.sort_by(|&i, &j| experiments[i].share.total_cmp(&experiments[j].share));
-    let finished = AtomicBool::new(false);
     let mut parts: Vec<(usize, Part)> = std::thread::scope(|scope| {
-        scope.spawn(|| progress.watch(|| finished.load(Ordering::Relaxed)));
-        let _guard = SetAtEnd(&finished);
+        // Until this is dropped, which a panic does too.
+        let (_running, ended) = mpsc::channel();
+        scope.spawn(|| progress.watch(ended));
         // A bridge hands out one at a time, in this order.
         pool.install(|| order.into_iter().par_bridge().map(one).collect())
     });
     parts.sort_by_key(|(number, _)| *number);
     Ok(parts.into_iter().map(|(_, part)| part).collect())
-}
-
-/// Sets a flag when it goes out of scope, also in a panic.
-struct SetAtEnd<'a>(&'a AtomicBool);
-
-impl Drop for SetAtEnd<'_> {
-    fn drop(&mut self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What an experiment is given: a folder, a length, and somebody to tell how far it is.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Result;
@@ -39,29 +39,21 @@ impl Length {
 /// The surroundings of one experiment.
 #[derive(Debug)]
 pub struct Job<'a> {
-    name: &'static str,
-    folder: PathBuf,
-    length: Length,
-    bar: ProgressBar,
-    stop: &'a AtomicBool,
-    cut: AtomicBool,
+    /// The name of the experiment.
+    pub name: &'static str,
+    pub folder: &'a Path,
+    pub length: Length,
+    pub bar: ProgressBar,
+    /// Whether the user has asked to stop.
+    pub stop: &'a AtomicBool,
+    /// Whether a series ended before its time because of that.
+    pub cut: AtomicBool,
 }
 
 /// Steps between two looks at the clock and at the interrupt flag.
 const CHUNK: u64 = 4096;
 
-impl<'a> Job<'a> {
-    /// The surroundings of the experiment of that name.
-    pub fn new(
-        name: &'static str,
-        folder: PathBuf,
-        length: Length,
-        bar: ProgressBar,
-        stop: &'a AtomicBool,
-    ) -> Self {
-        Self { name, folder, length, bar, stop, cut: AtomicBool::new(false) }
-    }
-
+impl Job<'_> {
     /// The first of the two in a full run, the second in a short one.
     pub fn choose<T>(&self, full: T, short: T) -> T {
         match self.length {
@@ -96,9 +88,6 @@ impl<'a> Job<'a> {
     }
 
     /// Calls `step` `count` times; fewer, if the user interrupts.
-    ///
-    /// # Errors
-    /// That of the first step that fails, which is the last one taken.
     pub fn repeat(
         &self,
         count: u64,
@@ -119,9 +108,6 @@ impl<'a> Job<'a> {
 
     /// Takes so many steps of a run, fewer if the user interrupts, and shows the state after each of them to
     /// `look`.
-    ///
-    /// # Errors
-    /// That of the first step that fails.
     pub fn follow<R: Run>(
         &self,
         run: &mut R,
@@ -137,9 +123,6 @@ impl<'a> Job<'a> {
 
     /// How far quantities of a run are from their start in the course of so many steps; `of` returns that
     /// after each of them.
-    ///
-    /// # Errors
-    /// That of the first step that fails.
     pub fn keep<R: Run<Scalar = f64>, const N: usize>(
         &self,
         run: &mut R,
@@ -153,9 +136,6 @@ impl<'a> Job<'a> {
     }
 
     /// The same as a series of that name, with the points that `of` adds to its path.
-    ///
-    /// # Errors
-    /// That of the first step that fails.
     pub fn series<R: Run<Scalar = f64>, const N: usize>(
         &self,
         (name, stroke): Named<'_>,
@@ -208,8 +188,8 @@ impl<'a> Job<'a> {
     pub fn publish(&self, figure: Figure, data: Table) -> Result<()> {
         let figure = figure.titled(&format!("{}{}", title(self.name), self.choose("", " — short form")));
         let figure = if self.was_interrupted() { figure.interrupted() } else { figure };
-        figure.save(&self.folder, self.name)?;
-        data.save(&self.folder, self.name)
+        figure.save(self.folder, self.name)?;
+        data.save(self.folder, self.name)
     }
 
     /// Writes the page of its motion (HTML), if it has one.
@@ -232,21 +212,20 @@ mod tests {
 
     #[test]
     fn a_series_ends_at_the_interrupt_and_says_so() {
-        let stop = AtomicBool::new(false);
-        let job = Job::new("", PathBuf::new(), Length::Short, ProgressBar::hidden(), &stop);
-        let mut count = 0;
-        let mut step = || {
-            count += 1;
-            Ok(())
+        let (stop, mut count) = (AtomicBool::new(false), 0);
+        let (folder, bar, cut) = (Path::new(""), ProgressBar::hidden(), AtomicBool::new(false));
+        let job = Job { name: "", folder, length: Length::Short, bar, stop: &stop, cut };
+        let mut steps = |number, last| {
+            let done = job.repeat(number, || {
+                count += 1;
+                stop.store(count > last, Ordering::Relaxed);
+                Ok(())
+            });
+            assert_eq!(done, Ok(()));
+            (count, job.was_interrupted())
         };
-        assert_eq!(job.repeat(10_000, &mut step), Ok(()));
-        assert_eq!((count, job.was_interrupted()), (10_000, false));
-        let result = job.repeat(1_000_000, || {
-            count += 1;
-            stop.store(count > 20_000, Ordering::Relaxed);
-            Ok(())
-        });
-        assert_eq!(result, Ok(()));
-        assert!(job.was_interrupted() && (20_000..20_000 + 2 * CHUNK).contains(&count), "{count}");
+        assert_eq!(steps(10_000, 20_000), (10_000, false));
+        let (count, interrupted) = steps(1_000_000, 20_000);
+        assert!(interrupted && (20_000..20_000 + 2 * CHUNK).contains(&count), "{count}");
     }
 }

@@ -48,12 +48,8 @@ fn main() -> ExitCode {
 }
 
 fn list() -> Result<ExitCode> {
-    let width = width();
-    let line = |experiment: &Experiment| {
-        output::wrapped(&format!("{:<20} {}", experiment.name, experiment.title), 0, width)
-    };
-    say(&experiments::ALL.iter().map(line).collect::<String>())?;
-    Ok(ExitCode::SUCCESS)
+    let line = |experiment: &Experiment| format!("{:<20} {}\n", experiment.name, experiment.title);
+    say(&experiments::ALL.iter().map(line).collect::<String>()).map(|()| ExitCode::SUCCESS)
 }
 
 fn run(options: &Options) -> Result<ExitCode> {
@@ -74,20 +70,12 @@ fn run(options: &Options) -> Result<ExitCode> {
     let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
     let parts = record::merged(record::load(&folder)?, new.clone(), &names);
     record::save(&folder, &parts)?;
-    output::write_whole(
-        &folder.join("summary.md"),
-        summary::markdown(&parts, experiments::title).as_bytes(),
-    )?;
+    output::write_whole(&folder.join("summary.md"), summary::markdown(&parts)?.as_bytes())?;
     let index = folder.join("index.html");
-    output::write_whole(&index, page::html(&parts, &folder).as_bytes())?;
-    say(&format!("\n{}", summary::plain(&new, experiments::title, width())))?;
+    output::write_whole(&index, page::html(&parts, &folder)?.as_bytes())?;
+    say(&format!("\n{}", summary::markdown(&new)?))?;
     eprintln!("look at {}", index.display());
     Ok(exit_code(&new))
-}
-
-/// The width of the terminal that reads the summary; `None` if none does.
-fn width() -> Option<usize> {
-    Term::stdout().size_checked().map(|(_, columns)| columns.into())
 }
 
 /// The first Ctrl-C lets the experiments write what they have; a second one does not wait for them.
@@ -108,8 +96,15 @@ fn exit_code(parts: &[Part]) -> ExitCode {
     }
 }
 
-/// Prints, and does not mind a reader who has seen enough.
+/// Prints, on a terminal in lines that break between words, and does not mind a reader who has seen enough.
 fn say(text: &str) -> Result<()> {
+    let text = match Term::stdout().size_checked() {
+        None => text.to_owned(),
+        Some((_, width)) => {
+            let options = textwrap::Options::new(width.into()).subsequent_indent("    ");
+            text.lines().map(|line| textwrap::fill(line, &options) + "\n").collect()
+        }
+    };
     match std::io::stdout().lock().write_all(text.as_bytes()) {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         other => other.context("cannot print"),

@@ -6,7 +6,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::figure::{Colour, Points, SEQUENCE};
-use crate::numbers::{apart, each, indicator, larger, order_of};
+use crate::numbers::{apart, each, indicator, larger, order};
 
 /// What `of` reads of a run, at its start and after each of so many steps.
 pub fn course<R: Run, T>(run: &mut R, steps: u64, mut of: impl FnMut(&R) -> T) -> Result<Vec<T>, StepError> {
@@ -23,63 +23,80 @@ pub fn place<R: Run<Scalar = f64>>(run: &R) -> [f64; 2] {
     [run.q()[0], run.q()[1]]
 }
 
-/// The state of a run after time `end`.
-pub fn up_to<S: Lagrangian>(
-    system: &S,
-    method: impl Method<S, f64>,
-    h: f64,
+/// A run of any method.
+pub type AnyRun<'a, S> = Box<dyn Run<System = S, Scalar = f64> + 'a>;
+
+/// A motion that several methods compute: its system, and where it begins.
+pub struct Problem<'a, S: System> {
+    system: &'a S,
     start: S::State<f64>,
-    end: f64,
-) -> Result<S::State<f64>> {
-    let mut run = Integrator::new(system, method, h, start)?;
-    run.take_steps((end / h).round() as u64)?;
-    Ok(run.state())
 }
 
-/// The order that errors of the coordinates show after time `end`, of runs with so many steps.
-pub fn order_at<S: Lagrangian, const N: usize>(
-    system: &S,
-    method: impl Method<S, f64> + Clone,
-    start: &S::State<f64>,
-    end: f64,
-    counts: [u64; N],
-    error: impl Fn(&[f64]) -> f64,
-) -> Result<Option<f64>> {
-    order_of(counts, |steps| {
-        let mut run = Integrator::new(system, method.clone(), end / steps as f64, start.clone())?;
+impl<'a, S: Lagrangian> Problem<'a, S> {
+    pub fn new(system: &'a S, start: impl Into<S::State<f64>>) -> Self {
+        Self { system, start: start.into() }
+    }
+
+    /// A run with steps of length `h`.
+    pub fn run(&self, method: impl Method<S, f64> + 'a, h: f64) -> Result<AnyRun<'a, S>> {
+        Ok(Box::new(Integrator::new(self.system, method, h, self.start.clone())?))
+    }
+
+    /// The state after time `end`.
+    pub fn up_to(&self, method: impl Method<S, f64> + 'a, h: f64, end: f64) -> Result<S::State<f64>> {
+        let mut run = self.run(method, h)?;
+        run.take_steps((end / h).round() as u64)?;
+        Ok(run.state())
+    }
+
+    /// The largest difference of a coordinate or velocity from the start, after steps there and as many
+    /// back.
+    pub fn there_and_back(&self, by: impl Method<S, f64> + Copy + 'a, h: f64, steps: u64) -> Result<f64> {
+        let mut there = self.run(by, h)?;
+        there.take_steps(steps)?;
+        let mut back = Integrator::new_at(self.system, by, there.time(), -h, there.state())?;
+        back.take_steps(steps)?;
+        let values = |state| Ok(self.system.values(state)?.collect::<Vec<f64>>());
+        let [end, start] = each([&back.state(), &self.start], values)?;
+        Ok(apart(&end, &start))
+    }
+
+    /// Iterations of a step, on average over so many of them.
+    pub fn iterations(&self, method: impl Method<S, f64> + 'a, h: f64, steps: u64) -> Result<f64> {
+        let mut run = self.run(method, h)?;
         run.take_steps(steps)?;
-        Ok((end / steps as f64, error(run.q())))
-    })
+        Ok(run.statistics().iterations as f64 / steps as f64)
+    }
+
+    /// Errors of the coordinates at time `end`, of runs with so many steps, which show the order of methods.
+    pub fn errors<E: Fn(&[f64]) -> f64>(self, end: f64, counts: &[u64], error: E) -> Errors<'a, S, E> {
+        Errors { problem: self, end, counts: counts.into(), error }
+    }
 }
 
-/// The largest difference of a coordinate or velocity from the start, after steps there and as many back.
-pub fn there_and_back<S: Lagrangian>(
-    system: &S,
-    method: impl Method<S, f64> + Clone,
-    h: f64,
-    start: &S::State<f64>,
-    steps: u64,
-) -> Result<f64> {
-    let mut there = Integrator::new(system, method.clone(), h, start.clone())?;
-    there.take_steps(steps)?;
-    let mut back = Integrator::new_at(system, method, there.time(), -h, there.state())?;
-    back.take_steps(steps)?;
-    let [end, start] =
-        each([&back.state(), start], |state| Ok(system.values(state)?.collect::<Vec<f64>>()))?;
-    Ok(apart(&end, &start))
+/// The errors of the coordinates of a motion at a time, of runs with so many steps.
+pub struct Errors<'a, S: System, E> {
+    problem: Problem<'a, S>,
+    end: f64,
+    counts: Vec<u64>,
+    error: E,
 }
 
-/// Iterations of a step, on average over so many of them.
-pub fn iterations<S: Lagrangian>(
-    system: &S,
-    method: impl Method<S, f64>,
-    h: f64,
-    start: S::State<f64>,
-    steps: u64,
-) -> Result<f64> {
-    let mut run = Integrator::new(system, method, h, start)?;
-    run.take_steps(steps)?;
-    Ok(run.statistics().iterations as f64 / steps as f64)
+impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Errors<'a, S, E> {
+    /// The lengths of the steps of a method, each with the error.
+    pub fn of(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Vec<(f64, f64)>> {
+        let error = |&steps: &u64| {
+            let mut run = self.problem.run(method.clone(), self.end / steps as f64)?;
+            run.take_steps(steps)?;
+            Ok((self.end / steps as f64, (self.error)(run.q())))
+        };
+        self.counts.iter().map(error).collect()
+    }
+
+    /// The order that they show of a method.
+    pub fn order(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Option<f64>> {
+        Ok(order(self.of(method)?))
+    }
 }
 
 /// The first of the momenta of a run; not numbers if it has not as many.
@@ -122,12 +139,9 @@ pub fn trapezoid(collision: Collision) -> Bouncing {
 }
 
 /// The state after as many steps back as a run has taken.
-pub fn back<S: Lagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: M,
-    run: &Integrator<&S, M>,
-) -> Result<S::State<f64>> {
-    let mut back = Integrator::resume(system, method, &run.checkpoint().with_step_size(-run.step_size()))?;
+pub fn back<S: Lagrangian, M: Method<S, f64>>(by: M, run: &Integrator<&S, M>) -> Result<S::State<f64>> {
+    let back = run.checkpoint().with_step_size(-run.step_size());
+    let mut back = Integrator::resume(run.system(), by, &back)?;
     back.take_steps(run.steps())?;
     Ok(back.state())
 }

@@ -6,7 +6,7 @@ pub use anyhow::{Context as _, Result};
 pub use dvi_core::methods::Method;
 pub use dvi_core::prelude::*;
 
-pub use crate::claim::{Bound, Check, Claim, beyond, says};
+pub use crate::claim::{Bound, Check, Claim, beyond, claims, says};
 pub use crate::deviation::*;
 pub use crate::figure::{
     AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, PURPLE, Panel, Points,
@@ -18,3 +18,13 @@ pub use crate::numbers::*;
 pub use crate::output::Table;
 pub use crate::runs::*;
 pub use dvi_examples::models::{self, *};
+
+/// A line of that colour.
+pub const fn solid(colour: Colour) -> Stroke {
+    Stroke::solid(colour)
+}
+
+/// A dashed line of that colour.
+pub const fn dashed(colour: Colour) -> Stroke {
+    Stroke::dashed(colour)
+}

@@ -144,8 +144,8 @@ fn expanded(
     });
     match system {
         Some(system) if stages.errors.is_empty() => {
-            let warnings = stages.attribute.scopes().map(warnings);
-            quote!(#system #(#warnings)*)
+            let warnings = warnings(&stages.attribute.shared, stages.attribute.scopes());
+            quote!(#system #warnings)
         }
         _ => {
             let errors = std::mem::take(&mut stages.errors);

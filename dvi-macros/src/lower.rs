@@ -28,6 +28,7 @@ pub(crate) mod lints;
 mod local;
 mod names;
 mod reach;
+mod shared;
 mod sums;
 mod unsupported;
 mod vectors;
@@ -35,6 +36,7 @@ mod velocities;
 
 use crate::words;
 use local::{Calls, Local};
+use shared::Shared;
 use vectors::Value;
 
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
@@ -50,6 +52,8 @@ pub(crate) enum Role {
     Constraint(Constrained),
     Momentum,
     Event,
+    /// What formulas share, for whichever it is used in.
+    Shared,
 }
 
 impl Role {
@@ -67,6 +71,7 @@ impl Role {
             Self::Constraint(Constrained::Gaps) => "a gap function",
             Self::Momentum => "a momentum",
             Self::Event => "an event",
+            Self::Shared => "a name that formulas share",
         }
     }
 }
@@ -100,7 +105,9 @@ pub(crate) struct Lowering<'a> {
     pub(crate) model: &'a mut Model,
     pub(crate) errors: &'a mut Errors,
     role: Role,
+    /// The names that are open, those that the formulas share first.
     scope: Vec<(String, Binding)>,
+    shared: Shared,
     calls: Calls,
     /// The number of sums around.
     loops: u32,
@@ -161,6 +168,7 @@ impl<'a> Lowering<'a> {
             errors,
             role: Role::Hamiltonian,
             scope: Vec::new(),
+            shared: Shared::default(),
             calls: Calls::default(),
             loops: 0,
             ties: 0,
@@ -304,10 +312,12 @@ impl<'a> Lowering<'a> {
     }
 
     fn binding_of(&self, name: &str) -> Option<&Binding> {
-        let of_name = |(position, (known, _)): &(usize, &(String, Binding))| {
-            known == name && !self.calls.hide(*position)
-        };
-        self.scope.iter().enumerate().rev().find(of_name).map(|(_, (_, binding))| binding)
+        self.position_of(name).map(|position| &self.scope[position].1)
+    }
+
+    /// The place in the scope of what a name stands for.
+    fn position_of(&self, name: &str) -> Option<usize> {
+        (0..self.scope.len()).rev().find(|place| self.scope[*place].0 == name && !self.calls.hide(*place))
     }
 
     fn parameter(&mut self, name: &Ident) -> Option<u32> {
@@ -324,7 +334,7 @@ impl<'a> Lowering<'a> {
 
     /// Reports an unknown name once; where declarations were lost, it may be one of them.
     fn unknown_name(&mut self, at: impl quote::ToTokens, name: &str, what: &str) {
-        if self.model.lost_coordinates {
+        if self.model.lost_coordinates || self.model.lost_names {
             return;
         }
         let blocks = &self.model.blocks[..self.model.declared_blocks()];

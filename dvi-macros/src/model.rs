@@ -97,6 +97,8 @@ pub(crate) struct Model {
     pub(crate) lost_coordinates: bool,
     /// Whether functions are unknown.
     pub(crate) lost_functions: bool,
+    /// Whether names that the formulas share are unknown.
+    pub(crate) lost_names: bool,
 }
 
 impl Model {
@@ -119,6 +121,7 @@ impl Model {
             crate_path,
             lost_coordinates: attribute.lost_coordinates,
             lost_functions: attribute.lost_functions,
+            lost_names: attribute.lost_names,
         };
         for declaration in &attribute.coordinates {
             model.declare(declaration, errors);

@@ -7,7 +7,7 @@ use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::spanned::Spanned;
 use syn::visit_mut::VisitMut as _;
-use syn::{Expr, Path};
+use syn::{Expr, Local, Path};
 
 use crate::errors::{Errors, listed, nearest};
 
@@ -19,6 +19,7 @@ pub(crate) mod depth;
 mod elsewhere;
 mod library;
 mod rotation;
+mod shared;
 pub(crate) mod tidy;
 
 use argument::{Argument, Value};
@@ -31,6 +32,7 @@ use tidy::Ungrouped;
 pub(crate) use declared::{
     Declaration, Factor, Force, Function, Gauge, Named, ScalarFieldPath, TimeTransform,
 };
+pub(crate) use shared::value;
 
 /// Which of the two attributes stands on a struct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,6 +63,8 @@ pub(crate) struct Attribute {
     pub(crate) events: Vec<Named>,
     pub(crate) functions: Vec<Function>,
     pub(crate) scalar_fields: Vec<ScalarFieldPath>,
+    /// The names that all formulas share.
+    pub(crate) shared: Vec<Local>,
     /// What the state derives beside what every state does.
     pub(crate) derives: Vec<Path>,
     pub(crate) crate_path: Option<Path>,
@@ -68,11 +72,13 @@ pub(crate) struct Attribute {
     pub(crate) lost_coordinates: bool,
     /// Whether a function was declared that could not be read.
     pub(crate) lost_functions: bool,
+    /// Whether a shared name was defined that could not be read.
+    pub(crate) lost_names: bool,
 }
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 15] = [
+const ARGUMENTS: [(&str, &str); 16] = [
     ("coordinates", "coordinates(x, y[n], r[n][3], R: SO3, s: S2)"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
@@ -86,19 +92,21 @@ const ARGUMENTS: [(&str, &str); 15] = [
     ("momenta",     "momenta(p = …)"),
     ("events",      "events(name = g(q, v, t))"),
     ("functions",   "functions(f = [f, df, d2f])"),
+    ("let",         "let = { let r2 = x * x + y * y; let gap = |a, b| …; }"),
     ("derive",      "derive(Trait, path::Trait)"),
     ("crate",       "crate = ::path"),
 ];
 
 /// Other words, and the argument that is meant.
 #[rustfmt::skip]
-const OTHER_WORDS: [(&str, &[&str]); 7] = [
+const OTHER_WORDS: [(&str, &[&str]); 8] = [
     ("coordinates", &["coords", "variables", "vars", "q", "positions", "unknowns"]),
     ("lagrangian",  &["L", "l", "lagrange", "kinetic", "potential", "T", "V", "U"]),
     ("hamiltonian", &["H", "h", "energy"]),
     ("one_form",    &["alpha", "theta", "vartheta", "α", "ϑ", "θ", "symplectic"]),
     ("force",       &["damping", "dissipation", "drag", "drive", "forces", "forcing", "friction", "rayleigh"]),
     ("momenta",     &["conserved", "integrals", "invariants", "momentum"]),
+    ("let",         &["abbreviations", "define", "definitions", "lets", "locals", "shared", "terms", "where", "with"]),
     ("events",      &["condition", "conditions", "crossings", "event", "section", "sections"]),
 ];
 
@@ -205,12 +213,12 @@ impl Attribute {
         }
     }
 
-    /// All formulas as they were written.
+    /// All formulas as they were written, behind what they share.
     pub(crate) fn formulas(&self) -> impl Iterator<Item = &Expr> {
-        self.scopes().map(|(formula, _)| formula)
+        self.shared_values().chain(self.scopes().map(|(formula, _)| formula))
     }
 
-    /// All formulas as they were written, those of a family with its index.
+    /// All formulas as they were written but for what they share, those of a family with its index.
     pub(crate) fn scopes(&self) -> impl Iterator<Item = (&Expr, Option<&Ident>)> {
         let rate = self.time_transform.as_ref().map(|transform| &transform.rate);
         let dynamics = [
@@ -242,7 +250,8 @@ impl Attribute {
         let forces = self.forces.iter_mut().flat_map(Force::formulas_mut);
         let named = self.momenta.iter_mut().chain(&mut self.events).map(|named| &mut named.formula);
         let constraints = self.constraints.iter_mut().map(|constraint| &mut constraint.formula);
-        dynamics.into_iter().flatten().chain(forces).chain(named).chain(constraints)
+        let shared = Self::shared_values_mut(&mut self.shared);
+        shared.chain(dynamics.into_iter().flatten()).chain(forces).chain(named).chain(constraints)
     }
 
     fn accept(&mut self, argument: Argument, errors: &mut Errors) {
@@ -278,6 +287,7 @@ impl Attribute {
                     }
                 }
             }
+            ("let", Value::Assigned(tokens)) => self.accept_shared(&name, tokens, errors),
             ("derive", Value::List(tokens)) => self.derives = list(tokens, errors, &mut false),
             ("gauge", Value::Assigned(tokens)) => {
                 self.gauge = value_of(&name, tokens, errors).map(Gauge::new);
@@ -321,9 +331,13 @@ impl Attribute {
             },
             (known, _) if ARGUMENTS.iter().any(|(name, _)| *name == known) => {
                 self.lost_functions |= known == "functions";
+                self.lost_names |= known == "let";
                 errors.push(&name, format!("`{known}` is written `{}`", form_of(known)));
             }
-            _ => errors.push(&name, format!("unknown argument `{keyword}`; {}", self.kind.meant(&keyword))),
+            _ => {
+                self.lost_names |= other_word(&keyword) == "let";
+                errors.push(&name, format!("unknown argument `{keyword}`; {}", self.kind.meant(&keyword)));
+            }
         }
     }
 

@@ -12,7 +12,7 @@ mod names;
 use std::fmt::Write as _;
 
 use syn::visit::Visit as _;
-use syn::{BinOp, Expr, ExprIf, Lit, Pat, Stmt, UnOp};
+use syn::{BinOp, Expr, ExprIf, Lit, Local, Pat, Stmt, UnOp};
 
 use crate::errors::text;
 use crate::syntax::{Attribute, Factor, closure};
@@ -148,26 +148,41 @@ impl Typesetter {
         }
     }
 
+    /// What all formulas share by a `let`.
+    pub(crate) fn definition(&mut self, local: &Local) -> Vec<Equation> {
+        self.define(local);
+        let lets = std::mem::take(&mut self.lets).into_iter();
+        let equation =
+            |(name, terms)| Equation { name, terms, relation: "=", range: None, lets: Vec::new() };
+        lets.map(equation).collect()
+    }
+
     /// Takes down the `let`s of a block.
     fn bindings(&mut self, block: &syn::Block) {
         for statement in &block.stmts {
-            let Stmt::Local(syn::Local { pat, init: Some(init), .. }) = statement else { continue };
-            match (pat, closure(&init.expr)) {
-                (_, Some(function)) => {
-                    let parameters: Vec<String> =
-                        function.inputs.iter().map(|parameter| self.pattern(parameter)).collect();
-                    let name = format!(r"{}\left({}\right)", self.pattern(pat), parameters.join(", "));
-                    let value = self.terms(&function.body);
-                    self.lets.push((name, value));
-                }
-                (Pat::Tuple(names), None) => self.tuple(names, &init.expr),
-                (_, None) => {
-                    let value = self.terms(&init.expr);
-                    let vector = bound(pat).filter(|_| self.is_vector(&init.expr));
-                    self.vectors.extend(vector.map(|name| (name, 0)));
-                    let name = self.pattern(pat);
-                    self.lets.push((name, value));
-                }
+            if let Stmt::Local(local) = statement {
+                self.define(local);
+            }
+        }
+    }
+
+    fn define(&mut self, local: &Local) {
+        let Some(init) = crate::syntax::value(local) else { return };
+        match (&local.pat, closure(init)) {
+            (pat, Some(function)) => {
+                let parameters: Vec<String> =
+                    function.inputs.iter().map(|parameter| self.pattern(parameter)).collect();
+                let name = format!(r"{}\left({}\right)", self.pattern(pat), parameters.join(", "));
+                let value = self.terms(&function.body);
+                self.lets.push((name, value));
+            }
+            (Pat::Tuple(names), None) => self.tuple(names, init),
+            (pat, None) => {
+                let value = self.terms(init);
+                let vector = bound(pat).filter(|_| self.is_vector(init));
+                self.vectors.extend(vector.map(|name| (name, 0)));
+                let name = self.pattern(pat);
+                self.lets.push((name, value));
             }
         }
     }

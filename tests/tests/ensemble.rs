@@ -9,6 +9,7 @@ mod members;
 mod mistakes;
 mod resumed;
 mod same;
+mod sections;
 mod tables;
 
 use dvi_core::ensemble::{Draws, EnsembleError, Results};

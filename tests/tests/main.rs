@@ -51,6 +51,7 @@ mod records;
 mod reference_values;
 mod restoring;
 mod scalar_fields;
+mod shared_names;
 mod singular_forms;
 mod singular_masses;
 mod sizes;

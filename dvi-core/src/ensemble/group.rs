@@ -7,7 +7,7 @@ use std::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use super::error::EnsembleError;
-use super::limits::{Exit, Watch};
+use super::limits::{self, Exit, WatchedRun};
 use super::member::{At, Member, Outcome, Seen};
 use super::settings::{AnyGrowth, Settings};
 use crate::Lagrangian;
@@ -29,7 +29,7 @@ pub(super) struct UnderWay {
     checkpoint: Checkpoint,
     seen: Seen,
     growth: Option<Vec<f64>>,
-    watch: Option<Vec<f64>>,
+    watch: Option<limits::Saved>,
 }
 
 /// A member with its place.
@@ -47,10 +47,10 @@ struct Runner<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
     growth: Option<AnyGrowth<'a, S, M>>,
 }
 
-/// A run without limits, or one that is watched.
+/// A run that steps alone count of, or one that is watched.
 enum Course<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
     Free(Integrator<&'a S, M>),
-    Limited(Box<dyn Watch<'a, S, M> + 's>),
+    Watched(Box<WatchedRun<'s, 'a, S, M>>),
 }
 
 impl Slot {
@@ -103,7 +103,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
                 None => behind.iter_mut().map(|runner| runner.take_steps(steps)).collect::<Vec<_>>(),
             };
             let looked_at = behind.into_iter().zip(results);
-            others.extend(looked_at.filter_map(|(runner, result)| runner.looked_at(self, result, count)));
+            others.extend(looked_at.filter_map(|(runner, result)| runner.looked_at(result, count)));
             runners = others;
             if is_interrupted() {
                 runners.retain_mut(|runner| !runner.is_left(self));
@@ -133,7 +133,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             Place::Waiting => match self.first(system, number, state.clone()) {
                 Ok((run, growth, exit)) => {
                     let seen = Seen::first(&At::end_of(run.run()));
-                    Ok(Runner { slot, run, seen, growth }.looked_at(self, Ok(exit), count))
+                    Ok(Runner { slot, run, seen, growth }.looked_at(Ok(exit), count))
                 }
                 Err(error) => {
                     slot.place = Place::Ended(Member::without_run(number, system, state, error.to_string()));
@@ -153,7 +153,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
     ) -> Result<(Course<'_, 'a, S, M>, Option<AnyGrowth<'a, S, M>>, Option<Exit<S>>), StartError> {
         let run = Integrator::new(system, self.method(number), self.h, state)?;
         let growth = self.growth.map(|new| new(&run));
-        let exit = self.limits.as_ref().and_then(|limits| limits.beyond(&run));
+        let exit = self.beyond(system, number, &run)?;
         Ok((self.course(system, run, None)?, growth, exit))
     }
 
@@ -171,19 +171,19 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             (None, None) => {}
             (Some(_), None) | (None, Some(_)) => return Err(CheckpointError::Damaged.into()),
         }
-        Ok((self.course(system, run, watch.as_deref())?, growth))
+        Ok((self.course(system, run, watch.as_ref())?, growth))
     }
 
     fn course(
         &self,
         system: &'a S,
         run: Integrator<&'a S, M>,
-        saved: Option<&[f64]>,
+        saved: Option<&limits::Saved>,
     ) -> Result<Course<'_, 'a, S, M>, StartError> {
-        match &self.limits {
-            Some(limits) => Ok(Course::Limited(limits.watch(system, run, saved)?)),
-            None => Ok(Course::Free(run)),
+        if !self.is_watched() {
+            return Ok(Course::Free(run));
         }
+        Ok(Course::Watched(Box::new(WatchedRun::new(self, system, run, saved)?)))
     }
 }
 
@@ -191,7 +191,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Course<'_, 'a, S, M> {
     fn run(&self) -> &Integrator<&'a S, M> {
         match self {
             Self::Free(run) => run,
-            Self::Limited(watch) => watch.run(),
+            Self::Watched(watched) => watched.run(),
         }
     }
 }
@@ -205,42 +205,37 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
     fn free(&mut self) -> Option<&mut Integrator<&'a S, M>> {
         match &mut self.run {
             Course::Free(run) => Some(run),
-            Course::Limited(_) => None,
+            Course::Watched(_) => None,
         }
     }
 
     /// Takes `count` steps, up to a limit.
     fn take_steps(&mut self, count: u64) -> Result<Option<Exit<S>>, StepError> {
-        let Self { run, growth, .. } = self;
+        let Self { run, growth, seen, .. } = self;
         match (run, growth) {
-            (Course::Limited(watch), growth) => watch.take_steps(growth, count),
+            (Course::Watched(watched), growth) => watched.take_steps(growth, count, &mut seen.crossings),
             (Course::Free(run), Some(growth)) => growth.take_steps(run, count).map(|()| None),
             (Course::Free(run), None) => run.take_steps(count).map(|()| None),
         }
     }
 
     /// The runner, unless this look shows that the member has ended.
-    fn looked_at(
-        mut self,
-        settings: &Settings<'_, S, M>,
-        result: Result<Option<Exit<S>>, StepError>,
-        count: u64,
-    ) -> Option<Self> {
+    fn looked_at(mut self, result: Result<Option<Exit<S>>, StepError>, count: u64) -> Option<Self> {
         let run = self.run.run();
-        let (at, outcome) = match result {
-            Err(error) => (At::end_of(run), Outcome::Failed { error: error.to_string() }),
-            Ok(Some((event, reason))) => {
-                let at = At::event(run.system(), &event);
-                self.seen.look(settings, &at);
-                (at, Outcome::Exited { reason: reason.into() })
-            }
-            Ok(None) => {
-                let at = At::end_of(run);
-                self.seen.look(settings, &at);
-                if run.steps() < count {
-                    return Some(self);
+        let place = match &result {
+            Ok(Some((event, _))) => At::event(run.system(), event),
+            Ok(None) | Err(_) => Ok(At::end_of(run)),
+        };
+        let (at, outcome) = match (place, result) {
+            (Err(error), _) => (At::end_of(run), Outcome::Failed { error: error.to_string() }),
+            (Ok(at), Err(error)) => (at, Outcome::Failed { error: error.to_string() }),
+            (Ok(at), Ok(exit)) => {
+                self.seen.look(&at);
+                match exit {
+                    Some((_, reason)) => (at, Outcome::Exited { reason: reason.into() }),
+                    None if run.steps() < count => return Some(self),
+                    None => (at, Outcome::Finished),
                 }
-                (at, Outcome::Finished)
             }
         };
         let exponent = self.growth.as_ref().and_then(|growth| growth.exponent());
@@ -259,7 +254,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
         let growth = growth.as_ref().map(|growth| growth.save());
         let watch = match run {
             Course::Free(_) => None,
-            Course::Limited(watch) => Some(watch.save()),
+            Course::Watched(watched) => Some(watched.save()),
         };
         let under_way = UnderWay { checkpoint: run.run().checkpoint(), seen: seen.clone(), growth, watch };
         let can_go_on =

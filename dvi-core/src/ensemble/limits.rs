@@ -1,135 +1,226 @@
-//! Limits at which members end: events of their runs.
+//! What is watched of a member in each step: limits, at which it ends, and a section, whose crossings are
+//! counted.
 
 use std::boxed::Box;
 use std::vec::Vec;
 
-use super::settings::AnyGrowth;
+use super::settings::{AnyGrowth, Settings};
 use crate::error::{CheckpointError, StartError, StepError};
 use crate::methods::Method;
-use crate::run::{Dense, Direction, Event, Events, Integrator, Run};
+use crate::run::{Dense, Direction, Event, Integrator, Run, Watch};
 use crate::{Lagrangian, System};
 
-/// Conditions g(system, state, t) under which a member goes on as long as they are negative, each with the
-/// reason to end.
+type RunOf<'a, S, M> = Integrator<&'a S, M>;
+type EventOf<S> = Event<<S as System>::State<f64>, f64>;
+type AnyWatch<'s, 'a, S, M> = Box<dyn Watched<'a, S, M> + 's>;
+
+/// An event at which a member ends, and why.
+pub(super) type Exit<S> = (EventOf<S>, &'static str);
+
+/// Conditions g(system, state, t), each with the direction in which it is crossed.
 pub(super) struct Given<G, const N: usize> {
-    pub(super) reasons: [&'static str; N],
+    pub(super) directions: [Direction; N],
     pub(super) g: G,
 }
 
-/// An event at which a member ends, and why.
-pub(super) type Exit<S> = (Event<<S as System>::State<f64>, f64>, &'static str);
-
-/// The limits of an ensemble. It hides how many there are.
-pub(super) trait Limits<'a, S: Lagrangian, M: Method<S, f64>>: Send + Sync {
-    fn reasons(&self) -> &[&'static str];
-
-    /// The limit beyond which a run begins, if there is one.
-    fn beyond(&self, run: &Integrator<&'a S, M>) -> Option<Exit<S>>;
+/// Conditions for the members of an ensemble. It hides how many there are.
+pub(super) trait Conditions<'a, S: Lagrangian, M: Method<S, f64>>: Send + Sync {
+    /// Their values where a run is.
+    fn values(&self, run: &RunOf<'a, S, M>) -> Vec<f64>;
 
     /// Watches a run of `system` from where it is on, or as one was watched that was interrupted there.
     ///
     /// # Errors
-    /// As [`Events::new`]; [`CheckpointError::Damaged`].
+    /// As [`Watch::new`]; [`CheckpointError::Damaged`].
     fn watch<'s>(
         &'s self,
         system: &'a S,
-        run: Integrator<&'a S, M>,
+        run: &mut Dense<RunOf<'a, S, M>>,
         saved: Option<&[f64]>,
-    ) -> Result<Box<dyn Watch<'a, S, M> + 's>, StartError>
+    ) -> Result<AnyWatch<'s, 'a, S, M>, StartError>
     where
         'a: 's,
         S: 's,
         M: 's;
 }
 
-/// A run whose limits are looked for in each step.
-pub(super) trait Watch<'a, S: Lagrangian, M: Method<S, f64>> {
-    fn run(&self) -> &Integrator<&'a S, M>;
+/// A [`Watch`].
+pub(super) trait Watched<'a, S: Lagrangian, M: Method<S, f64>> {
+    fn search(&mut self, run: &mut Dense<RunOf<'a, S, M>>) -> Result<(), StepError>;
 
-    /// Takes `count` steps, up to a limit.
-    ///
-    /// # Errors
-    /// As [`Events::advance`], and those of the growth.
-    fn take_steps(
+    fn next_until(
         &mut self,
-        growth: &mut Option<AnyGrowth<'a, S, M>>,
-        count: u64,
-    ) -> Result<Option<Exit<S>>, StepError>;
+        run: &mut Dense<RunOf<'a, S, M>>,
+        t: f64,
+    ) -> Result<Option<EventOf<S>>, StepError>;
 
-    /// What is known of the conditions.
     fn save(&self) -> Vec<f64>;
 }
 
-impl<'a, S, M, G, const N: usize> Limits<'a, S, M> for Given<G, N>
+impl<'a, S, M, G, const N: usize> Conditions<'a, S, M> for Given<G, N>
 where
     S: Lagrangian,
     M: Method<S, f64>,
     G: Fn(&S, &S::State<f64>, f64) -> [f64; N] + Send + Sync,
 {
-    fn reasons(&self) -> &[&'static str] {
-        &self.reasons
-    }
-
-    fn beyond(&self, run: &Integrator<&'a S, M>) -> Option<Exit<S>> {
-        let (time, state) = (run.time(), run.state());
-        let index = (self.g)(run.system(), &state, time).iter().position(|&g| g > 0.0)?;
-        Some((Event { index, time, state }, self.reasons[index]))
+    fn values(&self, run: &RunOf<'a, S, M>) -> Vec<f64> {
+        (self.g)(run.system(), &run.state(), run.time()).into()
     }
 
     fn watch<'s>(
         &'s self,
         system: &'a S,
-        run: Integrator<&'a S, M>,
+        run: &mut Dense<RunOf<'a, S, M>>,
         saved: Option<&[f64]>,
-    ) -> Result<Box<dyn Watch<'a, S, M> + 's>, StartError>
+    ) -> Result<AnyWatch<'s, 'a, S, M>, StartError>
     where
         'a: 's,
         S: 's,
         M: 's,
     {
         let g = move |t: f64, state: &S::State<f64>| (self.g)(system, state, t);
-        let mut events = Events::new(Dense::new(run)?, [Direction::Rising; N], g)?;
+        let mut watch = Watch::new(run, self.directions, g)?;
         if let Some(saved) = saved {
-            events.load(saved).ok_or(CheckpointError::Damaged)?;
+            watch.load(saved).ok_or(CheckpointError::Damaged)?;
         }
-        Ok(Box::new(Watched { events, reasons: &self.reasons }))
+        Ok(Box::new(watch))
     }
 }
 
-struct Watched<'s, R: Run, G, const N: usize> {
-    events: Events<R, G, N>,
-    reasons: &'s [&'static str; N],
-}
-
-impl<'a, S, M, G, const N: usize> Watch<'a, S, M> for Watched<'_, Integrator<&'a S, M>, G, N>
+impl<'a, S, M, G, const N: usize> Watched<'a, S, M> for Watch<RunOf<'a, S, M>, G, N>
 where
     S: Lagrangian,
     M: Method<S, f64>,
     G: FnMut(f64, &S::State<f64>) -> [f64; N],
 {
-    fn run(&self) -> &Integrator<&'a S, M> {
-        self.events.run()
+    fn search(&mut self, run: &mut Dense<RunOf<'a, S, M>>) -> Result<(), StepError> {
+        Watch::search(self, run)
     }
 
-    fn take_steps(
+    fn next_until(
+        &mut self,
+        run: &mut Dense<RunOf<'a, S, M>>,
+        t: f64,
+    ) -> Result<Option<EventOf<S>>, StepError> {
+        Watch::next_until(self, run, t)
+    }
+
+    fn save(&self) -> Vec<f64> {
+        Watch::save(self)
+    }
+}
+
+/// What is known of limits and section, for a run that goes on.
+pub(super) type Saved = [Option<Vec<f64>>; 2];
+
+/// A run that is watched in each step.
+pub(super) struct WatchedRun<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
+    run: Dense<RunOf<'a, S, M>>,
+    limits: Option<(&'s [&'static str], AnyWatch<'s, 'a, S, M>)>,
+    section: Option<AnyWatch<'s, 'a, S, M>>,
+}
+
+impl<'s, 'a, S: Lagrangian, M: Method<S, f64>> WatchedRun<'s, 'a, S, M> {
+    /// From where a run of `system` is on, or as one was watched that was interrupted there.
+    ///
+    /// # Errors
+    /// As [`Watch::new`]; [`CheckpointError::Damaged`].
+    pub(super) fn new(
+        settings: &'s Settings<'a, S, M>,
+        system: &'a S,
+        run: RunOf<'a, S, M>,
+        saved: Option<&Saved>,
+    ) -> Result<Self, StartError> {
+        let mut run = Dense::new(run)?;
+        let [of_limits, of_section] = match saved {
+            Some(saved) => saved.each_ref().map(Option::as_deref),
+            None => [None; 2],
+        };
+        let limits = match &settings.limits {
+            Some((reasons, given)) => Some((&reasons[..], given.watch(system, &mut run, of_limits)?)),
+            None => None,
+        };
+        let section = match &settings.section {
+            Some((_, given)) => Some(given.watch(system, &mut run, of_section)?),
+            None => None,
+        };
+        Ok(Self { run, limits, section })
+    }
+
+    pub(super) fn run(&self) -> &RunOf<'a, S, M> {
+        &self.run
+    }
+
+    /// Takes `count` steps, up to a limit, and counts the crossings of the section up to there.
+    ///
+    /// # Errors
+    /// As [`Watch::search`], and those of the growth.
+    pub(super) fn take_steps(
         &mut self,
         growth: &mut Option<AnyGrowth<'a, S, M>>,
         count: u64,
+        crossings: &mut u64,
     ) -> Result<Option<Exit<S>>, StepError> {
+        let Self { run, limits, section } = self;
         for _ in 0..count {
-            let event = self.events.advance_by(|run| match growth {
+            run.advance_by(|run| match growth {
                 Some(growth) => growth.take_steps(run, 1),
                 None => run.advance(),
             })?;
-            if let Some(event) = event {
-                let reason = self.reasons[event.index];
+            let (mut exit, mut end) = (None, run.time());
+            if let Some((reasons, limits)) = limits {
+                limits.search(run)?;
+                if let Some(event) = limits.next_until(run, end)? {
+                    (end, exit) = (event.time, Some((reasons[event.index], event)));
+                }
+            }
+            if let Some(section) = section {
+                section.search(run)?;
+                while section.next_until(run, end)?.is_some() {
+                    *crossings += 1;
+                }
+            }
+            if let Some((reason, event)) = exit {
                 return Ok(Some((event, reason)));
             }
         }
         Ok(None)
     }
 
-    fn save(&self) -> Vec<f64> {
-        self.events.save()
+    pub(super) fn save(&self) -> Saved {
+        [
+            self.limits.as_ref().map(|(_, watch)| watch.save()),
+            self.section.as_ref().map(|watch| watch.save()),
+        ]
+    }
+}
+
+/// Of the first step, what tells where a limit leads that is zero at the start.
+const SOON: f64 = 1e-5;
+
+impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
+    /// The limit beyond which a run begins, or which it leaves outwards, if there is one.
+    ///
+    /// # Errors
+    /// Those of a run that begins, with a short step, where this one does.
+    pub(super) fn beyond(
+        &self,
+        system: &'a S,
+        number: u64,
+        run: &RunOf<'a, S, M>,
+    ) -> Result<Option<Exit<S>>, StartError> {
+        let Some((reasons, limits)) = &self.limits else { return Ok(None) };
+        let values = limits.values(run);
+        let mut is_beyond: Vec<bool> = values.iter().map(|&g| g > 0.0).collect();
+        if values.contains(&0.0) {
+            let (method, h) = (self.method(number), SOON * self.h);
+            let mut soon = Integrator::new_at(system, method, run.time(), h, run.state())?;
+            soon.advance().map_err(|error| StartError::Starter(error.failure))?;
+            for ((is_beyond, g), soon) in is_beyond.iter_mut().zip(values).zip(limits.values(&soon)) {
+                *is_beyond |= g == 0.0 && soon > 0.0;
+            }
+        }
+        let index = is_beyond.iter().position(|&is_beyond| is_beyond);
+        Ok(index.map(|index| (Event { index, time: run.time(), state: run.state() }, reasons[index])))
     }
 }

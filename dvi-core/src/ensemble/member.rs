@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::string::String;
 use std::vec::Vec;
 
-use super::settings::Settings;
+use crate::error::LengthError;
 use crate::methods::Method;
 use crate::run::{Event, Integrator, Run};
 use crate::state::Statistics;
@@ -119,12 +119,12 @@ impl<'a, S: Lagrangian> At<'a, S> {
         Self { system: run.system(), time: run.time(), q, v: run.v() }
     }
 
-    pub(super) fn event(system: &'a S, event: &Event<S::State<f64>, f64>) -> Self {
+    /// # Errors
+    /// [`LengthError`] if the state is not one of the system.
+    pub(super) fn event(system: &'a S, event: &Event<S::State<f64>, f64>) -> Result<Self, LengthError> {
         let (mut q, mut v) = (system.space().vector(), system.space().vector());
-        if event.state.write(|block| system.block_len(block), &mut q, &mut v).is_err() {
-            [&mut q, &mut v].into_iter().for_each(|half| half.fill(f64::NAN));
-        }
-        Self { system, time: event.time, q, v }
+        event.state.write(|block| system.block_len(block), &mut q, &mut v)?;
+        Ok(Self { system, time: event.time, q, v })
     }
 
     fn state(&self) -> S::State<f64> {
@@ -146,9 +146,7 @@ impl<'a, S: Lagrangian> At<'a, S> {
 pub(super) struct Seen {
     energy: Energy,
     first_momenta: Vec<f64>,
-    /// The value of the section function.
-    section: Option<f64>,
-    crossings: u64,
+    pub(super) crossings: u64,
 }
 
 impl Seen {
@@ -158,24 +156,13 @@ impl Seen {
         Self {
             energy: Energy { first: energy, last: energy, largest_error: 0.0 },
             first_momenta: at.momenta().collect(),
-            section: None,
             crossings: 0,
         }
     }
 
     /// Looks at where a member is.
-    pub(super) fn look<S: Lagrangian, M: Method<S, f64>>(
-        &mut self,
-        settings: &Settings<'_, S, M>,
-        at: &At<'_, S>,
-    ) {
+    pub(super) fn look<S: Lagrangian>(&mut self, at: &At<'_, S>) {
         self.energy = self.energy.with(at.energy());
-        if let Some((direction, section)) = &settings.section {
-            let now = plain(section(at.system, &at.state()));
-            let crosses = self.section.is_some_and(|before| direction.crosses(before, now));
-            self.crossings += u64::from(crosses);
-            self.section = Some(now);
-        }
     }
 
     /// The record of a run that has ended.

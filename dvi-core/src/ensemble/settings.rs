@@ -6,16 +6,14 @@ use std::vec::Vec;
 
 use super::growth::Growth;
 use super::lanes::Packs;
-use super::limits::Limits;
+use super::limits::Conditions;
 use crate::Lagrangian;
 use crate::methods::Method;
 use crate::run::Direction;
 use crate::run::Integrator;
 
-/// The limits at which members end.
-pub(super) type AnyLimits<'a, S, M> = Box<dyn Limits<'a, S, M> + 'a>;
-/// The function whose zeros are the section, and which of them count.
-pub(super) type Crossed<'a, S, Q> = (Direction, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
+/// Limits, or a section.
+pub(super) type AnyConditions<'a, S, M> = Box<dyn Conditions<'a, S, M> + 'a>;
 /// The name of a parameter, and what it is of a system and its first state.
 pub(super) type Swept<'a, S, Q> = (String, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
 /// What is special to the method of one member.
@@ -42,8 +40,10 @@ pub(super) struct Settings<'a, S: Lagrangian, M: Method<S, f64>> {
     pub(super) vary: Option<Vary<'a, M>>,
     pub(super) h: f64,
     pub(super) stride: u64,
-    pub(super) limits: Option<AnyLimits<'a, S, M>>,
-    pub(super) section: Option<Crossed<'a, S, S::State<f64>>>,
+    /// The limits at which members end, with the reasons.
+    pub(super) limits: Option<(Vec<&'static str>, AnyConditions<'a, S, M>)>,
+    /// The section, with its direction.
+    pub(super) section: Option<(Direction, AnyConditions<'a, S, M>)>,
     /// With the number of lanes.
     pub(super) packs: Option<(usize, NewPacks<'a, S, M>)>,
     pub(super) growth: Option<NewGrowth<'a, S, M>>,
@@ -71,9 +71,14 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Settings<'a, S, M> {
         method
     }
 
+    /// Whether there is something to look for in each step.
+    pub(super) fn is_watched(&self) -> bool {
+        self.limits.is_some() || self.section.is_some()
+    }
+
     /// The lanes that members go in, which none do that are followed from step to step.
     pub(super) fn packs(&self) -> Option<(usize, NewPacks<'a, S, M>)> {
-        self.packs.filter(|_| self.growth.is_none() && self.limits.is_none())
+        self.packs.filter(|_| self.growth.is_none() && !self.is_watched())
     }
 
     /// The members that go together into lanes.

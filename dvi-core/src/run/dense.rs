@@ -111,9 +111,13 @@ impl<R: Run> Dense<R> {
         self.advance_by(R::advance)
     }
 
-    /// Takes one step by `step`.
+    /// The same with `step` in the place of [`Run::advance`], such as that of a
+    /// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent): it takes one step of the run.
+    ///
+    /// # Errors
+    /// Those of `step`.
     #[inline]
-    pub(super) fn advance_by(
+    pub fn advance_by(
         &mut self,
         step: impl FnOnce(&mut R) -> Result<(), StepError>,
     ) -> Result<(), StepError> {

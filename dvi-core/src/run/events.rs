@@ -9,21 +9,21 @@
 mod conditions;
 mod course;
 mod search;
+mod watch;
 
 use core::fmt;
 use core::iter::FusedIterator;
 
 use super::dense::{Dense, StateOf};
-use crate::error::{StartError, StepError, StepFailure};
+#[cfg(doc)]
+use crate::error::StepFailure;
+use crate::error::{StartError, StepError};
 use crate::run::Run;
-use crate::scalar::norm::reported;
-use crate::{Real, Scalar};
 use conditions::Conditions;
-use course::Watched;
-use search::numbers;
 
 pub use conditions::Declared;
 pub use search::Direction;
+pub use watch::Watch;
 
 /// Where a run meets a condition.
 ///
@@ -100,34 +100,10 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 /// ```
 pub struct Events<R: Run, G, const N: usize> {
     dense: Dense<R>,
-    g: G,
-    directions: [Direction; N],
-    /// Of each condition, at the end of the last step.
-    watched: [Watched<R::Scalar>; N],
-    /// Parts of the last step at which events are, that have not been handed out.
-    found: [[Option<R::Scalar>; 2]; N],
-    /// Where states that are looked at are read to.
-    state: StateOf<R>,
-    /// The last event, but for those where the state was set: its condition and its part of a step.
-    last: Option<(usize, R::Scalar)>,
-    /// Steps since the state was set; before it is, more than one.
-    steps: u64,
-    /// Events one after the other that came soon after the state was set.
-    hops: usize,
-    /// Why the events of the last step are not known.
-    lost: Option<StepError>,
+    watch: Watch<R, G, N>,
     /// Whether the iterator has come to its end.
     ended: bool,
 }
-
-/// Where the state is changed a condition is zero if it is no more than this part of what changes in a step.
-const LEFT: f64 = 1e-9;
-/// Parts of a step that differ by no more than so many rounding errors are one.
-const TOGETHER: f64 = 16.0;
-/// An event in this part of the first step after a change of the state is a hop.
-const HOP: f64 = 1e-2;
-/// After so many hops of one condition, each shorter than the one before, events accumulate.
-const HOPS: usize = 4;
 
 impl<R: Run, G, const N: usize> Events<R, G, N>
 where
@@ -146,25 +122,9 @@ where
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G, N> {
     /// The same for conditions of either kind.
-    pub(super) fn of(mut dense: Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
-        let mut state = dense.at_end().map_err(StartError::Starter)?.state();
-        let t = dense.time();
-        let at = dense.at_end().map_err(StartError::Starter)?;
-        let values = numbers(g.values(t, at, &mut state)).map_err(StartError::Starter)?;
-        let watched = values.map(|g| Watched { g, course: None });
-        Ok(Self {
-            dense,
-            g,
-            directions,
-            watched,
-            found: [[None; 2]; N],
-            state,
-            last: None,
-            steps: 2,
-            hops: 0,
-            lost: None,
-            ended: false,
-        })
+    pub(super) fn of(mut dense: Dense<R>, directions: [Direction; N], g: G) -> Result<Self, StartError> {
+        let watch = Watch::of(&mut dense, directions, g)?;
+        Ok(Self { dense, watch, ended: false })
     }
 
     /// The run, at the end of the step that is searched.
@@ -188,21 +148,12 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
 
     fn next_before(&mut self, end: Option<R::Scalar>) -> Result<Option<EventOf<R>>, StepError> {
         loop {
-            if end.is_some_and(|end| self.has_come_to(end)) {
-                return Ok(None);
+            let next = self.watch.next_before(&mut self.dense, end)?;
+            let has_come_to = |end| self.watch.is_left() || !self.dense.is_before(self.dense.time(), end);
+            if next.is_some() || end.is_some_and(has_come_to) {
+                return Ok(next);
             }
-            if let Some(event) = self.hand_out()? {
-                return Ok(Some(event));
-            }
-            self.step(R::advance)?;
-        }
-    }
-
-    /// Whether no event up to time `end` is left, in the last step or behind it.
-    fn has_come_to(&self, end: R::Scalar) -> bool {
-        match self.first() {
-            Some((part, ..)) => self.dense.is_before(end, self.dense.time_at(part)),
-            None => !self.dense.is_before(self.dense.time(), end),
+            self.step()?;
         }
     }
 
@@ -212,29 +163,10 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
     /// # Errors
     /// As [`next_until`](Self::next_until).
     pub fn advance(&mut self) -> Result<Option<EventOf<R>>, StepError> {
-        self.advance_by(R::advance)
-    }
-
-    /// The same with `step` in the place of [`Run::advance`], such as that of a
-    /// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent): it takes one step of the run.
-    ///
-    /// # Errors
-    /// As [`next_until`](Self::next_until), and those of `step`.
-    pub fn advance_by(
-        &mut self,
-        step: impl FnOnce(&mut R) -> Result<(), StepError>,
-    ) -> Result<Option<EventOf<R>>, StepError> {
-        if self.first().is_none() {
-            self.step(step)?;
+        if !self.watch.is_left() {
+            self.step()?;
         }
-        self.hand_out()
-    }
-
-    /// The next event of the last step, if one is left.
-    fn hand_out(&mut self) -> Result<Option<EventOf<R>>, StepError> {
-        let Some((part, index, which)) = self.first() else { return Ok(None) };
-        self.found[index][which] = None;
-        self.event(part, index).map(Some).map_err(|failure| self.dense.error(failure))
+        self.watch.next_before(&mut self.dense, None)
     }
 
     /// The state at time `t`, within the last step.
@@ -258,88 +190,29 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
     /// As [`Run::set_state`]. As [`new`](Self::new): the run is there then, but no events are known.
     pub fn set_state(&mut self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError> {
         self.dense.set_state(t, state)?;
-        let values = self.at_end().map_err(|failure| {
-            (self.lost, self.found) = (Some(self.dense.error(failure)), [[None; 2]; N]);
-            StartError::Starter(failure)
-        })?;
-        let h = Scalar::abs(self.dense.step_size());
-        let [zero, left] = [0.0, LEFT].map(R::Scalar::lift);
-        for ((watched, found), g) in self.watched.iter_mut().zip(&mut self.found).zip(values) {
-            let rounding = watched.course.map_or(zero, |course| left * course.rate * h);
-            let is_zero = Scalar::abs(g) <= rounding;
-            let is_now = |part| self.last.is_some_and(|(_, last)| part <= last + left);
-            let is_due = is_zero && found.iter().flatten().any(|&part| is_now(part));
-            *found = [is_due.then_some(zero), None];
-            watched.g = if is_zero { zero } else { g };
-        }
-        (self.steps, self.lost, self.ended) = (0, None, false);
+        self.watch.begin_anew(&mut self.dense)?;
+        self.ended = false;
         Ok(())
     }
 
-    /// What is known of the conditions, for the events of a run that goes on from a checkpoint of this one,
-    /// which are then the same. Events of the last step that have not been handed out are no part of it.
+    /// As [`Watch::save`].
     #[cfg(feature = "alloc")]
     pub fn save(&self) -> alloc::vec::Vec<R::Scalar> {
-        self.watched.iter().flat_map(Watched::save).collect()
+        self.watch.save()
     }
 
-    /// Takes over what [`save`](Self::save) has listed, if there are as many numbers.
+    /// As [`Watch::load`].
     #[cfg(feature = "alloc")]
     pub fn load(&mut self, saved: &[R::Scalar]) -> Option<()> {
-        let (conditions, []) = saved.as_chunks() else { return None };
-        if conditions.len() != N {
-            return None;
-        }
-        for (watched, saved) in self.watched.iter_mut().zip(conditions) {
-            *watched = Watched::load(saved)?;
-        }
-        Some(())
-    }
-
-    /// The first event of the last step that has not been handed out: its part of the step, its condition,
-    /// and which of two it is. Of those at one time but for rounding it is the first in the array.
-    fn first(&self) -> Option<(R::Scalar, usize, usize)> {
-        let all = self.found.iter().flatten().filter_map(|part| *part);
-        let least = all.reduce(|least, part| if part < least { part } else { least })?;
-        self.found.iter().enumerate().find_map(|(index, found)| {
-            let which = found.iter().position(|part| part.is_some_and(|part| are_one(least, part)))?;
-            found[which].map(|part| (part, index, which))
-        })
-    }
-
-    fn event(&mut self, part: R::Scalar, index: usize) -> Result<EventOf<R>, StepFailure> {
-        self.dense.settle()?;
-        self.dense.reach(part * self.dense.step_size())?;
-        let time = self.dense.reached_time();
-        // What happens where the state has been set is part of that event.
-        if part > R::Scalar::lift(0.0) {
-            let is_shorter = self.last.is_some_and(|(last, hop)| last == index && part < hop);
-            let is_hop = self.steps == 1 && part < R::Scalar::lift(HOP) && is_shorter;
-            self.hops = if is_hop { self.hops + 1 } else { 0 };
-            self.last = Some((index, part));
-        }
-        if self.hops > HOPS {
-            return Err(StepFailure::Hops { event: index, count: HOPS, time: reported(time) });
-        }
-        Ok(Event { index, time, state: self.dense.reached()?.state() })
+        self.watch.load(saved)
     }
 
     /// Takes a step, and finds its events.
-    fn step(&mut self, step: impl FnOnce(&mut R) -> Result<(), StepError>) -> Result<(), StepError> {
-        self.lost.map_or(Ok(()), Err)?;
-        self.dense.advance_by(step)?;
-        self.steps += 1;
-        self.search().map_err(|failure| {
-            let error = self.dense.error(failure);
-            self.lost = Some(error);
-            error
-        })
+    fn step(&mut self) -> Result<(), StepError> {
+        self.watch.check_known()?;
+        self.dense.advance()?;
+        self.watch.search(&mut self.dense)
     }
-}
-
-/// Whether a part of a step is another, which is no larger, but for rounding.
-fn are_one<T: Real>(least: T, part: T) -> bool {
-    part <= least + T::lift(TOGETHER) * T::default_epsilon()
 }
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Iterator for Events<R, G, N> {
@@ -359,7 +232,9 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> FusedIterat
 
 impl<R: Run + fmt::Debug, G, const N: usize> fmt::Debug for Events<R, G, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { dense, directions, .. } = self;
-        f.debug_struct("Events").field("run", dense).field("directions", directions).finish_non_exhaustive()
+        f.debug_struct("Events")
+            .field("run", &self.dense)
+            .field("watch", &self.watch)
+            .finish_non_exhaustive()
     }
 }

@@ -9,12 +9,12 @@ use crate::vocabulary::*;
 /// The methods, with the number of stages that can be evaluated at once.
 #[rustfmt::skip]
 const METHODS: [(&str, f64, Stroke); 6] = [
-    ("order 2",    1.0, Stroke::solid(SLATE)),
-    ("RK4",        1.0, Stroke::dashed(INK)),
-    ("Kahan–Li 8", 1.0, Stroke::solid(GREEN)),
-    ("Gauss 4",    2.0, Stroke::solid(AMBER)),
-    ("Gauss 8",    4.0, Stroke::solid(VERMILLION)),
-    ("Gauss 16",   8.0, Stroke::solid(BLUE)),
+    ("order 2",    1.0, solid(SLATE)),
+    ("RK4",        1.0, dashed(INK)),
+    ("Kahan–Li 8", 1.0, solid(GREEN)),
+    ("Gauss 4",    2.0, solid(AMBER)),
+    ("Gauss 8",    4.0, solid(VERMILLION)),
+    ("Gauss 16",   8.0, solid(BLUE)),
 ];
 const RK4: usize = 1;
 const KAHAN_LI: usize = 2;
@@ -27,8 +27,7 @@ const PROBLEMS: [(&str, &str, [f64; 6]); 3] = [
     ("planets", "Outer solar system", [1e6, 2e5, 2e4, 2e5, 2e4, 4e3]),
 ];
 
-/// The steps of one run, its evaluations of ∇H or of the force, the same one after another if all stages of
-/// a step are evaluated at once, and max |H − H(0)| / |H(0)| over all steps.
+/// Steps, evaluations of ∇H or of the force, those in turn with all stages at once, and max|ΔH| / |H|.
 type Course = [f64; 4];
 const ALL: usize = 1;
 const IN_TURN: usize = 2;
@@ -38,10 +37,9 @@ type Curve = (Vec<Course>, Vec<String>);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     // Many runs in a full one, and few that are shorter.
-    let (runs, ratio) = job.choose((33, 2f64.powf(0.25)), (5, 4.0));
+    let (runs, by) = job.choose((33, 2f64.powf(0.25)), (5, 4.0));
     let share = job.choose(1.0, 0.05);
-    let counts =
-        |most: f64| (0..runs).rev().map(move |k| (share * most / f64::powi(ratio, k)).round() as u64);
+    let counts = |most: f64| (0..runs).rev().map(move |k| (share * most / f64::powi(by, k)).round() as u64);
     job.expect(PROBLEMS.iter().flat_map(|(.., most)| most.map(counts)).flatten().sum());
     let all = side_by_side([0, 1, 2], |problem: usize| {
         let (problem_name, _, most) = PROBLEMS[problem];
@@ -52,15 +50,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     })?;
     let curves = || {
         let all = all.iter().zip(PROBLEMS);
-        all.flat_map(|(of, (problem, ..))| {
-            of.iter().zip(METHODS).map(move |(curve, of)| (problem, of.0, curve))
-        })
+        all.flat_map(|(of, (name, ..))| of.iter().zip(METHODS).map(move |(curve, of)| (name, of.0, curve)))
     };
-    let rows = curves().flat_map(|(problem, method, (courses, _))| {
-        courses.iter().map(move |course| ([problem, method], *course))
-    });
+    let rows = curves().map(|(problem, method, (all, _))| ([problem, method], [], all.iter().copied()));
     let columns = ["problem", "method", "steps", "evaluations", "evaluations_in_turn", "energy_error"];
-    job.publish(figure(&all), Table::of(&columns, rows)?)?;
+    job.publish(figure(&all), curve_table(&columns, rows)?)?;
     let notes = curves().flat_map(|(.., (_, failures))| failures.clone()).collect();
     Ok(Outcome { claims: claims(job, &all), references: vec![], notes })
 }
@@ -71,28 +65,28 @@ fn solve(job: &Job<'_>, problem: usize, method: usize, steps: u64, share: f64) -
     let steps = steps as f64;
     match problem {
         0 => {
-            let (Case { vortices, start }, midpoint) = (quasi_periodic(), Gauss::<1>::new());
-            by(job, (&vortices, start), Sigma::midpoint(), midpoint, method, [1000.0 * share, steps])
+            let (Case { vortices, start }, methods) =
+                (quasi_periodic(), (Sigma::midpoint(), Gauss::<1>::new()));
+            by(job, Problem::new(&vortices, start), methods, method, [1000.0 * share, steps])
         }
         1 => {
-            let (begin, end) = ((&Kepler {}, Orbit { e: 0.6 }.pericentre()), TAU * (100.0 * share).round());
-            by(job, begin, verlet, verlet, method, [end, steps])
+            let orbit = Problem::new(&Kepler {}, Orbit { e: 0.6 }.pericentre());
+            by(job, orbit, (verlet, verlet), method, [TAU * (100.0 * share).round(), steps])
         }
         _ => {
             let (system, start) = outer_solar_system();
-            by(job, (&system, start), verlet, verlet, method, [1e6 * share, steps])
+            by(job, Problem::new(&system, start), (verlet, verlet), method, [1e6 * share, steps])
         }
     }
 }
 
-/// A run by one of [`METHODS`], of which the first is the one given, and the third is composed.
-fn by<S: Lagrangian, M: Method<S, f64>>(
+/// A run by one of [`METHODS`], with that of order 2 and the one that Kahan and Li's is composed of.
+fn by<'a, S: Lagrangian, M: Method<S, f64> + 'a>(
     job: &Job<'_>,
-    begin: (&S, S::State<f64>),
-    second: impl Method<S, f64>,
-    composed: M,
+    begin: Problem<'a, S>,
+    (second, composed): (impl Method<S, f64> + 'a, M),
     method: usize,
-    span: [f64; 2],
+    [end, steps]: [f64; 2],
 ) -> Result<Course>
 where
     Composition<M>: Method<S, f64>,
@@ -101,30 +95,22 @@ where
     Gauss<4>: Method<S, f64>,
     Gauss<8>: Method<S, f64>,
 {
-    let stages = METHODS[method].1;
-    match method {
-        0 => follow(job, begin, second, stages, span),
-        RK4 => follow(job, begin, RungeKutta::classical(), stages, span),
-        KAHAN_LI => follow(job, begin, Composition::kahan_li_8(composed), stages, span),
-        3 => follow(job, begin, Gauss::<2>::new(), stages, span),
-        4 => follow(job, begin, Gauss::<4>::new(), stages, span),
-        _ => follow(job, begin, Gauss::<8>::new(), stages, span),
-    }
-}
-
-fn follow<S: Lagrangian>(
-    job: &Job<'_>,
-    (system, start): (&S, S::State<f64>),
-    method: impl Method<S, f64>,
-    stages: f64,
-    [end, steps]: [f64; 2],
-) -> Result<Course> {
-    let mut run = Integrator::new(system, method, end / steps, start)?;
-    let (initial, mut error, steps) = (run.energy(), 0.0, steps as u64);
-    job.follow(&mut run, steps, |run| error = larger(error, ((run.energy() - initial) / initial).abs()))?;
+    let h = end / steps;
+    let mut run = match method {
+        0 => begin.run(second, h)?,
+        RK4 => begin.run(RungeKutta::classical(), h)?,
+        KAHAN_LI => begin.run(Composition::kahan_li_8(composed), h)?,
+        3 => begin.run(Gauss::<2>::new(), h)?,
+        4 => begin.run(Gauss::<4>::new(), h)?,
+        _ => begin.run(Gauss::<8>::new(), h)?,
+    };
+    let (initial, mut error) = (run.energy(), 0.0);
+    job.follow(&mut run, steps as u64, |run| {
+        error = larger(error, ((run.energy() - initial) / initial).abs());
+    })?;
     let statistics = run.statistics();
     let evaluations = (statistics.gradients + statistics.linearizations) as f64;
-    Ok([steps as f64, evaluations, (evaluations / stages).ceil(), error])
+    Ok([steps, evaluations, (evaluations / METHODS[method].1).ceil(), error])
 }
 
 fn claims(job: &Job<'_>, all: &[[Curve; 6]; 3]) -> Vec<Claim> {
@@ -144,9 +130,7 @@ fn claims(job: &Job<'_>, all: &[[Curve; 6]; 3]) -> Vec<Claim> {
     let of_planets = ratio(planets, KAHAN_LI, 1e-6, ALL);
     vec![
         beyond("Gauss collocation of order 16 keeps the energy to rounding errors")
-            .each(named(), |claim, (name, of)| {
-                claim.of(name).at_most("smallest max|ΔH|/|H|", best(of), 1e-14)
-            }),
+            .each(named(), |all, (name, of)| all.of(name).at_most("smallest max|ΔH|/|H|", best(of), 1e-14)),
         beyond(fewer).each(named().zip([5.0, 2.0, 1.5]), |claim, ((name, of), low)| {
             claim.of(name).at_least("Kahan–Li 8 / Gauss 16", ratio(of, KAHAN_LI, 1e-13, ALL), low)
         }),
@@ -159,7 +143,6 @@ fn claims(job: &Job<'_>, all: &[[Curve; 6]; 3]) -> Vec<Claim> {
     ]
 }
 
-/// A column for each problem, with all evaluations counted, and in turn.
 fn figure(all: &[[Curve; 6]; 3]) -> Figure {
     let row = |label: &str, work: usize| {
         let panels = all.iter().zip(PROBLEMS).map(|(curves, (_, title, _))| {

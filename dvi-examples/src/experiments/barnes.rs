@@ -44,8 +44,7 @@ fn orbit<S: RegularLagrangian>(system: &S, start: S::State<f64>, end: usize) -> 
 /// A regular polygon about (0, 1) at t = 0, 1, …, of whose corners `orbit` returns all steps.
 pub fn carried(corners: usize, orbit: impl Fn([f64; 2]) -> Result<Points>) -> Result<Vec<Points>> {
     let angles = (0..corners).map(|j| (TAU * j as f64 / corners as f64).sin_cos());
-    let orbits: Vec<Points> =
-        angles.map(|(sin, cos)| orbit([0.5 * cos, 1.0 + 0.5 * sin])).collect::<Result<_>>()?;
+    let orbits = angles.map(|(sin, cos)| orbit([0.5 * cos, 1.0 + 0.5 * sin])).collect::<Result<Vec<_>>>()?;
     let times = (0..orbits[0].len()).step_by(STEPS);
     Ok(times.map(|step| orbits.iter().map(|orbit| orbit[step]).collect()).collect())
 }
@@ -116,7 +115,7 @@ fn figure(curves: &[[Points; 3]; 3], circles: &[Vec<Points>; 3]) -> Figure {
     let portrait = |flow: usize, x: [f64; 2], v: [f64; 2]| {
         let all = curves[flow].iter().zip(STARTS);
         plane(flow, "phase curves", x, v).each(all, |panel, (curve, (x, colour))| {
-            let panel = panel.line(curve.clone(), Stroke::solid(colour)).dots(vec![[x, 0.0]], 3.5, colour);
+            let panel = panel.line(curve.clone(), solid(colour)).dots(vec![[x, 0.0]], 3.5, colour);
             panel.note([x - 0.12, 0.2], Anchor::End, colour, format!("({x}, 0)"))
         })
     };
@@ -124,21 +123,19 @@ fn figure(curves: &[[Points; 3]; 3], circles: &[Vec<Points>; 3]) -> Figure {
         let times = circles[flow].iter().zip([0, 2, 4, 6, 7].map(|i| SEQUENCE[i])).enumerate();
         let empty = plane(flow, "circle of 100 points", x, v).legend_at(Corner::TopLeft);
         empty.each(times, |panel, (t, (circle, colour))| {
-            let panel = panel.line(closed(circle), Stroke::solid(colour)).labelled(format!("*t* = {t}"));
+            let panel = panel.line(closed(circle), solid(colour)).labelled(format!("*t* = {t}"));
             panel.dots(circle.clone(), 1.3, colour)
         })
     };
     let (wide, narrow) = ([-3.6, 3.6], [-2.3, 2.3]);
-    let portraits =
-        vec![portrait(0, wide, wide), portrait(1, [0.0, 7.2], [-1.2, 6.0]), portrait(2, wide, wide)];
-    // The legend of the middle one is that of all.
+    let above = vec![portrait(0, wide, wide), portrait(1, [0.0, 7.2], [-1.2, 6.0]), portrait(2, wide, wide)];
     let carried = vec![
         circle(0, narrow, narrow).without_legend(),
         circle(1, [-0.9, 6.9], [-0.2, 7.6]),
         circle(2, [-1.6, 3.0], narrow).without_legend(),
     ];
     Figure::of(format!("Kick–drift–kick with *h* = 1/32; above to *t* = {END}, below a circle about (0, 1)"))
-        .row(400.0, portraits)
+        .row(400.0, above)
         .row(400.0, carried)
         .footer("After Barnes 1997, Second-Order Dynamical Systems, problems 6 and 7.")
 }
@@ -146,15 +143,12 @@ fn figure(curves: &[[Points; 3]; 3], circles: &[Vec<Points>; 3]) -> Figure {
 fn table(curves: &[[Points; 3]; 3], circles: &[Vec<Points>; 3]) -> Result<Table> {
     let rows = FLOWS.iter().zip(curves).zip(circles).flat_map(|(((name, ..), curves), circles)| {
         let orbits = curves.iter().zip(STARTS).flat_map(|(curve, (x, _))| {
-            curve
-                .iter()
-                .enumerate()
-                .map(move |(k, point)| (format!("from ({x}, 0)"), k as f64 / 32.0, point))
+            let points = curve.iter().enumerate();
+            points.map(move |(k, point)| (format!("from ({x}, 0)"), k as f64 / 32.0, point))
         });
-        let polygons = circles
-            .iter()
-            .enumerate()
-            .flat_map(|(t, circle)| circle.iter().map(move |point| ("circle".to_owned(), t as f64, point)));
+        let polygons = circles.iter().zip(0..).flat_map(|(circle, t)| {
+            circle.iter().map(move |point| ("circle".to_owned(), f64::from(t), point))
+        });
         orbits.chain(polygons).map(move |(curve, t, [x, v])| ([(*name).to_owned(), curve], [t, *x, *v]))
     });
     Table::of(&["flow", "curve", "t", "x", "v"], rows)

@@ -13,8 +13,6 @@ use crate::vocabulary::*;
 pub const ELEMENTS: usize = 200;
 pub const SEGMENTS: usize = 100;
 const MANY_SEGMENTS: usize = 200;
-/// For iterations.
-const COUNTED: [usize; 4] = [25, 50, 100, 200];
 /// How accurately steps are solved: of the beam, and of the rod.
 pub const OF_BEAM: f64 = 1e-10;
 pub const OF_ROD: f64 = 1e-11;
@@ -28,14 +26,6 @@ const H: f64 = 0.0025;
 const SHORT: f64 = 0.001;
 /// How long the runs with more segments are, in periods of the first mode.
 const MANY_PERIODS: f64 = 15.0;
-
-/// One run: E/E(0) − 1, the step, and the time of the last step before it is lost, in periods of the first
-/// mode.
-struct Vibration {
-    series: Series<1>,
-    h: f64,
-    lost: Option<f64>,
-}
 
 fn period() -> f64 {
     TAU / Mode::new(0).frequency()
@@ -52,48 +42,56 @@ pub fn rod(n: usize) -> Rod {
     Rod { n, stretching: 1e4 }
 }
 
+fn bent(rod: &Rod) -> Problem<'_, Rod> {
+    Problem::new(rod, rod.bent(ANGLE))
+}
+
+fn loaded(beam: &Beam) -> Problem<'_, Beam> {
+    Problem::new(beam, beam.loaded(DEFLECTION))
+}
+
+/// E/E(0) − 1, the step, and when the run is lost, in periods of the first mode.
+type Vibration = (Series<1>, f64, Option<f64>);
+
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let periods = job.choose([400.0, 50.0], [4.0, 1.0]);
     let (h, beam) = (period() / STEPS_PER_PERIOD, Beam { n: ELEMENTS });
     let [end, end_large] = periods.map(|periods| periods * period());
     let end_many = job.choose(MANY_PERIODS * period(), end_large);
     job.expect(((end / h) + (end_large + end_many) / H + end_many / SHORT) as u64);
-    let of_rod = |name: String, colour, n: usize, h: f64, end: f64| {
-        let run = Integrator::new(rod(n), newmark(OF_ROD), h, rod(n).bent(ANGLE))?;
-        Vibration::new(job, (&name, Stroke::solid(colour)), run, end)
-    };
-    let loaded = Integrator::new(&beam, newmark(OF_BEAM), h, beam.loaded(DEFLECTION))?;
-    let named = format!("beam, {ELEMENTS} elements");
+    let (many, rod) = (rod(MANY_SEGMENTS), rod(SEGMENTS));
+    let [of_many, of_rod] = [MANY_SEGMENTS, SEGMENTS].map(|n| format!("rod, {n} segments"));
+    let (shorter, of_beam) = (format!("the same, *h* = {SHORT}"), format!("beam, {ELEMENTS} elements"));
+    let (many, rod, linear) = (bent(&many), bent(&rod), loaded(&beam).run(newmark(OF_BEAM), h)?);
     let all = [
-        of_rod(format!("rod, {MANY_SEGMENTS} segments"), VERMILLION, MANY_SEGMENTS, H, end_many)?,
-        of_rod(format!("the same, *h* = {SHORT}"), AMBER, MANY_SEGMENTS, SHORT, end_many)?,
-        of_rod(format!("rod, {SEGMENTS} segments"), GREEN, SEGMENTS, H, end_large)?,
-        Vibration::new(job, (&named, Stroke::solid(BLUE)), loaded, end)?,
+        vibration(job, &of_many, VERMILLION, many.run(newmark(OF_ROD), H)?, end_many)?,
+        vibration(job, &shorter, AMBER, many.run(newmark(OF_ROD), SHORT)?, end_many)?,
+        vibration(job, &of_rod, GREEN, rod.run(newmark(OF_ROD), H)?, end_large)?,
+        vibration(job, &of_beam, BLUE, linear, end)?,
     ];
     let frequencies = Frequencies::new()?;
-    let rows = all.iter().flat_map(|Vibration { series, h, .. }| {
-        series.kept[0].magnitude().into_iter().map(move |[t, error]| ([&series.name], [*h, t, error]))
-    });
-    let table = Table::of(&["series", "h", "t", "energy_error"], rows)?;
+    let curves = all.iter().map(|(series, h, _)| ([&series.name], [*h], series.kept[0].magnitude()));
+    let table = curve_table(&["series", "h", "t", "energy_error"], curves)?;
     job.publish(figure(&all, &frequencies, periods[1])?, table)?;
     let [elements, segments] = frequencies.claims()?;
-    let [_, short, rod, of_beam] = all.each_ref().map(|run| &run.series.kept[0]);
-    let until = |k: usize, end| job.only_full(all[k].lost.unwrap_or(end));
-    let mut verlet = Integrator::new(&beam, Newmark::new(0.0), h / 1000.0, beam.loaded(DEFLECTION))?;
+    let [_, short, of_rod, of_beam] = all.each_ref().map(|(series, ..)| &series.kept[0]);
+    let until = |k: usize, end| job.only_full(all[k].2.unwrap_or(end));
+    let lost = is_lost(&mut loaded(&beam).run(Newmark::new(0.0), h / 1000.0)?, 1000, 1e6);
     let of_verlet = "runs lost of one by Störmer–Verlet with a step that is 1000 times shorter";
     let keeps = "200 elements, 100 steps in a period of the first mode: Newmark's method with β = 1/4 keeps \
                  the energy to the accuracy with which steps are solved";
-    let keeps = beyond(keeps).at_most("beam: largest |E/E(0) − 1|", of_beam.largest, 1e-9);
-    let (periods, in_periods) = (periods[1], "time until the run is lost, in periods of the first mode");
-    Ok(vec![
+    let in_periods = "time until the run is lost, in periods of the first mode";
+    claims([
         elements,
         segments,
-        keeps.at_least(of_verlet, is_lost(&mut verlet, 1000, 1e6), 1.0),
+        beyond(keeps)
+            .at_most("beam: largest |E/E(0) − 1|", of_beam.largest, 1e-9)
+            .at_least(of_verlet, lost, 1.0),
         beyond("large deflections of 100 segments, h = 0.0025: the energy error does not grow")
             .of("rod")
-            .at_least(in_periods, until(2, periods), periods)
-            .at_most("largest |E/E(0) − 1|", rod.largest, 2e-4)
-            .at_most("largest |E/E(0) − 1| over all / in two periods", job.only_full(rod.growth()), 1.3),
+            .at_least(in_periods, until(2, periods[1]), periods[1])
+            .at_most("largest |E/E(0) − 1|", of_rod.largest, 2e-4)
+            .at_most("largest |E/E(0) − 1| over all / in two periods", job.only_full(of_rod.growth()), 1.3),
         beyond("with 200 segments the same step is lost, a shorter one is not")
             .of("200 segments, h = 0.0025")
             .within("periods until the run is lost", until(0, MANY_PERIODS), [2.0, 14.0])
@@ -101,27 +99,30 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_least("periods until the run is lost, or its end", until(1, MANY_PERIODS), MANY_PERIODS)
             .at_most("largest |E/E(0) − 1|", short.largest, 4e-5),
         work(job.choose(400, 20))?,
-    ]
-    .into())
+    ])
 }
 
-impl Vibration {
-    fn new(job: &Job<'_>, named: Named<'_>, mut run: impl Run<Scalar = f64>, end: f64) -> Result<Self> {
-        let (h, begin) = (run.step_size(), run.energy());
-        let mut energy = Deviation::new(end, 200, 2.0 * period());
-        let ended = job.follow(&mut run, (end / h).round() as u64, |run| {
-            energy.push(run.time(), run.energy() / begin - 1.0);
-        });
-        let lost = ended.err().map(|_| run.time() / period());
-        Ok(Self { series: Series::new(named.0, named.1, [energy]), h, lost })
-    }
+fn vibration<S: Lagrangian>(
+    job: &Job<'_>,
+    name: &str,
+    colour: Colour,
+    mut run: AnyRun<'_, S>,
+    end: f64,
+) -> Result<Vibration> {
+    let (h, begin) = (run.step_size(), run.energy());
+    let mut energy = Deviation::new(end, 200, 2.0 * period());
+    let ended = job.follow(&mut run, (end / h).round() as u64, |run| {
+        energy.push(run.time(), run.energy() / begin - 1.0);
+    });
+    Ok((Series::new(name, solid(colour), [energy]), h, ended.err().map(|_| run.time() / period())))
 }
 
 fn work(steps: u64) -> Result<Claim> {
+    const COUNTED: [usize; 4] = [25, 50, 100, 200];
     let h = period() / STEPS_PER_PERIOD;
-    let of_beam = |n| iterations(&Beam { n }, newmark(OF_BEAM), h, Beam { n }.loaded(DEFLECTION), steps);
-    let of_rod = |n| iterations(&rod(n), newmark(OF_ROD), H, rod(n).bent(ANGLE), steps);
-    let both = [("beam", [1.9, 2.1], each(COUNTED, of_beam)?), ("rod", [2.8, 4.0], each(COUNTED, of_rod)?)];
+    let beams = each(COUNTED, |n| loaded(&Beam { n }).iterations(newmark(OF_BEAM), h, steps))?;
+    let rods = each(COUNTED, |n| bent(&rod(n)).iterations(newmark(OF_ROD), H, steps))?;
+    let both = [("beam", [1.9, 2.1], beams), ("rod", [2.8, 4.0], rods)];
     let text = "the number of iterations of a step hardly depends on that of the nodes";
     Ok(beyond(text).each(both, |claim, (name, range, all)| {
         claim.each(COUNTED.into_iter().zip(all), |claim, (n, iterations)| {
@@ -131,24 +132,21 @@ fn work(steps: u64) -> Result<Claim> {
 }
 
 fn figure(all: &[Vibration; 4], frequencies: &Frequencies, periods: f64) -> Result<Figure> {
-    let (beam, rod, h) = (Beam { n: ELEMENTS }, rod(SEGMENTS), all[3].h);
-    let deflections = |BeamState { w, .. }: BeamState| {
-        w.into_iter().zip(1..).map(|(w, i)| [f64::from(i) / ELEMENTS as f64, w]).collect()
-    };
-    let run = Integrator::new(&beam, newmark(OF_BEAM), h, beam.loaded(DEFLECTION))?;
-    let of_beam = shapes(run, 0.5 * STEPS_PER_PERIOD, deflections)?;
-    let nodes = |RodState { x, y, .. }: RodState| points(&x, &y);
-    let run = Integrator::new(&rod, newmark(OF_ROD), H, rod.bent(ANGLE))?;
-    let of_rod = shapes(run, 0.5 * period() / H, nodes)?;
+    let (beam, rod, h) = (Beam { n: ELEMENTS }, rod(SEGMENTS), all[3].1);
+    let of_beam = shapes(loaded(&beam).run(newmark(OF_BEAM), h)?, 0.5 * STEPS_PER_PERIOD, |state| {
+        state.w.into_iter().zip(1..).map(|(w, i)| [f64::from(i) / ELEMENTS as f64, w]).collect()
+    })?;
+    let nodes = |state: RodState| points(&state.x, &state.y);
+    let of_rod = shapes(bent(&rod).run(newmark(OF_ROD), H)?, 0.5 * period() / H, nodes)?;
     let half = |panel: Panel, shapes: [Shape; 6]| {
-        let lines = shapes.map(|(t, colour, line)| (format!("*t* = {t:.2}"), Stroke::solid(colour), line));
+        let lines = shapes.map(|(t, colour, line)| (format!("*t* = {t:.2}"), solid(colour), line));
         panel.lines(lines).legend_at(Corner::Beside)
     };
     let (along, across) = (Axis::linear("place along the beam"), Axis::linear("deflection"));
     let of_beam = half(Panel::new(format!("{ELEMENTS} elements, half a period"), along, across), of_beam);
     let of_rod = half(Panel::plane(format!("{SEGMENTS} segments, half a period"), "*x*", "*y*"), of_rod);
     let time = ("time *t*, in periods of the first mode", [0.0, periods]);
-    let lines = all.iter().map(|Vibration { series, .. }| {
+    let lines = all.iter().map(|(series, ..)| {
         let points = series.kept[0].magnitude().into_iter().map(|[t, error]| [t / period(), error]);
         series.line(points.collect())
     });

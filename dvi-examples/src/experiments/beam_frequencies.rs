@@ -13,7 +13,6 @@ const RODS: [usize; 4] = [12, 25, 50, 100];
 /// Relative errors of the frequencies of [`MODES`].
 type Errors = [f64; 3];
 
-/// Those of the beams and of the rods.
 pub struct Frequencies([Errors; 4], [Errors; 4]);
 
 impl Frequencies {
@@ -53,13 +52,12 @@ impl Frequencies {
         Panel::new("Frequencies", n, Axis::logarithmic("relative error of the frequency"))
             .each([BLUE, GREEN, PURPLE].into_iter().enumerate(), |panel, (k, colour)| {
                 panel.marked([
-                    (format!("mode {}, elements", k + 1), Stroke::solid(colour), points(BEAMS, &self.0, k)),
-                    (format!("mode {}, segments", k + 1), Stroke::dashed(colour), points(RODS, &self.1, k)),
+                    (format!("mode {}, elements", k + 1), solid(colour), points(BEAMS, &self.0, k)),
+                    (format!("mode {}, segments", k + 1), dashed(colour), points(RODS, &self.1, k)),
                 ])
             })
-            .line(slope(14.0, 1e-8, 4), Stroke::solid(SLATE).width(1.2))
-            .labelled("orders 4 and 2")
-            .line(slope(50.0, 1.5e-2, 2), Stroke::solid(SLATE).width(1.2))
+            .lines([("orders 4 and 2", solid(SLATE).width(1.2), slope(14.0, 1e-8, 4))])
+            .line(slope(50.0, 1.5e-2, 2), solid(SLATE).width(1.2))
             .legend_at(Corner::Beside)
     }
 }
@@ -108,12 +106,10 @@ fn errors(frequency: impl Fn(Mode, f64) -> Result<f64>) -> Result<Errors> {
     each(MODES.map(Mode::new), |mode| Ok(frequency(mode, mode.frequency())? / mode.frequency() - 1.0))
 }
 
-/// The order in 1/n of errors that belong to these n.
 fn order_in_size(sizes: [usize; 4], errors: [f64; 4]) -> Option<f64> {
     order(sizes.into_iter().zip(errors).map(|(n, error)| (1.0 / n as f64, error.abs())))
 }
 
-/// The orders of the modes, which are near `target`.
 fn orders(claim: Claim, name: &str, sizes: [usize; 4], errors: &[Errors; 4], target: [f64; 2]) -> Claim {
     claim.each(MODES, |claim, k| {
         let quantity = format!("{name}mode {}: order in 1/n, n from {} to {}", k + 1, sizes[0], sizes[3]);

@@ -19,38 +19,41 @@ const ORBITS: u32 = 14;
 /// More points than these make figures larger, and no clearer.
 const SHOWN: usize = 3000;
 
-/// One orbit: its impacts as points of the section.
 #[derive(Default)]
 struct Orbit {
-    /// The polar angle of the first impacts, over π, and the component of the velocity along the curve after
-    /// it.
+    /// The polar angle of the first impacts, over π, and the velocity along the curve after them.
     section: Vec<[f64; 2]>,
     /// The largest |gap| at an impact.
     gap: f64,
-    /// The largest |E − E(0)| at the end of a step, and the same of the product of the angular momenta about
-    /// the foci, in the ellipse.
+    /// The largest |E − E(0)|, and the same of the product of the angular momenta about the foci.
     energy: f64,
     product: f64,
-    /// The largest number of impacts in a step.
     in_a_step: usize,
 }
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let impacts = job.choose(100_000, 500);
     job.expect(3 * u64::from(ORBITS) * impacts);
-    fn all(orbit: impl Fn(u32) -> Result<Orbit> + Sync + Send) -> Result<Vec<Orbit>> {
-        (0..ORBITS).into_par_iter().map(orbit).collect()
-    }
-    let ellipse = all(|number| Orbit::in_ellipse(job, number, H, impacts))?;
-    let square = all(|number| Orbit::in_square(job, number, impacts))?;
-    let long = all(|number| Orbit::in_ellipse(job, number, LONG, impacts))?;
-    let sections = [("ellipse", &ellipse), ("rounded square", &square)];
-    let rows = sections.into_iter().flat_map(|(curve, orbits)| {
-        orbits.iter().enumerate().flat_map(move |(orbit, Orbit { section, .. })| {
-            section.iter().take(300).map(move |[angle, along]| ([curve], [orbit as f64, *angle, *along]))
+    let [ellipse, long] = each([H, LONG], |h| {
+        orbits(|start| {
+            let run = Integrator::new(&ELLIPSE, trapezoid(Collision::Reflection), h, start)?;
+            let [a2, b2] = [ELLIPSE.a, ELLIPSE.b].map(|half| half * half);
+            let curve = |x, y| (1.0 - x * x / a2 - y * y / b2, [-2.0 * x / a2, -2.0 * y / b2]);
+            Orbit::of(job, run, impacts, curve)
         })
+    })?;
+    let square = orbits(|EllipseBilliardState { x, y, dot_x, dot_y }| {
+        let start = RoundedSquareBilliardState { x: x / ELLIPSE.a, y, dot_x, dot_y };
+        let run = Integrator::new(&RoundedSquareBilliard, trapezoid(Collision::Reflection), H, start)?;
+        let curve = |x: f64, y: f64| (1.0 - x.powi(4) - y.powi(4), [-4.0 * x.powi(3), -4.0 * y.powi(3)]);
+        Orbit::of(job, run, impacts, curve)
+    })?;
+    let sections = [("ellipse", &ellipse), ("rounded square", &square)].into_iter();
+    let sections = sections.flat_map(|(curve, orbits)| {
+        let orbits = orbits.iter().enumerate();
+        orbits.map(move |(k, orbit)| ([curve], [k as f64], orbit.section.iter().copied().take(300)))
     });
-    let table = Table::of(&["curve", "orbit", "angle", "velocity_along"], rows)?;
+    let table = curve_table(&["curve", "orbit", "angle", "velocity_along"], sections)?;
     job.publish(figure(&ellipse, &square), table)?;
     let text = format!(
         "{ORBITS} orbits in an ellipse keep the product of the angular momenta about its foci over 10⁵ \
@@ -74,10 +77,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         .at_most("distance from the start after 12 impacts there and back", there_and_back()?, 1e-10);
     let text = "between impacts the discrete energy of a free particle is its energy, so that both laws of \
                 impact give one orbit, over 1000 impacts in the ellipse";
-    Ok(vec![in_ellipse, in_square, beyond(text).at_most("largest distance", laws()?, 1e-8)].into())
+    claims([in_ellipse, in_square, beyond(text).at_most("largest distance", laws()?, 1e-8)])
 }
 
-/// Where an orbit crosses the x axis, and its velocity there.
+/// One for each place on the x axis at which it begins, with its velocity there.
+fn orbits(of: impl Fn(EllipseBilliardState) -> Result<Orbit> + Sync + Send) -> Result<Vec<Orbit>> {
+    (0..ORBITS).into_par_iter().map(|number| of(start(number))).collect()
+}
+
 fn start(number: u32) -> EllipseBilliardState {
     let part = (f64::from(number) + 0.5) / f64::from(ORBITS);
     let angle = 0.5 * PI * (1.0 - 0.6 * part);
@@ -85,27 +92,10 @@ fn start(number: u32) -> EllipseBilliardState {
 }
 
 impl Orbit {
-    fn in_ellipse(job: &Job<'_>, number: u32, h: f64, impacts: u64) -> Result<Self> {
-        let [a2, b2] = [ELLIPSE.a, ELLIPSE.b].map(|half| half * half);
-        let mut run = Integrator::new(&ELLIPSE, trapezoid(Collision::Reflection), h, start(number))?;
-        Self::of(job, &mut run, impacts, |x, y| {
-            (1.0 - x * x / a2 - y * y / b2, [-2.0 * x / a2, -2.0 * y / b2])
-        })
-    }
-
-    fn in_square(job: &Job<'_>, number: u32, impacts: u64) -> Result<Self> {
-        let EllipseBilliardState { x, y, dot_x, dot_y } = start(number);
-        let start = RoundedSquareBilliardState { x: x / ELLIPSE.a, y, dot_x, dot_y };
-        let mut run = Integrator::new(&RoundedSquareBilliard, trapezoid(Collision::Reflection), H, start)?;
-        Self::of(job, &mut run, impacts, |x, y| {
-            (1.0 - x.powi(4) - y.powi(4), [-4.0 * x.powi(3), -4.0 * y.powi(3)])
-        })
-    }
-
     /// In a curve that is where a function is zero, of which `curve` returns the value and the gradient.
     fn of<S: UnilateralLagrangian>(
         job: &Job<'_>,
-        run: &mut Integrator<&S, Bouncing>,
+        mut run: Integrator<&S, Bouncing>,
         impacts: u64,
         curve: impl Fn(f64, f64) -> (f64, [f64; 2]),
     ) -> Result<Self> {
@@ -128,9 +118,6 @@ impl Orbit {
                 orbit.product = larger(orbit.product, (now - begin).abs());
             }
             job.proceed(of_step.len() as u64);
-        }
-        if run.memory().total() < impacts {
-            job.cut_short();
         }
         Ok(orbit)
     }
@@ -158,15 +145,14 @@ fn there_and_back() -> Result<f64> {
     while run.memory().total() < 12 {
         run.advance()?;
     }
-    let RoundedSquareBilliardState { x, y, .. } = back(&RoundedSquareBilliard, method, &run)?;
+    let RoundedSquareBilliardState { x, y, .. } = back(method, &run)?;
     Ok(distance([x, y], [start.x, start.y]))
 }
 
 /// The largest distance of two runs with the two laws of impact.
 fn laws() -> Result<f64> {
-    let [mut one, mut other] = each([Collision::Variational, Collision::Reflection], |collision| {
-        Ok(Integrator::new(&ELLIPSE, trapezoid(collision), H, start(3))?)
-    })?;
+    let begun = |collision| Ok(Integrator::new(&ELLIPSE, trapezoid(collision), H, start(3))?);
+    let [mut one, mut other] = each([Collision::Variational, Collision::Reflection], begun)?;
     let mut largest = 0.0;
     while one.memory().total() < 1000 {
         one.advance()?;

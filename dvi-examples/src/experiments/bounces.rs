@@ -33,46 +33,48 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let ([coarse, fine], [discrete, at_impact]) = (STEPS, LAWS);
     let all = [
         by_rk4(job, end)?,
-        bounces(job, discrete, coarse, Stroke::solid(BLUE), end)?,
-        bounces(job, discrete, fine, Stroke::dashed(SKY), end)?,
-        bounces(job, at_impact, coarse, Stroke::solid(GREEN), end)?,
-        bounces(job, at_impact, fine, Stroke::dashed(GREEN), end)?,
+        bounces(job, discrete, coarse, solid(BLUE), end)?,
+        bounces(job, discrete, fine, dashed(SKY), end)?,
+        bounces(job, at_impact, coarse, solid(GREEN), end)?,
+        bounces(job, at_impact, fine, dashed(GREEN), end)?,
     ];
     let walks = Walks::new(job)?;
-    let rows = all.iter().flat_map(|Bounces { series, h, .. }| {
-        series.kept[0].magnitude().into_iter().map(move |[t, error]| ([&series.name], [*h, t, error]))
-    });
-    let table = Table::of(&["kept", "h", "t", "largest_energy_error"], rows)?;
+    let curves = all.iter().map(|run| ([&run.series.name], [run.h], run.series.kept[0].magnitude()));
+    let table = curve_table(&["kept", "h", "t", "largest_energy_error"], curves)?;
     job.publish(figure(&all, &walks, end)?, table)?;
-    let [rk4, .., coarse, fine] = all.each_ref().map(|run| &run.series.kept[0]);
+    let full = |value: f64| job.only_full(value);
+    let kept = all.each_ref().map(|run| &run.series.kept[0]);
+    let [of_rk4, of_coarse, of_fine, coarse, fine] = kept.map(|kept| full(kept.largest));
+    let [rk4_growth, .., coarse_growth, fine_growth] = kept.map(|kept| full(kept.growth()));
     let over_all = format!("max|ΔE| over all / up to t = {EARLY}");
-    let ratio = coarse.largest / fine.largest;
-    let flat = beyond(format!(
+    let flat = format!(
         "with the energy kept at each impact, the energy error of a particle on a curved floor is less \
          than three times as large over 10⁵ bounces as up to t = {EARLY}, and less than a third with half \
          the step"
-    ))
-    .at_least("bounces", job.only_full(all[3].bounces as f64), 1e5)
-    .at_most("h = 0.02: max|ΔE|", job.only_full(coarse.largest), 1.2e-3)
-    .at_most("h = 0.01: max|ΔE|", job.only_full(fine.largest), 2e-4)
-    .at_most(format!("h = 0.02: {over_all}"), job.only_full(coarse.growth()), 3.0)
-    .at_most(format!("h = 0.01: {over_all}"), job.only_full(fine.growth()), 3.0)
-    .at_least("max|ΔE|, h = 0.02 over h = 0.01", ratio, 3.0);
-    let text = "RK4 with impacts that keep the energy, and as many forces as with h = 0.02, loses energy \
-                all the time";
-    let loses = beyond(text).at_least("RK4: max|ΔE|", job.only_full(rk4.largest), 0.01);
-    let loses = loses.at_least(format!("RK4: {over_all}"), job.only_full(rk4.growth()), 100.0);
-    let text = "with the discrete energy kept at each impact the energy walks at random: its change grows \
-                with the square root of the number of bounces, and has a quarter of the size with half the \
-                step";
+    );
+    let loses = "RK4 with impacts that keep the energy, and as many forces as with h = 0.02, loses energy \
+                 all the time";
+    let random = "with the discrete energy kept at each impact the energy walks at random: its change grows \
+                  with the square root of the number of bounces, and has a quarter of the size with half \
+                  the step";
     let graze = "bounces that graze so that no impulse keeps the discrete energy, of both runs";
-    let of = |run: &Bounces| job.only_full(run.series.kept[0].largest);
-    let at_random = walks
-        .check(job, beyond(text))
-        .at_most("discrete energy, h = 0.02: max|ΔE|", of(&all[1]), 0.05)
-        .at_most("discrete energy, h = 0.01: max|ΔE|", of(&all[2]), 0.0125)
-        .at_most(graze, job.only_full((all[1].grazing + all[2].grazing) as f64), 20.0);
-    Ok(vec![flat, at_random, loses, order_of_states()?, back_again()?].into())
+    claims([
+        beyond(flat)
+            .at_least("bounces", full(all[3].bounces as f64), 1e5)
+            .at_most("h = 0.02: max|ΔE|", coarse, 1.2e-3)
+            .at_most("h = 0.01: max|ΔE|", fine, 2e-4)
+            .at_most(format!("h = 0.02: {over_all}"), coarse_growth, 3.0)
+            .at_most(format!("h = 0.01: {over_all}"), fine_growth, 3.0)
+            .at_least("max|ΔE|, h = 0.02 over h = 0.01", kept[3].largest / kept[4].largest, 3.0),
+        walks
+            .check(job, beyond(random))
+            .at_most("discrete energy, h = 0.02: max|ΔE|", of_coarse, 0.05)
+            .at_most("discrete energy, h = 0.01: max|ΔE|", of_fine, 0.0125)
+            .at_most(graze, full((all[1].grazing + all[2].grazing) as f64), 20.0),
+        beyond(loses).of("RK4").at_least("max|ΔE|", of_rk4, 0.01).at_least(&over_all, rk4_growth, 100.0),
+        order_of_states()?,
+        back_again()?,
+    ])
 }
 
 fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64) -> Result<Bounces> {
@@ -81,8 +83,8 @@ fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64
     let mut run = Integrator::new(&FLOOR, trapezoid(collision), h, START)?;
     let (begin, span) = (run.energy(), Span { end, early: EARLY, intervals: 300 });
     let kept = job.keep(&mut run, (end / h) as u64, span, |run| [run.energy() - begin])?;
-    let (bounces, grazing) = (run.memory().total(), run.memory().grazing());
-    Ok(Bounces { series: Series::new(name, stroke.width(1.2), kept), h, bounces, grazing })
+    let (series, memory) = (Series::new(name, stroke.width(1.2), kept), run.memory());
+    Ok(Bounces { series, h, bounces: memory.total(), grazing: memory.grazing() })
 }
 
 /// RK4 between impacts, which are found by bisection and keep the energy.
@@ -120,7 +122,7 @@ fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
         note(&mut kept, f64::from(steps) * RK4_STEP, [FLOOR.energy_at(y) - begin]);
         Ok(())
     })?;
-    let series = Series::new("RK4", Stroke::solid(VERMILLION).width(1.2), kept);
+    let series = Series::new("RK4", solid(VERMILLION).width(1.2), kept);
     Ok(Bounces { series, h: RK4_STEP, bounces, grazing: 0 })
 }
 
@@ -129,22 +131,17 @@ fn entries(BouncerState { x, y, dot_x, dot_y }: BouncerState) -> [f64; 4] {
 }
 
 fn order_of_states() -> Result<Claim> {
-    fn after(method: impl Method<Bouncer, f64>, steps: u64) -> Result<[f64; 4]> {
-        Ok(entries(up_to(&FLOOR, method, 6.0 / steps as f64, START, 6.0)?))
-    }
-    let expected = after(Impacts::reflecting(Galerkin::<5>::new()), 4000)?;
+    let motion = Problem::new(&FLOOR, START);
+    let expected = entries(motion.up_to(Impacts::reflecting(Galerkin::<5>::new()), 6.0 / 4000.0, 6.0)?);
     // Six lengths near each of four: where in a step the impacts are changes the error.
-    let counts =
-        || [150, 300, 600, 1200].into_iter().flat_map(|steps| (0..6).map(move |n| steps + steps * n / 12));
-    let error = |steps: u64, end: [f64; 4]| (6.0 / steps as f64, apart(&end, &expected));
-    let [discrete, at_impact] = each(LAWS, |collision| {
-        order_of(counts(), |steps| Ok(error(steps, after(trapezoid(collision), steps)?)))
-    })?;
-    let galerkin = order_of(counts(), |steps| {
-        Ok(error(steps, after(Impacts::reflecting(Galerkin::<3>::new()), steps)?))
-    })?;
-    let text = "the state at t = 6, after several bounces, is of the order of the method between impacts";
-    Ok(beyond(text)
+    let counts = [150, 300, 600, 1200].map(|few| [0, 1, 2, 3, 4, 5].map(|n| few + few * n / 12)).concat();
+    let order = |after: &dyn Fn(f64) -> Result<BouncerState>| {
+        let error = |h| Ok((h, apart(&entries(after(h)?), &expected)));
+        order_of(counts.iter().map(|steps: &u64| 6.0 / *steps as f64), error)
+    };
+    let [discrete, at_impact] = each(LAWS, |law| order(&|h| motion.up_to(trapezoid(law), h, 6.0)))?;
+    let galerkin = order(&|h| motion.up_to(Impacts::reflecting(Galerkin::<3>::new()), h, 6.0))?;
+    Ok(beyond("the state at t = 6, after several bounces, is of the order of the method between impacts")
         .near("discrete energy, trapezoid", discrete, [2.0, 0.25])
         .near("energy at the impact, trapezoid", at_impact, [2.0, 0.15])
         .near("energy at the impact, Galerkin with 3 nodes", galerkin, [4.0, 0.25]))
@@ -154,7 +151,7 @@ fn back_again() -> Result<Claim> {
     let [discrete, at_impact] = each(LAWS, |collision| {
         let mut run = Integrator::new(&FLOOR, trapezoid(collision), STEPS[0], START)?;
         run.take_steps(300)?;
-        Ok(apart(&entries(back(&FLOOR, trapezoid(collision), &run)?), &entries(START)))
+        Ok(apart(&entries(back(trapezoid(collision), &run)?), &entries(START)))
     })?;
     Ok(beyond("the way back is the way there, bounces among it")
         .at_most("discrete energy: largest difference from the start", discrete, 1e-11)
@@ -179,14 +176,13 @@ fn path() -> Result<Panel> {
     let (mut path, mut impacts) = (vec![[START.x, START.y]], Vec::new());
     while run.time() < 20.0 {
         run.advance()?;
-        let here: Vec<_> =
-            run.memory().impacts().iter().map(|impact| [impact.q()[0], impact.q()[1]]).collect();
+        let here: Vec<_> = run.memory().impacts().iter().map(|at| [at.q()[0], at.q()[1]]).collect();
         impacts.extend(&here);
         path.extend(here.into_iter().chain([place(&run)]));
     }
     let floor = (-60..=60).map(|i| f64::from(i) * 0.025).map(|x| [x, FLOOR.a * x.cos()]).collect();
     Ok(Panel::plane("The path up to *t* = 20", "*x*", "*y*")
-        .line(floor, Stroke::solid(SLATE).width(2.0))
-        .line(path, Stroke::solid(BLUE).width(0.9))
+        .line(floor, solid(SLATE).width(2.0))
+        .line(path, solid(BLUE).width(0.9))
         .dots(impacts, 2.6, VERMILLION))
 }

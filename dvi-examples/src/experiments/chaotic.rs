@@ -5,9 +5,7 @@
 
 use std::collections::HashMap;
 
-use super::sections::{
-    self, CAVEAT, Crossings, LABELS, LYAPUNOV_STEPS, Scheme, compare, cost, crossings, lyapunov_exponent,
-};
+use super::sections::{self, Scheme, *};
 use crate::vocabulary::*;
 
 const RUNS: [(Scheme, f64); 6] = sections::runs([0.2, 0.5, 1.0]);
@@ -17,32 +15,31 @@ const REGULAR: f64 = 1e5;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e6, 1e5);
-    let exact = [(Scheme::Gauss6, 0.4)];
-    let accurate = job.choose(1e6, 4e5);
+    let (exact, accurate) = ([(Scheme::Gauss6, 0.4)], job.choose(1e6, 4e5));
     job.expect(cost(&RUNS, end) + cost(&exact, accurate) + LYAPUNOV_STEPS);
-    let case = models::chaotic();
-    let all = each(compare(job, &case, RUNS, end)?, |run| to_the_end(job, &case, run))?;
-    let [exact] = compare(job, &case, exact, accurate)?;
+    let motion = Motion { job, case: &models::chaotic(), end };
+    let all = each(motion.compare(RUNS)?, |run| to_the_end(motion, run))?;
+    let [exact] = Motion { end: accurate, ..motion }.compare(exact)?;
     let region = Region::around(&exact.places());
-    let exponent = lyapunov_exponent(job, &case)?;
+    let exponent = motion.lyapunov_exponent()?;
     let titles = [
         "Chaotic motion of four equal vortices: Poincaré sections of VI2 and RK4",
         "*R*₂ = 0, d*R*₂/d*t* > 0; stray: the share of crossings outside of the region of accurate orbits",
     ];
-    let figure = sections::figure(titles, &all, end, |run| panel(job, run, &region))
+    let figure = sections::figure(titles, &all, end, |run| panel(run, &region))
         .footer(format!("After Rowley & Marsden 2002, Fig. 5. {CAVEAT}"));
     job.publish(figure, sections::table(&all)?)?;
     // Brackets around what earlier runs have found.
-    let error = |run: &Crossings, is_measured: bool, bound| {
-        Check::new(format!("max|ΔH|, {}", run.name()), is_measured.then_some(run.error.largest), bound)
+    let error = |run: &Crossings, largest: Option<f64>, bound| {
+        Check::new(format!("max|ΔH|, {}", run.name()), largest, bound)
     };
     let [_, vi_middle, vi_large, _, rk_middle, rk_large] = &all;
-    let is_full = job.choose(true, false);
+    let full = |run: &Crossings| job.only_full(run.error.largest);
     let references = vec![
-        error(vi_middle, true, Bound::AtMost(4.3e-4)),
-        error(vi_large, true, Bound::AtMost(1.8e-3)),
-        error(rk_middle, is_full, Bound::Within(0.03, 0.05)),
-        error(rk_large, is_full, Bound::Within(0.1, 0.2)),
+        error(vi_middle, Some(vi_middle.error.largest), Bound::AtMost(4.3e-4)),
+        error(vi_large, Some(vi_large.error.largest), Bound::AtMost(1.8e-3)),
+        error(rk_middle, full(rk_middle), Bound::Within(0.03, 0.05)),
+        error(rk_large, full(rk_large), Bound::Within(0.1, 0.2)),
     ];
     let mut notes = sections::notes(&all);
     let rounding = "Chaotic runs depend on rounding: which island a run visits, and when RK4 becomes \
@@ -53,13 +50,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 /// A run that has become regular may never meet the section again; with the equal vortices in another
 /// order in Q₁, Q₂, Q₃ it may.
-fn to_the_end(job: &Job<'_>, case: &Case, mut run: Crossings) -> Result<Crossings> {
+fn to_the_end(motion: Motion<'_>, mut run: Crossings) -> Result<Crossings> {
     for labels in LABELS {
-        if run.last() > 0.9 * run.end || job.is_stopping() {
+        if run.last() > 0.9 * run.end || motion.job.is_stopping() {
             break;
         }
-        job.expect(cost(&[(run.scheme, run.h)], run.end));
-        let other = crossings(job, case, (run.scheme, run.h), run.end, labels)?;
+        motion.job.expect(cost(&[(run.scheme, run.h)], run.end));
+        let other = motion.crossings((run.scheme, run.h), labels)?;
         if other.last() > run.last() {
             run = other;
         }
@@ -73,8 +70,8 @@ fn claims(job: &Job<'_>, all: &[Crossings; 6], region: &Region, exponent: Option
     let share = |run: &Crossings| format!("share of crossings outside of the exact region, {}", run.name());
     let inside = |claim: Claim, run: &Crossings| claim.at_most(share(run), outside(run), 2e-3);
     let growth = |run: &Crossings| format!("late growth of a displacement, {}", run.name());
-    let drift = rk_small.error.last / rk_small.error.largest;
     let chaotic = "the motion is chaotic";
+    let drift = rk_small.error.last / rk_small.error.largest;
     vec![
         says("section 5", chaotic).at_least("largest Lyapunov exponent up to t = 2·10⁴", exponent, 0.03),
         says("Fig. 5", "both schemes produce clear sections for h = 0.2").each([vi_small, rk_small], inside),
@@ -89,17 +86,10 @@ fn claims(job: &Job<'_>, all: &[Crossings; 6], region: &Region, exponent: Option
     ]
 }
 
-fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
-    let panel = run.panel([-2.6, 2.6], [-2.6, 2.6], 0.7);
-    if job.was_interrupted() {
-        return panel;
-    }
-    let caption = if run.growth < REGULAR {
-        "regular at the end".to_owned()
-    } else {
-        format!("{:.1} % stray", 100.0 * region.share_outside(run))
-    };
-    let panel = panel.caption(Corner::TopRight, caption);
+fn panel(run: &Crossings, region: &Region) -> Panel {
+    let stray = || format!("{:.1} % stray", 100.0 * region.share_outside(run));
+    let caption = if run.growth < REGULAR { "regular at the end".to_owned() } else { stray() };
+    let panel = run.panel([-2.6, 2.6], [-2.6, 2.6], 0.7).caption(Corner::TopRight, caption);
     match run.relabelling() {
         Some(text) => panel.note([0.0, -2.53], Anchor::Middle, INK, text),
         None => panel,
@@ -107,9 +97,7 @@ fn panel(job: &Job<'_>, run: &Crossings, region: &Region) -> Panel {
 }
 
 /// The region that an orbit fills: all places within a short distance of one of its crossings.
-struct Region {
-    cells: HashMap<[i64; 2], Points>,
-}
+struct Region(HashMap<[i64; 2], Points>);
 
 impl Region {
     const DISTANCE: f64 = 0.05;
@@ -122,7 +110,7 @@ impl Region {
         for place in images {
             cells.entry(Self::cell(place)).or_default().push(place);
         }
-        Self { cells }
+        Self(cells)
     }
 
     fn cell(place: [f64; 2]) -> [i64; 2] {
@@ -133,7 +121,7 @@ impl Region {
         let [i, j] = Self::cell(place);
         let neighbours = (i - 1..=i + 1).flat_map(|i| (j - 1..=j + 1).map(move |j| [i, j]));
         let close = |&other: &[f64; 2]| distance(other, place) <= Self::DISTANCE;
-        neighbours.filter_map(|cell| self.cells.get(&cell)).flatten().any(close)
+        neighbours.filter_map(|cell| self.0.get(&cell)).flatten().any(close)
     }
 
     fn share_outside(&self, run: &Crossings) -> f64 {

@@ -6,7 +6,7 @@
 //! others (Modin & Verdier 2020).
 
 use super::disc_energy::{Errors, STARTS};
-use super::rk4::rk4_up_to;
+use super::rk4::rk4_to;
 use super::sleigh::{H, STEPS, Sleigh, midpoint};
 use crate::vocabulary::*;
 
@@ -23,19 +23,17 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (errors, sleigh) = (Errors::new(job)?, Sleigh::new()?);
     job.publish(figure(&errors, &sleigh)?, errors.table()?)?;
     let [springs, magnet] = errors.claims(job);
-    let undone = there_and_back(&MAGNET, midpoint(), H, &begin(&MAGNET), 200)?;
-    let of_disc = "disc with a magnet, 200 steps: largest difference from the start";
-    Ok(vec![
+    let undone = Problem::new(&MAGNET, begin(&MAGNET)).there_and_back(midpoint(), H, 200)?;
+    claims([
         free(job)?,
         order_of_places(&sleigh)?,
         beyond(format!("steps are undone by as many steps of length −{H}"))
-            .at_most(of_disc, undone, 1e-12)
+            .at_most("disc with a magnet, 200 steps: largest difference from the start", undone, 1e-12)
             .at_most("sleigh: largest difference from the start", Sleigh::undone()?, 1e-12),
         springs,
         magnet,
         sleigh.claim(),
-    ]
-    .into())
+    ])
 }
 
 fn begin(disc: &RollingDisc) -> RollingDiscState {
@@ -49,10 +47,9 @@ fn on_circle(t: f64) -> [f64; 2] {
     [x + radius * (after.sin() - phi.sin()), y - radius * (after.cos() - phi.cos())]
 }
 
-/// A run without a potential.
 fn free(job: &Job<'_>) -> Result<Claim> {
     let steps: u64 = job.choose(100_000, 2_000);
-    let mut run = Integrator::new(&FREE, midpoint(), H, begin(&FREE))?;
+    let mut run = Problem::new(&FREE, begin(&FREE)).run(midpoint(), H)?;
     let (energy, [rolling, turning], mut across) = (run.energy(), momenta(&run), 0.0);
     job.expect(steps);
     let [energy, rolling, turning] = job.keep(&mut run, steps, Span::of(steps, H, 0), |run| {
@@ -77,47 +74,44 @@ fn free(job: &Job<'_>) -> Result<Claim> {
 fn order_of_places(sleigh: &Sleigh) -> Result<Claim> {
     // With a magnet, by RK4.
     let [fine, double] = [0.00125, 0.0025].map(|h| {
-        let [x, y, ..] = rk4_up_to(begin(&MAGNET).reduced(), 8.0, h, |y| MAGNET.reduced(y));
+        let [x, y, ..] = rk4_to(begin(&MAGNET).reduced(), 8.0, h, |y| MAGNET.reduced(y));
         [x, y]
     });
     // The same steps as those of the sleigh.
     let counts = STEPS.map(|h| (8.0 / h).round() as u64);
-    let order = |disc: &RollingDisc, [x, y]: [f64; 2]| {
-        order_at(disc, midpoint(), &begin(disc), 8.0, counts, |q| distance([q[0], q[1]], [x, y]))
-    };
-    let composed = order_at(&MAGNET, Composition::suzuki(midpoint()), &begin(&MAGNET), 8.0, counts, |q| {
-        distance([q[0], q[1]], fine)
-    })?;
+    let [free, magnet] = [(&FREE, on_circle(8.0)), (&MAGNET, fine)].map(|(disc, place)| {
+        Problem::new(disc, begin(disc)).errors(8.0, &counts, move |q| distance([q[0], q[1]], place))
+    });
+    let composed = magnet.order(Composition::suzuki(midpoint()))?;
     let text = "places are of second order: against the circle of a free disc, and against RK4 on equations \
                 without constraints";
     Ok(beyond(text)
         .at_most("distance of two references with a magnet", distance(fine, double), 1e-9)
-        .near("free disc: order at t = 8", order(&FREE, on_circle(8.0))?, [2.0, 0.01])
-        .near("disc with a magnet: order at t = 8", order(&MAGNET, fine)?, [2.0, 0.05])
+        .near("free disc: order at t = 8", free.order(midpoint())?, [2.0, 0.01])
+        .near("disc with a magnet: order at t = 8", magnet.order(midpoint())?, [2.0, 0.05])
         .near("the same by Suzuki's composition: order", composed, [4.0, 0.1])
         .near("sleigh: order when it has turned", sleigh.order(), [2.0, 0.05]))
 }
 
-/// The places of a disc, in the plane.
-fn path(title: &str, disc: &RollingDisc, colour: Colour) -> Result<Panel> {
-    let mut run = Integrator::new(disc, midpoint(), H, begin(disc))?;
-    let path = course(&mut run, (60.0 / H).round() as u64, place)?;
-    Ok(Panel::plane(title, "*x*", "*y*").line(path, Stroke::solid(colour).width(1.2)))
+/// The places of a disc up to a time, in the plane.
+fn places(disc: &RollingDisc, end: f64) -> Result<Points> {
+    let mut run = Problem::new(disc, begin(disc)).run(midpoint(), H)?;
+    Ok(course(&mut run, (end / H).round() as u64, place)?)
 }
 
 fn figure(errors: &Errors, sleigh: &Sleigh) -> Result<Figure> {
     let exact = (0..=400).map(|i| on_circle(f64::from(i) * 0.04)).collect();
-    let mut run = Integrator::new(&FREE, midpoint(), H, begin(&FREE))?;
-    let places = course(&mut run, (16.0 / H).round() as u64, place)?;
     let free = Panel::new("Free", Axis::linear("*x*"), Axis::linear("*y*").within(-1.0, 9.0))
         .equal()
-        .line(exact, Stroke::solid(SLATE).width(1.2))
-        .labelled("circle")
-        .dots(places.into_iter().step_by(4).collect(), 2.2, GREEN)
+        .lines([("circle", solid(SLATE).width(1.2), exact)])
+        .dots(places(&FREE, 16.0)?.into_iter().step_by(4).collect(), 2.2, GREEN)
         .labelled("every 4th step");
     let [slid, turning] = sleigh.panels();
-    let (springs, magnet) =
-        (path("On equal springs", &SPRINGS, BLUE)?, path("With a magnet", &MAGNET, VERMILLION)?);
+    let path = |title, disc, colour| -> Result<Panel> {
+        Ok(Panel::plane(title, "*x*", "*y*").line(places(disc, 60.0)?, solid(colour).width(1.2)))
+    };
+    let springs = path("On equal springs", &SPRINGS, BLUE)?;
+    let magnet = path("With a magnet", &MAGNET, VERMILLION)?;
     let subtitle = format!(
         "Midpoint rule, *h* = {H}. Above: the points of contact. Energy: the mean over {STARTS} starts of \
          the largest |*E* − *E*(0)| up to time *t*."

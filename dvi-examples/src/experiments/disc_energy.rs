@@ -9,8 +9,7 @@ use crate::vocabulary::*;
 /// The end of the beginning, and of runs with half the step.
 const EARLY: f64 = 100.0;
 const HALVED: f64 = 1e4;
-/// How many starts there are, in equally spaced directions from one place, and times in a factor of ten at
-/// which the error is noted.
+/// How many directions there are to start in, and times in a factor of ten at which the error is noted.
 pub const STARTS: u64 = 8;
 const PER_DECADE: f64 = 8.0;
 
@@ -31,7 +30,7 @@ impl Errors {
         job.expect((STARTS as f64 * (4.0 * end / H + 2.0 * half / H)) as u64);
         let constrained = |named, disc: &'static RollingDisc, h, end| {
             Growth::new(job, named, disc, [h, end], |begin| {
-                let mut run = Integrator::new(disc, midpoint(), h, begin)?;
+                let mut run = Problem::new(disc, begin).run(midpoint(), h)?;
                 Ok(move || {
                     run.advance()?;
                     Ok(run.energy())
@@ -49,19 +48,17 @@ impl Errors {
             })
         };
         Ok(Self([
-            constrained(("magnet", Stroke::solid(VERMILLION)), &MAGNET, H, end)?,
-            constrained(("magnet", Stroke::solid(AMBER)), &MAGNET, H / 2.0, half)?,
-            by_rk4(("magnet, RK4", Stroke::dashed(VERMILLION)), &MAGNET)?,
-            constrained(("springs", Stroke::solid(BLUE)), &SPRINGS, H, end)?,
-            by_rk4(("springs, RK4", Stroke::dashed(BLUE)), &SPRINGS)?,
+            constrained(("magnet", solid(VERMILLION)), &MAGNET, H, end)?,
+            constrained(("magnet", solid(AMBER)), &MAGNET, H / 2.0, half)?,
+            by_rk4(("magnet, RK4", dashed(VERMILLION)), &MAGNET)?,
+            constrained(("springs", solid(BLUE)), &SPRINGS, H, end)?,
+            by_rk4(("springs, RK4", dashed(BLUE)), &SPRINGS)?,
         ]))
     }
 
     pub fn table(&self) -> Result<Table> {
-        let rows = self.0.iter().flat_map(|Growth { name, h, points, .. }| {
-            points.iter().map(move |[t, error]| ([*name], [*h, *t, *error]))
-        });
-        Table::of(&["series", "h", "t", "largest_energy_error"], rows)
+        let curves = self.0.iter().map(|growth| ([growth.name], [growth.h], growth.points.iter().copied()));
+        curve_table(&["series", "h", "t", "largest_energy_error"], curves)
     }
 
     pub fn panel(&self) -> Panel {
@@ -140,7 +137,6 @@ impl Growth {
         before.last().map_or(f64::NAN, |point| point[1])
     }
 
-    /// Up to the end.
     fn last(&self) -> f64 {
         self.up_to(f64::INFINITY)
     }

@@ -20,33 +20,29 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = (end / H).round() as u64;
     job.expect(3 * steps);
     let span = Span { end: steps as f64 * H, early: EARLY, intervals: 400 };
-    let by_rk4 =
-        keep_rk4(job, START, (H, steps), span, |y| SYSTEM.motion(y), |y| [error(SYSTEM.energy_of(y))])?;
+    let energy = |y: &[f64; 4]| [SYSTEM.energy_of(y) - SYSTEM.energy_of(&START)];
+    let by_rk4 = keep_rk4(job, START, (H, steps), span, |y| SYSTEM.motion(y), energy)?;
     let [a, b, dot_a, dot_b] = START;
     let start = DoublePendulumState { a, b, dot_a, dot_b };
     let plan = Plan { steps, h: H, early: (EARLY / H) as u64, intervals: 400, places: (SHOWN / H) as usize };
-    let [green, blue] = [GREEN, BLUE].map(Stroke::solid);
+    let (midpoint, simpson) =
+        (("variational, midpoint", solid(GREEN)), ("variational, Simpson", solid(BLUE)));
     let all = [
-        job.energy(("variational, midpoint", green), &SYSTEM, Variational::midpoint(), start, plan)?,
-        job.energy(("variational, Simpson", blue), &SYSTEM, Variational::simpson(), start, plan)?,
-        Series::new("RK4, by hand", Stroke::dashed(VERMILLION), by_rk4),
+        job.energy(midpoint, &SYSTEM, Variational::midpoint(), start, plan)?,
+        job.energy(simpson, &SYSTEM, Variational::simpson(), start, plan)?,
+        Series::new("RK4, by hand", dashed(VERMILLION), by_rk4),
     ];
     let table = range_table(&["method", "t", "lowest", "mean", "highest"], &[""], &all)?;
     job.publish(figure(&all, end), table)?;
     let [midpoint, simpson, rk4] = all.each_ref().map(|series| &series.kept[0]);
     let growth = rk4.last.abs() / rk4.largest_early;
     let loses = "RK4 loses energy steadily at the same step";
-    Ok(vec![
+    claims([
         beyond("the variational energy error stays bounded over a long chaotic run")
             .at_most("midpoint: max|ΔE| over all / to t = 100", midpoint.growth(), 3.0)
             .at_most("Simpson: max|ΔE| over all / to t = 100", simpson.growth(), 3.0),
         beyond(loses).at_least("RK4: |ΔE| at the end / max|ΔE| to t = 100", growth, 5.0),
-    ]
-    .into())
-}
-
-fn error(energy: f64) -> f64 {
-    energy - SYSTEM.energy_of(&START)
+    ])
 }
 
 fn figure(all: &[Series<1>; 3], end: f64) -> Figure {
@@ -57,7 +53,7 @@ fn figure(all: &[Series<1>; 3], end: f64) -> Figure {
     let path = Panel::window("Path of the lower mass", x, y).each(parts, |panel, (i, colour)| {
         // One point more, so that the parts join.
         let points = path.iter().skip(i * part).take(part + 1).copied().collect();
-        panel.line(points, Stroke::solid(colour).width(1.5))
+        panel.line(points, solid(colour).width(1.5))
     });
     let labels = ["Error of the energy", "largest |*E* − *E*(0)| of each interval   [J]"];
     let energy = over_time(labels, end, [1e-6, 1.0], all, 0);

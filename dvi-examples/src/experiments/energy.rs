@@ -18,10 +18,27 @@ type Motion = (Series<1>, [Option<f64>; 2], u64);
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(2e5, 2e4);
     job.expect((end / 2.0) as u64 + end as u64);
-    let all = [
-        follow(job, "VE2 h=2", Stroke::solid(BLUE), starting_with_rk2(), 2.0, end)?,
-        follow(job, "RK2 h=1", Stroke::solid(VERMILLION), RungeKutta::midpoint(), 1.0, end)?,
+    let Case { vortices, start } = models::leapfrogging();
+    let pairs = Problem::new(&vortices, start);
+    let runs = [
+        (("VE2 h=2", solid(BLUE)), pairs.run(starting_with_rk2(), 2.0)?),
+        (("RK2 h=1", solid(VERMILLION)), pairs.run(RungeKutta::midpoint(), 1.0)?),
     ];
+    let span = Span { end, early: 0.1 * end, intervals: 500 };
+    let all = each(runs, |(named, mut run)| -> Result<Motion> {
+        let (initial, mut landmarks, steps) = (run.energy(), [None; 2], (end / run.step_size()) as u64);
+        let error = job.series(named, &mut run, steps, span, |run, beginning| {
+            let (t, change) = (run.time(), run.energy() - initial);
+            if t <= CLOSE_UP {
+                beginning.push([t, change]);
+            }
+            for (landmark, _) in landmarks.iter_mut().zip([1e4, 5e4]).filter(|(_, time)| t == *time) {
+                *landmark = Some(change);
+            }
+            [change]
+        })?;
+        Ok((error, landmarks, run.statistics().gradients))
+    })?;
     let columns = ["scheme", "t", "lowest", "mean", "highest"];
     job.publish(figure(&all, end), range_table(&columns, &[""], all.iter().map(|(series, ..)| series))?)?;
     let [(ve2, _, of_ve2), (rk2, landmarks, of_rk2)] = &all;
@@ -61,41 +78,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     Ok(Outcome { claims, references, notes: vec![] })
 }
 
-fn follow(
-    job: &Job<'_>,
-    name: &str,
-    stroke: Stroke,
-    method: impl Method<FourVortices, f64>,
-    h: f64,
-    end: f64,
-) -> Result<Motion> {
-    let Case { vortices, start } = models::leapfrogging();
-    let mut run = Integrator::new(&vortices, method, h, start)?;
-    let (initial, mut landmarks) = (run.energy(), [None; 2]);
-    let span = Span { end, early: 0.1 * end, intervals: 500 };
-    let error = job.series((name, stroke), &mut run, (end / h) as u64, span, |run, beginning| {
-        let (t, change) = (run.time(), run.energy() - initial);
-        if t <= CLOSE_UP {
-            beginning.push([t, change]);
-        }
-        for (landmark, _) in landmarks.iter_mut().zip([1e4, 5e4]).filter(|(_, time)| t == *time) {
-            *landmark = Some(change);
-        }
-        [change]
-    })?;
-    Ok((error, landmarks, run.statistics().gradients))
-}
-
-/// The time that RK2 takes for the run of Fig. 2 over the time that VE2 takes: each state being read, and
-/// none.
+/// The time of RK2 for the run of Fig. 2 over that of VE2, with each state read, and with few.
 fn time_ratios() -> Result<[f64; 2]> {
     let mut least = [[f64::INFINITY; 2]; 2];
-    for _ in 0..TIMINGS {
-        for (stride, least) in [1, 100].into_iter().zip(&mut least) {
-            let seconds =
-                [timed(starting_with_rk2(), 2.0, stride)?, timed(RungeKutta::midpoint(), 1.0, stride)?];
-            *least = [0, 1].map(|i| least[i].min(seconds[i]));
-        }
+    for k in 0..2 * TIMINGS as usize {
+        let (stride, least) = ([1, 100][k % 2], &mut least[k % 2]);
+        least[0] = least[0].min(timed(starting_with_rk2(), 2.0, stride)?);
+        least[1] = least[1].min(timed(RungeKutta::midpoint(), 1.0, stride)?);
     }
     Ok(least.map(|[ve2, rk2]| rk2 / ve2))
 }
@@ -128,8 +117,8 @@ fn figure([(ve2, ..), (rk2, ..)]: &[Motion; 2], end: f64) -> Figure {
         .legend_at(Corner::TopLeft)
         .weight(1.25);
     let beginning = Panel::new("The beginning", time().within(0.0, CLOSE_UP), energy())
-        .line(ve2.path.clone(), Stroke::solid(BLUE).width(1.3))
-        .line(rk2.path.clone(), Stroke::solid(VERMILLION).width(1.3));
+        .line(ve2.path.clone(), solid(BLUE).width(1.3))
+        .line(rk2.path.clone(), solid(VERMILLION).width(1.3));
     Figure::of("VE2 takes one evaluation of ∇*H* per step, RK2 two")
         .row(430.0, vec![whole, beginning])
         .footer("After Rowley & Marsden 2002, Fig. 2. Γ and *L*: units of circulation and length.")

@@ -4,8 +4,7 @@
 //! and on a Kepler orbit, beside the same rule with steps of one length: discrete energy, energy, angular
 //! momentum, lengths of the steps and distance from the motion.
 
-use super::energy_steps::{BEGINNING, COMPARED, Motion, Runs, Steps, most, order_in_length};
-use super::no_energy_step::NoStep;
+use super::energy_steps::*;
 use crate::vocabulary::*;
 
 pub const START: StiffeningSpringState = StiffeningSpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
@@ -37,7 +36,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let between = largest(pairs.map(|(a, b)| (a.x - b.x).hypot(a.y - b.y)));
     let none = NoStep::new()?;
     job.publish(figure(&all, &none), table(&all, &none)?)?;
-    Ok(claims(&all, between).into_iter().chain([none.claim()]).collect::<Vec<_>>().into())
+    outcome(&all, between, &none)
 }
 
 /// Points of the motion of the spring at multiples of a time.
@@ -58,8 +57,8 @@ fn position(states: &[StiffeningSpringState], t: f64) -> [f64; 2] {
     states.get(index as usize).copied().and_then(place).unwrap_or([f64::NAN; 2])
 }
 
-fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
-    let one_length = |of: &Runs| format!("{}, steps of one length", of.name);
+fn outcome(all: &[Runs; 2], between_references: f64, none: &NoStep) -> Result<Outcome> {
+    let plain = |of: &Runs| format!("{}, steps of one length", of.name);
     let (second, width) = ([2.0, 0.02], |steps: &Steps, k: usize| steps.kept[k].width());
     let discrete = "the steps keep the discrete energy to rounding, and steps of one length up to terms of \
                     the second order";
@@ -70,14 +69,13 @@ fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
         let growth = most(&of.kept, |steps| steps.kept[0].growth());
         let claim = claim.at_most("largest |E_d − e| of all runs", defect, rounding);
         let claim = claim.at_most("the same over all steps / over the first tenth", growth, 2.0);
-        let claim =
-            claim.of(one_length(of)).near("largest difference of two E_d", width(&of.mean[0], 0), varies);
+        let claim = claim.of(plain(of)).near("largest difference of two E_d", width(&of.mean[0], 0), varies);
         claim.near("order of that in h", order_in_length(&of.mean, |steps| width(steps, 0)), second)
     });
     let momentum = beyond("both keep the angular momentum to rounding").each(all, |claim, of| {
         let [kept, mean] = [&of.kept, &of.mean].map(|runs| most(runs, |steps| steps.kept[2].largest));
         let claim = claim.of(of.name).at_most("largest |l − l(0)| of all runs", kept, 2e-13);
-        claim.of(one_length(of)).at_most("the same", mean, 2e-13)
+        claim.of(plain(of)).at_most("the same", mean, 2e-13)
     });
     let energy = "the energy at the points of the run varies by terms of the second order, on the spring a \
                   little more than with steps of one length, on the orbit a third as much";
@@ -85,7 +83,7 @@ fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
     let energy = beyond(energy).each(all.iter().zip(ratios), |claim, (of, range)| {
         let [kept, mean] = [&of.kept, &of.mean].map(|runs| order_in_length(runs, |steps| width(steps, 1)));
         let claim = claim.of(of.name).near("order of the largest difference of two E in h", kept, second);
-        let claim = claim.of(one_length(of)).near("the same", mean, second).of(of.name);
+        let claim = claim.of(plain(of)).near("the same", mean, second).of(of.name);
         let ratio = width(&of.kept[0], 1) / width(&of.mean[0], 1);
         claim.within("largest difference of two E / that with steps of one length", ratio, range)
     });
@@ -121,13 +119,12 @@ fn claims(all: &[Runs; 2], between_references: f64) -> [Claim; 5] {
                 .at_least("largest distance / that with the same work", behind(0), farther)
                 .at_least("the same with the shortest first step", behind(3), farther)
         });
-    [discrete, momentum, energy, lengths, accuracy]
+    claims([discrete, momentum, energy, lengths, accuracy, none.claim()])
 }
 
 /// The largest defect of E_d over the number of the step, and E − E(0) and h over time.
 type Drawn = (String, Stroke, [Points; 3]);
 
-/// What is drawn of the runs with the longest steps.
 fn drawn([spring, kepler]: &[Runs; 2]) -> [Drawn; 4] {
     let one_length = |on: &Runs| format!("{}, one length", on.name);
     let varying = |on: &Runs| format!("{}, energy-momentum", on.name);
@@ -138,9 +135,8 @@ fn drawn([spring, kepler]: &[Runs; 2]) -> [Drawn; 4] {
         (varying(kepler), GREEN, &kepler.kept[0]),
     ]
     .map(|(name, colour, steps)| {
-        let [lengths, energy] =
-            [1, 2].map(|k| steps.beginning.iter().map(|step| [step[0], step[k]]).collect());
-        (name, Stroke::solid(colour), [steps.kept[0].envelope.magnitude(), energy, lengths])
+        let [lengths, energy] = [1, 2].map(|k| steps.beginning.iter().map(|of| [of[0], of[k]]).collect());
+        (name, solid(colour), [steps.kept[0].envelope.magnitude(), energy, lengths])
     })
 }
 
@@ -169,8 +165,6 @@ fn table(all: &[Runs; 2], none: &NoStep) -> Result<Table> {
         let named = quantities.map(|(quantity, over)| [name.clone(), quantity.to_owned(), over.to_owned()]);
         named.into_iter().zip(curves)
     });
-    let rows = of_runs
-        .chain(none.curves())
-        .flat_map(|(names, points)| points.into_iter().map(move |point| (names.clone(), point)));
-    Table::of(&["run", "quantity", "over", "at", "value"], rows)
+    let curves = of_runs.chain(none.curves()).map(|(names, points)| (names, [], points));
+    curve_table(&["run", "quantity", "over", "at", "value"], curves)
 }

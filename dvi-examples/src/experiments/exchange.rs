@@ -64,24 +64,20 @@ impl Exchange {
         Self::new(Gauss::<4>::new(), centre, 0.1 / OMEGA, 220)
     }
 
-    /// By Newmark's method.
     pub fn newmark(beta: f64, centre: f64, h: f64) -> Result<Self> {
         Self::new(Newmark::new(beta), centre, h, COMPARED)
     }
 
     fn new(method: impl Method<SpringChain, f64>, centre: f64, h: f64, end: u64) -> Result<Self> {
-        let mut run = Integrator::new(&CHAIN, method, h, CHAIN.first_pair(centre))?;
+        let mut run = Problem::new(&CHAIN, CHAIN.first_pair(centre)).run(method, h)?;
         let of_unit = (1.0 / h).round() as u64;
-        let mut means = Vec::new();
-        for _ in 0..end {
-            let mut mean = [0.0; 3];
+        let mut means = vec![[0.0; 3]; end as usize];
+        for mean in &mut means {
             for _ in 0..of_unit {
                 run.advance()?;
-                for (mean, energy) in mean.iter_mut().zip(CHAIN.oscillatory(&run.state(), 1.0)) {
-                    *mean += energy / of_unit as f64;
-                }
+                let energies = mean.iter_mut().zip(CHAIN.oscillatory(&run.state(), 1.0));
+                energies.for_each(|(mean, energy)| *mean += energy / of_unit as f64);
             }
-            means.push(mean);
         }
         Ok(Self(means))
     }
@@ -91,7 +87,6 @@ impl Exchange {
         self.0.iter().enumerate().map(|(k, mean)| [k as f64 + 0.5, mean[j]]).collect()
     }
 
-    /// Between the means.
     fn at(&self, t: f64) -> Option<[f64; 3]> {
         let place = (t - 0.5).max(0.0);
         let (k, part) = (place.floor() as usize, place.fract());
@@ -109,25 +104,20 @@ impl Exchange {
         squares.sum::<f64>() / self.0.len() as f64
     }
 
-    /// How many times as fast as in `motion` the energies are exchanged: the factor of time with the least
-    /// mean square of differences.
+    /// How many times as fast as in `motion` the exchange is, by the least mean square of differences.
     pub fn speed(&self, motion: &Self) -> f64 {
         let factors = (0..=1000).map(|i| 0.4 + 0.001 * f64::from(i));
         let apart = factors.map(|factor| (factor, self.apart(motion, factor)));
         apart.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(f64::NAN, |(factor, _)| factor)
     }
 
-    /// The energies, on those of the motion in grey.
     pub fn panel(&self, motion: &Self, title: String) -> Panel {
-        let grey = Stroke::solid(SLATE).width(3.0).opacity(0.35);
+        let grey = solid(SLATE).width(3.0).opacity(0.35);
         let springs = [("first", BLUE), ("second", GREEN), ("third", VERMILLION)].into_iter().zip(0..);
-        Panel::linear(
-            title,
-            ("time *t*", [0.0, COMPARED as f64]),
-            ("energies of the stiff springs", [0.0, 1.7]),
-        )
-        .each(0..3, |panel, j| panel.line(motion.points(j), grey))
-        .lines(springs.map(|((name, colour), j)| (name, Stroke::solid(colour).width(1.4), self.points(j))))
+        let (time, energies) = (("time *t*", [0.0, COMPARED as f64]), "energies of the stiff springs");
+        Panel::linear(title, time, (energies, [0.0, 1.7]))
+            .each(0..3, |panel, j| panel.line(motion.points(j), grey))
+            .lines(springs.map(|((name, colour), j)| (name, solid(colour).width(1.4), self.points(j))))
     }
 }
 

@@ -19,21 +19,29 @@ const RHO: f64 = 0.25;
 type Lines = Vec<Vec<Place>>;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
-    let turns = job.choose(100_000, 4000);
-    let shown = job.choose(1500, 120);
+    let (turns, shown) = (job.choose(100_000, 4000), job.choose(1500, 120));
     let [abc, tokamak] = starts();
     job.expect(STEPS * (2 * turns + shown * (abc.len() + tokamak.len()) as u64));
     let abc = abc.into_iter().map(|start| section(job, &ABC, start, shown)).collect::<Result<Lines>>()?;
     let tokamak = tokamak.into_iter().map(|start| section(job, &TOKAMAK, start, shown));
     let tokamak = tokamak.collect::<Result<Lines>>()?;
-    let (one_step, rk4) = (OneStep::midpoint(), RungeKutta::classical());
-    let surfaces = [
-        surface(job, ("one step, midpoint", Stroke::solid(BLUE)), one_step, turns)?,
-        surface(job, ("RK4", Stroke::dashed(VERMILLION)), rk4, turns)?,
+    // How well a line of the unperturbed tokamak stays on its surface: (ψ − ψ(0))/ψ(0) after each step.
+    let line = Problem::new(&UNPERTURBED, (1.0 + RHO, 0.0));
+    let runs = [
+        (("one step, midpoint", solid(BLUE)), line.run(OneStep::midpoint(), TAU / STEPS as f64)?),
+        (("RK4", dashed(VERMILLION)), line.run(RungeKutta::classical(), TAU / STEPS as f64)?),
     ];
+    let surfaces = each(runs, |((name, stroke), mut run)| {
+        let mut kept = Span { end: turns as f64, early: 1000.0, intervals: 400 }.deviations();
+        job.follow(&mut run, turns * STEPS, |run| {
+            let rho = (run.q()[0] - 1.0).hypot(run.q()[1]);
+            note(&mut kept, run.time() / TAU, [UNPERTURBED.flux(rho) / UNPERTURBED.flux(RHO) - 1.0]);
+        })?;
+        Ok(Series::new(name, stroke, kept))
+    })?;
     let table = table(&abc, &tokamak, &surfaces)?;
     job.publish(figure(abc, tokamak, &surfaces, turns), table)?;
-    let [by_midpoint, by_rk4] = surfaces.each_ref().map(|series| series.kept[0].growth());
+    let [midpoint, rk4] = surfaces.each_ref().map(|series: &Series<1>| series.kept[0].growth());
     let growth = "max|Δψ| over all / over 1000 turns";
     let stay = "lines stay on their surfaces: the flux function is no further off in all turns than in the \
                 first 1000";
@@ -41,21 +49,23 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         ("ABC", flux_changes(&ABC, [0.3, 1.2], 0.8)?),
         ("tokamak", flux_changes(&TOKAMAK, [1.15, 0.0], 0.06)?),
     ];
-    let kept = beyond("the flux through a loop that is carried along is kept to rounding errors");
-    let stay = beyond(stay).at_most(format!("one step, midpoint: {growth}"), by_midpoint, 1.001);
-    Ok(vec![
-        stay.at_least(format!("RK4: {growth}"), by_rk4, 3.0),
-        kept.each(changes, |claim, (name, [midpoint, runge_kutta])| {
-            let change = |method| format!("{name}, 8 turns, {method}: largest relative change");
-            let claim = claim.at_most(change("one step, midpoint"), midpoint, 1e-11);
-            claim.at_least(change("RK4"), runge_kutta, 1e-8)
+    let flux = beyond("the flux through a loop that is carried along is kept to rounding errors");
+    let change = |name, method| format!("{name}, 8 turns, {method}: largest relative change");
+    claims([
+        beyond(stay)
+            .of("one step, midpoint")
+            .at_most(growth, midpoint, 1.001)
+            .of("RK4")
+            .at_least(growth, rk4, 3.0),
+        flux.each(changes, |claim, (name, [midpoint, runge_kutta])| {
+            let claim = claim.at_most(change(name, "one step, midpoint"), midpoint, 1e-11);
+            claim.at_least(change(name, "RK4"), runge_kutta, 1e-8)
         }),
         where_islands_are()?,
         beyond("the one-step midpoint scheme is of second order on both fields")
             .near("ABC: order after five turns", order_on(&ABC, [0.0, 2.2])?, [2.0, 0.05])
             .near("tokamak: order after five turns", order_on(&TOKAMAK, [1.2, 0.0])?, [2.0, 0.05]),
-    ]
-    .into())
+    ])
 }
 
 /// Where the lines of the two plots begin.
@@ -81,32 +91,12 @@ fn starts() -> [Vec<Place>; 2] {
 /// Where the line through `start` meets the plane after each of `count` turns.
 fn section(job: &Job<'_>, field: &impl Field, start: Place, count: u64) -> Result<Vec<Place>> {
     let (mut place, mut places) = (start, Vec::new());
-    for _ in 0..count {
-        if job.is_stopping() {
-            job.cut_short();
-            break;
-        }
+    for _ in (0..count).take_while(|_| !job.is_stopping()) {
         place = turned(field, OneStep::midpoint(), STEPS, place)?;
         places.push(place);
         job.proceed(STEPS);
     }
     Ok(places)
-}
-
-/// How well a line of the unperturbed tokamak stays on its surface: (ψ − ψ(0))/ψ(0) after each step.
-fn surface(
-    job: &Job<'_>,
-    (name, stroke): Named<'_>,
-    method: impl Method<PerturbedTokamak, f64>,
-    turns: u64,
-) -> Result<Series<1>> {
-    let mut run = Integrator::new(&UNPERTURBED, method, TAU / STEPS as f64, (1.0 + RHO, 0.0).into())?;
-    let mut kept = Span { end: turns as f64, early: 1000.0, intervals: 400 }.deviations();
-    job.follow(&mut run, turns * STEPS, |run| {
-        let rho = (run.q()[0] - 1.0).hypot(run.q()[1]);
-        note(&mut kept, run.time() / TAU, [UNPERTURBED.flux(rho) / UNPERTURBED.flux(RHO) - 1.0]);
-    })?;
-    Ok(Series::new(name, stroke, kept))
 }
 
 /// Against Gauss's method of order eight with steps of a tenth, over five turns.
@@ -131,14 +121,13 @@ fn figure(abc: Lines, tokamak: Lines, surfaces: &[Series<1>; 2], turns: u64) -> 
     let plane = Panel::window("ABC flow and a uniform field, plane *z* = 0", x, y);
     // The field is periodic in x and y. The one-form of the scheme is not, and so neither are its errors:
     // lines are folded into one period here and not as they run.
-    let folded =
-        |[x, y]: Place| [(x + FRAC_PI_2).rem_euclid(TAU) - FRAC_PI_2, (y + PI).rem_euclid(TAU) - PI];
-    let abc = abc.into_iter().map(|line| line.into_iter().map(folded).collect());
+    let fold = |[x, y]: Place| [(x + FRAC_PI_2).rem_euclid(TAU) - FRAC_PI_2, (y + PI).rem_euclid(TAU) - PI];
+    let abc = abc.into_iter().map(|line| line.into_iter().map(fold).collect());
     let abc = dots(plane, abc.collect());
     let (r, z) = (("*R*", [0.53, 1.47]), ("*Z*", [-0.47, 0.47]));
     let plane = Panel::window("Perturbed tokamak, plane *φ* = 0", r, z);
     let plane = plane.each([2.0 / 3.0, 0.5], |plane, turns| {
-        plane.line(circle([1.0, 0.0], TOKAMAK.resonance(turns)), Stroke::solid(INK).width(0.8))
+        plane.line(circle([1.0, 0.0], TOKAMAK.resonance(turns)), solid(INK).width(0.8))
     });
     let tokamak = dots(plane.labelled("*q* = 3/2 and *q* = 2"), tokamak);
     let title = "Distance of a line from its surface, without perturbations";

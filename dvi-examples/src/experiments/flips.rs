@@ -3,9 +3,9 @@
 //! Rotation about the axis of the middle moment of inertia is unstable: the body turns over and back, in a
 //! period that grows with the logarithm of the nearness to the axis (Landau & Lifshitz 1976, section 37).
 
-use super::elliptic::Elliptic;
-use super::shadow::Shadow;
-use super::turnings::crossing;
+use std::f64::consts::FRAC_PI_2;
+
+use super::geodesics::{Shadow, crossing};
 use crate::vocabulary::*;
 
 pub const BODY: RigidBody = RigidBody { inertia: [1.0, 2.0, 3.0] };
@@ -17,7 +17,7 @@ pub fn begin() -> RigidBodyState {
 }
 
 /// ω₂ = Ω sn(λt + K), which is Ω at t = 0 (Landau & Lifshitz 1976, section 37).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Wave {
     /// Ω
     amplitude: f64,
@@ -60,7 +60,6 @@ impl Wave {
 }
 
 /// The flips between the steps of a run with steps of one length.
-#[derive(Clone, Copy, Debug)]
 pub struct Flips {
     pub h: f64,
     /// The mean time of two flips.
@@ -75,7 +74,7 @@ pub struct Flips {
 impl Flips {
     pub fn new(wave: &Wave, h: f64, periods: f64) -> Result<Self> {
         let start = begin();
-        let mut run = Integrator::new(&BODY, Geodesic::trapezoid(), h, start)?;
+        let mut run = Problem::new(&BODY, start).run(Geodesic::trapezoid(), h)?;
         let mut energy = Shadow::new(h, run.energy(), BODY.shift(&start));
         let (mut before, mut times, mut error) = ([start.omega_R[1], 0.0], Vec::new(), 0.0);
         for _ in 0..(periods * wave.period() / h) as u64 {
@@ -94,8 +93,45 @@ impl Flips {
         }
         let count = times.len();
         let between = times.last().zip(times.first()).map_or(f64::NAN, |(last, first)| last - first);
-        let period = 2.0 * between / (count as f64 - 1.0);
-        Ok(Self { h, period, count: count as u32, error, energy })
+        Ok(Self { h, period: 2.0 * between / (count as f64 - 1.0), count: count as u32, error, energy })
+    }
+}
+
+/// Elliptic functions by the arithmetic–geometric mean (Abramowitz & Stegun 1964, sections 16.4 and 17.6).
+#[derive(Clone, Copy)]
+pub struct Elliptic {
+    /// k and √(1 − k²), each to its own rounding.
+    pub modulus: f64,
+    pub complementary: f64,
+}
+
+/// Means after which a is b up to rounding, for all k up to 1 − 10⁻¹².
+const MEANS: usize = 8;
+
+impl Elliptic {
+    /// The means aₙ with cₙ = (aₙ₋₁ − bₙ₋₁)/2.
+    fn means(&self) -> [[f64; 2]; MEANS] {
+        let (mut a, mut b, mut c) = (1.0_f64, self.complementary, self.modulus);
+        std::array::from_fn(|n| {
+            if n > 0 {
+                (a, b, c) = (0.5 * (a + b), (a * b).sqrt(), 0.5 * (a - b));
+            }
+            [a, c]
+        })
+    }
+
+    /// The quarter of a period, K.
+    pub fn quarter(&self) -> f64 {
+        FRAC_PI_2 / self.means()[MEANS - 1][0]
+    }
+
+    pub fn sn(&self, u: f64) -> f64 {
+        let means = self.means();
+        let mut phi = 2f64.powi(MEANS as i32 - 1) * means[MEANS - 1][0] * u;
+        for [a, c] in means.into_iter().skip(1).rev() {
+            phi = 0.5 * (phi + (c / a * phi.sin()).asin());
+        }
+        phi.sin()
     }
 }
 
@@ -107,9 +143,45 @@ mod tests {
     #[test]
     fn the_closed_form_is_the_motion() {
         let wave = Wave::new(&BODY, OMEGA);
-        let omega = reference(BODY, &begin(), 4.0, 2e-3)[10];
+        let omega = reference(BODY, &begin(), [4.0, 2e-3])[10];
         assert!((wave.at(4.0) - omega).abs() < 1e-11);
         assert!((wave.at(0.0) - OMEGA[1]).abs() < 1e-15);
         assert!((wave.at(0.5 * wave.period()) + OMEGA[1]).abs() < 1e-13);
+    }
+
+    fn with(complementary: f64) -> Elliptic {
+        Elliptic { modulus: (1.0 - complementary * complementary).sqrt(), complementary }
+    }
+
+    /// ∫₀^π/2 dθ/√(1 − k² sin² θ) by the trapezoidal rule, which is exact to rounding for periodic
+    /// functions.
+    #[test]
+    fn the_quarter_period_is_the_integral() {
+        for complementary in [0.9, 0.3, 0.05] {
+            let elliptic = with(complementary);
+            let count = 1000;
+            let value = |i: u32| {
+                let sine = (std::f64::consts::PI * f64::from(i) / f64::from(count)).sin();
+                1.0 / (1.0 - (elliptic.modulus * sine).powi(2)).sqrt()
+            };
+            let integral = FRAC_PI_2 / f64::from(count) * (0..count).map(value).sum::<f64>();
+            assert!((elliptic.quarter() / integral - 1.0).abs() < 1e-14);
+        }
+    }
+
+    /// sn' = √((1 − sn²)(1 − k² sn²)) up to the first maximum, which is at K.
+    #[test]
+    fn sn_solves_its_equation() {
+        for complementary in [0.9, 0.3, 0.01] {
+            let elliptic = with(complementary);
+            assert!((elliptic.sn(elliptic.quarter()) - 1.0).abs() < 1e-15);
+            for part in [0.1, 0.5, 0.8] {
+                let u = part * elliptic.quarter();
+                let rate = (elliptic.sn(u + 1e-5) - elliptic.sn(u - 1e-5)) / 2e-5;
+                let square = elliptic.sn(u).powi(2);
+                let expected = ((1.0 - square) * (1.0 - elliptic.modulus.powi(2) * square)).sqrt();
+                assert!((rate - expected).abs() < 1e-9, "{complementary}, {part}");
+            }
+        }
     }
 }

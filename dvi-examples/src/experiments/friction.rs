@@ -5,9 +5,7 @@
 //! principle of Lagrange and d'Alembert. The angular momentum decays as e^{−γt}, and by the forced discrete
 //! Noether theorem its discrete rate is known in closed form.
 
-use super::average_acceleration::is_midpoint;
-use super::decay::{Case, Decay, FINE, GAMMA, Reference, Runs, STEPS, Setting, WINDOW};
-use super::forced_noether::noether;
+use super::decay::{Case, *};
 use crate::vocabulary::*;
 
 const COLOURS: [Colour; 4] = [BLUE, GREEN, PURPLE, VERMILLION];
@@ -22,10 +20,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let reference = Reference::new(job, Gauss::<4>::new(), fine)?;
     let other = Reference::new(job, Galerkin::<5>::new(), double)?;
     let without = Reference::new(job, Gauss::<4>::new(), Case { gamma: 0.0, ..fine })?;
-    let setting = Setting { job, case: long, reference: &reference };
-    let lost =
-        [setting.by("Heun", RungeKutta::heun())?, setting.by("explicit midpoint", RungeKutta::midpoint())?];
-    let steps = each(by_step, |case| Setting { case, ..setting }.runs())?;
+    let with = Setting { job, case: long, reference: &reference };
+    let lost = [with.by("Heun", RungeKutta::heun())?, with.by("explicit midpoint", RungeKutta::midpoint())?];
+    let steps = each(by_step, |case| Setting { case, ..with }.runs())?;
     let conservative = Setting { case: Case { gamma: 0.0, ..long }, reference: &without, job }.runs()?;
     let all = steps.iter().flatten().chain(&lost).chain(&conservative);
     let rows = all.flat_map(|Decay { name, case, error, momentum, .. }| {
@@ -40,7 +37,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
                       the motion";
     let is_known = beyond(references).at_most("largest relative difference of two energies", between, 2e-11);
     let gain = beyond("Runge–Kutta methods of second order gain energy at that step instead of losing it");
-    Ok(vec![
+    claims([
         is_known.at_most("largest |l/(l(0) exp(−γt)) − 1|", reference.momentum, 1e-12),
         noether(job, long, &steps)?,
         follows(job, &steps[0]),
@@ -51,8 +48,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         }),
         orders(job, &steps),
         is_midpoint(job, long)?,
-    ]
-    .into())
+    ])
 }
 
 fn follows(job: &Job<'_>, runs: &Runs) -> Claim {
@@ -98,8 +94,7 @@ fn orders(job: &Job<'_>, steps: &[Runs; 4]) -> Claim {
     let order = |method: usize| {
         order(steps[1..].iter().map(|runs| (runs[method].case.h, runs[method].excess().abs())))
     };
-    let worse =
-        |index: usize| job.only_full(steps[index][3].largest_mean() / steps[index][0].largest_mean());
+    let worse = |k: usize| job.only_full(steps[k][3].largest_mean() / steps[k][0].largest_mean());
     let same_cost = steps[2][1].largest_mean() / steps[0][3].largest_mean();
     let dearest = "four forces in 0.2: largest deviation of E, trapezoid with h = 0.05 / RK4 with h = 0.2";
     let text = "the error of that rate is of second order, with RK4 of the fifth, so that RK4 is behind at \
@@ -115,26 +110,23 @@ fn orders(job: &Job<'_>, steps: &[Runs; 4]) -> Claim {
 }
 
 fn figure(reference: &Reference, steps: &[Runs; 4], rk4_alone: &Decay) -> Figure {
-    let stroke = |method: usize| Stroke::solid(COLOURS[method]).width(if method == 0 { 2.4 } else { 1.8 });
+    let stroke = |method: usize| solid(COLOURS[method]).width(if method == 0 { 2.4 } else { 1.8 });
     let lines = |points: fn(&Decay) -> Vec<[f64; 2]>| {
         steps[0].iter().enumerate().map(move |(method, run)| (run.name, stroke(method), points(run)))
     };
     let time = ("time *t*", [0.0, steps[0][0].case.end]);
     let energies = reference.energies.iter().zip(1..).map(|(e, n)| [f64::from(n) * FINE, *e]);
     let decay = Panel::linear("Energy", time, ("*E*", [0.0, 0.45]))
-        .line(energies.collect(), Stroke::solid(SLATE).width(5.0).opacity(0.4))
-        .labelled("reference")
+        .lines([("reference", solid(SLATE).width(5.0).opacity(0.4), energies.collect())])
         .lines(lines(|run| run.energy.mean()))
-        .line(rk4_alone.energy.mean(), Stroke::dashed(VERMILLION))
-        .labelled("RK4 without friction");
+        .lines([("RK4 without friction", dashed(VERMILLION), rk4_alone.energy.mean())]);
     let means = format!("relative, |mean| over {WINDOW} units of time");
     let deviation =
         Panel::semilog("Deviation of the energy", time, (&means, [1e-3, 2.0])).lines(lines(|run| {
             run.error.envelope.mean().into_iter().map(|[t, mean]| [t, mean.abs()]).collect()
         }));
-    let change = ("largest |*l*/(*l*(0) exp(−*γt*)) − 1|", [1e-13, 1.0]);
-    let momentum =
-        Panel::semilog("Angular momentum", time, change).lines(lines(|run| run.momentum.magnitude()));
+    let l = ("largest |*l*/(*l*(0) exp(−*γt*)) − 1|", [1e-13, 1.0]);
+    let momentum = Panel::semilog("Angular momentum", time, l).lines(lines(|run| run.momentum.magnitude()));
     let h = Axis::logarithmic("step *h*").within(0.02, 0.25);
     let rate = Axis::logarithmic("|error| of the rate of *E*   [*γ*]");
     let excess = |method: usize| {

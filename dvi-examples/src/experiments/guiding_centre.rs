@@ -15,64 +15,23 @@ const ORBITS: [(&str, f64); 2] = [("banana", 4e-3), ("passing orbit", 1.2e-2)];
 const H: f64 = 60.0;
 const EARLY: u64 = 2000;
 
-/// The runs of one orbit, in class, out of class, and RK4: the relative changes of the energy and of the
-/// toroidal momentum, and R and Z of the beginning.
+/// Runs in class, out of class, and by RK4: the relative changes of the energy and of the toroidal momentum.
 type Orbit = [Series<2>; 3];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 10_000);
     job.expect(6 * steps);
     let orbits = each(ORBITS, |(_, u)| orbit(job, u, steps))?;
-    let rows = ORBITS.iter().zip(&orbits).flat_map(|((orbit, _), runs)| {
-        runs.iter().flat_map(|series| ranges([*orbit, &series.name], &series.kept[0].envelope))
+    let named = || ORBITS.iter().map(|(name, _)| *name).zip(&orbits);
+    let rows = named().flat_map(|(orbit, runs)| {
+        runs.iter().map(move |series| ([orbit, &series.name], [], series.kept[0].envelope.rows()))
     });
-    let table = Table::of(&["orbit", "method", "t", "lowest", "mean", "highest"], rows)?;
+    let table = curve_table(&["orbit", "method", "t", "lowest", "mean", "highest"], rows)?;
     job.publish(figure(&orbits, steps as f64 * H), table)?;
-    Ok(claims(&orbits).into())
-}
-
-fn orbit(job: &Job<'_>, u: f64, steps: u64) -> Result<Orbit> {
-    let (system, start) =
-        (TokamakInClass { q: Q, mu: MU }, TokamakInClassState { r: RADIUS, theta: 0.0, phi: 0.0, u });
-    let toroidal = |q: &[f64]| [1.0 + q[0] * q[1].cos(), q[0] * q[1].sin()];
-    let name = ("in class, one step", Stroke::solid(BLUE));
-    let in_class =
-        follow(job, name, Integrator::new(&system, OneStep::midpoint(), H, start)?, toroidal, steps)?;
-    let (system, start) =
-        (TokamakOutOfClass { q: Q, mu: MU }, TokamakOutOfClassState { x: RADIUS, z: 0.0, phi: 0.0, u });
-    let plane = |q: &[f64]| [1.0 + q[0], q[1]];
-    let name = ("out of class, projected", Stroke::solid(VERMILLION));
-    let projected =
-        follow(job, name, Integrator::new(&system, Projected::symmetric(), H, start)?, plane, steps)?;
-    let run = Integrator::new(&system, RungeKutta::classical(), H, start)?;
-    Ok([in_class, projected, follow(job, ("RK4", Stroke::dashed(SLATE)), run, plane, steps)?])
-}
-
-fn follow(
-    job: &Job<'_>,
-    named: Named<'_>,
-    mut run: impl Run<Scalar = f64>,
-    place: impl Fn(&[f64]) -> [f64; 2],
-    steps: u64,
-) -> Result<Series<2>> {
-    let (energy, toroidal) = (run.energy(), run.momentum(0).unwrap_or(f64::NAN));
-    Ok(job.series(named, &mut run, steps, Span::of(steps, H, EARLY), |run, path| {
-        if run.steps() <= EARLY / 8 {
-            path.push(place(run.q()));
-        }
-        let momentum = run.momentum(0).unwrap_or(f64::NAN);
-        [(run.energy() - energy) / energy, momentum / toroidal - 1.0]
-    })?)
-}
-
-fn claims(orbits: &[Orbit; 2]) -> Vec<Claim> {
-    let named = || ORBITS.iter().map(|(name, _)| *name).zip(orbits);
     let reach = |series: &Series<2>| largest(series.path.iter().map(|[_, z]| z.abs()));
     let growth = format!("max|ΔH| over all / over {EARLY} steps");
     let flat = "energy errors are no larger in the whole run than in its beginning";
-    let one_orbit = "both sets of coordinates give one orbit";
-    let reaches = "largest |Z| out of class, in units of that in class";
-    vec![
+    claims([
         beyond(flat).each(named(), |claim, (orbit, [one_step, projected, rk4])| {
             let claim = claim.each([one_step, projected], |claim, run| {
                 claim.of(format!("{orbit}, {}", run.name)).at_most(&growth, run.kept[0].growth(), 1.02)
@@ -85,20 +44,57 @@ fn claims(orbits: &[Orbit; 2]) -> Vec<Claim> {
                 claim.at_most("max|Δp_φ/p_φ|", run.kept[1].largest, 1e-9)
             })
         }),
-        beyond(one_orbit).each(named(), |claim, (orbit, [one_step, projected, _])| {
-            claim.of(orbit).near(reaches, reach(projected) / reach(one_step), [1.0, 2e-3])
+        beyond("both sets of coordinates give one orbit").each(named(), |claim, (orbit, runs)| {
+            let ratio = reach(&runs[1]) / reach(&runs[0]);
+            claim.of(orbit).near("largest |Z| out of class, in units of that in class", ratio, [1.0, 2e-3])
         }),
-    ]
+    ])
+}
+
+fn orbit(job: &Job<'_>, u: f64, steps: u64) -> Result<Orbit> {
+    let system = TokamakInClass { q: Q, mu: MU };
+    let in_class = Problem::new(&system, TokamakInClassState { r: RADIUS, theta: 0.0, phi: 0.0, u });
+    let system = TokamakOutOfClass { q: Q, mu: MU };
+    let out_of_class = Problem::new(&system, TokamakOutOfClassState { x: RADIUS, z: 0.0, phi: 0.0, u });
+    let toroidal = |q: &[f64]| [1.0 + q[0] * q[1].cos(), q[0] * q[1].sin()];
+    let plane = |q: &[f64]| [1.0 + q[0], q[1]];
+    let [one_step, projected, rk4] = [
+        ("in class, one step", solid(BLUE)),
+        ("out of class, projected", solid(VERMILLION)),
+        ("RK4", dashed(SLATE)),
+    ];
+    Ok([
+        follow(job, one_step, in_class.run(OneStep::midpoint(), H)?, toroidal, steps)?,
+        follow(job, projected, out_of_class.run(Projected::symmetric(), H)?, plane, steps)?,
+        follow(job, rk4, out_of_class.run(RungeKutta::classical(), H)?, plane, steps)?,
+    ])
+}
+
+fn follow<S: Lagrangian>(
+    job: &Job<'_>,
+    named: Named<'_>,
+    mut run: AnyRun<'_, S>,
+    place: impl Fn(&[f64]) -> [f64; 2],
+    steps: u64,
+) -> Result<Series<2>> {
+    let (energy, [toroidal]) = (run.energy(), momenta(&run));
+    Ok(job.series(named, &mut run, steps, Span::of(steps, H, EARLY), |run, path| {
+        if run.steps() <= EARLY / 8 {
+            path.push(place(run.q()));
+        }
+        let [momentum] = momenta(run);
+        [(run.energy() - energy) / energy, momentum / toroidal - 1.0]
+    })?)
 }
 
 fn figure([banana, passing]: &[Orbit; 2], end: f64) -> Figure {
-    let (solid, dashed) =
-        (|colour| Stroke::solid(colour).width(2.5), |colour| Stroke::dashed(colour).width(1.2));
+    let in_class = |colour| solid(colour).width(2.5);
+    let out_of_class = |colour| dashed(colour).width(1.2);
     let paths = Panel::window("Poloidal plane", ("*R*", [0.7, 1.3]), ("*Z*", [-0.22, 0.38])).lines([
-        ("banana, in class", solid(BLUE), banana[0].path.clone()),
-        ("banana, out of class", dashed(VERMILLION), banana[1].path.clone()),
-        ("passing, in class", solid(GREEN), passing[0].path.clone()),
-        ("passing, out of class", dashed(SLATE), passing[1].path.clone()),
+        ("banana, in class", in_class(BLUE), banana[0].path.clone()),
+        ("banana, out of class", out_of_class(VERMILLION), banana[1].path.clone()),
+        ("passing, in class", in_class(GREEN), passing[0].path.clone()),
+        ("passing, out of class", out_of_class(SLATE), passing[1].path.clone()),
     ]);
     let labels = ["Relative error of the energy, banana", "largest |Δ*H*/*H*| of each interval"];
     Figure::of(format!("*q* = {Q}, *μ* = {MU}, from *R* = {}, *h* = {H}", 1.0 + RADIUS))

@@ -30,28 +30,18 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let readings = &readings[1..];
     let rows = readings.iter().step_by(20).map(|row| ([""; 0], *row));
     job.publish(figure(readings), Table::of(&["t", "r", "omega_curvature", "omega_radial"], rows)?)?;
-    Ok(claims(readings).into())
-}
-
-/// Equation (19) on an orbit of semi-major axis 1.
-fn formula(r: f64) -> f64 {
-    (1.0 - ORBIT.e * ORBIT.e).sqrt() / (r * r * (2.0 - r))
-}
-
-fn claims(readings: &[Readings]) -> Vec<Claim> {
     let curvatures = || readings.iter().map(|reading| reading[2]);
     let (highest, lowest) = (largest(curvatures()), least(curvatures()));
     let share = |is_so: &dyn Fn(f64) -> bool| {
         curvatures().filter(|&curvature| is_so(curvature)).count() as f64 / readings.len() as f64
     };
-    let curvature =
-        largest(readings.iter().map(|[_, r, curvature, _]| (curvature / formula(*r) - 1.0).abs()));
+    let curvature = largest(readings.iter().map(|[_, r, omega, _]| (omega / formula(*r) - 1.0).abs()));
     let radial = largest(readings.iter().map(|[_, r, _, radial]| (radial / r.powf(-1.5) - 1.0).abs()));
     let [near, far] = [1.0 - ORBIT.e, 1.0 + ORBIT.e].map(formula);
     // 2r² − r³ is largest at r = 4/3, where it is 32/27.
     let rises = [far / formula(4.0 / 3.0), 1e-3];
     let again = "(19) rises again at the apocentre, where the motion is slowest";
-    vec![
+    claims([
         says("Fig. 4", "the frequency is smooth almost everywhere except at the perihelion")
             .at_most("share of time with ω above half its peak", share(&|x| x > 0.5 * highest), 0.01)
             .at_least("share of time with ω below 2", share(&|x| x < 2.0), 0.9)
@@ -60,7 +50,12 @@ fn claims(readings: &[Readings]) -> Vec<Claim> {
             .at_most("(19): largest relative deviation", curvature, 2e-3)
             .at_most("√(|q''|/|q|): largest relative deviation", radial, 1e-12),
         beyond(again).near("ω at the apocentre / lowest ω", far / lowest, rises),
-    ]
+    ])
+}
+
+/// Equation (19) on an orbit of semi-major axis 1.
+fn formula(r: f64) -> f64 {
+    (1.0 - ORBIT.e * ORBIT.e).sqrt() / (r * r * (2.0 - r))
 }
 
 fn figure(readings: &[Readings]) -> Figure {
@@ -69,8 +64,8 @@ fn figure(readings: &[Readings]) -> Figure {
         let points = |of: usize| inside().map(|reading| [reading[0] / TAU, reading[of]]).collect();
         let frequency = ("frequency ω   [√(μ/*a*³)]", [0.1, 200.0]);
         Panel::semilog(title, ("time *t*   [periods]", [from, to]), frequency).lines([
-            ("|*q*' × *q*''|/|*q*'|²  (19)", Stroke::solid(BLUE), points(2)),
-            ("√(|*q*''|/|*q*|) = *r*^(−3/2)", Stroke::solid(VERMILLION), points(3)),
+            ("|*q*' × *q*''|/|*q*'|²  (19)", solid(BLUE), points(2)),
+            ("√(|*q*''|/|*q*|) = *r*^(−3/2)", solid(VERMILLION), points(3)),
         ])
     };
     let all = panel("Ten periods", 0.0, PERIODS as f64).without_legend().weight(1.3);

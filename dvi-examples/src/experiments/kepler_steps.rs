@@ -7,23 +7,21 @@
 
 use rayon::prelude::*;
 
-use super::equal_errors::*;
+use super::kepler::*;
 use crate::vocabulary::*;
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];
 /// The eccentricity of the paper.
 const HIGH: f64 = 0.95;
 const THIRD: f64 = 1.0 / 3.0;
+
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
-    let (count, eccentricities) = job.choose((3, &ECCENTRICITIES[..]), (2, &ECCENTRICITIES[3..]));
-    let mut cases = Vec::new();
-    for steps in [Fixed, Controlled] {
-        for &e in eccentricities {
-            cases.extend(finenesses(steps, e)[..count].iter().map(|&fineness| (steps, e, fineness)));
-        }
-    }
+    let (count, orbits) = job.choose((3, &ECCENTRICITIES[..]), (2, &ECCENTRICITIES[3..]));
+    let cases = [Fixed, Controlled].into_iter().flat_map(|steps| orbits.iter().map(move |&e| (steps, e)));
+    let of_each = |(steps, e)| finenesses(steps, e).into_iter().take(count).map(move |of| (steps, e, of));
+    let cases: Vec<_> = cases.flat_map(of_each).collect();
     job.expect(cases.len() as u64 * (1 + 3 * u64::from(BISECTIONS + 1)));
-    let compared = cases.into_par_iter().map(|(steps, e, fineness)| compare(job, steps, e, fineness));
+    let compared = cases.into_par_iter().map(|(steps, e, fine)| equal_errors(job, steps, e, fine));
     let all: Vec<Comparison> = compared.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
     let columns = ["steps", "e", "reference", "energy_error", "fitted", "linear", "ratio"];
     let rows = all.iter().map(|c| {
@@ -45,8 +43,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     Ok(Outcome { claims: claims(&all), references: references(&all), notes: notes.collect() })
 }
 
-/// The ratios with the given choice of steps, at the given eccentricity, against midpoint and trapezoid or,
-/// if `simpson`, against linear Simpson.
+/// The ratios against midpoint and trapezoid or, if `simpson`, against linear Simpson.
 fn ratios(all: &[Comparison], steps: Steps, e: f64, simpson: bool) -> Vec<f64> {
     let is_asked = |c: &&Comparison| c.steps == steps && c.e == e && (c.reference == SIMPSON) == simpson;
     all.iter().filter(is_asked).map(Comparison::ratio).collect()
@@ -58,7 +55,6 @@ fn extremes(ratios: &[f64]) -> [Option<f64>; 2] {
         .map(|r| (!ratios.is_empty()).then_some(r))
 }
 
-/// How many are above one third.
 fn above(ratios: &[f64]) -> usize {
     ratios.iter().filter(|&&ratio| ratio > THIRD).count()
 }
@@ -122,14 +118,13 @@ fn figure(all: &[Comparison]) -> Figure {
     let fitted = at_high("midpoint").map(|c| [c.energy, c.fitted]).collect();
     let title = format!("Steps over one period, *e* = {HIGH}, both with (23)");
     let steps = Panel::new(title, Axis::logarithmic("max|*E* − *E*(0)|"), Axis::logarithmic("steps"))
-        .marked([("phase-fitted", Stroke::solid(VERMILLION), fitted)])
+        .marked([("phase-fitted", solid(VERMILLION), fitted)])
         .marked(REFERENCES.map(|(reference, _, colour)| {
-            (reference, Stroke::dashed(colour), at_high(reference).map(|c| [c.energy, c.linear]).collect())
+            (reference, dashed(colour), at_high(reference).map(|c| [c.energy, c.linear]).collect())
         }));
     let compared = |title: &str, steps: Steps| {
         let e = Axis::names("eccentricity", ECCENTRICITIES.iter().map(f64::to_string).collect());
-        let place =
-            |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |place| place as f64);
+        let place = |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |k| k as f64);
         let shown = REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]);
         Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within(0.0, 1.7))
             .guide([[-0.6, THIRD], [3.6, THIRD]], "one third")

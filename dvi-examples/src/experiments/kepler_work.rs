@@ -3,8 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::kepler::{Course, KeplerMethod, compare, fixed, osculating, reversible};
-use super::rivals::{levi_civita, logarithmic_hamiltonian};
+use super::kepler::*;
 use crate::vocabulary::*;
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];
@@ -27,19 +26,19 @@ const LONG: &[f64] = &[1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
 /// The methods over their accuracies: ε, steps per period, or a tolerance.
 #[rustfmt::skip]
 const CONTENDERS: [(&str, Stroke, &[f64]); 13] = [
-    ("Verlet, fixed steps",   Stroke::dashed(SLATE),     &[100.0, 300.0, 1000.0, 3000.0, 10_000.0]),
-    ("Verlet",                Stroke::solid(SLATE),      EPSILONS),
-    ("Simpson, linear",       Stroke::solid(SKY),        EPSILONS),
-    ("the paper: (19), (23)", Stroke::solid(AMBER),      &[0.03, 0.01, 0.003, 0.001]),
-    ("fitted, averaged",      Stroke::solid(BLUE),       EPSILONS),
-    ("fitted, variational",   Stroke::solid(VERMILLION), EPSILONS),
-    ("Verlet, Suzuki 4",      Stroke::solid(GREEN),      LONG),
-    ("Verlet, Kahan–Li 8",    Stroke::dashed(GREEN),     LONG),
-    ("Galerkin, order 4",     Stroke::solid(PURPLE),     LONG),
-    ("Galerkin, order 6",     Stroke::solid(PURPLE),     LONG),
-    ("Galerkin, order 8",     Stroke::dashed(PURPLE),    LONG),
-    ("log-*H* leapfrog",      Stroke::solid(AMBER),      &[25.0, 100.0, 400.0, 1600.0]),
-    ("Levi-Civita, fitted",   Stroke::dashed(INK),       &[8.0, 16.0, 32.0]),
+    ("Verlet, fixed steps",   dashed(SLATE),     &[100.0, 300.0, 1000.0, 3000.0, 10_000.0]),
+    ("Verlet",                solid(SLATE),      EPSILONS),
+    ("Simpson, linear",       solid(SKY),        EPSILONS),
+    ("the paper: (19), (23)", solid(AMBER),      &[0.03, 0.01, 0.003, 0.001]),
+    ("fitted, averaged",      solid(BLUE),       EPSILONS),
+    ("fitted, variational",   solid(VERMILLION), EPSILONS),
+    ("Verlet, Suzuki 4",      solid(GREEN),      LONG),
+    ("Verlet, Kahan–Li 8",    dashed(GREEN),     LONG),
+    ("Galerkin, order 4",     solid(PURPLE),     LONG),
+    ("Galerkin, order 6",     solid(PURPLE),     LONG),
+    ("Galerkin, order 8",     dashed(PURPLE),    LONG),
+    ("log-*H* leapfrog",      solid(AMBER),      &[25.0, 100.0, 400.0, 1600.0]),
+    ("Levi-Civita, fitted",   dashed(INK),       &[8.0, 16.0, 32.0]),
 ];
 
 /// An orbit for so many periods.
@@ -67,7 +66,6 @@ fn course(contender: usize, case: Case<'_>, knob: f64) -> Result<Course> {
     }
 }
 
-/// With reversible steps.
 fn by(method: impl KeplerMethod, (job, orbit, periods): Case<'_>, epsilon: f64) -> Result<Course> {
     compare(job, &mut reversible(method, orbit, epsilon)?, orbit, periods)
 }
@@ -82,8 +80,7 @@ struct Curve {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (periods, long) = (job.choose(100, 10), job.choose(100_000, 1000));
-    let pairs: Vec<_> =
-        ECCENTRICITIES.iter().flat_map(|&e| (0..13).map(move |method| (method, e))).collect();
+    let pairs: Vec<_> = ECCENTRICITIES.iter().flat_map(|&e| (0..13).map(move |k| (k, e))).collect();
     let runs: usize = CONTENDERS.iter().map(|(.., knobs)| 4 * knobs.len()).sum();
     job.expect(runs as u64 * periods + 3 * long);
     let curve = |(contender, e): (usize, f64)| {
@@ -99,11 +96,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let [regular, shorter] = each([8, 32], |steps| levi_civita(job, orbit, steps, long))?;
     let columns =
         ["method", "e", "steps_per_period", "evaluations_per_period", "energy_error", "position_error"];
-    let rows = curves.iter().flat_map(|Curve { contender, e, courses, .. }| {
-        let name = CONTENDERS[*contender].0;
-        courses.iter().map(move |c| ([name], [*e, c.steps, c.evaluations, c.energy, c.position]))
+    let rows = curves.iter().map(|Curve { contender, e, courses, .. }| {
+        let rows = courses.iter().map(|c| [c.steps, c.evaluations, c.energy, c.position]);
+        ([CONTENDERS[*contender].0], [*e], rows)
     });
-    job.publish(figure(&curves), Table::of(&columns, rows)?)?;
+    job.publish(figure(&curves), curve_table(&columns, rows)?)?;
     // Numbers of independent programs.
     let [averaged, variational] = [4, 5].map(|contender| job.only_full(energy(&curves, contender)));
     let references = vec![
@@ -145,9 +142,8 @@ fn figure(curves: &[Curve]) -> Figure {
                 let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
                 (name, stroke, points.collect())
             });
-            let (work, error) =
-                (("evaluations of the force per period", [5.0, 5e4]), (label, [1e-15, 10.0]));
-            Panel::loglog(format!("{title} error over work, *e* = {e}"), work, error).marked(lines)
+            let (x, y) = (("evaluations of the force per period", [5.0, 5e4]), (label, [1e-15, 10.0]));
+            Panel::loglog(format!("{title} error over work, *e* = {e}"), x, y).marked(lines)
         });
         panels.into()
     };

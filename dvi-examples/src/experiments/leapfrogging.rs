@@ -11,7 +11,6 @@ struct Motion {
     distance: Envelope,
     /// Times at which one of vortices 1 and 2 overtakes the other.
     overtakings: Vec<f64>,
-    end: f64,
     extent: f64,
     /// The largest deviation from mirror symmetry about y = 0.
     asymmetry: f64,
@@ -26,19 +25,20 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let rk2 = Motion::new(job, RungeKutta::midpoint(), 2.0, end)?;
     let exact = Motion::new(job, Gauss::<3>::new(), 0.5, SHOWN)?;
     let rows = (0..ve2.trajectories[0].len()).map(|k| {
-        let places = ve2.trajectories.iter().flat_map(|trajectory| trajectory[k]);
-        ([""; 0], [k as f64].into_iter().chain(places).collect::<Vec<_>>())
+        let places = ve2.trajectories.iter().flat_map(move |trajectory| trajectory[k]);
+        ([""; 0], [k as f64].into_iter().chain(places))
     });
     let columns = ["step", "x1", "y1", "x2", "y2", "x3", "y3", "x4", "y4"];
-    job.publish(figure(&ve2, &rk2, &exact), Table::of(&columns, rows)?)?;
+    job.publish(figure([&ve2, &rk2, &exact], end), Table::of(&columns, rows)?)?;
     let note = format!(
         "RK2 at h = 2: the last overtaking is at t = {}. The mirror symmetry breaks by rounding, so this \
          time is not reproducible from machine to machine; that the pairs come apart is.",
         rk2.overtakings.last().copied().unwrap_or(0.0)
     );
-    let failures = [("VE2", &ve2), ("RK2", &rk2)]
-        .into_iter()
-        .filter_map(|(name, run)| run.failure.map(|error| format!("{name} at h = 2 ended early: {error}.")));
+    let failures =
+        [("VE2", &ve2), ("RK2", &rk2)].into_iter().filter_map(|(name, Motion { failure, .. })| {
+            failure.map(|error| format!("{name} at h = 2 ended early: {error}."))
+        });
     let notes = [note].into_iter().chain(failures).collect();
     let infinite = job.only_full(indicator(!rk2.extent.is_finite()));
     let claims = vec![
@@ -76,30 +76,30 @@ impl Motion {
         look(0.0, run.q());
         let failure = job.follow(&mut run, (end / h) as u64, |run| look(run.time(), run.q())).err();
         let extent = largest(run.q().iter().map(|q| q.abs()));
-        Ok(Self { trajectories, distance, overtakings, end, extent, asymmetry, failure })
+        Ok(Self { trajectories, distance, overtakings, extent, asymmetry, failure })
     }
 
     fn longest_interval(&self) -> f64 {
         // A run that ended early has not overtaken since.
-        let reached = self.distance.end().min(self.end);
+        let reached = self.distance.end();
         let times = self.overtakings.iter().chain([&reached]);
         largest(times.clone().zip(times.skip(1)).map(|(before, after)| after - before))
     }
 }
 
-fn figure(ve2: &Motion, rk2: &Motion, exact: &Motion) -> Figure {
+fn figure([ve2, rk2, exact]: [&Motion; 3], end: f64) -> Figure {
     // Mirror partners have one colour: 1 and 3, 2 and 4.
     let colours = [BLUE, VERMILLION, BLUE, VERMILLION].into_iter().enumerate();
     let title = "Trajectories: VE2 with *h* = 2 (dots) on accurate ones (lines)";
     let paths = Panel::plane(title, "*x*   [*L*]", "*y*   [*L*]").each(colours, |panel, (j, colour)| {
-        let path = panel.line(exact.trajectories[j].clone(), Stroke::solid(colour).opacity(0.55));
+        let path = panel.line(exact.trajectories[j].clone(), solid(colour).opacity(0.55));
         let name = || format!("vortex {} and its image {}", j + 1, j + 3);
         let path = if j < 2 { path.labelled(name()) } else { path };
         let points = &ve2.trajectories[j];
         let start = points.iter().take(1).copied().collect();
         path.dots(points.clone(), 1.9, colour).discs(start, colour, Fill::Hollow)
     });
-    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, ve2.end);
+    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
     let axis = Axis::logarithmic("|*z*₁ − *z*₂|   [*L*]");
     let distance = Panel::new("Distance of vortices 1 and 2 (range and mean)", time, axis)
         .ranges([("RK2, *h* = 2", SLATE, &rk2.distance), ("VE2, *h* = 2", GREEN, &ve2.distance)]);

@@ -20,20 +20,39 @@ const COUNTED: [usize; 3] = [25, 50, 100];
 /// velocities of its ends along it; its path is that of the free end.
 type Motion = Series<3>;
 
+fn trapezoid() -> impl Method<Links, f64> + Copy {
+    Constrained::new(Variational::trapezoid())
+}
+
+fn midpoint() -> impl Method<Links, f64> + Copy {
+    Constrained::new(Variational::midpoint())
+}
+
+fn bent(links: &Links) -> Problem<'_, Links> {
+    Problem::new(links, links.bent(ANGLE))
+}
+
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
-    let end = job.choose(300.0, 6.0);
-    job.expect(4 * (end / H).round() as u64);
-    let (trapezoid, midpoint) =
-        (Constrained::new(Variational::trapezoid()), Constrained::new(Variational::midpoint()));
-    let solid = Stroke::solid;
-    let all = [
-        constrained(job, ("constrained trapezoid", solid(GREEN).width(6.0)), trapezoid, end)?,
-        constrained(job, ("constrained midpoint", solid(PURPLE).width(3.5)), midpoint, end)?,
-        constrained(job, ("RATTLE", solid(BLUE).width(1.4)), Rattle::default(), end)?,
-        rk4(job, end)?,
+    let span = Span { end: job.choose(300.0, 6.0), early: 5.0, intervals: 300 };
+    let steps = (span.end / H).round() as u64;
+    job.expect(4 * steps);
+    let pendulum = bent(&PENDULUM);
+    let constrained = [
+        (("constrained trapezoid", solid(GREEN).width(6.0)), pendulum.run(trapezoid(), H)?),
+        (("constrained midpoint", solid(PURPLE).width(3.5)), pendulum.run(midpoint(), H)?),
+        (("RATTLE", solid(BLUE).width(1.4)), pendulum.run(Rattle::default(), H)?),
     ];
+    let [trapezoid, midpoint, rattle] = each(constrained, |(named, mut run)| {
+        let begin = run.energy();
+        Ok(job.series(named, &mut run, steps, span, |run, tips| {
+            let state = run.state();
+            tips.push([state.x[LINKS - 1], state.y[LINKS - 1]]);
+            deviations(run.energy() - begin, &state)
+        })?)
+    })?;
+    let all = [trapezoid, midpoint, rattle, rk4(job, steps, span)?];
     let table = magnitude_table(&["method", "t", "energy", "length", "velocity_along"], &all)?;
-    job.publish(figure(&all, end)?, table)?;
+    job.publish(figure(&all, span.end)?, table)?;
     let [energy, length, along] = &all[3].kept;
     let of_constrained = |k: usize| largest(all[..3].iter().map(|series| series.kept[k].largest));
     let growth = largest(all[..3].iter().map(|series| series.kept[0].growth()));
@@ -44,7 +63,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
                     run, that of RK4 grows";
     let one = "the potential is linear, and so the constrained trapezoid, the constrained midpoint rule and \
                RATTLE take the same steps";
-    Ok(vec![
+    claims([
         beyond(kept)
             .at_most(format!("constrained: {deviation}"), of_constrained(1), 2e-14)
             .at_most("constrained: largest velocity along a rod", of_constrained(2), 1e-15)
@@ -62,55 +81,35 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         }),
         order_of_positions()?,
         work(job)?,
-    ]
-    .into())
+    ])
 }
 
-/// The deviations at a state.
 fn deviations(energy: f64, LinksState { x, y, dot_x, dot_y }: &LinksState) -> [f64; 3] {
     let ends = (0..LINKS).map(|i| [x[i], y[i], dot_x[i], dot_y[i]]);
     let before = [[0.0; 4]].into_iter().chain(ends.clone());
-    let [length, along] =
-        stretched(PENDULUM.rod(), ends.zip(before).map(|(end, before)| difference(end, before)));
+    let [length, along] = stretched(PENDULUM.rod(), ends.zip(before).map(|(a, b)| difference(a, b)));
     [energy, length, along]
 }
 
-fn constrained(
-    job: &Job<'_>,
-    named: Named<'_>,
-    method: impl Method<Links, f64>,
-    end: f64,
-) -> Result<Motion> {
-    let mut run = Integrator::new(&PENDULUM, method, H, PENDULUM.bent(ANGLE))?;
-    let (begin, span) = (run.energy(), Span { end, early: 5.0, intervals: 300 });
-    Ok(job.series(named, &mut run, (end / H).round() as u64, span, |run, tips| {
-        let state = run.state();
-        tips.push([state.x[LINKS - 1], state.y[LINKS - 1]]);
-        deviations(run.energy() - begin, &state)
-    })?)
-}
-
-fn rk4(job: &Job<'_>, end: f64) -> Result<Motion> {
+fn rk4(job: &Job<'_>, count: u64, span: Span) -> Result<Motion> {
     let mut run = Accelerations::new(&PENDULUM, H, &PENDULUM.bent(ANGLE))?;
-    let (begin, mut kept) = (run.energy()?, Span { end, early: 5.0, intervals: 300 }.deviations());
-    let (mut steps, mut lost) = (0, Ok(()));
+    let (begin, mut kept, mut steps, mut lost) = (run.energy()?, span.deviations(), 0, Ok(()));
     let mut step = || -> Result<(), StartError> {
         run.step()?;
         steps += 1;
         note(&mut kept, f64::from(steps) * H, deviations(run.energy()? - begin, &run.state()));
         Ok(())
     };
-    job.repeat((end / H).round() as u64, || {
+    job.repeat(count, || {
         if lost.is_ok() {
             lost = step();
         }
         Ok(())
     })?;
     lost?;
-    Ok(Series::new("RK4", Stroke::solid(VERMILLION), kept))
+    Ok(Series::new("RK4", solid(VERMILLION), kept))
 }
 
-/// Where the masses are.
 fn shape(LinksState { x, y, .. }: LinksState) -> Vec<[f64; 2]> {
     points(&x, &y)
 }
@@ -120,36 +119,30 @@ fn order_of_positions() -> Result<Claim> {
         Ok(shape(Accelerations::new(&PENDULUM, h, &PENDULUM.bent(ANGLE))?.up_to(2.0)?))
     })?;
     let error = |q: &[f64]| farthest(&points(&q[..LINKS], &q[LINKS..]), &fine);
-    let (start, counts) = (PENDULUM.bent(ANGLE), [100, 200, 400, 800]);
-    let trapezoid = Constrained::new(Variational::trapezoid());
-    let trapezoid = order_at(&PENDULUM, trapezoid, &start, 2.0, counts, error)?;
-    let midpoint = Constrained::new(Variational::midpoint());
-    let midpoint = order_at(&PENDULUM, midpoint, &start, 2.0, counts, error)?;
-    let rattle = order_at(&PENDULUM, Rattle::default(), &start, 2.0, counts, error)?;
+    let errors = bent(&PENDULUM).errors(2.0, &[100, 200, 400, 800], error);
     Ok(beyond("the positions are of second order, against RK4 with half the shortest step")
         .at_most("largest distance of the masses of two references", farthest(&fine, &double), 3e-8)
-        .near("trapezoid: order at t = 2", trapezoid, [2.0, 0.05])
-        .near("midpoint: order at t = 2", midpoint, [2.0, 0.05])
-        .near("RATTLE: order at t = 2", rattle, [2.0, 0.05]))
+        .near("trapezoid: order at t = 2", errors.order(trapezoid())?, [2.0, 0.05])
+        .near("midpoint: order at t = 2", errors.order(midpoint())?, [2.0, 0.05])
+        .near("RATTLE: order at t = 2", errors.order(Rattle::default())?, [2.0, 0.05]))
 }
 
 fn work(job: &Job<'_>) -> Result<Claim> {
     let steps = job.choose(1000, 10);
-    fn of(method: impl Method<Links, f64> + Clone, steps: u64) -> Result<[f64; 3]> {
-        each(COUNTED, |n| iterations(&Links { n }, method.clone(), 0.005, Links { n }.bent(ANGLE), steps))
-    }
-    let newton = [
-        ("trapezoid", of(Constrained::new(Variational::trapezoid()), steps)?),
-        ("midpoint", of(Constrained::new(Variational::midpoint()), steps)?),
-    ];
-    let [few, _, many] = of(Rattle::default(), steps)?;
+    let of_newton = |n| -> Result<[f64; 2]> {
+        let (links, h) = (Links { n }, 0.005);
+        Ok([bent(&links).iterations(trapezoid(), h, steps)?, bent(&links).iterations(midpoint(), h, steps)?])
+    };
+    let newton = each(COUNTED, of_newton)?;
+    let [few, many] =
+        each([COUNTED[0], COUNTED[2]], |n| bent(&Links { n }).iterations(Rattle::default(), 0.005, steps))?;
     let text = "in a step of length 0.005 Newton's method takes three iterations with 25, 50 and 100 links, \
                 and RATTLE at most one more with 100 than with 25";
     Ok(beyond(text)
-        .each(newton, |claim, (name, all)| {
-            claim.of(name).each(COUNTED.into_iter().zip(all), |claim, (links, iterations)| {
+        .each([("trapezoid", 0), ("midpoint", 1)], |claim, (name, rule): (_, usize)| {
+            claim.of(name).each(COUNTED.into_iter().zip(&newton), |claim, (links, iterations)| {
                 let quantity = format!("iterations of a step with {links} links");
-                claim.near(quantity, job.only_full(iterations), [3.0, 0.15])
+                claim.near(quantity, job.only_full(iterations[rule]), [3.0, 0.15])
             })
         })
         .at_most("RATTLE: iterations of a step with 100 links", job.only_full(many), 4.0)
@@ -163,17 +156,15 @@ fn figure(all: &[Motion; 4], end: f64) -> Result<Figure> {
     let energy = panel(["Energy", "largest |*E* − *E*(0)|"], [1e-9, 1e-3], 0);
     let lengths = panel(["Lengths of the rods", "largest relative deviation"], [1e-16, 1.0], 1);
     let along = panel(["Velocities along the rods", "largest difference at the ends"], [1e-18, 1e-2], 2);
-    let run =
-        Integrator::new(&PENDULUM, Constrained::new(Variational::trapezoid()), H, PENDULUM.bent(ANGLE))?;
+    let run = bent(&PENDULUM).run(trapezoid(), H)?;
     let axes = (Axis::linear("*x*"), Axis::linear("*y*").within(-1.02, 0.02));
-    let half_a_swing = Panel::new("The pendulum over half a swing", axes.0, axes.1).equal().each(
-        shapes(run, 250.0, shape)?,
-        |panel, (t, colour, line)| {
-            let masses = line[1..].to_vec();
-            let rods = panel.line(line, Stroke::solid(colour).width(1.2)).labelled(format!("*t* = {t:.1}"));
-            rods.dots(masses, 2.0, colour)
-        },
-    );
+    let shapes = shapes(run, 250.0, shape)?;
+    let half_a_swing = Panel::new("The pendulum over half a swing", axes.0, axes.1).equal();
+    let half_a_swing = half_a_swing.each(shapes, |panel, (t, colour, line)| {
+        let masses = line[1..].to_vec();
+        let rods = panel.line(line, solid(colour).width(1.2)).labelled(format!("*t* = {t:.1}"));
+        rods.dots(masses, 2.0, colour)
+    });
     let subtitle = format!(
         "Released at rest with angles that grow from 0 to {ANGLE} along the pendulum; *h* = {H}. The three \
          constrained methods take the same steps."

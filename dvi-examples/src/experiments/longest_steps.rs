@@ -6,8 +6,7 @@ use crate::vocabulary::*;
 /// What the energy error may be, over the energy.
 const BOUND: f64 = 0.01;
 
-/// Lengths of steps, the shortest first, each with the largest |E − E(0)| over E(0); infinite where the run
-/// is lost.
+/// Lengths of steps, each with the largest |E/E(0) − 1|, which is infinite where the run is lost.
 type Scan = Vec<[f64; 2]>;
 
 /// Those of the rods, and of the soft and the stiff springs.
@@ -15,12 +14,13 @@ pub struct Scans([Scan; 3]);
 
 impl Scans {
     pub fn new(job: &Job<'_>, start: &RigidMoleculesState) -> Result<Self> {
-        let (rattle, verlet, springs) =
-            (Rattle::default(), Variational::trapezoid(), || start.clone().into());
+        let (rattle, verlet) = (Rattle::default(), Variational::trapezoid());
+        let [soft, stiff] = [&SOFT, &STIFF].map(|system| Problem::new(system, start.clone()));
+        let rigid = Problem::new(&RIGID, start.clone());
         Ok(Self([
-            scan(job, [0.01, 0.16], |h| Ok(Integrator::new(&RIGID, rattle, h, start.clone())?))?,
-            scan(job, [0.005, 0.04], |h| Ok(Integrator::new(&SOFT, verlet, h, springs())?))?,
-            scan(job, [0.0025, 0.02], |h| Ok(Integrator::new(&STIFF, verlet, h, springs())?))?,
+            scan(job, [0.01, 0.16], |h| rigid.run(rattle, h))?,
+            scan(job, [0.005, 0.04], |h| soft.run(verlet, h))?,
+            scan(job, [0.0025, 0.02], |h| stiff.run(verlet, h))?,
         ]))
     }
 
@@ -66,9 +66,9 @@ impl Scans {
 
     pub fn panel(&self) -> Panel {
         let shown = [
-            ("rods", Stroke::solid(BLUE).width(1.4)),
-            ("springs, *k* = 10⁴", Stroke::solid(GREEN).width(2.6)),
-            ("springs, *k* = 10⁵", Stroke::solid(VERMILLION).width(4.0)),
+            ("rods", solid(BLUE).width(1.4)),
+            ("springs, *k* = 10⁴", solid(GREEN).width(2.6)),
+            ("springs, *k* = 10⁵", solid(VERMILLION).width(4.0)),
         ];
         let lines = shown.into_iter().zip(&self.0).rev().map(|((name, stroke), scan)| {
             (name, stroke, scan.iter().map(|&[h, error]| [h, error.min(1e6)]).collect())

@@ -20,7 +20,6 @@ struct Parasite {
     h: f64,
     amplitudes: Points,
     path: Points,
-    /// The time at which no step was found.
     ended: Option<f64>,
 }
 
@@ -30,27 +29,28 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let plan = Plan { steps, h: 0.5, early: 2000, intervals: 100, places: 200 };
     let (one_step, projected) = (OneStep::midpoint(), Projected::symmetric());
     let all = [
-        job.energy(("along *x*, one step", Stroke::solid(BLUE)), &ALONG_X, one_step, START, plan)?,
-        job.energy(("symmetric, projected", Stroke::solid(GREEN)), &SYMMETRIC, projected, START, plan)?,
-        job.energy(("RK4", Stroke::dashed(SLATE)), &SYMMETRIC, RungeKutta::classical(), START, plan)?,
+        job.energy(("along *x*, one step", solid(BLUE)), &ALONG_X, one_step, START, plan)?,
+        job.energy(("symmetric, projected", solid(GREEN)), &SYMMETRIC, projected, START, plan)?,
+        job.energy(("RK4", dashed(SLATE)), &SYMMETRIC, RungeKutta::classical(), START, plan)?,
     ];
     let parasites = each(STEPS, |h| Parasite::new(job, h))?;
-    let errors = all.iter().flat_map(|series| {
-        let rows = ranges([&series.name], &series.kept[0].envelope);
-        rows.map(|(name, [t, low, _, high])| (name, [t, low, high].map(Some)))
+    let errors = all.iter().map(|series| {
+        let rows = series.kept[0].envelope.rows().into_iter();
+        (series.name.clone(), rows.map(|[t, low, _, high]| [t, low, high].map(Some)).collect())
     });
-    let modes = parasites.iter().flat_map(|Parasite { h, amplitudes, .. }| {
+    let modes = parasites.iter().map(|Parasite { h, amplitudes, .. }| {
         let rows = amplitudes.iter().map(|[t, amplitude]| [Some(*t), Some(*amplitude), None]);
-        rows.map(move |row| ([format!("parasitic mode, h = {h}")], row))
+        (format!("parasitic mode, h = {h}"), rows.collect())
     });
-    let table = Table::of(&["series", "t", "amplitude or lowest ΔH", "highest ΔH"], errors.chain(modes))?;
+    let curves = errors.chain(modes).map(|(name, rows): (_, Vec<_>)| ([name], [], rows));
+    let table = curve_table(&["series", "t", "amplitude or lowest ΔH", "highest ΔH"], curves)?;
     job.publish(figure(&all, &parasites, plan.end()), table)?;
     let [one_step, projected, rk4] = all.each_ref().map(|series| series.kept[0].growth());
     let flat = beyond("the energy error is no larger in the whole run than in its beginning")
         .at_most("along x, one step: max|ΔH| over all / over 2000 steps", one_step, 1.001)
         .at_most("symmetric, projected: max|ΔH| over all / over 2000 steps", projected, 1.001)
         .at_least("RK4: max|ΔH| over all / over 2000 steps", rk4, 5.0);
-    Ok(vec![same_motion()?, flat, grows(&parasites)].into())
+    claims([same_motion()?, flat, grows(&parasites)])
 }
 
 fn same_motion() -> Result<Claim> {
@@ -61,23 +61,23 @@ fn same_motion() -> Result<Claim> {
     }
     let places = [[1.0, 1.0], [-0.3, 2.0], [0.8, -0.7]];
     let difference = largest(places.map(|q| apart(&omega(&ALONG_X, q), &omega(&SYMMETRIC, q))));
-    let mut exact = Integrator::new(&SYMMETRIC, Gauss::<4>::new(), 0.05, START.into())?;
-    exact.take_steps(400)?;
-    let (counts, error) = ([160, 240, 320], |q: &[f64]| distance(place(&exact), [q[0], q[1]]));
-    let one_step = order_at(&ALONG_X, OneStep::midpoint(), &START.into(), 20.0, counts, error)?;
-    let two_step = order_at(&SYMMETRIC, Sigma::midpoint(), &START.into(), 20.0, counts, error)?;
-    let projected = order_at(&SYMMETRIC, Projected::symmetric(), &START.into(), 20.0, counts, error)?;
+    let (along_x, symmetric) = (Problem::new(&ALONG_X, START), Problem::new(&SYMMETRIC, START));
+    let MasslessSymmetricState { x, y } = symmetric.up_to(Gauss::<4>::new(), 0.05, 20.0)?;
+    let (counts, error) = ([160, 240, 320], |q: &[f64]| distance([x, y], [q[0], q[1]]));
+    let (along_x, symmetric) =
+        (along_x.errors(20.0, &counts, error), symmetric.errors(20.0, &counts, error));
+    let projected = symmetric.order(Projected::symmetric())?;
     Ok(beyond("both gauges have one Ω and one motion")
         .at_most("largest difference of entries of Ω at three points", difference, 1e-14)
-        .near("along x, one step: order at t = 20", one_step, [2.0, 0.05])
-        .near("symmetric, two steps: order at t = 20", two_step, [2.0, 0.05])
+        .near("along x, one step: order at t = 20", along_x.order(OneStep::midpoint())?, [2.0, 0.05])
+        .near("symmetric, two steps: order at t = 20", symmetric.order(Sigma::midpoint())?, [2.0, 0.05])
         .near("symmetric, projected: order at t = 20", projected, [2.0, 0.05]))
 }
 
 impl Parasite {
     fn new(job: &Job<'_>, h: f64) -> Result<Self> {
         let method = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
-        let mut run = Integrator::new(&SYMMETRIC, method, h, START.into())?;
+        let mut run = Problem::new(&SYMMETRIC, START).run(method, h)?;
         let mut filter = AlternatingComponent::new(&SYMMETRIC);
         let (mut amplitudes, mut path) = (vec![], vec![]);
         let ended = job.follow(&mut run, (END / h) as u64, |run| {
@@ -87,8 +87,8 @@ impl Parasite {
         Ok(Self { h, amplitudes, path, ended: ended.err().map(|error| error.step as f64 * h) })
     }
 
-    /// The exponential rate of growth, from the medians of two windows of two turns, three turns apart.
-    /// Where the path bends most, the smooth motion is seen in the amplitude too.
+    /// The rate of growth from the medians of two windows of two turns, three turns apart: where the path
+    /// bends most, the smooth motion is seen in the amplitude too.
     fn rate(&self) -> f64 {
         const TURN: f64 = 65.0;
         let median = |start: f64| {
@@ -116,14 +116,12 @@ fn grows(parasites: &[Parasite; 3]) -> Claim {
 
 fn figure(all: &[Series<1>; 3], parasites: &[Parasite; 3], end: f64) -> Figure {
     let plane = Panel::window("Path", ("*x*", [-2.0, 2.0]), ("*y*", [-0.2, 4.2]))
-        .lines([("along *x*, one step", Stroke::solid(BLUE).width(2.5), all[0].path.clone())])
+        .lines([("along *x*, one step", solid(BLUE).width(2.5), all[0].path.clone())])
         .dots(parasites[0].path.clone(), 1.3, VERMILLION)
         .labelled("symmetric, two steps");
-    let strokes = [Stroke::solid(VERMILLION), Stroke::dashed(GREEN), Stroke::dashed(SLATE)];
-    let lines = parasites
-        .iter()
-        .zip(strokes)
-        .map(|(Parasite { h, amplitudes, .. }, stroke)| (format!("*h* = {h}"), stroke, amplitudes.clone()));
+    let strokes = [solid(VERMILLION), dashed(GREEN), dashed(SLATE)];
+    let lines = parasites.iter().zip(strokes);
+    let lines = lines.map(|(mode, stroke)| (format!("*h* = {}", mode.h), stroke, mode.amplitudes.clone()));
     let axis = ("amplitude in *q*", [1e-9, 10.0]);
     let title = "Parasitic mode of two steps, symmetric gauge";
     let amplitudes = Panel::semilog(title, ("time *t*", [0.0, END]), axis).lines(lines).weight(1.35);

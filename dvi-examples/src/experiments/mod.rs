@@ -1,7 +1,6 @@
 //! The experiments, a file each, and the ideas beside them, which several of them may share.
 
 mod accuracy_cost;
-mod average_acceleration;
 mod barnes;
 mod beam;
 mod beam_frequencies;
@@ -12,15 +11,12 @@ mod decay;
 mod disc;
 mod disc_energy;
 mod double_pendulum;
-mod elliptic;
 mod energy;
 mod energy_momentum;
 mod energy_steps;
-mod equal_errors;
 mod exchange;
 mod field_lines;
 mod flips;
-mod forced_noether;
 mod friction;
 mod geodesics;
 mod guiding_centre;
@@ -36,7 +32,6 @@ mod lotka_volterra;
 mod massless;
 mod molecules;
 mod momenta;
-mod no_energy_step;
 mod order;
 mod oscillator;
 mod parasitic;
@@ -45,13 +40,10 @@ mod poincare_map;
 mod quasi_periodic;
 mod random_walk;
 mod rigid_body;
-mod rivals;
 mod rk4;
 mod round_off;
 mod schroedinger;
-mod section_figures;
 mod sections;
-mod shadow;
 mod shear_layer;
 mod sleigh;
 mod sphere_vortices;
@@ -62,8 +54,6 @@ mod symmetry;
 mod tabulated_field;
 mod three_species;
 mod top;
-mod turnings;
-mod waves;
 
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;
@@ -85,8 +75,7 @@ const fn of(
 }
 
 /// All experiments, in the order of the papers: Rowley & Marsden, Kosmas & Vlachos, and what goes beyond.
-/// Each with the seconds that it takes on one core, its source if it has one, and a sentence on what it
-/// shows.
+/// Each with its seconds on one core, its source if it has one, and a sentence on what it shows.
 #[rustfmt::skip]
 pub const ALL: &[Experiment] = &[
     of("order", 0.1, ROWLEY, order::run,
@@ -172,7 +161,6 @@ pub const ALL: &[Experiment] = &[
         "Of three species one step keeps xyz to rounding, by a coordinate that is conjugate to the Casimir"),
 ];
 
-/// The title of an experiment.
 pub fn title(name: &str) -> &'static str {
     ALL.iter().find(|experiment| experiment.name == name).map_or("", |experiment| experiment.title)
 }

@@ -25,31 +25,28 @@ type Kept = Series<6>;
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(5000.0, 100.0);
     job.expect(((end / H).round() + (end / H_SPRINGS).round()) as u64);
-    let (start, verlet) = (RIGID.chain(SPEED)?, Variational::trapezoid());
-    let (rattle, soft_start) = (Rattle::default(), || start.clone().into());
-    let rods = Integrator::new(&RIGID, rattle, H, start.clone())?;
-    let springs = Integrator::new(&SOFT, verlet, H_SPRINGS, soft_start())?;
-    let rods = kept(job, ("rods, RATTLE", Stroke::solid(BLUE)), rods, end)?;
-    let springs = kept(job, ("springs, trapezoid", Stroke::solid(GREEN)), springs, end)?;
+    let start = RIGID.chain(SPEED)?;
+    let (rigid, soft) = (Problem::new(&RIGID, start.clone()), Problem::new(&SOFT, start.clone()));
+    let rods = kept(job, ("rods, RATTLE", solid(BLUE)), rigid.run(Rattle::default(), H)?, end)?;
+    let verlet = soft.run(Variational::trapezoid(), H_SPRINGS)?;
+    let springs = kept(job, ("springs, trapezoid", solid(GREEN)), verlet, end)?;
     let scans = Scans::new(job, &start)?;
     let both = [(&rods, f64::INFINITY, H), (&springs, SOFT.k, H_SPRINGS)];
     let over_time = both.into_iter().flat_map(|(of, k, h)| {
-        let lengths = of.kept[1].magnitude().into_iter();
-        let rows = of.kept[0].magnitude().into_iter().zip(lengths);
+        let rows = of.kept[0].magnitude().into_iter().zip(of.kept[1].magnitude());
         rows.map(move |([t, energy], [_, length])| (["over time"], [k, h, t, energy, length].map(Some)))
     });
-    let over_step =
-        scans.rows().map(|[k, h, error]| (["over step"], [Some(k), Some(h), None, Some(error), None]));
+    let over_step = scans.rows().map(|[k, h, e]| (["over step"], [Some(k), Some(h), None, Some(e), None]));
     let columns = ["series", "k", "h", "t", "energy", "length"];
     let figure = figure([&springs, &rods], &scans, end)?;
     job.publish(figure, Table::of(&columns, over_time.chain(over_step))?)?;
     let [steps, same] = scans.claims();
-    let undone = there_and_back(&RIGID, rattle, H, &start, 400)?;
+    let undone = rigid.there_and_back(Rattle::default(), H, 400)?;
     let difference = "largest difference of a coordinate or a velocity from the start";
     let [_, bonds, along, x, y, angular] = rods.kept.each_ref().map(|kept| kept.largest);
     let trend = "mean ΔE in the last tenth of the run less that in the first, over max|ΔE|";
     let no_trend = beyond("the energy has no trend, with rods and with springs");
-    Ok(vec![
+    claims([
         beyond("8 rigid molecules by RATTLE, h = 0.05: rods and momenta are kept to rounding")
             .at_most("largest deviation of the length of a rod", bonds, 3e-13)
             .at_most("largest velocity along a rod", along, 1e-15)
@@ -64,16 +61,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         order_of_positions()?,
         beyond("400 steps of RATTLE are undone by as many steps of length −0.05")
             .at_most(difference, undone, 1e-12),
-    ]
-    .into())
+    ])
 }
 
-fn kept<S: System>(
-    job: &Job<'_>,
-    named: Named<'_>,
-    mut run: impl Run<System = S, Scalar = f64>,
-    end: f64,
-) -> Result<Kept> {
+fn kept<S: Lagrangian>(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, S>, end: f64) -> Result<Kept> {
     let (energy, begin): (_, [f64; 3]) = (run.energy(), momenta(&run));
     let span = Span { end, early: 0.1 * end, intervals: 250 };
     let steps = (end / run.step_size()).round() as u64;
@@ -91,7 +82,6 @@ fn sides(state: &[f64]) -> [f64; 2] {
     stretched(1.0, sides.map(|[i, j]| [0, 1, 2, 3].map(|k| state[k * atoms + j] - state[k * atoms + i])))
 }
 
-/// Where the atoms are.
 fn atoms(RigidMoleculesState { x, y, .. }: &RigidMoleculesState) -> Vec<[f64; 2]> {
     points(x, y)
 }
@@ -101,11 +91,10 @@ fn order_of_positions() -> Result<Claim> {
         Ok(atoms(&Accelerations::new(&RIGID, h, &RIGID.chain(SPEED)?)?.up_to(2.0)?))
     })?;
     let error = |q: &[f64]| farthest(&points(&q[..3 * MOLECULES], &q[3 * MOLECULES..]), &fine);
-    let counts = [50, 100, 200, 400];
-    let order = order_at(&RIGID, Rattle::default(), &RIGID.chain(SPEED)?, 2.0, counts, error)?;
+    let errors = Problem::new(&RIGID, RIGID.chain(SPEED)?).errors(2.0, &[50, 100, 200, 400], error);
     Ok(beyond("the positions by RATTLE are of second order, against RK4 on the accelerations")
         .at_most("largest distance of the atoms of two references", farthest(&fine, &double), 2e-9)
-        .near("order at t = 2", order, [2.0, 0.05]))
+        .near("order at t = 2", errors.order(Rattle::default())?, [2.0, 0.05]))
 }
 
 fn figure(both: [&Kept; 2], scans: &Scans, end: f64) -> Result<Figure> {
@@ -125,7 +114,7 @@ fn figure(both: [&Kept; 2], scans: &Scans, end: f64) -> Result<Figure> {
 
 /// The chain with rods after some time, about its centre of mass.
 fn chain() -> Result<Panel> {
-    let mut run = Integrator::new(&RIGID, Rattle::default(), H, RIGID.chain(SPEED)?)?;
+    let mut run = Problem::new(&RIGID, RIGID.chain(SPEED)?).run(Rattle::default(), H)?;
     run.take_steps(1000)?;
     let atoms = atoms(&run.state());
     let centre = [0, 1].map(|i: usize| atoms.iter().map(|atom| atom[i]).sum::<f64>() / atoms.len() as f64);
@@ -133,9 +122,7 @@ fn chain() -> Result<Panel> {
     let title = format!("The chain at *t* = {:.0}, about its centre of mass", run.time());
     let pairs = (1..MOLECULES).flat_map(|m| [[3 * m - 2, 3 * m], [3 * m - 1, 3 * m + 1]]);
     Ok(Panel::plane(title, "*x*", "*y*")
-        .each(pairs, |panel, [a, b]| panel.line(vec![atoms[a], atoms[b]], Stroke::dashed(SLATE).width(1.0)))
-        .each(atoms.chunks_exact(3), |panel, triangle| {
-            panel.line(closed(triangle), Stroke::solid(BLUE).width(2.4))
-        })
+        .each(pairs, |panel, [a, b]| panel.line(vec![atoms[a], atoms[b]], dashed(SLATE).width(1.0)))
+        .each(atoms.chunks_exact(3), |panel, triangle| panel.line(closed(triangle), solid(BLUE).width(2.4)))
         .discs(atoms.clone(), BLUE, Fill::Solid))
 }

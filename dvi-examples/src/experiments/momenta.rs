@@ -13,10 +13,7 @@ const ANGULAR: usize = 2;
 /// The largest deviations of one scheme from the initial values: ΣΓx, ΣΓy, ΣΓ|z|², J_d of the variational
 /// schemes, and the largest change of the two-form under the tangent map of a step: of the discrete one
 /// (17), of one-step methods Ω.
-struct Drifts {
-    scheme: &'static str,
-    of: [Option<f64>; 5],
-}
+type Drifts = (&'static str, [Option<f64>; 5]);
 
 const QUANTITIES: [(&str, Colour); 5] = [
     ("ΣΓ*x*", BLUE),
@@ -41,9 +38,29 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         drifts(&case, "Gauss, order 4", Gauss::<2>::new(), one_step)?,
     ];
     let columns = ["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"];
-    let rows = all.iter().map(|drifts| ([drifts.scheme], drifts.of));
-    job.publish(figure(&all), Table::of(&columns, rows)?)?;
-    Ok(claims(&all).into())
+    job.publish(figure(&all), Table::of(&columns, all.iter().map(|(scheme, of)| ([*scheme], *of)))?)?;
+    let [vi2, started, quarter, ve2, rk2, rk4, gauss] = &all;
+    let most = |all: &[Drifts], quantity: usize| largest(all.iter().filter_map(|(_, of)| of[quantity]));
+    let [angular, two_form] = [ANGULAR, 4].map(|quantity| move |(_, of): &Drifts| of[quantity]);
+    let impulses = larger(most(&all, 0), most(&all, 1));
+    let change = "largest change under the tangent map of a step, σ = 0, ¼, ½";
+    let text =
+        "the angular impulse ΣΓ|z|² itself is preserved by VI2, and by none of the others of the family";
+    claims([
+        says("eq. 17", "the two-form (17) is exactly preserved").at_most(change, most(&all[..4], 4), 1e-12),
+        says("section 6", "the schemes are momentum preserving")
+            .at_most("largest drift of ΣΓx and ΣΓy, all schemes", impulses, 1e-12)
+            .at_most("largest drift of the discrete momentum J_d, σ = 0, ¼, ½", most(&all, 3), 1e-11),
+        beyond(text)
+            .at_most("drift, VI2", angular(vi2), 1e-11)
+            .at_least("drift, σ = ½ with RK2 start", angular(started), 1e-9)
+            .at_least("drift, σ = ¼", angular(quarter), 1e-9)
+            .at_least("drift, VE2", angular(ve2), 1e-9),
+        beyond("RK2 and RK4 break the two-form Ω, Gauss's method preserves Ω")
+            .at_least("largest change of Ω in a step, RK2", two_form(rk2), 1e-9)
+            .at_least("RK4", two_form(rk4), 1e-9)
+            .at_most("Gauss, order 4", two_form(gauss), 1e-11),
+    ])
 }
 
 /// The deviations of the momenta, and what `more` finds: of J_d, and of the two-form.
@@ -53,19 +70,16 @@ fn drifts<M: Method<FourVortices, f64> + Copy>(
     method: M,
     more: fn(&Case, M) -> Result<[Option<f64>; 2]>,
 ) -> Result<Drifts> {
-    let mut run = Integrator::new(&case.vortices, method, H, case.start)?;
-    let all = course(&mut run, STEPS, |run| [0, 1, 2].map(|k| run.momentum(k).unwrap_or(f64::NAN)))?;
+    let mut run = Problem::new(&case.vortices, case.start).run(method, H)?;
+    let all = course(&mut run, STEPS, momenta::<3>)?;
     let largest = |k: usize| largest(all.iter().map(|momenta| (momenta[k] - all[0][k]).abs()));
     let ([x, y, angular], [discrete, two_form]) = ([0, 1, 2].map(|k| Some(largest(k))), more(case, method)?);
-    Ok(Drifts { scheme, of: [x, y, angular, discrete, two_form] })
+    Ok((scheme, [x, y, angular, discrete, two_form]))
 }
 
-/// The largest change of the two-form Ω = ΣΓ dx ∧ dy under the tangent map of a step, by finite differences
-/// of fourth order, at some points of the orbit.
-fn one_step<M: Method<FourVortices, f64> + Copy>(
-    Case { vortices, start }: &Case,
-    method: M,
-) -> Result<[Option<f64>; 2]> {
+/// The largest change of the two-form Ω = ΣΓ dx ∧ dy under the tangent map, by differences of fourth order.
+fn one_step<M: Method<FourVortices, f64> + Copy>(case: &Case, method: M) -> Result<[Option<f64>; 2]> {
+    let Case { vortices, start } = case;
     const DISPLACEMENT: f64 = 1e-3;
     let flat = |run: &[f64]| -> [f64; 8] { std::array::from_fn(|i| run[i]) };
     let stepped = |q: [f64; 8]| -> Result<[f64; 8]> {
@@ -119,43 +133,17 @@ fn two_step(Case { vortices, start }: &Case, method: Sigma) -> Result<[Option<f6
     Ok([Some(discrete), Some(two_form)])
 }
 
-fn claims(all: &[Drifts; 7]) -> Vec<Claim> {
-    let [vi2, started, quarter, ve2, rk2, rk4, gauss] = all;
-    let most =
-        |all: &[Drifts], quantity: usize| largest(all.iter().filter_map(|drifts| drifts.of[quantity]));
-    let [angular, two_form] = [ANGULAR, 4].map(|quantity| move |drifts: &Drifts| drifts.of[quantity]);
-    let impulses = larger(most(all, 0), most(all, 1));
-    let change = "largest change under the tangent map of a step, σ = 0, ¼, ½";
-    let text =
-        "the angular impulse ΣΓ|z|² itself is preserved by VI2, and by none of the others of the family";
-    vec![
-        says("eq. 17", "the two-form (17) is exactly preserved").at_most(change, most(&all[..4], 4), 1e-12),
-        says("section 6", "the schemes are momentum preserving")
-            .at_most("largest drift of ΣΓx and ΣΓy, all schemes", impulses, 1e-12)
-            .at_most("largest drift of the discrete momentum J_d, σ = 0, ¼, ½", most(all, 3), 1e-11),
-        beyond(text)
-            .at_most("drift, VI2", angular(vi2), 1e-11)
-            .at_least("drift, σ = ½ with RK2 start", angular(started), 1e-9)
-            .at_least("drift, σ = ¼", angular(quarter), 1e-9)
-            .at_least("drift, VE2", angular(ve2), 1e-9),
-        beyond("RK2 and RK4 break the two-form Ω, Gauss's method preserves Ω")
-            .at_least("largest change of Ω in a step, RK2", two_form(rk2), 1e-9)
-            .at_least("RK4", two_form(rk4), 1e-9)
-            .at_most("Gauss, order 4", two_form(gauss), 1e-11),
-    ]
-}
-
 fn figure(all: &[Drifts]) -> Figure {
     // Exact conservation has no place on a logarithmic axis.
     const SMALLEST: f64 = 1e-17;
-    let names = all.iter().rev().map(|drifts| drifts.scheme.to_owned()).collect();
+    let names = all.iter().rev().map(|(scheme, _)| (*scheme).to_owned()).collect();
     let label = "largest deviation from the initial value; of the two-form, largest change in a step";
     let drift = Axis::logarithmic(label).within(0.5 * SMALLEST, 10.0);
     let empty = Panel::new("Deviations over 1000 steps", drift, Axis::names("", names));
     let panel = empty.each(QUANTITIES.into_iter().enumerate(), |panel, (i, (name, colour))| {
         let lift = 0.3 - 0.15 * i as f64;
         let rows = all.iter().rev().enumerate();
-        let points = rows.filter_map(|(row, drifts)| Some([drifts.of[i]?.max(SMALLEST), row as f64 + lift]));
+        let points = rows.filter_map(|(row, (_, of))| Some([of[i]?.max(SMALLEST), row as f64 + lift]));
         panel.discs(points.collect(), colour, Fill::Solid).labelled(name)
     });
     Figure::of(format!("Four equal vortices, *h* = {H}; below 10⁻¹¹: rounding, or finite differences"))

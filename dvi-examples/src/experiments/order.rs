@@ -19,69 +19,41 @@ const DRAWN: [(f64, &str, Colour); 4] = [
 ];
 const END: f64 = 4.0;
 
-/// What is measured with one σ, on the linear equation and on the vortices.
-struct Row {
-    sigma: f64,
-    /// (h, error)
-    errors: [Vec<(f64, f64)>; 2],
-    /// By the finer half of the steps.
-    orders: [f64; 2],
-}
+/// σ, (h, error) on the linear equation and on the vortices, and the orders by the finer half of the steps.
+type Row = (f64, [Vec<(f64, f64)>; 2], [f64; 2]);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let case = models::chaotic();
-    let end = up_to(&case.vortices, Gauss::<3>::new(), 1e-3, case.start, END)?;
+    let end = Problem::new(&case.vortices, case.start).up_to(Gauss::<3>::new(), 1e-3, END)?;
     let steps = |coarsest: f64| (0..6).map(move |k| coarsest / f64::from(1 << k));
-    let rows = each(SIGMAS, |sigma| {
+    let rows = each(SIGMAS, |sigma| -> Result<Row> {
         let linear = steps(0.2).map(|h| Ok((h, linear_error(sigma, h)?))).collect::<Result<_>>()?;
         let vortices = steps(0.05).map(|h| Ok((h, vortex_error(&case, &end, sigma, h)?)));
         let errors: [Vec<_>; 2] = [linear, vortices.collect::<Result<_>>()?];
         let orders = errors.each_ref().map(|all| order(all[3..].iter().copied()).unwrap_or(f64::NAN));
-        Ok(Row { sigma, errors, orders })
+        Ok((sigma, errors, orders))
     })?;
-    let table = rows.iter().flat_map(|Row { sigma, errors, orders }| {
+    let curves = rows.iter().flat_map(|(sigma, errors, orders)| {
         let both = ["linear", "vortices"].into_iter().zip(errors).zip(orders);
-        both.flat_map(move |((problem, errors), order)| {
-            errors.iter().map(move |(h, error)| ([problem], [*sigma, *h, *error, *order]))
+        both.map(move |((problem, errors), order)| {
+            ([problem], [*sigma], errors.iter().map(move |(h, error)| [*h, *error, *order]))
         })
     });
-    job.publish(figure(&rows), Table::of(&["problem", "sigma", "h", "error", "fitted_order"], table)?)?;
-    let notes = rows.iter().map(|Row { sigma, orders: [linear, vortices], .. }| {
+    let table = curve_table(&["problem", "sigma", "h", "error", "fitted_order"], curves)?;
+    job.publish(figure(&rows), table)?;
+    let notes = rows.iter().map(|(sigma, _, [linear, vortices])| {
         format!("σ = {sigma:.4}: order {linear:.3} linear, {vortices:.3} vortices.")
     });
-    Ok(Outcome { claims: claims(&rows), references: vec![], notes: notes.collect() })
-}
-
-/// |z − e^{it}| at t = 10.
-fn linear_error(sigma: f64, h: f64) -> Result<f64> {
-    let exact = |t: f64| RotationState { x: t.cos(), y: t.sin() };
-    let rotation = Rotation { omega: 1.0 };
-    let mut run = Integrator::from_two_points(&rotation, Sigma::new(sigma), h, exact(0.0), exact(h))?;
-    run.take_steps((10.0 / h).round() as u64)?;
-    let end = exact(run.time());
-    Ok(distance(place(&run), [end.x, end.y]))
-}
-
-/// The largest error of a coordinate of the four vortices of Fig. 5 at the end.
-fn vortex_error(Case { vortices, start }: &Case, end: &FourPoints, sigma: f64, h: f64) -> Result<f64> {
-    let second = up_to(vortices, Gauss::<3>::new(), h / 4.0, *start, h)?;
-    let mut run = Integrator::from_two_points(vortices, Sigma::new(sigma), h, *start, second)?;
-    run.take_steps((END / h).round() as u64)?;
-    Ok(apart(run.q(), end.x.iter().chain(&end.y)))
-}
-
-fn claims(rows: &[Row]) -> Vec<Claim> {
-    let at =
-        |problem: usize, sigma| rows.iter().find(|row| row.sigma == sigma).map(|row| row.orders[problem]);
+    let at = |problem: usize, at| rows.iter().find(|(sigma, ..)| *sigma == at).map(|row| row.2[problem]);
     let (linear, vortices) = (|sigma| at(0, sigma), |sigma| at(1, sigma));
     let from_two = |problem: usize, exceptions: &[f64]| {
-        let others = rows.iter().filter(|row| !exceptions.contains(&row.sigma));
-        largest(others.map(|row| (row.orders[problem] - 2.0).abs()))
+        let others = rows.iter().filter(|(sigma, ..)| !exceptions.contains(sigma));
+        largest(others.map(|(.., orders)| (orders[problem] - 2.0).abs()))
     };
     let but_one = from_two(0, &[SPECIAL]);
     let (second, fourth) = ([2.0, 0.02], [4.0, 0.02]);
     let special = "σ = (3 − √3)/6 is fourth-order accurate";
-    vec![
+    let claims = vec![
         says("section 4.1", "second order for every σ except (3 − √3)/6")
             .at_most("largest |order − 2| of the others, linear", but_one, 0.02)
             .instead("on linear equations (3 + √3)/6 is an exception too; on vortices there is none")
@@ -97,31 +69,48 @@ fn claims(rows: &[Row]) -> Vec<Claim> {
             .instead("a misprint of (3 − √3)/6")
             .near("order on z' = iz, σ = (3 − √3)/2", linear(PRINTED), second)
             .near("order on z' = iz, σ = (3 − √3)/6", linear(SPECIAL), fourth),
-    ]
+    ];
+    Ok(Outcome { claims, references: vec![], notes: notes.collect() })
+}
+
+/// |z − e^{it}| at t = 10.
+fn linear_error(sigma: f64, h: f64) -> Result<f64> {
+    let exact = |t: f64| RotationState { x: t.cos(), y: t.sin() };
+    let rotation = Rotation { omega: 1.0 };
+    let mut run = Integrator::from_two_points(&rotation, Sigma::new(sigma), h, exact(0.0), exact(h))?;
+    run.take_steps((10.0 / h).round() as u64)?;
+    let end = exact(run.time());
+    Ok(distance(place(&run), [end.x, end.y]))
+}
+
+/// The largest error of a coordinate of the four vortices of Fig. 5 at the end.
+fn vortex_error(Case { vortices, start }: &Case, end: &FourPoints, sigma: f64, h: f64) -> Result<f64> {
+    let second = Problem::new(vortices, *start).up_to(Gauss::<3>::new(), h / 4.0, h)?;
+    let mut run = Integrator::from_two_points(vortices, Sigma::new(sigma), h, *start, second)?;
+    run.take_steps((END / h).round() as u64)?;
+    Ok(apart(run.q(), end.x.iter().chain(&end.y)))
 }
 
 fn figure(rows: &[Row]) -> Figure {
     let errors = |problem: usize, value: fn(f64, f64) -> f64| {
         DRAWN.map(|(sigma, name, colour)| {
-            let row = rows.iter().filter(|row| row.sigma == sigma);
-            let points = row.flat_map(|row| &row.errors[problem]).map(|&(h, error)| [h, value(h, error)]);
-            (name, Stroke::solid(colour), points.collect())
+            let row = rows.iter().filter(|row| row.0 == sigma);
+            let points = row.flat_map(|row| &row.1[problem]).map(|&(h, error)| [h, value(h, error)]);
+            (name, solid(colour), points.collect())
         })
     };
     let slope = |panel: Panel, order: i32, [h, error]: [f64; 2]| {
         let end = [h * 5.0, error * 5f64.powi(order)];
-        let line = panel.line(vec![[h, error], end], Stroke::dashed(SLATE));
+        let line = panel.line(vec![[h, error], end], dashed(SLATE));
         line.note([h * 1.15, error * 0.9], Anchor::Start, SLATE, format!("slope {order}"))
     };
     let (h, error) = (Axis::logarithmic("step *h*"), Axis::logarithmic("error at the end"));
     let linear = Panel::new("Linear: *z*' = i*z*, *t* = 10", h, error).marked(errors(0, |_, error| error));
     let linear = slope(slope(linear, 2, [0.0125, 3e-3]), 4, [0.025, 2e-9]);
     // Error/h², which second order makes flat: the curves of the errors themselves lie on each other.
-    let (h, ratio) =
-        (Axis::logarithmic("step *h*").within(1e-3, 0.1), Axis::linear("error at the end / *h*²"));
-    let vortices =
-        Panel::new("Four vortices, *t* = 4", h, ratio).marked(errors(1, |h, error| error / (h * h)));
-    let orders = |problem| rows.iter().map(|row| [row.sigma, row.orders[problem]]).collect::<Vec<_>>();
+    let (h, y) = (Axis::logarithmic("step *h*").within(1e-3, 0.1), Axis::linear("error at the end / *h*²"));
+    let vortices = Panel::new("Four vortices, *t* = 4", h, y).marked(errors(1, |h, error| error / (h * h)));
+    let orders = |problem| rows.iter().map(|row| [row.0, row.2[problem]]).collect::<Vec<_>>();
     let over_sigma = Panel::linear("Order over σ", ("σ", [-0.05, 1.05]), ("fitted order", [1.0, 5.0]))
         .discs(orders(0), SLATE, Fill::Solid)
         .labelled("linear")

@@ -40,24 +40,23 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let rows = each(rules, |(name, rule)| {
         Ok((name, rule, curve(|u| recursion_error(rule, u, many))?, curve(|u| momentum_factor(rule, u))?))
     })?;
-    let [linear, phase] = [Stroke::dashed, Stroke::solid];
     let [midpoint, trapezoid, simpson] = [0, 1, 2].map(|rule| rules[rule].1);
     let both = |rule| Variational { fitting: Fitting::PhaseAndMomentum, ..fitted(rule) };
     let given = [
-        ("midpoint, linear", linear(BLUE), errors(Variational::new(midpoint))?),
-        ("Verlet, linear", linear(SLATE), errors(Variational::new(trapezoid))?),
-        ("Simpson, linear", linear(VERMILLION), errors(Variational::new(simpson))?),
-        ("midpoint, phase", phase(BLUE), errors(fitted(midpoint))?),
-        ("Simpson, phase", phase(VERMILLION), errors(fitted(simpson))?),
-        ("midpoint, phase and *p*", phase(GREEN), errors(both(midpoint))?),
-        ("Simpson, phase and *p*", phase(PURPLE), errors(both(simpson))?),
+        ("midpoint, linear", dashed(BLUE), errors(Variational::new(midpoint))?),
+        ("Verlet, linear", dashed(SLATE), errors(Variational::new(trapezoid))?),
+        ("Simpson, linear", dashed(VERMILLION), errors(Variational::new(simpson))?),
+        ("midpoint, phase", solid(BLUE), errors(fitted(midpoint))?),
+        ("Simpson, phase", solid(VERMILLION), errors(fitted(simpson))?),
+        ("midpoint, phase and *p*", solid(GREEN), errors(both(midpoint))?),
+        ("Simpson, phase and *p*", solid(PURPLE), errors(both(simpson))?),
     ];
     let of_rules = rows.iter().flat_map(|(name, _, recursion, factor)| {
-        [("recursion error", *name, recursion), ("momentum factor", name, factor)]
+        [(["recursion error", name], [], recursion.clone()), (["momentum factor", name], [], factor.clone())]
     });
-    let all = of_rules.chain(given.iter().map(|(name, _, errors)| ("error from velocities", *name, errors)));
-    let cells = all.flat_map(|(what, name, curve)| curve.iter().map(move |row| ([what, name], *row)));
-    job.publish(figure(&rows, &given, many), Table::of(&["quantity", "rule", "u", "value"], cells)?)?;
+    let curves = given.iter().map(|(name, _, all)| (["error from velocities", *name], [], all.clone()));
+    let table = curve_table(&["quantity", "rule", "u", "value"], of_rules.chain(curves))?;
+    job.publish(figure(&rows, &given, many), table)?;
     // Numbers of independent programs.
     let [midpoint, simpson] = [0, 2].map(|rule| at_one(&rows[rule].3));
     let references = vec![
@@ -110,16 +109,18 @@ fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Res
     })
 }
 
-/// S = Σ w cos((1 − 2c)u), s = uS/sin u, and S sin u, by which a step divides, and rounding with it.
+/// S = Σ w cos((1 − 2c)u)
 fn strength(rule: &Quadrature, u: f64) -> f64 {
     let terms = rule.nodes().iter().zip(rule.weights());
     terms.map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
 }
 
+/// s = uS/sin u
 fn formula(rule: &Quadrature, u: f64) -> f64 {
     strength(rule, u) * u / u.sin()
 }
 
+/// S sin u, by which a step divides, and rounding with it.
 fn condition(rule: &Quadrature, u: f64) -> f64 {
     (strength(rule, u) * u.sin()).abs()
 }
@@ -170,7 +171,7 @@ fn figure(rows: &[Row; 8], given: &[Given; 7], many: u64) -> Figure {
     let factor = factor.without_legend().each(SHOWN, |panel, (rule, colour)| {
         let us = (1..310).map(|k| f64::from(k) * 0.01);
         let curve = us.map(|u| [u, formula(&rows[rule].1, u)]).collect();
-        panel.line(curve, Stroke::solid(colour).width(1.2)).dots(rows[rule].3.clone(), 3.0, colour)
+        panel.line(curve, solid(colour).width(1.2)).dots(rows[rule].3.clone(), 3.0, colour)
     });
     Figure::of("Dashed: linear interpolation. Right: dots measured, lines *s* = *uS*/sin *u*")
         .row(460.0, vec![velocity, recursion, factor])

@@ -24,18 +24,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     // The sum of t/h over the runs below.
     job.expect(48_000 + 27_000);
     let runs = [(0.25, 0.5), (0.25, 0.25), (0.25, 0.125), (0.5, 0.5)];
-    let leapfrogging =
-        each(runs, |run| Motion::new(job, "leapfrogging", models::leapfrogging(), run, 3000.0))?;
+    let leapfrogging = each(runs, |run| Motion::new(job, "leapfrogging", leapfrogging(), run, 3000.0))?;
     let runs = [(0.0, 0.1), (0.0, 0.05), (0.0, 0.02), (0.5, 0.1)];
     let chaotic = each(runs, |run| Motion::new(job, "chaotic", models::chaotic(), run, 300.0))?;
     let all = || leapfrogging.iter().chain(&chaotic);
-    let rows = all().flat_map(|Motion { motion, sigma, h, points, .. }| {
-        let points = thin(points, 1000).into_iter();
-        points.map(|[t, amplitude, error]| ([*motion], [*sigma, *h, t, amplitude, error]))
-    });
-    let table = Table::of(&["motion", "sigma", "h", "t", "amplitude", "largest_energy_error"], rows)?;
+    let curves = all().map(|run| ([run.motion], [run.sigma, run.h], thin(&run.points, 1000)));
+    let table = curve_table(&["motion", "sigma", "h", "t", "amplitude", "largest_energy_error"], curves)?;
     job.publish(figure(&leapfrogging, &chaotic), table)?;
-    // The runs that ended early, with the words of their errors.
     let notes = all().filter_map(|run| {
         let Motion { motion, end, failure, .. } = run;
         failure.map(|error| format!("{motion}, {}: ended at t = {end}, {error}.", run.name()))
@@ -46,7 +41,26 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         Check::new(quantity, run.rate(), Bound::Near(7e-3, 7e-4))
     });
     let (notes, references) = (notes.collect(), references.collect());
-    Ok(Outcome { claims: claims(&leapfrogging, &chaotic), references, notes })
+    let [quarter, explicit] = [&leapfrogging, &chaotic].map(|all| &all[..3]);
+    let halves = [&leapfrogging[3], &chaotic[3]];
+    let first = quarter[0].rate();
+    let energy = chaotic[3].points.last().map_or(f64::NAN, |point| point[2]);
+    let until = format!("time of |ΔH| > {LOST} or of an error that ends the run");
+    let rate =
+        |run: &Motion| format!("rate on the leapfrogging pairs, {}, over that of the largest h", run.name());
+    let rates = |run: &Motion| run.rate().zip(first).map(|(rate, first)| rate / first);
+    let claims = vec![
+        beyond("with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not")
+            .each(explicit, |all, run| all.at_most(format!("{until}, {}", run.name()), run.lost(), 300.0))
+            .at_most(format!("max|ΔH| to t = 300, {}", chaotic[3].name()), energy, 1e-4),
+        beyond("for σ = ¼ the parasitic mode grows at a rate that does not depend on h")
+            .each(&quarter[1..], |claim, run| claim.near(rate(run), rates(run), [1.0, 0.1])),
+        beyond("for σ = ½ it neither grows nor decays").each(halves, |claim, run| {
+            let quantity = format!("late over early amplitude, {}, {}", run.motion, run.name());
+            claim.near(quantity, run.growth(), [1.0, 0.2])
+        }),
+    ];
+    Ok(Outcome { claims, references, notes })
 }
 
 impl Motion {
@@ -99,41 +113,14 @@ impl Motion {
     }
 }
 
-fn claims(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Vec<Claim> {
-    let [quarter, explicit] = [leapfrogging, chaotic].map(|all| &all[..3]);
-    let halves = [&leapfrogging[3], &chaotic[3]];
-    let first = quarter[0].rate();
-    let energy = chaotic[3].points.last().map_or(f64::NAN, |point| point[2]);
-    let until = format!("time of |ΔH| > {LOST} or of an error that ends the run");
-    let independent = "for σ = ¼ the parasitic mode grows at a rate that does not depend on h";
-    let rates = |run: &Motion| run.rate().zip(first).map(|(rate, first)| rate / first);
-    vec![
-        beyond("with σ = 0 the chaotic motion of Fig. 5 is lost at each of the steps tried, with σ = ½ not")
-            .each(explicit, |claim, run| {
-                claim.at_most(format!("{until}, {}", run.name()), run.lost(), 300.0)
-            })
-            .at_most(format!("max|ΔH| to t = 300, {}", chaotic[3].name()), energy, 1e-4),
-        beyond(independent).each(&quarter[1..], |claim, run| {
-            let name = run.name();
-            let quantity = format!("rate on the leapfrogging pairs, {name}, over that of the largest h");
-            claim.near(quantity, rates(run), [1.0, 0.1])
-        }),
-        beyond("for σ = ½ it neither grows nor decays").each(halves, |claim, run| {
-            let quantity = format!("late over early amplitude, {}, {}", run.motion, run.name());
-            claim.near(quantity, run.growth(), [1.0, 0.2])
-        }),
-    ]
-}
-
 fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
     let panel = |title: &str, label: &str, all: &[Motion; 4], column: usize| {
         let axis = Axis::logarithmic(label).within(1e-9, 30.0);
         let empty = Panel::new(title, Axis::linear("time *t*   [*L*²/Γ]"), axis);
         empty.legend_at(Corner::BottomRight).each(all.iter().zip(COLOURS), |panel, (run, colour)| {
             let points: Points = run.points.iter().map(|point| [point[0], point[column]]).collect();
-            // Where an error ended the run.
             let end = points.last().filter(|_| run.failure.is_some()).copied();
-            let panel = panel.line(points, Stroke::solid(colour).width(1.4));
+            let panel = panel.line(points, solid(colour).width(1.4));
             let panel = panel.labelled(format!("σ = {}, *h* = {}", run.sigma, run.h));
             panel.discs(end.into_iter().collect(), colour, Fill::Hollow)
         })

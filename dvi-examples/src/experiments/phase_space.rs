@@ -4,7 +4,7 @@
 //! midpoint rule. Both preserve area.
 
 use super::barnes;
-use super::elliptic::Elliptic;
+use super::flips::Elliptic;
 use crate::vocabulary::*;
 
 const SYSTEM: PhasePendulum = PhasePendulum {};
@@ -18,20 +18,19 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(3 * steps);
     let plan = Plan { steps, h: H, early: 1000, intervals: 400, places: 0 };
-    let [blue, green] = [BLUE, GREEN].map(Stroke::solid);
     let all = [
-        job.energy(("one step, midpoint", blue), &SYSTEM, OneStep::midpoint(), START, plan)?,
-        job.energy(("one step, trapezoid", green), &SYSTEM, OneStep::trapezoid(), START, plan)?,
-        job.energy(("RK4", Stroke::dashed(VERMILLION)), &SYSTEM, RungeKutta::classical(), START, plan)?,
+        job.energy(("one step, midpoint", solid(BLUE)), &SYSTEM, OneStep::midpoint(), START, plan)?,
+        job.energy(("one step, trapezoid", solid(GREEN)), &SYSTEM, OneStep::trapezoid(), START, plan)?,
+        job.energy(("RK4", dashed(VERMILLION)), &SYSTEM, RungeKutta::classical(), START, plan)?,
     ];
     let leapfrog = circles(OneStep::trapezoid(), 100, 8)?;
     let errors = all.iter().flat_map(|series| {
-        ranges([&series.name], &series.kept[0].envelope)
-            .map(|(name, [t, low, _, high])| (name, [t, low, high]))
+        let rows = series.kept[0].envelope.rows().into_iter();
+        rows.map(|[t, low, _, high]| ([&*series.name], [t, low, high]))
     });
-    let points = leapfrog.iter().enumerate().flat_map(|(t, circle)| {
-        circle.iter().map(move |[x, p]| (["circle".to_owned()], [t as f64, *x, *p]))
-    });
+    let circles = leapfrog.iter().zip(0..);
+    let points =
+        circles.flat_map(|(all, t)| all.iter().map(move |[x, p]| (["circle"], [f64::from(t), *x, *p])));
     let table = Table::of(&["series", "t", "x or lowest ΔH", "p or highest ΔH"], errors.chain(points))?;
     job.publish(figure(&all, &leapfrog, plan.end()), table)?;
     let text = "the energy error of one-step schemes is no larger in the whole run than in its beginning";
@@ -46,24 +45,18 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 /// A regular polygon about (0, 1), carried along with the step of the experiment `barnes`.
 fn circles(method: impl Method<PhasePendulum, f64> + Copy, corners: usize, end: u64) -> Result<Circles> {
     barnes::carried(corners, |[x, p]| {
-        let mut run = Integrator::new(&SYSTEM, method, 1.0 / 32.0, PhasePendulumState { x, p })?;
+        let mut run = Problem::new(&SYSTEM, PhasePendulumState { x, p }).run(method, 1.0 / 32.0)?;
         Ok(course(&mut run, 32 * end, place)?)
     })
 }
 
 fn same_schemes() -> Result<Claim> {
-    fn of<S: DegenerateLagrangian>(
-        system: S,
-        method: impl Method<S, f64>,
-        start: S::State<f64>,
-    ) -> Result<Points> {
-        Ok(course(&mut Integrator::new(&system, method, H, start)?, 500, place)?)
-    }
-    let trapezoid = of(SYSTEM, OneStep::trapezoid(), START)?;
-    let midpoint = of(SYSTEM, OneStep::midpoint(), START)?;
-    let gauss = of(SYSTEM, Gauss::<1>::new(), START)?;
-    let two_step =
-        of(SymmetricPendulum {}, Sigma::midpoint(), SymmetricPendulumState { x: START.x, p: 0.0 })?;
+    let (begin, symmetric) = (Problem::new(&SYSTEM, START), SymmetricPendulumState { x: START.x, p: 0.0 });
+    let symmetric = Problem::new(&SymmetricPendulum {}, symmetric);
+    let trapezoid = course(&mut begin.run(OneStep::trapezoid(), H)?, 500, place)?;
+    let midpoint = course(&mut begin.run(OneStep::midpoint(), H)?, 500, place)?;
+    let gauss = course(&mut begin.run(Gauss::<1>::new(), H)?, 500, place)?;
+    let two_step = course(&mut symmetric.run(Sigma::midpoint(), H)?, 500, place)?;
     let start = PendulumState { x: START.x, dot_x: 0.0 };
     let mut run = Integrator::new(&Pendulum {}, Variational::trapezoid(), H, start)?;
     let verlet = course(&mut run, 500, |run| [run.q()[0], run.memory().p()[0]])?;
@@ -92,14 +85,13 @@ fn areas() -> Result<Claim> {
 fn periods() -> Result<Claim> {
     let (sin, cos) = (START.x / 2.0).sin_cos();
     let period = 4.0 * Elliptic { modulus: sin, complementary: cos }.quarter();
-    let (counts, error) = ([100, 150, 200], |q: &[f64]| distance([q[0], q[1]], [START.x, START.p]));
-    let midpoint = order_at(&SYSTEM, OneStep::midpoint(), &START, period, counts, error)?;
-    let trapezoid = order_at(&SYSTEM, OneStep::trapezoid(), &START, period, counts, error)?;
-    let gauss = order_at(&SYSTEM, OneStepGauss::<2>::new(), &START, period, counts, error)?;
+    let error = |q: &[f64]| distance([q[0], q[1]], [START.x, START.p]);
+    let errors = Problem::new(&SYSTEM, START).errors(period, &[100, 150, 200], error);
+    let after = "order of the error after a period";
     Ok(beyond("the period comes out as the elliptic integral says, to the order of the scheme")
-        .near("midpoint: order of the error after a period", midpoint, [2.0, 0.02])
-        .near("trapezoid: order of the error after a period", trapezoid, [2.0, 0.02])
-        .near("Gauss of order 4: order of the error after a period", gauss, [4.0, 0.05]))
+        .near(format!("midpoint: {after}"), errors.order(OneStep::midpoint())?, [2.0, 0.02])
+        .near(format!("trapezoid: {after}"), errors.order(OneStep::trapezoid())?, [2.0, 0.02])
+        .near(format!("Gauss of order 4: {after}"), errors.order(OneStepGauss::<2>::new())?, [4.0, 0.05]))
 }
 
 fn figure(all: &[Series<1>; 3], leapfrog: &Circles, end: f64) -> Figure {
@@ -109,14 +101,14 @@ fn figure(all: &[Series<1>; 3], leapfrog: &Circles, end: f64) -> Figure {
         xs.map(|x| [x, sign * (2.0 * (level + x.cos())).sqrt()]).collect()
     };
     let levels = [0.0, 1.0, 2.0].into_iter().flat_map(|level| [(level, 1.0), (level, -1.0)]);
-    let grey = Stroke::solid(SEQUENCE[0]).width(0.6).opacity(0.4);
+    let grey = solid(SEQUENCE[0]).width(0.6).opacity(0.4);
     let title = "A circle of 100 points, by the trapezoidal scheme";
     let plane = Panel::window(title, ("angle *x*", [-3.6, 3.6]), ("momentum *p*", [-2.8, 4.4]))
         .each(levels, |plane, (level, sign)| plane.line(contour(level, sign), grey))
         .each(leapfrog.iter().enumerate().step_by(2), |plane, (t, circle)| {
             let colour = SEQUENCE[t.min(7)];
             let text = format!("*t* = {t}: area {:.6}", area(circle));
-            let plane = plane.line(closed(circle), Stroke::solid(colour)).labelled(text);
+            let plane = plane.line(closed(circle), solid(colour)).labelled(text);
             plane.dots(circle.clone(), 1.3, colour)
         });
     let labels = ["Error of the energy", "largest |*H* − *H*(0)| of each interval"];

@@ -8,7 +8,6 @@ use crate::vocabulary::*;
 
 /// Steps for each turn, after which the field is the same.
 pub const STEPS: u64 = 24;
-/// Points on a loop.
 const POINTS: usize = 256;
 
 /// A point of the plane in which the lines are seen.
@@ -33,20 +32,15 @@ pub fn flux_changes(field: &impl Field, place: Place, radius: f64) -> Result<[f6
 }
 
 /// The largest relative change of the flux ∮A·dx through a loop that is carried along for eight turns.
-fn flux_change<F: Field>(
-    field: &F,
-    method: impl Method<F, f64> + Copy,
-    [x, y]: Place,
-    radius: f64,
-) -> Result<f64> {
+fn flux_change<F: Field>(field: &F, by: impl Method<F, f64> + Copy, [x, y]: Place, r: f64) -> Result<f64> {
     let angle = |k: usize| TAU * k as f64 / POINTS as f64;
     let mut circle: Vec<Place> =
-        (0..POINTS).map(|k| [x + radius * angle(k).cos(), y + radius * angle(k).sin()]).collect();
+        (0..POINTS).map(|k| [x + r * angle(k).cos(), y + r * angle(k).sin()]).collect();
     let before = flux(field, &circle);
     let mut largest = 0.0;
     for _ in 0..8 {
         for place in &mut circle {
-            *place = turned(field, method, STEPS, *place)?;
+            *place = turned(field, by, STEPS, *place)?;
         }
         largest = larger(largest, (flux(field, &circle) / before - 1.0).abs());
     }

@@ -3,7 +3,7 @@
 //! The exact section is a closed curve. Each run is compared with that curve, computed by Gauss
 //! collocation of order six.
 
-use super::sections::{self, CAVEAT, Crossings, LYAPUNOV_STEPS, Scheme, compare, cost, lyapunov_exponent};
+use super::sections::{self, Scheme, *};
 use crate::vocabulary::*;
 
 const RUNS: [(Scheme, f64); 6] = sections::runs([0.1, 0.2, 0.5]);
@@ -12,25 +12,22 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e5, 4.5e4);
     let exact = [(Scheme::Gauss6, 0.2)];
     job.expect(cost(&RUNS, end) + cost(&exact, 1e5) + LYAPUNOV_STEPS);
-    let case = models::quasi_periodic();
-    let all = compare(job, &case, RUNS, end)?;
-    let [exact] = compare(job, &case, exact, 1e5)?;
+    let motion = Motion { job, case: &models::quasi_periodic(), end };
+    let all = motion.compare(RUNS)?;
+    let [exact] = Motion { end: 1e5, ..motion }.compare(exact)?;
     let curve = Curve::through(&exact.places());
-    let exponent = lyapunov_exponent(job, &case)?;
+    let exponent = motion.lyapunov_exponent()?;
     job.publish(figure(&all, &curve, end), sections::table(&all)?)?;
     let [vi_small, vi_middle, vi_large, rk_small, rk_middle, _] = &all;
-    let near = |claim: Claim, run: &Crossings| {
-        let quantity = format!("largest distance from the exact section, {}", run.name());
-        claim.at_most(quantity, curve.largest_distance(run), 0.01)
-    };
-    let far = format!("largest distance from the exact section, {}", rk_middle.name());
+    let name = |run: &Crossings| format!("largest distance from the exact section, {}", run.name());
+    let near = |claim: Claim, run: &Crossings| claim.at_most(name(run), curve.largest_distance(run), 0.01);
     let regular = "the motion is quasi-periodic";
     let claims = vec![
         says("section 5", regular).at_most("largest Lyapunov exponent up to t = 2·10⁴", exponent, 1e-3),
         says("Fig. 4", "both schemes give qualitatively correct results for h = 0.1")
             .each([vi_small, rk_small], near),
         says("Fig. 4", "RK4 gives spurious results for h = 0.2, VI2 does not")
-            .at_least(far, curve.largest_distance(rk_middle), 0.5)
+            .at_least(name(rk_middle), curve.largest_distance(rk_middle), 0.5)
             .each([vi_middle, vi_large], near),
         sections::stays_close(&all[..3]).at_least(rk_small.growth_name(), rk_small.error.growth(), 5.0),
     ];
@@ -64,26 +61,24 @@ fn figure(all: &[Crossings; 6], curve: &Curve, end: f64) -> Figure {
 fn panel(run: &Crossings, curve: &Curve) -> Panel {
     let [[left, right], [low, high]] = curve.frame();
     let caption = format!("*d* = {}", scientific(curve.largest_distance(run)));
-    let exact = closed(&curve.corners);
+    let exact = closed(&curve.0);
     let inside = |[r1, p1]: [f64; 2]| (left..=right).contains(&r1) && (low..=high).contains(&p1);
     if run.places().into_iter().all(inside) {
         let panel = run.panel([left, right], [low, high], 1.0);
-        let panel = panel.below(exact, Stroke::solid(SLATE).width(5.0).opacity(0.25));
+        let panel = panel.below(exact, solid(SLATE).width(5.0).opacity(0.25));
         return panel.caption(Corner::TopRight, caption);
     }
     let frame = closed(&[[left, low], [right, low], [right, high], [left, high]]);
     // Wide enough for words beside the dots, which stay within 2.4.
     run.panel([-2.6, 2.6], [-2.6, 3.4], 1.0)
-        .below(exact, Stroke::solid(SLATE).width(3.0).opacity(0.35))
-        .line(frame, Stroke::solid(SLATE).width(1.0))
+        .below(exact, solid(SLATE).width(3.0).opacity(0.35))
+        .line(frame, solid(SLATE).width(1.0))
         .caption(Corner::TopLeft, "frame: the close-up above")
         .caption(Corner::TopRight, caption)
 }
 
 /// A closed curve around its centre, as a polygon sorted by angle.
-struct Curve {
-    corners: Points,
-}
+struct Curve(Points);
 
 impl Curve {
     fn through(points: &[[f64; 2]]) -> Self {
@@ -92,15 +87,15 @@ impl Curve {
         let angle = |point: &[f64; 2]| (point[1] - centre[1]).atan2(point[0] - centre[0]);
         let mut corners = points.to_vec();
         corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-        Self { corners }
+        Self(corners)
     }
 
     fn frame(&self) -> [[f64; 2]; 2] {
-        if self.corners.is_empty() {
+        if self.0.is_empty() {
             return [[-2.6, 2.6]; 2];
         }
         [0, 1].map(|i| {
-            let values = || self.corners.iter().map(|corner| corner[i]);
+            let values = || self.0.iter().map(|corner| corner[i]);
             let (low, high) = (least(values()), -least(values().map(|v| -v)));
             let margin = 0.18 * (high - low);
             [low - margin, high + margin]
@@ -108,19 +103,17 @@ impl Curve {
     }
 
     fn distance(&self, point: [f64; 2]) -> f64 {
-        let sides = self.corners.iter().zip(self.corners.iter().cycle().skip(1));
-        sides.map(|(&a, &b)| distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
+        let to_side = |(&a, &b): (&[f64; 2], &[f64; 2])| {
+            let (along, to) = (difference(b, a), difference(point, a));
+            let share = (dot(to, along) / dot(along, along).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            (to[0] - share * along[0]).hypot(to[1] - share * along[1])
+        };
+        self.0.iter().zip(self.0.iter().cycle().skip(1)).map(to_side).fold(f64::INFINITY, f64::min)
     }
 
     fn largest_distance(&self, run: &Crossings) -> f64 {
         largest(run.places().into_iter().map(|place| self.distance(place)))
     }
-}
-
-fn distance_to_segment(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (along, to) = (difference(b, a), difference(point, a));
-    let share = (dot(to, along) / dot(along, along).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (to[0] - share * along[0]).hypot(to[1] - share * along[1])
 }
 
 #[cfg(test)]

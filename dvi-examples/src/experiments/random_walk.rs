@@ -6,8 +6,7 @@ use crate::vocabulary::*;
 /// Numbers of bounces, each twice the one before, after which the change of the energy is looked at.
 const BOUNCES: [u64; 9] = [8, 16, 32, 64, 128, 256, 512, 1024, 2048];
 
-/// The root mean square of E − E(0) after each number of bounces: where the discrete energy is kept, the
-/// same with half the step, and where the energy is kept.
+/// The root mean square of E − E(0): by the discrete energy, with half the step, by the energy.
 pub struct Walks([Vec<[f64; 2]>; 3]);
 
 impl Walks {
@@ -17,7 +16,6 @@ impl Walks {
         Ok(Self(each([(discrete, coarse), (discrete, fine), (at_impact, coarse)], walk)?))
     }
 
-    /// The checks of that.
     pub fn check(&self, job: &Job<'_>, claim: Claim) -> Claim {
         let [variational, half, reflecting] = &self.0;
         let exponent = |walk: &[[f64; 2]]| job.only_full(order(walk.iter().map(|&[n, rms]| (n, rms))));
@@ -37,10 +35,10 @@ impl Walks {
         let guide = [8.0_f64, 2048.0].map(|n| [n, scale * n.sqrt()]).to_vec();
         let mean = Axis::logarithmic("root mean square of *E* − *E*(0)");
         let panel = Panel::new("Many starts", Axis::logarithmic("bounces"), mean).lines([
-            (format!("discrete energy, *h* = {h}"), Stroke::solid(BLUE), discrete),
-            (format!("discrete energy, *h* = {shorter}"), Stroke::dashed(SKY), half),
-            (format!("energy at the impact, *h* = {h}"), Stroke::solid(GREEN), at_impact),
-            ("square root of the number of bounces".into(), Stroke::dashed(SLATE).width(1.0), guide),
+            (format!("discrete energy, *h* = {h}"), solid(BLUE), discrete),
+            (format!("discrete energy, *h* = {shorter}"), dashed(SKY), half),
+            (format!("energy at the impact, *h* = {h}"), solid(GREEN), at_impact),
+            ("square root of the number of bounces".into(), dashed(SLATE).width(1.0), guide),
         ]);
         panel.legend_at(Corner::Beside)
     }

@@ -13,18 +13,11 @@ pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; 
     std::array::from_fn(|i| y[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
 }
 
-/// Where it leads from `y` in time `end`.
-pub fn rk4_up_to<const N: usize>(
-    y: [f64; N],
-    end: f64,
-    h: f64,
-    f: impl Fn(&[f64; N]) -> [f64; N],
-) -> [f64; N] {
+pub fn rk4_to<const N: usize>(y: [f64; N], end: f64, h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
     (0..(end / h).round() as u64).fold(y, |y, _| rk4(&y, h, &f))
 }
 
-/// How far quantities are from their start in the course of so many steps; `of` returns that after each of
-/// them.
+/// How far quantities are from their start, as `of` says after each of so many steps.
 pub fn keep_rk4<const D: usize, const N: usize>(
     job: &Job<'_>,
     mut y: [f64; D],
@@ -69,11 +62,14 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
     }
 
     pub fn step(&mut self) -> Result<(), StartError> {
-        let h = self.h;
-        let first = self.slope(&self.y)?;
-        let second = self.slope(&self.moved(0.5 * h, &first))?;
-        let third = self.slope(&self.moved(0.5 * h, &second))?;
-        let fourth = self.slope(&self.moved(h, &third))?;
+        let (h, y) = (self.h, self.y.clone());
+        let moved = |by: f64, slope: &[f64]| -> Vec<f64> {
+            y.iter().zip(slope).map(|(y, slope)| y + by * slope).collect()
+        };
+        let first = self.slope(&y)?;
+        let second = self.slope(&moved(0.5 * h, &first))?;
+        let third = self.slope(&moved(0.5 * h, &second))?;
+        let fourth = self.slope(&moved(h, &third))?;
         for (i, y) in self.y.iter_mut().enumerate() {
             *y += h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]);
         }
@@ -83,10 +79,6 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
     pub fn up_to(mut self, end: f64) -> Result<S::State<f64>> {
         (0..(end / self.h).round() as u64).try_for_each(|_| self.step())?;
         Ok(self.state())
-    }
-
-    fn moved(&self, h: f64, slope: &[f64]) -> Vec<f64> {
-        self.y.iter().zip(slope).map(|(y, slope)| y + h * slope).collect()
     }
 
     fn read(&self, y: &[f64]) -> S::State<f64> {
@@ -107,7 +99,7 @@ mod tests {
 
     #[test]
     fn rk4_is_of_fourth_order_on_a_pendulum() {
-        let end = |h: f64| rk4_up_to([1.0, 0.0], 2.0, h, |&[x, v]: &[f64; 2]| [v, -x.sin()]);
+        let end = |h: f64| rk4_to([1.0, 0.0], 2.0, h, |&[x, v]: &[f64; 2]| [v, -x.sin()]);
         let exact = end(1e-3);
         let order = order([0.1, 0.05, 0.025].map(|h| (h, apart(&end(h), &exact))));
         assert!(order.is_some_and(|order| (order - 4.0).abs() < 0.1), "{order:?}");

@@ -16,8 +16,8 @@ const STRIDE: u64 = 37;
 const PER_DECADE: f64 = 8.0;
 const FIRST: f64 = 1e4;
 
-/// What is conserved but for rounding, with its title; and the share of the steps that are taken, which is
-/// less where they are dear. The first two are energies.
+/// What is conserved but for rounding, with its title, and the share of the steps that are taken. The first
+/// two are energies.
 const CASES: [(&str, &str, f64); 4] = [
     ("oscillator, σ = ½", "Energy of an oscillator, σ = ½", 1.0),
     ("oscillator, Verlet", "Energy of an oscillator, Störmer–Verlet", 1.0),
@@ -41,12 +41,28 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             Ok((0..len).map(|k| [runs[0][k][0], square(k).sqrt()]).collect())
         })
     })?;
-    let rows = CASES.iter().zip(&pairs).flat_map(|((name, ..), pair)| {
-        let both = ["plain", "compensated"].into_iter().zip(pair);
-        both.flat_map(move |(sums, rows)| rows.iter().map(move |row| ([name, sums], *row)))
+    let curves = CASES.iter().zip(&pairs).flat_map(|((name, ..), pair)| {
+        ["plain", "compensated"]
+            .into_iter()
+            .zip(pair)
+            .map(move |(sums, rows)| ([*name, sums], [], rows.clone()))
     });
-    job.publish(figure(&pairs, steps as f64), Table::of(&["quantity", "sums", "steps", "error"], rows)?)?;
-    Ok(Outcome { claims: claims(job, &pairs), references: vec![], notes: notes(&pairs) })
+    let table = curve_table(&["quantity", "sums", "steps", "error"], curves)?;
+    job.publish(figure(&pairs, steps as f64), table)?;
+    let cases = || CASES.iter().zip(&pairs);
+    let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ \
+                  steps, as independent ones do";
+    let fifth = "with compensated sums they are at most a fifth of those of plain sums";
+    let claims = vec![
+        beyond(growth).each(cases().take(2), |claim, ((name, ..), [_, compensated])| {
+            claim.of(name).within("exponent of growth", job.only_full(exponent(compensated)), [0.3, 0.7])
+        }),
+        beyond(fifth).each(cases(), |claim, ((name, ..), [plain, compensated])| {
+            let ratio = plain.last().zip(compensated.last()).map(|(plain, other)| other[1] / plain[1]);
+            claim.of(name).at_most("compensated/plain, at the end", ratio, 0.2)
+        }),
+    ];
+    Ok(Outcome { claims, references: vec![], notes: notes(&pairs) })
 }
 
 /// The errors of the run of a case that begins at its own angle, with so many looks.
@@ -58,43 +74,38 @@ fn errors(job: &Job<'_>, case: usize, summation: Summation, run: usize, looks: u
         0 => {
             let start = RotationState { x: cos, y: sin };
             let run = Integrator::new(&Rotation { omega: 1.0 }, midpoint, H, start)?;
-            follow(job, run, looks, |run| run.energy())
+            watch(job, run, looks, |run| run.energy())
         }
         1 => {
-            let start = SpringState { x: cos, dot_x: sin };
-            follow(job, Integrator::new(&Spring { k: 1.0 }, verlet, H, start)?, looks, |run| {
+            let run = Integrator::new(&Spring { k: 1.0 }, verlet, H, SpringState { x: cos, dot_x: sin })?;
+            watch(job, run, looks, |run| {
                 let (q, p) = (run.q()[0], run.memory().p()[0]);
                 p * p + (1.0 - H * H / 4.0) * q * q
             })
         }
         2 => {
             let Case { vortices, mut start } = models::quasi_periodic();
-            for (x, y) in start.x.iter_mut().zip(start.y.iter_mut()) {
+            for (x, y) in start.x.iter_mut().zip(&mut start.y) {
                 (*x, *y) = (cos * *x - sin * *y, sin * *x + cos * *y);
             }
             let run = Integrator::new(&vortices, midpoint, H, start)?;
-            follow(job, run, looks, |run| run.momentum(2).unwrap_or(f64::NAN))
+            watch(job, run, looks, |run| run.momentum(2).unwrap_or(f64::NAN))
         }
         _ => {
             let start = Orbit { e: 0.1 + 0.1 * run as f64 }.pericentre();
             let run = Integrator::new(&Kepler {}, verlet, H, start)?;
-            follow(job, run, looks, |run| run.momentum(0).unwrap_or(f64::NAN))
+            watch(job, run, looks, |run| run.momentum(0).unwrap_or(f64::NAN))
         }
     }
 }
 
 /// The root mean square of (f − f(0))/f(0) in each interval of the logarithm of the number of steps.
-fn follow<R: Run<Scalar = f64>>(
-    job: &Job<'_>,
-    mut run: R,
-    looks: u64,
-    value: impl Fn(&R) -> f64,
-) -> Result<Points> {
-    let (initial, mut rows, mut interval) = (value(&run), Vec::new(), (STRIDE as f64).log10() * PER_DECADE);
+fn watch<R: Run<Scalar = f64>>(job: &Job<'_>, mut run: R, n: u64, of: impl Fn(&R) -> f64) -> Result<Points> {
+    let (initial, mut rows, mut interval) = (of(&run), Vec::new(), (STRIDE as f64).log10() * PER_DECADE);
     let (mut squares, mut count) = (0.0, 0_u64);
-    job.repeat(looks, || {
+    job.repeat(n, || {
         run.take_steps(STRIDE)?;
-        squares += ((value(&run) - initial) / initial).powi(2);
+        squares += ((of(&run) - initial) / initial).powi(2);
         count += 1;
         if (run.steps() as f64).log10() * PER_DECADE >= interval {
             rows.push([run.steps() as f64, (squares / count as f64).sqrt()]);
@@ -108,22 +119,6 @@ fn follow<R: Run<Scalar = f64>>(
 /// The exponent of the growth with the number of steps, by least squares.
 fn exponent(rows: &Points) -> Option<f64> {
     order(rows.iter().filter(|[n, error]| *n >= FIRST && *error > 0.0).map(|&[n, error]| (n, error)))
-}
-
-fn claims(job: &Job<'_>, pairs: &[Pair; 4]) -> Vec<Claim> {
-    let cases = || CASES.iter().zip(pairs);
-    let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ \
-                  steps, as independent ones do";
-    let fifth = "with compensated sums they are at most a fifth of those of plain sums";
-    vec![
-        beyond(growth).each(cases().take(2), |claim, ((name, ..), [_, compensated])| {
-            claim.of(name).within("exponent of growth", job.only_full(exponent(compensated)), [0.3, 0.7])
-        }),
-        beyond(fifth).each(cases(), |claim, ((name, ..), [plain, compensated])| {
-            let ratio = plain.last().zip(compensated.last()).map(|(plain, other)| other[1] / plain[1]);
-            claim.of(name).at_most("compensated/plain, at the end", ratio, 0.2)
-        }),
-    ]
 }
 
 fn notes(pairs: &[Pair; 4]) -> Vec<String> {
@@ -150,8 +145,8 @@ fn figure(pairs: &[Pair; 4], steps: f64) -> Figure {
     let panel = |((_, title, _), [plain, compensated]): (&(&str, &str, f64), &Pair)| {
         Panel::loglog(*title, n, ("relative error, root mean square", [1e-17, 1e-10]))
             .lines([
-                ("plain sums", Stroke::solid(VERMILLION), plain.clone()),
-                ("compensated sums", Stroke::solid(BLUE), compensated.clone()),
+                ("plain sums", solid(VERMILLION), plain.clone()),
+                ("compensated sums", solid(BLUE), compensated.clone()),
             ])
             .guide([at(100.0), at(steps)], "0.1 ε*h*√*n*")
             .legend_at(Corner::TopLeft)

@@ -14,16 +14,15 @@ const OMEGA: f64 = 4.0;
 const STEPS: u64 = 24;
 const H: f64 = TAU / (OMEGA * STEPS as f64);
 const EARLY: u64 = 100;
-/// By what the breather is too large at its centre at the start, and the amplitude of a weak excitation of
-/// one site.
+/// By what the breather is too large at its centre, and the amplitude of a weak excitation of one site.
 const EXCESS: f64 = 1.05;
 const WEAK: f64 = 0.5;
 
 type Amplitudes = [f64; SITES];
 const LATTICE: SchroedingerLattice<SITES> = SchroedingerLattice {};
 
-/// What one run leaves over time in periods: (Σ|ψ|²)²/Σ|ψ|⁴, the number of sites that are excited, and the
-/// relative changes of the norm and of the energy; and |ψ_n|² at the start and at the end.
+/// (Σ|ψ|²)²/Σ|ψ|⁴, the number of sites that are excited, and the relative changes of norm and energy over
+/// time in periods; |ψ_n|² at the start and at the end.
 type Excitation = (Series<3>, [Amplitudes; 2]);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
@@ -32,12 +31,24 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (mut start, mut weak) = (breather(OMEGA), [0.0; SITES]);
     start[SITES / 2] *= EXCESS;
     weak[SITES / 2] = WEAK;
-    let by_midpoint = ("one step, midpoint", Stroke::solid(BLUE));
-    let all = [
-        follow(job, by_midpoint, OneStep::midpoint(), start, periods)?,
-        follow(job, ("RK4", Stroke::dashed(VERMILLION)), RungeKutta::classical(), start, periods)?,
-        follow(job, ("weak excitation", Stroke::solid(GREEN)), OneStep::midpoint(), weak, periods)?,
+    let runs = [
+        (("one step, midpoint", solid(BLUE)), begin(start).run(OneStep::midpoint(), H)?),
+        (("RK4", dashed(VERMILLION)), begin(start).run(RungeKutta::classical(), H)?),
+        (("weak excitation", solid(GREEN)), begin(weak).run(OneStep::midpoint(), H)?),
     ];
+    let sum = |values: &Amplitudes| values.iter().sum::<f64>();
+    let all = each(runs, |((name, stroke), mut run)| -> Result<Excitation> {
+        let (energy, mut profiles) = (run.energy(), [densities(run.q()); 2]);
+        let mut kept = Span { end: periods as f64, early: EARLY as f64, intervals: 400 }.deviations();
+        job.follow(&mut run, periods * STEPS, |run| {
+            let densities = densities(run.q());
+            let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));
+            let norm = sum(&densities) / sum(&profiles[0]) - 1.0;
+            note(&mut kept, run.time() * OMEGA / TAU, [sites, norm, run.energy() / energy - 1.0]);
+            profiles[1] = densities;
+        })?;
+        Ok((Series::new(name, stroke, kept), profiles))
+    })?;
     let columns = ["series", "quantity", "period", "lowest", "mean", "highest"];
     let table = range_table(&columns, &["sites", "ΔN/N", "ΔH/H"], all.iter().map(|(series, _)| series))?;
     job.publish(figure(&all, periods as f64), table)?;
@@ -45,7 +56,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let kept =
         "the one-step midpoint scheme keeps the norm to rounding errors, and the energy error does not grow";
     let most = "(Σ|ψ|²)²/Σ|ψ|⁴";
-    Ok(vec![
+    claims([
         beyond(kept)
             .at_most("one step: largest relative change of the norm", norm.largest, 1e-11)
             .at_least("RK4: largest relative change of the norm", of_rk4.largest, 1e-3)
@@ -54,12 +65,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_most(format!("breather: most sites {most} that are excited"), sites.largest, 1.5)
             .at_least("weak excitation: most sites that are excited", weak.largest, 5.0),
         own_breather()?,
-    ]
-    .into())
+    ])
 }
 
-fn state(u: Amplitudes) -> SchroedingerLatticeState<SITES> {
-    SchroedingerLatticeState { q: u.map(|u| SQRT_2 * u), p: [0.0; SITES] }
+fn begin(u: Amplitudes) -> Problem<'static, SchroedingerLattice<SITES>> {
+    Problem::new(&LATTICE, SchroedingerLatticeState { q: u.map(|u| SQRT_2 * u), p: [0.0; SITES] })
 }
 
 /// |ψ_n|² of a state in flat form.
@@ -67,34 +77,12 @@ fn densities(q: &[f64]) -> Amplitudes {
     std::array::from_fn(|n| (q[n] * q[n] + q[n + SITES] * q[n + SITES]) / 2.0)
 }
 
-fn follow(
-    job: &Job<'_>,
-    (name, stroke): Named<'_>,
-    method: impl Method<SchroedingerLattice<SITES>, f64>,
-    start: Amplitudes,
-    periods: u64,
-) -> Result<Excitation> {
-    let mut run = Integrator::new(&LATTICE, method, H, state(start))?;
-    let sum = |values: &Amplitudes| values.iter().sum::<f64>();
-    let (energy, mut profiles) = (run.energy(), [densities(run.q()); 2]);
-    let mut kept = Span { end: periods as f64, early: EARLY as f64, intervals: 400 }.deviations();
-    job.follow(&mut run, periods * STEPS, |run| {
-        let densities = densities(run.q());
-        let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));
-        let norm = sum(&densities) / sum(&profiles[0]) - 1.0;
-        note(&mut kept, run.time() * OMEGA / TAU, [sites, norm, run.energy() / energy - 1.0]);
-        profiles[1] = densities;
-    })?;
-    Ok((Series::new(name, stroke, kept), profiles))
-}
-
 /// At the middle of a step the scheme solves ω u = u_{n+1} − 2u_n + u_{n−1} + u³ with ω = (2/h) tan ½θ if it
 /// turns by θ.
 fn own_breather() -> Result<Claim> {
     let angle = 2.0 * (OMEGA * H / 2.0).atan();
     let start = breather(OMEGA).map(|u| u / (angle / 2.0).cos());
-    let mut run = Integrator::new(&LATTICE, OneStep::midpoint(), H, state(start))?;
-    let mut largest = 0.0;
+    let (mut run, mut largest) = (begin(start).run(OneStep::midpoint(), H)?, 0.0);
     for k in 1..=1000 {
         run.advance()?;
         let (sin, cos) = (angle * f64::from(k)).sin_cos();
@@ -115,7 +103,7 @@ fn figure(all: &[Excitation; 3], periods: f64) -> Figure {
     let [(one_step, [begin, _]), (rk4, _), (weak, _)] = all;
     let (title, site) = ("Profile at the start and at the end", ("site *n*", [-7.7, 7.7]));
     let profile = Panel::semilog(title, site, ("|*ψ*ₙ|²", [1e-10, 1e5]))
-        .lines([("start", Stroke::solid(SLATE).width(4.0).opacity(0.4), at_sites(begin))])
+        .lines([("start", solid(SLATE).width(4.0).opacity(0.4), at_sites(begin))])
         .lines(all.iter().map(|(series, [_, end])| series.line(at_sites(end))))
         .legend_at(Corner::TopLeft);
     let time = ("time *t*   [periods 2π/*ω*]", [0.0, periods]);
@@ -124,10 +112,10 @@ fn figure(all: &[Excitation; 3], periods: f64) -> Figure {
         .lines([one_step, weak].map(|series| series.line(series.kept[0].envelope.mean())));
     let error = ("largest relative error of each interval", [1e-16, 10.0]);
     let errors = Panel::semilog("Errors of the norm and of the energy", time, error).lines([
-        ("one step: *H*", Stroke::solid(BLUE), one_step.kept[2].magnitude()),
-        ("one step: norm", Stroke::dashed(BLUE), one_step.kept[1].magnitude()),
-        ("RK4: *H*", Stroke::solid(VERMILLION), rk4.kept[2].magnitude()),
-        ("RK4: norm", Stroke::dashed(AMBER), rk4.kept[1].magnitude()),
+        ("one step: *H*", solid(BLUE), one_step.kept[2].magnitude()),
+        ("one step: norm", dashed(BLUE), one_step.kept[1].magnitude()),
+        ("RK4: *H*", solid(VERMILLION), rk4.kept[2].magnitude()),
+        ("RK4: norm", dashed(AMBER), rk4.kept[1].magnitude()),
     ]);
     Figure::of(format!(
         "{SITES} sites on a ring, *ω* = {OMEGA}, {STEPS} steps a period, disturbed by 5 % at its centre"

@@ -4,7 +4,6 @@
 //! section is R₂ = 0, dR₂/dt > 0. These pairs are canonical and remove translation and rotation, but the
 //! coordinates that Pullin & Saffman used, and the paper with them, may be others.
 
-pub use super::section_figures::{CAVEAT, figure, notes, stays_close, table};
 use crate::vocabulary::*;
 
 /// The schemes that the sections compare: VI2 with σ = ½, RK4, and Gauss collocation of order six.
@@ -21,12 +20,10 @@ pub const fn runs([small, middle, large]: [f64; 3]) -> [(Scheme, f64); 6] {
     [(vi2, small), (vi2, middle), (vi2, large), (rk4, small), (rk4, middle), (rk4, large)]
 }
 
-/// The section of one run.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Crossings {
     pub scheme: Scheme,
     pub h: f64,
-    /// The time at which the run ends.
     pub end: f64,
     pub labels: Labels,
     /// [t, R₁, P₁] of each crossing.
@@ -35,12 +32,10 @@ pub struct Crossings {
     pub error: Deviation,
     /// By what factor a displacement of 1e-10 at the end grows in 2000 units of time more.
     pub growth: f64,
-    /// Where the run ended early, and why.
     pub failure: Option<StepError>,
 }
 
-/// The order in which the vortices are numbered. They are equal, so any order is as good; up to symmetry
-/// there are these three.
+/// The orders of the vortices, which are equal: up to symmetry there are these three.
 pub type Labels = [usize; 4];
 pub const LABELS: [Labels; 3] = [[0, 1, 2, 3], [0, 2, 1, 3], [0, 1, 3, 2]];
 
@@ -57,95 +52,94 @@ fn coordinates(state: &FourPoints, labels: Labels) -> [f64; 3] {
     [q2[0] * cos + q2[1] * sin, q2[1] * cos - q2[0] * sin, q1[1] * cos - q1[0] * sin]
 }
 
-/// The number of steps of runs up to time `end`.
 pub fn cost(runs: &[(Scheme, f64)], end: f64) -> u64 {
     runs.iter().map(|(_, h)| (end / h) as u64).sum()
 }
 
-/// The sections of the same motion by several schemes and steps, up to time `end`.
-pub fn compare<const N: usize>(
-    job: &Job<'_>,
-    case: &Case,
-    runs: [(Scheme, f64); N],
-    end: f64,
-) -> Result<[Crossings; N]> {
-    side_by_side(runs, |run| crossings(job, case, run, end, LABELS[0]))
+/// A motion of four vortices up to a time.
+#[derive(Clone, Copy)]
+pub struct Motion<'a> {
+    pub job: &'a Job<'a>,
+    pub case: &'a Case,
+    pub end: f64,
 }
 
-/// The section of one run with the vortices in the given order.
-pub fn crossings(
-    job: &Job<'_>,
-    case: &Case,
-    (scheme, h): (Scheme, f64),
-    end: f64,
-    labels: Labels,
-) -> Result<Crossings> {
-    let (error, points) = (Deviation::new(end, 300, 0.1 * end), Vec::new());
-    let blank = Crossings { scheme, h, end, labels, points, error, growth: f64::NAN, failure: None };
-    match scheme {
-        Scheme::Vi2 => collect(job, case, Sigma::midpoint(), blank),
-        Scheme::Rk4 => collect(job, case, RungeKutta::classical(), blank),
-        Scheme::Gauss6 => collect(job, case, Gauss::<3>::new(), blank),
-    }
-}
+/// The steps that [`Motion::lyapunov_exponent`] takes.
+pub const LYAPUNOV_STEPS: u64 = 100_000;
 
-fn collect(
-    job: &Job<'_>,
-    case: &Case,
-    method: impl Method<FourVortices, f64> + Copy,
-    mut result: Crossings,
-) -> Result<Crossings> {
-    let Case { vortices, start } = case;
-    let (h, end, labels) = (result.h, result.end, result.labels);
-    let mut run = Integrator::new(vortices, method, h, *start)?;
-    let (initial, steps) = (run.energy(), (end / h) as u64);
-    let height = |state: &FourPoints| coordinates(state, labels)[2];
-    let mut before = height(&run.state());
-    let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
-    let mut done = 0;
-    while done < steps && !job.is_stopping() {
-        let found = events.advance();
-        let after = height(&events.run().state());
-        match found {
-            // Where the motion only touches the section within a step, the place is as accurate as the root
-            // of the error of the step.
-            Ok(Some(Event { time, state, .. })) if before < 0.0 && after >= 0.0 => {
-                let [r1, p1, _] = coordinates(&state, labels);
-                result.points.push([time, r1, p1]);
-            }
-            Ok(_) => {}
-            Err(error) => {
-                result.failure = Some(error);
-                break;
-            }
-        }
-        let run = events.run();
-        if run.steps() > done {
-            (done, before) = (run.steps(), after);
-            result.error.push(run.time(), run.energy() - initial);
-            job.proceed(1);
+impl Motion<'_> {
+    /// The sections by several schemes and steps.
+    pub fn compare<const N: usize>(self, runs: [(Scheme, f64); N]) -> Result<[Crossings; N]> {
+        side_by_side(runs, |run| self.crossings(run, LABELS[0]))
+    }
+
+    /// The section of one run with the vortices in the given order.
+    pub fn crossings(self, (scheme, h): (Scheme, f64), labels: Labels) -> Result<Crossings> {
+        let (end, points, error) = (self.end, Vec::new(), Deviation::new(self.end, 300, 0.1 * self.end));
+        let blank = Crossings { scheme, h, end, labels, points, error, growth: f64::NAN, failure: None };
+        match scheme {
+            Scheme::Vi2 => self.gather(Sigma::midpoint(), blank),
+            Scheme::Rk4 => self.gather(RungeKutta::classical(), blank),
+            Scheme::Gauss6 => self.gather(Gauss::<3>::new(), blank),
         }
     }
-    if done < steps && result.failure.is_none() {
-        job.cut_short();
+
+    fn gather(self, method: impl Method<FourVortices, f64> + Copy, mut all: Crossings) -> Result<Crossings> {
+        let Self { job, case: Case { vortices, start }, end } = self;
+        let (h, labels) = (all.h, all.labels);
+        let mut run = Integrator::new(vortices, method, h, *start)?;
+        let (initial, steps) = (run.energy(), (end / h) as u64);
+        let height = |state: &FourPoints| coordinates(state, labels)[2];
+        let mut before = height(&run.state());
+        let mut events = run.events([Direction::Rising], |_, state| [height(state)])?;
+        let mut done = 0;
+        while done < steps && !job.is_stopping() {
+            let found = events.advance();
+            let after = height(&events.run().state());
+            match found {
+                // Where the motion only touches the section within a step, the place is as accurate as the
+                // root of the error of the step.
+                Ok(Some(Event { time, state, .. })) if before < 0.0 && after >= 0.0 => {
+                    let [r1, p1, _] = coordinates(&state, labels);
+                    all.points.push([time, r1, p1]);
+                }
+                Ok(_) => {}
+                Err(error) => {
+                    all.failure = Some(error);
+                    break;
+                }
+            }
+            let run = events.run();
+            if run.steps() > done {
+                (done, before) = (run.steps(), after);
+                all.error.push(run.time(), run.energy() - initial);
+                job.proceed(1);
+            }
+        }
+        job.proceed(steps - done);
+        all.growth = growth(vortices, run.state(), method, h).unwrap_or(f64::NAN);
+        Ok(all)
     }
-    job.proceed(steps - done);
-    result.growth = growth(vortices, method, h, &run.state()).unwrap_or(f64::NAN);
-    Ok(result)
+
+    /// The largest Lyapunov exponent by the tangent map of VI2 (h = 0.2, t = 2·10⁴).
+    pub fn lyapunov_exponent(self) -> Result<Option<f64>> {
+        let mut run = Integrator::new(&self.case.vortices, Sigma::midpoint(), 0.2, self.case.start)?;
+        let mut exponent = LyapunovExponent::new(&run);
+        self.job.repeat(LYAPUNOV_STEPS, || exponent.advance(&mut run))?;
+        Ok(exponent.exponent())
+    }
 }
 
 /// By what factor a small displacement grows in 2000 units of time: exponential growth reaches the size
 /// of the motion and saturates at some 1e10, on a torus the growth is linear.
-fn growth(
-    vortices: &FourVortices,
-    method: impl Method<FourVortices, f64> + Copy,
-    h: f64,
-    start: &FourPoints,
-) -> Result<f64> {
+fn growth<M>(vortices: &FourVortices, start: FourPoints, method: M, h: f64) -> Result<f64>
+where
+    M: Method<FourVortices, f64> + Copy,
+{
     const DISPLACEMENT: f64 = 1e-10;
-    let mut displaced = *start;
+    let mut displaced = start;
     displaced.x[0] += DISPLACEMENT;
-    let [one, other] = each([*start, displaced], |start| {
+    let [one, other] = each([start, displaced], |start| {
         let mut run = Integrator::new(vortices, method, h, start)?;
         while run.time() < 2000.0 {
             run.advance()?;
@@ -155,27 +149,103 @@ fn growth(
     Ok(apart(&one, &other) / DISPLACEMENT)
 }
 
-/// What [`lyapunov_exponent`] takes.
-pub const LYAPUNOV_STEPS: u64 = 100_000;
-
-/// The largest Lyapunov exponent by the tangent map of VI2 (h = 0.2, t = 2·10⁴).
-pub fn lyapunov_exponent(job: &Job<'_>, Case { vortices, start }: &Case) -> Result<Option<f64>> {
-    let mut run = Integrator::new(vortices, Sigma::midpoint(), 0.2, *start)?;
-    let mut exponent = LyapunovExponent::new(&run);
-    job.repeat(LYAPUNOV_STEPS, || exponent.advance(&mut run))?;
-    Ok(exponent.exponent())
-}
-
 impl Crossings {
-    /// The time of the last crossing; 0 if there is none.
     pub fn last(&self) -> f64 {
         self.points.last().map_or(0.0, |&[t, ..]| t)
     }
 
-    /// (R₁, P₁) of each crossing.
     pub fn places(&self) -> Vec<[f64; 2]> {
         self.points.iter().map(|&[_, r1, p1]| [r1, p1]).collect()
     }
+}
+
+pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ \
+                          e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
+
+/// More crossings than these make files larger, and no clearer.
+const SHOWN: usize = 15_000;
+
+impl Scheme {
+    pub fn name(self) -> &'static str {
+        match self {
+            Scheme::Vi2 => "VI2",
+            Scheme::Rk4 => "RK4",
+            Scheme::Gauss6 => "Gauss6",
+        }
+    }
+}
+
+impl Crossings {
+    pub fn name(&self) -> String {
+        format!("{} at h = {}", self.scheme.name(), self.h)
+    }
+
+    pub fn growth_name(&self) -> String {
+        format!("max|ΔH| over all / over the first tenth, {}", self.name())
+    }
+
+    fn title(&self) -> String {
+        format!("{}, *h* = {}", self.scheme.name(), self.h)
+    }
+
+    /// Says so if the vortices are not in their given order.
+    pub fn relabelling(&self) -> Option<String> {
+        let [a, b, c, d] = self.labels.map(|j| j + 1);
+        (self.labels != LABELS[0]).then(|| format!("*a* = 1, 2, 3, 4 are vortices {a}, {b}, {c}, {d}"))
+    }
+
+    pub fn panel(&self, r1: [f64; 2], p1: [f64; 2], radius: f64) -> Panel {
+        let shown = thin(&self.points, SHOWN);
+        let interval = |t: f64| (t / self.end * SEQUENCE.len() as f64) as usize;
+        let colours = SEQUENCE.into_iter().enumerate();
+        Panel::window(self.title(), ("*R*₁", r1), ("*P*₁", p1)).each(colours, |panel, (i, colour)| {
+            let places = shown.iter().filter(|[t, ..]| interval(*t) == i).map(|&[_, r1, p1]| [r1, p1]);
+            panel.dots(places.collect(), radius, colour)
+        })
+    }
+}
+
+/// What the paper says of the energy in both figures, with the checks for VI2.
+pub fn stays_close(vi2: &[Crossings]) -> Claim {
+    let says = "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts";
+    Claim::new("section 5", says)
+        .each(vi2, |claim, run| claim.at_most(run.growth_name(), run.error.growth(), 1.1))
+}
+
+/// The sections of VI2, those of RK4, and |H − H(0)| of all runs over time.
+pub fn figure(
+    [title, subtitle]: [&str; 2],
+    all: &[Crossings; 6],
+    end: f64,
+    panel: impl Fn(&Crossings) -> Panel,
+) -> Figure {
+    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
+    let largest = "Largest error of the Hamiltonian in each interval of time";
+    let colours = [BLUE, GREEN, VERMILLION].into_iter().cycle();
+    let lines = all.iter().zip(colours).map(|(run, colour)| {
+        let stroke = if run.scheme == Scheme::Vi2 { solid(colour) } else { dashed(colour) };
+        (run.title(), stroke, run.error.envelope.magnitude())
+    });
+    let energy = Panel::new(largest, time, Axis::logarithmic("|*H*(*t*) − *H*(0)|   [Γ²]")).lines(lines);
+    Figure::new(title, subtitle)
+        .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
+        .row(370.0, all[..3].iter().map(&panel).collect())
+        .row(370.0, all[3..].iter().map(&panel).collect())
+        .row(330.0, vec![energy.legend_at(Corner::Beside)])
+}
+
+/// The section coordinates, and the runs that were relabelled or ended early.
+pub fn notes(all: &[Crossings]) -> Vec<String> {
+    let relabelled = all.iter().filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?)));
+    let relabelled = relabelled.map(|note| note.replace('*', ""));
+    let ended = |run: &Crossings| run.failure.map(|error| format!("{} ended early: {error}.", run.name()));
+    let ends = all.iter().filter_map(ended);
+    [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(ends).collect()
+}
+
+pub fn table(all: &[Crossings]) -> Result<Table> {
+    let curves = all.iter().map(|run| ([run.scheme.name()], [run.h], thin(&run.points, SHOWN)));
+    curve_table(&["scheme", "h", "t", "R1", "P1"], curves)
 }
 
 #[cfg(test)]

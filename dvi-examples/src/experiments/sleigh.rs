@@ -13,8 +13,7 @@ const SLIDING: [f64; 2] = [-1.0, 2.0];
 pub const STEPS: [f64; 4] = [0.1, 0.1 / 2.0, 0.1 / 4.0, 0.1 / 8.0];
 pub const H: f64 = STEPS[0];
 const FINE: f64 = 0.00125;
-/// The times at which it has turned around, up to which the rate of rotation is drawn, and of straight
-/// motion.
+/// Times at which it has turned around, up to which its rotation is drawn, and of straight motion.
 const TURNED: f64 = 8.0;
 const DRAWN: f64 = 12.0;
 const STRAIGHT: f64 = 24.0;
@@ -34,16 +33,16 @@ fn steps(t: f64, h: f64) -> usize {
     (t / h).round() as usize
 }
 
-fn begin() -> ChaplyginSleighState {
-    ChaplyginSleigh::sliding(SLIDING[0], SLIDING[1])
+fn begin() -> Problem<'static, ChaplyginSleigh> {
+    Problem::new(&SLEIGH, ChaplyginSleigh::sliding(SLIDING[0], SLIDING[1]))
 }
 
 impl Sleigh {
     pub fn new() -> Result<Self> {
         let runs = each(STEPS, |h| {
-            let mut run = Integrator::new(&SLEIGH, midpoint(), h, begin())?;
-            let steps = steps(STRAIGHT, h) as u64;
-            Ok(course(&mut run, steps, |run| (run.time(), run.state(), run.energy()))?)
+            let mut run = begin().run(midpoint(), h)?;
+            let all = |run: &AnyRun<'_, _>| (run.time(), run.state(), run.energy());
+            Ok(course(&mut run, steps(STRAIGHT, h) as u64, all)?)
         })?;
         let start = [0.0, 0.0, 0.0, SLIDING[0], SLIDING[1]];
         let next = |y: &[f64; 5]| Some(rk4(y, FINE, |y| SLEIGH.reduced(y)));
@@ -62,7 +61,7 @@ impl Sleigh {
 
     /// How far a run is from its start after its steps up to [`TURNED`], there and back.
     pub fn undone() -> Result<f64> {
-        there_and_back(&SLEIGH, midpoint(), H, &begin(), steps(TURNED, H) as u64)
+        begin().there_and_back(midpoint(), H, steps(TURNED, H) as u64)
     }
 
     pub fn claim(&self) -> Claim {
@@ -84,14 +83,12 @@ impl Sleigh {
         .at_most("largest relative change of E when it has turned", late, 1e-13)
     }
 
-    /// Its path, and the rate at which it turns.
     pub fn panels(&self) -> [Panel; 2] {
-        let grey = Stroke::solid(SLATE).width(1.2);
+        let grey = solid(SLATE).width(1.2);
         let path = self.motion.iter().take((7.0 / FINE) as usize).map(|y| [y[0], y[1]]);
         let places = self.runs[0].iter().take((7.0 / H) as usize).map(|(_, state, _)| [state.x, state.y]);
         let slid = Panel::plane("Sleigh", "*x*", "*y*")
-            .line(path.collect(), grey)
-            .labelled("motion")
+            .lines([("motion", grey, path.collect())])
             .dots(places.collect(), 2.0, PURPLE)
             .labelled("steps")
             .legend_at(Corner::BottomRight);
@@ -99,8 +96,7 @@ impl Sleigh {
         let rates = self.runs[0][..=steps(DRAWN, H)].iter().map(|(t, state, _)| [*t, state.dot_theta.abs()]);
         let (time, rate) = (Axis::linear("time *t*"), Axis::logarithmic("|*ω*|"));
         let turning = Panel::new("Rate of rotation of the sleigh", time, rate)
-            .line(turning.collect(), grey)
-            .labelled("motion")
+            .lines([("motion", grey, turning.collect())])
             .dots(rates.collect(), 2.0, PURPLE)
             .labelled(format!("steps, *h* = {H}"));
         [slid, turning]

@@ -15,55 +15,45 @@ const H: f64 = 0.5;
 const EARLY: u64 = 4000;
 
 /// E − E(0), |M| over its value at the start less 1, by what angle M has turned around the axis of the
-/// coordinates, and (M_z − M_z(0))/|M|.
+/// coordinates, and (M_z − M_z(0))/|M|; its path has the places of the three one after the other.
 type Kept = Series<4>;
-
-type Paths = [Points; 3];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(400_000, 20_000);
     job.expect(3 * steps);
-    let gauss = ("one step, Gauss of order 4", Stroke::solid(SKY));
-    let (midpoint, paths) =
-        follow(job, ("one step, midpoint", Stroke::solid(BLUE)), OneStep::midpoint(), steps)?;
-    let all = [
-        midpoint,
-        follow(job, gauss, OneStepGauss::<2>::new(), steps)?.0,
-        follow(job, ("RK4", Stroke::dashed(VERMILLION)), RungeKutta::classical(), steps)?.0,
+    let (three, span) = (three(), Span { intervals: 100, ..Span::of(steps, H, EARLY) });
+    let runs = [
+        (("one step, midpoint", solid(BLUE)), three.run(OneStep::midpoint(), H)?),
+        (("one step, Gauss of order 4", solid(SKY)), three.run(OneStepGauss::<2>::new(), H)?),
+        (("RK4", dashed(VERMILLION)), three.run(RungeKutta::classical(), H)?),
     ];
+    let all = each(runs, |(named, mut run)| {
+        let (energy, start) = (run.energy(), moment(&THREE, run.q()));
+        let (mut before, mut turned) = (start, 0.0);
+        Ok(job.series(named, &mut run, steps, span, |run, path| {
+            let moment = moment(&THREE, run.q());
+            if run.steps() <= 400 {
+                path.extend(THREE.places(run.q()).map(|[x, y, _]| [x, y]));
+            }
+            turned += angle(before, moment);
+            before = moment;
+            let axial = (moment[2] - start[2]) / length(start);
+            [run.energy() - energy, length(moment) / length(start) - 1.0, turned, axial]
+        })?)
+    })?;
     let columns = ["method", "quantity", "t", "lowest", "mean", "highest"];
     let table = range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?;
-    job.publish(figure(&all, &paths, steps as f64 * H), table)?;
-    Ok(vec![keep(&all), precession()?, pair()?, ring()?].into())
+    job.publish(figure(&all, span.end), table)?;
+    claims([keep(&all), precession()?, pair()?, ring()?])
+}
+
+fn three() -> Problem<'static, SphereVortices<3>> {
+    Problem::new(&THREE, SphereVortices::state(PLACES))
 }
 
 fn moment<const N: usize>(vortices: &SphereVortices<N>, q: &[f64]) -> [f64; 3] {
     let places = vortices.places(q);
     std::array::from_fn(|i| vortices.gamma.iter().zip(places).map(|(gamma, place)| gamma * place[i]).sum())
-}
-
-fn follow(
-    job: &Job<'_>,
-    named: Named<'_>,
-    method: impl Method<SphereVortices<3>, f64>,
-    steps: u64,
-) -> Result<(Kept, Paths)> {
-    let mut run = Integrator::new(&THREE, method, H, SphereVortices::state(PLACES))?;
-    let (energy, start) = (run.energy(), moment(&THREE, run.q()));
-    let (mut before, mut turned, mut paths) = (start, 0.0, Paths::default());
-    let span = Span { intervals: 100, ..Span::of(steps, H, EARLY) };
-    let kept = job.series(named, &mut run, steps, span, |run, _| {
-        let moment = moment(&THREE, run.q());
-        if run.steps() <= 400 {
-            let places = paths.iter_mut().zip(THREE.places(run.q()));
-            places.for_each(|(path, [x, y, _])| path.push([x, y]));
-        }
-        turned += angle(before, moment);
-        before = moment;
-        let axial = (moment[2] - start[2]) / length(start);
-        [run.energy() - energy, length(moment) / length(start) - 1.0, turned, axial]
-    })?;
-    Ok((kept, paths))
 }
 
 /// By what angle a vector has turned around the z axis, less than half a turn.
@@ -74,27 +64,26 @@ fn angle(before: [f64; 3], [x, y, _]: [f64; 3]) -> f64 {
 fn keep(all: &[Kept; 3]) -> Claim {
     let text = "energy and length of the moment are no further off in the whole run than in its beginning, \
                 and the moment along the axis is kept to rounding errors";
-    let growth = all[2].kept[0].growth();
     beyond(text)
         .each(&all[..2], |claim, Series { name, kept: [energy, moment, _, axial], .. }| {
             let of = |quantity: &str| format!("max|Δ{quantity}| over all / over {EARLY} steps");
             let claim = claim.of(name).at_most(of("H"), energy.growth(), 1.05);
             claim.at_most(of("|M|"), moment.growth(), 1.05).at_most("max|ΔM_z|/|M|", axial.largest, 1e-10)
         })
-        .at_least(format!("RK4: max|ΔH| over all / over {EARLY} steps"), growth, 4.0)
+        .at_least(format!("RK4: max|ΔH| over all / over {EARLY} steps"), all[2].kept[0].growth(), 4.0)
 }
 
 /// The angle by which M has turned at t = 400, over the step.
 fn precession() -> Result<Claim> {
-    let (start, counts) = (SphereVortices::state(PLACES), [400, 600, 800]);
-    let begin = Integrator::new(&THREE, OneStep::midpoint(), H, start)?;
+    let begin = three().run(OneStep::midpoint(), H)?;
     let angle = |q: &[f64]| angle(moment(&THREE, begin.q()), moment(&THREE, q)).abs();
-    let midpoint = order_at(&THREE, OneStep::midpoint(), &start, 400.0, counts, angle)?;
-    let gauss = order_at(&THREE, OneStepGauss::<2>::new(), &start, 400.0, counts, angle)?;
+    let angles = three().errors(400.0, &[400, 600, 800], angle);
+    let (midpoint, gauss) = (OneStep::midpoint(), OneStepGauss::<2>::new());
     let text = "the moment turns slowly around the axis of the coordinates, at a rate that falls with the \
                 order of the scheme";
-    let claim = beyond(text).near("midpoint: order of the angle at t = 400", midpoint, [2.0, 0.1]);
-    Ok(claim.near("Gauss of order 4: order of the angle at t = 400", gauss, [4.0, 0.2]))
+    Ok(beyond(text)
+        .near("midpoint: order of the angle at t = 400", angles.order(midpoint)?, [2.0, 0.1])
+        .near("Gauss of order 4: order of the angle at t = 400", angles.order(gauss)?, [4.0, 0.2]))
 }
 
 /// `v` turned around an axis by an angle (Rodrigues).
@@ -111,45 +100,42 @@ fn away<const N: usize>(ends: [[f64; 3]; N], starts: [[f64; 3]; N], axis: [f64; 
 }
 
 fn pair() -> Result<Claim> {
-    const END: f64 = 40.0;
     let pair = SphereVortices { gamma: [1.0, 2.0] };
-    let start = SphereVortices::state([[0.8, 0.3, 0.2], [-0.3, 0.5, 0.6]]);
-    let errors = each([100, 150, 200], |steps| {
-        let h = END / steps as f64;
-        let mut run = Integrator::new(&pair, OneStep::midpoint(), h, start)?;
-        let (places, axis) = (pair.places(run.q()), moment(&pair, run.q()));
-        let rate = length(axis) / (TAU * length(difference(places[0], places[1])).powi(2));
-        run.take_steps(steps)?;
-        Ok((h, away(pair.places(run.q()), places, axis, rate * END)))
-    })?;
+    let motion = Problem::new(&pair, SphereVortices::state([[0.8, 0.3, 0.2], [-0.3, 0.5, 0.6]]));
+    let begin = motion.run(OneStep::midpoint(), H)?;
+    let (places, axis) = (pair.places(begin.q()), moment(&pair, begin.q()));
+    let rate = length(axis) / (TAU * length(difference(places[0], places[1])).powi(2));
+    let distance = |q: &[f64]| away(pair.places(q), places, axis, rate * 40.0);
+    let errors = motion.errors(40.0, &[100, 150, 200], distance).of(OneStep::midpoint())?;
     Ok(beyond("a pair turns around its moment with the rate |M|/2πl², to the order of the scheme")
         .at_most("distance from that at t = 40, 200 steps", errors[2].1, 0.05)
         .near("order of it", order(errors), [2.0, 0.05]))
 }
 
 fn ring() -> Result<Claim> {
-    const N: usize = 4;
-    let (z, steps) = (0.7f64, 100);
-    let ring = SphereVortices { gamma: [1.0; N] };
-    let angle = |j: usize| TAU * j as f64 / N as f64;
-    let radius = (1.0 - z * z).sqrt();
-    let start = std::array::from_fn(|j| [radius * angle(j).cos(), radius * angle(j).sin(), z]);
-    let rate = (N - 1) as f64 * z / (4.0 * PI * (1.0 - z * z));
-    let mut run = Integrator::new(&ring, OneStep::midpoint(), H, SphereVortices::state(start))?;
+    let (z, radius, steps) = (0.7f64, (1.0 - 0.7f64 * 0.7).sqrt(), 100);
+    let ring = SphereVortices { gamma: [1.0; 4] };
+    let start = [0.0, 1.0, 2.0, 3.0].map(|j: f64| {
+        let (sin, cos) = (TAU * j / 4.0).sin_cos();
+        [radius * cos, radius * sin, z]
+    });
+    let rate = 3.0 * z / (4.0 * PI * (1.0 - z * z));
+    let mut run = Problem::new(&ring, SphereVortices::state(start)).run(OneStep::midpoint(), H)?;
     run.take_steps(steps)?;
     let error = away(ring.places(run.q()), start, [0.0, 0.0, 1.0], rate * H * steps as f64);
     Ok(beyond("a ring of four vortices around the axis turns as it should, without error of the scheme")
         .at_most("distance from that after 100 steps of h = 0.5", error, 1e-11))
 }
 
-fn figure(all: &[Kept; 3], paths: &Paths, end: f64) -> Figure {
-    let lines = [BLUE, VERMILLION, GREEN].into_iter().zip(THREE.gamma).zip(paths);
-    let lines = lines.map(|((colour, gamma), path)| {
-        (format!("Γ = {gamma}"), Stroke::solid(colour).width(1.1), path.clone())
+fn figure(all: &[Kept; 3], end: f64) -> Figure {
+    let lines = [BLUE, VERMILLION, GREEN].into_iter().zip(THREE.gamma).enumerate();
+    let lines = lines.map(|(j, (colour, gamma))| {
+        let path = all[0].path.iter().skip(j).step_by(3).copied().collect();
+        (format!("Γ = {gamma}"), solid(colour).width(1.1), path)
     });
     let (x, y) = (("*x*", [-1.1, 1.1]), ("*y*", [-1.1, 1.75]));
     let seen = Panel::window("Paths, seen from above the pole", x, y)
-        .line(circle([0.0; 2], 1.0), Stroke::solid(SLATE).width(1.0))
+        .line(circle([0.0; 2], 1.0), solid(SLATE).width(1.0))
         .lines(lines);
     let over_time = |title: &str, label: &str, quantity: usize| {
         Panel::new(title, Axis::time(end), Axis::logarithmic(label)).lines(magnitudes(all, quantity))

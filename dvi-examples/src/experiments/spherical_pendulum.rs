@@ -4,9 +4,7 @@
 //! Steps along great circles stay on the sphere without a projection (Lee, Leok & McClamroch 2009); RATTLE
 //! takes the chord in place of the arc and finds the force that keeps the length.
 
-use super::geodesics::{FEW_UNITS, Long, between_heights, flat_energy, panels, reference};
-use super::shadow;
-use super::turnings::{self, Sample, up_and_down};
+use super::geodesics::*;
 use crate::vocabulary::*;
 
 const PENDULUM: SphericalPendulum = SphericalPendulum { gravity: 1.0 };
@@ -14,8 +12,7 @@ const CONSTRAINED: ConstrainedPendulum = ConstrainedPendulum { gravity: 1.0 };
 /// The angle from the direction downwards at the start, its rate, and the rate around the vertical.
 const HANGING: f64 = 0.8;
 const RATES: [f64; 2] = [0.3, 0.35];
-/// The step of the long runs, and of what is drawn, and so many steps from one look at the integrals to the
-/// next.
+/// The step of the long runs, and so many steps from one look at the integrals to the next.
 const H: f64 = 0.05;
 const EVERY: u64 = 4;
 /// The steps with which turnings and both methods are compared, the longest first.
@@ -26,7 +23,7 @@ const FINE: f64 = 2e-3;
 const DRAWN: f64 = 37.0;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
-    let long = Long { steps: job.choose(10_000_000, 8_000), every: EVERY, h: H };
+    let long = Long { job, steps: job.choose(10_000_000, 8_000), every: EVERY, h: H };
     job.expect(3 * long.steps / EVERY);
     let before = PENDULUM.heights(&begin());
     // E − E(0), |s|² − 1, and the relative change of the angular momentum about the vertical.
@@ -34,17 +31,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         let now = PENDULUM.heights(state);
         [now.energy - before.energy, dot(state.s, state.s) - 1.0, now.vertical / before.vertical - 1.0]
     };
-    let chord = ConstrainedPendulum::state_of(&begin());
-    let mut run = Integrator::new(&CONSTRAINED, Rattle::default(), H, chord)?;
+    let (arcs, chords) = (arcs(), chords());
+    let mut run = chords.run(Rattle::default(), H)?;
     let later = || {
         run.take_steps(EVERY)?;
         Ok(ConstrainedPendulum::on_sphere(&run.state()))
     };
-    let all = [
-        long.by_rk4(job, PENDULUM, &begin(), kept)?,
-        Series::new("RATTLE", Stroke::solid(GREEN), long.watch(job, later, kept)?),
-        long.along_geodesics(job, "great circles", PENDULUM, &begin(), kept)?,
-    ];
+    let [rk4, great_circles] = long.both("great circles", PENDULUM, &begin(), kept)?;
+    let all = [rk4, long.watch(("RATTLE", solid(GREEN)), later, kept)?, great_circles];
     let columns =
         ["method", "t", "largest_energy_error", "largest_change_of_length", "largest_change_of_momentum"];
     job.publish(figure(&all, long)?, magnitude_table(&columns, &all)?)?;
@@ -53,44 +47,48 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         let energy = PENDULUM.heights(&state).energy;
         Sample { height: state.s[2], rate: state.dot_s[2], energy, shift }
     };
+    let by_arc = |state| sample(state, PENDULUM.shift(&state));
+    let by_chord = |state| sample(state, CONSTRAINED.shift(&state));
     let by_arcs = each(STEPS, |h| {
-        let mut run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), h, begin())?;
-        up_and_down([h, end], &before, sample(begin(), PENDULUM.shift(&begin())), || {
-            run.advance()?;
-            Ok(sample(run.state(), PENDULUM.shift(&run.state())))
-        })
+        let run = arcs.run(Geodesic::trapezoid(), h)?;
+        up_and_down(run, end, &before, by_arc(begin()), |run| by_arc(run.state()))
     })?;
     let by_chords = each(STEPS, |h| {
-        let mut run = Integrator::new(&CONSTRAINED, Rattle::default(), h, chord)?;
-        up_and_down([h, end], &before, sample(begin(), CONSTRAINED.shift(&begin())), || {
-            run.advance()?;
-            let state = ConstrainedPendulum::on_sphere(&run.state());
-            Ok(sample(state, CONSTRAINED.shift(&state)))
-        })
+        let run = chords.run(Rattle::default(), h)?;
+        let on_sphere = |state| by_chord(ConstrainedPendulum::on_sphere(&state));
+        up_and_down(run, end, &before, by_chord(begin()), |run| on_sphere(run.state()))
     })?;
     let [rk4, chords, arcs] = all.each_ref().map(|series| &series.kept);
     // The largest that h²g makes of it, by the runs with the same step.
     let [by_arc, by_chord] = [&by_arcs, &by_chords].map(|runs| runs[1].1.predicted);
     let flat =
         beyond("the energy errors of a spherical pendulum have no trend, by great circles and by RATTLE");
-    let flat = flat_energy(job, flat, "great circles", &arcs[0], by_arc);
-    Ok(vec![
-        turnings::claim("a spherical pendulum", by_arcs.each_ref().map(|(extremes, _)| extremes)),
-        rounding(job, long, arcs, chords),
-        flat_energy(job, flat, "RATTLE", &chords[0], by_chord),
-        shadow::claim("great circles", &by_arcs.map(|(_, energy)| energy)),
-        shadow::claim("RATTLE", &by_chords.map(|(_, energy)| energy)),
+    let flat = long.flat_energy(flat, "great circles", &arcs[0], by_arc);
+    claims([
+        turning_claim("a spherical pendulum", by_arcs.each_ref().map(|(extremes, _)| extremes)),
+        rounding(long, arcs, chords),
+        long.flat_energy(flat, "RATTLE", &chords[0], by_chord),
+        shadow_claim("great circles", &by_arcs.map(|(_, energy)| energy)),
+        shadow_claim("RATTLE", &by_chords.map(|(_, energy)| energy)),
         loses(job, rk4, arcs),
         order_of_places()?,
-    ]
-    .into())
+    ])
+}
+
+/// The motion by unit vectors, and by a constraint.
+fn arcs() -> Problem<'static, SphericalPendulum> {
+    Problem::new(&PENDULUM, begin())
+}
+
+fn chords() -> Problem<'static, ConstrainedPendulum> {
+    Problem::new(&CONSTRAINED, ConstrainedPendulum::state_of(&begin()))
 }
 
 fn begin() -> SphericalPendulumState {
     SphericalPendulum::hanging(HANGING, RATES)
 }
 
-fn rounding(job: &Job<'_>, long: Long, arcs: &[Deviation; 3], chords: &[Deviation; 3]) -> Claim {
+fn rounding(long: Long<'_>, arcs: &[Deviation; 3], chords: &[Deviation; 3]) -> Claim {
     let text = "unit vectors have the length one to a few units of rounding for the whole run; the \
                 momentum about the vertical is kept up to errors no larger than a unit of rounding times \
                 the square root of the number of steps, and by RATTLE up to what the errors of the length \
@@ -98,7 +96,7 @@ fn rounding(job: &Job<'_>, long: Long, arcs: &[Deviation; 3], chords: &[Deviatio
     let momentum = "largest relative change of the momentum about the vertical";
     let (steps, bound) = (long.steps as f64, long.random_walk());
     beyond(text)
-        .at_least("steps", job.only_full(steps), 1e7)
+        .at_least("steps", long.job.only_full(steps), 1e7)
         .at_most("great circles: largest ||s|² − 1|", arcs[1].largest, FEW_UNITS)
         .at_most("RATTLE: largest ||s|² − 1|", chords[1].largest, bound)
         .at_most(format!("great circles: {momentum}"), arcs[2].largest, bound)
@@ -122,47 +120,42 @@ fn order_of_places() -> Result<Claim> {
     let text = "the place of a spherical pendulum is of second order by great circles and by RATTLE, which \
                 differ by a term of the order h², and of fourth by Suzuki's composition";
     let [fine, double] = [FINE, 2.0 * FINE].map(|h| {
-        let [x, y, z, ..] = reference(PENDULUM, &begin(), ORDER_TIME, h);
+        let [x, y, z, ..] = reference(PENDULUM, &begin(), [ORDER_TIME, h]);
         [x, y, z]
     });
-    let composition = Composition::suzuki(Geodesic::trapezoid());
-    let arc = |h| Ok(up_to(&PENDULUM, Geodesic::trapezoid(), h, begin(), ORDER_TIME)?.s);
-    let composed = |h| Ok(up_to(&PENDULUM, composition, h, begin(), ORDER_TIME)?.s);
-    let chord = |h| {
-        let start = ConstrainedPendulum::state_of(&begin());
-        let end = up_to(&CONSTRAINED, Rattle::default(), h, start, ORDER_TIME)?;
-        Ok(ConstrainedPendulum::on_sphere(&end).s)
-    };
+    let (arcs, chords, simple) = (arcs(), chords(), Geodesic::trapezoid());
+    let arc = |h| Ok(arcs.up_to(simple, h, ORDER_TIME)?.s);
+    let composed = |h| Ok(arcs.up_to(Composition::suzuki(simple), h, ORDER_TIME)?.s);
+    let chord = |h| Ok(ConstrainedPendulum::on_sphere(&chords.up_to(Rattle::default(), h, ORDER_TIME)?).s);
     let order = |place: &dyn Fn(f64) -> Result<[f64; 3]>, from: &dyn Fn(f64) -> Result<[f64; 3]>| {
         order_of(STEPS, |h| Ok((h, length(difference(place(h)?, from(h)?)))))
     };
     let exact = |_| Ok(fine);
-    let fourth = order(&composed, &exact)?;
+    let at_end = format!("order at t = {ORDER_TIME}");
     Ok(beyond(text)
         .at_most("distance of two references", length(difference(fine, double)), 1e-9)
-        .near(format!("great circles: order at t = {ORDER_TIME}"), order(&arc, &exact)?, [2.0, 0.05])
-        .near(format!("Suzuki's composition: order at t = {ORDER_TIME}"), fourth, [4.0, 0.1])
-        .near(format!("RATTLE: order at t = {ORDER_TIME}"), order(&chord, &exact)?, [2.0, 0.05])
+        .near(format!("great circles: {at_end}"), order(&arc, &exact)?, [2.0, 0.05])
+        .near(format!("Suzuki's composition: {at_end}"), order(&composed, &exact)?, [4.0, 0.1])
+        .near(format!("RATTLE: {at_end}"), order(&chord, &exact)?, [2.0, 0.05])
         .near("order of the distance of great circles and RATTLE", order(&arc, &chord)?, [2.0, 0.05]))
 }
 
-fn figure(all: &[Series<3>; 3], long: Long) -> Result<Figure> {
-    let mut run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), H, begin())?;
-    let path = course(&mut run, (DRAWN / H) as u64, place)?;
-    let path = Panel::plane("The path", "*x*", "*y*").line(path, Stroke::solid(BLUE).width(1.2));
+fn figure(all: &[Series<3>; 3], long: Long<'_>) -> Result<Figure> {
+    let path = course(&mut arcs().run(Geodesic::trapezoid(), H)?, (DRAWN / H) as u64, place)?;
+    let path = Panel::plane("The path", "*x*", "*y*").line(path, solid(BLUE).width(1.2));
     let path = between_heights(path, &PENDULUM.heights(&begin()));
     let energy = [(0, ["Energy", "largest |*E* − *E*(0)|"], [1e-11, 10.0])];
     let others = [
         (1, ["Length", "||*s*|² − 1|"], [1e-17, 10.0]),
         (2, ["Momentum about the vertical", "largest relative change"], [1e-17, 10.0]),
     ];
-    let energy = panels(long.end(), all, &energy).into_iter().map(|panel| panel.weight(1.4));
+    let energy = long.panels(all, &energy).into_iter().map(|panel| panel.weight(1.4));
     let subtitle = format!(
         "The path is from above, up to *t* = {DRAWN}; the roots of the cubic are the circles. *h* = {H}"
     );
     Ok(Figure::of(subtitle)
         .row(400.0, [path].into_iter().chain(energy).collect())
-        .row(300.0, panels(long.end(), all, &others)))
+        .row(300.0, long.panels(all, &others)))
 }
 
 #[cfg(test)]
@@ -172,12 +165,9 @@ mod tests {
     #[test]
     fn the_integrals_by_hand_are_those_of_the_declarations() {
         let heights = PENDULUM.heights(&begin());
-        let run = Integrator::new(&PENDULUM, Geodesic::trapezoid(), H, begin()).expect("a run");
-        let start = ConstrainedPendulum::state_of(&begin());
-        let constrained = Integrator::new(&CONSTRAINED, Rattle::default(), H, start).expect("a run");
-        for (energy, vertical) in
-            [(run.energy(), run.momentum(0)), (constrained.energy(), constrained.momentum(0))]
-        {
+        let run = arcs().run(Geodesic::trapezoid(), H).expect("a run");
+        let chords = chords().run(Rattle::default(), H).expect("a run");
+        for (energy, vertical) in [(run.energy(), run.momentum(0)), (chords.energy(), chords.momentum(0))] {
             assert!((energy - heights.energy).abs() < 1e-15);
             assert!(vertical.is_some_and(|vertical| (vertical - heights.vertical).abs() < 1e-15));
         }
@@ -185,7 +175,7 @@ mod tests {
 
     #[test]
     fn the_motion_by_hand_keeps_the_integrals() {
-        let end = SphericalPendulum::state(&reference(PENDULUM, &begin(), ORDER_TIME, FINE));
+        let end = PENDULUM.state(&reference(PENDULUM, &begin(), [ORDER_TIME, FINE]));
         let [before, after] = [begin(), end].map(|state| PENDULUM.heights(&state));
         assert!((before.energy - after.energy).abs() < 1e-11);
         assert!((before.vertical - after.vertical).abs() < 1e-11);

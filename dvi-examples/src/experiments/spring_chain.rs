@@ -21,9 +21,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e4, 100.0);
     job.expect(5 * (end / H).round() as u64);
     let newmark = each(BETAS, |(beta, name, colour)| {
-        kept(job, (name, Stroke::solid(colour)), Newmark::new(beta), stiffness(beta, H), end)
+        kept(job, (name, solid(colour)), first().run(Newmark::new(beta), H)?, stiffness(beta, H), end)
     })?;
-    let rk4 = kept(job, ("RK4", Stroke::solid(VERMILLION)), RungeKutta::classical(), 1.0, end)?;
+    let rk4 = kept(job, ("RK4", solid(VERMILLION)), first().run(RungeKutta::classical(), H)?, 1.0, end)?;
     let motion = Exchange::motion(CENTRES[0])?;
     let exchanges = each(BETAS, |(beta, ..)| Exchange::newmark(beta, CENTRES[0], H))?;
     let long = Exchange::newmark(0.25, CENTRES[0], LONG)?;
@@ -53,7 +53,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let sum =
         "the sum I of the energies of the stiff springs, with the stiffness of the method, has no trend";
     let (bounds, ratio) = ([0.2, 0.13, 0.06, 1.5e-3], energies[0].largest / energies[3].largest);
-    Ok(vec![
+    claims([
         beyond(flat)
             .each(BETAS.into_iter().zip(energies).zip(bounds), |claim, (((_, name, _), energy), bound)| {
                 claim.of(name).at_most("largest |ΔE|", energy.largest, bound)
@@ -70,27 +70,18 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         long_steps(&motion, &long)?,
         stability()?,
         order_of_coordinates()?,
-    ]
-    .into())
+    ])
 }
 
-/// A run from the first start.
-fn begun<M: Method<SpringChain, f64>>(method: M, h: f64) -> Result<Integrator<&'static SpringChain, M>> {
-    Ok(Integrator::new(&CHAIN, method, h, CHAIN.first_pair(CENTRES[0]))?)
+fn first() -> Problem<'static, SpringChain> {
+    Problem::new(&CHAIN, CHAIN.first_pair(CENTRES[0]))
 }
 
-fn kept(
-    job: &Job<'_>,
-    named: Named<'_>,
-    method: impl Method<SpringChain, f64>,
-    stiffness: f64,
-    end: f64,
-) -> Result<Kept> {
-    let mut run = begun(method, H)?;
-    let sum = |state| CHAIN.oscillatory(&state, stiffness).iter().sum::<f64>();
+fn kept(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, SpringChain>, s: f64, t: f64) -> Result<Kept> {
+    let sum = |state| CHAIN.oscillatory(&state, s).iter().sum::<f64>();
     let (energy, begin, mut left) = (run.energy(), sum(run.state()), f64::NAN);
-    let span = Span { end, early: 0.01 * end, intervals: 300 };
-    let series = job.series(named, &mut run, (end / H).round() as u64, span, |run, _| {
+    let span = Span { end: t, early: 0.01 * t, intervals: 300 };
+    let series = job.series(named, &mut run, (t / H).round() as u64, span, |run, _| {
         let now = sum(run.state());
         if run.steps() == (20.0 / H).round() as u64 {
             left = now / begin;
@@ -101,12 +92,11 @@ fn kept(
 }
 
 fn long_steps(motion: &Exchange, long: &Exchange) -> Result<Claim> {
-    let mut run = begun(Newmark::new(0.25), LONG)?;
+    let mut run = first().run(Newmark::new(0.25), LONG)?;
     let begin = run.energy();
     let energies =
         course(&mut run, (COMPARED as f64 / LONG).round() as u64, |run| (run.energy() - begin).abs())?;
-    let [motion, long] =
-        [motion, long].map(|of| of.0.get(COMPARED as usize - 1).map_or(f64::NAN, |mean| mean[0]));
+    let [motion, long] = [motion, long].map(|of| of.0.get(COMPARED as usize - 1).map_or(f64::NAN, |m| m[0]));
     let first = format!("energy of the first stiff spring at t = {COMPARED}");
     Ok(beyond(format!(
         "hω = {}: with β = 1/4 the energy does not drift, but there is next to no exchange: the step is \
@@ -125,7 +115,7 @@ fn stability() -> Result<Claim> {
         let of = |part: f64| -> Result<f64> {
             let h = part * (1.0 / (OMEGA * (0.25 - beta).sqrt()));
             // A factor of 10³ is more than the energy of the longest stable steps varies by.
-            Ok(is_lost(&mut begun(Newmark::new(*beta), h)?, (200.0 / h) as u64, 1e3))
+            Ok(is_lost(&mut first().run(Newmark::new(*beta), h)?, (200.0 / h) as u64, 1e3))
         };
         claim = claim
             .of(name)
@@ -136,29 +126,20 @@ fn stability() -> Result<Claim> {
 }
 
 fn order_of_coordinates() -> Result<Claim> {
-    let start = CHAIN.first_pair(CENTRES[0]);
-    let expected = up_to(&CHAIN, Gauss::<4>::new(), 0.002, start.clone(), 1.0)?.q;
-    let counts = [500, 1000, 2000, 4000];
-    let orders = each(BETAS, |(beta, ..)| {
-        order_at(&CHAIN, Newmark::new(beta), &start, 1.0, counts, |q| apart(q, &expected))
-    })?;
+    let expected = first().up_to(Gauss::<4>::new(), 0.002, 1.0)?.q;
+    let errors = first().errors(1.0, &[500, 1000, 2000, 4000], |q| apart(q, &expected));
+    let orders = each(BETAS, |(beta, ..)| errors.order(Newmark::new(beta)))?;
     let claim = beyond("the coordinates at t = 1 are of second order for all β");
     Ok(claim.each(BETAS.into_iter().zip(orders), |claim, ((_, name, _), order)| {
         claim.of(name).near("order", order, [2.0, 0.05])
     }))
 }
 
-fn figure(
-    all: &[&Series<2>],
-    motion: &Exchange,
-    exchanges: &[Exchange; 4],
-    long: &Exchange,
-    end: f64,
-) -> Figure {
+fn figure(all: &[&Series<2>], motion: &Exchange, of: &[Exchange; 4], long: &Exchange, end: f64) -> Figure {
     let titled = |k: usize| {
         let (beta, name, _) = BETAS[k];
         let title = format!("{name} ({:.2})", expected_speed(beta, H));
-        exchanges[k].panel(motion, title)
+        of[k].panel(motion, title)
     };
     let long = long.panel(motion, format!("β = 1/4, *h* = {LONG}")).without_legend();
     let energy = over_time(["Energy", "largest |*E* − *E*(0)|"], end, [1e-4, 10.0], all.iter().copied(), 0);

@@ -12,8 +12,7 @@ use crate::vocabulary::*;
 const SIGMAS: [f64; 18] = [
     0.0, 0.1, 0.2, 0.3, 0.4, 0.45, 0.47, 0.48, 0.49, 0.51, 0.52, 0.53, 0.55, 0.6, 0.7, 0.8, 0.9, 1.0,
 ];
-/// A mode that grows reaches this size unless it grows more slowly than we resolve; at the limit itself
-/// the growth is linear and does not.
+/// A mode that grows reaches this size, unless the growth is linear, as at the limit itself.
 const LARGE: f64 = 1e8;
 /// λh that damp, the first of which is drawn.
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
@@ -36,14 +35,12 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         SIGMAS.par_iter().map(|&sigma| Ok([sigma, limit(job, sigma, steps)?])).collect::<Result<_>>()?;
     let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(job, 0.5, 1e3, steps))?;
     let damped = SIGMAS.into_iter().chain([0.5]).flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
-    let damped: Vec<Damped> =
-        damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<_>>()?;
+    let damped = damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<Vec<_>>>()?;
     let right = Damped::new(0.5, [0.01, 1.0])?.factor;
     let limits = measured.iter().map(|&[sigma, at]| (["limit"], [sigma, 0.0, at, at, formula(sigma)]));
-    let growths = damped.iter().map(|run| {
-        let [x, y] = run.lambda;
-        (["growth per step"], [run.sigma, x, y, run.factor, run.root()])
-    });
+    let growths = damped
+        .iter()
+        .map(|run| (["growth per step"], [run.sigma, run.lambda[0], run.lambda[1], run.factor, run.root()]));
     let columns = ["quantity", "sigma", "lambda_h_real", "lambda_h_imaginary", "measured", "formula"];
     job.publish(figure(&measured, &damped), Table::of(&columns, limits.chain(growths))?)?;
 
@@ -53,7 +50,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let from_formula = "largest relative deviation of the limit from the formula, 18 values of σ";
     let smallest = "smallest growth per step of 18 values of σ ≠ ½, five λ with negative real part";
     let bounded = "largest |z|, five λ with negative real part, both modes of size one";
-    Ok(vec![
+    claims([
         says("section 4.1", "stable only when λ is imaginary, with |λh| < 1/|1 − 2σ|")
             .at_most(from_formula, deviation(&measured), job.choose(1e-4, 1e-3))
             .at_least(smallest, least(others.iter().map(|run| run.factor)), 1.0 + 1e-6)
@@ -63,8 +60,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_most("growth of max|z| from step N to step 2N, λh = 1000i", twice / once, 1.001)
             .at_most(bounded, largest(half.iter().map(|run| run.largest)), 4.0)
             .at_least("growth per step to the right of it, λh = 0.01 + i", right, 1.001),
-    ]
-    .into())
+    ])
 }
 
 /// The largest relative deviation of the limits from 1/|1 − 2σ|.
@@ -89,8 +85,7 @@ fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
 /// max |z| over a run with h = 1 from 1 and from a second point that excites both modes.
 fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Result<f64> {
     let rotation = Rotation { omega };
-    let [first, second] =
-        [0.0, omega.min(1.0)].map(|angle| RotationState { x: angle.cos(), y: angle.sin() });
+    let [first, second] = [0.0, omega.min(1.0)].map(|a| RotationState { x: a.cos(), y: a.sin() });
     let mut run = Integrator::from_two_points(&rotation, unlimited(sigma), 1.0, first, second)?;
     let mut largest = 0.0f64;
     for _ in 0..steps {
@@ -156,7 +151,7 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let title = "Imaginary λ: where runs turn from bounded to unbounded";
     let border = Panel::semilog(title, sigma, ("|λ*h*|", [bottom, top]))
         .band(stable, BLUE)
-        .lines([("1/|1 − 2σ|", Stroke::solid(BLUE), curve)])
+        .lines([("1/|1 − 2σ|", solid(BLUE), curve)])
         .discs(measured.to_vec(), VERMILLION, Fill::Hollow)
         .labelled("measured by bisection")
         .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
@@ -164,13 +159,10 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
     let first = damped.iter().filter(|run| run.lambda == DAMPED[0]);
     let root = |sigma| Damped { sigma, lambda: DAMPED[0], ..Damped::default() }.root();
     let title = "λ*h* = −1 + i: growth of |*z*| in a step";
+    let roots = sigmas().map(|s| [s, root(s)]).collect();
     let growth = Panel::linear(title, sigma, ("factor", [0.8, 3.8]))
         .guide([[0.0, 1.0], [1.0, 1.0]], "neither growth nor decay")
-        .lines([(
-            "larger root of the recursion",
-            Stroke::solid(BLUE),
-            sigmas().map(|s| [s, root(s)]).collect(),
-        )])
+        .lines([("larger root of the recursion", solid(BLUE), roots)])
         .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));

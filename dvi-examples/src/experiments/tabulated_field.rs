@@ -12,8 +12,8 @@ use crate::vocabulary::*;
 const Q: f64 = 2.0;
 const MU: f64 = 6e-5;
 const VELOCITY: f64 = 4e-3;
-/// The bananas that are compared begin at these distances from the magnetic axis: how large the error of a
-/// spline is along an orbit depends on where that lies between the points of the grid.
+/// The distances from the magnetic axis at which bananas begin that are compared: the error of a spline
+/// along an orbit depends on where that lies between the points of the grid.
 const RADII: [f64; 12] = [0.19, 0.195, 0.198, 0.202, 0.206, 0.209, 0.214, 0.218, 0.221, 0.225, 0.231, 0.235];
 /// The one whose energy is watched.
 const RADIUS: f64 = 0.2;
@@ -21,49 +21,43 @@ const H: f64 = 60.0;
 /// Steps of the orbit that is compared: two bounces of the banana.
 const COMPARED: u64 = 200;
 const EARLY: u64 = 2000;
-/// The intervals of the grid across the section.
 const GRIDS: [usize; 14] = [8, 9, 11, 13, 15, 18, 21, 25, 29, 34, 40, 47, 55, 64];
 const COARSE: usize = 12;
 
-/// One kind of spline on all grids: the intervals across the section, and the root mean square of how far
-/// the orbits are at most from those of the formulas. And the power of their number by which it falls.
+/// The intervals across the section with the root mean square of how far the orbits are at most from those
+/// of the formulas, and the power of their number by which that falls.
 type Differences = (Points, f64);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 10_000);
     job.expect(steps);
     let exact = TokamakInClass { q: Q, mu: MU };
-    let orbits =
-        each(RADII, |r| path(&exact, TokamakInClassState { r, theta: 0.0, phi: 0.0, u: VELOCITY }))?;
-    let by_cubic =
-        |n| TabulatedTokamak::sampled(Q, MU, n, |axes, function| Ok(Spline::sample(axes, function)?));
-    let by_quintic = |n| {
-        TabulatedTokamak::sampled(Q, MU, n, |axes, function| Ok(Spline::sample_quintic(axes, function)?))
-    };
-    let (cubic, quintic) = (differences(&orbits, by_cubic)?, differences(&orbits, by_quintic)?);
+    let paths = each(RADII, |r| path(&exact, TokamakInClassState { r, theta: 0.0, phi: 0.0, u: VELOCITY }))?;
+    let by_cubic = |n| TabulatedTokamak::sampled(Q, MU, n, |axes, of| Ok(Spline::sample(axes, of)?));
+    let by_quintic = |n| TabulatedTokamak::sampled(Q, MU, n, |axes, f| Ok(Spline::sample_quintic(axes, f)?));
+    let (cubic, quintic) = (differences(&paths, by_cubic)?, differences(&paths, by_quintic)?);
     // The relative energy error in the coarse table.
     let coarse = by_cubic(COARSE)?;
-    let mut run = Integrator::new(&coarse, OneStep::midpoint(), H, start(RADIUS))?;
+    let mut run = Problem::new(&coarse, start(RADIUS)).run(OneStep::midpoint(), H)?;
     let (begin, span) = (run.energy(), Span::of(steps, H, EARLY));
     let [energy] = job.keep(&mut run, steps, span, |run| [(run.energy() - begin) / begin])?;
-    let both = [("cubic splines", &cubic.0), ("quintic splines", &quintic.0)].into_iter();
-    let rows = both.flat_map(|(name, of_grids)| of_grids.iter().map(move |row| ([name], *row)));
-    let table = Table::of(&["spline", "intervals", "difference"], rows)?;
+    let both = [("cubic splines", &cubic.0), ("quintic splines", &quintic.0)];
+    let curves = both.map(|(name, of_grids)| ([name], [], of_grids.iter().copied()));
+    let table = curve_table(&["spline", "intervals", "difference"], curves)?;
     job.publish(figure(&cubic, &quintic, &energy, span.end), table)?;
     let quantity = format!("cubic, {COARSE} intervals: max|ΔH| over all / over {EARLY} steps");
     let kept = "the energy of a table is kept as that of a formula is";
-    Ok(vec![
+    claims([
         beyond("orbits in a table tend to those of the formulas as the splines do")
             .near("order in the distances of the grid, cubic", cubic.1, [3.0, 0.3])
             .near("order in the distances of the grid, quintic", quintic.1, [5.0, 0.3]),
         beyond(kept).at_most(quantity, energy.growth(), 1.02),
-    ]
-    .into())
+    ])
 }
 
 /// r and u, which go to and fro, along the orbit.
 fn path<S: ProperlyDegenerate>(system: &S, start: S::State<f64>) -> Result<Points> {
-    let mut run = Integrator::new(system, OneStep::midpoint(), H, start)?;
+    let mut run = Problem::new(system, start).run(OneStep::midpoint(), H)?;
     let path = course(&mut run, COMPARED, |run| [run.q()[0], run.q()[3]])?;
     Ok(path.into_iter().skip(1).collect())
 }
@@ -72,8 +66,7 @@ fn start(r: f64) -> TabulatedTokamakState {
     TabulatedTokamakState { r, theta: 0.0, phi: 0.0, u: VELOCITY }
 }
 
-/// How far two orbits are apart at most, in units of the width of the banana and of the velocity at the
-/// start.
+/// How far two orbits are apart, in units of the width of the banana and of the velocity at the start.
 fn difference(path: &[[f64; 2]], orbit: &[[f64; 2]]) -> f64 {
     let radii = || orbit.iter().map(|[r, _]| *r);
     let width = largest(radii()) - least(radii());
@@ -97,7 +90,6 @@ fn differences<F: ScalarField<2>>(
 }
 
 fn figure(cubic: &Differences, quintic: &Differences, energy: &Deviation, end: f64) -> Figure {
-    // A straight line of this slope through the last point.
     let slope = |(of_grids, _): &Differences, order: i32| {
         let [n, apart] = of_grids[GRIDS.len() - 1];
         [of_grids[0][0], n].map(|at| [at, apart * (n / at).powi(order)]).to_vec()
@@ -105,16 +97,15 @@ fn figure(cubic: &Differences, quintic: &Differences, energy: &Deviation, end: f
     let n = ("intervals of the grid across the section", [6.0, 80.0]);
     let title = "Distance from the orbits in the field of formulas";
     let falls = Panel::loglog(title, n, ("difference, relative", [1e-13, 1e-2]))
-        .line(slope(cubic, 3), Stroke::dashed(BLUE).width(1.0))
-        .line(slope(quintic, 5), Stroke::dashed(VERMILLION).width(1.0))
+        .line(slope(cubic, 3), dashed(BLUE).width(1.0))
+        .line(slope(quintic, 5), dashed(VERMILLION).width(1.0))
         .dots(cubic.0.clone(), 4.0, BLUE)
         .labelled(format!("cubic: order {:.1}", cubic.1))
         .dots(quintic.0.clone(), 4.0, VERMILLION)
         .labelled(format!("quintic: order {:.1}", quintic.1));
     let title = format!("Relative error of the energy, cubic splines of {COARSE} intervals");
     let axis = ("largest |Δ*H*/*H*| of each interval", [1e-7, 1e-3]);
-    let error =
-        Panel::semilog(title, ("time *t*", [0.0, end]), axis).line(energy.magnitude(), Stroke::solid(GREEN));
+    let error = Panel::semilog(title, ("time *t*", [0.0, end]), axis).line(energy.magnitude(), solid(GREEN));
     Figure::of(format!(
         "*q* = {Q}, *μ* = {MU}, bananas from *R* = 1.19 to 1.235, *h* = {H}, one-step midpoint"
     ))

@@ -5,7 +5,7 @@
 //! conjugate to it, it has one, in the class of one-step schemes; s' = z then says that s counts the third
 //! species.
 
-use super::rk4::{keep_rk4, rk4_up_to};
+use super::rk4::{keep_rk4, rk4_to};
 use crate::vocabulary::*;
 
 /// x, y and z at the start; the paths in the figure begin at others too.
@@ -16,28 +16,21 @@ const EARLY: u64 = 2000;
 
 type Species = [f64; 3];
 
-fn sum(species: Species) -> f64 {
-    species.iter().sum()
-}
-
-fn product(species: Species) -> f64 {
-    species.iter().product()
-}
-
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(2 * steps);
     // Relative changes of x + y + z and of xyz.
     let span = Span::of(steps, H, EARLY);
-    let mut run = Integrator::new(&ThreeSpecies {}, OneStep::midpoint(), H, state(START))?;
-    let one_step = job.keep(&mut run, steps, span, |run| {
-        [run.energy() / sum(START) - 1.0, (run.q()[3] - product(START).ln()).exp_m1()]
+    let [sum, product] = invariants(&START);
+    let one_step = job.keep(&mut run_from(START)?, steps, span, |run| {
+        [run.energy() / sum - 1.0, (run.q()[3] - product.ln()).exp_m1()]
     })?;
-    let rk4 = keep_rk4(job, START, (H, steps), span, rates, |&species| {
-        [sum(species) / sum(START), product(species) / product(START)].map(|ratio| ratio - 1.0)
+    let rk4 = keep_rk4(job, START, (H, steps), span, rates, |species| {
+        let [now, of_all] = invariants(species);
+        [now / sum - 1.0, of_all / product - 1.0]
     })?;
     let all = [("one step, midpoint", BLUE, one_step), ("RK4", VERMILLION, rk4)]
-        .map(|(name, colour, kept)| Series::new(name, Stroke::solid(colour), kept));
+        .map(|(name, colour, kept)| Series::new(name, solid(colour), kept));
     let columns = ["method", "invariant", "t", "lowest", "mean", "highest"];
     let table = range_table(&columns, &["x + y + z", "xyz"], &all)?;
     job.publish(figure(&all, span.end)?, table)?;
@@ -45,7 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
                 whole run than in its beginning; RK4 keeps the sum, which is linear, and loses the product";
     let [[one_sum, one_product], [rk4_sum, rk4_product]] = all.each_ref().map(|series| &series.kept);
     let growth = |of: &str| format!("{of} over all / over {EARLY} steps");
-    Ok(vec![
+    claims([
         beyond(text)
             .at_most("one step: largest relative change of xyz", one_product.largest, 1e-10)
             .at_most(growth("one step: max|Δ(x + y + z)|"), one_sum.growth(), 1.001)
@@ -53,38 +46,44 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_least(growth("RK4: max|Δ(xyz)|"), rk4_product.growth(), 5.0),
         same_motion()?,
         means()?,
-    ]
-    .into())
+    ])
 }
 
-fn state(species: Species) -> ThreeSpeciesState {
-    ThreeSpeciesState { x: species[0], s: 0.0, y: species[1], w: product(species).ln() }
+/// x + y + z and xyz.
+fn invariants(species: &Species) -> [f64; 2] {
+    [species.iter().sum(), species.iter().product()]
 }
 
-fn orbit(start: Species, h: f64, steps: u64) -> Result<Vec<Species>> {
-    let mut run = Integrator::new(&ThreeSpecies {}, OneStep::midpoint(), h, state(start))?;
+fn begin([x, y, z]: Species) -> Problem<'static, ThreeSpecies> {
+    let [_, product] = invariants(&[x, y, z]);
+    Problem::new(&ThreeSpecies {}, ThreeSpeciesState { x, s: 0.0, y, w: product.ln() })
+}
+
+fn run_from(start: Species) -> Result<AnyRun<'static, ThreeSpecies>> {
+    begin(start).run(OneStep::midpoint(), H)
+}
+
+fn orbit(start: Species, steps: u64) -> Result<Vec<Species>> {
     let species = |ThreeSpeciesState { x, y, w, .. }: ThreeSpeciesState| [x, y, w.exp() / (x * y)];
-    Ok(course(&mut run, steps, |run| species(run.state()))?)
+    Ok(course(&mut run_from(start)?, steps, |run| species(run.state()))?)
 }
 
 fn rates(&[x, y, z]: &Species) -> Species {
     [x * (y - z), y * (z - x), z * (x - y)]
 }
 
-/// The four coordinates against the two of x and y with xyz as a parameter, and against RK4 on x, y and z
-/// with small steps.
+/// Against x and y with xyz as a parameter, and against RK4 on x, y and z with small steps.
 fn same_motion() -> Result<Claim> {
     const END: f64 = 20.0;
-    let (reduced, [x, y, _]) = (ThreeSpeciesReduced { product: product(START) }, START);
-    let mut run = Integrator::new(&reduced, OneStep::midpoint(), H, ThreeSpeciesReducedState { x, y })?;
-    let mut difference = 0.0;
-    for [x, y, _] in orbit(START, H, 1000)? {
-        difference = largest([difference, (run.q()[0] - x).abs(), (run.q()[1] - y).abs()]);
-        run.advance()?;
-    }
-    let exact = rk4_up_to(START, END, END / 20_000.0, rates);
+    let ([_, product], [x, y, _]) = (invariants(&START), START);
+    let reduced = ThreeSpeciesReduced { product };
+    let mut run = Problem::new(&reduced, ThreeSpeciesReducedState { x, y }).run(OneStep::midpoint(), H)?;
+    let other = course(&mut run, 1000, place)?;
+    let pairs = orbit(START, 1000)?.into_iter().zip(other);
+    let difference = largest(pairs.map(|([x, y, _], [u, v])| larger((u - x).abs(), (v - y).abs())));
+    let exact = rk4_to(START, END, END / 20_000.0, rates);
     let error = |q: &[f64]| apart(&[q[0], q[2], q[3].exp() / (q[0] * q[2])], &exact);
-    let order = order_at(&ThreeSpecies {}, OneStep::midpoint(), &state(START), END, [400, 600, 800], error)?;
+    let order = begin(START).errors(END, &[400, 600, 800], error).order(OneStep::midpoint())?;
     Ok(beyond("with w and s, or with xyz as a parameter, the motion is that of the three species")
         .at_most("largest difference of the two in 1000 steps", difference, 1e-11)
         .near("order of the difference from x, y, z at t = 20", order, [2.0, 0.05]))
@@ -93,8 +92,7 @@ fn same_motion() -> Result<Claim> {
 /// (ln x)' = y − z, and so on around the circle: over a closed orbit the means of all species are the same.
 fn means() -> Result<Claim> {
     const STEPS: u64 = 20_000;
-    let mut run = Integrator::new(&ThreeSpecies {}, OneStep::midpoint(), H, state(START))?;
-    let mut total = 0.0;
+    let (mut run, mut total) = (run_from(START)?, 0.0);
     for _ in 0..STEPS {
         let before = run.q()[0];
         run.advance()?;
@@ -107,30 +105,29 @@ fn means() -> Result<Claim> {
 
 fn figure(all: &[Series<2>; 2], end: f64) -> Result<Figure> {
     let starts = [START, OTHERS[0], OTHERS[1], OTHERS[2]];
-    let orbits = each(starts, |start| orbit(start, H, 300))?;
+    let orbits = each(starts, |start| orbit(start, 300))?;
     // The plane x + y + z = 3, with the corners at which one species is left.
     let flat = |[x, y, z]: Species| [(y - x) / 2.0f64.sqrt(), (2.0 * z - x - y) / 6.0f64.sqrt()];
     let corners = [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]].map(flat);
     let [x, y] = [("(*y* − *x*) / √2", [-2.3, 2.3]), ("(2*z* − *x* − *y*) / √6", [-1.5, 2.7])];
     let plane = Panel::window("Paths in the plane *x* + *y* + *z* = 3", x, y)
-        .line(closed(&corners), Stroke::solid(AMBER).width(1.2))
+        .line(closed(&corners), solid(AMBER).width(1.2))
         .each(orbits.iter().zip([0, 2, 4, 6]), |plane, (path, colour)| {
-            plane.line(path.iter().copied().map(flat).collect(), Stroke::solid(SEQUENCE[colour]).width(1.4))
+            plane.line(path.iter().copied().map(flat).collect(), solid(SEQUENCE[colour]).width(1.4))
         });
-    let over_time =
-        |i: usize| orbits[0].iter().zip(0..).map(move |(species, k)| [f64::from(k) * H, species[i]]);
+    let over_time = |i: usize| orbits[0].iter().zip(0..).map(move |(of, k)| [f64::from(k) * H, of[i]]);
     let species = Panel::linear("Species", ("time *t*", [0.0, 20.0]), ("number", [0.0, 3.0])).lines([
-        ("*x*", Stroke::solid(BLUE), over_time(0).collect()),
-        ("*y*", Stroke::solid(GREEN), over_time(1).collect()),
-        ("*z*", Stroke::solid(VERMILLION), over_time(2).collect()),
+        ("*x*", solid(BLUE), over_time(0).collect()),
+        ("*y*", solid(GREEN), over_time(1).collect()),
+        ("*z*", solid(VERMILLION), over_time(2).collect()),
     ]);
     let [one_step, rk4] = all.each_ref().map(|series| series.kept.each_ref().map(Deviation::magnitude));
     let ([one_sum, _], [rk4_sum, rk4_product]) = (one_step, rk4);
     let axis = ("largest relative error", [1e-16, 10.0]);
     let errors = Panel::semilog("Errors of the invariants", ("time *t*", [0.0, end]), axis).lines([
-        ("one step: *x* + *y* + *z*", Stroke::solid(BLUE), one_sum),
-        ("RK4: *x* + *y* + *z*", Stroke::solid(VERMILLION), rk4_sum),
-        ("RK4: *xyz*", Stroke::dashed(VERMILLION), rk4_product),
+        ("one step: *x* + *y* + *z*", solid(BLUE), one_sum),
+        ("RK4: *x* + *y* + *z*", solid(VERMILLION), rk4_sum),
+        ("RK4: *xyz*", dashed(VERMILLION), rk4_product),
     ]);
     Ok(Figure::of(format!("*x*′ = *x*(*y* − *z*), *y*′ = *y*(*z* − *x*), *z*′ = *z*(*x* − *y*); *h* = {H}"))
         .row(430.0, vec![plane, species.weight(1.2)])

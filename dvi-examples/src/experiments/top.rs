@@ -7,9 +7,7 @@
 
 use dvi_core::rotations;
 
-use super::geodesics::{FEW_UNITS, Long, between_heights, flat_energy, order_claim, panels};
-use super::shadow;
-use super::turnings::{self, Sample, up_and_down};
+use super::geodesics::*;
 use crate::vocabulary::*;
 
 const TOP: Top = Top { across: 1.0, along: 0.5, weight: 1.0 };
@@ -26,13 +24,12 @@ const STEPS: [f64; 3] = [0.04, 0.02, 0.01];
 /// The time at which the order is measured, and the step of the reference.
 const ORDER_TIME: f64 = 2.0;
 const FINE: f64 = 1e-3;
-/// The precession at the start of the curves that are drawn, from the upper turning, and what they are
-/// called.
+/// The precession at the start of the curves that are drawn, from the upper turning.
 const CURVES: [(f64, &str); 3] = [(-0.4, "Loops"), (0.0, "Cusps"), (0.2, "Waves")];
 const DRAWN: f64 = 30.0;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
-    let long = Long { steps: job.choose(10_000_000, 6_000), every: EVERY, h: H };
+    let long = Long { job, steps: job.choose(10_000_000, 6_000), every: EVERY, h: H };
     job.expect(2 * long.steps / EVERY);
     let before = TOP.heights(&begin());
     // E − E(0), max |RᵀR − 1|, and the angular momenta about the axis and about the vertical, relative.
@@ -41,15 +38,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         let momenta = [now.spin / before.spin - 1.0, now.vertical / before.vertical - 1.0];
         [energy(&now) - energy(&before), rotations::defect(&state.R), momenta[0], momenta[1]]
     };
-    let geodesics = long.along_geodesics(job, "geodesics", TOP, &begin(), kept)?;
-    let all = [long.by_rk4(job, TOP, &begin(), kept)?, geodesics];
-    let end = job.choose(400.0, 20.0);
+    let all = long.both("geodesics", TOP, &begin(), kept)?;
+    let (motion, end) = (Problem::new(&TOP, begin()), job.choose(400.0, 20.0));
     let nutations = each(STEPS, |h| {
-        let mut run = Integrator::new(&TOP, Geodesic::trapezoid(), h, begin())?;
-        up_and_down([h, end], &before, sample(&begin(), energy(&before)), || {
-            run.advance()?;
-            Ok(sample(&run.state(), run.energy()))
-        })
+        let (run, start) = (motion.run(Geodesic::trapezoid(), h)?, sample(&begin(), energy(&before)));
+        up_and_down(run, end, &before, start, |run| sample(&run.state(), run.energy()))
     })?;
     let table = magnitude_table(&["method", "t", "largest_energy_error", "largest_defect"], &all)?;
     job.publish(figure(&all, long)?, table)?;
@@ -57,15 +50,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let text = "the energy error of a heavy top has no trend, and is that of the closed form all the time";
     // The largest that h²g makes of it, by the run with the same step.
     let predicted = nutations[1].1.predicted;
-    Ok(vec![
-        turnings::claim("the axis of a heavy top", nutations.each_ref().map(|(extremes, _)| extremes)),
-        rounding(job, long, geodesics),
-        flat_energy(job, beyond(text), "geodesics", &geodesics[0], predicted),
-        shadow::claim("top", &nutations.map(|(_, energy)| energy)),
-        shrinks(job, long, rk4, geodesics[0].largest),
-        order_claim("a heavy top", TOP, &begin(), ORDER_TIME, STEPS, FINE)?,
-    ]
-    .into())
+    claims([
+        turning_claim("the axis of a heavy top", nutations.each_ref().map(|(extremes, _)| extremes)),
+        rounding(long, geodesics),
+        long.flat_energy(beyond(text), "geodesics", &geodesics[0], predicted),
+        shadow_claim("top", &nutations.map(|(_, energy)| energy)),
+        shrinks(long, rk4, geodesics[0].largest),
+        order_claim("a heavy top", (TOP, begin()), STEPS, [ORDER_TIME, FINE])?,
+    ])
 }
 
 fn begin() -> TopState {
@@ -81,44 +73,43 @@ fn sample(state: &TopState, energy: f64) -> Sample {
     Sample { height, rate, energy, shift: TOP.shift(state) }
 }
 
-fn rounding(job: &Job<'_>, long: Long, [_, defect, spin, vertical]: &[Deviation; 4]) -> Claim {
+fn rounding(long: Long<'_>, [_, defect, spin, vertical]: &[Deviation; 4]) -> Claim {
     let text = "the matrices of a heavy top are orthogonal to a few units of rounding for the whole run; \
                 its momenta are kept up to errors no larger than a unit of rounding times the square root \
                 of the number of steps";
     let about_vertical = "largest relative change of the momentum about the vertical";
     beyond(text)
-        .at_least("steps", job.only_full(long.steps as f64), 1e7)
+        .at_least("steps", long.job.only_full(long.steps as f64), 1e7)
         .at_most("largest relative change of the spin", spin.largest, long.random_walk())
         .at_most(about_vertical, vertical.largest, long.random_walk())
         .at_most("geodesics: max|RᵀR − 1|", defect.largest, FEW_UNITS)
 }
 
-fn shrinks(job: &Job<'_>, long: Long, [energy, defect, ..]: &[Deviation; 4], by_geodesics: f64) -> Claim {
-    let text = format!(
-        "RK4 on the entries of the matrix, h = {H}, shrinks it at right angles to ω: each step takes some \
-         (h|ω|)⁶/72 of the squares, and the energy drifts in proportion to the time"
-    );
+fn shrinks(long: Long<'_>, [energy, defect, ..]: &[Deviation; 4], by_geodesics: f64) -> Claim {
     // ω at the start; the precession makes the entries of the matrix a little slower or faster than that.
     let [dot_theta, dot_phi, spinning] = RATES;
     let square = dot_theta.powi(2) + (dot_phi * LEANING.sin()).powi(2) + spinning.powi(2);
     let shrunk = 1.0 - (-(long.steps as f64) * H.powi(6) * square.powi(3) / 72.0).exp();
-    let trend = job.only_full(energy.trend());
-    beyond(text)
-        .near("RK4: max|RᵀR − 1|", defect.largest, [shrunk, 0.2 * shrunk])
-        .at_least("RK4: max|ΔE|", job.only_full(energy.largest), 100.0 * by_geodesics)
-        .near("RK4: max|ΔE|, last tenth of the time over the first", trend, [10.0, 1.0])
+    let [largest, trend] = [energy.largest, energy.trend()].map(|value| long.job.only_full(value));
+    beyond(format!(
+        "RK4 on the entries of the matrix, h = {H}, shrinks it at right angles to ω: each step takes some \
+         (h|ω|)⁶/72 of the squares, and the energy drifts in proportion to the time"
+    ))
+    .near("RK4: max|RᵀR − 1|", defect.largest, [shrunk, 0.2 * shrunk])
+    .at_least("RK4: max|ΔE|", largest, 100.0 * by_geodesics)
+    .near("RK4: max|ΔE|, last tenth of the time over the first", trend, [10.0, 1.0])
 }
 
 /// The axis from above, and the circles of the heights between which it moves.
 fn curve((precession, name): (f64, &str)) -> Result<Panel> {
     let start = Top::leaning(LEANING, [0.0, precession, SPINNING]);
-    let mut run = Integrator::new(&TOP, Geodesic::trapezoid(), 2.0 * H, start)?;
+    let mut run = Problem::new(&TOP, start).run(Geodesic::trapezoid(), 2.0 * H)?;
     let path = course(&mut run, (DRAWN / (2.0 * H)) as u64, |run| [run.q()[2], run.q()[5]])?;
     let empty = Panel::window(name, ("*x*", [-0.9, 0.9]), ("*y*", [-0.9, 0.9]));
-    Ok(between_heights(empty, &TOP.heights(&start)).line(path, Stroke::solid(BLUE).width(1.4)))
+    Ok(between_heights(empty, &TOP.heights(&start)).line(path, solid(BLUE).width(1.4)))
 }
 
-fn figure(all: &[Series<4>; 2], long: Long) -> Result<Figure> {
+fn figure(all: &[Series<4>; 2], long: Long<'_>) -> Result<Figure> {
     let quantities = [
         (0, ["Energy", "largest |*E* − *E*(0)|"], [1e-11, 10.0]),
         (1, ["Orthogonality", "max |*R*ᵀ*R* − 1|"], [1e-17, 10.0]),
@@ -130,7 +121,7 @@ fn figure(all: &[Series<4>; 2], long: Long) -> Result<Figure> {
     );
     Ok(Figure::of(subtitle)
         .row(380.0, each(CURVES, curve)?.into())
-        .row(300.0, panels(long.end(), all, &quantities))
+        .row(300.0, long.panels(all, &quantities))
         .footer(format!("Moments of inertia 1 and 0.5, weight 1, *ω*₃ = {SPINNING}; below *h* = {H}.")))
 }
 
@@ -141,9 +132,8 @@ mod tests {
 
     #[test]
     fn the_integrals_by_hand_are_those_of_the_declaration() {
-        let (start, system) = (begin(), TOP);
-        let heights = system.heights(&start);
-        let run = Integrator::new(&system, Geodesic::trapezoid(), H, start).expect("a run");
+        let heights = TOP.heights(&begin());
+        let run = Integrator::new(&TOP, Geodesic::trapezoid(), H, begin()).expect("a run");
         assert!((energy(&heights) - run.energy()).abs() < 1e-14);
         assert_eq!(run.momentum(0), Some(heights.spin));
         let vertical = run.momentum(1).expect("two momenta");
@@ -152,10 +142,9 @@ mod tests {
 
     #[test]
     fn the_motion_by_hand_keeps_the_integrals() {
-        let end = Top::state(&reference(TOP, &begin(), ORDER_TIME, FINE));
-        let [before, after] = [begin(), end].map(|state| TOP.heights(&state));
-        let pairs =
-            [(before.energy, after.energy), (before.spin, after.spin), (before.vertical, after.vertical)];
+        let end = TOP.state(&reference(TOP, &begin(), [ORDER_TIME, FINE]));
+        let [then, now] = [begin(), end].map(|state| TOP.heights(&state));
+        let pairs = [(then.energy, now.energy), (then.spin, now.spin), (then.vertical, now.vertical)];
         assert!(pairs.into_iter().all(|(before, after)| (before - after).abs() < 1e-11), "{pairs:?}");
     }
 }

@@ -43,25 +43,21 @@ impl Axis {
         if let Some(range) = self.range {
             return range;
         }
-        match (data, self.logarithmic) {
-            (None, false) => [0.0, 1.0],
-            (None, true) => [1.0, 10.0],
-            (Some([low, high]), true) => [low / 1.5, high * 1.5],
-            (Some([low, high]), false) => {
-                let width = high - low;
-                let margin = if width > 0.0 { 0.05 * width } else { low.abs().max(1.0) * 0.05 };
-                [low - margin, high + margin]
-            }
+        let [low, high] = data.unwrap_or([1.0, 1.0]);
+        if self.logarithmic {
+            return [low / 1.5, high * 1.5];
         }
+        let width = if high > low { high - low } else { low.abs().max(1.0) };
+        [low - 0.05 * width, high + 0.05 * width]
     }
 
     /// The ticks on `scale`, about `wanted` of them.
     pub(super) fn ticks(&self, scale: &Scale, wanted: f64) -> Ticks {
-        if !self.names.is_empty() {
-            let marks = self.names.iter().enumerate().map(|(i, name)| (i as f64, name.clone()));
-            return Ticks { marks: marks.collect(), factor: String::new() };
+        if self.names.is_empty() {
+            return if self.logarithmic { decades(scale.range) } else { round_numbers(scale.range, wanted) };
         }
-        if self.logarithmic { decades(scale.range) } else { round_numbers(scale.range, wanted) }
+        let marks = self.names.iter().enumerate().map(|(i, name)| (i as f64, name.clone()));
+        Ticks { marks: marks.collect(), factor: String::new() }
     }
 
     /// The number of letters of the longest name.
@@ -107,7 +103,7 @@ pub(super) struct Ticks {
 fn round_numbers([low, high]: [f64; 2], wanted: f64) -> Ticks {
     let raw = (high - low) / wanted;
     let decade = 10f64.powf(raw.log10().floor());
-    let step = decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * decade >= raw * 0.75).unwrap_or(10.0);
+    let step = decade * [1.0, 2.0, 5.0].into_iter().find(|m| m * decade >= raw * 0.75).unwrap_or(10.0);
     let exponent = low.abs().max(high.abs()).log10().floor() as i32;
     let exponent = if (-2..=3).contains(&exponent) { 0 } else { exponent };
     let unit = 10f64.powi(exponent);
@@ -131,44 +127,32 @@ fn decades([low, high]: [f64; 2]) -> Ticks {
         8..=15 => 2,
         _ => 4,
     };
-    let mut marks = Vec::new();
-    for exponent in first..=last {
-        let label = if exponent % every == 0 { power_of_ten(exponent) } else { String::new() };
-        marks.push((10f64.powi(exponent), label));
-        if span <= 4 {
-            marks.extend((2..10).map(|m| {
-                let label = match exponent {
-                    _ if !is_short || (m != 2 && m != 5) => String::new(),
-                    0 => m.to_string(),
-                    _ => format!("{m}·{}", power_of_ten(exponent)),
-                };
-                (f64::from(m) * 10f64.powi(exponent), label)
-            }));
-        }
-    }
-    marks.retain(|(value, _)| is_inside(*value));
-    Ticks { marks, factor: String::new() }
+    let label = |m: i32, exponent: i32| match m {
+        1 if exponent % every == 0 => power_of_ten(exponent),
+        2 | 5 if is_short && exponent == 0 => m.to_string(),
+        2 | 5 if is_short => format!("{m}·{}", power_of_ten(exponent)),
+        _ => String::new(),
+    };
+    let multiples = if span <= 4 { 1..10 } else { 1..2 };
+    let all = (first..=last).flat_map(|exponent| multiples.clone().map(move |m| (m, exponent)));
+    let marks = all.map(|(m, exponent)| (f64::from(m) * 10f64.powi(exponent), label(m, exponent)));
+    Ticks { marks: marks.filter(|(value, _)| is_inside(*value)).collect(), factor: String::new() }
 }
 
-/// A number with a proper minus sign, and no minus on zero.
+/// A number with a proper minus sign, and none on zero.
 fn signed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
-        Some(digits) => format!("−{digits}"),
-        None => text,
-    }
+    let is_zero = text.chars().all(|c| "-0.".contains(c));
+    text.replace('-', if is_zero { "" } else { "−" })
 }
 
 /// A number with one decimal and a power of ten, as in “3.8·10⁻⁵”.
 pub fn scientific(value: f64) -> String {
     let text = format!("{value:.1e}");
-    match text.split_once('e').map(|(mantissa, exponent)| (mantissa, exponent.parse())) {
-        Some((mantissa, Ok(0))) => mantissa.replace('-', "−"),
-        Some((mantissa, Ok(exponent))) => {
-            format!("{}·{}", mantissa.replace('-', "−"), power_of_ten(exponent))
-        }
-        _ => text,
+    match text.split_once('e') {
+        None => text,
+        Some((mantissa, "0")) => mantissa.replace('-', "−"),
+        Some((mantissa, exponent)) => format!("{}·10{}", mantissa.replace('-', "−"), raised(exponent)),
     }
 }
 
@@ -178,22 +162,19 @@ pub fn at_most(value: f64) -> String {
     if !value.is_finite() || value <= 0.0 {
         return rounded;
     }
-    let exponent = value.log10().floor() as i32;
-    let tenths = value / 10f64.powi(exponent - 1);
-    // What is a tenth up to rounding is one.
-    let up = (tenths - 1e-9).ceil();
-    scientific(up * 10f64.powi(exponent - 1))
+    let unit = 10f64.powi(value.log10().floor() as i32 - 1);
+    // What is a multiple of the unit up to rounding is one.
+    scientific((value / unit - 1e-9).ceil() * unit)
 }
 
-/// 10ⁿ in Unicode.
 fn power_of_ten(exponent: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digits = exponent.to_string();
-    let superscript = digits.chars().map(|c| match c {
-        '-' => '⁻',
-        digit => DIGITS[digit as usize - '0' as usize],
-    });
-    "10".chars().chain(superscript).collect()
+    format!("10{}", raised(&exponent.to_string()))
+}
+
+/// An integer in raised digits.
+fn raised(digits: &str) -> String {
+    let raise = |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize);
+    digits.chars().map(|c| raise(c).unwrap_or('⁻')).collect()
 }
 
 #[cfg(test)]

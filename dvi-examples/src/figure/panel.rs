@@ -3,8 +3,8 @@
 use super::axis::{Axis, Scale, Ticks};
 use super::decimate::Envelope;
 use super::mark::{Fill, Frame, Mark};
-use super::palette::{Colour, GRID, SLATE};
-use super::svg::{Anchor, Label, Stroke, Svg, number};
+use super::palette::{Colour, GRID, PAPER, SLATE};
+use super::svg::{Anchor, Stroke, Svg, number};
 
 /// A corner of a panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,7 +46,8 @@ const LEFT: f64 = 70.0;
 const RIGHT: f64 = 18.0;
 const TOP: f64 = 34.0;
 const BOTTOM: f64 = 56.0;
-const TEXT: f64 = 13.0;
+/// How far the middle of a line of text is above its foot.
+const RISE: f64 = 4.5;
 /// The width of a letter of a name on the y axis, generously.
 const NAME: f64 = 8.0;
 /// The width of a letter of a legend, on average.
@@ -132,12 +133,16 @@ impl Panel {
 
     /// Small dots.
     pub fn dots(self, points: Points, radius: f64, colour: Colour) -> Self {
-        self.with(Mark::Dots(points, radius, colour))
+        self.with(Mark::Dots(points, vec![Stroke::solid(colour).width(2.0 * radius).opacity(0.8)]))
     }
 
-    /// Large dots, for few points.
+    /// Large dots with a white rim, for few points.
     pub fn discs(self, points: Points, colour: Colour, fill: Fill) -> Self {
-        self.with(Mark::Discs(points, colour, fill))
+        let mut strokes = vec![Stroke::solid(PAPER).width(12.0), Stroke::solid(colour).width(9.0)];
+        if fill == Fill::Hollow {
+            strokes.push(Stroke::solid(PAPER).width(5.0));
+        }
+        self.with(Mark::Dots(points, strokes))
     }
 
     /// Gives what was added last a line in the legend.
@@ -210,19 +215,19 @@ impl Panel {
         let inner = [left + before, top + TOP, width - before - beside, height - TOP - BOTTOM];
         let frame = self.frame(inner);
         self.draw_axes(svg, &frame);
-        svg.open_clipped(inner);
+        svg.open(inner);
         for mark in &self.marks {
-            mark.draw(svg, &frame, [&self.x, &self.y]);
+            mark.draw(svg, &frame);
         }
         svg.close();
         self.draw_legend(svg, inner);
         for (corner, text) in &self.captions {
             let ([x, y], anchor) = hold(*corner, inner, 10.0, 0.0);
-            svg.label(Label { anchor, halo: true, ..Label::new(text, [x, y + 4.5], TEXT) });
+            svg.text(anchor.rimmed(), [x, y + RISE], text);
         }
-        for &(at, ref text, anchor, colour) in &self.notes {
-            let label = Label::new(text, frame.place(at), TEXT);
-            svg.label(Label { anchor, colour, halo: true, ..label });
+        for &(at, ref text, anchor, Colour(colour)) in &self.notes {
+            let at = [frame.x.place(at[0]), frame.y.place(at[1])];
+            svg.text_with(anchor.rimmed(), at, text, &format!(" style=\"fill:{colour}\""));
         }
     }
 
@@ -240,21 +245,19 @@ impl Panel {
         draw_grid(svg, frame, &x, &y);
         let [l, t, b, r] = [left, top, bottom, right].map(number);
         svg.stroke(&format!("M{l} {t}V{b}H{r}"), Stroke::solid(SLATE).width(1.0));
-        let label = |text, at, anchor| Label { anchor, ..Label::new(text, at, TEXT) };
         for (value, text) in &x.marks {
-            svg.label(label(text, [frame.x.place(*value), bottom + 20.0], Anchor::Middle));
+            svg.text("middle", [frame.x.place(*value), bottom + 20.0], text);
         }
         for (value, text) in &y.marks {
-            svg.label(label(text, [left - 8.0, frame.y.place(*value) + 4.5], Anchor::End));
+            svg.text("end", [left - 8.0, frame.y.place(*value) + RISE], text);
         }
-        let grey = |label| Label { colour: SLATE, ..label };
-        svg.label(grey(label(&x.factor, [right, bottom + 38.0], Anchor::End)));
-        svg.label(grey(label(&y.factor, [left - 8.0, top - 10.0], Anchor::Middle)));
-        svg.label(label(&self.x.label, [left + width / 2.0, bottom + 44.0], Anchor::Middle));
-        let aside = label(&self.y.label, [left - LEFT + 16.0, top + height / 2.0], Anchor::Middle);
-        svg.label(Label { upright: false, ..aside });
-        let title = Label { bold: true, ..Label::new(&self.title, [left + width / 2.0, top - 12.0], 14.0) };
-        svg.label(Label { anchor: Anchor::Middle, ..title });
+        svg.text("end grey", [right, bottom + 38.0], &x.factor);
+        svg.text("middle grey", [left - 8.0, top - 10.0], &y.factor);
+        svg.text("middle strong", [left + width / 2.0, top - 12.0], &self.title);
+        svg.text("middle", [left + width / 2.0, bottom + 44.0], &self.x.label);
+        let aside = [left - LEFT + 16.0, top + height / 2.0];
+        let [x, y] = aside.map(number);
+        svg.text_with("middle", aside, &self.y.label, &format!(" transform=\"rotate(-90 {x} {y})\""));
     }
 
     fn draw_legend(&self, svg: &mut Svg, inner: [f64; 4]) {
@@ -265,7 +268,7 @@ impl Panel {
         let sample = if anchor == Anchor::Start { x - 20.0 } else { x + 20.0 };
         for (i, (mark, text)) in self.legend.iter().enumerate() {
             let y = first + LINE * i as f64;
-            svg.label(Label { anchor, halo: true, ..Label::new(text, [x, y + 4.5], TEXT) });
+            svg.text(anchor.rimmed(), [x, y + RISE], text);
             if let Some(mark) = self.marks.get(*mark) {
                 mark.draw_sample(svg, [sample, y]);
             }

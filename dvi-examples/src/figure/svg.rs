@@ -1,8 +1,7 @@
-//! An SVG document under construction: paths, text and clipped groups, nothing more.
+//! An SVG document under construction: paths, text and clipped parts, nothing more. How kinds of text look
+//! is said by `figure.css`.
 
-use std::fmt::Write as _;
-
-use super::palette::{Colour, INK, PAPER};
+use super::palette::{Colour, PAPER};
 
 /// Where a text hangs on its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,24 +11,14 @@ pub enum Anchor {
     End,
 }
 
-/// A line of text; `*…*` sets italics, as variables want.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Label<'a> {
-    pub(super) text: &'a str,
-    pub(super) at: [f64; 2],
-    pub(super) size: f64,
-    pub(super) anchor: Anchor,
-    pub(super) colour: Colour,
-    pub(super) bold: bool,
-    /// A white rim that keeps the text readable on top of data.
-    pub(super) halo: bool,
-    pub(super) upright: bool,
-}
-
-impl<'a> Label<'a> {
-    pub(super) fn new(text: &'a str, at: [f64; 2], size: f64) -> Self {
-        let colour = INK;
-        Self { text, at, size, anchor: Anchor::Start, colour, bold: false, halo: false, upright: true }
+impl Anchor {
+    /// The classes of a text that is readable on top of data.
+    pub(super) fn rimmed(self) -> &'static str {
+        match self {
+            Anchor::Start => "rim",
+            Anchor::Middle => "rim middle",
+            Anchor::End => "rim end",
+        }
     }
 }
 
@@ -70,23 +59,18 @@ impl Stroke {
 }
 
 #[derive(Debug)]
-pub(super) struct Svg {
-    text: String,
-    clips: usize,
-}
+pub(super) struct Svg(String);
 
 impl Svg {
     pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
-        let text = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"DejaVu Sans, Verdana, sans-serif\" stroke-linejoin=\"round\">\n\
-             <title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
-            escape(&title.replace('*', "")),
-            PAPER.0,
-            w = number(width),
-            h = number(height),
-        );
-        Self { text, clips: 0 }
+        let (style, title) = (include_str!("figure.css"), escape(&title.replace('*', "")));
+        let [width, height] = [width, height].map(number);
+        Self(format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" xml:space=\"preserve\">\n<title>{title}</title>\n<style>\n{style}</style>\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
+            PAPER.0
+        ))
     }
 
     pub(super) fn stroke(&mut self, path: &str, stroke: Stroke) {
@@ -108,81 +92,64 @@ impl Svg {
         }
     }
 
-    pub(super) fn fill(&mut self, path: &str, colour: Colour, opacity: f64) {
-        if path.is_empty() {
-            return;
+    pub(super) fn fill(&mut self, path: &str, colour: Colour) {
+        if !path.is_empty() {
+            self.line(&format!("<path d=\"{path}\" fill=\"{}\" fill-opacity=\"0.3\"/>", colour.0));
         }
-        let (colour, opacity) = (colour.0, number(opacity));
-        self.line(&format!("<path d=\"{path}\" fill=\"{colour}\" fill-opacity=\"{opacity}\"/>"));
     }
 
-    pub(super) fn label(&mut self, label: Label<'_>) {
-        let anchor = match label.anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
-        };
-        let [x, y] = label.at.map(number);
-        let mut attributes = format!(
-            "x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\"",
-            number(label.size),
-            label.colour.0
-        );
-        if label.bold {
-            attributes.push_str(" font-weight=\"bold\"");
-        }
-        if label.halo {
-            attributes.push_str(" stroke=\"#ffffff\" stroke-width=\"4\" paint-order=\"stroke\"");
-        }
-        if !label.upright {
-            let _ = write!(attributes, " transform=\"rotate(-90 {x} {y})\"");
-        }
-        self.line(&format!("<text {attributes} xml:space=\"preserve\">{}</text>", italics(label.text)));
+    /// A line of text of some classes of the style sheet; `*…*` sets italics, as variables want.
+    pub(super) fn text(&mut self, classes: &str, at: [f64; 2], words: &str) {
+        self.text_with(classes, at, words, "");
     }
 
-    /// Opens a group that shows nothing outside of the rectangle; [`close`](Self::close) ends it.
-    pub(super) fn open_clipped(&mut self, [x, y, width, height]: [f64; 4]) {
-        self.clips += 1;
-        let id = self.clips;
-        let [x, y, width, height] = [x, y, width, height].map(number);
+    /// The same with more attributes, which begin with a space.
+    pub(super) fn text_with(&mut self, classes: &str, at: [f64; 2], words: &str, more: &str) {
+        if !words.is_empty() {
+            let ([x, y], words) = (at.map(number), italics(words));
+            self.line(&format!("<text class=\"{classes}\" x=\"{x}\" y=\"{y}\"{more}>{words}</text>"));
+        }
+    }
+
+    /// Opens a part that shows nothing outside of the rectangle; [`close`](Self::close) ends it.
+    pub(super) fn open(&mut self, rectangle: [f64; 4]) {
+        let [x, y, width, height] = rectangle.map(number);
         self.line(&format!(
-            "<clipPath id=\"clip{id}\"><rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/></clipPath>"
+            "<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"{x} {y} {width} {height}\">"
         ));
-        self.line(&format!("<g clip-path=\"url(#clip{id})\">"));
     }
 
     pub(super) fn close(&mut self) {
-        self.line("</g>");
+        self.line("</svg>");
     }
 
     pub(super) fn finish(mut self) -> String {
-        self.line("</svg>");
-        self.text
+        self.close();
+        self.0
     }
 
     fn line(&mut self, line: &str) {
-        self.text.push_str(line);
-        self.text.push('\n');
+        self.0 += line;
+        self.0.push('\n');
     }
 }
 
 /// A coordinate with two decimals at most: a hundredth of a pixel is below what any screen shows.
 pub(super) fn number(value: f64) -> String {
-    let mut text = format!("{value:.2}");
-    if text.contains('.') {
-        text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
-    }
-    if text == "-0" { "0".into() } else { text }
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.into() }
 }
 
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 fn italics(text: &str) -> String {
     let pieces = text.split('*').enumerate().map(|(i, piece)| match i % 2 {
         0 => escape(piece),
-        _ => format!("<tspan font-style=\"italic\">{}</tspan>", escape(piece)),
+        _ => format!("<tspan>{}</tspan>", escape(piece)),
     });
     pieces.collect()
 }
@@ -199,6 +166,6 @@ mod tests {
 
     #[test]
     fn markup_becomes_italics_and_everything_else_is_escaped() {
-        assert_eq!(italics("*H* < 2 & 3"), "<tspan font-style=\"italic\">H</tspan> &lt; 2 &amp; 3");
+        assert_eq!(italics("*H* < 2 & 3"), "<tspan>H</tspan> &lt; 2 &amp; 3");
     }
 }

@@ -1,9 +1,10 @@
-//! What tops and spherical pendulums have in common: heights between which they go up and down, and states
-//! on a manifold.
+//! What tops and spherical pendulums have in common, heights between which they go up and down, and states
+//! on a manifold; and a mass on a sphere, by a unit vector and by a constraint.
 
 use std::f64::consts::TAU;
 
-use dvi_core::prelude::ManifoldLagrangian;
+use dvi_core::State;
+use dvi_core::prelude::*;
 
 /// What the height u of a top depends on: (A u̇)² = (1 − u²) 2A(E − weight u) − (vertical − spin u)², by its
 /// integrals (Goldstein 1980, section 5.7). A mass of 1 on a rod of length 1 has A = 1 and no spin.
@@ -68,14 +69,110 @@ impl Heights {
 
 /// A system on a manifold whose states are so many numbers, for methods that know nothing of the manifold.
 pub trait OnManifold<const D: usize>: ManifoldLagrangian + Copy {
-    /// The entries of a state, coordinates first.
-    fn entries(state: &Self::State<f64>) -> [f64; D];
+    /// The places and the velocities, of which there are three.
+    fn entries(&self, state: &Self::State<f64>) -> [f64; D] {
+        let values: Vec<f64> = self.values(state).into_iter().flatten().collect();
+        std::array::from_fn(|i| values[i])
+    }
 
     /// The state with these entries.
-    fn state(y: &[f64; D]) -> Self::State<f64>;
+    fn state(&self, y: &[f64; D]) -> Self::State<f64> {
+        let (q, v) = y.split_at(D - 3);
+        State::read(|block| self.block_len(block), q, v)
+    }
 
     /// The rates of the entries in the motion.
     fn motion(&self, y: &[f64; D]) -> [f64; D];
+}
+
+/// A mass of 1 on a rod of length 1, as a unit vector, in gravity along the third axis.
+#[lagrangian(
+    coordinates(s: S2),
+    lagrangian = (dot(s[0]).powi(2) + dot(s[1]).powi(2) + dot(s[2]).powi(2)) / 2.0 - gravity * s[2],
+    momenta(vertical = s[0] * dot(s[1]) - s[1] * dot(s[0])),
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct SphericalPendulum {
+    /// g
+    pub gravity: f64,
+}
+
+/// The same in the coordinates of space, with the rod as an equation.
+#[lagrangian(
+    coordinates(x, y, z),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0 - gravity * z,
+    constraint = x * x + y * y + z * z - 1.0,
+    momenta(vertical = x * dot(y) - y * dot(x)),
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct ConstrainedPendulum {
+    /// g
+    pub gravity: f64,
+}
+
+impl SphericalPendulum {
+    /// At the angle θ from the direction downwards, with the rate of θ and that of the angle about the
+    /// vertical.
+    pub fn hanging(theta: f64, [dot_theta, dot_phi]: [f64; 2]) -> SphericalPendulumState {
+        let (sine, cosine) = theta.sin_cos();
+        SphericalPendulumState {
+            s: [sine, 0.0, -cosine],
+            dot_s: [dot_theta * cosine, dot_phi * sine, dot_theta * sine],
+        }
+    }
+
+    /// What the height depends on.
+    pub fn heights(&self, SphericalPendulumState { s, dot_s }: &SphericalPendulumState) -> Heights {
+        Heights {
+            across: 1.0,
+            weight: self.gravity,
+            energy: squared(dot_s) / 2.0 + self.gravity * s[2],
+            spin: 0.0,
+            vertical: s[0] * dot_s[1] - s[1] * dot_s[0],
+        }
+    }
+
+    /// g in E − h²g, which steps of length h by `Geodesic::trapezoid` keep up to terms of the order h⁴:
+    /// (1/24)|a|² − (1/12) V̈ with the acceleration a along the sphere and the second derivative of V along
+    /// the great circle. [`Top::shift`](super::Top::shift) says why.
+    pub fn shift(&self, SphericalPendulumState { s, dot_s }: &SphericalPendulumState) -> f64 {
+        let along = self.gravity * self.gravity * (1.0 - s[2] * s[2]);
+        along / 24.0 + self.gravity * s[2] * squared(dot_s) / 12.0
+    }
+}
+
+/// s and ṡ.
+impl OnManifold<6> for SphericalPendulum {
+    /// s̈ = −g e₃ − (|ṡ|² − g s₃) s
+    fn motion(&self, &[x, y, z, u, v, w]: &[f64; 6]) -> [f64; 6] {
+        let tension = u * u + v * v + w * w - self.gravity * z;
+        [u, v, w, -tension * x, -tension * y, -self.gravity - tension * z]
+    }
+}
+
+impl ConstrainedPendulum {
+    /// The state of a pendulum of unit vectors.
+    pub fn state_of(state: &SphericalPendulumState) -> ConstrainedPendulumState {
+        let SphericalPendulumState { s: [x, y, z], dot_s: [dot_x, dot_y, dot_z] } = *state;
+        ConstrainedPendulumState { x, y, z, dot_x, dot_y, dot_z }
+    }
+
+    /// The state as that of a pendulum of unit vectors.
+    pub fn on_sphere(state: &ConstrainedPendulumState) -> SphericalPendulumState {
+        let ConstrainedPendulumState { x, y, z, dot_x, dot_y, dot_z } = *state;
+        SphericalPendulumState { s: [x, y, z], dot_s: [dot_x, dot_y, dot_z] }
+    }
+
+    /// The same as [`SphericalPendulum::shift`] for RATTLE: the kinetic energy of a step is that of the
+    /// chord, which is shorter than the arc, chord² = θ² − θ⁴/12 + …, so that L of a step is less by
+    /// h³|ṡ|⁴/24.
+    pub fn shift(&self, state: &SphericalPendulumState) -> f64 {
+        SphericalPendulum { gravity: self.gravity }.shift(state) - squared(&state.dot_s).powi(2) / 24.0
+    }
+}
+
+fn squared(v: &[f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum()
 }
 
 #[cfg(test)]

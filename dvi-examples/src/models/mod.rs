@@ -1,45 +1,19 @@
 //! The systems of the gallery and the initial data of the papers.
 
 mod beam;
-mod blobs;
 mod chains;
 mod disc;
-mod double_pendulum;
-mod drift;
 mod field_lines;
 mod heights;
 mod impacts;
 mod kepler;
-mod lattice;
 mod oscillators;
 mod predators;
-mod radial;
 mod rigid;
-mod solar_system;
-mod sphere;
-mod spherical_pendulum;
-mod tabulated;
 mod tokamak;
 mod vortices;
 
-pub use beam::*;
-pub use blobs::*;
-pub use chains::*;
-pub use disc::*;
-pub use double_pendulum::*;
-pub use drift::*;
-pub use field_lines::*;
-pub use heights::*;
-pub use impacts::*;
-pub use kepler::*;
-pub use lattice::*;
-pub use oscillators::*;
-pub use predators::*;
-pub use radial::*;
-pub use rigid::*;
-pub use solar_system::*;
-pub use sphere::*;
-pub use spherical_pendulum::*;
-pub use tabulated::*;
-pub use tokamak::*;
-pub use vortices::*;
+pub use self::{
+    beam::*, chains::*, disc::*, field_lines::*, heights::*, impacts::*, kepler::*, oscillators::*,
+    predators::*, rigid::*, tokamak::*, vortices::*,
+};

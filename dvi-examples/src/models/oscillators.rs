@@ -1,4 +1,5 @@
-//! Oscillators and pendulums with one degree of freedom.
+//! Oscillators and pendulums: with one degree of freedom, in the plane in a potential that depends on the
+//! radius, on a spring and with friction, and two pendulums of which the second hangs from the first.
 
 use dvi_core::prelude::*;
 
@@ -30,10 +31,7 @@ pub struct Linear {
 }
 
 /// x'' = −kx: an oscillator of frequency √k, or, with negative k, what runs away from its origin.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = (dot(x).powi(2) - k * x * x) / 2.0,
-)]
+#[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - k * x * x) / 2.0)]
 #[derive(Clone, Debug)]
 pub struct Spring {
     /// Stiffness over mass.
@@ -41,19 +39,12 @@ pub struct Spring {
 }
 
 /// x'' = −sin x, x in radians from the lowest point.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0 + x.cos(),
-)]
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + x.cos())]
 #[derive(Clone, Debug)]
 pub struct Pendulum {}
 
 /// The same pendulum in phase space, with p = x' and a one-form along x only.
-#[degenerate_lagrangian(
-    coordinates(x, p),
-    one_form    = p * d(x),
-    hamiltonian = p * p / 2.0 - x.cos(),
-)]
+#[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0 - x.cos())]
 #[derive(Clone, Debug)]
 pub struct PhasePendulum {}
 
@@ -65,3 +56,96 @@ pub struct PhasePendulum {}
 )]
 #[derive(Clone, Debug)]
 pub struct SymmetricPendulum {}
+
+/// A particle of unit mass in the plane in V(r) = r²/2 + r⁴/4.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = {
+        let r2 = x * x + y * y;
+        (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - r2 / 2.0 - r2.powi(2) / 4.0
+    },
+    momenta(angular = x * dot(y) - y * dot(x)),
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct StiffeningSpring {}
+
+/// A particle of unit mass in the plane in V(r) = r²(r² − 1)², with linear friction.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = {
+        let r2 = x * x + y * y;
+        (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - r2 * (r2 - 1.0).powi(2)
+    },
+    force = [-gamma * dot(x), -gamma * dot(y)],
+    momenta(angular = x * dot(y) - y * dot(x)),
+)]
+#[derive(Clone, Debug)]
+pub struct RadialFriction {
+    /// Friction over mass.
+    pub gamma: f64,
+}
+
+impl RadialFriction {
+    /// V'(r)/r, so that ∇V is this times the place.
+    pub fn slope(&self, &[x, y]: &[f64; 2]) -> f64 {
+        let r2 = x * x + y * y;
+        2.0 * (r2 - 1.0) * (3.0 * r2 - 1.0)
+    }
+}
+
+/// Two pendulums of unit mass, the second hung from the first, in angles from the vertical.
+#[lagrangian(
+    coordinates(a, b),
+    lagrangian = {
+        let first = length * dot(a);
+        let second = length * dot(b);
+        let kinetic = first.powi(2) + second.powi(2) / 2.0 + first * second * (a - b).cos();
+        kinetic + g * length * (2.0 * a.cos() + b.cos())
+    },
+)]
+#[derive(Clone, Debug)]
+pub struct DoublePendulum {
+    /// The length of either rod.
+    pub length: f64,
+    /// Gravity.
+    pub g: f64,
+}
+
+impl DoublePendulum {
+    /// Where the lower mass is, x to the right and y upwards from the support.
+    pub fn lower_mass(&self, &[a, b]: &[f64; 2]) -> [f64; 2] {
+        [self.length * (a.sin() + b.sin()), -self.length * (a.cos() + b.cos())]
+    }
+
+    /// The rates of (a, b, a', b') in the motion, solved from 2a'' + b'' cos δ + b'² sin δ + 2(g/l) sin a =
+    /// 0 and b'' + a'' cos δ − a'² sin δ + (g/l) sin b = 0, δ = a − b.
+    pub fn motion(&self, &[a, b, da, db]: &[f64; 4]) -> [f64; 4] {
+        let (sin, cos) = (a - b).sin_cos();
+        let gravity = self.g / self.length;
+        let first = -db * db * sin - 2.0 * gravity * a.sin();
+        let second = da * da * sin - gravity * b.sin();
+        let determinant = 2.0 - cos * cos;
+        [da, db, (first - cos * second) / determinant, (2.0 * second - cos * first) / determinant]
+    }
+
+    /// The energy of (a, b, a', b').
+    pub fn energy_of(&self, &[a, b, da, db]: &[f64; 4]) -> f64 {
+        let Self { length, g } = self;
+        length * length * (da * da + 0.5 * db * db + da * db * (a - b).cos())
+            - g * length * (2.0 * a.cos() + b.cos())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_equations_by_hand_conserve_the_energy() {
+        let (system, y) = (DoublePendulum { length: 1.0, g: 9.81 }, [0.3, -1.1, 2.0, -0.7]);
+        let rates = system.motion(&y);
+        let energy = |h: f64| system.energy_of(&std::array::from_fn(|i| y[i] + h * rates[i]));
+        let rate = (energy(1e-5) - energy(-1e-5)) / 2e-5;
+        assert!(rate.abs() < 1e-6, "{rate}");
+    }
+}

@@ -115,15 +115,6 @@ impl RigidBody {
 
 /// R row by row, and ω.
 impl OnManifold<12> for Top {
-    fn entries(state: &TopState) -> [f64; 12] {
-        joined(&state.R, &state.omega_R)
-    }
-
-    fn state(y: &[f64; 12]) -> TopState {
-        let (rotation, omega) = split(y);
-        TopState { R: rotation, omega_R: omega }
-    }
-
     /// Ṙ = R ω̂ and 𝕀ω̇ = 𝕀ω × ω + torque.
     fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
         let (rotation, omega) = split(y);
@@ -133,23 +124,10 @@ impl OnManifold<12> for Top {
 
 /// R row by row, and ω.
 impl OnManifold<12> for RigidBody {
-    fn entries(state: &RigidBodyState) -> [f64; 12] {
-        joined(&state.R, &state.omega_R)
-    }
-
-    fn state(y: &[f64; 12]) -> RigidBodyState {
-        let (rotation, omega) = split(y);
-        RigidBodyState { R: rotation, omega_R: omega }
-    }
-
     fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
         let (rotation, omega) = split(y);
         turning(&rotation, omega, self.acceleration(omega))
     }
-}
-
-fn joined(rotation: &[f64; 9], omega: &[f64; 3]) -> [f64; 12] {
-    std::array::from_fn(|i| if i < 9 { rotation[i] } else { omega[i - 9] })
 }
 
 fn split(y: &[f64; 12]) -> ([f64; 9], [f64; 3]) {

@@ -1,4 +1,7 @@
-//! Point vortices, and the initial data of Rowley & Marsden 2002, section 5.
+//! Point vortices in the plane and on the unit sphere, vortex blobs and a layer of them, and the initial
+//! data of Rowley & Marsden 2002, section 5.
+
+use std::f64::consts::TAU;
 
 use dvi_core::prelude::*;
 
@@ -55,5 +58,113 @@ pub fn chaotic() -> Case {
     Case {
         vortices: PointVortices { gamma: [1.0; 4] },
         start: PointVorticesState { x: [-1.85, -0.07, 0.78, 0.76], y: [0.05, -1.332, 0.167, -1.2902] },
+    }
+}
+
+/// In z = cos θ and the longitude φ, with α = −Σ Γ z dφ along the longitudes only. The moment Σ Γ r is
+/// conserved, of which the component along the axis belongs to the rotation of all longitudes.
+#[degenerate_lagrangian(
+    coordinates(z[N], phi[N]),
+    one_form    = sum(0..N, |j| -gamma[j] * z[j] * d(phi[j])),
+    hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k] * (2.0 - 2.0 * (z[j] * z[k]
+        + ((1.0 - z[j].powi(2)) * (1.0 - z[k].powi(2))).sqrt() * (phi[j] - phi[k]).cos())).ln()) / (4.0 * PI),
+    momenta(
+        moment_x = sum(0..N, |j| gamma[j] * (1.0 - z[j].powi(2)).sqrt() * phi[j].cos()),
+        moment_y = sum(0..N, |j| gamma[j] * (1.0 - z[j].powi(2)).sqrt() * phi[j].sin()),
+        moment_z = sum(0..N, |j| gamma[j] * z[j]),
+    ),
+)]
+#[derive(Clone, Debug)]
+pub struct SphereVortices<const N: usize> {
+    /// The circulations Γ.
+    pub gamma: [f64; N],
+}
+
+impl<const N: usize> SphereVortices<N> {
+    /// r of each vortex of a state in flat form.
+    pub fn places(&self, q: &[f64]) -> [[f64; 3]; N] {
+        std::array::from_fn(|j| {
+            let (z, (sin, cos)) = (q[j], q[j + N].sin_cos());
+            let radius = (1.0 - z * z).sqrt();
+            [radius * cos, radius * sin, z]
+        })
+    }
+
+    /// Vortices at these places, which need not be of length one.
+    pub fn state(places: [[f64; 3]; N]) -> SphereVorticesState<N> {
+        SphereVorticesState {
+            z: places.map(|[x, y, z]| z / (x * x + y * y + z * z).sqrt()),
+            phi: places.map(|[x, y, _]| y.atan2(x)),
+        }
+    }
+}
+
+/// Vortices whose vorticity is spread over a core of some radius (Krasny 1986), any number of them.
+#[degenerate_lagrangian(
+    coordinates(x[gamma.len()], y[gamma.len()]),
+    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+    hamiltonian = sum_pairs(0..gamma.len(), |j, k| gamma[j] * gamma[k]
+        * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) + core.powi(2)).ln()) / (4.0 * PI),
+    momenta(
+        impulse_x = sum(0..gamma.len(), |j| gamma[j] * x[j]),
+        impulse_y = sum(0..gamma.len(), |j| gamma[j] * y[j]),
+        angular = sum(0..gamma.len(), |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))),
+    ),
+)]
+#[derive(Clone, Debug, PartialEq)]
+pub struct VortexBlobs {
+    /// The circulations Γ.
+    pub gamma: Vec<f64>,
+    /// The radius of the cores.
+    pub core: f64,
+}
+
+/// A layer of equal blobs between two flows, whose velocities differ by 1, with waves of length 1 on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShearLayer {
+    /// Rows of blobs, one above the other.
+    pub rows: usize,
+    /// The amplitude of the waves.
+    pub amplitude: f64,
+}
+
+impl ShearLayer {
+    /// Its length, in waves.
+    pub const LENGTH: f64 = 8.0;
+    /// Its thickness.
+    pub const THICKNESS: f64 = 0.12;
+    /// The radius of a core.
+    pub const CORE: f64 = 0.02;
+
+    /// The number of blobs: they are a little more apart along the layer than across.
+    pub fn blobs(self) -> usize {
+        self.rows * (self.rows * 125 / 2)
+    }
+
+    /// The blobs, of which those of one column follow each other.
+    pub fn system(self) -> VortexBlobs {
+        let n = self.blobs();
+        VortexBlobs { gamma: vec![Self::LENGTH / n as f64; n], core: Self::CORE }
+    }
+
+    /// Their places in the layer without waves.
+    pub fn rest(self) -> impl Iterator<Item = [f64; 2]> {
+        let Self { rows, .. } = self;
+        let columns = self.blobs() / rows;
+        (0..columns * rows).map(move |blob| {
+            let (column, row) = (blob / rows, blob % rows);
+            // Every other row is shifted.
+            let shift = if row % 2 == 0 { 0.25 } else { 0.75 };
+            let along = (column as f64 + shift) / columns as f64 - 0.5;
+            let across = (row as f64 + 0.5) / rows as f64 - 0.5;
+            [Self::LENGTH * along, Self::THICKNESS * across]
+        })
+    }
+
+    /// Their places with waves.
+    pub fn state(self) -> VortexBlobsState {
+        let wave = |x: f64| self.amplitude * (TAU * x).sin();
+        let (x, y) = self.rest().map(|[x, y]| (x, y + wave(x))).unzip();
+        VortexBlobsState { x, y }
     }
 }

@@ -10,6 +10,8 @@ use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use tempfile::tempdir;
+
 /// The experiments whose motion is shown.
 const MOTIONS: [&str; 6] =
     ["fig3-leapfrogging", "kepler-long", "links", "top", "guiding-centre", "shear-layer"];
@@ -30,8 +32,7 @@ fn names(folder: &Path) -> BTreeSet<String> {
 }
 
 fn list() -> Vec<String> {
-    let list =
-        Command::new(env!("CARGO_BIN_EXE_dvi-examples")).arg("--list").output().expect("starts").stdout;
+    let list = run(&["--list"], Path::new(".")).stdout;
     String::from_utf8(list).expect("UTF-8").lines().map(str::to_owned).collect()
 }
 
@@ -50,13 +51,12 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
     assert_eq!(output.status.code(), Some(0), "{printed}{}", String::from_utf8_lossy(&output.stderr));
     let experiments = listed();
-    assert!(experiments.len() >= 15, "{experiments:?}");
-    let files = |name: &String| ["svg", "png", "csv"].map(|extension| format!("{name}.{extension}"));
+    assert!(experiments.len() >= 40, "{experiments:?}");
+    let files =
+        experiments.iter().flat_map(|name| ["svg", "png", "csv"].map(|kind| format!("{name}.{kind}")));
     let motions = MOTIONS.map(|name| format!("{name}.html"));
     let pages = ["index.html", "summary.csv", "summary.md"].map(str::to_owned);
-    let expected: BTreeSet<String> =
-        experiments.iter().flat_map(files).chain(pages).chain(motions).collect();
-    assert_eq!(names(&folder), expected);
+    assert_eq!(names(&folder), files.chain(pages).chain(motions).collect());
     for name in &experiments {
         let read = |extension| fs::read(folder.join(format!("{name}.{extension}"))).expect("readable");
         let svg = String::from_utf8(read("svg")).expect("UTF-8");
@@ -73,14 +73,8 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     page::has_all(&folder, &verdicts(&table));
     let summary = fs::read_to_string(folder.join("summary.md")).expect("readable");
     assert!(experiments.iter().all(|name| summary.contains(&format!("## {name}:"))), "{summary}");
-    assert!(
-        !summary.contains("not reproduced")
-            && !summary.contains("does not hold")
-            && !summary.contains("**fails**")
-            && !summary.contains("**Failed**"),
-        "{summary}"
-    );
-    assert!(printed.contains("reproduced"), "{printed}");
+    assert!(!summary.contains("**fails**") && !summary.contains("**Failed**"), "{summary}");
+    assert_eq!(printed, format!("\n{summary}"));
     same_claims(&table);
 }
 
@@ -91,10 +85,8 @@ fn the_readme_shows_each_experiment() {
         let (name, title) = line.split_once(' ').expect("a name and a sentence");
         let cell = format!("![](figures/{name}.webp)<br>`{name}`: {}.", title.trim_start());
         assert!(readme.contains(&cell), "dvi-examples/README.md should say:\n{cell}");
-        assert!(
-            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("figures/{name}.webp")).exists(),
-            "{name}"
-        );
+        let picture = format!("{}/figures/{name}.webp", env!("CARGO_MANIFEST_DIR"));
+        assert!(Path::new(&picture).exists(), "{picture}");
     }
 }
 
@@ -118,42 +110,46 @@ fn same_claims(short: &str) {
 
 #[test]
 fn results_are_the_same_for_every_number_of_threads() {
-    let [one, two] = [1, 2].map(|threads| {
-        let folder = tempfile::tempdir().expect("a folder");
-        let arguments = [
-            "--short",
-            "--only",
-            "fig2-energy",
-            "stability",
-            "kepler-work",
-            "--threads",
-            &threads.to_string(),
-        ];
-        let output =
-            gallery(&arguments, folder.path()).env("SOURCE_DATE_EPOCH", "0").output().expect("starts");
-        assert_eq!(output.status.code(), Some(0));
-        names(folder.path())
-            .into_iter()
-            .map(|name| fs::read(folder.path().join(name)).expect("readable"))
-            .collect()
+    let [one, two] = ["1", "2"].map(|threads| {
+        let folder = tempdir().expect("a folder");
+        let experiments =
+            ["--short", "--threads", threads, "--only", "fig2-energy", "stability", "kepler-work"];
+        let output = gallery(&experiments, folder.path()).env("SOURCE_DATE_EPOCH", "0").output();
+        assert_eq!(output.expect("starts").status.code(), Some(0));
+        let read = |name: String| fs::read(folder.path().join(name)).expect("readable");
+        names(folder.path()).into_iter().map(read).collect::<Vec<_>>()
     });
-    let (one, two): (Vec<Vec<u8>>, Vec<Vec<u8>>) = (one, two);
     assert_eq!(one.len(), 12);
     assert!(one == two);
 }
 
 #[test]
-fn only_runs_what_is_asked_for() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let below = folder.path().join("new/folder");
-    assert_eq!(run(&["--short", "--only", "momenta"], &below).status.code(), Some(0));
-    let expected = ["index.html", "momenta.csv", "momenta.png", "momenta.svg", "summary.csv", "summary.md"];
-    assert_eq!(names(&below).into_iter().collect::<Vec<_>>(), expected);
+fn a_run_without_a_terminal_leaves_what_was_asked_for_and_plain_lines() {
+    let folder = tempdir().expect("a folder");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dvi-examples"));
+    let output =
+        command.args(["--short", "--only", "momenta", "barnes"]).current_dir(folder.path()).output();
+    let output = output.expect("starts");
+    assert_eq!(output.status.code(), Some(0));
+    let files = [
+        "barnes.csv",
+        "barnes.png",
+        "barnes.svg",
+        "index.html",
+        "momenta.csv",
+        "momenta.png",
+        "momenta.svg",
+        "summary.csv",
+        "summary.md",
+    ];
+    assert_eq!(names(&folder.path().join("results-short")).into_iter().collect::<Vec<_>>(), files);
+    let lines = String::from_utf8(output.stderr).expect("UTF-8");
+    assert!(!lines.contains(['\u{1b}', '\r']) && lines.contains("(2 of 2)"), "{lines}");
 }
 
 #[test]
 fn the_main_job_is_that_of_the_papers() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempdir().expect("a folder");
     let output = run(&["--short"], folder.path());
     assert_eq!(output.status.code(), Some(0));
     let names = names(folder.path());
@@ -165,15 +161,13 @@ fn the_main_job_is_that_of_the_papers() {
 
 #[test]
 fn a_run_completes_the_summary_of_its_folder() {
-    let folder = tempfile::tempdir().expect("a folder");
-    for name in ["momenta", "barnes", "momenta"] {
-        let output = gallery(&["--short", "--only", name], folder.path())
-            .env("SOURCE_DATE_EPOCH", if name == "barnes" { "86400" } else { "0" })
-            .output()
-            .expect("starts");
-        assert_eq!(output.status.code(), Some(0));
+    let folder = tempdir().expect("a folder");
+    let new = folder.path().join("new/folder");
+    for (name, seconds) in [("momenta", "0"), ("barnes", "86400"), ("momenta", "0")] {
+        let output = gallery(&["--short", "--only", name], &new).env("SOURCE_DATE_EPOCH", seconds).output();
+        assert_eq!(output.expect("starts").status.code(), Some(0));
     }
-    let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
+    let summary = fs::read_to_string(new.join("summary.md")).expect("readable");
     let section =
         |name: &str| summary.split("\n## ").find(|part| part.starts_with(name)).unwrap_or_default();
     assert!(section("momenta: ").contains("The short form, 1970-01-01 00:00 UTC."), "{summary}");
@@ -182,37 +176,25 @@ fn a_run_completes_the_summary_of_its_folder() {
 }
 
 #[test]
-fn a_summary_that_cannot_be_completed_is_refused_before_anything_runs() {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("summary.csv"), "a,b\n1,2\n").expect("written");
-    let output = run(&["--short", "--only", "momenta"], folder.path());
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    assert!(message.contains("choose another folder"), "{message}");
+fn results_that_could_not_be_written_are_refused_before_anything_runs() {
+    let folder = tempdir().expect("a folder");
+    let table = folder.path().join("summary.csv");
+    fs::write(&table, "a,b\n1,2\n").expect("written");
+    for (out, words) in [
+        (folder.path().to_owned(), "remove it or choose another folder"),
+        (table.join("below"), "cannot create the folder"),
+    ] {
+        let output = run(&["--short", "--only", "momenta"], &out);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert!(message.starts_with("error: ") && message.contains(words), "{message}");
+    }
     assert_eq!(names(folder.path()).into_iter().collect::<Vec<_>>(), ["summary.csv"]);
 }
 
 #[test]
-fn short_results_have_a_folder_of_their_own() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_dvi-examples"));
-    let output = command.args(["--short", "--only", "barnes"]).current_dir(folder.path()).output();
-    assert_eq!(output.expect("starts").status.code(), Some(0));
-    assert_eq!(names(folder.path()).into_iter().collect::<Vec<_>>(), ["results-short"]);
-}
-
-#[test]
-fn progress_without_a_terminal_is_plain_lines() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = run(&["--short", "--only", "barnes", "momenta"], folder.path());
-    let lines = String::from_utf8(output.stderr).expect("UTF-8");
-    assert!(lines.lines().all(|line| !line.contains('\u{1b}') && !line.contains('\r')), "{lines}");
-    assert!(lines.contains("(2 of 2)") && !lines.contains("waiting"), "{lines}");
-}
-
-#[test]
 fn bad_arguments_are_refused_before_anything_is_written() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempdir().expect("a folder");
     let refused = |arguments: &[&str], hint: &str| {
         let output = run(arguments, &folder.path().join("out"));
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -228,21 +210,10 @@ fn bad_arguments_are_refused_before_anything_is_written() {
     assert!(names(folder.path()).is_empty());
 }
 
-#[test]
-fn a_folder_that_cannot_be_made_is_an_error_and_not_a_panic() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("file");
-    fs::write(&file, []).expect("written");
-    let output = run(&["--short", "--only", "momenta"], &file.join("below"));
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    assert!(message.starts_with("error: cannot create the folder"), "{message}");
-}
-
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_complete_files_and_a_summary_that_says_so() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempdir().expect("a folder");
     let mut command = gallery(&["--only", "fig5-chaotic", "parasitic", "--threads", "1"], folder.path());
     let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("starts");
     // The line is printed when the handler is installed and before the first step.
@@ -254,7 +225,10 @@ fn ctrl_c_leaves_complete_files_and_a_summary_that_says_so() {
     assert!(kill.success());
     assert_eq!(child.wait().expect("ends").code(), Some(130));
     let summary = fs::read_to_string(folder.path().join("summary.md")).expect("readable");
-    assert!(summary.contains("**Interrupted**") && summary.contains("0 claims of the papers"), "{summary}");
+    assert!(
+        summary.contains("**Interrupted**") && summary.contains("Claims of the papers: none"),
+        "{summary}"
+    );
     for name in names(folder.path()) {
         assert!(!name.ends_with(".partial"), "{name}");
         if name.ends_with(".svg") {

@@ -16,16 +16,18 @@ impl Stages {
     pub(super) fn degenerate_formulas(&mut self) -> Option<DegenerateFormulas> {
         let clean = self.check_coordinates()?;
         let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
+        lowering.share(&self.attribute);
         let pair = one_form_and_hamiltonian(&self.attribute, &mut lowering, clean);
         let momenta = named(&self.attribute.momenta, Role::Momentum, &mut lowering);
         let events = named(&self.attribute.events, Role::Event, &mut lowering);
         let force = lowering.forces(&self.attribute.forces);
         let time = time_transform(&self.attribute, &mut lowering, pair.map(|(_, hamiltonian)| hamiltonian));
+        let gauge = self.attribute.gauge().map(|formula| lowering.formula(formula, Role::Gauge));
         let pair = pair.zip(time).map(|(pair, time)| match time {
             Some(time) => self.extended(pair.0, time),
             None => pair,
         });
-        let gauge = self.gauge(pair.map(|(one_form, _)| one_form));
+        let gauge = self.gauge(pair.map(|(one_form, _)| one_form), gauge);
         let (declared, momenta, events, force, gauge, time) =
             (pair?, momenta?, events?, force?, gauge?, time?);
         let (one_form, hamiltonian) = match gauge {
@@ -44,12 +46,12 @@ impl Stages {
         })
     }
 
-    /// F, written or found; `None` inside if there is none.
-    fn gauge(&mut self, one_form: Option<Expr>) -> Option<Option<Expr>> {
-        match &self.attribute.gauge {
-            None => return Some(None),
-            Some(Gauge::Formula(_)) => {}
-            Some(Gauge::Auto(word)) => {
+    /// F, `written` or found; `None` inside if there is none.
+    fn gauge(&mut self, one_form: Option<Expr>, written: Option<Option<Expr>>) -> Option<Option<Expr>> {
+        let gauge = match (&self.attribute.gauge, written) {
+            (None, _) => return Some(None),
+            (Some(_), Some(written)) => written?,
+            (Some(Gauge::Auto(word)), None) => {
                 let word = word.clone();
                 if !self.errors.is_empty() {
                     return None;
@@ -60,7 +62,12 @@ impl Stages {
                 }
                 match gauge::search(&self.graph, &self.model, one_form?, Effort::Asked) {
                     Search::NotNeeded => return Some(None),
-                    Search::Found(found) => self.attribute.gauge = Some(Gauge::Formula(found.formula)),
+                    Search::Found(found) => {
+                        let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
+                        let gauge = lowering.formula(&found.formula, Role::Gauge)?;
+                        self.attribute.gauge = Some(Gauge::Formula(found.formula));
+                        gauge
+                    }
                     Search::None(reason) => {
                         let message = format!(
                             "no gauge was found that brings the one-form into the class of one-step schemes: {reason}; \
@@ -71,40 +78,43 @@ impl Stages {
                     }
                 }
             }
-        }
-        let Some(Gauge::Formula(formula)) = &self.attribute.gauge else { return Some(None) };
-        let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
-        let gauge = lowering.formula(formula, Role::Gauge)?;
-        if !lowering.graph.depends(gauge.node, |node| matches!(node, Node::Coordinate(_))) {
+            (Some(Gauge::Formula(_)), None) => internal("a gauge that was not read"),
+        };
+        self.can_be_gauge(gauge)?;
+        Some(Some(gauge))
+    }
+
+    /// Reports a gauge without coordinates, or with functions that have too few derivatives.
+    fn can_be_gauge(&mut self, gauge: Expr) -> Option<()> {
+        let formula = self.attribute.gauge()?;
+        if !self.graph.depends(gauge.node, |node| matches!(node, Node::Coordinate(_))) {
             let message = "a gauge without coordinates in it changes nothing: write a function of the coordinates, or \
                            leave it out";
-            lowering.errors.push(formula, message);
+            self.errors.push(formula, message);
             return None;
         }
-        for (number, function) in lowering.model.functions.iter().enumerate() {
+        for (number, function) in self.model.functions.iter().enumerate() {
             let calls = |node: &Node| matches!(node, Node::Call(known, ..) if *known as usize == number);
-            if !lowering.model.has_third_derivative(number as u32)
-                && lowering.graph.depends(gauge.node, calls)
-            {
+            if !self.model.has_third_derivative(number as u32) && self.graph.depends(gauge.node, calls) {
                 let name = &function.name;
                 let message = format!(
                     "a gauge is differentiated three times, and the function `{name}` stands in it: declare its third \
                      derivative too, as in `{name} = [f, df, d2f, d3f]`"
                 );
-                lowering.errors.push(formula, message);
+                self.errors.push(formula, message);
                 return None;
             }
         }
-        if let Some(field) = lowering.graph.scalar_field_below(gauge) {
-            let name = lowering.model.scalar_fields[field as usize].text.clone();
+        if let Some(field) = self.graph.scalar_field_below(gauge) {
+            let name = &self.model.scalar_fields[field as usize].text;
             let message = format!(
                 "a gauge is differentiated three times, and `{name}`, which stands in it, has two derivatives: no function \
                  that implements `ScalarField` stands in a gauge"
             );
-            lowering.errors.push(formula, message);
+            self.errors.push(formula, message);
             return None;
         }
-        Some(Some(gauge))
+        Some(())
     }
 
     /// α + ∂F/∂q and H − ∂F/∂t: L with dF/dt added to it.
@@ -138,6 +148,7 @@ impl Stages {
     pub(super) fn regular_formulas(&mut self) -> Option<RegularFormulas> {
         let clean = self.check_coordinates()?;
         let mut lowering = Lowering::new(&mut self.graph, &mut self.model, &mut self.errors);
+        lowering.share(&self.attribute);
         let lagrangian = match &self.attribute.lagrangian {
             Some(lagrangian) => lowering.formula(lagrangian, Role::Lagrangian),
             None => {

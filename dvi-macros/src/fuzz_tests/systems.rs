@@ -80,10 +80,15 @@ fn regular_systems() -> Vec<(TokenStream, TokenStream)> {
             quote! {
                 coordinates(x[n], y),
                 lagrangian = sum(0..n, |j| dot(x[j]).powi(2)) / 2.0 + dot(y).powi(2),
-                force(y) = -dot(y),
-                constraint(i in 1..n) = (x[i] - x[i - 1]).powi(2) - rods[i - 1] * t,
-                constraint = [y - x[0], sum(0..n, |j| x[j]) - y.sin()],
+                force(y) = -v,
+                constraint(i in 1..n) = gap(i, i - 1).powi(2) - rods[i - 1] * t,
+                constraint = [y - x[0], sum(0..n, |j| x[j]) - sine],
                 constraint = if y > 0.0 { y * x[0] } else { let z = y * y; z - t },
+                let = {
+                    let v = dot(y);
+                    let gap = |j, k| x[j] - x[k];
+                    let (sine, _) = y.sin_cos();
+                },
             },
             quote!(
                 struct System {

@@ -5,6 +5,7 @@ use quote::quote;
 use syn::ext::IdentExt as _;
 
 use crate::emit::Emitter;
+use crate::errors::text;
 use crate::formulas::{Variable, variable};
 use crate::model::{Axis, Model};
 use crate::operations::Operations;
@@ -14,7 +15,7 @@ use crate::symbolic::{
     Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops, print_velocity,
     write_expr,
 };
-use crate::syntax::{Attribute, Constrained, Factor};
+use crate::syntax::{Attribute, Constrained, Factor, closure, value};
 use crate::typeset::{Equation, Typesetter, block, declared, plain};
 
 pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
@@ -41,9 +42,10 @@ impl Account {
         attribute: &Attribute,
         model: &Model,
         opening: &'static str,
-        formulas: Vec<(String, String)>,
+        mut formulas: Vec<(String, String)>,
         sentences: Vec<String>,
     ) -> Self {
+        formulas.extend(attribute.shared.iter().filter_map(definition));
         let mut typesetter = Typesetter::new(attribute, model.vectors());
         let declared = declared(attribute, &mut typesetter);
         let has_more = declared.iter().any(Equation::is_endless);
@@ -208,6 +210,15 @@ impl Account {
         }
         text
     }
+}
+
+/// What formulas share, as (name, text).
+fn definition(local: &syn::Local) -> Option<(String, String)> {
+    let (name, value) = (text(&local.pat), value(local)?);
+    Some(match closure(value) {
+        Some(function) => (format!("{name}({})", text(&function.inputs)), text(&function.body)),
+        None => (name, text(value)),
+    })
 }
 
 /// The value of a statement, with the loops that it stands in.

@@ -83,7 +83,7 @@ impl Lowering<'_> {
         measure(self.graph, value.node, &mut self.measures)
     }
 
-    fn degree(&mut self, value: Expr) -> u8 {
+    pub(super) fn degree(&mut self, value: Expr) -> u8 {
         self.measured(value).degree
     }
 
@@ -118,7 +118,7 @@ impl Lowering<'_> {
             return Some(value);
         }
         let message = match self.role {
-            Role::OneForm => "a one-form is linear in d(·): this term is not",
+            _ if self.is_one_form() => "a one-form is linear in d(·): this term is not",
             Role::Constraint(_) => {
                 "this term is not affine in the velocities: a nonholonomic constraint is A(q, t) v + b(q, t) = 0, so that no \
                  velocity is multiplied by another one or stands in a function"
@@ -154,9 +154,14 @@ impl Lowering<'_> {
         None
     }
 
+    /// Whether this is a one-form, or a name that may stand in one.
+    fn is_one_form(&self) -> bool {
+        self.role == Role::OneForm || (self.role == Role::Shared && self.shared.velocity == "d")
+    }
+
     /// In a one-form, a term without d(·) cannot be added to one with it.
     pub(super) fn check_homogeneous(&mut self, left: (&Syntax, Expr), right: (&Syntax, Expr)) -> Option<()> {
-        if self.role != Role::OneForm {
+        if !self.is_one_form() {
             return Some(());
         }
         let stray = match (self.degree(left.1), self.degree(right.1)) {

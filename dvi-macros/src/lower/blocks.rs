@@ -5,7 +5,7 @@ use syn::{BinOp, Expr as Syntax, ExprIf, Pat, Stmt, UnOp};
 use super::{Binding, Lowering, Value, Written, bound_name};
 use crate::errors::text;
 use crate::symbolic::Relation;
-use crate::syntax::closure;
+use crate::syntax::{closure, value};
 
 impl Lowering<'_> {
     /// `{ let a = …; let b = …; value }`
@@ -37,17 +37,17 @@ impl Lowering<'_> {
         value
     }
 
-    fn binding(&mut self, local: &syn::Local) {
-        let init = local.init.as_ref().filter(|init| init.diverge.is_none()).map(|init| &*init.expr);
+    pub(super) fn binding(&mut self, local: &syn::Local) {
+        let init = value(local);
         if let Some(closure) = init.and_then(closure) {
             return self.define(&local.pat, closure);
         }
         if let Pat::Tuple(names) = &local.pat {
             return self.bind_tuple(names, init);
         }
-        let value = match &local.init {
-            Some(init) if init.diverge.is_none() => self.value(&init.expr),
-            _ => {
+        let value = match init {
+            Some(init) => self.value(init),
+            None => {
                 self.errors.push(local, "write `let name = value;`");
                 None
             }

@@ -323,7 +323,7 @@ impl Lowering<'_> {
         receiver: Option<&Syntax>,
         arguments: &[&Syntax],
     ) {
-        if self.model.lost_functions {
+        if self.model.lost_functions || self.model.lost_names {
             return;
         }
         let kind = format!("function {name}");
@@ -331,8 +331,8 @@ impl Lowering<'_> {
             self.errors.push(at, format!("`{name}` calls itself: a formula has no recursion"));
             return;
         }
-        if self.scope.iter().any(|(known, _)| known == name) {
-            let message = format!("a function sees the names before it: `{name}` stands behind this one");
+        if self.stands_behind(name) {
+            let message = format!("a definition sees the names before it: `{name}` stands behind this one");
             self.errors.push(at, message);
             return;
         }

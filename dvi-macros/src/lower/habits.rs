@@ -319,6 +319,7 @@ impl Lowering<'_> {
         let written = match self.role {
             Role::OneForm => "d",
             Role::Lagrangian => "dot",
+            Role::Shared => self.shared.velocity,
             Role::Momentum | Role::Event | Role::Force if self.model.has_velocities() => "dot",
             Role::Component
             | Role::Hamiltonian

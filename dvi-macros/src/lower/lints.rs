@@ -12,7 +12,7 @@ use quote::{quote, quote_spanned};
 use syn::visit::Visit;
 use syn::{Expr, Ident, Pat, Stmt};
 
-use crate::syntax::closure;
+use crate::syntax::{closure, value};
 
 /// A name of an inner scope.
 struct Local {
@@ -36,12 +36,21 @@ pub(super) fn uses(formula: &Expr, index: &Ident) -> bool {
     names.open.iter().any(|local| local.used)
 }
 
-/// The warnings of a formula, with the index that is bound around it if there is one, as items that the
-/// compiler warns of.
-pub(crate) fn warnings((formula, index): (&Expr, Option<&Ident>)) -> TokenStream {
+/// The warnings of all formulas, each with the index that is bound around it if there is one, and of the
+/// names that they share, as items that the compiler warns of.
+pub(crate) fn warnings<'a>(
+    shared: &'a [syn::Local],
+    formulas: impl Iterator<Item = (&'a Expr, Option<&'a Ident>)>,
+) -> TokenStream {
     let mut names = Names::default();
-    names.open.extend(index.map(|index| Local { name: index.clone(), index: true, used: true }));
-    names.visit_expr(formula);
+    shared.iter().for_each(|local| names.define(local));
+    for (formula, index) in formulas {
+        let outside = names.open.len();
+        names.open.extend(index.map(|index| Local { name: index.clone(), index: true, used: true }));
+        names.visit_expr(formula);
+        names.close(outside);
+    }
+    names.close(0);
     let unused = names.unused.iter().map(|name| {
         quote!(const _: () = {
             #[allow(dead_code, non_snake_case)]
@@ -74,6 +83,15 @@ fn name_of(pattern: &Pat) -> Option<&Ident> {
 }
 
 impl Names {
+    fn define(&mut self, local: &syn::Local) {
+        match value(local).map(|value| (closure(value), value)) {
+            Some((Some(closure), _)) => self.visit_function(closure),
+            Some((None, value)) => self.visit_expr(value),
+            None => {}
+        }
+        self.bind(&local.pat, false);
+    }
+
     /// A function of the formula, whose parameters hide no index by mistake.
     fn visit_function(&mut self, closure: &syn::ExprClosure) {
         let outside = self.open.len();
@@ -106,14 +124,7 @@ impl<'ast> Visit<'ast> for Names {
         let outside = self.open.len();
         for statement in &block.stmts {
             match statement {
-                Stmt::Local(local) => {
-                    match local.init.as_ref().map(|init| (closure(&init.expr), &init.expr)) {
-                        Some((Some(closure), _)) => self.visit_function(closure),
-                        Some((None, value)) => self.visit_expr(value),
-                        None => {}
-                    }
-                    self.bind(&local.pat, false);
-                }
+                Stmt::Local(local) => self.define(local),
                 other => self.visit_stmt(other),
             }
         }

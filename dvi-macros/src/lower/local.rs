@@ -12,7 +12,7 @@ use std::rc::Rc;
 use syn::visit::{self, Visit};
 use syn::{Expr as Syntax, ExprCall, ExprClosure, Pat, Stmt};
 
-use super::{Binding, Lowering, Value, Written, bound_name};
+use super::{Binding, Lowering, Role, Value, Written, bound_name};
 use crate::errors::here;
 use crate::symbolic::Unary;
 use crate::syntax::closure;
@@ -126,11 +126,16 @@ impl Lowering<'_> {
         let before = self.errors.count();
         self.scope.extend(arguments);
         self.calls.open.push((local.clone(), local.sees..outside));
+        let (is_shared, role) = (self.is_shared(local.sees), self.role);
+        if is_shared {
+            self.role = Role::Shared;
+        }
         let value = self.value(&local.body);
+        self.role = role;
         self.calls.open.pop();
         self.scope.truncate(outside);
         local.is_wrong.set(self.errors.count() > before);
-        value
+        if is_shared { self.used(call, name, value?) } else { value }
     }
 
     /// `let (s, c) = x.sin_cos();` and `let (a, b) = (…, …);`

@@ -20,8 +20,13 @@ impl Lowering<'_> {
             return Some(self.parameter_node(field, Vec::new()).into());
         };
         let name = ident.to_string();
-        match self.binding_of(&name) {
-            Some(Binding::Value { value, .. }) => return value.clone(),
+        let position = self.position_of(&name);
+        match position.map(|position| &self.scope[position].1) {
+            Some(Binding::Value { value, .. }) => {
+                let value = value.clone()?;
+                let is_shared = position.is_some_and(|position| self.is_shared(position));
+                return if is_shared { self.used(path, &name, value) } else { Some(value) };
+            }
             Some(Binding::Function(_)) => {
                 self.errors.push(path, format!("`{name}` is a function: write `{name}(…)`"));
                 return None;
@@ -65,8 +70,8 @@ impl Lowering<'_> {
         if name == words::TIME {
             return Some(Expr::from(self.graph.intern(Node::Time)).into());
         }
-        if self.scope.iter().any(|(known, _)| *known == name) {
-            let message = format!("a function sees the names before it: `{name}` stands behind this one");
+        if self.stands_behind(&name) {
+            let message = format!("a definition sees the names before it: `{name}` stands behind this one");
             self.errors.push(path, message);
         } else if self.index_names.contains(&name) {
             self.errors.push(path, format!("the index `{name}` is used outside of its sum"));

@@ -298,6 +298,9 @@ impl Lowering<'_> {
                 | Role::Force
                 | Role::Momentum
                 | Role::Event => "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
+                Role::Shared => format!(
+                    "; what formulas share sees none of their indices: write a function of it, `let f = |{name}| …;`"
+                ),
             },
             |near| format!("; did you mean `{near}`?"),
         )

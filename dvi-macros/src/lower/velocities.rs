@@ -21,37 +21,10 @@ impl Lowering<'_> {
             self.errors.push(call, message);
             return None;
         }
-        let wanted = match self.role {
-            Role::OneForm => "d",
-            Role::Lagrangian => "dot",
-            Role::Momentum | Role::Event | Role::Force if self.model.kind == Kind::Regular => "dot",
-            Role::Constraint(Constrained::Velocities) => "dot",
-            Role::Constraint(Constrained::Positions) => {
-                let message = "a holonomic constraint has no velocities: it is a function g(q, t) of the positions and the time, \
-                               and its rate of change is kept at zero with it; a constraint of the velocities is declared by \
-                               `nonholonomic = …`";
-                self.errors.push(call, message);
-                return None;
-            }
-            Role::Constraint(Constrained::Gaps) => {
-                let message = "a gap has no velocities: it is a function g(q, t) of the positions and the time, which no motion makes \
-                               negative";
-                self.errors.push(call, message);
-                return None;
-            }
-            role => {
-                let advice = match role {
-                    Role::Force => {
-                        "so are the velocities of a degenerate system, by the equations of motion; write out the one that is meant"
-                    }
-                    Role::Component => {
-                        "write the one-form as a sum of `… * d(x)`, or its components without `d`"
-                    }
-                    Role::Hamiltonian => "what is linear in velocities belongs to `one_form`",
-                    _ => "no velocity may stand in it",
-                };
-                let message = format!("{} is a function of the coordinates: {advice}", role.name());
-                self.errors.push(call, message);
+        let wanted = match self.velocity_word() {
+            Ok(wanted) => wanted,
+            Err(reason) => {
+                self.errors.push(call, reason);
                 return None;
             }
         };
@@ -88,6 +61,39 @@ impl Lowering<'_> {
             return None;
         }
         Some(self.graph.intern(Node::Velocity(coordinate)).into())
+    }
+
+    /// How a velocity is written in this formula, or why it has none.
+    pub(super) fn velocity_word(&self) -> Result<&'static str, String> {
+        let reason = match self.role {
+            Role::OneForm => return Ok("d"),
+            Role::Lagrangian | Role::Constraint(Constrained::Velocities) => return Ok("dot"),
+            Role::Momentum | Role::Event | Role::Force if self.model.kind == Kind::Regular => {
+                return Ok("dot");
+            }
+            Role::Shared => return Ok(self.shared.velocity),
+            Role::Constraint(Constrained::Positions) => {
+                "a holonomic constraint has no velocities: it is a function g(q, t) of the positions and the time, and its rate of \
+                 change is kept at zero with it; a constraint of the velocities is declared by `nonholonomic = …`"
+            }
+            Role::Constraint(Constrained::Gaps) => {
+                "a gap has no velocities: it is a function g(q, t) of the positions and the time, which no motion makes negative"
+            }
+            role => {
+                let advice = match role {
+                    Role::Force => {
+                        "so are the velocities of a degenerate system, by the equations of motion; write out the one that is meant"
+                    }
+                    Role::Component => {
+                        "write the one-form as a sum of `… * d(x)`, or its components without `d`"
+                    }
+                    Role::Hamiltonian => "what is linear in velocities belongs to `one_form`",
+                    _ => "no velocity may stand in it",
+                };
+                return Err(format!("{} is a function of the coordinates: {advice}", role.name()));
+            }
+        };
+        Err(reason.to_string())
     }
 }
 

@@ -30,6 +30,9 @@ impl Summary {
                 if !system.constraints.is_empty() {
                     self.count(&format!("agrees, with {} constraints", system.constrained.adjective()));
                 }
+                if system.attribute().contains("let = {") {
+                    self.count("agrees, with names that formulas share");
+                }
                 self.largest = self.largest.max(*largest);
                 for (name, declared, possible) in claims {
                     let allowed = if *possible { "true" } else { "false" };

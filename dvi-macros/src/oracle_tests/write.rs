@@ -7,6 +7,10 @@ use super::functions::{BinaryFunction, OWN, SCALAR_FIELDS};
 use super::system::{Constraint, Container, Dynamics, Field, Gauge, SizeKind, System};
 use spelling::{Spelling, is_in_brackets};
 
+mod share;
+
+use share::Definitions;
+
 const INDICES: [&str; 10] = ["i", "j", "k", "l", "o", "i5", "i6", "i7", "i8", "i9"];
 
 /// How tightly a written formula binds.
@@ -25,6 +29,7 @@ pub(super) struct Writer<'a> {
     pub(super) system: &'a System,
     /// `d` or `dot`.
     pub(super) velocity: &'static str,
+    definitions: &'a Definitions,
     spelling: Spelling,
 }
 
@@ -38,7 +43,8 @@ impl System {
             format!("{}{size}{axes}", block.name)
         });
         let mut text = format!("coordinates({})", blocks.collect::<Vec<_>>().join(", "));
-        let writer = |velocity| Writer::new(self, velocity);
+        let definitions = Definitions::default();
+        let writer = |velocity| Writer::new(self, velocity, &definitions);
         let (d, dot) = (writer("d"), writer("dot"));
         text += &match &self.dynamics {
             Dynamics::OneForm(one_form, hamiltonian) => {
@@ -88,7 +94,8 @@ impl System {
         let fields = SCALAR_FIELDS.iter().enumerate().filter(|(number, _)| self.evaluates(*number));
         let fields = fields.filter_map(|(_, field)| Some(format!("{} = {}", field.name, field.path?)));
         let own: Vec<String> = used.chain(fields).collect();
-        if own.is_empty() { text } else { text + &format!(", functions({})", own.join(", ")) }
+        let functions = (!own.is_empty()).then(|| format!("functions({})", own.join(", ")));
+        [Some(text), functions, definitions.argument()].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
     /// What stands in front of a component along a coordinate: the index of its entry, if it has one.
@@ -167,8 +174,8 @@ impl System {
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(system: &'a System, velocity: &'static str) -> Self {
-        Self { system, velocity, spelling: Spelling::new(system.fields.len() as u32) }
+    fn new(system: &'a System, velocity: &'static str, definitions: &'a Definitions) -> Self {
+        Self { system, velocity, definitions, spelling: Spelling::new(system.fields.len() as u32) }
     }
 
     pub(super) fn text(&self, formula: &Formula) -> String {
@@ -182,6 +189,13 @@ impl<'a> Writer<'a> {
     }
 
     fn formula(&self, formula: &Formula) -> (String, Binding) {
+        match self.by_definition(formula) {
+            Some(text) => (text, Binding::Postfix),
+            None => self.written_here(formula),
+        }
+    }
+
+    fn written_here(&self, formula: &Formula) -> (String, Binding) {
         use Binding::{Block, Postfix, Product, Sign, Sum};
         let postfix = |text: String| (text, Postfix);
         let method = |of: &Formula, name: &str, arguments: String| {

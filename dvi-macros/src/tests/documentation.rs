@@ -119,6 +119,55 @@ fn functions_and_pairs_of_names_are_lines() {
 }
 
 #[test]
+fn what_formulas_share_stands_once() {
+    check(
+        lagrangian(
+            quote! {
+                coordinates(x, y),
+                lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - k * r + push(x, 1.0),
+                force(x) = push(y, r),
+                let = {
+                    let (s, c) = y.sin_cos();
+                    let r = x.hypot(c);
+                    let push = |a, b| { let twice = 2.0 * a; twice * s + b };
+                },
+            },
+            quote! { struct Shared { k: f64 } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \frac{{\dot{x}}^{2} + {\dot{y}}^{2}}{2} - k \, r + \mathit{push}\left(x, 1\right) \\
+            F_{x} &= \mathit{push}\left(y, r\right) \\
+            s &= \sin y \\
+            c &= \cos y \\
+            r &= \sqrt{{x}^2 + {c}^2} \\
+            \mathit{twice} &= 2 \, a \\
+            \mathit{push}\left(a, b\right) &= \mathit{twice} \, s + b
+            \end{aligned}
+            ```
+
+            The compiler makes of it:
+
+            ```math
+            \begin{aligned}
+            E &= 2 \, \left(0.25 \, \left({\dot{x}}^{2} + {\dot{y}}^{2} + 2 \, \sqrt{{x}^2 + {\left(\cos y\right)}^2} \, k\right) - \left(\left(\sin y\right) \, x + 0.5\right)\right) \\
+            \partial L / \partial y &= \left(2 \, \cos y\right) \, \left(x + \frac{\left(0.5 \, \sin y\right) \, k}{\sqrt{{x}^2 + {\left(\cos y\right)}^2}}\right) \\
+            \partial L / \partial x + F_{x} &= \sqrt{{x}^2 + {\left(\cos y\right)}^2} + 2 \, y \, \sin y + 2 \, \left(\sin y - \frac{0.5 \, x \, k}{\sqrt{{x}^2 + {\left(\cos y\right)}^2}}\right) \\
+            \partial L / \partial \dot{x} &= \dot{x} \\
+            \partial L / \partial \dot{y} &= \dot{y}
+            \end{aligned}
+            ```
+        "#]],
+    );
+}
+
+#[test]
 fn sums_pairs_components_and_momenta() {
     check(
         degenerate_lagrangian(

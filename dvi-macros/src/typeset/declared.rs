@@ -38,6 +38,7 @@ pub(crate) fn declared(attribute: &Attribute, typesetter: &mut Typesetter) -> Ve
         let name = format!(r"\text{{{}}}", named.name.to_string().replace('_', r"\_"));
         equations.push(typesetter.equation(name, &named.formula));
     }
+    equations.extend(attribute.shared.iter().flat_map(|local| typesetter.definition(local)));
     equations
 }
 

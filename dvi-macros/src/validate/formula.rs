@@ -6,10 +6,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use quote::ToTokens;
-use syn::{BinOp, Expr, ExprClosure, Stmt, UnOp};
+use syn::{BinOp, Expr, ExprClosure, Pat, Stmt, UnOp};
 
 use super::jet::Jet;
 use super::point::{Branches, Directions, Point, Variable};
+use super::system::System;
 use crate::internal::internal;
 use crate::model::{Extended, Model};
 use crate::work::step;
@@ -40,8 +41,9 @@ type Value<T> = Result<T, NoValue>;
 
 /// What a name of an inner scope stands for.
 #[derive(Clone)]
-enum Binding {
+enum Binding<'a> {
     Value(Quantity),
+    Shared(Shared<'a>),
     Index(i64),
     /// An argument: what it is as a value, and as an index.
     Argument(Option<Quantity>, Option<i64>),
@@ -49,16 +51,25 @@ enum Binding {
     Function(Rc<ExprClosure>, usize),
 }
 
-/// The names of the scopes that are open.
-#[derive(Default)]
-struct Scope {
-    names: Vec<Rc<str>>,
-    /// What each of them stands for, the bindings scope last.
-    bindings: HashMap<Rc<str>, Vec<Binding>>,
+/// A name that all formulas share: a part of what is defined behind so many names.
+#[derive(Clone, Copy)]
+struct Shared<'a> {
+    names: &'a Pat,
+    init: &'a Expr,
+    sees: usize,
+    part: usize,
 }
 
-impl Scope {
-    fn push(&mut self, name: Rc<str>, binding: Binding) {
+/// The names of the scopes that are open.
+#[derive(Default)]
+struct Scope<'a> {
+    names: Vec<Rc<str>>,
+    /// What each of them stands for, the bindings scope last.
+    bindings: HashMap<Rc<str>, Vec<Binding<'a>>>,
+}
+
+impl<'a> Scope<'a> {
+    fn push(&mut self, name: Rc<str>, binding: Binding<'a>) {
         self.bindings.entry(name.clone()).or_default().push(binding);
         self.names.push(name);
     }
@@ -68,7 +79,7 @@ impl Scope {
     }
 
     /// Closes the names from `outside` on, and gives what they stood for.
-    fn set_aside(&mut self, outside: usize) -> Vec<(Rc<str>, Binding)> {
+    fn set_aside(&mut self, outside: usize) -> Vec<(Rc<str>, Binding<'a>)> {
         let mut aside = Vec::new();
         while self.names.len() > outside
             && let Some(name) = self.names.pop()
@@ -79,7 +90,7 @@ impl Scope {
         aside
     }
 
-    fn put_back(&mut self, aside: Vec<(Rc<str>, Binding)>) {
+    fn put_back(&mut self, aside: Vec<(Rc<str>, Binding<'a>)>) {
         aside.into_iter().rev().for_each(|(name, binding)| self.push(name, binding));
     }
 
@@ -138,13 +149,14 @@ pub(super) struct Evaluation<'a> {
     /// Whether rounding may decide what comes out: some part of the formulas has a huge value, even if the
     /// whole has not, or two sides of a comparison cannot be told apart.
     pub(super) is_delicate: bool,
-    scope: Scope,
+    scope: Scope<'a>,
+    /// The values of shared names that were used, each by the place of its definition and by how it was asked for.
+    known: HashMap<(usize, [bool; 3]), Vec<Quantity>>,
 }
 
 impl<'a> Evaluation<'a> {
     pub(super) fn new(
-        model: &'a Model,
-        texts: &'a Texts,
+        System { model, attribute, texts }: System<'a>,
         point: &'a Point,
         directions: Directions<'a>,
         budget: u64,
@@ -155,7 +167,7 @@ impl<'a> Evaluation<'a> {
         });
         let own = model.functions.iter();
         let functions = own.map(|own| texts.of(&own.name, || own.name.to_string())).collect();
-        Self {
+        let mut evaluation = Self {
             model,
             texts,
             blocks: coordinates.collect(),
@@ -170,7 +182,10 @@ impl<'a> Evaluation<'a> {
             sides: Sides::default(),
             is_delicate: false,
             scope: Scope::default(),
-        }
+            known: HashMap::default(),
+        };
+        evaluation.share(&attribute.shared);
+        evaluation
     }
 
     /// The rate of the physical time, and the energy that is conjugate to it.
@@ -292,14 +307,16 @@ impl<'a> Evaluation<'a> {
         side
     }
 
-    fn bound(&self, name: &str) -> Option<Binding> {
+    fn bound(&self, name: &str) -> Option<Binding<'a>> {
         self.scope.bindings.get(name).and_then(|bindings| bindings.last()).cloned()
     }
 
     fn name(&mut self, syntax: &Expr, path: &syn::Path) -> Value<Quantity> {
         let text = self.texts.of(syntax, || written(path));
-        if let Some(Binding::Value(value) | Binding::Argument(Some(value), _)) = self.bound(&text) {
-            return Ok(value);
+        match self.bound(&text) {
+            Some(Binding::Value(value) | Binding::Argument(Some(value), _)) => return Ok(value),
+            Some(Binding::Shared(shared)) => return self.shared(shared),
+            Some(Binding::Argument(None, _) | Binding::Index(_) | Binding::Function(..)) | None => {}
         }
         if self.block(&text).is_some() || self.parameter(&text).is_some() {
             return self.entry(syntax);

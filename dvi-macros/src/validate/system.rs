@@ -54,8 +54,8 @@ impl System<'_> {
         part: Part,
         budget: u64,
     ) -> Result<Outputs, NoValue> {
-        let Self { model, attribute, texts } = *self;
-        let mut evaluation = Evaluation::new(model, texts, point, along, budget);
+        let Self { model, attribute, .. } = *self;
+        let mut evaluation = Evaluation::new(*self, point, along, budget);
         let zero = Jet::number(0.0);
         let (lagrangian, form, hamiltonian) = match (&attribute.lagrangian, &attribute.one_form) {
             (Some(lagrangian), _) => {

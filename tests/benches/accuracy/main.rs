@@ -62,9 +62,11 @@ fn bar(on: &str, method: &str, other: &str, ratio: Option<f64>, most: f64) {
     println!("{on}: {method} / {other} = {ratio} (to be at most {most})");
 }
 
-/// The folder after `--out`, or `accuracy` in the target folder. What cargo adds is `--bench`.
+/// The folder after `--out`, or `accuracy` in the target folder. What cargo adds is `--bench`; `--markdown`
+/// changes nothing here, where all tables are in Markdown.
 fn folder() -> Result<PathBuf> {
-    let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
+    let ours = |argument: &String| !["--bench", "--markdown"].contains(&argument.as_str());
+    let mut arguments = std::env::args().skip(1).filter(ours);
     match (arguments.next().as_deref(), arguments.next()) {
         (None, _) => {
             let program = std::env::current_exe().context("where is this program?")?;

@@ -25,4 +25,18 @@ pub struct System;
 )]
 pub struct Constrained;
 
+#[lagrangian(
+    coordinates(x[3]),
+    lagrangian = sum(0..3, |j| kinetic(j)) - sum(0..3, |twice| x[0]),
+    momenta(half = twice / 4.0),
+    let = {
+        let kinetic = |j| dot(x[j]).powi(2);
+        let twice = 2.0 * x[1];
+        let gap = |j, k| x[j] - x[0];
+        let (sine, cosine) = x[0].sin_cos();
+        let _nothing = cosine;
+    },
+)]
+pub struct Sharing;
+
 fn main() {}

@@ -86,6 +86,29 @@ fn bodies_end_where_parabolas_do() -> Checked {
     Ok(())
 }
 
+/// On the ground a body that is thrown up comes back, and one that falls, or is let go, ends at once; back
+/// in time up is down.
+#[test]
+fn bodies_that_leave_a_limit_outwards_end_at_once() -> Checked {
+    for (h, back) in [(0.4, 2.0), (-0.4, -2.0)] {
+        let up = back / 2.0;
+        let starts = [up, -up, 0.0].map(|dot_z| BodyState { x: 0.0, z: 0.0, dot_x: 1.0, dot_z });
+        let results = Ensemble::new(&Body, Variational::trapezoid(), h, starts)
+            .until(["ceiling", "ground"], |_, body, _| [body.z - 3.0, -body.z])
+            .take_steps(20)?;
+        let [thrown, falls, rests] = results.members() else { return Err("there are three".into()) };
+        ends(thrown, "ground", back, &[back, 0.0, 1.0, -up]);
+        for (member, dot_z) in [(falls, -up), (rests, 0.0)] {
+            assert_eq!((member.time, member.steps), (0.0, 0));
+            assert_eq!(
+                (&member.outcome, &member.state[..]),
+                (&exited("ground"), &[0.0, 0.0, 1.0, dot_z][..])
+            );
+        }
+    }
+    Ok(())
+}
+
 /// A limit that moves: the time of a member is that of its run.
 #[test]
 fn limits_may_move() -> Checked {

@@ -1,0 +1,278 @@
+//! Conditions that are watched on a run that somebody else drives.
+
+use core::fmt;
+
+use super::conditions::Conditions;
+use super::course::{Course, Turn, Watched};
+use super::search::{Within, numbers};
+use super::{Direction, Event, EventOf};
+use crate::error::{StartError, StepError, StepFailure};
+use crate::run::Run;
+use crate::run::dense::{Dense, StateOf};
+use crate::scalar::carries_derivatives;
+use crate::scalar::norm::reported;
+use crate::{Real, Scalar};
+
+/// Conditions that are watched on a run: [`Events`](super::Events) for those who take the steps themselves.
+/// Several can watch one run, each with conditions of its own.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/pendulum.txt")]
+/// let mut run = Dense::new(Integrator::new(&Pendulum, Gauss::<4>::new(), 0.1, start)?)?;
+/// let mut bottom = Watch::new(&mut run, [Direction::Either], |_, state| [state.angle])?;
+/// let mut turns = Watch::new(&mut run, [Direction::Either], |_, state| [state.dot_angle])?;
+/// let (mut passages, mut turned) = (0, 0);
+/// while run.time() < 20.0 {
+///     run.advance()?;
+///     bottom.search(&mut run)?;
+///     turns.search(&mut run)?;
+///     passages += usize::from(bottom.next_until(&mut run, 20.0)?.is_some());
+///     turned += usize::from(turns.next_until(&mut run, 20.0)?.is_some());
+/// }
+/// // A quarter of its period of 6.7 after the start, and each half of one from there on.
+/// assert_eq!((passages, turned), (6, 5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Watch<R: Run, G, const N: usize> {
+    g: G,
+    directions: [Direction; N],
+    /// Of each condition, at the end of the last step.
+    watched: [Watched<R::Scalar>; N],
+    /// Parts of the last step at which events are, that have not been handed out.
+    found: [[Option<R::Scalar>; 2]; N],
+    /// Where states that are looked at are read to.
+    state: StateOf<R>,
+    /// When it has looked last.
+    time: R::Scalar,
+    /// The last event, but for those where the state was set: its condition and its part of a step.
+    last: Option<(usize, R::Scalar)>,
+    /// Steps since the state was set; before it is, more than one.
+    steps: u64,
+    /// Events one after the other that came soon after the state was set.
+    hops: usize,
+    /// Why the events of the last step are not known.
+    lost: Option<StepError>,
+}
+
+/// Where the state is changed a condition is zero if it is no more than this part of what changes in a step.
+const LEFT: f64 = 1e-9;
+/// Parts of a step that differ by no more than so many rounding errors are one.
+const TOGETHER: f64 = 16.0;
+/// An event in this part of the first step after a change of the state is a hop.
+const HOP: f64 = 1e-2;
+/// After so many hops of one condition, each shorter than the one before, events accumulate.
+const HOPS: usize = 4;
+
+impl<R: Run, G, const N: usize> Watch<R, G, N>
+where
+    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
+{
+    /// From the present point of the run on, where each of the conditions `g` crosses zero in its direction.
+    /// All memory is allocated here.
+    ///
+    /// # Errors
+    /// [`StartError::Starter`] if there are no velocities, or a condition is no number, at the present
+    /// point.
+    pub fn new(run: &mut Dense<R>, directions: [Direction; N], g: G) -> Result<Self, StartError> {
+        Self::of(run, directions, g)
+    }
+}
+
+impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G, N> {
+    /// The same for conditions of either kind.
+    pub(super) fn of(run: &mut Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
+        let mut state = run.at_end().map_err(StartError::Starter)?.state();
+        let time = run.time();
+        let at = run.at_end().map_err(StartError::Starter)?;
+        let values = numbers(g.values(time, at, &mut state)).map_err(StartError::Starter)?;
+        let watched = values.map(|g| Watched { g, course: None });
+        let found = [[None; 2]; N];
+        Ok(Self { g, directions, watched, found, state, time, last: None, steps: 2, hops: 0, lost: None })
+    }
+
+    /// Finds the events of the last step: to be called after each step.
+    ///
+    /// # Errors
+    /// [`StepFailure::Unreachable`] if it was not called after the step before, or a state was set: then a
+    /// new `Watch` begins. Else as [`Events::next_until`](super::Events::next_until).
+    pub fn search(&mut self, run: &mut Dense<R>) -> Result<(), StepError> {
+        self.check_known()?;
+        if run.last_begun() != self.time {
+            return Err(run.unreachable(self.time));
+        }
+        (self.time, self.found) = (run.time(), [[None; 2]; N]);
+        self.steps += 1;
+        self.find(run).map_err(|failure| {
+            let error = run.error(failure);
+            self.lost = Some(error);
+            error
+        })
+    }
+
+    /// The next event of the last step that is not after time `t`, if there is one.
+    ///
+    /// # Errors
+    /// As [`Events::next_until`](super::Events::next_until), of the last step.
+    pub fn next_until(&mut self, run: &mut Dense<R>, t: R::Scalar) -> Result<Option<EventOf<R>>, StepError> {
+        self.next_before(run, Some(t))
+    }
+
+    /// What is known of the conditions, for those of a run that goes on from a checkpoint of this one, whose
+    /// events are then the same. Events of the last step that have not been handed out are no part of it.
+    #[cfg(feature = "alloc")]
+    pub fn save(&self) -> alloc::vec::Vec<R::Scalar> {
+        self.watched.iter().flat_map(Watched::save).collect()
+    }
+
+    /// Takes over what [`save`](Self::save) has listed, if there are as many numbers.
+    #[cfg(feature = "alloc")]
+    pub fn load(&mut self, saved: &[R::Scalar]) -> Option<()> {
+        let (conditions, []) = saved.as_chunks() else { return None };
+        if conditions.len() != N {
+            return None;
+        }
+        for (watched, saved) in self.watched.iter_mut().zip(conditions) {
+            *watched = Watched::load(saved)?;
+        }
+        Some(())
+    }
+
+    /// The conditions where the run is.
+    ///
+    /// # Errors
+    /// [`StepFailure::UndefinedEvent`].
+    fn at_end(&mut self, run: &mut Dense<R>) -> Result<[R::Scalar; N], StepFailure> {
+        let t = run.time();
+        numbers(self.g.values(t, run.at_end()?, &mut self.state))
+    }
+
+    /// Finds the events of the last step.
+    ///
+    /// # Errors
+    /// [`StepFailure::UndefinedEvent`], and those of parts of the step.
+    fn find(&mut self, run: &mut Dense<R>) -> Result<(), StepFailure> {
+        let end = self.at_end(run)?;
+        let (zero, h) = (R::Scalar::lift(0.0), Scalar::abs(run.step_size()));
+        for (index, b) in end.into_iter().enumerate() {
+            let Watched { g: a, course } = self.watched[index];
+            // Of another motion, before the state was set.
+            let before = course.filter(|_| self.steps != 1);
+            let course = Course::after(before, (b - a) / h);
+            // What lies at the end of a step but for rounding has no derivative in the next one.
+            let is_at_end = carries_derivatives::<R::Scalar>()
+                && Scalar::abs(b) <= R::Scalar::lift(LEFT) * course.rate * h;
+            let b = if is_at_end { zero } else { b };
+            self.watched[index] = Watched { g: b, course: Some(course) };
+            let stays = (a > zero && b > zero) || (a < zero && b < zero);
+            let turn = match before {
+                Some(before) if stays => course.turns(&before, [a, b], h),
+                _ => Turn::Likely,
+            };
+            if turn == Turn::No {
+                continue;
+            }
+            run.settle()?;
+            let Self { g, state, .. } = self;
+            let mut within = Within { run, g, state, index, direction: self.directions[index] };
+            if turn == Turn::Likely || within.is_turned([a, b])? {
+                self.found[index] = within.events([a, b])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on where the state of the run has just been set.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); then no events are known.
+    pub(super) fn begin_anew(&mut self, run: &mut Dense<R>) -> Result<(), StartError> {
+        self.time = run.time();
+        let values = self.at_end(run).map_err(|failure| {
+            (self.lost, self.found) = (Some(run.error(failure)), [[None; 2]; N]);
+            StartError::Starter(failure)
+        })?;
+        let h = Scalar::abs(run.step_size());
+        let [zero, left] = [0.0, LEFT].map(R::Scalar::lift);
+        for ((watched, found), g) in self.watched.iter_mut().zip(&mut self.found).zip(values) {
+            let rounding = watched.course.map_or(zero, |course| left * course.rate * h);
+            let is_zero = Scalar::abs(g) <= rounding;
+            let is_now = |part| self.last.is_some_and(|(_, last)| part <= last + left);
+            let is_due = is_zero && found.iter().flatten().any(|&part| is_now(part));
+            *found = [is_due.then_some(zero), None];
+            watched.g = if is_zero { zero } else { g };
+        }
+        (self.steps, self.lost) = (0, None);
+        Ok(())
+    }
+
+    /// Whether the events of the last step are known.
+    ///
+    /// # Errors
+    /// Why they are not.
+    pub(super) fn check_known(&self) -> Result<(), StepError> {
+        self.lost.map_or(Ok(()), Err)
+    }
+
+    /// Whether an event of the last step has not been handed out.
+    pub(super) fn is_left(&self) -> bool {
+        self.first().is_some()
+    }
+
+    /// The next event of the last step, if one is left that is not after `end`.
+    pub(super) fn next_before(
+        &mut self,
+        run: &mut Dense<R>,
+        end: Option<R::Scalar>,
+    ) -> Result<Option<EventOf<R>>, StepError> {
+        let Some((part, index, which)) = self.first() else { return Ok(None) };
+        if end.is_some_and(|end| run.is_before(end, run.time_at(part))) {
+            return Ok(None);
+        }
+        self.found[index][which] = None;
+        self.event(run, part, index).map(Some).map_err(|failure| run.error(failure))
+    }
+
+    /// The first event of the last step that has not been handed out: its part of the step, its condition,
+    /// and which of two it is. Of those at one time but for rounding it is the first in the array.
+    fn first(&self) -> Option<(R::Scalar, usize, usize)> {
+        let all = self.found.iter().flatten().filter_map(|part| *part);
+        let least = all.reduce(|least, part| if part < least { part } else { least })?;
+        self.found.iter().enumerate().find_map(|(index, found)| {
+            let which = found.iter().position(|part| part.is_some_and(|part| are_one(least, part)))?;
+            found[which].map(|part| (part, index, which))
+        })
+    }
+
+    fn event(
+        &mut self,
+        run: &mut Dense<R>,
+        part: R::Scalar,
+        index: usize,
+    ) -> Result<EventOf<R>, StepFailure> {
+        run.settle()?;
+        run.reach(part * run.step_size())?;
+        let time = run.reached_time();
+        // What happens where the state has been set is part of that event.
+        if part > R::Scalar::lift(0.0) {
+            let is_shorter = self.last.is_some_and(|(last, hop)| last == index && part < hop);
+            let is_hop = self.steps == 1 && part < R::Scalar::lift(HOP) && is_shorter;
+            self.hops = if is_hop { self.hops + 1 } else { 0 };
+            self.last = Some((index, part));
+        }
+        if self.hops > HOPS {
+            return Err(StepFailure::Hops { event: index, count: HOPS, time: reported(time) });
+        }
+        Ok(Event { index, time, state: run.reached()?.state() })
+    }
+}
+
+/// Whether a part of a step is another, which is no larger, but for rounding.
+fn are_one<T: Real>(least: T, part: T) -> bool {
+    part <= least + T::lift(TOGETHER) * T::default_epsilon()
+}
+
+impl<R: Run, G, const N: usize> fmt::Debug for Watch<R, G, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Watch").field("directions", &self.directions).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,102 @@
+//! Names that all formulas of a system share are what they stand for, to the bit and to the operation.
+
+use approx::abs_diff_eq;
+use dvi_core::prelude::*;
+use dvi_core::{Report, UnilateralLagrangian};
+use dvi_tests::Outcome;
+
+/// Two balls on springs between walls, with names for what stands in several formulas.
+#[lagrangian(
+    coordinates(x[2]),
+    lagrangian = sum(0..2, |i| m[i] * dot(x[i]).powi(2) / 2.0 - m[i] * spring(x[i])),
+    force(x) = |i| -drag * p(i),
+    impact = [gap, 2.0 - x[1]],
+    momenta(total = p(0) + p(1)),
+    events(level = spring(x[0]) - spring(x[1]), closing = dot(x[1]) - v),
+    let = {
+        let v = dot(x[0]);
+        let gap = x[1] - x[0] - d;
+        let spring = |a| k * a * a / 2.0;
+        let p = |i| m[i] * dot(x[i]);
+    },
+)]
+struct Named {
+    m: [f64; 2],
+    k: f64,
+    d: f64,
+    drag: f64,
+}
+
+/// The same written out.
+#[lagrangian(
+    coordinates(x[2]),
+    lagrangian = sum(0..2, |i| m[i] * dot(x[i]).powi(2) / 2.0 - m[i] * (k * x[i] * x[i] / 2.0)),
+    force(x) = |i| -drag * (m[i] * dot(x[i])),
+    impact = [x[1] - x[0] - d, 2.0 - x[1]],
+    momenta(total = m[0] * dot(x[0]) + m[1] * dot(x[1])),
+    events(level = k * x[0] * x[0] / 2.0 - k * x[1] * x[1] / 2.0, closing = dot(x[1]) - dot(x[0])),
+)]
+struct WrittenOut {
+    m: [f64; 2],
+    k: f64,
+    d: f64,
+    drag: f64,
+}
+
+#[test]
+fn a_system_with_shared_names_is_the_same_system() -> Outcome {
+    let (m, k, d, drag) = ([1.0, 2.5], 3.0, 0.25, 0.1);
+    let (named, written) = (Named { m, k, d, drag }, WrittenOut { m, k, d, drag });
+    let (x, dot_x) = ([-0.7, 0.9], [0.4, -1.1]);
+    let method = || Impacts::reflecting(Variational::trapezoid());
+    let mut a = Integrator::new(&named, method(), 0.01, NamedState { x, dot_x })?;
+    let mut b = Integrator::new(&written, method(), 0.01, WrittenOutState { x, dot_x })?;
+    a.take_steps(500)?;
+    b.take_steps(500)?;
+    assert!(a.memory().total() > 2, "{} impacts", a.memory().total());
+    assert_eq!((a.q(), a.memory().total()), (b.q(), b.memory().total()));
+    let ([mut one, mut other], q, v) = ([[0.0; 2]; 2], [0.3, 0.8], [0.2, -0.5]);
+    named.gap_rate(&q, &v, 0.0, &mut one);
+    written.gap_rate(&q, &v, 0.0, &mut other);
+    assert_eq!(one, other);
+    let state = NamedState { x: q, dot_x: v };
+    let same = WrittenOutState { x: q, dot_x: v };
+    for event in 0..2 {
+        let rates: [f64; 2] =
+            [named.at_time(0.0).event_rate(event, &state)?, written.at_time(0.0).event_rate(event, &same)?];
+        assert_eq!(rates[0], rates[1]);
+    }
+    let seen = |report: &Report| format!("{:?}", (report.structure, report.residual, report.jacobian));
+    assert_eq!(seen(&Named::REPORT), seen(&WrittenOut::REPORT));
+    Ok(())
+}
+
+/// A name that no formula uses costs nothing, and one with velocities may stand beside formulas without.
+#[degenerate_lagrangian(
+    coordinates(x, p),
+    lagrangian = action - energy,
+    gauge = -half,
+    momenta(squares = squares(x) + squares(p)),
+    let = {
+        let action = p * dot(x);
+        let half = x * p / 2.0;
+        let squares = |a| a * a;
+        let energy = (squares(p) + squares(x)) / 2.0;
+        let _unused = energy.sqrt().ln();
+    },
+)]
+struct Oscillator;
+
+#[test]
+fn a_degenerate_system_shares_names_too() -> Outcome {
+    let state = OscillatorState { x: 0.6, p: -0.8 };
+    assert!(abs_diff_eq!(Oscillator.energy_at(&state)?, 0.5, epsilon = 1e-15));
+    let mut one_form = [0.0; 2];
+    Oscillator.one_form(&[0.6, -0.8], 0.0, &mut one_form);
+    // α + d(−½xp) = ½ (p dx − x dp)
+    assert_eq!(one_form, [-0.4, -0.3]);
+    let of_name = |name: &str| Oscillator::REPORT.formulas.iter().find(|formula| formula.name == name);
+    assert_eq!(of_name("squares(a)").map(|formula| formula.text), Some("a * a"));
+    assert_eq!(of_name("half").map(|formula| formula.text), Some("x * p / 2.0"));
+    Ok(())
+}
