@@ -47,14 +47,14 @@ impl Factor {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Axis {
     /// Counted from 0.
-    pub number: usize,
+    pub number: u8,
     /// The number of components.
-    pub of: usize,
+    pub of: u8,
 }
 
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match ["x", "y", "z"].get(self.number).filter(|_| self.of <= 3) {
+        match ["x", "y", "z"].get(usize::from(self.number)).filter(|_| self.of <= 3) {
             Some(axis) => write!(f, ".{axis}"),
             None => write!(f, "[{}]", self.number),
         }

@@ -147,7 +147,7 @@ impl Table {
         for (number, name) in system.names().enumerate() {
             let first = *blocks.entry(name.block).or_insert(number);
             // All first components of vectors stand before all second ones.
-            let before = name.axis.map_or(0, |axis| axis.number * length(name.block));
+            let before = name.axis.map_or(0, |axis| usize::from(axis.number) * length(name.block));
             let index = first + before + name.index.unwrap_or(0);
             columns.push((self.place(&name.to_string())?, name.is_velocity, index));
         }

@@ -45,7 +45,7 @@ pub(crate) fn blocks<S: System>(system: &S) -> impl Iterator<Item = Range<usize>
         .filter(move |&block| axis(block).is_none_or(|axis: Axis| axis.number == 0));
     firsts.map(move |block| {
         let begin = end;
-        end += axis(block).map_or(1, |axis| axis.of) * system.block_len(block);
+        end += axis(block).map_or(1, |axis| usize::from(axis.of)) * system.block_len(block);
         begin..end
     })
 }

@@ -36,12 +36,12 @@ impl<S: System> Iterator for Entries<'_, S> {
             let &mut Self { system, is_velocity, block, first, index } = self;
             let coordinates = system.block_len(block);
             let count = if is_velocity { factor.velocities(coordinates) } else { coordinates };
-            let blocks = axis.map_or(1, |axis| axis.of);
+            let blocks = axis.map_or(1, |axis| usize::from(axis.of));
             if index < blocks * count {
                 self.index += 1;
                 let (entry, number) = (index / blocks, index % blocks);
                 let index_in_array = (!size.is_empty()).then_some(entry);
-                let axis = axis.map(|axis| Axis { number, ..axis });
+                let axis = axis.map(|axis| Axis { number: number as u8, ..axis });
                 return Some((
                     Name { block: name, is_velocity, index: index_in_array, axis, factor },
                     first + number * coordinates + entry,

@@ -171,6 +171,7 @@ impl Account {
             };
             let axis = match block.axis {
                 Some(Axis { number, of }) => {
+                    let [number, of] = [number, of].map(|count| count as u8);
                     quote!(::core::option::Option::Some(#krate::__private::Axis { number: #number, of: #of }))
                 }
                 None => quote!(::core::option::Option::None),

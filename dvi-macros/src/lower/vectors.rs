@@ -6,7 +6,7 @@ use syn::{Expr as Syntax, ExprMethodCall};
 
 use super::habits::as_receiver;
 use super::{Lowering, Role};
-use crate::errors::{Errors, text};
+use crate::errors::text;
 use crate::model::{COMPONENTS, Shape};
 use crate::symbolic::{Expr, Unary};
 use crate::words::VectorMethod;
@@ -343,7 +343,7 @@ impl Lowering<'_> {
 
     /// The value of what is reported elsewhere, if it is wrong.
     pub(super) fn quietly(&mut self, syntax: &Syntax) -> Option<Value> {
-        let said = std::mem::replace(self.errors, Errors::default());
+        let said = std::mem::take(self.errors);
         let value = self.value(syntax);
         *self.errors = said;
         value

@@ -140,8 +140,13 @@ impl System {
 
     /// Whether an array is a vector as a whole.
     pub(super) fn is_whole(&self, block: usize) -> bool {
-        let Block { size: Some(size), axis: None, .. } = &self.blocks[block] else { return false };
-        self.sizes[*size] == Size { kind: SizeKind::Literal, value: self.width as i64 }
+        let Block { size, axis, .. } = &self.blocks[block];
+        axis.is_none() && size.is_some_and(|size| self.is_width(size))
+    }
+
+    /// Whether a size is the number of components of vectors.
+    pub(super) fn is_width(&self, size: usize) -> bool {
+        self.sizes[size] == Size { kind: SizeKind::Literal, value: self.width as i64 }
     }
 
     /// The blocks that the attribute declares.

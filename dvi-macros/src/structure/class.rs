@@ -134,7 +134,7 @@ impl Class {
         for (block, known) in model.blocks.iter().zip(&self.components) {
             match known {
                 Components::Block(known) if *known == with => {
-                    names.push(format!("`{}`", block.label().replace("r#", "")))
+                    names.push(format!("`{}`", block.label().replace("r#", "")));
                 }
                 Components::Block(_) => {}
                 Components::Entries(entries) => {

@@ -105,24 +105,20 @@ impl Generator<'_> {
     }
 
     fn vector_parameter(&mut self, scope: &Scope) -> Option<Formula> {
-        let width = |size: &usize| {
-            let size = &self.system.sizes[*size];
-            size.kind == crate::oracle_tests::system::SizeKind::Literal
-                && size.value == self.system.width as i64
-        };
         let is_vector = |field: &usize| {
             let field = &self.system.fields[*field];
             let is_array =
                 matches!(field.container, Container::Array | Container::Matrix | Container::VectorOfArrays);
-            is_array && field.shape.last().is_some_and(width)
+            is_array && field.shape.last().is_some_and(|size| self.system.is_width(*size))
         };
         let fields: Vec<usize> = (0..self.system.fields.len()).filter(is_vector).collect();
         if fields.is_empty() {
             return None;
         }
         let field = *self.random.pick(&fields);
-        let (_, outer) = self.system.fields[field].shape.split_last()?;
-        let indices = outer.to_vec().into_iter().map(|size| self.index(scope, size)).collect();
+        let mut outer = self.system.fields[field].shape.clone();
+        outer.pop();
+        let indices = outer.into_iter().map(|size| self.index(scope, size)).collect();
         Some(Formula::VectorParameter(field, indices))
     }
 }
