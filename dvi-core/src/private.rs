@@ -37,6 +37,22 @@ pub fn remainder(index: i64, modulus: i64) -> i64 {
     index.checked_rem_euclid(modulus).unwrap_or(-1)
 }
 
+/// Σ max(0, first + step·k) for k from 0 to below `rows`: the members of a family with two indices that stand
+/// before its row of that number.
+#[inline]
+pub fn members_before(first: i64, step: i64, rows: usize) -> usize {
+    let rows = rows as i64;
+    // Where the terms are not negative: from `begin` to below `end`.
+    let (begin, end) = match step {
+        0 if first < 0 => (0, 0),
+        0 => (0, rows),
+        ..0 => (0, rows.min(first.div_euclid(-step) + 1)),
+        1.. => (0.max(-first.div_euclid(step)), rows),
+    };
+    let count = 0.max(end - begin);
+    (count * first + step * (count * (begin + end - 1) / 2)) as usize
+}
+
 /// Checks one index.
 ///
 /// # Errors
@@ -151,4 +167,15 @@ pub fn read_array<T: Copy, const N: usize>(_len: usize, at: &mut usize, flat: &[
     let start = *at;
     *at += N;
     core::array::from_fn(|i| flat[start + i])
+}
+
+#[test]
+fn members_are_counted_row_by_row() {
+    for (first, step, rows) in
+        (-7..7).flat_map(|a| (-3..4).flat_map(move |b| (0..9).map(move |n| (a, b, n))))
+    {
+        let expected: i64 = (0..rows).map(|row| (first + step * row).max(0)).sum();
+        let found = members_before(first, step, rows as usize);
+        assert_eq!(found, expected as usize, "{rows} rows of {first} + {step}k");
+    }
 }

@@ -53,9 +53,8 @@ impl Deviation {
     /// The lowest and the highest value; not numbers if one of the values is not.
     pub fn range(&self) -> [f64; 2] {
         let rows = self.envelope.rows();
-        let low = least(rows.iter().map(|row| row[1]));
         let high = rows.iter().map(|row| row[3]).fold(f64::NEG_INFINITY, larger);
-        if self.largest.is_nan() { [f64::NAN; 2] } else { [low, high] }
+        if self.largest.is_nan() { [f64::NAN; 2] } else { [least(rows.iter().map(|row| row[1])), high] }
     }
 
     /// The largest difference of two values.

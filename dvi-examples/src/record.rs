@@ -166,10 +166,18 @@ fn parse(text: &str) -> Result<Vec<Part>> {
     ensure!(reader.headers()?.iter().eq(COLUMNS), "its columns are others");
     let mut parts: Vec<Part> = Vec::new();
     for record in reader.records() {
-        let cells: Vec<String> = record?.iter().map(str::to_owned).collect();
-        let cells: [String; 11] = cells.try_into().ok().context("a row has more cells or fewer")?;
-        let [experiment, form, when, kind, place, text, value, bound, low, high, verdict] = cells;
-        let row = Row { kind, place, text, value, bound, low, high, verdict };
+        let record = record?;
+        let cell = |i: usize| record.get(i).unwrap_or_default().to_owned();
+        let row = Row {
+            kind: cell(3),
+            place: cell(4),
+            text: cell(5),
+            value: cell(6),
+            bound: cell(7),
+            low: cell(8),
+            high: cell(9),
+            verdict: cell(10),
+        };
         let state = match row.kind.as_str() {
             "complete" => Some(State::Complete),
             "interrupted" => Some(State::Interrupted),
@@ -178,8 +186,9 @@ fn parse(text: &str) -> Result<Vec<Part>> {
             _ => None,
         };
         if let Some(state) = state {
-            let length = Length::named(&form).with_context(|| format!("`{form}` is not a form"))?;
-            parts.push(Part { experiment, length, when, state, outcome: Outcome::default() });
+            let length = Length::named(&cell(1)).with_context(|| format!("`{}` is not a form", cell(1)))?;
+            let outcome = Outcome::default();
+            parts.push(Part { experiment: cell(0), length, when: cell(2), state, outcome });
             continue;
         }
         add(&mut parts.last_mut().context("it does not begin with a part")?.outcome, &row)?;

@@ -68,21 +68,21 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
         Ok(run.statistics().iterations as f64 / steps as f64)
     }
 
-    /// Errors of the coordinates at time `end`, of runs with so many steps, which show the order of methods.
-    pub fn errors<E: Fn(&[f64]) -> f64>(self, end: f64, counts: &[u64], error: E) -> Errors<'a, S, E> {
-        Errors { problem: self, end, counts: counts.into(), error }
+    /// The errors of the coordinates at time `end`, of runs with so many steps.
+    pub fn errors<E: Fn(&[f64]) -> f64>(self, end: f64, counts: &[u64], error: E) -> Convergence<'a, S, E> {
+        Convergence { problem: self, end, counts: counts.into(), error }
     }
 }
 
-/// The errors of the coordinates of a motion at a time, of runs with so many steps.
-pub struct Errors<'a, S: System, E> {
+/// What shows the order of methods: the errors of a motion at a time, of runs with so many steps.
+pub struct Convergence<'a, S: System, E> {
     problem: Problem<'a, S>,
     end: f64,
     counts: Vec<u64>,
     error: E,
 }
 
-impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Errors<'a, S, E> {
+impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Convergence<'a, S, E> {
     /// The lengths of the steps of a method, each with the error.
     pub fn of(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Vec<(f64, f64)>> {
         let error = |&steps: &u64| {
@@ -125,8 +125,7 @@ pub fn shapes<S: System>(
         if colour > 0 {
             run.take_steps(steps as u64 / 5)?;
         }
-        let shape = [[0.0; 2]].into_iter().chain(of(run.state())).collect();
-        Ok((run.time(), SEQUENCE[colour], shape))
+        Ok((run.time(), SEQUENCE[colour], [[0.0; 2]].into_iter().chain(of(run.state())).collect()))
     })
 }
 

@@ -1,10 +1,15 @@
 //! The words that experiments are written in.
 
-pub use std::f64::consts::{PI, TAU};
+pub use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
-pub use anyhow::{Context as _, Result};
-pub use dvi_core::methods::Method;
+pub use anyhow::{Context as _, Result, bail, ensure};
+pub use dvi_core::discrete::{Frequency, FrequencyIn, Interval, Rule as _};
+pub use dvi_core::fast_sum::FastSum;
+pub use dvi_core::field::{ScalarField, Spline};
+pub use dvi_core::methods::VariableStep;
 pub use dvi_core::prelude::*;
+pub use dvi_core::{ProperlyDegenerate, Separable, Space as _, rotations};
+pub use rayon::prelude::*;
 
 pub use crate::claim::{Bound, Check, Claim, beyond, claims, says};
 pub use crate::deviation::*;

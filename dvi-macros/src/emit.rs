@@ -245,12 +245,12 @@ impl Function<'_> {
             }
             Place::Constraint(row) => {
                 let (members, member) =
-                    (local(constraint_members(row.constraint)), self.emitter.index(&row.member));
+                    (local(constraint_members(row.constraint)), self.emitter.member(&row.member));
                 quote!(#members[#member])
             }
             Place::ConstraintDerivative(row, column) => {
                 let (first, member) =
-                    (local(first_constraint(row.constraint)), self.emitter.index(&row.member));
+                    (local(first_constraint(row.constraint)), self.emitter.member(&row.member));
                 let (krate, column, value) = (self.emitter.krate(), self.flat(column), self.signed(value));
                 return quote!(#krate::Sink::add(__sink, #first + #member, #column, #value););
             }

@@ -1,7 +1,7 @@
 //! The formulas of a system, in the graph, and what they are differentiated by.
 
 use crate::internal::internal;
-use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Id, Index, Loop, Node, SecondContribution};
+use crate::symbolic::{Contribution, Coordinate, Count, Expr, Graph, Id, Loop, Node, SecondContribution};
 use crate::syntax::Constrained;
 
 /// The formulas of a degenerate system.
@@ -48,10 +48,8 @@ pub(crate) type Force = Vec<Contribution>;
 /// A constraint as it is declared, a single one or a family.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraint {
-    /// The loop over the members of a family.
-    pub(crate) over: Option<Loop>,
-    /// The number of a member, counted from 0.
-    pub(crate) member: Index,
+    /// The loops over the members of a family, from the outermost.
+    pub(crate) loops: Vec<Loop>,
     pub(crate) value: Expr,
 }
 
@@ -63,20 +61,14 @@ pub(crate) struct DeclaredConstraints {
 }
 
 impl Constraint {
-    pub(crate) fn single(value: Expr) -> Self {
-        Self { over: None, member: Index::literal(0), value }
-    }
-
     /// How many constraints these are; none if the number is negative.
-    pub(crate) fn length(&self) -> Index {
-        match &self.over {
-            Some(over) => over.range.upper.plus(&over.range.lower, -1),
-            None => Index::literal(1),
-        }
+    pub(crate) fn length(&self) -> Count {
+        Count::of_passes(&self.loops)
     }
 
-    pub(crate) fn loops(&self) -> Vec<Loop> {
-        self.over.iter().cloned().collect()
+    /// The number of a member, counted from 0.
+    pub(crate) fn member(&self) -> Count {
+        Count::of_passes_before(&self.loops)
     }
 }
 

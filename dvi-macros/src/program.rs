@@ -107,7 +107,7 @@ fn applied(graph: &mut Graph, force: &Force) -> Routine {
 
 fn probe(graph: &mut Graph, lagrangian: Expr, force: &Force, constraints: &[Constraint]) -> Routine {
     let forces = force.iter().map(|part| (part.loops.clone(), part.value));
-    let constraints = constraints.iter().map(|constraint| (constraint.loops(), constraint.value));
+    let constraints = constraints.iter().map(|constraint| (constraint.loops.clone(), constraint.value));
     let sum = with_all(graph, lagrangian, forces.chain(constraints));
     Routine::new(graph, result(sum))
 }

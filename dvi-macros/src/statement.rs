@@ -1,6 +1,6 @@
 //! A statement is a loop nest, a place and a value: what generated functions are made of.
 
-use crate::symbolic::{Coordinate, Expr, Index, Loop};
+use crate::symbolic::{Coordinate, Count, Expr, Loop};
 
 /// An array that a generated function writes to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,5 +36,5 @@ pub(crate) struct Statement {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) constraint: u32,
-    pub(crate) member: Index,
+    pub(crate) member: Count,
 }

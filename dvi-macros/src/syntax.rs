@@ -24,7 +24,7 @@ pub(crate) mod tidy;
 
 use argument::{Argument, Value};
 pub(crate) use closures::closure;
-pub(crate) use constraint::{Constrained, Constraint, Family};
+pub(crate) use constraint::{Constrained, Constraint, Member};
 use declared::Declared;
 use elsewhere::mistaken;
 use tidy::Ungrouped;
@@ -218,8 +218,8 @@ impl Attribute {
         self.shared_values().chain(self.scopes().map(|(formula, _)| formula))
     }
 
-    /// All formulas as they were written but for what they share, those of a family with its index.
-    pub(crate) fn scopes(&self) -> impl Iterator<Item = (&Expr, Option<&Ident>)> {
+    /// All formulas as they were written but for what they share, those of a family with its indices.
+    pub(crate) fn scopes(&self) -> impl Iterator<Item = (&Expr, &[Member])> {
         let rate = self.time_transform.as_ref().map(|transform| &transform.rate);
         let dynamics = [
             self.one_form.as_ref(),
@@ -230,12 +230,10 @@ impl Attribute {
         ];
         let forces = self.forces.iter().flat_map(Force::formulas);
         let named = self.momenta.iter().chain(&self.events).map(|named| &named.formula);
-        let constraints = self
-            .constraints
-            .iter()
-            .map(|constraint| (&constraint.formula, constraint.family.as_ref().map(|family| &family.index)));
+        let constraints =
+            self.constraints.iter().map(|constraint| (&constraint.formula, constraint.family.as_slice()));
         let others = dynamics.into_iter().flatten().chain(forces).chain(named);
-        others.map(|formula| (formula, None)).chain(constraints)
+        others.map(|formula| (formula, [].as_slice())).chain(constraints)
     }
 
     /// All formulas, to be changed.

@@ -199,7 +199,7 @@ impl Check<'_> {
         });
         let entries: Vec<Support<'_>> = entries.collect();
         let rows = functions.constraint_lengths().iter().enumerate().flat_map(|(number, length)| {
-            let length = point.length(length).unwrap_or(0).min(MOST);
+            let length = length.value(|index| point.length(index)).unwrap_or(0).min(MOST);
             (0..length).map(move |member| Support::Constraint(number, member))
         });
         let rows: Vec<Support<'_>> =

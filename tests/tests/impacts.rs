@@ -6,6 +6,7 @@ mod ends;
 mod equations;
 mod hidden;
 mod motion;
+mod pairs;
 mod reference;
 mod several;
 mod structure;

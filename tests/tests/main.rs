@@ -32,6 +32,7 @@ mod impacts;
 mod imports;
 mod lanes;
 mod langevin;
+mod lattices;
 mod laws;
 mod local_functions;
 mod manifold;

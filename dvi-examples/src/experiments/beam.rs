@@ -147,8 +147,7 @@ fn figure(all: &[Vibration; 4], frequencies: &Frequencies, periods: f64) -> Resu
     let of_rod = half(Panel::plane(format!("{SEGMENTS} segments, half a period"), "*x*", "*y*"), of_rod);
     let time = ("time *t*, in periods of the first mode", [0.0, periods]);
     let lines = all.iter().map(|(series, ..)| {
-        let points = series.kept[0].magnitude().into_iter().map(|[t, error]| [t / period(), error]);
-        series.line(points.collect())
+        series.line(series.kept[0].magnitude().into_iter().map(|[t, error]| [t / period(), error]).collect())
     });
     let energy = Panel::semilog("Energy", time, ("largest |*E*/*E*(0) − 1|", [1e-16, 1.0])).lines(lines);
     let subtitle = format!(

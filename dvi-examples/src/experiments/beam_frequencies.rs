@@ -1,8 +1,6 @@
 //! The frequencies of a clamped beam, by finite elements and by an elastic rod, against those of Euler and
 //! Bernoulli.
 
-use dvi_core::Separable;
-
 use super::beam::{ANGLE, ELEMENTS, OF_BEAM, OF_ROD, SEGMENTS, newmark, rod};
 use crate::vocabulary::*;
 

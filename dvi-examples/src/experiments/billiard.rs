@@ -5,8 +5,6 @@
 //! momenta about the foci is a constant of the motion, so that each orbit has a curve in the section
 //! (Birkhoff 1927). In the curve x⁴ + y⁴ = 1 some orbits fill regions of it.
 
-use rayon::prelude::*;
-
 use crate::vocabulary::*;
 
 const ELLIPSE: EllipseBilliard = EllipseBilliard { a: 1.25, b: 0.8 };
@@ -100,7 +98,7 @@ impl Orbit {
         curve: impl Fn(f64, f64) -> (f64, [f64; 2]),
     ) -> Result<Self> {
         let (energy, product, mut orbit) = (run.energy(), run.momentum(0), Self::default());
-        while run.memory().total() < impacts && !job.is_stopping() {
+        while run.memory().total() < impacts {
             run.advance()?;
             let of_step = run.memory().impacts();
             for impact in of_step {

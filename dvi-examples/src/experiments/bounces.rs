@@ -78,8 +78,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64) -> Result<Bounces> {
-    let is_discrete = collision == Collision::Variational;
-    let name = if is_discrete { "discrete energy" } else { "energy at the impact" };
+    let name = if collision == Collision::Variational { "discrete energy" } else { "energy at the impact" };
     let mut run = Integrator::new(&FLOOR, trapezoid(collision), h, START)?;
     let (begin, span) = (run.energy(), Span { end, early: EARLY, intervals: 300 });
     let kept = job.keep(&mut run, (end / h) as u64, span, |run| [run.energy() - begin])?;

@@ -106,8 +106,7 @@ impl Region {
     /// complex conjugation with reversed time and order turns P₁ around. So each crossing counts four times.
     fn around(places: &[[f64; 2]]) -> Self {
         let mut cells: HashMap<_, Vec<_>> = HashMap::new();
-        let images = places.iter().flat_map(|&[r1, p1]| [[r1, p1], [-r1, p1], [r1, -p1], [-r1, -p1]]);
-        for place in images {
+        for place in places.iter().flat_map(|&[r1, p1]| [[r1, p1], [-r1, p1], [r1, -p1], [-r1, -p1]]) {
             cells.entry(Self::cell(place)).or_default().push(place);
         }
         Self(cells)

@@ -1,8 +1,6 @@
 //! How energy and angular momentum of a particle decay by friction, in the motion and in runs: by
 //! variational methods, by RK4, and by the average acceleration method, Newmark's with β = ¼ and γ = ½.
 
-use anyhow::bail;
-
 use crate::vocabulary::*;
 
 pub const GAMMA: f64 = 1e-3;
@@ -166,9 +164,6 @@ pub struct AverageAcceleration {
     a: [f64; 2],
 }
 
-/// Newton's method needs about four.
-const ITERATIONS: usize = 20;
-
 impl AverageAcceleration {
     pub fn new(case: Case, RadialFrictionState { x, y, dot_x, dot_y }: RadialFrictionState) -> Self {
         let (system, h, q, v) = (case.system(), case.h, [x, y], [dot_x, dot_y]);
@@ -182,7 +177,8 @@ impl AverageAcceleration {
         let Self { system, h, q, v, a } = self;
         let (h, gamma) = (*h, system.gamma);
         let mut next = [0, 1].map(|i: usize| q[i] + h * (v[i] + 0.5 * h * a[i]));
-        for _ in 0..ITERATIONS {
+        // It needs about four.
+        for _ in 0..20 {
             let slope = system.slope(&next);
             let (v1, a1) = rates(h, [*q, *v, *a], next);
             let residual = [0, 1].map(|i: usize| a1[i] + gamma * v1[i] + slope * next[i]);
@@ -227,10 +223,9 @@ pub fn is_midpoint(job: &Job<'_>, case: Case) -> Result<Claim> {
         newmark.step();
         most = larger(most, apart(&entries(run.state()), &entries(newmark.half_a_step_back())));
     })?;
-    Ok(beyond(
-        "Newmark's method with β = ¼ is the variational midpoint rule half a step back, with friction too",
-    )
-    .at_most("largest difference of a coordinate or a velocity", most, 1e-10))
+    let text = "Newmark's method with β = ¼ is the variational midpoint rule half a step back, with \
+                friction too";
+    Ok(beyond(text).at_most("largest difference of a coordinate or a velocity", most, 1e-10))
 }
 
 fn rates(h: f64, [q, v, a]: [[f64; 2]; 3], next: [f64; 2]) -> ([f64; 2], [f64; 2]) {

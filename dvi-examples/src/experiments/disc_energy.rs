@@ -9,9 +9,8 @@ use crate::vocabulary::*;
 /// The end of the beginning, and of runs with half the step.
 const EARLY: f64 = 100.0;
 const HALVED: f64 = 1e4;
-/// How many directions there are to start in, and times in a factor of ten at which the error is noted.
+/// How many directions there are to start in.
 pub const STARTS: u64 = 8;
-const PER_DECADE: f64 = 8.0;
 
 /// The errors at times at equal ratios, with the step.
 struct Growth {
@@ -111,7 +110,8 @@ impl Growth {
         begun: impl Fn(RollingDiscState) -> Result<F>,
     ) -> Result<Self> {
         let decades = end.log10();
-        let count = (PER_DECADE * decades).round().max(1.0);
+        // Eight in a factor of ten.
+        let count = (8.0 * decades).round().max(1.0);
         let times = (0..=count as u32).map(|k| 10f64.powf(f64::from(k) / count * decades));
         let mut points: Vec<[f64; 2]> = times.map(|t| [t, 0.0]).collect();
         for k in 0..STARTS {

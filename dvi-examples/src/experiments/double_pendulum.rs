@@ -3,8 +3,6 @@
 //! The variational step is implicit here, p0 = −D₁L_d(q0, q1), and the compiler has differentiated what it
 //! needs. Beside it stands the classical Runge–Kutta method on equations of motion written by hand.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::rk4::keep_rk4;
 use crate::vocabulary::*;
 
@@ -52,8 +50,7 @@ fn figure(all: &[Series<1>; 3], end: f64) -> Figure {
     let parts = SEQUENCE.into_iter().enumerate();
     let path = Panel::window("Path of the lower mass", x, y).each(parts, |panel, (i, colour)| {
         // One point more, so that the parts join.
-        let points = path.iter().skip(i * part).take(part + 1).copied().collect();
-        panel.line(points, solid(colour).width(1.5))
+        panel.line(path.iter().skip(i * part).take(part + 1).copied().collect(), solid(colour).width(1.5))
     });
     let labels = ["Error of the energy", "largest |*E* − *E*(0)| of each interval   [J]"];
     let energy = over_time(labels, end, [1e-6, 1.0], all, 0);

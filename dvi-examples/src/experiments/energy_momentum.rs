@@ -32,8 +32,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         position: &|t| ORBIT.position(t),
     };
     let all = [spring.runs(job, "spring", ON_SPRING, steps)?, kepler.runs(job, "Kepler", ON_ORBIT, steps)?];
-    let pairs = fine.iter().step_by(2).zip(&double);
-    let between = largest(pairs.map(|(a, b)| (a.x - b.x).hypot(a.y - b.y)));
+    let between = largest(fine.iter().step_by(2).zip(&double).map(|(a, b)| (a.x - b.x).hypot(a.y - b.y)));
     let none = NoStep::new()?;
     job.publish(figure(&all, &none), table(&all, &none)?)?;
     outcome(&all, between, &none)
@@ -64,10 +63,9 @@ fn outcome(all: &[Runs; 2], between_references: f64, none: &NoStep) -> Result<Ou
                     the second order";
     let bounds = [(1.5e-14, [3.141e-3, 5e-6]), (5e-14, [1.053e-2, 2e-5])];
     let discrete = beyond(discrete).each(all.iter().zip(bounds), |claim, (of, (rounding, varies))| {
-        let claim = claim.of(of.name);
         let defect = most(&of.kept, |steps| steps.kept[0].largest);
         let growth = most(&of.kept, |steps| steps.kept[0].growth());
-        let claim = claim.at_most("largest |E_d − e| of all runs", defect, rounding);
+        let claim = claim.of(of.name).at_most("largest |E_d − e| of all runs", defect, rounding);
         let claim = claim.at_most("the same over all steps / over the first tenth", growth, 2.0);
         let claim = claim.of(plain(of)).near("largest difference of two E_d", width(&of.mean[0], 0), varies);
         claim.near("order of that in h", order_in_length(&of.mean, |steps| width(steps, 0)), second)
@@ -100,26 +98,25 @@ fn outcome(all: &[Runs; 2], between_references: f64, none: &NoStep) -> Result<Ou
                 and farther than one of the same work";
     let references = "spring: largest distance of the reference from one with steps twice as long";
     let bounds = [([0.94, 0.96], 20.0), ([0.3, 0.5], 5.0)];
-    let accuracy = beyond(text).at_most(references, between_references, 1e-12);
-    let accuracy =
-        accuracy.each(all.iter().zip(bounds), |claim, (Runs { name, kept, mean, work }, bounds)| {
-            let (closer, farther) = bounds;
-            let rate = |steps: &Steps| steps.work / steps.length;
-            let behind = |i: usize| kept[i].distance / work[i].distance;
-            let closeness = "largest distance / that with as many steps of one length";
-            let in_a_step = "evaluations of derivatives in a step / in one of steps of one length";
-            let in_a_time = "evaluations in a time, the run of the same work / this one";
-            let order = order_in_length(kept, |steps| steps.distance);
-            claim
-                .of(name)
-                .near("order of the largest distance in h", order, [2.0, 0.03])
-                .within(closeness, kept[0].distance / mean[0].distance, closer)
-                .at_least(in_a_step, kept[0].work / mean[0].work, 4.0)
-                .at_most(in_a_time, rate(&work[0]) / rate(&kept[0]), 1.0)
-                .at_least("largest distance / that with the same work", behind(0), farther)
-                .at_least("the same with the shortest first step", behind(3), farther)
-        });
-    claims([discrete, momentum, energy, lengths, accuracy, none.claim()])
+    let close = beyond(text).at_most(references, between_references, 1e-12);
+    let close = close.each(all.iter().zip(bounds), |claim, (Runs { name, kept, mean, work }, bounds)| {
+        let (closer, farther) = bounds;
+        let rate = |steps: &Steps| steps.work / steps.length;
+        let behind = |i: usize| kept[i].distance / work[i].distance;
+        let closeness = "largest distance / that with as many steps of one length";
+        let in_a_step = "evaluations of derivatives in a step / in one of steps of one length";
+        let in_a_time = "evaluations in a time, the run of the same work / this one";
+        let order = order_in_length(kept, |steps| steps.distance);
+        claim
+            .of(name)
+            .near("order of the largest distance in h", order, [2.0, 0.03])
+            .within(closeness, kept[0].distance / mean[0].distance, closer)
+            .at_least(in_a_step, kept[0].work / mean[0].work, 4.0)
+            .at_most(in_a_time, rate(&work[0]) / rate(&kept[0]), 1.0)
+            .at_least("largest distance / that with the same work", behind(0), farther)
+            .at_least("the same with the shortest first step", behind(3), farther)
+    });
+    claims([discrete, momentum, energy, lengths, close, none.claim()])
 }
 
 /// The largest defect of E_d over the number of the step, and E − E(0) and h over time.

@@ -2,8 +2,6 @@
 //! with the trapezoidal rule on a spring that stiffens a run comes to a state from which no step has the
 //! discrete energy.
 
-use anyhow::bail;
-
 use super::energy_momentum::{ON_SPRING, START};
 use crate::vocabulary::*;
 

@@ -112,11 +112,10 @@ impl Exchange {
     }
 
     pub fn panel(&self, motion: &Self, title: String) -> Panel {
-        let grey = solid(SLATE).width(3.0).opacity(0.35);
         let springs = [("first", BLUE), ("second", GREEN), ("third", VERMILLION)].into_iter().zip(0..);
         let (time, energies) = (("time *t*", [0.0, COMPARED as f64]), "energies of the stiff springs");
         Panel::linear(title, time, (energies, [0.0, 1.7]))
-            .each(0..3, |panel, j| panel.line(motion.points(j), grey))
+            .each(0..3, |panel, j| panel.line(motion.points(j), solid(SLATE).width(3.0).opacity(0.35)))
             .lines(springs.map(|((name, colour), j)| (name, solid(colour).width(1.4), self.points(j))))
     }
 }

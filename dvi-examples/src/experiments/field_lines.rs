@@ -4,8 +4,6 @@
 //! preserves Ω keeps the flux through each loop that is carried along, and with it the surfaces, islands and
 //! chaotic layers of the field.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::poincare_map::{Field, Place, STEPS, flux_changes, turned, where_islands_are};
 use crate::vocabulary::*;
 
@@ -84,14 +82,13 @@ fn starts() -> [Vec<Place>; 2] {
     let islands = [0.004, 0.012, 0.02].map(|x| [[1.0 + two + x, 0.0], [1.0 + three + x, 0.0]]);
     // The points between two islands.
     let between = [[1.0, two], [1.0 - three, 0.0]];
-    let outer = [[1.4, 0.0], [1.43, 0.0]];
-    [abc.concat(), [&inner[..], &islands.concat(), &between, &outer].concat()]
+    [abc.concat(), [&inner[..], &islands.concat(), &between, &[[1.4, 0.0], [1.43, 0.0]]].concat()]
 }
 
 /// Where the line through `start` meets the plane after each of `count` turns.
 fn section(job: &Job<'_>, field: &impl Field, start: Place, count: u64) -> Result<Vec<Place>> {
     let (mut place, mut places) = (start, Vec::new());
-    for _ in (0..count).take_while(|_| !job.is_stopping()) {
+    for _ in 0..count {
         place = turned(field, OneStep::midpoint(), STEPS, place)?;
         places.push(place);
         job.proceed(STEPS);

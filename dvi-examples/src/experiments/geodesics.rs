@@ -36,9 +36,8 @@ impl Long<'_> {
         let mut kept = Span { end: self.end(), early: self.end(), intervals: 300 }.deviations();
         let mut done = 0_u64;
         self.job.repeat(self.steps / self.every, || {
-            let state = later()?;
             done += self.every;
-            note(&mut kept, done as f64 * self.h, of(&state));
+            note(&mut kept, done as f64 * self.h, of(&later()?));
             Ok(())
         })?;
         Ok(Series::new(name, stroke, kept))
@@ -290,8 +289,7 @@ mod tests {
     #[test]
     fn the_zero_of_a_sine_is_found_between_the_steps() {
         let at = |t: f64| [t.sin(), t.cos()];
-        let part = crossing(at(3.1), at(3.2), 0.1);
-        assert!((3.1 + 0.1 * part - std::f64::consts::PI).abs() < 1e-8);
+        assert!((3.1 + 0.1 * crossing(at(3.1), at(3.2), 0.1) - std::f64::consts::PI).abs() < 1e-8);
     }
 
     #[test]
@@ -303,8 +301,7 @@ mod tests {
         }
         for (side, found) in turnings.found.iter().enumerate() {
             assert_eq!(found.len(), [6, 7][side]);
-            let expected = [-1.0, 1.0][side];
-            assert!(found.iter().all(|[height, _]| (height - expected).abs() < 1e-6), "{found:?}");
+            assert!(found.iter().all(|[height, _]| (height - [-1.0, 1.0][side]).abs() < 1e-6), "{found:?}");
         }
     }
 }

@@ -5,10 +5,6 @@
 //! the exact orbit and errs in the phase alone; regularisation makes the problem an oscillator, which phase
 //! fitting solves exactly.
 
-use anyhow::ensure;
-use dvi_core::discrete::{FrequencyIn, Unfitted};
-use dvi_core::methods::VariableStep;
-
 use crate::vocabulary::*;
 
 pub trait KeplerRun: Run<System = Kepler, Scalar = f64> {}
@@ -41,8 +37,7 @@ pub fn follow(
 ) -> Result<Course> {
     let initial = run.energy();
     let mut course = Course::default();
-    let mut done = 0;
-    while done < periods && !job.is_stopping() {
+    for done in 0..periods {
         // Half a millionth of a period: what fixed steps may be short of.
         let end = TAU * (done as f64 + 1.0 - 5e-7);
         let mut steps = 0;
@@ -55,11 +50,10 @@ pub fn follow(
             course.energy = larger(course.energy, change.abs());
             look((run.time(), change, place(run)));
         }
-        done += 1;
         job.proceed(1);
     }
     let statistics = run.statistics();
-    let per_period = |count: u64| count as f64 / done.max(1) as f64;
+    let per_period = |count: u64| count as f64 / periods as f64;
     course.steps = per_period(statistics.steps);
     course.evaluations = per_period(statistics.gradients + statistics.linearizations);
     Ok(course)
@@ -135,37 +129,31 @@ pub fn finenesses(steps: Steps, e: f64) -> [f64; 3] {
 
 pub fn equal_errors(job: &Job<'_>, steps: Steps, e: f64, fineness: f64) -> Result<Vec<Comparison>> {
     let reading = if steps == Fixed { Reading::Variational } else { Reading::LeftFrozen };
-    let fitted = one_period(job, steps, Curvature(reading), Quadrature::simpson(), e, fineness);
+    let fitted = Variational::new(Quadrature::simpson()).phase_fitted(Curvature(reading));
+    let fitted = one_period(job, steps, fitted, e, fineness);
     let fitted = fitted.with_context(|| format!("the phase-fitted run at e = {e}"))?;
     let needed = |&(reference, rule, _): &(&'static str, Quadrature, Colour)| {
         // For the same energy error, by bisection.
+        let linear = Variational::new(rule).phase_fitted(Unfitted);
         let (mut low, mut high) = (fineness / 30.0, fineness * 30.0);
-        for _ in (0..BISECTIONS).take_while(|_| !job.is_stopping()) {
+        for _ in 0..BISECTIONS {
             let middle = (low * high).sqrt();
             // Very coarse runs may fail: they are too coarse.
             let is_fine = |course: Course| course.energy <= fitted.energy;
-            let course = one_period(job, steps, Unfitted, rule, e, middle);
+            let course = one_period(job, steps, linear, e, middle);
             if course.is_ok_and(is_fine) { high = middle } else { low = middle }
         }
-        let linear = one_period(job, steps, Unfitted, rule, e, high)?.steps;
+        let linear = one_period(job, steps, linear, e, high)?.steps;
         Ok(Comparison { steps, e, reference, energy: fitted.energy, fitted: fitted.steps, linear })
     };
     REFERENCES.iter().map(needed).collect()
 }
 
-/// One period.
-fn one_period(
-    job: &Job<'_>,
-    steps: Steps,
-    frequency: impl FrequencyIn<f64> + Copy,
-    rule: Quadrature,
-    e: f64,
-    fineness: f64,
-) -> Result<Course> {
-    let (method, orbit) = (Variational::new(rule).phase_fitted(frequency), Orbit { e });
+fn one_period(job: &Job<'_>, steps: Steps, by: impl KeplerMethod, e: f64, fineness: f64) -> Result<Course> {
+    let orbit = Orbit { e };
     match steps {
-        Fixed => follow(job, &mut fixed(method, orbit, fineness.round())?, 1, |_| ()),
-        Controlled => follow(job, &mut osculating(method, orbit, 1.0 / fineness)?, 1, |_| ()),
+        Fixed => follow(job, &mut fixed(by, orbit, fineness.round())?, 1, |_| ()),
+        Controlled => follow(job, &mut osculating(by, orbit, 1.0 / fineness)?, 1, |_| ()),
     }
 }
 
@@ -238,8 +226,7 @@ pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods:
         let kick = ds / dot(q, q);
         p = [p[0] - kick * q[0], p[1] - kick * q[1]];
         q = drift(q, p, &mut clock);
-        let energy = 0.5 * dot(p, p) - 1.0 / q[0].hypot(q[1]);
-        (clock, q, energy)
+        (clock, q, 0.5 * dot(p, p) - 1.0 / q[0].hypot(q[1]))
     })
 }
 
@@ -271,7 +258,6 @@ pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Res
         // The recursion runs in both directions alike, rounding included.
         (u, next) = (next, [0, 1].map(|i| 2.0 * cos * next[i] - u[i]));
         du = velocity(u, next);
-        let position = [u[0] * u[0] - u[1] * u[1], 2.0 * u[0] * u[1]];
-        (clock, position, (2.0 * square(du) - 1.0) / square(u))
+        (clock, [u[0] * u[0] - u[1] * u[1], 2.0 * u[0] * u[1]], (2.0 * square(du) - 1.0) / square(u))
     })
 }

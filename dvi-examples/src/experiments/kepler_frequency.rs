@@ -4,8 +4,6 @@
 //! frequency of the oscillator with the same acceleration at the same place. On an orbit of semi-major axis
 //! 1 they are √(1 − e²)/(2r² − r³) and r^(−3/2).
 
-use dvi_core::discrete::FrequencyIn as _;
-
 use crate::vocabulary::*;
 
 const ORBIT: Orbit = Orbit { e: 0.95 };

@@ -70,8 +70,7 @@ impl Orbits {
         let ended = follow(job, &mut run, periods, |(t, change, q)| {
             let (time, error) = (t / TAU, ORBIT.error_after(&mut phase, t, &q));
             // The end of the run belongs to the interval before it.
-            let within = time.max(0.1).min((1.0 - 1e-7) * periods as f64);
-            errors.push(within, [time, change.abs(), error]);
+            errors.push(time.max(0.1).min((1.0 - 1e-7) * periods as f64), [time, change.abs(), error]);
             // `follow` itself counts one for each period.
             if time >= whole {
                 whole += 1.0;
@@ -165,10 +164,9 @@ fn figure(all: &[Orbits; 6], periods: u64) -> Figure {
         });
         Panel::loglog(title, ("time *t*   [periods]", [0.1, end]), (label, [1e-8, 10.0])).lines(lines)
     };
-    let energy = panel("Energy", "largest |*E* − *E*(0)|   [μ/*a*]", 1);
     let position = panel("Position", "largest distance from the exact position   [*a*]", 2)
         .guide([[0.1, 2.0], [end, 2.0]], "the diameter of the orbit");
     Figure::of("Left-frozen: Simpson's rule; in *L*_d: Lobatto's with four nodes. (23) with its tolerance")
-        .row_with_legend(470.0, vec![energy, position], 1.45)
+        .row_with_legend(470.0, vec![panel("Energy", "largest |*E* − *E*(0)|   [μ/*a*]", 1), position], 1.45)
         .footer("After Kosmas & Vlachos, Fig. 3.")
 }

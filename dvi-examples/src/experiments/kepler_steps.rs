@@ -5,8 +5,6 @@
 //! the same? The answer depends on what is compared: the rule of the reference, and whether both runs choose
 //! their steps by (23), as printed, or keep them fixed. Each reading is shown.
 
-use rayon::prelude::*;
-
 use super::kepler::*;
 use crate::vocabulary::*;
 
@@ -50,9 +48,8 @@ fn ratios(all: &[Comparison], steps: Steps, e: f64, simpson: bool) -> Vec<f64> {
 }
 
 /// The smallest and the largest of some ratios, if there are any.
-fn extremes(ratios: &[f64]) -> [Option<f64>; 2] {
-    [least(ratios.iter().copied()), largest(ratios.iter().copied())]
-        .map(|r| (!ratios.is_empty()).then_some(r))
+fn extremes(all: &[f64]) -> [Option<f64>; 2] {
+    [least(all.iter().copied()), largest(all.iter().copied())].map(|r| (!all.is_empty()).then_some(r))
 }
 
 fn above(ratios: &[f64]) -> usize {
@@ -125,13 +122,15 @@ fn figure(all: &[Comparison]) -> Figure {
     let compared = |title: &str, steps: Steps| {
         let e = Axis::names("eccentricity", ECCENTRICITIES.iter().map(f64::to_string).collect());
         let place = |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |k| k as f64);
-        let shown = REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]);
         Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within(0.0, 1.7))
             .guide([[-0.6, THIRD], [3.6, THIRD]], "one third")
-            .each(shown, |panel, ((reference, _, colour), aside)| {
-                let points = of(reference, steps).map(|c| [place(c.e) + aside, c.ratio()]).collect();
-                panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
-            })
+            .each(
+                REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]),
+                |panel, ((reference, _, colour), aside)| {
+                    let points = of(reference, steps).map(|c| [place(c.e) + aside, c.ratio()]).collect();
+                    panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
+                },
+            )
     };
     let controlled = compared("Both with (23) as printed", Controlled);
     Figure::of("Phase-fitted Simpson; (19) is left-frozen with (23), a part of L_d with fixed steps")

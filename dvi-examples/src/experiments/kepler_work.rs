@@ -1,8 +1,6 @@
 //! Work and precision on Kepler orbits: evaluations of the force per period against the largest errors over
 //! many periods, for all families of this library, with the state of the art beside.
 
-use rayon::prelude::*;
-
 use super::kepler::*;
 use crate::vocabulary::*;
 
@@ -139,8 +137,7 @@ fn figure(curves: &[Curve]) -> Figure {
             let shown = curves.iter().map(|curve| (curve, CONTENDERS[curve.contender]));
             let shown = shown.filter(|(curve, (name, ..))| curve.e == e && DRAWN.contains(name));
             let lines = shown.map(|(curve, (name, stroke, _))| {
-                let points = curve.courses.iter().map(|course| [course.evaluations, of(course)]);
-                (name, stroke, points.collect())
+                (name, stroke, curve.courses.iter().map(|course| [course.evaluations, of(course)]).collect())
             });
             let (x, y) = (("evaluations of the force per period", [5.0, 5e4]), (label, [1e-15, 10.0]));
             Panel::loglog(format!("{title} error over work, *e* = {e}"), x, y).marked(lines)

@@ -33,8 +33,7 @@ impl Scans {
     /// The longest steps at which, and at all shorter ones that were tried, the error is at most [`BOUND`].
     pub fn longest(&self) -> [f64; 3] {
         self.0.each_ref().map(|scan| {
-            let kept = scan.iter().take_while(|[_, error]| *error <= BOUND);
-            kept.last().map_or(f64::NAN, |[h, _]| *h)
+            scan.iter().take_while(|[_, error]| *error <= BOUND).last().map_or(f64::NAN, |[h, _]| *h)
         })
     }
 
@@ -55,8 +54,7 @@ impl Scans {
         // Of the step that is the nearest.
         let off = |tried: f64| (tried / H_SPRINGS).ln().abs();
         let [rods, soft, _] = self.0.each_ref().map(|scan| {
-            let nearest = scan.iter().min_by(|a, b| off(a[0]).total_cmp(&off(b[0])));
-            nearest.map_or(f64::NAN, |[_, error]| *error)
+            scan.iter().min_by(|a, b| off(a[0]).total_cmp(&off(b[0]))).map_or(f64::NAN, |[_, error]| *error)
         });
         let quantity = format!("h = {H_SPRINGS}: max|ΔE| with springs, k = {}, over that with rods", SOFT.k);
         let text = "below that limit rods and springs have the same energy error: only stability shortens \

@@ -4,8 +4,6 @@
 //! schemes; in the symmetric form of the same motion it is not, and the two-step midpoint scheme loses it to
 //! its parasitic mode.
 
-use dvi_core::Space as _;
-
 use crate::vocabulary::*;
 
 const START: (f64, f64) = (2.0, 1.0);

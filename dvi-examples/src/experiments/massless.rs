@@ -63,9 +63,8 @@ fn same_motion() -> Result<Claim> {
     let difference = largest(places.map(|q| apart(&omega(&ALONG_X, q), &omega(&SYMMETRIC, q))));
     let (along_x, symmetric) = (Problem::new(&ALONG_X, START), Problem::new(&SYMMETRIC, START));
     let MasslessSymmetricState { x, y } = symmetric.up_to(Gauss::<4>::new(), 0.05, 20.0)?;
-    let (counts, error) = ([160, 240, 320], |q: &[f64]| distance([x, y], [q[0], q[1]]));
-    let (along_x, symmetric) =
-        (along_x.errors(20.0, &counts, error), symmetric.errors(20.0, &counts, error));
+    let (counts, far) = ([160, 240, 320], |q: &[f64]| distance([x, y], [q[0], q[1]]));
+    let (along_x, symmetric) = (along_x.errors(20.0, &counts, far), symmetric.errors(20.0, &counts, far));
     let projected = symmetric.order(Projected::symmetric())?;
     Ok(beyond("both gauges have one Ω and one motion")
         .at_most("largest difference of entries of Ω at three points", difference, 1e-14)
@@ -119,15 +118,13 @@ fn figure(all: &[Series<1>; 3], parasites: &[Parasite; 3], end: f64) -> Figure {
         .lines([("along *x*, one step", solid(BLUE).width(2.5), all[0].path.clone())])
         .dots(parasites[0].path.clone(), 1.3, VERMILLION)
         .labelled("symmetric, two steps");
-    let strokes = [solid(VERMILLION), dashed(GREEN), dashed(SLATE)];
-    let lines = parasites.iter().zip(strokes);
+    let lines = parasites.iter().zip([solid(VERMILLION), dashed(GREEN), dashed(SLATE)]);
     let lines = lines.map(|(mode, stroke)| (format!("*h* = {}", mode.h), stroke, mode.amplitudes.clone()));
     let axis = ("amplitude in *q*", [1e-9, 10.0]);
     let title = "Parasitic mode of two steps, symmetric gauge";
     let amplitudes = Panel::semilog(title, ("time *t*", [0.0, END]), axis).lines(lines).weight(1.35);
     let labels = ["Error of the energy", "largest |Δ*H*| of each interval"];
-    let energy = over_time(labels, end, [1e-5, 10.0], all, 0);
     Figure::of("*B* = 1 + 2(*x*² + *y*²), *φ* = cos *x* + sin *y*, from (1, 1), *h* = 0.5")
         .row(430.0, vec![plane, amplitudes.legend_at(Corner::BottomRight)])
-        .row(300.0, vec![energy.legend_at(Corner::BottomRight)])
+        .row(300.0, vec![over_time(labels, end, [1e-5, 10.0], all, 0).legend_at(Corner::BottomRight)])
 }

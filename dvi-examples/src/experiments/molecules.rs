@@ -38,8 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     });
     let over_step = scans.rows().map(|[k, h, e]| (["over step"], [Some(k), Some(h), None, Some(e), None]));
     let columns = ["series", "k", "h", "t", "energy", "length"];
-    let figure = figure([&springs, &rods], &scans, end)?;
-    job.publish(figure, Table::of(&columns, over_time.chain(over_step))?)?;
+    job.publish(figure([&springs, &rods], &scans, end)?, Table::of(&columns, over_time.chain(over_step))?)?;
     let [steps, same] = scans.claims();
     let undone = rigid.there_and_back(Rattle::default(), H, 400)?;
     let difference = "largest difference of a coordinate or a velocity from the start";
@@ -66,9 +65,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 fn kept<S: Lagrangian>(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, S>, end: f64) -> Result<Kept> {
     let (energy, begin): (_, [f64; 3]) = (run.energy(), momenta(&run));
-    let span = Span { end, early: 0.1 * end, intervals: 250 };
     let steps = (end / run.step_size()).round() as u64;
-    Ok(job.series(named, &mut run, steps, span, |run, _| {
+    Ok(job.series(named, &mut run, steps, Span { end, early: 0.1 * end, intervals: 250 }, |run, _| {
         let state: Vec<f64> = run.system().values(&run.state()).into_iter().flatten().collect();
         let ([length, along], [x, y, angular]) = (sides(&state), difference(momenta(run), begin));
         [run.energy() / energy - 1.0, length, along, x, y, angular]
@@ -119,9 +117,8 @@ fn chain() -> Result<Panel> {
     let atoms = atoms(&run.state());
     let centre = [0, 1].map(|i: usize| atoms.iter().map(|atom| atom[i]).sum::<f64>() / atoms.len() as f64);
     let atoms: Vec<[f64; 2]> = atoms.into_iter().map(|atom| difference(atom, centre)).collect();
-    let title = format!("The chain at *t* = {:.0}, about its centre of mass", run.time());
     let pairs = (1..MOLECULES).flat_map(|m| [[3 * m - 2, 3 * m], [3 * m - 1, 3 * m + 1]]);
-    Ok(Panel::plane(title, "*x*", "*y*")
+    Ok(Panel::plane(format!("The chain at *t* = {:.0}, about its centre of mass", run.time()), "*x*", "*y*")
         .each(pairs, |panel, [a, b]| panel.line(vec![atoms[a], atoms[b]], dashed(SLATE).width(1.0)))
         .each(atoms.chunks_exact(3), |panel, triangle| panel.line(closed(triangle), solid(BLUE).width(2.4)))
         .discs(atoms.clone(), BLUE, Fill::Solid))

@@ -1,8 +1,6 @@
 //! Which scheme conserves what: the linear impulses ΣΓx and ΣΓy, the angular impulse ΣΓ|z|², its discrete
 //! counterpart J_d = D₂L_d·ξ, and the discrete two-form (Rowley & Marsden 2002, eq. 17 and section 6).
 
-use dvi_core::discrete::Interval;
-
 use crate::vocabulary::*;
 
 const H: f64 = 0.1;

@@ -4,8 +4,6 @@
 //! where sin u ≠ 0 and S = Σ w cos((1 − 2c)u) ≠ 0. The momentum is s·v with s = uS/sin u: a run that starts
 //! from a velocity has a wrong amplitude for ever, unless the weights are fitted too.
 
-use dvi_core::discrete::{Frequency, FrequencyIn, Rule as _};
-
 use crate::vocabulary::*;
 
 const SYSTEM: Spring = Spring { k: 1.0 };
@@ -111,8 +109,7 @@ fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Res
 
 /// S = Σ w cos((1 − 2c)u)
 fn strength(rule: &Quadrature, u: f64) -> f64 {
-    let terms = rule.nodes().iter().zip(rule.weights());
-    terms.map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
+    rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
 }
 
 /// s = uS/sin u
@@ -169,8 +166,7 @@ fn figure(rows: &[Row; 8], given: &[Given; 7], many: u64) -> Figure {
     });
     let factor = Panel::linear("Momentum over velocity", u, ("*s* = *p*/*v*", [-1.0, 4.0]));
     let factor = factor.without_legend().each(SHOWN, |panel, (rule, colour)| {
-        let us = (1..310).map(|k| f64::from(k) * 0.01);
-        let curve = us.map(|u| [u, formula(&rows[rule].1, u)]).collect();
+        let curve = (1..310).map(|k| f64::from(k) * 0.01).map(|u| [u, formula(&rows[rule].1, u)]).collect();
         panel.line(curve, solid(colour).width(1.2)).dots(rows[rule].3.clone(), 3.0, colour)
     });
     Figure::of("Dashed: linear interpolation. Right: dots measured, lines *s* = *uS*/sin *u*")

@@ -25,12 +25,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ];
     let leapfrog = circles(OneStep::trapezoid(), 100, 8)?;
     let errors = all.iter().flat_map(|series| {
-        let rows = series.kept[0].envelope.rows().into_iter();
-        rows.map(|[t, low, _, high]| ([&*series.name], [t, low, high]))
+        series.kept[0].envelope.rows().into_iter().map(|[t, low, _, high]| ([&*series.name], [t, low, high]))
     });
     let circles = leapfrog.iter().zip(0..);
-    let points =
-        circles.flat_map(|(all, t)| all.iter().map(move |[x, p]| (["circle"], [f64::from(t), *x, *p])));
+    let points = circles.flat_map(|(c, t)| c.iter().map(move |&[x, p]| (["circle"], [f64::from(t), x, p])));
     let table = Table::of(&["series", "t", "x or lowest ΔH", "p or highest ΔH"], errors.chain(points))?;
     job.publish(figure(&all, &leapfrog, plan.end()), table)?;
     let text = "the energy error of one-step schemes is no larger in the whole run than in its beginning";
@@ -59,8 +57,7 @@ fn same_schemes() -> Result<Claim> {
     let two_step = course(&mut symmetric.run(Sigma::midpoint(), H)?, 500, place)?;
     let start = PendulumState { x: START.x, dot_x: 0.0 };
     let mut run = Integrator::new(&Pendulum {}, Variational::trapezoid(), H, start)?;
-    let verlet = course(&mut run, 500, |run| [run.q()[0], run.memory().p()[0]])?;
-    let from_verlet = farthest(&trapezoid, &verlet);
+    let from_verlet = farthest(&trapezoid, &course(&mut run, 500, |run| [run.q()[0], run.memory().p()[0]])?);
     Ok(beyond("with α = p dx the trapezoidal scheme is leapfrog and the midpoint one is implicit midpoint")
         .at_most("500 steps: trapezoid from Störmer–Verlet on L(x, x')", from_verlet, 1e-11)
         .at_most("500 steps: midpoint from Gauss of one stage", farthest(&midpoint, &gauss), 1e-11)
@@ -108,8 +105,7 @@ fn figure(all: &[Series<1>; 3], leapfrog: &Circles, end: f64) -> Figure {
         .each(leapfrog.iter().enumerate().step_by(2), |plane, (t, circle)| {
             let colour = SEQUENCE[t.min(7)];
             let text = format!("*t* = {t}: area {:.6}", area(circle));
-            let plane = plane.line(closed(circle), solid(colour)).labelled(text);
-            plane.dots(circle.clone(), 1.3, colour)
+            plane.line(closed(circle), solid(colour)).labelled(text).dots(circle.clone(), 1.3, colour)
         });
     let labels = ["Error of the energy", "largest |*H* − *H*(0)| of each interval"];
     Figure::of(format!("*H* = ½*p*² − cos *x*; left *h* = 1/32, right *h* = {H} from (2, 0)"))

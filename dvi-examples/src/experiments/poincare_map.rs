@@ -1,8 +1,6 @@
 //! The Poincaré map of magnetic fields: loops that it carries along with their flux, and where its islands
 //! are.
 
-use dvi_core::ProperlyDegenerate;
-
 use super::field_lines::{TOKAMAK, UNPERTURBED};
 use crate::vocabulary::*;
 
@@ -33,9 +31,8 @@ pub fn flux_changes(field: &impl Field, place: Place, radius: f64) -> Result<[f6
 
 /// The largest relative change of the flux ∮A·dx through a loop that is carried along for eight turns.
 fn flux_change<F: Field>(field: &F, by: impl Method<F, f64> + Copy, [x, y]: Place, r: f64) -> Result<f64> {
-    let angle = |k: usize| TAU * k as f64 / POINTS as f64;
-    let mut circle: Vec<Place> =
-        (0..POINTS).map(|k| [x + r * angle(k).cos(), y + r * angle(k).sin()]).collect();
+    let at = |k: usize| TAU * k as f64 / POINTS as f64;
+    let mut circle: Vec<Place> = (0..POINTS).map(|k| [x + r * at(k).cos(), y + r * at(k).sin()]).collect();
     let before = flux(field, &circle);
     let mut largest = 0.0;
     for _ in 0..8 {
@@ -51,8 +48,7 @@ fn flux_change<F: Field>(field: &F, by: impl Method<F, f64> + Copy, [x, y]: Plac
 /// resolve.
 fn flux(field: &impl Field, circle: &[Place]) -> f64 {
     let derivative = |j: usize| {
-        let others = (0..POINTS).filter(|&k| k != j);
-        others.fold([0.0; 2], |[x, y], k| {
+        (0..POINTS).filter(|&k| k != j).fold([0.0; 2], |[x, y], k| {
             let sign = if (j + k).is_multiple_of(2) { 1.0 } else { -1.0 };
             let weight = sign / ((j as f64 - k as f64) * PI / POINTS as f64).tan() * PI / POINTS as f64;
             [x + weight * circle[k][0], y + weight * circle[k][1]]

@@ -65,14 +65,12 @@ fn panel(run: &Crossings, curve: &Curve) -> Panel {
     let inside = |[r1, p1]: [f64; 2]| (left..=right).contains(&r1) && (low..=high).contains(&p1);
     if run.places().into_iter().all(inside) {
         let panel = run.panel([left, right], [low, high], 1.0);
-        let panel = panel.below(exact, solid(SLATE).width(5.0).opacity(0.25));
-        return panel.caption(Corner::TopRight, caption);
+        return panel.below(exact, solid(SLATE).width(5.0).opacity(0.25)).caption(Corner::TopRight, caption);
     }
-    let frame = closed(&[[left, low], [right, low], [right, high], [left, high]]);
     // Wide enough for words beside the dots, which stay within 2.4.
     run.panel([-2.6, 2.6], [-2.6, 3.4], 1.0)
         .below(exact, solid(SLATE).width(3.0).opacity(0.35))
-        .line(frame, solid(SLATE).width(1.0))
+        .line(closed(&[[left, low], [right, low], [right, high], [left, high]]), solid(SLATE).width(1.0))
         .caption(Corner::TopLeft, "frame: the close-up above")
         .caption(Corner::TopRight, caption)
 }
@@ -82,8 +80,7 @@ struct Curve(Points);
 
 impl Curve {
     fn through(points: &[[f64; 2]]) -> Self {
-        let count = points.len() as f64;
-        let centre = [0, 1].map(|i| points.iter().map(|point| point[i]).sum::<f64>() / count);
+        let centre = [0, 1].map(|i| points.iter().map(|point| point[i]).sum::<f64>() / points.len() as f64);
         let angle = |point: &[f64; 2]| (point[1] - centre[1]).atan2(point[0] - centre[0]);
         let mut corners = points.to_vec();
         corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));

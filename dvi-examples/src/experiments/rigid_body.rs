@@ -3,8 +3,6 @@
 //!
 //! Steps along geodesics keep the angular momentum in space, as the motion does.
 
-use dvi_core::rotations;
-
 use super::flips::{BODY, Flips, OMEGA, Wave, begin};
 use super::geodesics::*;
 use crate::vocabulary::*;
@@ -86,8 +84,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 fn energy(state: &RigidBodyState) -> f64 {
-    let momentum = BODY.momentum_at(state);
-    momentum.into_iter().zip(state.omega_R).map(|(m, omega)| 0.5 * m * omega).sum()
+    BODY.momentum_at(state).into_iter().zip(state.omega_R).map(|(m, omega)| 0.5 * m * omega).sum()
 }
 
 fn states(omega: [f64; 3], h: f64, end: f64) -> Result<Vec<RigidBodyState>> {

@@ -1,7 +1,5 @@
 //! The classical Runge–Kutta method, beside which others are set.
 
-use dvi_core::State;
-
 use crate::vocabulary::*;
 
 pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
@@ -63,9 +61,7 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
 
     pub fn step(&mut self) -> Result<(), StartError> {
         let (h, y) = (self.h, self.y.clone());
-        let moved = |by: f64, slope: &[f64]| -> Vec<f64> {
-            y.iter().zip(slope).map(|(y, slope)| y + by * slope).collect()
-        };
+        let moved = |by: f64, k: &[f64]| -> Vec<f64> { y.iter().zip(k).map(|(y, k)| y + by * k).collect() };
         let first = self.slope(&y)?;
         let second = self.slope(&moved(0.5 * h, &first))?;
         let third = self.slope(&moved(0.5 * h, &second))?;

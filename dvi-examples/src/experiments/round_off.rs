@@ -14,7 +14,6 @@ const RUNS: [usize; 4] = [0, 1, 2, 3];
 /// An odd number of steps from look to look, so that no phase of the motion is preferred.
 const STRIDE: u64 = 37;
 const PER_DECADE: f64 = 8.0;
-const FIRST: f64 = 1e4;
 
 /// What is conserved but for rounding, with its title, and the share of the steps that are taken. The first
 /// two are energies.
@@ -42,10 +41,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         })
     })?;
     let curves = CASES.iter().zip(&pairs).flat_map(|((name, ..), pair)| {
-        ["plain", "compensated"]
-            .into_iter()
-            .zip(pair)
-            .map(move |(sums, rows)| ([*name, sums], [], rows.clone()))
+        ["plain", "compensated"].into_iter().zip(pair).map(move |(sums, of)| ([*name, sums], [], of.clone()))
     });
     let table = curve_table(&["quantity", "sums", "steps", "error"], curves)?;
     job.publish(figure(&pairs, steps as f64), table)?;
@@ -118,7 +114,7 @@ fn watch<R: Run<Scalar = f64>>(job: &Job<'_>, mut run: R, n: u64, of: impl Fn(&R
 
 /// The exponent of the growth with the number of steps, by least squares.
 fn exponent(rows: &Points) -> Option<f64> {
-    order(rows.iter().filter(|[n, error]| *n >= FIRST && *error > 0.0).map(|&[n, error]| (n, error)))
+    order(rows.iter().filter(|[n, error]| *n >= 1e4 && *error > 0.0).map(|&[n, error]| (n, error)))
 }
 
 fn notes(pairs: &[Pair; 4]) -> Vec<String> {

@@ -4,8 +4,6 @@
 //! only (MacKay & Aubry 1994). With α = p·dq the one-step midpoint scheme is the implicit midpoint rule. It
 //! keeps the norm, which is quadratic, and it has the same breathers with another frequency.
 
-use std::f64::consts::SQRT_2;
-
 use crate::vocabulary::*;
 
 const SITES: usize = 15;
@@ -13,10 +11,6 @@ const OMEGA: f64 = 4.0;
 /// Steps for each period 2π/ω.
 const STEPS: u64 = 24;
 const H: f64 = TAU / (OMEGA * STEPS as f64);
-const EARLY: u64 = 100;
-/// By what the breather is too large at its centre, and the amplitude of a weak excitation of one site.
-const EXCESS: f64 = 1.05;
-const WEAK: f64 = 0.5;
 
 type Amplitudes = [f64; SITES];
 const LATTICE: SchroedingerLattice<SITES> = SchroedingerLattice {};
@@ -29,8 +23,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let periods = job.choose(10_000, 200);
     job.expect(3 * periods * STEPS);
     let (mut start, mut weak) = (breather(OMEGA), [0.0; SITES]);
-    start[SITES / 2] *= EXCESS;
-    weak[SITES / 2] = WEAK;
+    // The breather is too large at its centre; the weak excitation is one of one site.
+    (start[SITES / 2], weak[SITES / 2]) = (1.05 * start[SITES / 2], 0.5);
     let runs = [
         (("one step, midpoint", solid(BLUE)), begin(start).run(OneStep::midpoint(), H)?),
         (("RK4", dashed(VERMILLION)), begin(start).run(RungeKutta::classical(), H)?),
@@ -39,7 +33,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let sum = |values: &Amplitudes| values.iter().sum::<f64>();
     let all = each(runs, |((name, stroke), mut run)| -> Result<Excitation> {
         let (energy, mut profiles) = (run.energy(), [densities(run.q()); 2]);
-        let mut kept = Span { end: periods as f64, early: EARLY as f64, intervals: 400 }.deviations();
+        let mut kept = Span { end: periods as f64, early: 100.0, intervals: 400 }.deviations();
         job.follow(&mut run, periods * STEPS, |run| {
             let densities = densities(run.q());
             let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));

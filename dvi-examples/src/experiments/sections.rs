@@ -149,16 +149,6 @@ where
     Ok(apart(&one, &other) / DISPLACEMENT)
 }
 
-impl Crossings {
-    pub fn last(&self) -> f64 {
-        self.points.last().map_or(0.0, |&[t, ..]| t)
-    }
-
-    pub fn places(&self) -> Vec<[f64; 2]> {
-        self.points.iter().map(|&[_, r1, p1]| [r1, p1]).collect()
-    }
-}
-
 pub const CAVEAT: &str = "*R*₁ + i*P*₁ = *Q*₂e^(−iφ), *R*₂ = Im *Q*₁e^(−iφ), φ = arg *Q*₃, *Q*ₙ = ½Σ*z*ₐ \
                           e^(−2πi*n*(*a*−1)/4); not necessarily the paper's axes.";
 
@@ -176,6 +166,14 @@ impl Scheme {
 }
 
 impl Crossings {
+    pub fn last(&self) -> f64 {
+        self.points.last().map_or(0.0, |&[t, ..]| t)
+    }
+
+    pub fn places(&self) -> Vec<[f64; 2]> {
+        self.points.iter().map(|&[_, r1, p1]| [r1, p1]).collect()
+    }
+
     pub fn name(&self) -> String {
         format!("{} at h = {}", self.scheme.name(), self.h)
     }
@@ -207,9 +205,8 @@ impl Crossings {
 
 /// What the paper says of the energy in both figures, with the checks for VI2.
 pub fn stays_close(vi2: &[Crossings]) -> Claim {
-    let says = "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts";
-    Claim::new("section 5", says)
-        .each(vi2, |claim, run| claim.at_most(run.growth_name(), run.error.growth(), 1.1))
+    let text = "with VI2 the Hamiltonian stays close to its original value, with RK4 it drifts";
+    says("section 5", text).each(vi2, |all, run| all.at_most(run.growth_name(), run.error.growth(), 1.1))
 }
 
 /// The sections of VI2, those of RK4, and |H − H(0)| of all runs over time.
@@ -221,8 +218,7 @@ pub fn figure(
 ) -> Figure {
     let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
     let largest = "Largest error of the Hamiltonian in each interval of time";
-    let colours = [BLUE, GREEN, VERMILLION].into_iter().cycle();
-    let lines = all.iter().zip(colours).map(|(run, colour)| {
+    let lines = all.iter().zip([BLUE, GREEN, VERMILLION].into_iter().cycle()).map(|(run, colour)| {
         let stroke = if run.scheme == Scheme::Vi2 { solid(colour) } else { dashed(colour) };
         (run.title(), stroke, run.error.envelope.magnitude())
     });
@@ -239,8 +235,7 @@ pub fn notes(all: &[Crossings]) -> Vec<String> {
     let relabelled = all.iter().filter_map(|run| Some(format!("{}: {}.", run.name(), run.relabelling()?)));
     let relabelled = relabelled.map(|note| note.replace('*', ""));
     let ended = |run: &Crossings| run.failure.map(|error| format!("{} ended early: {error}.", run.name()));
-    let ends = all.iter().filter_map(ended);
-    [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(ends).collect()
+    [CAVEAT.replace('*', "")].into_iter().chain(relabelled).chain(all.iter().filter_map(ended)).collect()
 }
 
 pub fn table(all: &[Crossings]) -> Result<Table> {

@@ -8,8 +8,6 @@
 //! system close by, and jumps by some part of its tolerance where a body goes from one cube to the next. To
 //! iterate the stages of a step further than that makes no sense, and does not end.
 
-use dvi_core::fast_sum::FastSum;
-
 use crate::vocabulary::*;
 
 /// Of the forces, and of the stages of a step.
@@ -85,7 +83,7 @@ impl RollUp {
         let (energy, before, mut snapshots) = (run.energy(), momenta(&run), vec![]);
         let end = SHOWN[2] as f64 * H;
         let mut kept = Span { end, early: end, intervals: SHOWN[2] as usize }.deviations();
-        for step in (1..=SHOWN[2]).take_while(|_| !job.is_stopping()) {
+        for step in 1..=SHOWN[2] {
             run.advance()?;
             job.proceed(1);
             let [x, y, angular]: [f64; 3] = difference(momenta(&run), before).map(f64::abs);

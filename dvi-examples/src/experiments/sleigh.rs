@@ -1,8 +1,6 @@
 //! A sleigh on a blade, which turns around and ends in straight motion: to that no symplectic map could
 //! lead.
 
-use dvi_core::discrete::{Midpoint, Unfitted};
-
 use super::rk4::rk4;
 use crate::vocabulary::*;
 

@@ -42,8 +42,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         })?)
     })?;
     let columns = ["method", "quantity", "t", "lowest", "mean", "highest"];
-    let table = range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?;
-    job.publish(figure(&all, span.end), table)?;
+    job.publish(figure(&all, span.end), range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?)?;
     claims([keep(&all), precession()?, pair()?, ring()?])
 }
 

@@ -9,9 +9,6 @@ use crate::vocabulary::*;
 
 const PENDULUM: SphericalPendulum = SphericalPendulum { gravity: 1.0 };
 const CONSTRAINED: ConstrainedPendulum = ConstrainedPendulum { gravity: 1.0 };
-/// The angle from the direction downwards at the start, its rate, and the rate around the vertical.
-const HANGING: f64 = 0.8;
-const RATES: [f64; 2] = [0.3, 0.35];
 /// The step of the long runs, and so many steps from one look at the integrals to the next.
 const H: f64 = 0.05;
 const EVERY: u64 = 4;
@@ -84,8 +81,9 @@ fn chords() -> Problem<'static, ConstrainedPendulum> {
     Problem::new(&CONSTRAINED, ConstrainedPendulum::state_of(&begin()))
 }
 
+/// At an angle from the direction downwards, with its rate and the rate around the vertical.
 fn begin() -> SphericalPendulumState {
-    SphericalPendulum::hanging(HANGING, RATES)
+    SphericalPendulum::hanging(0.8, [0.3, 0.35])
 }
 
 fn rounding(long: Long<'_>, arcs: &[Deviation; 3], chords: &[Deviation; 3]) -> Claim {

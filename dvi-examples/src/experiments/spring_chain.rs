@@ -138,8 +138,7 @@ fn order_of_coordinates() -> Result<Claim> {
 fn figure(all: &[&Series<2>], motion: &Exchange, of: &[Exchange; 4], long: &Exchange, end: f64) -> Figure {
     let titled = |k: usize| {
         let (beta, name, _) = BETAS[k];
-        let title = format!("{name} ({:.2})", expected_speed(beta, H));
-        of[k].panel(motion, title)
+        of[k].panel(motion, format!("{name} ({:.2})", expected_speed(beta, H)))
     };
     let long = long.panel(motion, format!("β = 1/4, *h* = {LONG}")).without_legend();
     let energy = over_time(["Energy", "largest |*E* − *E*(0)|"], end, [1e-4, 10.0], all.iter().copied(), 0);

@@ -3,8 +3,6 @@
 //! For σ = ½ the region is the closed left half plane. For every other σ it is a part of the imaginary axis,
 //! |λh| < 1/|1 − 2σ|, and nothing beside it: where λ damps, the parasitic root grows.
 
-use rayon::prelude::*;
-
 use crate::vocabulary::*;
 
 /// σ = ½ has no limit and is tested apart.
@@ -31,8 +29,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
     // A bisection takes some 32 runs.
     job.expect(steps * (3 + 32 * SIGMAS.len() as u64));
-    let measured: Points =
-        SIGMAS.par_iter().map(|&sigma| Ok([sigma, limit(job, sigma, steps)?])).collect::<Result<_>>()?;
+    let measured = SIGMAS.par_iter().map(|&s| Ok([s, limit(job, s, steps)?])).collect::<Result<Points>>()?;
     let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(job, 0.5, 1e3, steps))?;
     let damped = SIGMAS.into_iter().chain([0.5]).flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
     let damped = damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<Vec<_>>>()?;
@@ -72,10 +69,10 @@ fn deviation(measured: &[[f64; 2]]) -> f64 {
 fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
     let is_stable = |omega: f64| anyhow::Ok(largest_amplitude(job, sigma, omega, steps)? < LARGE);
     let (mut low, mut high) = (0.0, 0.5);
-    while is_stable(high)? && !job.is_stopping() {
+    while is_stable(high)? {
         (low, high) = (high, 2.0 * high);
     }
-    while high - low > 1e-9 * high && !job.is_stopping() {
+    while high - low > 1e-9 * high {
         let middle = 0.5 * (low + high);
         if is_stable(middle)? { low = middle } else { high = middle }
     }
@@ -158,11 +155,9 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
         .note([0.1, 20.0], Anchor::Middle, SLATE, "unstable");
     let first = damped.iter().filter(|run| run.lambda == DAMPED[0]);
     let root = |sigma| Damped { sigma, lambda: DAMPED[0], ..Damped::default() }.root();
-    let title = "λ*h* = −1 + i: growth of |*z*| in a step";
-    let roots = sigmas().map(|s| [s, root(s)]).collect();
-    let growth = Panel::linear(title, sigma, ("factor", [0.8, 3.8]))
+    let growth = Panel::linear("λ*h* = −1 + i: growth of |*z*| in a step", sigma, ("factor", [0.8, 3.8]))
         .guide([[0.0, 1.0], [1.0, 1.0]], "neither growth nor decay")
-        .lines([("larger root of the recursion", solid(BLUE), roots)])
+        .lines([("larger root of the recursion", solid(BLUE), sigmas().map(|s| [s, root(s)]).collect())])
         .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));

@@ -119,8 +119,7 @@ fn figure(all: &[Motion; 2]) -> Figure {
     };
     let mirror = panel("Distance from mirror symmetry", "largest in each interval   [*L*]", [1e-16, 1e4], 0);
     let energy = panel("Energy", "largest |*H* − *H*(0)| in each interval   [Γ²]", [1e-4, 0.2], 1);
-    let subtitle = format!("A run is drawn until |Δ*H*| exceeds {LOST} or it ends by itself");
-    Figure::of(subtitle)
+    Figure::of(format!("A run is drawn until |Δ*H*| exceeds {LOST} or it ends by itself"))
         .row(450.0, vec![mirror, energy.without_legend()])
         .footer("The run of Rowley & Marsden 2002, Fig. 2.")
 }

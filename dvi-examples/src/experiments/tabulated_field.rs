@@ -4,9 +4,6 @@
 //! motion depends on, are of the order 3 in the distances of the grid for cubic splines, and of the order 5
 //! for quintic ones.
 
-use dvi_core::ProperlyDegenerate;
-use dvi_core::field::{ScalarField, Spline};
-
 use crate::vocabulary::*;
 
 const Q: f64 = 2.0;
@@ -15,8 +12,6 @@ const VELOCITY: f64 = 4e-3;
 /// The distances from the magnetic axis at which bananas begin that are compared: the error of a spline
 /// along an orbit depends on where that lies between the points of the grid.
 const RADII: [f64; 12] = [0.19, 0.195, 0.198, 0.202, 0.206, 0.209, 0.214, 0.218, 0.221, 0.225, 0.231, 0.235];
-/// The one whose energy is watched.
-const RADIUS: f64 = 0.2;
 const H: f64 = 60.0;
 /// Steps of the orbit that is compared: two bounces of the banana.
 const COMPARED: u64 = 200;
@@ -38,7 +33,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (cubic, quintic) = (differences(&paths, by_cubic)?, differences(&paths, by_quintic)?);
     // The relative energy error in the coarse table.
     let coarse = by_cubic(COARSE)?;
-    let mut run = Problem::new(&coarse, start(RADIUS)).run(OneStep::midpoint(), H)?;
+    let mut run = Problem::new(&coarse, start(0.2)).run(OneStep::midpoint(), H)?;
     let (begin, span) = (run.energy(), Span::of(steps, H, EARLY));
     let [energy] = job.keep(&mut run, steps, span, |run| [(run.energy() - begin) / begin])?;
     let both = [("cubic splines", &cubic.0), ("quintic splines", &quintic.0)];
@@ -58,8 +53,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 /// r and u, which go to and fro, along the orbit.
 fn path<S: ProperlyDegenerate>(system: &S, start: S::State<f64>) -> Result<Points> {
     let mut run = Problem::new(system, start).run(OneStep::midpoint(), H)?;
-    let path = course(&mut run, COMPARED, |run| [run.q()[0], run.q()[3]])?;
-    Ok(path.into_iter().skip(1).collect())
+    Ok(course(&mut run, COMPARED, |run| [run.q()[0], run.q()[3]])?.into_iter().skip(1).collect())
 }
 
 fn start(r: f64) -> TabulatedTokamakState {

@@ -32,8 +32,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let all = [("one step, midpoint", BLUE, one_step), ("RK4", VERMILLION, rk4)]
         .map(|(name, colour, kept)| Series::new(name, solid(colour), kept));
     let columns = ["method", "invariant", "t", "lowest", "mean", "highest"];
-    let table = range_table(&columns, &["x + y + z", "xyz"], &all)?;
-    job.publish(figure(&all, span.end)?, table)?;
+    job.publish(figure(&all, span.end)?, range_table(&columns, &["x + y + z", "xyz"], &all)?)?;
     let text = "one step keeps xyz to rounding errors, and its error of x + y + z is no larger in the \
                 whole run than in its beginning; RK4 keeps the sum, which is linear, and loses the product";
     let [[one_sum, one_product], [rk4_sum, rk4_product]] = all.each_ref().map(|series| &series.kept);
@@ -78,8 +77,7 @@ fn same_motion() -> Result<Claim> {
     let ([_, product], [x, y, _]) = (invariants(&START), START);
     let reduced = ThreeSpeciesReduced { product };
     let mut run = Problem::new(&reduced, ThreeSpeciesReducedState { x, y }).run(OneStep::midpoint(), H)?;
-    let other = course(&mut run, 1000, place)?;
-    let pairs = orbit(START, 1000)?.into_iter().zip(other);
+    let pairs = orbit(START, 1000)?.into_iter().zip(course(&mut run, 1000, place)?);
     let difference = largest(pairs.map(|([x, y, _], [u, v])| larger((u - x).abs(), (v - y).abs())));
     let exact = rk4_to(START, END, END / 20_000.0, rates);
     let error = |q: &[f64]| apart(&[q[0], q[2], q[3].exp() / (q[0] * q[2])], &exact);
@@ -104,8 +102,7 @@ fn means() -> Result<Claim> {
 }
 
 fn figure(all: &[Series<2>; 2], end: f64) -> Result<Figure> {
-    let starts = [START, OTHERS[0], OTHERS[1], OTHERS[2]];
-    let orbits = each(starts, |start| orbit(start, 300))?;
+    let orbits = each([START, OTHERS[0], OTHERS[1], OTHERS[2]], |start| orbit(start, 300))?;
     // The plane x + y + z = 3, with the corners at which one species is left.
     let flat = |[x, y, z]: Species| [(y - x) / 2.0f64.sqrt(), (2.0 * z - x - y) / 6.0f64.sqrt()];
     let corners = [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]].map(flat);

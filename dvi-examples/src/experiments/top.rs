@@ -5,8 +5,6 @@
 //! steps go along geodesics of SO(3) (Marsden, Pekarsky & Shkoller 1999; Lee, Leok & McClamroch 2007), so
 //! that nothing is projected. RK4 on the nine entries of the matrix leaves the group.
 
-use dvi_core::rotations;
-
 use super::geodesics::*;
 use crate::vocabulary::*;
 
@@ -136,8 +134,7 @@ mod tests {
         let run = Integrator::new(&TOP, Geodesic::trapezoid(), H, begin()).expect("a run");
         assert!((energy(&heights) - run.energy()).abs() < 1e-14);
         assert_eq!(run.momentum(0), Some(heights.spin));
-        let vertical = run.momentum(1).expect("two momenta");
-        assert!((heights.vertical - vertical).abs() < 1e-15);
+        assert!((heights.vertical - run.momentum(1).expect("two momenta")).abs() < 1e-15);
     }
 
     #[test]

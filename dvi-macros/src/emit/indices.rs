@@ -6,7 +6,7 @@ use syn::Ident;
 
 use super::{Emitter, local};
 use crate::internal::internal;
-use crate::symbolic::{Atom, Index, Loop, Range};
+use crate::symbolic::{Atom, Count, Index, Loop, Range, Rows};
 
 pub(super) fn open(depth: u32) -> Ident {
     local(format_args!("i{depth}"))
@@ -19,6 +19,12 @@ fn plain(value: u64) -> Literal {
     }
 }
 
+/// `a * b`, of one factor at least.
+fn product(factors: impl Iterator<Item = TokenStream>) -> TokenStream {
+    let product = factors.reduce(|before, factor| quote!(#before * #factor));
+    product.unwrap_or_else(|| internal("a product without factors"))
+}
+
 impl Emitter<'_> {
     /// An index as an expression of type `usize`; negative intermediate values do not occur.
     pub(crate) fn index(&self, index: &Index) -> TokenStream {
@@ -28,6 +34,33 @@ impl Emitter<'_> {
     /// The bound of a range: a negative one is zero.
     pub(crate) fn range_bound(&self, index: &Index) -> TokenStream {
         self.difference(index, &quote!(saturating_sub))
+    }
+
+    /// The number of members of a family.
+    pub(crate) fn length(&self, length: &Count) -> TokenStream {
+        match (length.as_literal(), &length.rows) {
+            (Some(literal), Some(_)) => self.index(&Index::literal(literal)),
+            (None, Some(rows)) => self.rows(rows),
+            (_, None) => self.range_bound(&length.rest),
+        }
+    }
+
+    /// The number of a member of a family.
+    pub(super) fn member(&self, member: &Count) -> TokenStream {
+        let place = self.index(&member.rest);
+        match &member.rows {
+            Some(rows) => {
+                let rows = self.rows(rows);
+                quote!(#rows + #place)
+            }
+            None => place,
+        }
+    }
+
+    fn rows(&self, Rows { first, step, count }: &Rows) -> TokenStream {
+        let (krate, first, count) = (self.krate(), self.signed_index(first), self.range_bound(count));
+        let step = Literal::i64_suffixed(*step);
+        quote!(#krate::__private::members_before(#first, #step, #count))
     }
 
     fn difference(&self, index: &Index, subtract: &TokenStream) -> TokenStream {
@@ -61,6 +94,10 @@ impl Emitter<'_> {
                 let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
                 quote!(#krate::__private::wrap(#value, #modulus))
             }
+            Atom::Product(factors) => {
+                let product = product(factors.iter().map(|factor| self.atom(factor)));
+                quote!((#product))
+            }
         }
     }
 
@@ -79,24 +116,28 @@ impl Emitter<'_> {
     }
 
     fn integer(&self, index: &Index, kind: &TokenStream, literal: fn(i64) -> Literal) -> TokenStream {
-        let krate = self.krate();
         let constant = literal(index.constant);
         let mut terms = vec![quote!(#constant)];
         for (atom, coefficient) in index.counted_terms() {
-            let atom = match atom {
-                Atom::Remainder(value, modulus) => {
-                    let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
-                    quote!((#krate::__private::remainder(#value, #modulus) as #kind))
-                }
-                Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => {
-                    let value = self.atom(atom);
-                    quote!((#value as #kind))
-                }
-            };
-            let coefficient = literal(*coefficient);
+            let (atom, coefficient) = (self.integer_atom(atom, kind), literal(*coefficient));
             terms.push(quote!(#coefficient * #atom));
         }
         quote!((#(#terms)+*))
+    }
+
+    fn integer_atom(&self, atom: &Atom, kind: &TokenStream) -> TokenStream {
+        match atom {
+            Atom::Remainder(value, modulus) => {
+                let krate = self.krate();
+                let (value, modulus) = (self.signed_index(value), self.signed_index(modulus));
+                quote!((#krate::__private::remainder(#value, #modulus) as #kind))
+            }
+            Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => {
+                let value = self.atom(atom);
+                quote!((#value as #kind))
+            }
+            Atom::Product(factors) => product(factors.iter().map(|factor| self.integer_atom(factor, kind))),
+        }
     }
 
     fn range(&self, range: &Range) -> TokenStream {

@@ -66,6 +66,7 @@ fn regular_systems() -> Vec<(TokenStream, TokenStream)> {
                 coordinates(x[n], y),
                 lagrangian = sum(0..n, |j| dot(x[j]).powi(2)) / 2.0 + dot(y).powi(2),
                 nonholonomic(i in 1..n) = dot(x[i]) * y.sin() - rods[i - 1] * dot(x[i - 1]) * t,
+                nonholonomic(i in 0..n, j in i + 1..n) = dot(x[i]) - rods[i] * dot(x[j]),
                 nonholonomic = [dot(y) - x[0], sum(0..n, |j| x[j] * dot(x[j])) / (1.0 + y * y)],
                 nonholonomic = if y > 0.0 { y * dot(x[0]) } else { let z = dot(y) / 2.0; z - t },
             },

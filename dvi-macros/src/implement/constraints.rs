@@ -9,16 +9,17 @@ use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, constraint_members, first_constraint, local};
 use crate::program::Constraints;
 use crate::routine::Routine;
-use crate::symbolic::Index;
+use crate::symbolic::Count;
 use crate::syntax::Constrained;
 
 impl Emitter<'_> {
     /// Sets g, or a in its place, to zero and cuts it into one slice for each declared constraint.
     fn constraint_output(&self, constraints: &Constraints) -> TokenStream {
         let krate = self.krate();
-        let parts = constraints.lengths.iter().enumerate().map(|(constraint, length)| {
-            (local(constraint_members(constraint as u32)), self.range_bound(length))
-        });
+        let parts =
+            constraints.lengths.iter().enumerate().map(|(constraint, length)| {
+                (local(constraint_members(constraint as u32)), self.length(length))
+            });
         let split = super::split(&format_ident!("__g"), parts, "split_at_mut");
         quote!(__g.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
     }
@@ -32,7 +33,7 @@ impl Emitter<'_> {
         let mut first = quote!(0usize);
         let mut tokens = TokenStream::new();
         for (constraint, length) in constraints.lengths.iter().enumerate() {
-            let (name, length) = (local(first_constraint(constraint as u32)), self.range_bound(length));
+            let (name, length) = (local(first_constraint(constraint as u32)), self.length(length));
             tokens.extend(quote!(let #name: ::core::primitive::usize = #first;));
             first = quote!(#name + #length);
         }
@@ -72,8 +73,8 @@ fn system(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let (krate, name, allow) = (emitter.krate(), &emitter.model.item.ident, allow());
     let (impl_generics, type_generics, where_clause) = emitter.model.item.generics.split_for_impl();
     let (multipliers, multipliers_value) = space_of(emitter, &constraints.lengths);
-    let sizes = (0..emitter.model.blocks.len()).map(|block| emitter.model.block_size(block));
-    let both: Vec<Index> = sizes.chain(constraints.lengths.iter().cloned()).collect();
+    let sizes = (0..emitter.model.blocks.len()).map(|block| emitter.model.block_size(block).into());
+    let both: Vec<Count> = sizes.chain(constraints.lengths.iter().cloned()).collect();
     let (augmented, augmented_value) = space_of(emitter, &both);
     quote! {
         #[automatically_derived]

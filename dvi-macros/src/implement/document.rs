@@ -12,8 +12,8 @@ use crate::operations::Operations;
 use crate::program::Programs;
 use crate::statement::{Output, Place, Row, Statement};
 use crate::symbolic::{
-    Coordinate, Expr, Index, print_coordinate, print_expr, print_index, print_loops, print_velocity,
-    write_expr,
+    Coordinate, Count, Expr, Index, Rows, print_coordinate, print_expr, print_index, print_loops,
+    print_velocity, write_expr,
 };
 use crate::syntax::{Attribute, Constrained, Factor, closure, value};
 use crate::typeset::{Equation, Typesetter, block, declared, plain};
@@ -124,8 +124,9 @@ impl Account {
         let Some(constraints) = &programs.constraints else { return };
         let number = |row: &Row| {
             let before = &constraints.lengths[..row.constraint as usize];
-            let first = before.iter().fold(Index::default(), |sum, length| sum.plus(length, 1));
-            print_index(&first.plus(&row.member, 1), emitter.model)
+            let first = before.iter().fold(Index::default(), |sum, length| sum.plus(&length.rest, 1));
+            let rows = before.iter().chain([&row.member]).filter_map(|count| count.rows.as_ref());
+            in_rows(emitter, rows, &first.plus(&row.member.rest, 1))
         };
         let (letter, model) = (constraints.of.letter(), emitter.model);
         for statement in &constraints.value.statements {
@@ -141,14 +142,18 @@ impl Account {
             };
             self.formulas.push((format!("∂{letter}[{}]/∂{by}", number(row)), in_loops(emitter, statement)));
         }
-        let count = constraints.lengths.iter().fold(Index::default(), |sum, length| sum.plus(length, 1));
+        let rest =
+            constraints.lengths.iter().fold(Index::default(), |sum, length| sum.plus(&length.rest, 1));
+        let literals = constraints.lengths.iter().map(Count::as_literal);
+        let literal = literals.sum::<Option<i64>>();
         let nouns = constraints.of.nouns();
-        let noun = if count.as_literal() == Some(1) { nouns[0] } else { nouns[1] };
+        let noun = if literal == Some(1) { nouns[0] } else { nouns[1] };
         // A range that ends before it begins has no members, which the sum of the lengths does not show.
         let may_end_early = constraints.lengths.iter().any(|length| !length.is_natural());
         let condition =
             if may_end_early && constraints.lengths.len() > 1 { ", where no range is empty" } else { "" };
-        let count = print_index(&count, emitter.model);
+        let rows = constraints.lengths.iter().filter_map(|length| length.rows.as_ref());
+        let count = literal.map_or_else(|| in_rows(emitter, rows, &rest), |literal| literal.to_string());
         let adjective = match constraints.of {
             Constrained::Positions | Constrained::Velocities => format!("{} ", constraints.of.adjective()),
             Constrained::Gaps => String::new(),
@@ -211,6 +216,27 @@ impl Account {
         }
         text
     }
+}
+
+/// A number with the passes of loops in loops in it.
+fn in_rows<'a>(emitter: &Emitter<'_>, rows: impl Iterator<Item = &'a Rows>, rest: &Index) -> String {
+    let print = |index: &Index| print_index(index, emitter.model);
+    let one = |Rows { first, step, count }: &Rows| {
+        let [first, count] = [first, count].map(print);
+        match step {
+            0 => format!("({count}) * ({first})"),
+            step => format!(
+                "sum(0..{count}, |k| {first} {} {} * k)",
+                if *step < 0 { '-' } else { '+' },
+                step.abs()
+            ),
+        }
+    };
+    let mut parts: Vec<String> = rows.map(one).collect();
+    if parts.is_empty() || *rest != Index::default() {
+        parts.push(print(rest));
+    }
+    parts.join(" + ")
 }
 
 /// What formulas share, as (name, text).

@@ -7,7 +7,7 @@ use super::state::space_of;
 use super::{allow, in_numbers};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
-use crate::symbolic::Index;
+use crate::symbolic::{Count, Index};
 use crate::syntax::Factor;
 
 /// The implementations of `ManifoldSystem` and of `ManifoldLagrangian`.
@@ -15,12 +15,14 @@ pub(super) fn manifold(emitter: &Emitter<'_>) -> TokenStream {
     let (krate, model, allow) = (emitter.krate(), emitter.model, allow());
     let name = &model.item.ident;
     let (impl_generics, type_generics, where_clause) = model.item.generics.split_for_impl();
-    let dimension = |block: usize| match model.blocks[block].factor {
-        Factor::Line => model.block_size(block),
-        Factor::Rotation => Index::literal(3),
-        Factor::Sphere => Index::literal(2),
+    let dimension = |block: usize| {
+        Count::from(match model.blocks[block].factor {
+            Factor::Line => model.block_size(block),
+            Factor::Rotation => Index::literal(3),
+            Factor::Sphere => Index::literal(2),
+        })
     };
-    let dimensions: Vec<Index> = (0..model.blocks.len()).map(dimension).collect();
+    let dimensions: Vec<Count> = (0..model.blocks.len()).map(dimension).collect();
     let (tangent, value) = space_of(emitter, &dimensions);
     let lagrangian = in_numbers(emitter, &quote!(ManifoldLagrangian), &TokenStream::new());
     quote! {

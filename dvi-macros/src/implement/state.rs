@@ -7,7 +7,7 @@ use syn::{GenericParam, Ident};
 
 use crate::emit::{Emitter, local};
 use crate::model::{Axis, Block, Model};
-use crate::symbolic::{Atom, Index};
+use crate::symbolic::{Atom, Count, Index};
 use crate::syntax::Factor;
 
 pub(crate) struct State {
@@ -30,18 +30,19 @@ const FEW: usize = 12;
 
 /// The space of the coordinates.
 fn space(emitter: &Emitter<'_>) -> (TokenStream, TokenStream) {
-    let sizes: Vec<Index> =
-        (0..emitter.model.blocks.len()).map(|block| emitter.model.block_size(block)).collect();
+    let sizes: Vec<Count> =
+        (0..emitter.model.blocks.len()).map(|block| emitter.model.block_size(block).into()).collect();
     space_of(emitter, &sizes)
 }
 
 /// The space of as many numbers as these sizes are together, each of which is zero where it is negative: its
 /// type and its value. Fixed if all sizes are literals, or one const generic beside a few literals; else
 /// known at run time.
-pub(super) fn space_of(emitter: &Emitter<'_>, sizes: &[Index]) -> (TokenStream, TokenStream) {
+pub(super) fn space_of(emitter: &Emitter<'_>, sizes: &[Count]) -> (TokenStream, TokenStream) {
     let (model, krate) = (emitter.model, emitter.krate());
-    let constant = sizes.iter().all(|size| model.is_constant(size));
-    let mut names: Vec<&Index> = Vec::new();
+    let is_constant =
+        |size: &Count| size.rows.is_none() && model.is_constant(&size.rest) && is_name(&size.rest);
+    let mut names: Vec<&Count> = Vec::new();
     let (mut arrays, mut singles) = (0, 0);
     for size in sizes {
         match size.as_literal() {
@@ -61,9 +62,9 @@ pub(super) fn space_of(emitter: &Emitter<'_>, sizes: &[Index]) -> (TokenStream, 
     match names.as_slice() {
         [] if singles <= FEW => (quote!(#krate::Fixed<1usize, { #singles }>), quote!(#krate::Fixed::new())),
         [] => fixed(quote!(1usize), quote!(#singles), 0),
-        [size] if constant && is_name(size) && singles <= MOST_SINGLES => {
+        [size] if is_constant(size) && singles <= MOST_SINGLES => {
             let blocks = arrays + singles;
-            fixed(quote!(#blocks), emitter.index(size), singles)
+            fixed(quote!(#blocks), emitter.length(size), singles)
         }
         _ => {
             let dimension = dimension(emitter, sizes);
@@ -73,12 +74,13 @@ pub(super) fn space_of(emitter: &Emitter<'_>, sizes: &[Index]) -> (TokenStream, 
 }
 
 /// The sum of the sizes, those below zero taken for zero.
-fn dimension(emitter: &Emitter<'_>, sizes: &[Index]) -> TokenStream {
-    let (natural, others): (Vec<&Index>, Vec<&Index>) = sizes.iter().partition(|size| size.is_natural());
-    let natural = natural.into_iter().fold(Index::default(), |sum, size| sum.plus(size, 1));
-    let mut dimension = emitter.index(&natural);
+fn dimension(emitter: &Emitter<'_>, sizes: &[Count]) -> TokenStream {
+    let is_plain = |size: &&Count| size.rows.is_none() && size.is_natural();
+    let (plain, others): (Vec<&Count>, Vec<&Count>) = sizes.iter().partition(is_plain);
+    let plain = plain.into_iter().fold(Index::default(), |sum, size| sum.plus(&size.rest, 1));
+    let mut dimension = emitter.index(&plain);
     for size in others {
-        let size = emitter.range_bound(size);
+        let size = emitter.length(size);
         dimension = quote!(#dimension + #size);
     }
     dimension

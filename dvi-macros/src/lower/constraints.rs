@@ -4,10 +4,10 @@ use syn::Expr as Syntax;
 
 use super::lints::uses;
 use super::sums::natural;
-use super::{Lowering, Role};
+use super::{Binding, Lowering, Role};
 use crate::formulas::Constraint;
-use crate::symbolic::{Expr, Graph, Id, Index, Node};
-use crate::syntax::{self, Constrained, Family};
+use crate::symbolic::{Atom, Expr, Graph, Id, Index, Loop, Node};
+use crate::syntax::{self, Constrained, Member};
 
 impl Lowering<'_> {
     /// The constraints in the order of declaration.
@@ -29,43 +29,75 @@ impl Lowering<'_> {
 
     fn constraint(&mut self, of: Constrained, declared: &syntax::Constraint) -> Option<Constraint> {
         let formula = &declared.formula;
-        let constraint = match &declared.family {
-            None => Constraint::single(self.formula(formula, Role::Constraint(of))?),
-            Some(family) => self.family(of, family, formula)?,
+        let constraint = match declared.family.as_slice() {
+            [] => Constraint { loops: Vec::new(), value: self.formula(formula, Role::Constraint(of))? },
+            family => self.family(of, family, formula)?,
         };
         self.constrains(of, formula, constraint.value)?;
         Some(constraint)
     }
 
-    fn family(
-        &mut self,
-        of: Constrained,
-        Family { index, range }: &Family,
-        formula: &Syntax,
-    ) -> Option<Constraint> {
+    fn family(&mut self, of: Constrained, family: &[Member], formula: &Syntax) -> Option<Constraint> {
         self.begin(formula, Role::Constraint(of));
-        let (lower, upper) = self.range(range)?;
-        if !uses(formula, index) {
-            let message = format!(
-                "the index `{index}` stands nowhere in this formula, so that all {} of the family are the same: write `{} = …` for \
-                 one",
-                of.nouns()[1],
-                of.word()
-            );
+        let (outside, mut loops) = (self.scope.len(), Vec::new());
+        let indices: Option<Vec<_>> = family.iter().map(|member| self.member(member, &mut loops)).collect();
+        self.loops = 0;
+        self.scope.truncate(outside);
+        let indices = indices?;
+        if let Some(Member { index, .. }) = family.iter().find(|member| !uses(formula, &member.index)) {
+            let nouns = of.nouns()[1];
+            let message = match family {
+                [_] => format!(
+                    "the index `{index}` stands nowhere in this formula, so that all {nouns} of the family are the same: write \
+                     `{} = …` for one",
+                    of.word()
+                ),
+                _ => format!(
+                    "the index `{index}` stands nowhere in this formula, so that {nouns} of the family are the same for all of its \
+                     values"
+                ),
+            };
             self.errors.push(index, message);
             return None;
         }
-        let (form, over) = natural(0, &lower, &upper);
-        let value = self.inside(&[(index.to_string(), form, &over)], formula)?;
+        let over = indices.into_iter().zip(&loops).map(|((name, form), over)| (name, form, over));
+        let value = self.inside(&over.collect::<Vec<_>>(), formula)?;
         let value = self.number_of(formula, Role::Constraint(of), value)?;
-        Some(Constraint { member: Index::open(0).plus(&over.range.lower, -1), over: Some(over), value })
+        Some(Constraint { loops, value })
+    }
+
+    /// Opens the loop over an index of a family, with the index as a form in that of the loop.
+    fn member(
+        &mut self,
+        Member { index, range }: &Member,
+        loops: &mut Vec<Loop>,
+    ) -> Option<(String, Index)> {
+        let (lower, upper) = self.range(range)?;
+        let depth = loops.len() as u32;
+        let (form, over) = natural(depth, &lower, &upper);
+        let length = over.range.upper.plus(&over.range.lower, -1);
+        let is_turned = |atom: &Atom| {
+            let is_known = matches!(atom, Atom::Open(_));
+            !is_known && Index::atom(atom.clone()).free().open != 0
+        };
+        if length.terms.iter().any(|(atom, _)| is_turned(atom)) {
+            let message =
+                "the range of an index of a family depends on the other one by sums and literal multiples";
+            self.errors.push(range, message);
+            return None;
+        }
+        let name = index.to_string();
+        self.scope.push((name.clone(), Binding::Index { form: form.clone(), over: Some(over.clone()) }));
+        self.loops = depth + 1;
+        loops.push(over);
+        Some((name, form))
     }
 
     /// Reports a constraint that stands there before, up to a factor.
     fn are_different(&mut self, of: Constrained, constraints: &[Constraint], formulas: &[&Syntax]) {
         for (number, one) in constraints.iter().enumerate() {
             let is_same = |known: &Constraint| {
-                known.over == one.over && are_multiples(self.graph, known.value.node, one.value.node)
+                known.loops == one.loops && are_multiples(self.graph, known.value.node, one.value.node)
             };
             if constraints[..number].iter().any(is_same) {
                 let message = match of {

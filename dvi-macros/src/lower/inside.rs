@@ -51,9 +51,9 @@ impl Lowering<'_> {
         }
         let least = form.terms.iter().try_fold(form.constant, |sum, (atom, coefficient)| match atom {
             Atom::Size(size) if *coefficient > 0 => Some(sum + coefficient * least_size(*size, around)),
-            Atom::Remainder(..) if *coefficient > 0 => Some(sum),
+            Atom::Remainder(..) | Atom::Product(_) if *coefficient > 0 => Some(sum),
             Atom::Remainder(_, modulus) => Some(sum + coefficient * (modulus.as_literal()? - 1)),
-            Atom::Size(_) | Atom::Open(_) => None,
+            Atom::Size(_) | Atom::Open(_) | Atom::Product(_) => None,
             Atom::Bound(_) => internal("an index of a closed sum in the text of a formula"),
         });
         least.is_some_and(|least| least >= 0)

@@ -12,7 +12,7 @@ use quote::{quote, quote_spanned};
 use syn::visit::Visit;
 use syn::{Expr, Ident, Pat, Stmt};
 
-use crate::syntax::{closure, value};
+use crate::syntax::{Member, closure, value};
 
 /// A name of an inner scope.
 struct Local {
@@ -36,17 +36,18 @@ pub(super) fn uses(formula: &Expr, index: &Ident) -> bool {
     names.open.iter().any(|local| local.used)
 }
 
-/// The warnings of all formulas, each with the index that is bound around it if there is one, and of the
-/// names that they share, as items that the compiler warns of.
+/// The warnings of all formulas, each with the indices that are bound around it, and of the names that they
+/// share, as items that the compiler warns of.
 pub(crate) fn warnings<'a>(
     shared: &'a [syn::Local],
-    formulas: impl Iterator<Item = (&'a Expr, Option<&'a Ident>)>,
+    formulas: impl Iterator<Item = (&'a Expr, &'a [Member])>,
 ) -> TokenStream {
     let mut names = Names::default();
     shared.iter().for_each(|local| names.define(local));
-    for (formula, index) in formulas {
+    for (formula, members) in formulas {
         let outside = names.open.len();
-        names.open.extend(index.map(|index| Local { name: index.clone(), index: true, used: true }));
+        let local = |member: &Member| Local { name: member.index.clone(), index: true, used: true };
+        names.open.extend(members.iter().map(local));
         names.visit_expr(formula);
         names.close(outside);
     }

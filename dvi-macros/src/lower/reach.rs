@@ -105,14 +105,18 @@ impl Walk<'_> {
 /// The value of an index in one pass.
 fn evaluated(index: &Index, values: &[(u32, i64)]) -> Option<i64> {
     index.terms.iter().try_fold(index.constant, |sum, (atom, coefficient)| {
-        let value = match atom {
-            Atom::Open(depth) => values.iter().find(|(known, _)| known == depth)?.1,
-            Atom::Bound(_) => internal("an index of a closed sum in the text of a formula"),
-            Atom::Remainder(value, modulus) => {
-                evaluated(value, values)?.checked_rem_euclid(evaluated(modulus, values)?)?
-            }
-            Atom::Size(_) => return None,
-        };
-        sum.checked_add(value.checked_mul(*coefficient)?)
+        sum.checked_add(value(atom, values)?.checked_mul(*coefficient)?)
     })
+}
+
+fn value(atom: &Atom, values: &[(u32, i64)]) -> Option<i64> {
+    match atom {
+        Atom::Open(depth) => values.iter().find(|(known, _)| known == depth).map(|(_, value)| *value),
+        Atom::Bound(_) => internal("an index of a closed sum in the text of a formula"),
+        Atom::Remainder(of, modulus) => {
+            evaluated(of, values)?.checked_rem_euclid(evaluated(modulus, values)?)
+        }
+        // One of its factors is a size.
+        Atom::Size(_) | Atom::Product(_) => None,
+    }
 }

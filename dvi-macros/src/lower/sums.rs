@@ -5,7 +5,7 @@ use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 
 use super::{Binding, DEEPEST_SUM, Lowering, Role, Value, bound_name};
 use crate::errors::here;
-use crate::symbolic::{Atom, Fold, Index, Loop, Range};
+use crate::symbolic::{Atom, Fold, Free, Index, Loop, Range};
 
 /// Beyond all sizes, and far from where sums of indices overflow.
 const LARGEST: u64 = 1 << 48;
@@ -188,7 +188,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Sums, differences and literal multiples of indices, sizes and literals; and remainders.
+    /// Sums, differences and multiples of indices, sizes and literals; and remainders.
     pub(super) fn index(&mut self, syntax: &Syntax) -> Option<Index> {
         let index = self.index_inside(syntax)?;
         let numbers = index.terms.iter().map(|(_, coefficient)| *coefficient);
@@ -265,13 +265,20 @@ impl Lowering<'_> {
             BinOp::Mul(_) => match (left.as_literal(), right.as_literal()) {
                 (Some(factor), _) => Some(right.times(factor)),
                 (_, Some(factor)) => Some(left.times(factor)),
+                _ if [&left, &right].iter().any(|factor| factor.free() == Free::default()) => {
+                    Some(left.product(&right))
+                }
                 _ => {
-                    self.errors.push(binary, "an index may be multiplied by a literal only");
+                    self.errors.push(
+                        binary,
+                        "an index is multiplied by a literal or a size, and not by another index",
+                    );
                     None
                 }
             },
             _ => {
-                self.errors.push(binary, "index arithmetic knows `+`, `-`, `*` by a literal, and `%`");
+                self.errors
+                    .push(binary, "index arithmetic knows `+`, `-`, `*` by a literal or a size, and `%`");
                 None
             }
         }

@@ -25,7 +25,7 @@ impl Model {
                 )
             }
             None => "expected a size: a literal, a const generic, a field of type `usize`, `field.len()`, or sums \
-                     and multiples of these"
+                     and products of these"
                 .into(),
         })?;
         let so_far = self.dimension().as_literal().unwrap_or(0);
@@ -112,7 +112,7 @@ impl Model {
         Index::size(Size(known as u32))
     }
 
-    /// A size, or a sum, difference or literal multiple of sizes; the name that is at fault, if it is one.
+    /// A size, or a sum, difference or product of sizes; the name that is at fault, if it is one.
     ///
     /// Stable Rust computes no array length from a const generic. A block of such a size is a `Vec`.
     fn size_form(&mut self, expr: &Expr) -> Result<Index, Option<Ident>> {
@@ -132,8 +132,7 @@ impl Model {
                         let tokens = quote!((#above).saturating_sub(#below));
                         Ok(self.intern_size(format!("({})", text(expr)), tokens, false))
                     }
-                    (BinOp::Mul(_), Some(factor), _) => Ok(right.times(factor)),
-                    (BinOp::Mul(_), _, Some(factor)) => Ok(left.times(factor)),
+                    (BinOp::Mul(_), ..) => Ok(left.product(&right)),
                     _ => Err(None),
                 }
             }
@@ -158,15 +157,22 @@ impl Model {
     /// A sum of multiples of sizes as an expression of type `usize`; no coefficient is negative.
     fn size_tokens(&self, size: &Index) -> TokenStream {
         let constant = size.constant.unsigned_abs() as usize;
-        let terms = size.terms.iter().map(|(atom, coefficient)| match atom {
-            Atom::Size(Size(known)) => {
-                let (factor, tokens) =
-                    (coefficient.unsigned_abs() as usize, &self.sizes[*known as usize].tokens);
-                quote!(#factor * #tokens)
-            }
-            Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) => internal("a size depends on an index"),
+        let terms = size.terms.iter().map(|(atom, coefficient)| {
+            let (factor, tokens) = (coefficient.unsigned_abs() as usize, self.atom_tokens(atom));
+            quote!(#factor * #tokens)
         });
         quote!(#constant #(+ #terms)*)
+    }
+
+    fn atom_tokens(&self, atom: &Atom) -> TokenStream {
+        match atom {
+            Atom::Size(Size(known)) => self.sizes[*known as usize].tokens.clone(),
+            Atom::Product(factors) => {
+                let factors = factors.iter().map(|factor| self.atom_tokens(factor));
+                factors.reduce(|before, factor| quote!(#before * #factor)).unwrap_or_default()
+            }
+            Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) => internal("a size depends on an index"),
+        }
     }
 
     /// The parameter at `name`, `self.name`, `p.m` or `self.p.m`.

@@ -281,17 +281,30 @@ impl<'a> Oracle<'a> {
     pub(super) fn constraints(&mut self) -> Result<Vec<Jet>, Outside> {
         let system = self.system;
         let mut values = Vec::new();
-        for Constraint { range, formula } in &system.constraints {
-            match range {
-                None => values.push(self.value(formula)?),
-                Some((lower, upper)) => {
-                    for index in self.index(lower)?..self.index(upper)? {
-                        values.push(self.inside(&[index], formula)?);
-                    }
-                }
-            }
+        for Constraint { ranges, formula } in &system.constraints {
+            self.members(ranges, formula, &mut values)?;
         }
         Ok(values)
+    }
+
+    /// A constraint for all values of these indices.
+    fn members(
+        &mut self,
+        ranges: &[(Index, Index)],
+        formula: &Formula,
+        values: &mut Vec<Jet>,
+    ) -> Result<(), Outside> {
+        let [(lower, upper), inner @ ..] = ranges else {
+            values.push(self.value(formula)?);
+            return Ok(());
+        };
+        for index in self.index(lower)?..self.index(upper)? {
+            self.bound.push(index);
+            let inside = self.members(inner, formula, values);
+            self.bound.pop();
+            inside?;
+        }
+        Ok(())
     }
 
     /// A body with its indices at these values.

@@ -91,7 +91,7 @@ pub(super) fn environment(system: &System) -> Environment {
             SizeKind::Field(name) => {
                 fields.insert(name.to_string(), Rc::new(Nested::Count(size.value as usize)));
             }
-            SizeKind::Literal | SizeKind::Length(_) => {}
+            SizeKind::Literal | SizeKind::Length(_) | SizeKind::Product(..) => {}
         }
     }
     Environment { fields, constants, own: own_by_path, scalar_field: scalar_field_by_place }

@@ -18,6 +18,8 @@ pub(super) enum Atom {
     Bound(usize),
     Size(SizeId),
     Remainder(Box<Index>, Box<Index>),
+    /// A size times the index of the sum at this level.
+    Times(SizeId, usize),
 }
 
 /// constant + Σ coefficient·atom
@@ -134,6 +136,7 @@ impl Index {
             let value = match atom {
                 Atom::Bound(level) => *bound.get(*level)?,
                 Atom::Size(size) => sizes[*size],
+                Atom::Times(size, level) => sizes[*size] * *bound.get(*level)?,
                 Atom::Remainder(value, modulus) => {
                     value.value(sizes, bound)?.checked_rem_euclid(modulus.value(sizes, bound)?)?
                 }

@@ -152,29 +152,32 @@ impl Generator<'_> {
     /// depends on.
     fn constraint(&mut self) -> Constraint {
         self.budget = self.budget.max(6);
-        let family =
-            if self.random.chance(50) { self.loops(&Scope::outside(), Loops::Single) } else { None };
-        let (range, scope) = match family {
-            Some((lower, upper, inside)) => (Some((lower, upper)), inside),
-            None => (None, Scope::outside()),
-        };
+        let (mut ranges, mut scope) = (Vec::new(), Scope::outside());
+        for chance in [50, 40] {
+            if self.random.chance(chance)
+                && let Some((lower, upper, inside)) = self.loops(&scope, Loops::Single)
+            {
+                ranges.push((lower, upper));
+                scope = inside;
+            } else {
+                break;
+            }
+        }
         let block = self.random.below(self.system.blocks.len());
         let index = self.system.blocks[block].size.map(|size| self.index(&scope, size));
         let variable = match self.system.constrained {
             Constrained::Positions | Constrained::Gaps => Formula::Coordinate(block, index),
             Constrained::Velocities => Formula::Velocity(block, index),
         };
-        let variable = match range {
-            Some(_) => variable.times(Formula::Count(Index::bound(0).plus(3))),
-            None => variable,
-        };
+        let variable = (0..ranges.len())
+            .fold(variable, |variable, level| variable.times(Formula::Count(Index::bound(level).plus(3))));
         let is_sum = self.random.chance(70);
         let value = match self.system.constrained {
             Constrained::Velocities if is_sum => self.affine(&scope, 4),
             Constrained::Positions | Constrained::Velocities | Constrained::Gaps => self.value(&scope, 4),
         };
         let formula = if is_sum { value.plus(variable) } else { variable.times(value) };
-        Constraint { range, formula }
+        Constraint { ranges, formula }
     }
 
     fn regular(&mut self) -> Dynamics {

@@ -188,9 +188,11 @@ impl Condition {
 
 impl Index {
     fn without_level(&self, level: usize) -> Self {
-        let terms = self.terms.iter().filter(|(atom, _)| *atom != Atom::Bound(level));
+        let is_it = |atom: &Atom| matches!(atom, Atom::Bound(of) | Atom::Times(_, of) if *of == level);
+        let terms = self.terms.iter().filter(|(atom, _)| !is_it(atom));
         let atom = |atom: &Atom| match atom {
             Atom::Bound(other) if *other > level => Atom::Bound(other - 1),
+            Atom::Times(size, other) if *other > level => Atom::Times(*size, other - 1),
             Atom::Remainder(value, modulus) => {
                 Atom::Remainder(Box::new(value.without_level(level)), Box::new(modulus.without_level(level)))
             }

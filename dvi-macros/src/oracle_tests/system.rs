@@ -19,6 +19,8 @@ pub(super) enum SizeKind {
     Field(&'static str),
     /// The length of an array of the struct.
     Length(&'static str),
+    /// Two sizes of the table.
+    Product(usize, usize),
 }
 
 /// The type of a field.
@@ -81,10 +83,11 @@ pub(super) enum Gauge {
     Auto,
 }
 
-/// A constraint as it is declared, alone or one for each index in a range. That index is the one of level 0.
+/// A constraint as it is declared, alone or one for each index in a range, or each pair of indices. They are
+/// those of the levels 0 and 1.
 #[derive(Clone, Debug)]
 pub(super) struct Constraint {
-    pub(super) range: Option<(Index, Index)>,
+    pub(super) ranges: Vec<(Index, Index)>,
     pub(super) formula: Formula,
 }
 

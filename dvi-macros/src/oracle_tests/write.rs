@@ -107,10 +107,14 @@ impl System {
     /// Constraints that follow each other without an index are a list.
     fn constraint_arguments(&self, writer: &Writer<'_>) -> String {
         let (mut text, word) = (String::new(), self.constrained.word());
-        for run in self.constraints.chunk_by(|one, next| one.range.is_none() && next.range.is_none()) {
+        for run in self.constraints.chunk_by(|one, next| one.ranges.is_empty() && next.ranges.is_empty()) {
             text += &match run {
-                [Constraint { range: Some((lower, upper)), formula }] => {
-                    format!(", {word}(i in {}) = {}", writer.range(lower, upper), writer.text(formula))
+                [Constraint { ranges, formula }] if !ranges.is_empty() => {
+                    let indices = INDICES.iter().zip(ranges);
+                    let indices = indices
+                        .map(|(index, (lower, upper))| format!("{index} in {}", writer.range(lower, upper)));
+                    let indices = indices.collect::<Vec<_>>().join(", ");
+                    format!(", {word}({indices}) = {}", writer.text(formula))
                 }
                 [single] => format!(", {word} = {}", writer.text(&single.formula)),
                 several => {
@@ -169,6 +173,7 @@ impl System {
             SizeKind::Literal => self.sizes[size].value.to_string(),
             SizeKind::Constant(name) | SizeKind::Field(name) => name.into(),
             SizeKind::Length(field) => format!("{field}.len()"),
+            SizeKind::Product(a, b) => format!("({} * {})", self.size_text(a), self.size_text(b)),
         }
     }
 }
@@ -370,6 +375,9 @@ impl<'a> Writer<'a> {
             let atom = match atom {
                 Atom::Bound(level) => INDICES[*level].to_string(),
                 Atom::Size(size) => self.system.size_text(*size),
+                Atom::Times(size, level) => {
+                    format!("{} * {}", self.system.size_text(*size), INDICES[*level])
+                }
                 Atom::Remainder(value, modulus) => {
                     format!("(({}) % {})", self.index(value), self.index(modulus))
                 }

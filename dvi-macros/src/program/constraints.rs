@@ -4,14 +4,14 @@
 use crate::formulas::{Constraint, DeclaredConstraints, Variable, variable};
 use crate::routine::Routine;
 use crate::statement::{Place, Row, Statement};
-use crate::symbolic::{Contribution, Expr, Graph, Index, Node, Weight};
+use crate::symbolic::{Contribution, Count, Expr, Graph, Node, Weight};
 use crate::syntax::Constrained;
 
 /// What is generated for the constraints of a system.
 pub(crate) struct Constraints {
     pub(crate) of: Constrained,
     /// The number of members of each declared constraint; one below zero stands for zero.
-    pub(crate) lengths: Vec<Index>,
+    pub(crate) lengths: Vec<Count>,
     /// g or a
     pub(crate) value: Routine,
     /// The entries of ∂g/∂q, or of ∂a/∂q and ∂a/∂v.
@@ -55,12 +55,12 @@ impl Constraints {
 }
 
 fn row(number: usize, constraint: &Constraint) -> Row {
-    Row { constraint: number as u32, member: constraint.member.clone() }
+    Row { constraint: number as u32, member: constraint.member() }
 }
 
 fn statements(constraints: &[Constraint], value: impl Fn(&Constraint) -> Expr) -> Vec<Statement> {
     let statement = |(number, constraint): (usize, &Constraint)| Statement {
-        loops: constraint.loops(),
+        loops: constraint.loops.clone(),
         place: Place::Constraint(row(number, constraint)),
         value: value(constraint),
     };
@@ -70,7 +70,7 @@ fn statements(constraints: &[Constraint], value: impl Fn(&Constraint) -> Expr) -
 /// The rates of change along a motion without acceleration, in place of the values.
 fn changes(graph: &mut Graph, constraints: &[Constraint]) -> Vec<Constraint> {
     let rate = |constraint: &Constraint| Constraint {
-        value: graph.rate(constraint.value, &constraint.loops()),
+        value: graph.rate(constraint.value, &constraint.loops),
         ..constraint.clone()
     };
     constraints.iter().map(rate).collect()
@@ -85,7 +85,7 @@ fn changing(changes: &[Constraint]) -> Vec<Statement> {
 fn derivatives(graph: &mut Graph, constraints: &[Constraint]) -> Vec<(Variable, Statement)> {
     let mut entries = Vec::new();
     for (number, constraint) in constraints.iter().enumerate() {
-        for Contribution { loops, target, value } in graph.gradient(constraint.value, &constraint.loops()) {
+        for Contribution { loops, target, value } in graph.gradient(constraint.value, &constraint.loops) {
             let (by, column) = variable(graph, target);
             let place = Place::ConstraintDerivative(row(number, constraint), column);
             entries.push((by, Statement { loops, place, value }));

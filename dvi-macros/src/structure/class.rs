@@ -190,7 +190,8 @@ fn value(index: &Index, open: &[(u32, i64)]) -> Option<i64> {
         let value = match atom {
             Atom::Open(depth) => open.iter().find(|(known, _)| known == depth)?.1,
             Atom::Remainder(of, modulus) => value(of, open)?.checked_rem_euclid(value(modulus, open)?)?,
-            Atom::Bound(_) | Atom::Size(_) => return None,
+            // One of its factors is a size.
+            Atom::Bound(_) | Atom::Size(_) | Atom::Product(_) => return None,
         };
         sum.checked_add(value.checked_mul(*coefficient)?)
     })

@@ -8,6 +8,8 @@
 //! expression is [`Atom::Open`] with the depth of that loop, and depths rise strictly on the way
 //! inwards. A sum becomes a loop, and a loop a sum, by replacing one name with the other.
 //!
+//! A size times an index is an atom of its own, so that places in a square are affine, too.
+//!
 //! Indices are mathematical integers; `%` is the Euclidean remainder. No index is negative: a sum
 //! whose range may begin below zero is shifted when it is made.
 
@@ -25,6 +27,8 @@ pub(crate) enum Atom {
     Bound(u32),
     Size(Size),
     Remainder(Box<Index>, Box<Index>),
+    /// Of two factors at least, in order, none of which is a product.
+    Product(Vec<Self>),
 }
 
 /// constant + Σ coefficient·atom, atoms in order, no zero coefficient.
@@ -133,6 +137,19 @@ impl Index {
         Self::default().plus(self, factor)
     }
 
+    /// The product with another index, multiplied out.
+    pub(crate) fn product(&self, other: &Self) -> Self {
+        let mut product = self.times(other.constant).plus(other, self.constant);
+        product.constant = whole(self.constant.checked_mul(other.constant));
+        for (left, a) in &self.terms {
+            for (right, b) in &other.terms {
+                let factors = left.factors().iter().chain(right.factors()).cloned().collect();
+                product = product.plus(&Self::atom(Atom::product(factors)), whole(a.checked_mul(*b)));
+            }
+        }
+        product
+    }
+
     pub(crate) fn remainder(&self, modulus: &Self) -> Self {
         match (self.as_literal(), modulus.as_literal()) {
             (Some(value), Some(modulus)) if modulus > 0 => Self::literal(value.rem_euclid(modulus)),
@@ -146,19 +163,15 @@ impl Index {
             Atom::Bound(height) => Free { open: 0, bound: 1 << height },
             Atom::Size(_) => Free::default(),
             Atom::Remainder(value, modulus) => value.free().and(modulus.free()),
+            Atom::Product(factors) => factors
+                .iter()
+                .fold(Free::default(), |free, factor| free.and(Self::atom(factor.clone()).free())),
         };
         self.terms.iter().fold(Free::default(), |free, (atom, _)| free.and(of(atom)))
     }
 
     pub(crate) fn renamed(&self, renaming: &Renaming) -> Self {
-        let renamed = |atom: &Atom| match atom {
-            known if *known == renaming.from => renaming.to.clone(),
-            Atom::Remainder(value, modulus) => {
-                Atom::Remainder(Box::new(value.renamed(renaming)), Box::new(modulus.renamed(renaming)))
-            }
-            Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) => atom.clone(),
-        };
-        let terms = self.terms.iter().map(|(atom, coefficient)| (renamed(atom), *coefficient));
+        let terms = self.terms.iter().map(|(atom, coefficient)| (atom.renamed(renaming), *coefficient));
         terms.fold(Self::literal(self.constant), |sum, (atom, coefficient)| {
             sum.plus(&Self::atom(atom), coefficient)
         })
@@ -200,6 +213,40 @@ impl Index {
     /// Whether no value of this index is negative, because nothing is subtracted in it.
     pub(crate) fn is_natural(&self) -> bool {
         self.constant >= 0 && self.terms.iter().all(|(_, coefficient)| *coefficient > 0)
+    }
+}
+
+impl Atom {
+    fn product(mut factors: Vec<Self>) -> Self {
+        factors.sort();
+        Self::Product(factors)
+    }
+
+    fn factors(&self) -> &[Self] {
+        match self {
+            Self::Product(factors) => factors,
+            Self::Open(_) | Self::Bound(_) | Self::Size(_) | Self::Remainder(..) => {
+                std::slice::from_ref(self)
+            }
+        }
+    }
+
+    fn renamed(&self, renaming: &Renaming) -> Self {
+        match self {
+            known if *known == renaming.from => renaming.to.clone(),
+            Self::Remainder(value, modulus) => {
+                Self::Remainder(Box::new(value.renamed(renaming)), Box::new(modulus.renamed(renaming)))
+            }
+            Self::Product(factors) => {
+                Self::product(factors.iter().map(|factor| factor.renamed(renaming)).collect())
+            }
+            Self::Open(_) | Self::Bound(_) | Self::Size(_) => self.clone(),
+        }
+    }
+
+    /// Whether it is a size, or a product of sizes.
+    fn is_size(&self) -> bool {
+        self.factors().iter().all(|factor| matches!(factor, Self::Size(_)))
     }
 }
 
@@ -249,8 +296,8 @@ impl Range {
     pub(crate) fn is_filled(&self) -> bool {
         let length = self.upper.plus(&self.lower, -1);
         let least = length.terms.iter().try_fold(length.constant, |sum, (atom, coefficient)| match atom {
-            Atom::Size(_) if *coefficient > 0 => sum.checked_add(*coefficient),
-            Atom::Size(_) | Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) => None,
+            size if size.is_size() && *coefficient > 0 => sum.checked_add(*coefficient),
+            Atom::Size(_) | Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) | Atom::Product(_) => None,
         });
         self.left_out().next().is_none() && least.is_some_and(|least| least > 0)
     }

@@ -6,6 +6,7 @@
 mod antiderivative;
 mod asked;
 mod bind;
+mod count;
 mod derivative;
 mod differential;
 mod domain;
@@ -26,6 +27,7 @@ mod tests;
 mod variables;
 
 pub(crate) use antiderivative::Terms;
+pub(crate) use count::{Count, Rows};
 pub(crate) use derivative::{Contribution, SecondContribution};
 pub(crate) use functions::{Unary, unary_by_name, unary_names};
 pub(crate) use graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Parameter, Relation, Weight};

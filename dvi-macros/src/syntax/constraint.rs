@@ -67,17 +67,18 @@ const IMPACTS: [&str; 14] = [
     "walls",
 ];
 
-/// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n) = g`; or the same by
-/// `nonholonomic` or `impact`.
+/// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n, j in i + 1..n) = g`; or the
+/// same by `nonholonomic` or `impact`.
 #[derive(Debug)]
 pub(crate) struct Constraint {
-    pub(crate) family: Option<Family>,
+    /// The indices of a family, from the outermost; none of a single one.
+    pub(crate) family: Vec<Member>,
     pub(crate) formula: Expr,
 }
 
-/// `i in 0..n`: the constraints of a family, one for each value of its index.
+/// `i in 0..n`: an index of a family, which has a constraint for each of its values.
 #[derive(Debug)]
-pub(crate) struct Family {
+pub(crate) struct Member {
     pub(crate) index: Ident,
     pub(crate) range: Expr,
 }
@@ -166,6 +167,11 @@ impl Constrained {
     pub(super) fn family(self) -> String {
         format!("`{}(i in 0..n) = {}(i)`", self.word(), self.letter())
     }
+
+    /// How one of two indices is.
+    fn family_of_pairs(self) -> String {
+        format!("`{}(i in 0..n, j in i + 1..n) = {}(i, j)`", self.word(), self.letter())
+    }
 }
 
 impl Attribute {
@@ -243,11 +249,11 @@ impl Attribute {
                     let message = format!("a family of {} is written {}", of.nouns()[1], of.family());
                     Err(syn::Error::new(parentheses, message))
                 } else {
-                    read_by(index, |input| Family::parse(input, of))
+                    read_by(index, |input| family(input, of))
                 };
                 let formula = value_of(name, value, errors);
                 if let Some((family, formula)) = errors.taken(family).zip(formula) {
-                    let declared = Constraint::of_formula(of, Some(family), formula);
+                    let declared = Constraint::of_formula(of, family, formula);
                     self.constraints.extend(errors.taken(declared));
                 }
             }
@@ -258,8 +264,31 @@ impl Attribute {
     }
 }
 
-impl Family {
-    pub(super) fn parse(input: ParseStream<'_>, of: Constrained) -> syn::Result<Self> {
+/// `i in 0..n`, or `i in 0..n, j in i + 1..n`.
+fn family(input: ParseStream<'_>, of: Constrained) -> syn::Result<Vec<Member>> {
+    let mut family: Vec<Member> = vec![Member::parse(input, of)?];
+    while !input.is_empty() {
+        input.parse::<Token![,]>()?;
+        if input.is_empty() {
+            break;
+        }
+        let member = Member::parse(input, of)?;
+        if family.len() == 2 {
+            let message =
+                format!("a family of {} has two indices at most, {}", of.nouns()[1], of.family_of_pairs());
+            return Err(syn::Error::new(member.index.span(), message));
+        }
+        if family[0].index == member.index {
+            let message = format!("two indices have this name: write {}", of.family_of_pairs());
+            return Err(syn::Error::new(member.index.span(), message));
+        }
+        family.push(member);
+    }
+    Ok(family)
+}
+
+impl Member {
+    fn parse(input: ParseStream<'_>, of: Constrained) -> syn::Result<Self> {
         let (form, word, function) = (of.family(), of.word(), of.function());
         let advice = format!("a family of {} is written {form}", of.nouns()[1]);
         let at = input.span();
@@ -277,8 +306,8 @@ impl Family {
         }
         input.parse::<Token![in]>()?;
         let range = expression(input)?;
-        if !input.is_empty() {
-            return Err(input.error(format!("a family of {} has one index, {form}", of.nouns()[1])));
+        if !input.is_empty() && !input.peek(Token![,]) {
+            return Err(input.error(advice));
         }
         Ok(Self { index, range })
     }
@@ -297,14 +326,14 @@ impl Constraint {
                 vec![Err(syn::Error::new_spanned(list, message))]
             }
             Expr::Array(list) => {
-                list.elems.into_iter().map(|formula| Self::of_formula(of, None, formula)).collect()
+                list.elems.into_iter().map(|formula| Self::of_formula(of, Vec::new(), formula)).collect()
             }
-            formula => vec![Self::of_formula(of, None, formula)],
+            formula => vec![Self::of_formula(of, Vec::new(), formula)],
         }
     }
 
     /// A constraint with this formula, if it may be one.
-    pub(super) fn of_formula(of: Constrained, family: Option<Family>, formula: Expr) -> syn::Result<Self> {
+    pub(super) fn of_formula(of: Constrained, family: Vec<Member>, formula: Expr) -> syn::Result<Self> {
         let refused = |at: &dyn ToTokens, message: String| Err(syn::Error::new_spanned(at, message));
         match unwrapped(&formula) {
             Expr::Assign(equation) => {
@@ -339,11 +368,10 @@ impl Constraint {
                 format!("one {} for each value of an index is written {}", of.nouns()[0], of.family()),
             ),
             Expr::Array(list) => {
-                let message = match family {
-                    Some(_) => "has one formula: write a family for each of these",
-                    None => "holds formulas: write them without these brackets",
+                let (what, message) = match family.as_slice() {
+                    [] => ("list", "holds formulas: write them without these brackets"),
+                    [..] => ("family", "has one formula: write a family for each of these"),
                 };
-                let what = if family.is_some() { "family" } else { "list" };
                 refused(list, format!("a {what} of {} {message}", of.nouns()[1]))
             }
             _ => Ok(Self { family, formula }),
@@ -352,10 +380,11 @@ impl Constraint {
 }
 
 /// What to write for the equation left = right.
-fn one_side(of: Constrained, family: &Option<Family>, left: &Expr, right: &Expr) -> String {
-    let head = match family {
-        Some(Family { index, range }) => format!("{}({index} in {})", of.word(), text(range)),
-        None => of.word().to_string(),
+fn one_side(of: Constrained, family: &[Member], left: &Expr, right: &Expr) -> String {
+    let members = family.iter().map(|Member { index, range }| format!("{index} in {}", text(range)));
+    let head = match members.collect::<Vec<_>>().join(", ") {
+        none if none.is_empty() => of.word().to_string(),
+        members => format!("{}({members})", of.word()),
     };
     let left = text(left);
     let all = match right {

@@ -168,6 +168,41 @@ fn what_formulas_share_stands_once() {
 }
 
 #[test]
+fn a_family_over_pairs_has_two_ranges() {
+    check(
+        lagrangian(
+            quote! {
+                coordinates(x[n], y[n]),
+                lagrangian = sum(0..n, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0,
+                impact(i in 0..n, j in i + 1..n) = (x[i] - x[j]).hypot(y[i] - y[j]) - 2.0 * r,
+            },
+            quote! { struct Discs { n: usize, r: f64 } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \frac{\sum_{i = 0}^{n - 1} \left({\dot{x}_{i}}^{2} + {\dot{y}_{i}}^{2}\right)}{2} \\
+            0 &\le \sqrt{{\left(x_{i} - x_{j}\right)}^2 + {\left(y_{i} - y_{j}\right)}^2} - 2 \, r \qquad \text{for } 0 \le i \le n - 1, \ i + 1 \le j \le n - 1
+            \end{aligned}
+            ```
+
+            The compiler makes of it:
+
+            ```math
+            \begin{aligned}
+            E &= 0.5 \, \sum_{i = 0}^{n - 1} \left({\dot{x}_{i}}^{2} + {\dot{y}_{i}}^{2}\right)
+            \end{aligned}
+            ```
+        "#]],
+    );
+}
+
+#[test]
 fn sums_pairs_components_and_momenta() {
     check(
         degenerate_lagrangian(

@@ -78,7 +78,8 @@ fn constraint(of: Option<Constrained>, one: &Constraint, typesetter: &mut Typese
         Some(Constrained::Gaps) => r"\le",
         Some(Constrained::Positions | Constrained::Velocities) | None => "=",
     };
-    let range = one.family.as_ref().map(|family| typesetter.range(&family.index.to_string(), &family.range));
+    let ranges = one.family.iter().map(|member| typesetter.range(&member.index.to_string(), &member.range));
+    let range = Some(ranges.collect::<Vec<_>>().join(r", \ ")).filter(|range| !range.is_empty());
     let formulas: Vec<&Expr> = match &one.formula {
         Expr::Array(list) => list.elems.iter().collect(),
         formula => vec![formula],

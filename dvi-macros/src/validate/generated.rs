@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::program::{DegeneratePrograms, Programs, RegularPrograms};
 use crate::routine::Routine;
 use crate::statement;
-use crate::symbolic::{Graph, Index};
+use crate::symbolic::{Count, Graph};
 use crate::syntax::Constrained;
 
 /// The generated functions.
@@ -25,7 +25,7 @@ impl Functions<'_> {
     }
 
     /// How many members each declared constraint has.
-    pub(super) fn constraint_lengths(&self) -> &[Index] {
+    pub(super) fn constraint_lengths(&self) -> &[Count] {
         self.shared().constraints.as_ref().map_or(&[], |constraints| &constraints.lengths)
     }
 

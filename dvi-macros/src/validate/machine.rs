@@ -148,7 +148,10 @@ impl Run<'_> {
 
     fn along_row(&self, row: &Row) -> f64 {
         let Machine { point, directions, .. } = self.machine;
-        point.row(directions.first, row.constraint as usize, self.index(&row.member))
+        let Some(member) = row.member.value(|index| Some(self.index(index))) else {
+            internal("too many constraints")
+        };
+        point.row(directions.first, row.constraint as usize, member)
     }
 
     fn register(&self, register: Register) -> f64 {
@@ -229,20 +232,25 @@ impl Run<'_> {
     }
 
     fn index(&self, index: &Index) -> i64 {
-        index.terms.iter().fold(index.constant, |sum, (atom, coefficient)| {
-            let value = match atom {
-                Atom::Open(depth) => self.indices[*depth as usize],
-                Atom::Bound(_) => internal("an index outside of its sum"),
-                Atom::Size(size) => match self.machine.point.size(size.0 as usize) {
-                    Some(size) => size,
-                    None => internal("a size without a value"),
-                },
-                Atom::Remainder(value, modulus) => {
-                    self.index(value).checked_rem_euclid(self.index(modulus)).unwrap_or(-1)
-                }
-            };
-            sum + coefficient * value
-        })
+        index
+            .terms
+            .iter()
+            .fold(index.constant, |sum, (atom, coefficient)| sum + coefficient * self.atom(atom))
+    }
+
+    fn atom(&self, atom: &Atom) -> i64 {
+        match atom {
+            Atom::Open(depth) => self.indices[*depth as usize],
+            Atom::Bound(_) => internal("an index outside of its sum"),
+            Atom::Size(size) => match self.machine.point.size(size.0 as usize) {
+                Some(size) => size,
+                None => internal("a size without a value"),
+            },
+            Atom::Remainder(value, modulus) => {
+                self.index(value).checked_rem_euclid(self.index(modulus)).unwrap_or(-1)
+            }
+            Atom::Product(factors) => factors.iter().map(|factor| self.atom(factor)).product(),
+        }
     }
 }
 

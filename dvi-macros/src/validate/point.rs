@@ -161,10 +161,18 @@ impl Point {
 
     /// The value of a size of the model, which no bound index stands in.
     pub(super) fn length(&self, index: &Index) -> Option<i64> {
-        index.terms.iter().try_fold(index.constant, |sum, (atom, coefficient)| match atom {
-            Atom::Size(size) => Some(sum + coefficient * self.size(size.0 as usize)?),
+        index
+            .terms
+            .iter()
+            .try_fold(index.constant, |sum, (atom, coefficient)| Some(sum + coefficient * self.atom(atom)?))
+    }
+
+    fn atom(&self, atom: &Atom) -> Option<i64> {
+        match atom {
+            Atom::Size(size) => self.size(size.0 as usize),
+            Atom::Product(factors) => factors.iter().map(|factor| self.atom(factor)).product(),
             Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) => None,
-        })
+        }
     }
 
     /// The values of `lower..upper` that are visited: of a long range the first ones.

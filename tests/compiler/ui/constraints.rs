@@ -201,7 +201,7 @@ mod heads {
     #[lagrangian(
         coordinates(x[n]),
         lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n, j in 0..n) = x[i] - x[j],
+        constraint(i in 0..n, j in 0..n, k in 0..n) = x[i] - x[j] + x[k],
     )]
     struct X {
         n: usize,
@@ -568,6 +568,42 @@ mod without_any {
     fn run() {
         used(&Free);
     }
+}
+
+/// Families with two indices.
+mod pairs {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x[4]),
+        lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
+        constraint(i in 0..2, i in 0..2) = x[i],
+    )]
+    struct SameName;
+
+    #[lagrangian(
+        coordinates(x[4]),
+        lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
+        constraint(i in 0..2, j in i + 1..4) = x[i].powi(2),
+    )]
+    struct Unused;
+
+    #[lagrangian(
+        coordinates(x[4]),
+        lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
+        constraint(i in 0..2, j in 0..(i + 1) % 2) = x[i] * x[j],
+        constraint(i in 0..2, j = 0..2) = x[i] * x[j],
+        constraint(i in 0..j, j in 0..2) = x[i] * x[j],
+        constraint(i in 0..2, j in i + 1..4) >= x[i] * x[j],
+    )]
+    struct Ranges;
+
+    #[lagrangian(
+        coordinates(x[4]),
+        lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
+        constraint(i in 0..4, j in i..4) = x[i] * x[j] - 1.0,
+    )]
+    struct TooMany;
 }
 
 fn main() {}

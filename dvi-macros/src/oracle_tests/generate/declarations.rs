@@ -24,7 +24,7 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
     }
     let fields = fields(random, &sizes, width);
     let blocks = match width {
-        0 => blocks(random, regular),
+        0 => blocks(random, regular, &sizes),
         width => vectors(random, regular, width, sizes.len() - 1),
     };
     let dynamics = Dynamics::Regular(Formula::Time);
@@ -63,6 +63,10 @@ fn sizes(random: &mut Random, known: Known) -> Vec<Size> {
     ];
     if matches!(known, Known::RunTime | Known::Mixed) {
         sizes.push(Size { kind: SizeKind::Length("g"), value: 2 + random.below(2) as i64 });
+    }
+    if random.chance(20) {
+        let (a, b) = *random.pick(&[(0, 1), (1, 0), (1, 1)]);
+        sizes.push(Size { kind: SizeKind::Product(a, b), value: sizes[a].value * sizes[b].value });
     }
     sizes
 }
@@ -136,8 +140,12 @@ fn vectors(random: &mut Random, regular: bool, width: usize, of: usize) -> Vec<B
     }
 }
 
-fn blocks(random: &mut Random, regular: bool) -> Vec<Block> {
+fn blocks(random: &mut Random, regular: bool, sizes: &[Size]) -> Vec<Block> {
     let block = |name, size| Block { name, size, axis: None };
+    let square = sizes.iter().position(|size| matches!(size.kind, SizeKind::Product(..)));
+    if square.is_some() && random.chance(60) {
+        return vec![block("x", square), block("y", square)];
+    }
     let pair = vec![block("x", Some(0)), block("y", Some(0))];
     let singles = vec![block("u", None), block("w", None)];
     match random.below(5) {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Generator;
 use crate::oracle_tests::formula::{Atom, Formula, Index, Loops};
 use crate::oracle_tests::random::Random;
-use crate::oracle_tests::system::System;
+use crate::oracle_tests::system::{SizeKind, System};
 
 /// What is bound around a formula.
 #[derive(Clone, Debug)]
@@ -173,6 +173,15 @@ impl Generator<'_> {
 
     fn any_index(&mut self, scope: &Scope, size: usize) -> Index {
         let length = Index::atom(Atom::Size(size));
+        if let (SizeKind::Product(_, columns), 1..) = (&self.system.sizes[size].kind, scope.level) {
+            let [row, column] = [0; 2].map(|_| self.random.below(scope.level));
+            let place = Index::bound(column).with(Atom::Times(*columns, row), 1);
+            match self.random.below(4) {
+                0 | 1 => return place,
+                2 => return place.plus(1).modulo(length),
+                _ => {}
+            }
+        }
         let entry = Index::literal(self.random.below(self.system.sizes[size].value as usize) as i64);
         if scope.level == 0 {
             return if self.random.chance(15) { length.plus(-1) } else { entry };

@@ -15,6 +15,8 @@ pub(super) enum Callee {
     /// `__private::wrap` and `__private::remainder`
     Wrap,
     Remainder,
+    /// `__private::members_before`
+    MembersBefore,
     CheckIndex,
     CheckIndices,
     /// `__private::whole`
@@ -88,6 +90,7 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "Scalar", name] => scalar(name),
         [.., "__private", "wrap"] => Callee::Wrap,
         [.., "__private", "remainder"] => Callee::Remainder,
+        [.., "__private", "members_before"] => Callee::MembersBefore,
         [.., "__private", "check_index"] => Callee::CheckIndex,
         [.., "__private", "check_indices"] => Callee::CheckIndices,
         [.., "__private", "whole"] => Callee::Whole,

@@ -312,6 +312,10 @@ impl Machine<'_> {
                 let remainder = remainder.ok_or_else(|| panicked("a remainder by zero"))?;
                 Ok(Value::Integer(remainder, kind))
             }
+            Callee::MembersBefore => {
+                let rows = (0..integer(2)).map(|row| (integer(0) + integer(1) * row).max(0));
+                Ok(Value::Integer(rows.sum(), Kind::Usize))
+            }
             // Chunks of two, so that short loops have some.
             Callee::Whole => {
                 let left_over = (integer(1) - integer(0)).max(0) % 2;

@@ -86,7 +86,7 @@ impl Formula {
 impl Index {
     fn levels(&self) -> Vec<usize> {
         let of_atom = |(atom, _): &(Atom, i64)| match atom {
-            Atom::Bound(level) => vec![*level],
+            Atom::Bound(level) | Atom::Times(_, level) => vec![*level],
             Atom::Size(_) => Vec::new(),
             Atom::Remainder(value, modulus) => [value.levels(), modulus.levels()].concat(),
         };

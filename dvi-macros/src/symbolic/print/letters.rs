@@ -67,27 +67,39 @@ impl Letters<'_> {
         }
     }
 
+    fn atom(&self, atom: &Atom) -> String {
+        match atom {
+            Atom::Open(depth) => self.letter(*depth as usize),
+            Atom::Bound(height) => match self.sums.iter().rposition(|known| known == height) {
+                Some(position) => self.letter(self.depth + position),
+                None => internal("an index outside of its sum"),
+            },
+            Atom::Size(size) => self.name(self.names.size(size.0)),
+            Atom::Remainder(value, modulus) => {
+                let [value, modulus] = [value, modulus].map(|index| self.index(index));
+                match self.notation {
+                    Notation::Paper => format!("({value}) % {modulus}"),
+                    Notation::Language => format!("(({value}) % ({modulus}))"),
+                }
+            }
+            // Sizes in front of the index.
+            Atom::Product(factors) => {
+                let factors = factors.iter().rev().map(|factor| match factor {
+                    Atom::Remainder(..) => format!("({})", self.atom(factor)),
+                    Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) | Atom::Product(_) => self.atom(factor),
+                });
+                factors.collect::<Vec<_>>().join(self.times())
+            }
+        }
+    }
+
     pub(super) fn index(&self, index: &Index) -> String {
         // An index of the language begins with what is added.
         let begins_negative = index.counted_terms().next().is_some_and(|(_, coefficient)| *coefficient < 0);
         let leads = begins_negative && self.notation == Notation::Language;
         let mut text = if leads { index.constant.to_string() } else { String::new() };
         for (atom, coefficient) in index.counted_terms() {
-            let name = match atom {
-                Atom::Open(depth) => self.letter(*depth as usize),
-                Atom::Bound(height) => match self.sums.iter().rposition(|known| known == height) {
-                    Some(position) => self.letter(self.depth + position),
-                    None => internal("an index outside of its sum"),
-                },
-                Atom::Size(size) => self.name(self.names.size(size.0)),
-                Atom::Remainder(value, modulus) => {
-                    let [value, modulus] = [value, modulus].map(|index| self.index(index));
-                    match self.notation {
-                        Notation::Paper => format!("({value}) % {modulus}"),
-                        Notation::Language => format!("(({value}) % ({modulus}))"),
-                    }
-                }
-            };
+            let name = self.atom(atom);
             let sign = match (*coefficient < 0, text.is_empty()) {
                 (true, true) => "-",
                 (true, false) => " - ",

@@ -25,7 +25,12 @@ impl Point {
     }
 
     pub(super) fn index(&self, index: &Index, bindings: &Bindings) -> i64 {
-        let of = |atom: &Atom| match atom {
+        let of = |atom: &Atom| self.atom(atom, bindings);
+        index.terms.iter().fold(index.constant, |sum, (atom, factor)| sum + factor * of(atom))
+    }
+
+    fn atom(&self, atom: &Atom, bindings: &Bindings) -> i64 {
+        match atom {
             Atom::Open(_) | Atom::Bound(_) => bindings
                 .iter()
                 .rev()
@@ -35,8 +40,8 @@ impl Point {
             Atom::Remainder(value, modulus) => {
                 self.index(value, bindings).rem_euclid(self.index(modulus, bindings))
             }
-        };
-        index.terms.iter().fold(index.constant, |sum, (atom, factor)| sum + factor * of(atom))
+            Atom::Product(factors) => factors.iter().map(|factor| self.atom(factor, bindings)).product(),
+        }
     }
 
     pub(super) fn range(&self, range: &Range, bindings: &Bindings) -> Vec<i64> {

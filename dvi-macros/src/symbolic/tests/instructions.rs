@@ -15,12 +15,13 @@ use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
 use crate::statement::{Place, Statement};
 use crate::symbolic::rules::evaluate_binary;
-use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Index, Node, Range, Size};
+use crate::symbolic::{Atom, Coordinate, Count, Expr, Fold, Graph, Index, Node, Range, Size};
 
 /// Entries of the outputs by name, each with what was added to it and the sizes of the parts.
 type Written = HashMap<String, (f64, f64)>;
 
 fn add(written: &mut Written, point: &Point, place: &Place, at: &Bindings, value: f64) {
+    let number = |member: &Count| member.value(|index| Some(point.index(index, at))).expect("a few rows");
     let name = match place {
         Place::Result => "result".to_string(),
         Place::Entry(output, c) => format!("{output:?} {} {}", c.block, point.index(&c.index, at)),
@@ -28,9 +29,11 @@ fn add(written: &mut Written, point: &Point, place: &Place, at: &Bindings, value
             let (i, j) = (point.index(&r.index, at), point.index(&c.index, at));
             format!("matrix {} {i} {} {j}", r.block, c.block)
         }
-        Place::Constraint(row) => format!("constraint {} {}", row.constraint, point.index(&row.member, at)),
+        Place::Constraint(row) => {
+            format!("constraint {} {}", row.constraint, number(&row.member))
+        }
         Place::ConstraintDerivative(row, c) => {
-            let (i, j) = (point.index(&row.member, at), point.index(&c.index, at));
+            let (i, j) = (number(&row.member), point.index(&c.index, at));
             format!("constraint {} {i} by {} {j}", row.constraint, c.block)
         }
     };

@@ -4,7 +4,7 @@ use syn::Expr;
 
 use super::super::jet::{First, Jet, Second, Sized};
 use super::{Binding, Evaluation, Value, unknown};
-use crate::syntax::{Constraint, Family};
+use crate::syntax::{Constraint, Member};
 
 /// All constraints, each times the component of its row along a direction: what they add up to.
 pub(in super::super) struct Combination {
@@ -67,18 +67,35 @@ impl Evaluation<'_> {
 
     /// The members of a declared constraint with their numbers.
     fn members(&mut self, Constraint { family, formula }: &Constraint) -> Value<Vec<(i64, Jet)>> {
-        let Some(Family { index, range }) = family else { return Ok(vec![(0, self.number(formula)?)]) };
+        let mut members = Vec::new();
+        self.passes(family, formula, 0, &mut members)?;
+        Ok(members)
+    }
+
+    /// Takes down the members of the rest of a family, with so many before them, and counts them.
+    fn passes(
+        &mut self,
+        family: &[Member],
+        formula: &Expr,
+        before: i64,
+        members: &mut Vec<(i64, Jet)>,
+    ) -> Value<i64> {
+        let [Member { index, range }, inner @ ..] = family else {
+            members.push((before, self.number(formula)?));
+            return Ok(1);
+        };
         let Expr::Range(bounds) = range else { unknown(range) };
         let (lower, upper) = self.bounds(bounds)?;
         let name = self.texts.of(index, || index.to_string());
-        let mut members = Vec::new();
+        let mut count = 0;
         for at in self.point.visited(lower, upper) {
             let outside = self.scope.len();
             self.scope.push(name.clone(), Binding::Index(at));
-            let value = self.number(formula);
+            let inside = self.passes(inner, formula, before + count, members);
             self.scope.truncate(outside);
-            members.push((at - lower, value?));
+            count += inside?;
         }
-        Ok(members)
+        // Those of a long range that are not visited count too.
+        Ok(if inner.is_empty() { (upper - lower).max(0) } else { count })
     }
 }
