@@ -36,7 +36,32 @@ impl Factor {
     }
 }
 
-/// The name of an entry of a state: `x`, `x[3]`, `dot_x[3]`, `omega_R[2]`.
+/// Which component of a vector a block of coordinates has: `r[n][3]` has a block for each.
+///
+/// ```
+/// use dvi_core::system::Axis;
+///
+/// assert_eq!(Axis { number: 1, of: 3 }.to_string(), ".y");
+/// assert_eq!(Axis { number: 1, of: 4 }.to_string(), "[1]");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Axis {
+    /// Counted from 0.
+    pub number: u8,
+    /// The number of components.
+    pub of: u8,
+}
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match ["x", "y", "z"].get(usize::from(self.number)).filter(|_| self.of <= 3) {
+            Some(axis) => write!(f, ".{axis}"),
+            None => write!(f, "[{}]", self.number),
+        }
+    }
+}
+
+/// The name of an entry of a state: `x`, `x[3]`, `r[3].x`, `dot_x[3]`, `omega_R[2]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
     /// The name of the block of coordinates.
@@ -45,6 +70,8 @@ pub struct Name {
     pub is_velocity: bool,
     /// The index in an array of coordinates.
     pub index: Option<usize>,
+    /// The component, of vectors.
+    pub axis: Option<Axis>,
     /// Where the block lives.
     pub factor: Factor,
 }
@@ -56,10 +83,9 @@ impl fmt::Display for Name {
             (true, Factor::Line | Factor::Sphere) => "dot_",
             (true, Factor::Rotation) => "omega_",
         };
-        match self.index {
-            Some(index) => write!(f, "{prefix}{}[{index}]", self.block),
-            None => write!(f, "{prefix}{}", self.block),
-        }
+        write!(f, "{prefix}{}", self.block)?;
+        self.index.map_or(Ok(()), |index| write!(f, "[{index}]"))?;
+        self.axis.map_or(Ok(()), |axis| write!(f, "{axis}"))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What generated code calls. Not part of the interface.
 
-pub use crate::name::{Argument, Factor};
+pub use crate::name::{Argument, Axis, Factor};
 pub use crate::scalar::comparison::Comparison;
 pub use crate::scalar::number::Number;
 pub use crate::scalar::pack::{
@@ -123,6 +123,42 @@ pub fn write_block<T: Copy>(
     place.copy_from_slice(block);
     *at += expected;
     Ok(())
+}
+
+/// Copies vectors of a state to their places in a flat slice, which has all first components before all
+/// second ones.
+///
+/// # Errors
+/// [`LengthError`] if there are not as many as declared.
+pub fn write_vectors<T: Copy, const D: usize>(
+    array: &'static str,
+    vectors: &[[T; D]],
+    expected: usize,
+    at: &mut usize,
+    flat: &mut [T],
+) -> Result<(), LengthError> {
+    let error = LengthError { array, expected, found: vectors.len() };
+    let end = *at + D * expected;
+    let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
+    for (i, vector) in vectors.iter().enumerate() {
+        for (axis, &component) in vector.iter().enumerate() {
+            places[axis * expected + i] = component;
+        }
+    }
+    *at = end;
+    Ok(())
+}
+
+/// Reads vectors, of which the number is known.
+#[inline]
+pub fn read_vectors<T: Copy, const D: usize, const N: usize>(
+    _len: usize,
+    at: &mut usize,
+    flat: &[T],
+) -> [[T; D]; N] {
+    let start = *at;
+    *at += D * N;
+    core::array::from_fn(|i| core::array::from_fn(|axis| flat[start + axis * N + i]))
 }
 
 /// Reads a block of known length.

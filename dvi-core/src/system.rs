@@ -34,7 +34,7 @@ use crate::error::{IndexError, LengthError, OutsideError, StartError};
 use crate::space::sink::Sink;
 use crate::{Real, Scalar, Space};
 
-pub use crate::name::{Factor, Name};
+pub use crate::name::{Axis, Factor, Name};
 pub use crate::space::Weights;
 pub use affine::AffineOneForm;
 pub use constrained::ConstrainedSystem;
@@ -80,7 +80,8 @@ pub(crate) type Permutation<S> = <<S as System>::Space as Space>::Permutation;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait State<T: Scalar>: Sized {
-    /// Writes the coordinates into `q` and the velocities into `v`, both in the order of declaration.
+    /// Writes the coordinates into `q` and the velocities into `v`, both in the order of declaration. Of
+    /// vectors, all first components stand before all second ones.
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
@@ -145,7 +146,8 @@ pub trait System: Held<System = Self> {
 
     /// The configuration space of this system.
     fn space(&self) -> Self::Space;
-    /// The size of coordinate block `block`: 1 for a single coordinate, n for `x[n]`.
+    /// The size of coordinate block `block`: 1 for a single coordinate, n for `x[n]`, and for each component
+    /// of `r[n][3]`.
     fn block_len(&self, block: usize) -> usize;
     /// Walks every index that the formulas use and checks it against the arrays that it goes to.
     ///
@@ -153,8 +155,8 @@ pub trait System: Held<System = Self> {
     /// [`IndexError`] names the first array that is too short, and the index.
     fn check(&self) -> Result<(), IndexError>;
 
-    /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …: coordinates in the order of
-    /// declaration, then the velocities of a regular system.
+    /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …, of vectors `r[0].x`, `r[0].y`, …:
+    /// coordinates in the order of declaration, then the velocities of a regular system.
     fn names(&self) -> impl Iterator<Item = Name>
     where
         Self: Sized,

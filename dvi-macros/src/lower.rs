@@ -32,11 +32,13 @@ mod seams;
 mod shared;
 mod sums;
 mod unsupported;
+mod vectors;
 mod velocities;
 
 use crate::words;
 use local::{Calls, Local};
 use shared::Shared;
+use vectors::Value;
 
 /// What a formula is for; it decides whether velocities may stand in it and how they are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +90,7 @@ enum Written {
 #[derive(Clone, Debug)]
 enum Binding {
     Value {
-        value: Option<Expr>,
+        value: Option<Value>,
         written: Written,
     },
     /// An index: its form in the open indices of loops, and the loop that it counts if it is no argument.
@@ -182,7 +184,8 @@ impl<'a> Lowering<'a> {
 
     pub(crate) fn formula(&mut self, formula: &Syntax, role: Role) -> Option<Expr> {
         self.begin(formula, role);
-        self.expr(formula)
+        let value = self.value(formula)?;
+        self.number_of(formula, role, value)
     }
 
     fn begin(&mut self, formula: &Syntax, role: Role) {
@@ -192,22 +195,29 @@ impl<'a> Lowering<'a> {
         self.index_names = names.0;
     }
 
+    /// The value of a number.
     fn expr(&mut self, syntax: &Syntax) -> Option<Expr> {
+        let value = self.value(syntax)?;
+        self.number(syntax, value)
+    }
+
+    fn value(&mut self, syntax: &Syntax) -> Option<Value> {
         if self.depth >= DEEPEST {
             return self.too_deep(syntax);
         }
         self.depth += 1;
-        let value = self.expr_inside(syntax);
+        let value = self.value_inside(syntax);
         self.depth -= 1;
         let value = value?;
-        if !value.scale.is_finite() {
+        if value.entries().iter().any(|entry| !entry.scale.is_finite()) {
             self.errors.push(syntax, "the value of this is not a finite number");
             return None;
         }
-        if self.nesting(value) > DEEPEST { self.too_deep(syntax) } else { Some(value) }
+        let is_deep = value.entries().iter().any(|entry| self.nesting(*entry) > DEEPEST);
+        if is_deep { self.too_deep(syntax) } else { Some(value) }
     }
 
-    fn too_deep(&mut self, syntax: &Syntax) -> Option<Expr> {
+    fn too_deep(&mut self, syntax: &Syntax) -> Option<Value> {
         let message = format!(
             "more than {DEEPEST} operations stand inside one another here; write a long chain as \
              `sum(0..n, |j| …)`, or declare a part as a function of your own, with its derivatives: \
@@ -217,20 +227,21 @@ impl<'a> Lowering<'a> {
         None
     }
 
-    fn expr_inside(&mut self, syntax: &Syntax) -> Option<Expr> {
+    fn value_inside(&mut self, syntax: &Syntax) -> Option<Value> {
         match syntax {
-            Syntax::Lit(literal) => self.literal(&literal.lit),
-            Syntax::Paren(inner) => self.expr(&inner.expr),
+            Syntax::Lit(literal) => self.literal(&literal.lit).map(Value::Number),
+            Syntax::Paren(inner) => self.value(&inner.expr),
             Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
-                Some(self.expr(&unary.expr)?.negated())
+                self.value(&unary.expr)?.map(|entry| Some(entry.negated()))
             }
             Syntax::Binary(binary) => self.binary(binary),
             Syntax::Path(path) if path.qself.is_none() => self.path(&path.path),
             Syntax::Field(field) => self.field(field),
             Syntax::Index(_) => self.indexed(syntax),
+            Syntax::Array(list) => self.list(list),
             Syntax::MethodCall(call) => self.method(call),
             Syntax::Call(call) => self.call(call),
-            Syntax::Cast(cast) => self.cast(cast),
+            Syntax::Cast(cast) => self.cast(cast).map(Value::Number),
             Syntax::Block(block) => self.statements(&block.block),
             Syntax::If(choice) => self.choice(choice),
             other => {
@@ -273,7 +284,7 @@ impl<'a> Lowering<'a> {
         value.map(Expr::number)
     }
 
-    fn binary(&mut self, syntax: &syn::ExprBinary) -> Option<Expr> {
+    fn binary(&mut self, syntax: &syn::ExprBinary) -> Option<Value> {
         if let (BinOp::Mul(_), Syntax::Unary(power)) = (syntax.op, &*syntax.right)
             && matches!(power.op, UnOp::Deref(_))
         {
@@ -284,27 +295,19 @@ impl<'a> Lowering<'a> {
             self.not_a_power(&syntax.left, &syntax.right);
             return None;
         }
-        let (left, right) = (self.expr(&syntax.left), self.expr(&syntax.right));
+        let (left, right) = (self.value(&syntax.left), self.value(&syntax.right));
         match syntax.op {
             BinOp::Add(_) | BinOp::Sub(_) => {
-                let (left, right) = (left?, right?);
-                self.check_homogeneous((&syntax.left, left), (&syntax.right, right))?;
-                let right = if matches!(syntax.op, BinOp::Sub(_)) { right.negated() } else { right };
-                Some(self.graph.add(left, right))
+                let is_sum = matches!(syntax.op, BinOp::Add(_));
+                let joined = if is_sum { "a sum" } else { "a difference" };
+                let [left, right] = self.alike((&syntax.left, left?), (&syntax.right, right?), joined)?;
+                left.zip(right, |left, right| {
+                    self.check_homogeneous((&syntax.left, left), (&syntax.right, right))?;
+                    Some(self.graph.add(left, if is_sum { right } else { right.negated() }))
+                })
             }
-            BinOp::Mul(_) => {
-                let value = self.graph.multiply(left?, right?);
-                self.admitted(syntax, value)
-            }
-            BinOp::Div(_) => {
-                let (left, right) = (left?, right?);
-                if right.is_zero() {
-                    self.errors.push(&syntax.right, "division by zero");
-                    return None;
-                }
-                let value = self.graph.divide(left, right);
-                self.admitted(syntax, value)
-            }
+            BinOp::Mul(_) => self.product(syntax, left?, right?),
+            BinOp::Div(_) => self.quotient(syntax, left?, right?),
             _ => {
                 self.unsupported(&Syntax::Binary(syntax.clone()));
                 None

@@ -16,11 +16,13 @@ use crate::words::{self, reserved};
 mod parameters;
 mod shape;
 mod sizes;
+mod vectors;
 
 pub(crate) use parameters::ParameterName;
 use parameters::fields;
 pub(crate) use shape::Shape;
 use shape::mentions_generic;
+pub(crate) use vectors::{Axis, COMPONENTS, are_components};
 
 /// A block of coordinates: one, or an array.
 #[derive(Debug)]
@@ -28,6 +30,8 @@ pub(crate) struct Block {
     pub(crate) name: Ident,
     /// The size of an array, with its text.
     pub(crate) array: Option<(Index, String)>,
+    /// Which component the coordinates are, if they are those of vectors.
+    pub(crate) axis: Option<Axis>,
     pub(crate) factor: Factor,
 }
 
@@ -182,6 +186,7 @@ impl Model {
             self.blocks.push(Block {
                 name: Ident::new(name, word.span()),
                 array: None,
+                axis: None,
                 factor: Factor::Line,
             });
         }
@@ -194,7 +199,7 @@ impl Model {
     }
 
     fn declare(&mut self, declaration: &Declaration, errors: &mut Errors) {
-        let &Declaration { ref name, ref size, factor } = declaration;
+        let &Declaration { ref name, ref size, ref components, factor } = declaration;
         if self.blocks.iter().any(|block| block.name == *name) {
             errors.push(name, format!("coordinate `{name}` is declared twice"));
             self.lost_coordinates = true;
@@ -214,8 +219,15 @@ impl Model {
                 format!("coordinate `{name}` has the name of a field of the struct; rename one of them"),
             );
         }
+        let axes = components.as_ref().and_then(|components| {
+            let count = errors.taken(vectors::components(name, components));
+            self.lost_coordinates |= count.is_none();
+            // What is said of its uses is that of vectors.
+            count.or(Some(3))
+        });
+        let count = axes.unwrap_or(1);
         let array = size.as_ref().map(|size| {
-            let index = self.declared_size(name, size).unwrap_or_else(|message| {
+            let index = self.declared_size(name, size, count as i64).unwrap_or_else(|message| {
                 let kind = format!("size {}", size.to_token_stream());
                 errors.push_once(&kind, size, message);
                 self.lost_coordinates = true;
@@ -225,7 +237,9 @@ impl Model {
         });
         let array =
             factor.coordinates().map_or(array, |size| Some((Index::literal(size), size.to_string())));
-        self.blocks.push(Block { name: name.clone(), array, factor });
+        let axis = |number| axes.map(|of| Axis { number, of });
+        let block = |number| Block { name: name.clone(), array: array.clone(), axis: axis(number), factor };
+        self.blocks.extend((0..count).map(block));
     }
 
     /// Whether states carry velocities beside the coordinates.
@@ -318,6 +332,9 @@ impl Names for Model {
     fn coordinate(&self, block: u32) -> (String, bool) {
         let block = &self.blocks[block as usize];
         (block.name.to_string(), block.array.is_some())
+    }
+    fn component(&self, block: u32) -> Option<usize> {
+        self.blocks[block as usize].axis.map(|axis| axis.number)
     }
     fn is_rotation(&self, block: u32) -> bool {
         self.blocks[block as usize].factor == Factor::Rotation

@@ -28,6 +28,7 @@ mod shrink;
 mod structure;
 mod summary;
 mod system;
+mod vectors;
 mod write;
 
 use random::Random;

@@ -11,6 +11,7 @@ use crate::expand::degenerate_lagrangian;
 mod documentation;
 mod growth;
 mod regular;
+mod vectors;
 
 /// All functions of an expansion, those inside of `const _` included.
 #[derive(Default)]

@@ -89,6 +89,8 @@ impl Tex {
 pub(crate) struct Typesetter {
     /// The coordinates that are rotations, whose nine entries have two indices on paper.
     rotations: Vec<String>,
+    /// The names of vectors, each with the number of indices that it is one with.
+    vectors: Vec<(String, usize)>,
     /// Names that have indices: of `a`, `a0` is no entry, and keeps its name as it is.
     arrays: Vec<String>,
     /// The `let`s of the formula at hand: names, and the terms of their values.
@@ -96,12 +98,12 @@ pub(crate) struct Typesetter {
 }
 
 impl Typesetter {
-    pub(crate) fn new(attribute: &Attribute) -> Self {
+    pub(crate) fn new(attribute: &Attribute, vectors: Vec<(String, usize)>) -> Self {
         let rotations = attribute.coordinates.iter().filter(|block| block.factor == Factor::Rotation);
         let rotations = rotations.map(|block| block.name.to_string()).collect();
         let mut arrays = Arrays::default();
         attribute.formulas().for_each(|formula| arrays.visit_expr(formula));
-        Self { rotations, arrays: arrays.0, lets: Vec::new() }
+        Self { rotations, vectors, arrays: arrays.0, lets: Vec::new() }
     }
 
     /// `name` = `formula`, with the `let`s in it.
@@ -176,7 +178,10 @@ impl Typesetter {
             }
             (Pat::Tuple(names), None) => self.tuple(names, init),
             (pat, None) => {
-                let (name, value) = (self.pattern(pat), self.terms(init));
+                let value = self.terms(init);
+                let vector = bound(pat).filter(|_| self.is_vector(init));
+                self.vectors.extend(vector.map(|name| (name, 0)));
+                let name = self.pattern(pat);
                 self.lets.push((name, value));
             }
         }
@@ -221,6 +226,11 @@ impl Typesetter {
             Expr::Binary(binary) => self.binary(binary),
             Expr::Path(_) | Expr::Field(_) => Tex::atom(self.name(formula)),
             Expr::Index(_) => Tex::atom(self.indexed(formula)),
+            Expr::Array(list) => {
+                let components: Vec<String> =
+                    list.elems.iter().map(|component| self.expr(component).text).collect();
+                Tex::atom(format!(r"\left({}\right)", components.join(", ")))
+            }
             Expr::MethodCall(call) => {
                 let arguments: Vec<&Expr> = std::iter::once(&*call.receiver).chain(&call.args).collect();
                 self.function(&call.method.to_string(), &arguments)

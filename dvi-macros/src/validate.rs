@@ -265,13 +265,7 @@ impl Check<'_> {
 
     fn named(&self, directions: Directions<'_>, is_matrix: bool) -> String {
         let name = |support: Support<'_>| match support {
-            Support::Entry(block, index) => {
-                let block = &self.system.model.blocks[block];
-                match &block.array {
-                    Some(_) => format!("{}[{index}]", block.name),
-                    None => block.name.to_string(),
-                }
-            }
+            Support::Entry(block, index) => self.system.model.blocks[block].entry(&index.to_string()),
             Support::Constraint(number, member) => format!("constraint {number}, member {member}"),
             Support::All | Support::Blocks(_) | Support::Half(_) | Support::OtherHalf(_) => String::new(),
         };

@@ -37,6 +37,24 @@ const ARITHMETIC: [(&str, Arithmetic, usize); 7] = [
     ("to_degrees", Arithmetic::ToDegrees, 0),
 ];
 
+/// A method of vectors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum VectorMethod {
+    Dot,
+    Cross,
+    Norm,
+    NormSquared,
+}
+
+/// With the number of arguments.
+#[rustfmt::skip]
+const VECTORS: [(&str, VectorMethod, usize); 4] = [
+    ("dot",          VectorMethod::Dot,         1),
+    ("cross",        VectorMethod::Cross,       1),
+    ("norm",         VectorMethod::Norm,        0),
+    ("norm_squared", VectorMethod::NormSquared, 0),
+];
+
 /// Sums and products over indices.
 pub(crate) const SUMS: [&str; 4] = ["sum", "sum_pairs", "sum_ordered_pairs", "product"];
 
@@ -87,17 +105,24 @@ impl Method {
     }
 }
 
+impl VectorMethod {
+    /// With the number of arguments, the receiver not counted.
+    pub(crate) fn by_name(name: &str) -> Option<(Self, usize)> {
+        VECTORS.iter().find(|(known, ..)| *known == name).map(|(_, method, arity)| (*method, *arity))
+    }
+}
+
 /// The names that a function of the user's own cannot have.
 pub(crate) fn reserved() -> impl Iterator<Item = &'static str> {
     SUMS.into_iter().chain(VELOCITIES)
 }
 
-/// All that can be called.
 /// Whether numbers have a method of this name.
 pub(crate) fn is_method(name: &str) -> bool {
     Method::by_name(name).is_some()
 }
 
+/// All that can be called.
 pub(crate) fn callable() -> impl Iterator<Item = &'static str> {
     let arithmetic = ARITHMETIC.iter().map(|(name, ..)| *name);
     unary_names().chain(binary_names()).chain(arithmetic).chain(reserved())

@@ -64,3 +64,4 @@ mod together;
 mod together_parameters;
 mod units;
 mod variational;
+mod vectors;

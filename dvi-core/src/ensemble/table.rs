@@ -140,9 +140,15 @@ impl Table {
         let mut columns = Vec::new();
         // Coordinates come first, so that a block is met at its first coordinate; its velocities stand there.
         let mut blocks = BTreeMap::new();
+        let length = |block| {
+            let number = S::REPORT.coordinates.iter().position(|known| known.name == block);
+            number.map_or(0, |number| system.block_len(number))
+        };
         for (number, name) in system.names().enumerate() {
             let first = *blocks.entry(name.block).or_insert(number);
-            let index = first + name.index.unwrap_or(0);
+            // All first components of vectors stand before all second ones.
+            let before = name.axis.map_or(0, |axis| usize::from(axis.number) * length(name.block));
+            let index = first + before + name.index.unwrap_or(0);
             columns.push((self.place(&name.to_string())?, name.is_velocity, index));
         }
         let state = |row| {

@@ -34,6 +34,12 @@ pub struct Body {
 
 /// The axis of a name, the rest of it, and the index in an array: `("x", "2", "[3]")` of `x2[3]`.
 fn parts(name: &str) -> Vec<(usize, &str, &str)> {
+    // A component of a vector: `r[3].x`.
+    if let Some((vector, component)) = name.rsplit_once('.')
+        && let Some(axis) = ["x", "y", "z"].iter().position(|axis| *axis == component)
+    {
+        return [(axis, vector, "")].into();
+    }
     let (stem, index) = name.split_at(name.find('[').unwrap_or(name.len()));
     let axis = |letter: char| "xyz".find(letter.to_ascii_lowercase());
     let mut letters = stem.chars();

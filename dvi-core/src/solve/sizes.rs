@@ -1,6 +1,6 @@
 //! The sizes of coordinates in a step, in which their corrections are judged.
 //!
-//! The coordinates of a block, `x[n]`, have one unit, and one size: the largest |q| + |Δ| among them. So
+//! The coordinates of a block, `x[n]` or `r[n][3]`, have one unit, and one size: the largest |q| + |Δ| among them. So
 //! what is next to nothing beside its neighbours, as where a wave has not arrived yet, is no task of its
 //! own. Sizes go with the units of blocks, and what is judged in them does not: units do not matter. They
 //! are those of the guess; where a correction is as large as its block, they are taken again. They are kept
@@ -8,9 +8,10 @@
 
 use core::ops::{DerefMut, Range};
 
+use crate::name::Axis;
 use crate::scalar::norm::{MANY, larger, largest_number};
 use crate::scalar::{Lanes, smallest_normal};
-use crate::{Real, Scalar, System};
+use crate::{Real, Report, Scalar, System};
 
 /// What an iteration does first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,15 +33,32 @@ pub(crate) fn weight_of<T: Real>(size: T) -> T {
     T::lift(1.0) / (size + smallest_normal::<T>())
 }
 
-/// The coordinates of each block.
+/// The coordinates of each block, all components of vectors together.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn blocks<S: System>(system: &S) -> impl Iterator<Item = Range<usize>> {
     let mut end = 0;
-    (0..S::REPORT.coordinates.len()).map(move |block| {
+    // The loop over blocks asks for components where there are vectors only.
+    let axis = |block: usize| {
+        const { has_vectors(&S::REPORT) }.then(|| S::REPORT.coordinates[block].axis).flatten()
+    };
+    let firsts = (0..S::REPORT.coordinates.len())
+        .filter(move |&block| axis(block).is_none_or(|axis: Axis| axis.number == 0));
+    firsts.map(move |block| {
         let begin = end;
-        end += system.block_len(block);
+        end += axis(block).map_or(1, |axis| usize::from(axis.of)) * system.block_len(block);
         begin..end
     })
+}
+
+const fn has_vectors(report: &Report) -> bool {
+    let mut block = 0;
+    while block < report.coordinates.len() {
+        if report.coordinates[block].axis.is_some() {
+            return true;
+        }
+        block += 1;
+    }
+    false
 }
 
 /// Sets the weights of all coordinates of each block to that of the largest `size` in it, times `unit`.

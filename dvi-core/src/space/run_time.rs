@@ -53,7 +53,29 @@ impl RunTime {
         flat[start..*at].to_vec()
     }
 
-    /// The same, into the storage of such a block.
+    /// Reads vectors of a state, all first components before all second ones.
+    #[doc(hidden)]
+    pub fn read_vectors<T: Scalar, const D: usize>(len: usize, at: &mut usize, flat: &[T]) -> Vec<[T; D]> {
+        let mut vectors = Vec::with_capacity(len);
+        Self::refill_vectors(len, at, flat, &mut vectors);
+        vectors
+    }
+
+    /// The same, into the storage of such vectors.
+    #[doc(hidden)]
+    pub fn refill_vectors<T: Scalar, const D: usize>(
+        len: usize,
+        at: &mut usize,
+        flat: &[T],
+        vectors: &mut Vec<[T; D]>,
+    ) {
+        let start = *at;
+        *at += D * len;
+        vectors.clear();
+        vectors.extend((0..len).map(|i| core::array::from_fn(|axis| flat[start + axis * len + i])));
+    }
+
+    /// The same as [`read_block`](Self::read_block), into the storage of such a block.
     #[doc(hidden)]
     pub fn refill_block<T: Scalar>(len: usize, at: &mut usize, flat: &[T], block: &mut Vec<T>) {
         let start = *at;

@@ -1,7 +1,7 @@
 //! The entries of a state one after the other, with names: for the columns of a table.
 
 use super::{CoordinateBlock, System};
-use crate::name::Name;
+use crate::name::{Axis, Name};
 
 /// The names of all entries of the states of `system`, coordinates first, each with its place among the
 /// coordinates or among the velocities.
@@ -13,10 +13,10 @@ pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
 pub(crate) struct Entries<'a, S> {
     system: &'a S,
     is_velocity: bool,
-    /// The number of a block of coordinates, and the place of its first one.
+    /// The number of a block of coordinates, the first of a vector, and the place of its first coordinate.
     block: usize,
     first: usize,
-    /// The place within the block.
+    /// The number of an entry within the block, or within all blocks of a vector.
     index: usize,
 }
 
@@ -25,7 +25,8 @@ impl<S: System> Iterator for Entries<'_, S> {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            let Some(&CoordinateBlock { name, size, factor }) = S::REPORT.coordinates.get(self.block) else {
+            let Some(&CoordinateBlock { name, size, axis, factor }) = S::REPORT.coordinates.get(self.block)
+            else {
                 if self.is_velocity || !S::REGULAR {
                     return None;
                 }
@@ -35,15 +36,18 @@ impl<S: System> Iterator for Entries<'_, S> {
             let &mut Self { system, is_velocity, block, first, index } = self;
             let coordinates = system.block_len(block);
             let count = if is_velocity { factor.velocities(coordinates) } else { coordinates };
-            if index < count {
+            let blocks = axis.map_or(1, |axis| usize::from(axis.of));
+            if index < blocks * count {
                 self.index += 1;
-                let index_in_array = (!size.is_empty()).then_some(index);
+                let (entry, number) = (index / blocks, index % blocks);
+                let index_in_array = (!size.is_empty()).then_some(entry);
+                let axis = axis.map(|axis| Axis { number: number as u8, ..axis });
                 return Some((
-                    Name { block: name, is_velocity, index: index_in_array, factor },
-                    first + index,
+                    Name { block: name, is_velocity, index: index_in_array, axis, factor },
+                    first + number * coordinates + entry,
                 ));
             }
-            (self.block, self.first, self.index) = (block + 1, first + coordinates, 0);
+            (self.block, self.first, self.index) = (block + blocks, first + blocks * coordinates, 0);
         }
     }
 }

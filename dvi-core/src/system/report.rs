@@ -3,14 +3,17 @@
 use core::fmt;
 
 use super::Factor;
+use crate::name::Axis;
 
-/// A block of coordinates as declared: `x`, or `x[n]`.
+/// A block of coordinates: `x`, or `x[n]`, or those of `r[n][3]` along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CoordinateBlock {
     /// The name.
     pub name: &'static str,
     /// The size as written in the attribute; empty for a single coordinate.
     pub size: &'static str,
+    /// The component, of vectors: their blocks follow each other, and have one name.
+    pub axis: Option<Axis>,
     /// Where the block lives.
     pub factor: Factor,
 }
@@ -57,7 +60,8 @@ pub struct Report {
     /// The name of the struct.
     pub system: &'static str,
     /// The coordinates in the order in which flat slices hold them: each block has a `name`, a `size` as it
-    /// is written, empty for a single coordinate, and a `factor`, where it lives.
+    /// is written, empty for a single coordinate, an `axis`, if it is a component of vectors, and a `factor`,
+    /// where it lives.
     pub coordinates: &'static [CoordinateBlock],
     /// The names of the declared momenta.
     pub momenta: &'static [&'static str],
@@ -101,7 +105,10 @@ impl fmt::Display for CoordinateBlock {
             (Factor::Rotation, _) => write!(f, "{}: SO3", self.name),
             (Factor::Sphere, _) => write!(f, "{}: S2", self.name),
             (Factor::Line, "") => f.write_str(self.name),
-            (Factor::Line, size) => write!(f, "{}[{size}]", self.name),
+            (Factor::Line, size) => {
+                write!(f, "{}[{size}]", self.name)?;
+                self.axis.map_or(Ok(()), |axis| write!(f, "[{}]", axis.of))
+            }
         }
     }
 }
@@ -143,7 +150,8 @@ where
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.system)?;
-        section(f, "coordinates", self.coordinates)?;
+        let is_first = |block: &&CoordinateBlock| block.axis.is_none_or(|axis| axis.number == 0);
+        section(f, "coordinates", self.coordinates.iter().filter(is_first))?;
         writeln!(f, "formulas")?;
         for formula in self.formulas {
             writeln!(f, "  {} = {}", formula.name, formula.text)?;

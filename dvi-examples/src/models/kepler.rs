@@ -113,15 +113,14 @@ fn within_half_an_orbit(t: f64) -> f64 {
 
 /// Bodies that attract each other by Newton's law.
 #[lagrangian(
-    coordinates(x[N], y[N], z[N]),
-    lagrangian = sum(0..N, |j| mass[j] * (dot(x[j]).powi(2) + dot(y[j]).powi(2) + dot(z[j]).powi(2))) / 2.0
-        + g * sum_pairs(0..N, |j, k| mass[j] * mass[k]
-            / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) + (z[j] - z[k]).powi(2)).sqrt()),
+    coordinates(r[N][3]),
+    lagrangian = sum(0..N, |j| mass[j] * dot(r[j]).norm_squared()) / 2.0
+        + g * sum_pairs(0..N, |j, k| mass[j] * mass[k] / (r[j] - r[k]).norm()),
     momenta(
-        p_x = sum(0..N, |j| mass[j] * dot(x[j])),
-        p_y = sum(0..N, |j| mass[j] * dot(y[j])),
-        p_z = sum(0..N, |j| mass[j] * dot(z[j])),
-        l_z = sum(0..N, |j| mass[j] * (x[j] * dot(y[j]) - y[j] * dot(x[j]))),
+        p_x = sum(0..N, |j| mass[j] * dot(r[j][0])),
+        p_y = sum(0..N, |j| mass[j] * dot(r[j][1])),
+        p_z = sum(0..N, |j| mass[j] * dot(r[j][2])),
+        l_z = sum(0..N, |j| mass[j] * r[j].cross(dot(r[j])))[2],
     ),
 )]
 #[derive(Clone, Debug, PartialEq)]
@@ -146,12 +145,22 @@ pub fn outer_solar_system() -> (OuterSolarSystem, OuterPlanets) {
         mass: [1.000_005_976_82, 9.547_861_040_43e-4, 2.855_837_331_51e-4, 4.372_731_645_46e-5, 5.177_591_384_49e-5, 1.0 / 1.3e8],
     };
     let start = BodiesState {
-        x:     [0.0, -3.502_365_3,  9.075_531_4,   8.310_142_0,  11.470_766_6, -15.538_735_7],
-        y:     [0.0, -3.816_984_7, -3.045_835_3, -16.290_108_6, -25.729_482_9, -25.222_559_4],
-        z:     [0.0, -1.550_796_3, -1.648_370_8,  -7.252_127_8, -10.816_945_6,  -3.190_238_2],
-        dot_x: [0.0,  0.005_654_29, 0.001_683_18,  0.003_541_78,  0.002_889_30,  0.002_767_25],
-        dot_y: [0.0, -0.004_124_90, 0.004_835_25,  0.001_371_02,  0.001_145_27, -0.001_707_02],
-        dot_z: [0.0, -0.001_905_89, 0.001_924_62,  0.000_550_29,  0.000_396_77, -0.001_365_04],
+        r: [
+            [0.0; 3],
+            [ -3.502_365_3,  -3.816_984_7,  -1.550_796_3],
+            [  9.075_531_4,  -3.045_835_3,  -1.648_370_8],
+            [  8.310_142_0, -16.290_108_6,  -7.252_127_8],
+            [ 11.470_766_6, -25.729_482_9, -10.816_945_6],
+            [-15.538_735_7, -25.222_559_4,  -3.190_238_2],
+        ],
+        dot_r: [
+            [0.0; 3],
+            [0.005_654_29, -0.004_124_90, -0.001_905_89],
+            [0.001_683_18,  0.004_835_25,  0.001_924_62],
+            [0.003_541_78,  0.001_371_02,  0.000_550_29],
+            [0.002_889_30,  0.001_145_27,  0.000_396_77],
+            [0.002_767_25, -0.001_707_02, -0.001_365_04],
+        ],
     };
     (system, start)
 }
@@ -179,12 +188,9 @@ mod tests {
     /// The period of planet `j` if there were but the sun and it: 2π √(a³/μ), 1/a = 2/r − v²/μ.
     fn period(j: usize) -> f64 {
         let (Bodies { g, mass }, at) = outer_solar_system();
-        let square = |[x, y, z]: [&[f64; 6]; 3]| {
-            [x, y, z].map(|axis| (axis[j] - axis[0]).powi(2)).iter().sum::<f64>()
-        };
+        let square = |of: [[f64; 3]; 6]| (0..3).map(|axis| (of[j][axis] - of[0][axis]).powi(2)).sum::<f64>();
         let mu = g * (mass[0] + mass[j]);
-        let r = square([&at.x, &at.y, &at.z]).sqrt();
-        let inverse = 2.0 / r - square([&at.dot_x, &at.dot_y, &at.dot_z]) / mu;
+        let inverse = 2.0 / square(at.r).sqrt() - square(at.dot_r) / mu;
         TAU / (mu * inverse.powi(3)).sqrt()
     }
 
@@ -211,10 +217,10 @@ mod tests {
         let Bodies { g, mass } = &system;
         let mut energy = 0.0;
         for j in 0..6 {
-            energy += 0.5 * mass[j] * (at.dot_x[j].powi(2) + at.dot_y[j].powi(2) + at.dot_z[j].powi(2));
+            energy += 0.5 * mass[j] * at.dot_r[j].iter().map(|v| v * v).sum::<f64>();
             for k in 0..j {
-                let d = [at.x[j] - at.x[k], at.y[j] - at.y[k], at.z[j] - at.z[k]];
-                energy -= g * mass[j] * mass[k] / d.iter().map(|d| d * d).sum::<f64>().sqrt();
+                let square = (0..3).map(|axis| (at.r[j][axis] - at.r[k][axis]).powi(2)).sum::<f64>();
+                energy -= g * mass[j] * mass[k] / square.sqrt();
             }
         }
         let generated = system.energy_at(&at).expect("defined");

@@ -31,6 +31,24 @@ fn regular_systems() -> Vec<(TokenStream, TokenStream)> {
         ),
         (
             quote! {
+                coordinates(r[N][3], q[2]),
+                lagrangian = {
+                    let gap = |i, j| r[i] - r[j];
+                    sum(0..N, |i| dot(r[i]).norm_squared() / 2.0 + field.dot(r[i].cross(dot(r[i]))))
+                        + sum_pairs(0..N, |i, j| 1.0 / gap(i, j).norm()) + dot(q).dot([q[1], -q[0]]) + dot(q).norm_squared()
+                },
+                force(r) = |i| if t > 1.0 { field } else { -drag[i] / 2.0 },
+                momenta(l = sum(0..N, |i| r[i].cross(dot(r[i])))[2]),
+            },
+            quote!(
+                struct System<const N: usize> {
+                    field: [f64; 3],
+                    drag: Vec<[f64; 3]>,
+                }
+            ),
+        ),
+        (
+            quote! {
                 coordinates(x, y[gamma.len()]),
                 lagrangian = { let v = dot(x); v * v / 2.0 - f(x) }
                     + sum(0..gamma.len(), |j| if dot(y[j]) > 0.0 { dot(y[j]).powf(2.5) } else { f(dot(y[j])) }),

@@ -69,6 +69,7 @@ fn account(
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account = Account::new(
         attribute,
+        emitter.model,
         "L(q, v, t) = α(q, t)·v − H(q, t), as it is declared:",
         declared.collect(),
         structure.sentences(emitter.model, programs.shared.forces.is_some()),

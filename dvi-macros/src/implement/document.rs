@@ -7,6 +7,7 @@ use syn::ext::IdentExt as _;
 use crate::emit::Emitter;
 use crate::errors::text;
 use crate::formulas::{Variable, variable};
+use crate::model::{Axis, Model};
 use crate::operations::Operations;
 use crate::program::Programs;
 use crate::routine::Routine;
@@ -40,12 +41,13 @@ pub(super) struct Account {
 impl Account {
     pub(super) fn new(
         attribute: &Attribute,
+        model: &Model,
         opening: &'static str,
         mut formulas: Vec<(String, String)>,
         sentences: Vec<String>,
     ) -> Self {
         formulas.extend(attribute.shared.iter().filter_map(definition));
-        let mut typesetter = Typesetter::new(attribute);
+        let mut typesetter = Typesetter::new(attribute, model.vectors());
         let declared = declared(attribute, &mut typesetter);
         let has_more = declared.iter().any(Equation::is_endless);
         let equations = [declared, Vec::new()];
@@ -183,7 +185,18 @@ impl Account {
                 Factor::Rotation => quote!(Rotation),
                 Factor::Sphere => quote!(Sphere),
             };
-            quote!(#krate::__private::CoordinateBlock { name: #name, size: #size, factor: #krate::__private::Factor::#factor })
+            let axis = match block.axis {
+                Some(Axis { number, of }) => {
+                    let [number, of] = [number, of].map(|count| count as u8);
+                    quote!(::core::option::Option::Some(#krate::__private::Axis { number: #number, of: #of }))
+                }
+                None => quote!(::core::option::Option::None),
+            };
+            quote! {
+                #krate::__private::CoordinateBlock {
+                    name: #name, size: #size, axis: #axis, factor: #krate::__private::Factor::#factor
+                }
+            }
         });
         let lines = formulas
             .iter()

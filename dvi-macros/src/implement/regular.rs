@@ -55,6 +55,7 @@ fn account(
     let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account = Account::new(
         attribute,
+        emitter.model,
         "L(q, v, t), and what is declared with it:",
         declared.to_vec(),
         structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of), emitter.model),

@@ -6,7 +6,7 @@ use syn::ext::IdentExt as _;
 use syn::{GenericParam, Ident};
 
 use crate::emit::{Emitter, local};
-use crate::model::{Block, Model};
+use crate::model::{Axis, Block, Model};
 use crate::symbolic::{Atom, Count, Index};
 use crate::syntax::Factor;
 
@@ -100,9 +100,11 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let declarations: Vec<TokenStream> = declarations.collect();
     let (space, space_value) = space(emitter);
     let (fields, docs): (Vec<Ident>, Vec<String>) = fields(model).into_iter().unzip();
-    let types: Vec<TokenStream> = (0..fields.len())
-        .map(|field| field_type(emitter, field % model.blocks.len(), field >= model.blocks.len()))
-        .collect();
+    let coordinates = model.coordinates();
+    let halves =
+        [false, true].into_iter().flat_map(|half| coordinates.iter().map(move |of| (of.start, half)));
+    let types = halves.map(|(block, is_velocity)| field_type(emitter, block, is_velocity));
+    let types: Vec<TokenStream> = types.take(fields.len()).collect();
     let contents = if model.has_velocities() { "coordinates and velocities" } else { "coordinates" };
     let system = &model.item.ident;
     let summary = format!("A state of [`{system}`]: its {contents} by name, in numbers of type `__T`.");
@@ -185,9 +187,12 @@ impl Names {
 
 /// The fields with their documentation: all coordinates, then all velocities if there are any.
 fn fields(model: &Model) -> Vec<(Ident, String)> {
-    let described = |block: &Block, what: &str| match (&block.array, block.name.unraw()) {
-        (Some((_, size)), name) => format!("{what}s `{name}[0]` to `{name}[{size} - 1]`."),
-        (None, name) => format!("{what} `{name}`."),
+    let described = |block: &Block, what: &str| match (&block.array, block.name.unraw(), block.axis) {
+        (Some((_, size)), name, None) => format!("{what}s `{name}[0]` to `{name}[{size} - 1]`."),
+        (Some((_, size)), name, Some(axis)) => {
+            format!("{what}s `{name}[0]` to `{name}[{size} - 1]`, vectors with {} components.", axis.of)
+        }
+        (None, name, _) => format!("{what} `{name}`."),
     };
     let coordinate = |block: &Block| match block.factor {
         Factor::Line => described(block, "Coordinate"),
@@ -200,8 +205,9 @@ fn fields(model: &Model) -> Vec<(Ident, String)> {
         Factor::Line | Factor::Sphere => described(block, "Velocity of coordinate"),
         Factor::Rotation => format!("The angular velocity of `{}`, in the body.", block.name.unraw()),
     };
-    let coordinates = model.blocks.iter().map(|block| (block.name.clone(), coordinate(block)));
-    let velocities = model.blocks.iter().filter(|_| model.has_velocities());
+    let declared: Vec<&Block> = model.coordinates().iter().map(|of| &model.blocks[of.start]).collect();
+    let coordinates = declared.iter().map(|block| (block.name.clone(), coordinate(block)));
+    let velocities = declared.iter().filter(|_| model.has_velocities());
     let velocities = velocities.map(|block| (block.velocity_name(), velocity(block)));
     coordinates.chain(velocities).collect()
 }
@@ -262,16 +268,20 @@ fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
 
 fn field_type(emitter: &Emitter<'_>, block: usize, is_velocity: bool) -> TokenStream {
     let krate = emitter.krate();
-    match &emitter.model.blocks[block].array {
+    let entry = match emitter.model.blocks[block].axis {
+        Some(Axis { of, .. }) => quote!([__T; #of]),
         None => quote!(__T),
+    };
+    match &emitter.model.blocks[block].array {
+        None => entry,
         Some(_) if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation => {
             quote!([__T; 3usize])
         }
         Some((size, _)) if on_stack(emitter, block) => {
             let size = emitter.index(size);
-            quote!([__T; #size])
+            quote!([#entry; #size])
         }
-        Some(_) => quote!(#krate::space::Vec<__T>),
+        Some(_) => quote!(#krate::space::Vec<#entry>),
     }
 }
 
@@ -290,20 +300,24 @@ struct Transfers {
 }
 
 fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> Transfers {
-    let (blocks, krate) = (emitter.model.blocks.len().max(1), emitter.krate());
+    let (coordinates, krate) = (emitter.model.coordinates(), emitter.krate());
+    let count = coordinates.len().max(1);
     let Transfers { mut write, mut read, mut refill } = Transfers::default();
-    for (half, (names, flat)) in fields.chunks(blocks).zip([quote!(__q), quote!(__v)]).enumerate() {
+    for (half, (names, flat)) in fields.chunks(count).zip([quote!(__q), quote!(__v)]).enumerate() {
         write.extend(quote!(let mut __at = 0usize;));
         read.extend(quote!(let mut __at = 0usize;));
         refill.extend(quote!(let mut __at = 0usize;));
-        for (block, field) in names.iter().enumerate() {
+        for (number, (field, blocks)) in names.iter().zip(&coordinates).enumerate() {
+            let block = blocks.start;
             let (written, value) = transfer(emitter, block, half == 1, field, &flat);
-            let name = value_name(half * blocks + block);
+            let name = value_name(half * count + number);
             write.extend(written);
             refill.extend(if on_stack(emitter, block) {
                 quote!(self.#field = #value;)
             } else {
-                quote!(#krate::RunTime::refill_block(__len(#block), &mut __at, #flat, &mut self.#field);)
+                let is_vector = emitter.model.blocks[block].axis.is_some();
+                let refill = if is_vector { quote!(refill_vectors) } else { quote!(refill_block) };
+                quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field);)
             });
             read.extend(quote!(let #name = #value;));
         }
@@ -324,9 +338,15 @@ fn transfer(
         let read = quote!({ let __value = #flat[__at]; __at += 1usize; __value });
         return (quote!(#flat[__at] = self.#field; __at += 1usize;), read);
     }
-    let reader =
-        if on_stack(emitter, block) { quote!(__private::read_array) } else { quote!(RunTime::read_block) };
-    let write = |length: TokenStream| quote!(#krate::__private::write_block(#text, &self.#field[..], #length, &mut __at, #flat)?;);
+    let is_vector = emitter.model.blocks[block].axis.is_some();
+    let reader = match (on_stack(emitter, block), is_vector) {
+        (true, false) => quote!(__private::read_array),
+        (true, true) => quote!(__private::read_vectors),
+        (false, false) => quote!(RunTime::read_block),
+        (false, true) => quote!(RunTime::read_vectors),
+    };
+    let writer = if is_vector { quote!(write_vectors) } else { quote!(write_block) };
+    let write = |length: TokenStream| quote!(#krate::__private::#writer(#text, &self.#field[..], #length, &mut __at, #flat)?;);
     if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation {
         // An angular velocity has the first three of nine places.
         let write = write(quote!(3usize));

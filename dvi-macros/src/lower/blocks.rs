@@ -2,14 +2,14 @@
 
 use syn::{BinOp, Expr as Syntax, ExprIf, Pat, Stmt, UnOp};
 
-use super::{Binding, Lowering, Written, bound_name};
+use super::{Binding, Lowering, Value, Written, bound_name};
 use crate::errors::text;
-use crate::symbolic::{Expr, Relation};
+use crate::symbolic::Relation;
 use crate::syntax::{closure, value};
 
 impl Lowering<'_> {
     /// `{ let a = …; let b = …; value }`
-    pub(super) fn statements(&mut self, block: &syn::Block) -> Option<Expr> {
+    pub(super) fn statements(&mut self, block: &syn::Block) -> Option<Value> {
         let outside = self.scope.len();
         let mut value = None;
         let mut ended = false;
@@ -18,7 +18,7 @@ impl Lowering<'_> {
                 Stmt::Local(local) => self.binding(local),
                 Stmt::Expr(expr, None) if position + 1 == block.stmts.len() => {
                     ended = true;
-                    value = self.expr(expr);
+                    value = self.value(expr);
                 }
                 other => {
                     ended = true;
@@ -46,7 +46,7 @@ impl Lowering<'_> {
             return self.bind_tuple(names, init);
         }
         let value = match init {
-            Some(init) => self.expr(init),
+            Some(init) => self.value(init),
             None => {
                 self.errors.push(local, "write `let name = value;`");
                 None
@@ -69,22 +69,37 @@ impl Lowering<'_> {
     }
 
     /// `if a < b { value } else { value }`
-    pub(super) fn choice(&mut self, choice: &ExprIf) -> Option<Expr> {
+    pub(super) fn choice(&mut self, choice: &ExprIf) -> Option<Value> {
         let then = self.statements(&choice.then_branch);
         let Some((_, otherwise)) = &choice.else_branch else {
             self.errors.push(choice, "an `if` of a formula needs its `else` branch");
             return None;
         };
-        let otherwise = self.expr(otherwise);
+        let value = self.value(otherwise);
+        let branches = match (then, value) {
+            (Some(then), Some(value)) => {
+                let block = Syntax::Block(syn::ExprBlock {
+                    attrs: Vec::new(),
+                    label: None,
+                    block: choice.then_branch.clone(),
+                });
+                self.alike((&block, then), (otherwise, value), "a choice")
+            }
+            _ => None,
+        };
+        let [then, otherwise] = match branches {
+            Some(branches) => branches.map(Some),
+            None => [None, None],
+        };
         self.condition(&choice.cond, then, otherwise)
     }
 
     fn condition(
         &mut self,
         condition: &Syntax,
-        then: Option<Expr>,
-        otherwise: Option<Expr>,
-    ) -> Option<Expr> {
+        then: Option<Value>,
+        otherwise: Option<Value>,
+    ) -> Option<Value> {
         match condition {
             Syntax::Paren(inner) => self.condition(&inner.expr, then, otherwise),
             Syntax::Unary(unary) if matches!(unary.op, UnOp::Not(_)) => {
@@ -97,11 +112,11 @@ impl Lowering<'_> {
                     BinOp::Gt(_) => Relation::Greater,
                     BinOp::Ge(_) => Relation::GreaterOrEqual,
                     BinOp::And(_) => {
-                        let inner = self.condition(&binary.right, then, otherwise);
+                        let inner = self.condition(&binary.right, then, otherwise.clone());
                         return self.condition(&binary.left, inner, otherwise);
                     }
                     BinOp::Or(_) => {
-                        let inner = self.condition(&binary.right, then, otherwise);
+                        let inner = self.condition(&binary.right, then.clone(), otherwise);
                         return self.condition(&binary.left, then, inner);
                     }
                     BinOp::Eq(_) | BinOp::Ne(_) => {
@@ -126,8 +141,10 @@ impl Lowering<'_> {
                 let (left, right) = (left?, right?);
                 self.check_at_rest(condition, "this condition", &[left, right])?;
                 self.note_seam(left, right);
-                let value = self.graph.choose(left, relation, right, then?, otherwise?);
-                self.admitted(condition, value)
+                then?.zip(otherwise?, |then, otherwise| {
+                    let value = self.graph.choose(left, relation, right, then, otherwise);
+                    self.admitted(condition, value)
+                })
             }
             _ => {
                 self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");

@@ -5,15 +5,15 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
-use super::{Binding, Lowering};
+use super::{Binding, Lowering, Value};
 use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
 use crate::symbolic::{Expr, Partial, Relation, Unary};
-use crate::words::{Arithmetic, Method, SUMS, VELOCITIES, callable, is_method};
+use crate::words::{Arithmetic, Method, SUMS, VELOCITIES, VectorMethod, callable, is_method};
 
 impl Lowering<'_> {
-    pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Expr> {
+    pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Value> {
         let name = call.method.to_string();
         if let Some(turbofish) = &call.turbofish {
             self.errors.push(turbofish, format!("`{name}` takes no types: formulas are real"));
@@ -31,6 +31,19 @@ impl Lowering<'_> {
         if self.iterated(call) {
             return None;
         }
+        let is_velocity = name == "dot" && call.args.is_empty();
+        if let Some((method, arity)) = VectorMethod::by_name(&name)
+            && !is_velocity
+            && !self.is_long_array(&call.receiver)
+        {
+            if call.args.len() != arity {
+                let message = format!("`{name}` takes {}; {}", arguments(arity), here(call.args.len()));
+                self.errors.push(&call.method, message);
+                return None;
+            }
+            let arguments: Vec<&Syntax> = call.args.iter().collect();
+            return self.vector_method(method, call, &arguments);
+        }
         let Some(method) = Method::by_name(&name) else {
             if let Syntax::Path(of) = &*call.receiver
                 && let Some(function) = of.path.get_ident().filter(|function| self.is_scalar_field(function))
@@ -44,9 +57,16 @@ impl Lowering<'_> {
                 return None;
             }
             let arguments: Vec<&Syntax> = call.args.iter().collect();
-            self.unknown_function(&call.method, &name, Some(&call.receiver), &arguments);
+            match self.quietly(&call.receiver) {
+                Some(vector @ Value::Vector(_)) => self.no_method(call, &vector),
+                Some(Value::Number(_)) | None => {
+                    self.unknown_function(&call.method, &name, Some(&call.receiver), &arguments);
+                }
+            }
             for argument in &call.args {
-                self.expr(argument);
+                if !self.is_long_array(argument) {
+                    self.value(argument);
+                }
             }
             return None;
         };
@@ -64,12 +84,19 @@ impl Lowering<'_> {
             self.errors.push(&call.method, message);
             return None;
         }
-        let receiver = self.expr(&call.receiver);
+        let receiver = match self.value(&call.receiver) {
+            Some(Value::Number(receiver)) => Some(receiver),
+            Some(vector) => {
+                self.no_method(call, &vector);
+                return None;
+            }
+            None => None,
+        };
         if let Method::Arithmetic(Arithmetic::Powi) = method {
             let exponent = self.integer(&call.args[0]);
             let (receiver, exponent) = (receiver?, exponent?);
             let value = self.graph.powi(receiver, exponent);
-            return self.admitted(call, value);
+            return self.admitted(call, value).map(Value::Number);
         }
         let arguments: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
         let arguments: Vec<Expr> = arguments.into_iter().collect::<Option<_>>()?;
@@ -78,7 +105,7 @@ impl Lowering<'_> {
             self.check_at_rest(call, &format!("`{name}`"), &[receiver, arguments[0]])?;
         }
         let value = self.apply(method, receiver, &arguments);
-        self.admitted(call, value)
+        self.admitted(call, value).map(Value::Number)
     }
 
     /// The method of `x` and as many `arguments` as it takes.
@@ -123,7 +150,7 @@ impl Lowering<'_> {
         value
     }
 
-    pub(super) fn call(&mut self, call: &ExprCall) -> Option<Expr> {
+    pub(super) fn call(&mut self, call: &ExprCall) -> Option<Value> {
         let is_factor = match &*call.func {
             Syntax::Lit(_) => true,
             Syntax::Paren(inner) => matches!(&*inner.expr, Syntax::Path(_) | Syntax::Binary(_)),
@@ -146,19 +173,19 @@ impl Lowering<'_> {
             return self.call_local(&name, &local, call);
         }
         if self.model.functions.iter().any(|function| function.name == name) {
-            return self.own_function(&name, call);
+            return self.own_function(&name, call).map(Value::Number);
         }
         if SUMS.contains(&name.as_str()) {
             self.sum(&name, call)
         } else if VELOCITIES.contains(&name.as_str()) {
             self.velocity(&name, call)
         } else {
-            self.own_function(&name, call)
+            self.own_function(&name, call).map(Value::Number)
         }
     }
 
     /// `f64::sin(x)` is `x.sin()`.
-    fn path_call(&mut self, call: &ExprCall, path: &syn::Path) -> Option<Expr> {
+    fn path_call(&mut self, call: &ExprCall, path: &syn::Path) -> Option<Value> {
         let segments: Vec<&Ident> = path.segments.iter().map(|segment| &segment.ident).collect();
         match (segments.as_slice(), call.args.first()) {
             ([.., function], receiver)
@@ -195,7 +222,17 @@ impl Lowering<'_> {
                 return value;
             }
             let (receiver, arguments) = (call.args.first(), call.args.iter().skip(1).collect::<Vec<_>>());
-            if is_method(name) {
+            if VectorMethod::by_name(name).is_some_and(|(_, arity)| arity == arguments.len())
+                && let Some(receiver) = receiver
+                && let Some(Value::Vector(_)) = self.quietly(receiver)
+            {
+                let listed = arguments.iter().map(text).collect::<Vec<_>>().join(", ");
+                let message = format!(
+                    "functions are written as methods: `{}.{name}({listed})`",
+                    as_receiver(receiver)
+                );
+                self.errors.push(&call.func, message);
+            } else if is_method(name) {
                 let written = Self::as_method(name, receiver, &arguments);
                 self.errors.push(&call.func, format!("functions are written as methods: `{written}`"));
             } else {

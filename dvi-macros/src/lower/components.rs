@@ -1,9 +1,12 @@
 //! One-forms and forces by their components, one for each block of coordinates.
 
+use std::ops::Range as Blocks;
+
 use syn::{Expr as Syntax, Ident};
 
-use super::{Lowering, Role};
+use super::{Lowering, Role, Value};
 use crate::errors::{here, listed, nearest};
+use crate::model::Block;
 use crate::symbolic::{Atom, Contribution, Coordinate, Expr, Fold, Index, Loop, Node, Range};
 use crate::syntax::Force;
 
@@ -46,8 +49,8 @@ impl Lowering<'_> {
             .map(|force| match force {
                 Force::Components(list) => self.listed(list, Role::Force),
                 Force::On(name, formula) => {
-                    let block = self.declared_block(name)?;
-                    Some(vec![self.component(block, formula, Role::Force)?])
+                    let blocks = self.declared_blocks(name)?;
+                    self.along(blocks, formula, Role::Force)
                 }
             })
             .collect();
@@ -61,11 +64,11 @@ impl Lowering<'_> {
         Some(acting.map(contribution).collect())
     }
 
-    fn declared_block(&mut self, name: &Ident) -> Option<usize> {
-        let blocks = &self.model.blocks[..self.model.declared_blocks()];
-        let found = blocks.iter().position(|block| block.name == *name);
+    fn declared_blocks(&mut self, name: &Ident) -> Option<Blocks<usize>> {
+        let declared = self.declared();
+        let found = declared.iter().find(|blocks| self.model.blocks[blocks.start].name == *name).cloned();
         if found.is_none() && !self.model.lost_coordinates {
-            let names: Vec<String> = blocks.iter().map(|block| block.name.to_string()).collect();
+            let names = self.names(&declared);
             let hint = match nearest(&name.to_string(), names.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("the coordinates are {}", listed(names.iter().map(String::as_str))),
@@ -80,11 +83,11 @@ impl Lowering<'_> {
 
     /// A list of components, one for each block.
     fn listed(&mut self, list: &syn::ExprArray, role: Role) -> Option<Vec<Component>> {
-        let (expected, found) = (self.model.declared_blocks(), list.elems.len());
+        let declared = self.declared();
+        let (expected, found) = (declared.len(), list.elems.len());
         if found != expected {
             if !self.model.lost_coordinates {
-                let blocks = &self.model.blocks[..expected];
-                let names: Vec<String> = blocks.iter().map(|b| b.name.to_string()).collect();
+                let names = self.names(&declared);
                 let names = listed(names.iter().map(String::as_str));
                 let message =
                     format!("expected {expected} components, one for each of {names}; {}", here(found));
@@ -92,40 +95,102 @@ impl Lowering<'_> {
             }
             return None;
         }
-        let components = list.elems.iter().enumerate();
-        let components: Vec<Option<Component>> =
-            components.map(|(block, component)| self.component(block, component, role)).collect();
-        components.into_iter().collect()
+        let components = declared.into_iter().zip(&list.elems);
+        let components: Vec<Option<Vec<Component>>> =
+            components.map(|(blocks, component)| self.along(blocks, component, role)).collect();
+        Some(components.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
-    fn component(&mut self, block: usize, component: &Syntax, role: Role) -> Option<Component> {
-        let name = self.model.blocks[block].name.clone();
-        match (self.model.blocks[block].array.clone(), component) {
+    /// The blocks of each coordinate that the attribute declares.
+    fn declared(&self) -> Vec<Blocks<usize>> {
+        let declared = self.model.declared_blocks();
+        self.model.coordinates().into_iter().filter(|blocks| blocks.start < declared).collect()
+    }
+
+    fn names(&self, coordinates: &[Blocks<usize>]) -> Vec<String> {
+        coordinates.iter().map(|blocks| self.model.blocks[blocks.start].name.to_string()).collect()
+    }
+
+    /// The components along a coordinate: one, or those of a vector.
+    fn along(&mut self, blocks: Blocks<usize>, component: &Syntax, role: Role) -> Option<Vec<Component>> {
+        let first = blocks.start;
+        let Block { name, array, axis, .. } = &self.model.blocks[first];
+        let (name, axis, whole) = (name.to_string(), *axis, self.model.whole(first));
+        match (array.clone(), component) {
             (None, Syntax::Closure(_)) => {
-                self.errors.push(
-                    component,
-                    format!("`{name}` is a single coordinate: write its component without `|…|`"),
-                );
+                let message = format!("`{name}` is a single coordinate: write its component without `|…|`");
+                self.errors.push(component, message);
                 None
             }
             (None, _) => {
                 let value = self.formula(component, role)?;
-                Some(Component { block, index: Index::literal(0), over: None, value })
+                Some(vec![Component { block: first, index: Index::literal(0), over: None, value }])
             }
             (Some((size, _)), Syntax::Closure(closure)) => {
                 self.begin(component, role);
                 let [index] = self.closure_indices::<1>(closure)?;
                 let over = Loop { depth: 0, range: Range::up_to(size) };
                 let value = self.inside(&[(index, Index::open(0), &over)], &closure.body)?;
-                Some(Component { block, index: Index::open(0), over: Some(over), value })
+                let values = match axis {
+                    Some(axis) => {
+                        self.vector_of(&closure.body, axis.of, [&format!("{name}[i]"), ""], value)?
+                    }
+                    None => vec![self.number_of(&closure.body, role, value)?],
+                };
+                let part = |(block, value)| Component {
+                    block,
+                    index: Index::open(0),
+                    over: Some(over.clone()),
+                    value,
+                };
+                Some(blocks.zip(values).map(part).collect())
             }
             (Some(_), _) => {
-                self.errors.push(
-                    component,
-                    format!("`{name}` is an array: write its component as `|i| …`, for entry i"),
-                );
-                None
+                let Some(size) = whole else {
+                    let message =
+                        format!("`{name}` is an array: write its component as `|i| …`, for entry i");
+                    self.errors.push(component, message);
+                    return None;
+                };
+                self.begin(component, role);
+                let value = self.value(component)?;
+                let each = ", or a component for each entry, as `|i| …`";
+                let values = self.vector_of(component, size as usize, [&name, each], value)?;
+                let values = values.into_iter().zip(0..);
+                let part = |(value, entry)| Component {
+                    block: first,
+                    index: Index::literal(entry),
+                    over: None,
+                    value,
+                };
+                Some(values.map(part).collect())
             }
         }
+    }
+
+    /// The components of what acts on a vector of so many, or else what there is to write, and what instead.
+    fn vector_of(
+        &mut self,
+        at: &Syntax,
+        count: usize,
+        [name, instead]: [&str; 2],
+        value: Value,
+    ) -> Option<Vec<Expr>> {
+        match value {
+            Value::Vector(components) if components.len() == count => return Some(components),
+            Value::Vector(components) => {
+                let message =
+                    format!("`{name}` has {count} components, and this is a vector of {}", components.len());
+                self.errors.push(at, message);
+            }
+            Value::Number(_) => {
+                let components = vec!["…"; count].join(", ");
+                let message = format!(
+                    "`{name}` is a vector of {count} components, and this is a number: write a vector, as `[{components}]`{instead}"
+                );
+                self.errors.push(at, message);
+            }
+        }
+        None
     }
 }

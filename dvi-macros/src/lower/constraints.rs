@@ -62,6 +62,7 @@ impl Lowering<'_> {
         }
         let over = indices.into_iter().zip(&loops).map(|((name, form), over)| (name, form, over));
         let value = self.inside(&over.collect::<Vec<_>>(), formula)?;
+        let value = self.number_of(formula, Role::Constraint(of), value)?;
         Some(Constraint { loops, value })
     }
 

@@ -142,7 +142,7 @@ fn undotted(name: &str) -> Option<String> {
 
 /// The root of a sum of squares, called by one of its names.
 fn is_norm(name: &str) -> bool {
-    ["norm", "norm2", "length", "magnitude", "mag"].contains(&name.to_lowercase().as_str())
+    ["norm", "norm2", "norm_squared", "length", "magnitude", "mag"].contains(&name.to_lowercase().as_str())
 }
 
 /// Whether numbers have a method of this name.
@@ -164,6 +164,7 @@ pub(super) fn as_receiver(syntax: &Syntax) -> String {
         | Syntax::Call(_)
         | Syntax::MethodCall(_)
         | Syntax::Index(_)
+        | Syntax::Array(_)
         | Syntax::Field(_) => text(syntax),
         Syntax::Lit(literal) if text(literal).contains('.') => text(syntax),
         Syntax::Lit(ExprLit { lit: Lit::Int(value), .. }) if value.suffix().is_empty() => {
@@ -282,15 +283,18 @@ impl Lowering<'_> {
                 [Syntax::Tuple(list)] => list.elems.iter().collect(),
                 _ => all,
             };
+            let is_square = name == "norm_squared";
+            let root = if is_square { "" } else { ".sqrt()" };
             let written = match list.as_slice() {
                 [one] if block(one).is_some_and(|block| block.array.is_some()) => {
-                    format!("sum(0..n, |j| {}[j].powi(2)).sqrt()", text(one))
+                    format!("sum(0..n, |j| {}[j].powi(2)){root}", text(one))
                 }
+                [one] if is_square => format!("{}.powi(2)", as_receiver(one)),
                 [one] => format!("{}.abs()", as_receiver(one)),
-                [x, y] => format!("{}.hypot({})", as_receiver(x), text(y)),
+                [x, y] if !is_square => format!("{}.hypot({})", as_receiver(x), text(y)),
                 several => {
                     let squares = several.iter().map(|x| format!("{}.powi(2)", as_receiver(x)));
-                    format!("({}).sqrt()", squares.collect::<Vec<_>>().join(" + "))
+                    format!("({}){root}", squares.collect::<Vec<_>>().join(" + "))
                 }
             };
             return Some(format!("unknown function `{name}`; write `{written}`"));

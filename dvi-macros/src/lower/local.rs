@@ -12,9 +12,9 @@ use std::rc::Rc;
 use syn::visit::{self, Visit};
 use syn::{Expr as Syntax, ExprCall, ExprClosure, Pat, Stmt};
 
-use super::{Binding, Lowering, Role, Written, bound_name};
+use super::{Binding, Lowering, Role, Value, Written, bound_name};
 use crate::errors::here;
-use crate::symbolic::{Expr, Unary};
+use crate::symbolic::Unary;
 use crate::syntax::closure;
 use crate::words::SUMS;
 
@@ -94,7 +94,7 @@ impl Lowering<'_> {
         }
     }
 
-    pub(super) fn call_local(&mut self, name: &str, local: &Rc<Local>, call: &ExprCall) -> Option<Expr> {
+    pub(super) fn call_local(&mut self, name: &str, local: &Rc<Local>, call: &ExprCall) -> Option<Value> {
         if local.is_wrong.get() {
             return None;
         }
@@ -118,7 +118,7 @@ impl Lowering<'_> {
                 self.index(argument).map(|form| Binding::Index { form, over: None })
             } else {
                 let written = self.written(argument);
-                self.expr(argument).map(|value| Binding::Value { value: Some(value), written })
+                self.value(argument).map(|value| Binding::Value { value: Some(value), written })
             };
             arguments.push(binding.map(|binding| (parameter.clone(), binding)));
         }
@@ -130,7 +130,7 @@ impl Lowering<'_> {
         if is_shared {
             self.role = Role::Shared;
         }
-        let value = self.expr(&local.body);
+        let value = self.value(&local.body);
         self.role = role;
         self.calls.open.pop();
         self.scope.truncate(outside);
@@ -140,14 +140,14 @@ impl Lowering<'_> {
 
     /// `let (s, c) = x.sin_cos();` and `let (a, b) = (…, …);`
     pub(super) fn bind_tuple(&mut self, names: &syn::PatTuple, init: Option<&Syntax>) {
-        let values: Option<Vec<(Option<Expr>, Written)>> = match init {
+        let values: Option<Vec<(Option<Value>, Written)>> = match init {
             Some(Syntax::Tuple(list)) if list.elems.len() == names.elems.len() => {
-                Some(list.elems.iter().map(|value| (self.expr(value), self.written(value))).collect())
+                Some(list.elems.iter().map(|value| (self.value(value), self.written(value))).collect())
             }
             Some(Syntax::MethodCall(call)) if is_sin_cos(call) && names.elems.len() == 2 => {
                 let x = self.expr(&call.receiver);
                 let functions = [Unary::Sin, Unary::Cos];
-                Some(functions.map(|f| (x.map(|x| self.graph.unary(f, x)), Written::Real)).into())
+                Some(functions.map(|f| (x.map(|x| self.graph.unary(f, x).into()), Written::Real)).into())
             }
             _ => None,
         };

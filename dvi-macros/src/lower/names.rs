@@ -5,25 +5,25 @@ use std::f64::consts;
 use syn::{Expr as Syntax, ExprField, Path};
 
 use super::habits::as_receiver;
-use super::{Binding, Lowering};
-use crate::model::Shape;
+use super::{Binding, Lowering, Value};
+use crate::model::{Axis, Block, Shape, are_components};
 use crate::symbolic::{Coordinate, Expr, Index, Node};
 use crate::words;
 
 impl Lowering<'_> {
-    pub(super) fn path(&mut self, path: &Path) -> Option<Expr> {
+    pub(super) fn path(&mut self, path: &Path) -> Option<Value> {
         let Some(ident) = path.get_ident() else {
             if let Some(value) = standard_constant(path) {
-                return Some(Expr::number(value));
+                return Some(Expr::number(value).into());
             }
             let field = self.model.path_parameter(path);
-            return Some(self.parameter_node(field, Vec::new()));
+            return Some(self.parameter_node(field, Vec::new()).into());
         };
         let name = ident.to_string();
         let position = self.position_of(&name);
         match position.map(|position| &self.scope[position].1) {
             Some(Binding::Value { value, .. }) => {
-                let value = (*value)?;
+                let value = value.clone()?;
                 let is_shared = position.is_some_and(|position| self.is_shared(position));
                 return if is_shared { self.used(path, &name, value) } else { Some(value) };
             }
@@ -39,8 +39,15 @@ impl Lowering<'_> {
             None => {}
         }
         if let Some(block) = self.model.blocks.iter().position(|block| block.name == name) {
-            if self.model.blocks[block].array.is_some() {
-                self.errors.push(path, format!("`{name}` is an array of coordinates: write `{name}[i]`"));
+            if let Some(size) = self.model.whole(block) {
+                let components =
+                    (0..size).map(|component| self.coordinate_node(block, Index::literal(component)));
+                return Some(Value::Vector(components.collect()));
+            }
+            let Block { array, axis, .. } = &self.model.blocks[block];
+            if array.is_some() {
+                let entries = if axis.is_some() { "vectors" } else { "coordinates" };
+                self.errors.push(path, format!("`{name}` is an array of {entries}: write `{name}[i]`"));
                 return None;
             }
             if self.model.extended.is_some_and(|extended| extended.energy == block) {
@@ -49,20 +56,19 @@ impl Lowering<'_> {
                 self.errors.push(path, message);
                 return None;
             }
-            let coordinate = Coordinate { block: block as u32, index: Index::literal(0) };
-            return Some(self.graph.intern(Node::Coordinate(coordinate)).into());
+            return Some(self.coordinate_node(block, Index::literal(0)).into());
         }
         if let Some(field) = self.parameter(ident) {
-            return self.scalar_parameter(path, field);
+            return self.whole_parameter(path, field);
         }
         if let Some(size) = self.model.named_size(&name) {
-            return Some(self.graph.count(size));
+            return Some(self.graph.count(size).into());
         }
         if name == words::PI {
-            return Some(Expr::number(consts::PI));
+            return Some(Expr::number(consts::PI).into());
         }
         if name == words::TIME {
-            return Some(self.graph.intern(Node::Time).into());
+            return Some(Expr::from(self.graph.intern(Node::Time)).into());
         }
         if self.stands_behind(&name) {
             let message = format!("a definition sees the names before it: `{name}` stands behind this one");
@@ -79,9 +85,12 @@ impl Lowering<'_> {
         None
     }
 
-    fn scalar_parameter(&mut self, at: &impl quote::ToTokens, field: u32) -> Option<Expr> {
+    fn whole_parameter(&mut self, at: &impl quote::ToTokens, field: u32) -> Option<Value> {
         let name = &self.model.parameters[field as usize].text;
         match self.shape_of(field) {
+            Shape::Array(Some(length), entry) if are_components(*length, entry) => {
+                Some(self.vector_parameter(field, *length, &[]))
+            }
             Shape::Array(..) => {
                 self.errors.push(at, format!("`{name}` is an array of parameters: write `{name}[i]`"));
                 None
@@ -94,16 +103,29 @@ impl Lowering<'_> {
                 );
                 None
             }
-            _ => Some(self.parameter_node(field, Vec::new())),
+            _ => Some(self.parameter_node(field, Vec::new()).into()),
         }
     }
 
+    /// The entries of a parameter behind these indices, which are the components of a vector.
+    fn vector_parameter(&mut self, field: u32, length: i64, indices: &[Index]) -> Value {
+        let component = |component| {
+            let indices = indices.iter().cloned().chain([Index::literal(component)]);
+            self.entry_node(field, indices.collect())
+        };
+        Value::Vector((0..length).map(component).collect())
+    }
+
+    fn coordinate_node(&mut self, block: usize, index: Index) -> Expr {
+        self.graph.intern(Node::Coordinate(Coordinate { block: block as u32, index })).into()
+    }
+
     /// `self.name` is `name`; `self.p.m` is a field of a field.
-    pub(super) fn field(&mut self, field: &ExprField) -> Option<Expr> {
+    pub(super) fn field(&mut self, field: &ExprField) -> Option<Value> {
         match (&*field.base, &field.member) {
             (Syntax::Path(base), syn::Member::Named(name)) if base.path.is_ident("self") => {
                 match self.parameter(name) {
-                    Some(parameter) => self.scalar_parameter(field, parameter),
+                    Some(parameter) => self.whole_parameter(field, parameter),
                     None => {
                         self.unknown_name(name, &name.to_string(), "the struct has no field");
                         None
@@ -117,7 +139,7 @@ impl Lowering<'_> {
                     return None;
                 }
                 match self.model.nested_parameter(&syntax) {
-                    Some(parameter) => Some(self.parameter_node(parameter, Vec::new())),
+                    Some(parameter) => Some(self.parameter_node(parameter, Vec::new()).into()),
                     None => {
                         self.unsupported(&syntax);
                         None
@@ -138,8 +160,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// `x[i]`, `gamma[i]`, `coupling[i][j]`.
-    pub(super) fn indexed(&mut self, syntax: &Syntax) -> Option<Expr> {
+    /// `x[i]`, `r[i]` of vectors, `r[i][k]`, `gamma[i]`, `coupling[i][j]`; `v[k]` of another vector.
+    pub(super) fn indexed(&mut self, syntax: &Syntax) -> Option<Value> {
         let mut indices = Vec::new();
         let mut base = syntax;
         while let Syntax::Index(index) = base {
@@ -162,14 +184,20 @@ impl Lowering<'_> {
             if let Some(field) = nested {
                 let lowered: Vec<Option<Index>> = indices.iter().map(|index| self.index(index)).collect();
                 let lowered = lowered.into_iter().collect::<Option<_>>()?;
-                return Some(self.entry_node(field, lowered));
+                return Some(self.entry_node(field, lowered).into());
             }
-            self.errors.push(base, "only coordinates and fields of the struct take an index");
-            return None;
+            return self.component(base, &indices);
         };
-        if matches!(base, Syntax::Path(_)) && self.binding_of(&name.to_string()).is_some() {
-            self.errors.push(base, format!("`{name}` is a name of this formula here: it takes no index"));
-            return None;
+        if matches!(base, Syntax::Path(_)) {
+            match self.binding_of(&name.to_string()) {
+                Some(Binding::Value { .. }) => return self.component(base, &indices),
+                Some(Binding::Index { .. } | Binding::Function(_)) => {
+                    let message = format!("`{name}` is a name of this formula here: it takes no index");
+                    self.errors.push(base, message);
+                    return None;
+                }
+                None => {}
+            }
         }
         let function = name.to_string().to_lowercase();
         if words::is_method(&function) && !self.is_declared(&name.to_string()) {
@@ -178,10 +206,13 @@ impl Lowering<'_> {
             self.errors.push(syntax, message);
             return None;
         }
-        let lowered: Vec<Option<Index>> = indices.iter().map(|index| self.index(index)).collect();
         if let Some(block) = self.model.blocks.iter().position(|block| block.name == name) {
-            return self.indexed_coordinate(syntax, block, &indices, lowered);
+            return match self.model.blocks[block].axis {
+                Some(axis) => self.indexed_vector(syntax, block, axis, &indices),
+                None => self.indexed_coordinate(syntax, block, &indices).map(Value::Number),
+            };
         }
+        let lowered: Vec<Option<Index>> = indices.iter().map(|index| self.index(index)).collect();
         let Some(field) = self.parameter(&name) else {
             self.unknown_name(&name, &name.to_string(), "unknown name");
             return None;
@@ -207,6 +238,9 @@ impl Lowering<'_> {
             };
         }
         match shape {
+            Shape::Array(Some(length), entry) if are_components(length, &entry) => {
+                Some(self.vector_parameter(field, length, &lowered))
+            }
             Shape::Array(..) => {
                 let message = format!("the entries of `{name}` are arrays: write one index more");
                 self.errors.push(syntax, message);
@@ -220,33 +254,60 @@ impl Lowering<'_> {
                 );
                 None
             }
-            _ => Some(self.entry_node(field, lowered)),
+            _ => Some(self.entry_node(field, lowered).into()),
         }
     }
 
-    fn indexed_coordinate(
+    /// `r[i]` and `r[i][k]` of an array of vectors that begins with this block.
+    fn indexed_vector(
         &mut self,
         syntax: &Syntax,
-        block: usize,
+        first: usize,
+        axis: Axis,
         indices: &[&Syntax],
-        lowered: Vec<Option<Index>>,
-    ) -> Option<Expr> {
+    ) -> Option<Value> {
+        let name = self.model.blocks[first].name.to_string();
+        if let [_, _, ..] = &indices[1..] {
+            self.errors
+                .push(syntax, format!("`{name}` takes two indices: the second is that of a component"));
+            return None;
+        }
+        let index = self.coordinate_index(first, indices[0]);
+        let component = indices.get(1).map(|component| self.axis(component, axis.of, &format!("{name}[i]")));
+        match component {
+            Some(component) => {
+                let block = first + component?;
+                Some(self.coordinate_node(block, index?).into())
+            }
+            None => {
+                let index = index?;
+                let components =
+                    (0..axis.of).map(|number| self.coordinate_node(first + number, index.clone()));
+                Some(Value::Vector(components.collect()))
+            }
+        }
+    }
+
+    fn indexed_coordinate(&mut self, syntax: &Syntax, block: usize, indices: &[&Syntax]) -> Option<Expr> {
         let name = self.model.blocks[block].name.to_string();
         if self.model.blocks[block].array.is_none() {
             self.errors.push(syntax, format!("`{name}` is a single coordinate: it takes no index"));
             return None;
         }
-        let [Some(index)] = lowered.as_slice() else {
-            if lowered.len() > 1 {
-                self.errors.push(syntax, format!("`{name}` takes one index"));
-            }
+        let [index] = indices else {
+            self.errors.push(syntax, format!("`{name}` takes one index"));
             return None;
         };
-        let size = self.model.block_size(block).as_literal();
-        self.check_range(indices[0], index, size.filter(|_| !self.model.lost_coordinates), &name)?;
-        let index = self.tied(index.clone(), &[self.model.block_size(block)]);
-        let coordinate = Coordinate { block: block as u32, index };
-        Some(self.graph.intern(Node::Coordinate(coordinate)).into())
+        let index = self.coordinate_index(block, index)?;
+        Some(self.coordinate_node(block, index))
+    }
+
+    fn coordinate_index(&mut self, block: usize, syntax: &Syntax) -> Option<Index> {
+        let index = self.index(syntax)?;
+        let size = self.model.block_size(block);
+        let literal = size.as_literal().filter(|_| !self.model.lost_coordinates);
+        self.check_range(syntax, &index, literal, &self.model.blocks[block].name.to_string())?;
+        Some(self.tied(index, &[size]))
     }
 
     /// An entry of a parameter.

@@ -7,8 +7,7 @@
 use quote::ToTokens;
 use syn::{Ident, Pat};
 
-use super::{Lowering, Role};
-use crate::symbolic::Expr;
+use super::{Lowering, Role, Value};
 use crate::syntax::{Attribute, closure, value};
 use crate::words::{self, VELOCITIES};
 
@@ -69,8 +68,8 @@ impl Lowering<'_> {
     }
 
     /// The value of a name, or of a call of it, where a formula uses it.
-    pub(super) fn used(&mut self, at: &impl ToTokens, name: &str, value: Expr) -> Option<Expr> {
-        if self.degree(value) > 0
+    pub(super) fn used(&mut self, at: &impl ToTokens, name: &str, value: Value) -> Option<Value> {
+        if value.entries().iter().any(|entry| self.degree(*entry) > 0)
             && let Err(reason) = self.velocity_word()
         {
             let message =
@@ -78,7 +77,7 @@ impl Lowering<'_> {
             self.errors.push(at, message);
             return None;
         }
-        self.admitted(at, value)
+        value.map(|entry| self.admitted(at, entry))
     }
 
     /// Whether all formulas share the name at a position of the scope, and this is one of them.

@@ -3,9 +3,9 @@
 use quote::ToTokens;
 use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 
-use super::{Binding, DEEPEST_SUM, Lowering, Role, bound_name};
+use super::{Binding, DEEPEST_SUM, Lowering, Role, Value, bound_name};
 use crate::errors::here;
-use crate::symbolic::{Atom, Expr, Fold, Free, Index, Loop, Range};
+use crate::symbolic::{Atom, Fold, Free, Index, Loop, Range};
 
 /// Beyond all sizes, and far from where sums of indices overflow.
 const LARGEST: u64 = 1 << 48;
@@ -13,7 +13,7 @@ const LARGEST: u64 = 1 << 48;
 impl Lowering<'_> {
     /// `sum(0..n, |j| …)`, `product` alike, `sum_pairs(0..n, |j, k| …)` over j < k, `sum_ordered_pairs` over
     /// j ≠ k.
-    pub(super) fn sum(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
+    pub(super) fn sum(&mut self, name: &str, call: &ExprCall) -> Option<Value> {
         let pairs = matches!(name, "sum_pairs" | "sum_ordered_pairs");
         let form =
             if pairs { format!("{name}(0..n, |j, k| …)") } else { format!("{name}(0..n, |j| …)") };
@@ -34,9 +34,14 @@ impl Lowering<'_> {
             let ((lower, upper), [index]) = (bounds?, indices?);
             let (form, only) = natural(depth, &lower, &upper);
             let body = self.inside(&[(index, form, &only)], &closure.body)?;
-            let fold = if name == "product" { Fold::Product } else { Fold::Sum };
-            let value = self.graph.fold(fold, Atom::Open(depth), only.range, body);
-            return self.admitted(call, value);
+            let (fold, body) = match name {
+                "product" => (Fold::Product, self.number(&closure.body, body)?.into()),
+                _ => (Fold::Sum, body),
+            };
+            return body.map(|body| {
+                let value = self.graph.fold(fold, Atom::Open(depth), only.range.clone(), body);
+                self.admitted(call, value)
+            });
         }
         let indices = self.closure_indices::<2>(closure);
         let (bounds, names) = (bounds?, indices?);
@@ -62,13 +67,20 @@ impl Lowering<'_> {
         last: &Index,
         [first, second]: [String; 2],
         body: &Syntax,
-    ) -> Option<Expr> {
+    ) -> Option<Value> {
         let depth = self.loops;
         let (first_form, outer) = natural(depth, &lower, last);
         let (second_form, inner) = natural(depth + 1, &first_form.plus(&Index::literal(1), 1), &upper);
         let body = self.inside(&[(first, first_form, &outer), (second, second_form, &inner)], body)?;
-        let body = self.graph.fold(Fold::Sum, Atom::Open(depth + 1), inner.range, body);
-        Some(self.graph.fold(Fold::Sum, Atom::Open(depth), outer.range, body))
+        self.twice(depth, [outer, inner], body)
+    }
+
+    /// The sum of a body in two loops.
+    fn twice(&mut self, depth: u32, [outer, inner]: [Loop; 2], body: Value) -> Option<Value> {
+        body.map(|body| {
+            let body = self.graph.fold(Fold::Sum, Atom::Open(depth + 1), inner.range.clone(), body);
+            Some(self.graph.fold(Fold::Sum, Atom::Open(depth), outer.range.clone(), body))
+        })
     }
 
     /// The sum over j ≠ k in a range.
@@ -77,7 +89,7 @@ impl Lowering<'_> {
         (lower, upper): (Index, Index),
         [first, second]: [String; 2],
         body: &Syntax,
-    ) -> Option<Expr> {
+    ) -> Option<Value> {
         let depth = self.loops;
         let (first_form, outer) = natural(depth, &lower, &upper);
         let (second_form, all) = natural(depth + 1, &lower, &upper);
@@ -85,19 +97,18 @@ impl Lowering<'_> {
         let range = Range { except: Some(Index::open(depth)), ..all.range };
         let inner = Loop { range, ..all };
         let body = self.inside(&[(first, first_form, &outer), (second, second_form, &inner)], body)?;
-        let body = self.graph.fold(Fold::Sum, Atom::Open(depth + 1), inner.range, body);
-        Some(self.graph.fold(Fold::Sum, Atom::Open(depth), outer.range, body))
+        self.twice(depth, [outer, inner], body)
     }
 
     /// The body of a closure with its indices bound to these forms in these loops.
-    pub(super) fn inside(&mut self, indices: &[(String, Index, &Loop)], body: &Syntax) -> Option<Expr> {
+    pub(super) fn inside(&mut self, indices: &[(String, Index, &Loop)], body: &Syntax) -> Option<Value> {
         let outside = self.scope.len();
         for (name, form, over) in indices {
             let binding = Binding::Index { form: form.clone(), over: Some((*over).clone()) };
             self.scope.push((name.clone(), binding));
         }
         self.loops += indices.len() as u32;
-        let value = self.expr(body);
+        let value = self.value(body);
         self.loops -= indices.len() as u32;
         self.scope.truncate(outside);
         value

@@ -2,7 +2,7 @@
 
 use syn::{BinOp, Expr as Syntax, Member, Pat, UnOp};
 
-use super::Lowering;
+use super::{Binding, Lowering, Value};
 use crate::errors::text;
 
 impl Lowering<'_> {
@@ -17,6 +17,31 @@ impl Lowering<'_> {
 }
 
 impl Lowering<'_> {
+    /// What to write for `r[i].x` of a vector.
+    fn component_called(&self, field: &syn::ExprField) -> Option<String> {
+        let Member::Named(name) = &field.member else { return None };
+        let component = ["x", "y", "z"].iter().position(|axis| name == axis)?;
+        let mut base = &*field.base;
+        while let Syntax::Index(index) = base {
+            base = &index.expr;
+        }
+        let Syntax::Path(path) = base else { return None };
+        let root = path.path.get_ident()?;
+        let index = match self.binding_of(&root.to_string()) {
+            Some(Binding::Value { value: Some(Value::Vector(_)), .. }) => "",
+            Some(_) => return None,
+            None => {
+                let first = self.model.coordinate_of(root)?.start;
+                let is_array = self.model.blocks[first].axis.is_some();
+                if !is_array && self.model.whole(first).is_none() {
+                    return None;
+                }
+                if is_array && matches!(&*field.base, Syntax::Path(_)) { "[i]" } else { "" }
+            }
+        };
+        Some(format!("a component of a vector is written `{}{index}[{component}]`", text(&field.base)))
+    }
+
     /// What to write for that which comes from elsewhere.
     fn meant_by(&self, syntax: &Syntax) -> Option<String> {
         match syntax {
@@ -29,7 +54,7 @@ impl Lowering<'_> {
                 }
                 _ => None,
             },
-            Syntax::Field(field) => {
+            Syntax::Field(field) => self.component_called(field).or_else(|| {
                 let of = text(&field.base);
                 let block = self.model.blocks.iter().find(|block| block.name == of)?;
                 match &field.member {
@@ -39,7 +64,7 @@ impl Lowering<'_> {
                     }
                     Member::Named(_) => None,
                 }
-            }
+            }),
             _ => None,
         }
     }
@@ -47,9 +72,7 @@ impl Lowering<'_> {
 
 fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
     match syntax {
-        Syntax::Array(_) | Syntax::Repeat(_) => {
-            ("a list", "; a list of components stands in `one_form = […]` only")
-        }
+        Syntax::Repeat(_) => ("a list of equal entries", "; a vector is written `[a, b, c]`"),
         Syntax::Assign(_) => ("an assignment", "; name a value with `let`"),
         Syntax::Async(_) | Syntax::Await(_) => ("asynchronous code", "; all values are numbers"),
         Syntax::Break(_) | Syntax::Continue(_) | Syntax::Return(_) => {

@@ -2,21 +2,22 @@
 
 use syn::{Expr as Syntax, ExprCall};
 
-use super::{Lowering, Role};
+use super::{Lowering, Role, Value};
 use crate::errors::{here, text};
 use crate::symbolic::{Expr, Node};
 use crate::syntax::{Constrained, Kind};
 
 impl Lowering<'_> {
     /// `d(x)` in a one-form, `dot(x)` in a Lagrangian.
-    pub(super) fn velocity(&mut self, name: &str, call: &ExprCall) -> Option<Expr> {
+    pub(super) fn velocity(&mut self, name: &str, call: &ExprCall) -> Option<Value> {
         if let ("dot", [x, y]) = (name, call.args.iter().collect::<Vec<_>>().as_slice()) {
-            let message = format!(
-                "`dot` is the velocity of one coordinate; a scalar product is written \
-                 `sum(0..n, |j| {}[j] * {}[j])`",
-                text(x),
-                text(y)
-            );
+            let [a, b] = [x, y].map(|side| text(*side));
+            let meant = match self.quietly(x) {
+                Some(Value::Vector(_)) => format!("{a}.dot({b})"),
+                Some(Value::Number(_)) | None => format!("sum(0..n, |j| {a}[j] * {b}[j])"),
+            };
+            let message =
+                format!("`dot` is the velocity of one coordinate; a scalar product is written `{meant}`");
             self.errors.push(call, message);
             return None;
         }
@@ -43,25 +44,23 @@ impl Lowering<'_> {
             self.errors.push(&call.args[0], message);
             return None;
         }
-        let coordinate = self.expr(&call.args[0])?;
-        match (coordinate.scale == 1.0, self.graph.node(coordinate.node)) {
-            (true, Node::Coordinate(coordinate)) => {
-                let coordinate = coordinate.clone();
-                if self.model.extended.is_some_and(|extended| extended.time == coordinate.block as usize) {
-                    let message = "`t` is the physical time: its velocity is the time transformation";
-                    self.errors.push(call, message);
-                    return None;
-                }
-                Some(self.graph.intern(Node::Velocity(coordinate)).into())
-            }
-            _ => {
-                self.errors.push(
-                    &call.args[0],
-                    format!("`{name}` takes a coordinate, as in `{name}(x)` or `{name}(x[j])`"),
-                );
-                None
-            }
+        self.value(&call.args[0])?.map(|coordinate| self.velocity_of(name, call, coordinate))
+    }
+
+    fn velocity_of(&mut self, name: &str, call: &ExprCall, coordinate: Expr) -> Option<Expr> {
+        let (true, Node::Coordinate(coordinate)) =
+            (coordinate.scale == 1.0, self.graph.node(coordinate.node).clone())
+        else {
+            let message = format!("`{name}` takes a coordinate, as in `{name}(x)` or `{name}(x[j])`");
+            self.errors.push(&call.args[0], message);
+            return None;
+        };
+        if self.model.extended.is_some_and(|extended| extended.time == coordinate.block as usize) {
+            let message = "`t` is the physical time: its velocity is the time transformation";
+            self.errors.push(call, message);
+            return None;
         }
+        Some(self.graph.intern(Node::Velocity(coordinate)).into())
     }
 
     /// How a velocity is written in this formula, or why it has none.

@@ -14,8 +14,8 @@ use crate::symbolic::{Atom, Index, Size};
 const LARGEST: i64 = 1 << 20;
 
 impl Model {
-    /// The size of an array of coordinates, or what is wrong with it.
-    pub(super) fn declared_size(&mut self, name: &Ident, size: &Expr) -> Result<Index, String> {
+    /// The size of an array of coordinates, of which each entry counts as `axes`, or what is wrong with it.
+    pub(super) fn declared_size(&mut self, name: &Ident, size: &Expr, axes: i64) -> Result<Index, String> {
         let index = self.size_form(size).map_err(|found| match found {
             Some(name) => {
                 let system = &self.item.ident;
@@ -31,7 +31,7 @@ impl Model {
         let so_far = self.dimension().as_literal().unwrap_or(0);
         match index.as_literal() {
             Some(..1) => Err(format!("`{name}` would have no coordinates")),
-            Some(size) if size > LARGEST - so_far => Err(format!(
+            Some(size) if size.saturating_mul(axes) > LARGEST - so_far => Err(format!(
                 "a state of this size does not fit on the stack (at most {LARGEST} coordinates); take the size \
                  from a field: `{name}[field.len()]`"
             )),

@@ -98,7 +98,7 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         field("s", Container::Scalar, vec![], vec![2.5]),
         field("g", Container::Vector, vec![0], vec![1.0, 2.0, 4.0]),
     ];
-    let block = |name, size| Block { name, size };
+    let block = |name, size| Block { name, size, axis: None };
     let mut blocks = vec![block("u", None), block("w", None), block("x", Some(0)), block("y", Some(0))];
     if matches!(dynamics, Dynamics::Regular(_)) {
         blocks.retain(|block| ["u", "x"].contains(&block.name));
@@ -107,6 +107,7 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         sizes: vec![Size { kind, value: 3 }],
         fields,
         blocks,
+        width: 0,
         dynamics,
         gauge: Gauge::None,
         time_transform: None,

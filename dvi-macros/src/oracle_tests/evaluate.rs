@@ -24,13 +24,18 @@ pub(super) enum Outside {
 }
 
 pub(super) struct Oracle<'a> {
-    system: &'a System,
+    pub(super) system: &'a System,
     sizes: Vec<i64>,
-    point: &'a Point,
+    pub(super) point: &'a Point,
     bound: Vec<i64>,
-    names: Vec<(usize, Jet)>,
+    pub(super) names: Vec<(usize, Vec<Jet>)>,
     /// At whose zeros what has been evaluated is not smooth, outside of sums.
     pub(super) seams: Vec<Jet>,
+}
+
+/// The only component of what is no vector.
+fn single(values: Vec<Jet>) -> Result<Jet, Outside> {
+    <[Jet; 1]>::try_from(values).map(|[value]| value).map_err(|_| Outside::Index)
 }
 
 /// Conditions that are nearer to equality than this decide nothing.
@@ -112,8 +117,8 @@ impl<'a> Oracle<'a> {
             }
             Dynamics::Components(components, hamiltonian) => {
                 let mut sum = self.value(hamiltonian)?.scaled(-1.0);
-                for (block, component) in components.iter().enumerate() {
-                    sum = sum.plus(&self.value(&system.component_term(block, component))?);
+                for (first, component) in system.coordinates().into_iter().zip(components) {
+                    sum = sum.plus(&self.value(&system.component_term(first, component))?);
                 }
                 Ok(sum)
             }
@@ -138,7 +143,7 @@ impl<'a> Oracle<'a> {
             }
             Formula::Name(name) => {
                 let known = self.names.iter().rev().find(|(known, _)| known == name);
-                known.ok_or(Outside::Index)?.1.clone()
+                single(known.ok_or(Outside::Index)?.1.clone())?
             }
             Formula::Coordinate(block, index) => {
                 let place = self.coordinate(*block, index.as_ref())?;
@@ -194,39 +199,31 @@ impl<'a> Oracle<'a> {
                     self.value(otherwise)?
                 }
             }
-            Formula::Let(name, value, body) => {
-                let value = self.value(value)?;
-                self.names.push((*name, value));
-                let body = self.value(body);
-                self.names.pop();
-                body?
+            Formula::Let(name, value, body) => single(self.with_name(*name, value, body)?)?,
+            Formula::Sum(Loops::Product, level, lower, upper, body) => {
+                let terms = self.terms(Loops::Product, *level, [lower, upper])?;
+                let mut product = Jet::constant(1.0);
+                for term in terms {
+                    product = product.times(&self.inside(&term, body)?);
+                }
+                product
             }
             Formula::Sum(loops, level, lower, upper, body) => {
-                // The level is the number of indices that are bound around the sum.
-                if *level != self.bound.len() {
-                    return Err(Outside::Index);
-                }
-                let (lower, upper) = (self.index(lower)?, self.index(upper)?);
-                let mut sum = Jet::constant(if *loops == Loops::Product { 1.0 } else { 0.0 });
-                for first in lower..upper {
-                    let seconds = match loops {
-                        Loops::Single => {
-                            sum = sum.plus(&self.inside(&[first], body)?);
-                            continue;
-                        }
-                        Loops::Product => {
-                            sum = sum.times(&self.inside(&[first], body)?);
-                            continue;
-                        }
-                        Loops::Pairs => first + 1..upper,
-                        Loops::OrderedPairs => lower..upper,
-                    };
-                    for second in seconds.filter(|second| *second != first) {
-                        sum = sum.plus(&self.inside(&[first, second], body)?);
-                    }
+                let mut sum = Jet::constant(0.0);
+                for term in self.terms(*loops, *level, [lower, upper])? {
+                    sum = sum.plus(&self.inside(&term, body)?);
                 }
                 sum
             }
+            Formula::Dot(..) | Formula::Norm(_) | Formula::NormSquared(_) | Formula::Component(..) => {
+                self.of_vectors(formula)?
+            }
+            Formula::Vector(..)
+            | Formula::VectorVelocity(..)
+            | Formula::VectorParameter(..)
+            | Formula::VectorName(_)
+            | Formula::List(_)
+            | Formula::Cross(..) => return Err(Outside::Index),
         })
     }
 
@@ -236,15 +233,66 @@ impl<'a> Oracle<'a> {
         }
     }
 
+    /// A body with a name for a value.
+    pub(super) fn with_name(
+        &mut self,
+        name: usize,
+        value: &Formula,
+        body: &Formula,
+    ) -> Result<Vec<Jet>, Outside> {
+        let value = self.values(value)?;
+        self.names.push((name, value));
+        let body = self.values(body);
+        self.names.pop();
+        body
+    }
+
+    /// The indices of the terms of a sum.
+    pub(super) fn terms(
+        &self,
+        loops: Loops,
+        level: usize,
+        [lower, upper]: [&Index; 2],
+    ) -> Result<Vec<Vec<i64>>, Outside> {
+        // The level is the number of indices that are bound around the sum.
+        if level != self.bound.len() {
+            return Err(Outside::Index);
+        }
+        let (lower, upper) = (self.index(lower)?, self.index(upper)?);
+        let mut terms = Vec::new();
+        for first in lower..upper {
+            let seconds = match loops {
+                Loops::Single | Loops::Product => {
+                    terms.push(vec![first]);
+                    continue;
+                }
+                Loops::Pairs => first + 1..upper,
+                Loops::OrderedPairs => lower..upper,
+            };
+            terms.extend(seconds.filter(|second| *second != first).map(|second| vec![first, second]));
+        }
+        Ok(terms)
+    }
+
     /// The force on each coordinate.
     pub(super) fn forces(&mut self) -> Result<Vec<Jet>, Outside> {
         let mut forces = vec![Jet::constant(0.0); self.system.dimension()];
         for (block, force) in &self.system.forces {
-            let offset = self.system.offset(*block);
-            for i in 0..self.system.block_length(*block) {
+            let (offset, length) = (self.system.offset(*block), self.system.block_length(*block));
+            let mut add = |place: usize, force: &Jet| forces[place] = forces[place].plus(force);
+            if self.system.axes(*block) == 1 && force.is_vector() {
+                let components = self.values(force)?;
+                components.iter().enumerate().for_each(|(i, force)| add(offset + i, force));
+                continue;
+            }
+            for i in 0..length {
                 let is_array = self.system.blocks[*block].size.is_some();
                 let indices: &[i64] = if is_array { &[i as i64] } else { &[] };
-                forces[offset + i] = forces[offset + i].plus(&self.inside(indices, force)?);
+                let components = self.all_inside(indices, force)?;
+                components
+                    .iter()
+                    .enumerate()
+                    .for_each(|(axis, force)| add(offset + axis * length + i, force));
             }
         }
         Ok(forces)
@@ -282,14 +330,18 @@ impl<'a> Oracle<'a> {
 
     /// A body with its indices at these values.
     fn inside(&mut self, indices: &[i64], body: &Formula) -> Result<Jet, Outside> {
-        let outside = self.bound.len();
-        self.bound.extend(indices);
-        let value = self.value(body);
-        self.bound.truncate(outside);
-        value
+        single(self.all_inside(indices, body)?)
     }
 
-    fn power(&mut self, of: &Formula, exponent: i32) -> Result<Jet, Outside> {
+    pub(super) fn all_inside(&mut self, indices: &[i64], body: &Formula) -> Result<Vec<Jet>, Outside> {
+        let outside = self.bound.len();
+        self.bound.extend(indices);
+        let values = self.values(body);
+        self.bound.truncate(outside);
+        values
+    }
+
+    pub(super) fn power(&mut self, of: &Formula, exponent: i32) -> Result<Jet, Outside> {
         let of = self.value(of)?;
         if exponent < 0 && of.value.value.abs() < 1e-2 {
             return Err(Outside::Domain);
@@ -297,7 +349,7 @@ impl<'a> Oracle<'a> {
         Ok(of.power(exponent))
     }
 
-    fn holds(&mut self, condition: &Condition) -> Result<bool, Outside> {
+    pub(super) fn holds(&mut self, condition: &Condition) -> Result<bool, Outside> {
         Ok(match condition {
             Condition::Compare(left, relation, right) => {
                 let (left, right) = (self.value(left)?, self.value(right)?);
@@ -328,13 +380,13 @@ impl<'a> Oracle<'a> {
         position.ok_or(Outside::Index)
     }
 
-    fn coordinate(&self, block: usize, index: Option<&Index>) -> Result<usize, Outside> {
+    pub(super) fn coordinate(&self, block: usize, index: Option<&Index>) -> Result<usize, Outside> {
         let length = self.system.block_length(block);
         let position = index.map_or(Ok(0), |index| self.position(index, length))?;
         Ok(self.system.offset(block) + position)
     }
 
-    fn parameter(&self, field: usize, indices: &[Index]) -> Result<f64, Outside> {
+    pub(super) fn parameter(&self, field: usize, indices: &[Index]) -> Result<f64, Outside> {
         let field = &self.system.fields[field];
         let mut place = 0;
         for (index, size) in indices.iter().zip(&field.shape) {

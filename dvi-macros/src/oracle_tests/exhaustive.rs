@@ -84,7 +84,7 @@ fn over_all(term: Formula) -> Formula {
 
 /// A formula as the Hamiltonian of x, y and u, w.
 pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
-    let block = |name, size| Block { name, size };
+    let block = |name, size| Block { name, size, axis: None };
     let entry = || Some(Index::bound(0));
     let blocks = vec![block("x", Some(0)), block("u", None), block("y", Some(0)), block("w", None)];
     let one_form = over_all(Formula::Coordinate(0, entry()).times(Formula::Velocity(2, entry())))
@@ -94,6 +94,7 @@ pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
         sizes: sizes(number),
         fields: Vec::new(),
         blocks,
+        width: 0,
         dynamics,
         gauge: Gauge::None,
         time_transform: None,
@@ -112,7 +113,7 @@ pub(super) fn as_gauge(number: usize, formula: Formula) -> System {
 
 /// A formula as a kinetic energy: of the velocities of x, and of u or its velocity.
 pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
-    let block = |name, size| Block { name, size };
+    let block = |name, size| Block { name, size, axis: None };
     let moving = number.is_multiple_of(3);
     let squares = over_all(Formula::Velocity(0, Some(Index::bound(0))).power(2))
         .plus(Formula::Velocity(1, None).power(2));
@@ -122,6 +123,7 @@ pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
         sizes: sizes(number),
         fields: Vec::new(),
         blocks,
+        width: 0,
         dynamics,
         gauge: Gauge::None,
         time_transform: None,

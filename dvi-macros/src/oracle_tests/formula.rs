@@ -3,6 +3,9 @@
 //!
 //! An index that a sum binds is named by the number of indices that are bound around it, so that sums
 //! side by side use the same letters; a `let` is named by the number of names around it.
+//!
+//! Some formulas are vectors. Sums, differences, choices, `let`s and sums over indices are what their parts
+//! are; a product with a number is a vector if the other factor is.
 
 use super::functions::{BinaryFunction, UnaryFunction};
 
@@ -60,12 +63,26 @@ pub(super) enum Formula {
     /// A block of coordinates, with an index if it is an array.
     Coordinate(usize, Option<Index>),
     Velocity(usize, Option<Index>),
+    /// All of a vector: an array of a few coordinates, or an entry of an array of vectors, of which this is
+    /// the first block.
+    Vector(usize, Option<Index>),
+    VectorVelocity(usize, Option<Index>),
     /// A field of the struct and its indices.
     Parameter(usize, Vec<Index>),
+    /// The same with an index less: its last ones are those of components.
+    VectorParameter(usize, Vec<Index>),
     /// `index as f64`
     Count(Index),
     /// The value of a `let`.
     Name(usize),
+    /// The same, of a vector.
+    VectorName(usize),
+    List(Vec<Formula>),
+    Cross(Box<Formula>, Box<Formula>),
+    Dot(Box<Formula>, Box<Formula>),
+    Norm(Box<Formula>),
+    NormSquared(Box<Formula>),
+    Component(Box<Formula>, usize),
     Negative(Box<Formula>),
     Add(Box<Formula>, Box<Formula>),
     Subtract(Box<Formula>, Box<Formula>),
@@ -145,6 +162,10 @@ impl Formula {
 
     pub(super) fn over(self, other: Self) -> Self {
         Self::Divide(Box::new(self), Box::new(other))
+    }
+
+    pub(super) fn dot(self, other: Self) -> Self {
+        Self::Dot(Box::new(self), Box::new(other))
     }
 
     pub(super) fn power(self, exponent: i32) -> Self {

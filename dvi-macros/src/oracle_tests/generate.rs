@@ -7,6 +7,7 @@ mod declarations;
 mod forms;
 mod indices;
 mod values;
+mod vectors;
 
 use super::formula::{Formula, Index, Loops};
 use super::random::Random;
@@ -88,7 +89,8 @@ impl Generator<'_> {
             }
             5..=6 => {
                 let hamiltonian = self.value(&scope, 6);
-                let components = (0..self.system.blocks.len()).map(|block| self.component(block));
+                let coordinates = self.system.coordinates();
+                let components = coordinates.into_iter().map(|first| self.component(first));
                 Dynamics::Components(components.collect(), hamiltonian)
             }
             _ => {
@@ -98,30 +100,46 @@ impl Generator<'_> {
         }
     }
 
-    fn component(&mut self, block: usize) -> Formula {
-        let value = self.entry(block);
+    fn component(&mut self, first: usize) -> Formula {
+        let value = self.entry(first);
         // Blocks come in pairs: yⱼ stands in the component of xⱼ.
-        let index = self.system.blocks[block].size.map(|_| Index::bound(0));
-        if block.is_multiple_of(2) { Formula::Coordinate(block + 1, index).plus(value) } else { value }
+        let index = self.system.blocks[first].size.map(|_| Index::bound(0));
+        let conjugate = |block: usize| match block.is_multiple_of(2) {
+            true => Formula::Coordinate(block + 1, index.clone()),
+            false => Formula::Number("0"),
+        };
+        match self.system.axes(first) {
+            1 if value.is_vector() => match first.is_multiple_of(2) {
+                true => Formula::Vector(first + 1, None).plus(value),
+                false => value,
+            },
+            1 if !first.is_multiple_of(2) => value,
+            1 => conjugate(first).plus(value),
+            axes => Formula::List((first..first + axes).map(conjugate).collect()).plus(value),
+        }
     }
 
     /// A function for each entry of a block.
     fn entry(&mut self, block: usize) -> Formula {
         self.budget = self.budget.max(4);
+        let is_vector = self.system.axes(block) > 1;
+        if !is_vector && self.system.is_whole(block) && self.random.chance(50) {
+            return self.vector(&Scope::outside(), 3);
+        }
         let scope = match self.system.blocks[block].size {
             Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
             None => Scope::outside(),
         };
-        self.value(&scope, 3)
+        if is_vector { self.vector(&scope, 3) } else { self.value(&scope, 3) }
     }
 
     /// Forces on all blocks, or on some in any order.
     fn forces(&mut self) -> Vec<(usize, Formula)> {
-        let blocks = self.system.blocks.len();
+        let coordinates = self.system.coordinates();
         if self.random.chance(50) {
-            return (0..blocks).map(|block| (block, self.entry(block))).collect();
+            return coordinates.into_iter().map(|first| (first, self.entry(first))).collect();
         }
-        let acts = (0..blocks).rev().filter(|_| self.random.chance(60)).collect::<Vec<_>>();
+        let acts = coordinates.into_iter().rev().filter(|_| self.random.chance(60)).collect::<Vec<_>>();
         acts.into_iter().map(|block| (block, self.entry(block))).collect()
     }
 

@@ -11,10 +11,17 @@ impl Formula {
             | Self::Time
             | Self::Coordinate(..)
             | Self::Velocity(..)
+            | Self::Vector(..)
+            | Self::VectorVelocity(..)
             | Self::Parameter(..)
+            | Self::VectorParameter(..)
             | Self::Count(_)
-            | Self::Name(_) => Vec::new(),
+            | Self::Name(_)
+            | Self::VectorName(_) => Vec::new(),
             Self::Negative(a)
+            | Self::Norm(a)
+            | Self::NormSquared(a)
+            | Self::Component(a, _)
             | Self::Power(a, _)
             | Self::Unary(_, a)
             | Self::Own(_, a)
@@ -23,10 +30,12 @@ impl Formula {
             | Self::Subtract(a, b)
             | Self::Multiply(a, b)
             | Self::Divide(a, b)
+            | Self::Cross(a, b)
+            | Self::Dot(a, b)
             | Self::Binary(_, a, b)
             | Self::Let(_, a, b) => vec![a, b],
             Self::MultiplyAdd(a, b, c) => vec![a, b, c],
-            Self::ScalarField(_, at) => at.iter().collect(),
+            Self::ScalarField(_, at) | Self::List(at) => at.iter().collect(),
             Self::If(condition, a, b) => condition.parts().into_iter().chain([&**a, &**b]).collect(),
         }
     }
@@ -38,10 +47,17 @@ impl Formula {
             | Self::Time
             | Self::Coordinate(..)
             | Self::Velocity(..)
+            | Self::Vector(..)
+            | Self::VectorVelocity(..)
             | Self::Parameter(..)
+            | Self::VectorParameter(..)
             | Self::Count(_)
-            | Self::Name(_) => Vec::new(),
+            | Self::Name(_)
+            | Self::VectorName(_) => Vec::new(),
             Self::Negative(a)
+            | Self::Norm(a)
+            | Self::NormSquared(a)
+            | Self::Component(a, _)
             | Self::Power(a, _)
             | Self::Unary(_, a)
             | Self::Own(_, a)
@@ -50,10 +66,12 @@ impl Formula {
             | Self::Subtract(a, b)
             | Self::Multiply(a, b)
             | Self::Divide(a, b)
+            | Self::Cross(a, b)
+            | Self::Dot(a, b)
             | Self::Binary(_, a, b)
             | Self::Let(_, a, b) => vec![a, b],
             Self::MultiplyAdd(a, b, c) => vec![a, b, c],
-            Self::ScalarField(_, at) => at.iter_mut().collect(),
+            Self::ScalarField(_, at) | Self::List(at) => at.iter_mut().collect(),
             Self::If(condition, a, b) => {
                 condition.parts_mut().into_iter().chain([&mut **a, &mut **b]).collect()
             }
@@ -62,10 +80,14 @@ impl Formula {
 
     fn indices_mut(&mut self) -> Vec<&mut Index> {
         match self {
-            Self::Coordinate(_, Some(index)) | Self::Velocity(_, Some(index)) | Self::Count(index) => {
+            Self::Coordinate(_, Some(index))
+            | Self::Velocity(_, Some(index))
+            | Self::Vector(_, Some(index))
+            | Self::VectorVelocity(_, Some(index))
+            | Self::Count(index) => {
                 vec![index]
             }
-            Self::Parameter(_, indices) => indices.iter_mut().collect(),
+            Self::Parameter(_, indices) | Self::VectorParameter(_, indices) => indices.iter_mut().collect(),
             Self::Sum(_, _, lower, upper, _) => vec![lower, upper],
             _ => Vec::new(),
         }
@@ -84,7 +106,41 @@ impl Formula {
     }
 
     pub(super) fn has_velocities(&self) -> bool {
-        matches!(self, Self::Velocity(..)) || self.parts().into_iter().any(Self::has_velocities)
+        let is_velocity = matches!(self, Self::Velocity(..) | Self::VectorVelocity(..));
+        is_velocity || self.parts().into_iter().any(Self::has_velocities)
+    }
+
+    /// Whether it is a vector.
+    pub(super) fn is_vector(&self) -> bool {
+        match self {
+            Self::Vector(..)
+            | Self::VectorVelocity(..)
+            | Self::VectorParameter(..)
+            | Self::VectorName(_)
+            | Self::List(_)
+            | Self::Cross(..) => true,
+            Self::Multiply(a, b) => a.is_vector() || b.is_vector(),
+            Self::Negative(a) | Self::Add(a, _) | Self::Subtract(a, _) | Self::Divide(a, _) => a.is_vector(),
+            Self::If(_, value, _) | Self::Let(_, _, value) | Self::Sum(.., value) => value.is_vector(),
+            Self::Number(_)
+            | Self::Pi
+            | Self::Time
+            | Self::Coordinate(..)
+            | Self::Velocity(..)
+            | Self::Parameter(..)
+            | Self::Count(_)
+            | Self::Name(_)
+            | Self::Dot(..)
+            | Self::Norm(_)
+            | Self::NormSquared(_)
+            | Self::Component(..)
+            | Self::Power(..)
+            | Self::Unary(..)
+            | Self::Binary(..)
+            | Self::MultiplyAdd(..)
+            | Self::Own(..)
+            | Self::ScalarField(..) => false,
+        }
     }
 
     /// The number of nodes; a leaf that is no number counts twice.

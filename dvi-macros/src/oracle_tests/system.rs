@@ -39,6 +39,8 @@ pub(super) enum Container {
     Matrix,
     /// `Vec<Vec<f64>>`
     VectorOfVectors,
+    /// `Vec<[f64; n]>`
+    VectorOfArrays,
 }
 
 #[derive(Clone, Debug)]
@@ -55,6 +57,8 @@ pub(super) struct Field {
 pub(super) struct Block {
     pub(super) name: &'static str,
     pub(super) size: Option<usize>,
+    /// The component that it is, and how many there are, if it is one of vectors.
+    pub(super) axis: Option<[usize; 2]>,
 }
 
 /// What the attribute declares.
@@ -92,6 +96,8 @@ pub(super) struct System {
     pub(super) sizes: Vec<Size>,
     pub(super) fields: Vec<Field>,
     pub(super) blocks: Vec<Block>,
+    /// The number of components of all vectors.
+    pub(super) width: usize,
     pub(super) dynamics: Dynamics,
     pub(super) gauge: Gauge,
     /// ρ; then the last two blocks are the time and the energy, which the attribute does not declare.
@@ -124,6 +130,28 @@ impl System {
         self.offset(self.blocks.len())
     }
 
+    /// The first block of each coordinate that the attribute declares.
+    pub(super) fn coordinates(&self) -> Vec<usize> {
+        let is_first = |block: &usize| self.blocks[*block].axis.is_none_or(|[number, _]| number == 0);
+        (0..self.declared_blocks().len()).filter(is_first).collect()
+    }
+
+    /// The number of blocks of the coordinate that begins with one.
+    pub(super) fn axes(&self, first: usize) -> usize {
+        self.blocks[first].axis.map_or(1, |[_, of]| of)
+    }
+
+    /// Whether an array is a vector as a whole.
+    pub(super) fn is_whole(&self, block: usize) -> bool {
+        let Block { size, axis, .. } = &self.blocks[block];
+        axis.is_none() && size.is_some_and(|size| self.is_width(size))
+    }
+
+    /// Whether a size is the number of components of vectors.
+    pub(super) fn is_width(&self, size: usize) -> bool {
+        self.sizes[size] == Size { kind: SizeKind::Literal, value: self.width as i64 }
+    }
+
     /// The blocks that the attribute declares.
     pub(super) fn declared_blocks(&self) -> &[Block] {
         let added = if self.time_transform.is_some() { EXTENDED.len() } else { 0 };
@@ -137,7 +165,7 @@ impl System {
     }
 
     pub(super) fn with_time_transform(mut self, rate: Formula) -> Self {
-        self.blocks.extend(EXTENDED.map(|name| Block { name, size: None }));
+        self.blocks.extend(EXTENDED.map(|name| Block { name, size: None, axis: None }));
         Self { time_transform: Some(rate), ..self }
     }
 
@@ -179,10 +207,15 @@ impl System {
 
     /// `|i| component` of a block as Σ componentᵢ·d(xᵢ), or component·d(x).
     pub(super) fn component_term(&self, block: usize, component: &Formula) -> Formula {
+        let along = |index: Option<Index>| match (self.axes(block), component.is_vector()) {
+            (1, false) => component.clone().times(Formula::Velocity(block, index)),
+            _ => component.clone().dot(Formula::VectorVelocity(block, index)),
+        };
         match self.blocks[block].size {
-            None => component.clone().times(Formula::Velocity(block, None)),
+            None => along(None),
+            Some(_) if self.axes(block) == 1 && component.is_vector() => along(None),
             Some(size) => {
-                let term = component.clone().times(Formula::Velocity(block, Some(Index::bound(0))));
+                let term = along(Some(Index::bound(0)));
                 let upper = Index::atom(super::formula::Atom::Size(size));
                 Formula::Sum(super::formula::Loops::Single, 0, Index::literal(0), upper, Box::new(term))
             }

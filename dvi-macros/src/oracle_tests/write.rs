@@ -1,10 +1,11 @@
 //! Systems to text: the attribute and the struct as a user writes them.
 
-use std::cell::Cell;
+mod spelling;
 
 use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
 use super::functions::{BinaryFunction, OWN, SCALAR_FIELDS};
 use super::system::{Constraint, Container, Dynamics, Field, Gauge, SizeKind, System};
+use spelling::{Spelling, is_in_brackets};
 
 mod share;
 
@@ -23,25 +24,6 @@ enum Binding {
     Postfix,
 }
 
-/// Whether a text has a name in brackets, where indices stand.
-fn is_in_brackets(text: &str, name: &str) -> bool {
-    let (mut depth, mut word, mut found) = (0_u32, String::new(), false);
-    for letter in text.chars().chain([' ']) {
-        if letter.is_alphanumeric() || letter == '_' {
-            word.push(letter);
-            continue;
-        }
-        found |= depth > 0 && word == name;
-        word.clear();
-        depth = match letter {
-            '[' => depth + 1,
-            ']' => depth - 1,
-            _ => depth,
-        };
-    }
-    found
-}
-
 /// Writes the formulas of one system.
 pub(super) struct Writer<'a> {
     pub(super) system: &'a System,
@@ -51,28 +33,14 @@ pub(super) struct Writer<'a> {
     spelling: Spelling,
 }
 
-/// Where the language has two spellings, sometimes the other one is taken: the same ones for the same
-/// system.
-struct Spelling(Cell<u32>);
-
-impl Spelling {
-    fn is_other(&self) -> bool {
-        let next = self.0.get().wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        self.0.set(next);
-        next >> 30 == 0
-    }
-
-    fn is_rare(&self) -> bool {
-        self.is_other() && self.is_other()
-    }
-}
-
 impl System {
     /// The arguments of the attribute.
     pub(super) fn attribute(&self) -> String {
-        let blocks = self.declared_blocks().iter().map(|block| match block.size {
-            None => block.name.to_string(),
-            Some(size) => format!("{}[{}]", block.name, self.size_text(size)),
+        let blocks = self.coordinates().into_iter().map(|first| {
+            let block = &self.blocks[first];
+            let size = block.size.map_or_else(String::new, |size| format!("[{}]", self.size_text(size)));
+            let axes = block.axis.map_or_else(String::new, |[_, of]| format!("[{of}]"));
+            format!("{}{size}{axes}", block.name)
         });
         let mut text = format!("coordinates({})", blocks.collect::<Vec<_>>().join(", "));
         let definitions = Definitions::default();
@@ -83,9 +51,9 @@ impl System {
                 format!(", one_form = {}, hamiltonian = {}", d.text(one_form), d.text(hamiltonian))
             }
             Dynamics::Components(components, hamiltonian) => {
-                let components = components.iter().zip(&self.blocks).map(|(component, block)| {
-                    let index = if block.size.is_some() { "|i| " } else { "" };
-                    format!("{index}{}", d.text(component))
+                let components = components.iter().zip(self.coordinates());
+                let components = components.map(|(component, block)| {
+                    format!("{}{}", self.indexed(block, component), d.text(component))
                 });
                 let components = components.collect::<Vec<_>>().join(", ");
                 format!(", one_form = [{components}], hamiltonian = {}", d.text(hamiltonian))
@@ -102,11 +70,11 @@ impl System {
         if let Some(rate) = &self.time_transform {
             text += &format!(", time_transform = {}", d.text(rate));
         }
-        let entries = self.forces.iter().map(|(block, force)| {
-            let index = if self.blocks[*block].size.is_some() { "|i| " } else { "" };
-            format!("{index}{}", dot.text(force))
-        });
-        let all = self.forces.iter().map(|(block, _)| *block).eq(0..self.blocks.len());
+        let entries = self
+            .forces
+            .iter()
+            .map(|(block, force)| format!("{}{}", self.indexed(*block, force), dot.text(force)));
+        let all = self.forces.iter().map(|(block, _)| *block).eq(self.coordinates());
         if all {
             text += &format!(", force = [{}]", entries.collect::<Vec<_>>().join(", "));
         } else {
@@ -128,6 +96,12 @@ impl System {
         let own: Vec<String> = used.chain(fields).collect();
         let functions = (!own.is_empty()).then(|| format!("functions({})", own.join(", ")));
         [Some(text), functions, definitions.argument()].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    /// What stands in front of a component along a coordinate: the index of its entry, if it has one.
+    fn indexed(&self, first: usize, component: &Formula) -> &'static str {
+        let is_whole = self.axes(first) == 1 && component.is_vector();
+        if self.blocks[first].size.is_some() && !is_whole { "|i| " } else { "" }
     }
 
     /// Constraints that follow each other without an index are a list.
@@ -185,6 +159,7 @@ impl System {
             Container::Slice => "&'a [f64]".into(),
             Container::Matrix => format!("[[f64; {}]; {}]", size(1), size(0)),
             Container::VectorOfVectors => "Vec<Vec<f64>>".into(),
+            Container::VectorOfArrays => format!("Vec<[f64; {}]>", size(1)),
         }
     }
 
@@ -205,7 +180,7 @@ impl System {
 
 impl<'a> Writer<'a> {
     fn new(system: &'a System, velocity: &'static str, definitions: &'a Definitions) -> Self {
-        Self { system, velocity, definitions, spelling: Spelling(Cell::new(system.fields.len() as u32)) }
+        Self { system, velocity, definitions, spelling: Spelling::new(system.fields.len() as u32) }
     }
 
     pub(super) fn text(&self, formula: &Formula) -> String {
@@ -238,12 +213,26 @@ impl<'a> Writer<'a> {
             Formula::Number(text) => postfix((*text).into()),
             Formula::Pi => postfix("PI".into()),
             Formula::Time => postfix("t".into()),
-            Formula::Name(name) => postfix(format!("a{name}")),
+            Formula::Name(name) | Formula::VectorName(name) => postfix(format!("a{name}")),
+            Formula::Vector(block, index) => postfix(self.whole(*block, index.as_ref())),
+            Formula::VectorVelocity(block, index) => {
+                postfix(format!("{}({})", self.velocity, self.whole(*block, index.as_ref())))
+            }
+            Formula::List(components) => {
+                let components: Vec<String> =
+                    components.iter().map(|component| self.text(component)).collect();
+                postfix(format!("[{}]", components.join(", ")))
+            }
+            Formula::Cross(a, b) => method(a, "cross", self.text(b)),
+            Formula::Dot(a, b) => method(a, "dot", self.text(b)),
+            Formula::Norm(of) => method(of, "norm", String::new()),
+            Formula::NormSquared(of) => method(of, "norm_squared", String::new()),
+            Formula::Component(of, number) => postfix(format!("{}[{number}]", self.bound(of, Postfix))),
             Formula::Coordinate(block, index) => postfix(self.place(*block, index.as_ref())),
             Formula::Velocity(block, index) => {
                 postfix(format!("{}({})", self.velocity, self.place(*block, index.as_ref())))
             }
-            Formula::Parameter(field, indices) => {
+            Formula::Parameter(field, indices) | Formula::VectorParameter(field, indices) => {
                 let indices: String =
                     indices.iter().map(|index| format!("[{}]", self.index(index))).collect();
                 let of_self = if self.spelling.is_other() { "self." } else { "" };
@@ -328,7 +317,13 @@ impl<'a> Writer<'a> {
                     "{{ let times = |left| {{ let by = |right| left * right; by({b}) }}; times({a}) }}"
                 ))
             }
-            Formula::Coordinate(block, Some(index)) if self.spelling.is_rare() => {
+            Formula::Vector(block, Some(index)) if self.spelling.is_rare() => {
+                let (name, index) = (self.system.blocks[*block].name, self.index(index));
+                Some(format!("{{ let entry = |place| {name}[place]; entry({index}) }}"))
+            }
+            Formula::Coordinate(block, Some(index))
+                if self.system.axes(*block) == 1 && self.spelling.is_rare() =>
+            {
                 let (name, index) = (self.system.blocks[*block].name, self.index(index));
                 Some(format!("{{ let entry = |place| {name}[place]; entry({index}) }}"))
             }
@@ -364,6 +359,12 @@ impl<'a> Writer<'a> {
     }
 
     fn place(&self, block: usize, index: Option<&Index>) -> String {
+        let component = self.system.blocks[block].axis.map(|[number, _]| format!("[{number}]"));
+        format!("{}{}", self.whole(block, index), component.unwrap_or_default())
+    }
+
+    /// Without the index of a component.
+    fn whole(&self, block: usize, index: Option<&Index>) -> String {
         let name = self.system.blocks[block].name;
         index.map_or_else(|| name.into(), |index| format!("{name}[{}]", self.index(index)))
     }

@@ -3,8 +3,6 @@
 //! With α = ϑ(x, y)·dx the discrete equations of such schemes couple two points and not three (Ellison et
 //! al. 2018). It is a property of the one-form as it is written: α and α + dF have the same motion.
 
-use syn::ext::IdentExt as _;
-
 use super::gauge::{self, Effort, Found, Search};
 use crate::formulas::{Variable, variable};
 use crate::model::Model;
@@ -134,13 +132,14 @@ impl Class {
     pub(crate) fn names(&self, model: &Model, with: bool) -> Vec<String> {
         let mut names = Vec::new();
         for (block, known) in model.blocks.iter().zip(&self.components) {
-            let name = block.name.unraw();
             match known {
-                Components::Block(known) if *known == with => names.push(format!("`{name}`")),
+                Components::Block(known) if *known == with => {
+                    names.push(format!("`{}`", block.label().replace("r#", "")));
+                }
                 Components::Block(_) => {}
                 Components::Entries(entries) => {
                     let these = entries.iter().enumerate().filter(|(_, entry)| **entry == with);
-                    names.extend(these.map(|(index, _)| format!("`{name}[{index}]`")));
+                    names.extend(these.map(|(index, _)| format!("`{}`", block.entry(&index.to_string()))));
                 }
             }
         }

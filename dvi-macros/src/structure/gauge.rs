@@ -244,12 +244,12 @@ fn position_of(graph: &mut Graph, velocity: Id) -> Id {
 
 impl Lacking {
     fn sentence(&self, graph: &Graph, model: &Model, half: &[usize]) -> String {
-        let names: Vec<String> = half.iter().map(|block| model.blocks[*block].name.to_string()).collect();
+        let names: Vec<String> = half.iter().map(|block| model.blocks[*block].label()).collect();
         let names = listed(names.iter().map(String::as_str));
         match self {
             Self::Antiderivative(part) => {
                 let value = print_expr(graph, part.value, part.loops.len(), model);
-                let block = &model.blocks[block_of(graph, part.target)].name;
+                let block = model.blocks[block_of(graph, part.target)].label();
                 let loops = match part.loops.as_slice() {
                     [] => String::new(),
                     loops => format!(" for {}", print_loops(loops, model)),

@@ -100,7 +100,8 @@ impl MassMatrix {
             return;
         }
         for (block, mentioned) in &self.massless {
-            let name = &model.blocks[*block].name;
+            let at = &model.blocks[*block].name;
+            let name = model.blocks[*block].label();
             let relation = match (mentioned, self.quadratic) {
                 (false, _) => "does not mention",
                 (true, true) => "is linear in",
@@ -111,12 +112,15 @@ impl MassMatrix {
                  such as `{}`",
                 kinetic_energy(model, *block)
             );
-            errors.push(name, message);
+            // What has no components has none for each of them.
+            errors.push_once(&format!("mass of {at}"), at, message);
         }
         for (block, index) in &self.skipped {
             let name = &model.blocks[*block].name;
             let velocity = match model.blocks[*block].factor {
-                Factor::Line | Factor::Sphere => format!("the velocity of `{name}[{index}]`"),
+                Factor::Line | Factor::Sphere => {
+                    format!("the velocity of `{}`", model.blocks[*block].entry(&index.to_string()))
+                }
                 Factor::Rotation => format!("the angular velocity `omega({name})[{index}]`"),
             };
             let message = format!(
@@ -146,7 +150,7 @@ impl MassMatrix {
     fn without_mass(&self, model: &Model) -> String {
         if self.massless.iter().all(|(_, mentioned)| !mentioned) {
             let terms: Vec<String> =
-                (0..model.blocks.len()).map(|block| kinetic_energy(model, block)).collect();
+                model.coordinates().iter().map(|blocks| kinetic_energy(model, blocks.start)).collect();
             let terms = listed(terms.iter().map(String::as_str));
             return format!("this Lagrangian mentions no velocity: add a kinetic energy such as {terms}");
         }
@@ -226,10 +230,13 @@ impl MassMatrix {
 
 /// `dot(x).powi(2) / 2.0`
 fn kinetic_energy(model: &Model, block: usize) -> String {
-    let Block { name, array, factor } = &model.blocks[block];
+    let Block { name, array, factor, axis } = &model.blocks[block];
     match array {
         Some(_) if *factor == Factor::Rotation => {
             format!("(omega({name})[0].powi(2) + omega({name})[1].powi(2) + omega({name})[2].powi(2)) / 2.0")
+        }
+        Some((_, size)) if axis.is_some() => {
+            format!("sum(0..{size}, |j| dot({name}[j]).norm_squared() / 2.0)")
         }
         Some((_, size)) => format!("sum(0..{size}, |j| dot({name}[j]).powi(2) / 2.0)"),
         None => format!("dot({name}).powi(2) / 2.0"),

@@ -172,12 +172,13 @@ impl OneForm {
             errors.push(at, message);
         }
         for block in &self.untouched {
-            let name = &model.blocks[*block].name;
+            let block = &model.blocks[*block];
+            let name = block.label();
             let message = format!(
                 "Ω = -dα does not involve `{name}`, so it is singular and the motion of `{name}` is not \
                  determined; the one-form needs a term that couples it, such as `{name} * d(other)`"
             );
-            errors.push(name, message);
+            errors.push(&block.name, message);
         }
     }
 

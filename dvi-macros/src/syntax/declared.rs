@@ -10,11 +10,13 @@ use syn::{Expr, Path, Token, Type};
 use super::expression;
 use crate::errors::text;
 
-/// `x`, `x[n]`, `R: SO3` or `s: S2`.
+/// `x`, `x[n]`, `r[n][3]`, `R: SO3` or `s: S2`.
 #[derive(Debug)]
 pub(crate) struct Declaration {
     pub(crate) name: Ident,
     pub(crate) size: Option<Expr>,
+    /// The number of components, if the entries are vectors.
+    pub(crate) components: Option<Expr>,
     pub(crate) factor: Factor,
 }
 
@@ -159,26 +161,37 @@ impl Parse for Declaration {
                 ));
             }
         };
-        let size = if input.peek(syn::token::Bracket) {
-            let content;
-            let bracket = syn::bracketed!(content in input);
-            if content.is_empty() {
-                let message = format!("`{name}[]` has no size: write `{name}[n]`");
-                return Err(syn::Error::new(bracket.span.join(), message));
-            }
-            Some(expression(&content)?)
-        } else {
-            None
+        let size = bracketed(input, || format!("`{name}[]` has no size: write `{name}[n]`"))?;
+        let components = match size {
+            Some(_) => bracketed(input, || format!("these vectors have no size: write `{name}[n][3]`"))?,
+            None => None,
         };
+        if input.peek(syn::token::Bracket) {
+            let message = format!("a coordinate has two sizes at most: write `{name}[n][3]` for n vectors");
+            return Err(input.error(message));
+        }
         let factor =
             if input.peek(Token![:]) { factor(input, &name, size.is_some())? } else { Factor::Line };
         if !input.is_empty() {
             return Err(input.error(
-                "a coordinate is declared as `x`, `x[n]`, `R: SO3` or `s: S2`, and followed by `,`",
+                "a coordinate is declared as `x`, `x[n]`, `r[n][3]`, `R: SO3` or `s: S2`, and followed by `,`",
             ));
         }
-        Ok(Self { name, size, factor })
+        Ok(Self { name, size, components, factor })
     }
+}
+
+/// What stands in brackets, if there are some.
+fn bracketed(input: ParseStream<'_>, empty: impl FnOnce() -> String) -> syn::Result<Option<Expr>> {
+    if !input.peek(syn::token::Bracket) {
+        return Ok(None);
+    }
+    let content;
+    let bracket = syn::bracketed!(content in input);
+    if content.is_empty() {
+        return Err(syn::Error::new(bracket.span.join(), empty()));
+    }
+    expression(&content).map(Some)
 }
 
 /// What stands behind the colon of `R: SO3`.

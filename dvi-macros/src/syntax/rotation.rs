@@ -1,8 +1,8 @@
 //! Rotations and unit vectors as coordinates: where they may stand, and how a rotation is written.
 //!
-//! Of `R: SO3` formulas have the entries `R[i][j]` and the angular velocity in the body `omega(R)[k]`. Nine
-//! coordinates `R[3 i + j]` and three velocities take their places here, once, so that no later stage knows
-//! of matrices.
+//! Of `R: SO3` formulas have the entries `R[i][j]`, the axes of the body `R.column(j)`, and the angular
+//! velocity in the body `omega(R)`, both vectors. Nine coordinates `R[3 i + j]` and three velocities take their
+//! places here, once, so that no later stage knows of matrices.
 
 use proc_macro2::{Ident, Literal};
 use syn::spanned::Spanned;
@@ -120,6 +120,16 @@ impl Entries<'_> {
         Some((self.rotation(rotation)?, [row, column]))
     }
 
+    /// The rotation that this is a column of, with its index.
+    fn column<'b>(&self, syntax: &'b Expr) -> Option<(&'b Ident, &'b Expr)> {
+        match unwrapped(syntax) {
+            Expr::MethodCall(call) if call.method == "column" && call.args.len() == 1 => {
+                Some((self.rotation(&call.receiver)?, &call.args[0]))
+            }
+            _ => None,
+        }
+    }
+
     /// An index of a matrix or vector of three; 0 where it is reported as none.
     fn index(&mut self, syntax: &Expr) -> usize {
         let value = match unwrapped(syntax) {
@@ -156,6 +166,14 @@ impl Entries<'_> {
                 return Some(self.refused(of, name));
             }
         }
+        if let Some((name, column)) = self.column(syntax) {
+            let column = self.index(column);
+            let [x, y, z] = [column, 3 + column, 6 + column].map(Literal::usize_unsuffixed);
+            return Some(parse_quote_spanned!(span=> [#name[#x], #name[#y], #name[#z]]));
+        }
+        if let Some(name) = self.angular_velocity(syntax) {
+            return Some(parse_quote_spanned!(span=> [dot(#name[0]), dot(#name[1]), dot(#name[2])]));
+        }
         if let Some([of]) = called(VELOCITY, syntax).as_deref()
             && let Some((name, _)) = self.entry(of)
         {
@@ -186,9 +204,9 @@ impl Entries<'_> {
         }
     }
 
-    /// A rotation, or an angular velocity, that has no index: this, or what this is made of.
+    /// A rotation that has no index: this, or what this is made of.
     fn whole<'b>(&self, syntax: &'b Expr) -> Option<(&'b Expr, &'b Ident)> {
-        if let Some(name) = self.rotation(syntax).or_else(|| self.angular_velocity(syntax)) {
+        if let Some(name) = self.rotation(syntax) {
             return Some((syntax, name));
         }
         let used = |part: &'b Expr| self.rotation(part).map(|name| (part, name));

@@ -295,3 +295,50 @@ fn rotations_constraints_choices_and_functions() {
         "#]],
     );
 }
+
+#[test]
+fn vectors_are_bold_and_their_products_signs() {
+    check(
+        lagrangian(
+            quote! {
+                coordinates(r[N][3], q[3]),
+                lagrangian = {
+                    let gap = |i, j| r[i] - r[j];
+                    let field = b - 2.0 * q;
+                    sum(0..N, |i| m[i] / 2.0 * dot(r[i]).norm_squared() + field.dot(r[i].cross(dot(r[i]))))
+                        + sum_pairs(0..N, |i, j| m[i] * m[j] / gap(i, j).norm()) + dot(q).dot([q[1], -q[0], drag[0][2]])
+                        + dot(q).norm_squared()
+                },
+                force(r) = |i| -drag[i] - dot(r[i])[0] * b,
+                force(q) = -q,
+            },
+            quote! { struct Bodies<const N: usize> { m: [f64; N], b: [f64; 3], drag: [[f64; 3]; N] } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \sum_{i = 0}^{N - 1} \left(\frac{m_{i}}{2} \, {\left|\dot{\mathbf{r}}_{i}\right|}^{2} + \mathbf{\mathit{field}} \cdot \left(\mathbf{r}_{i} \times \dot{\mathbf{r}}_{i}\right)\right) \\
+            &\quad + \sum_{0 \le i < j \le N - 1} \frac{m_{i} \, m_{j}}{\left|\mathit{gap}\left(i, j\right)\right|} + \dot{\mathbf{q}} \cdot \left(q_{1}, -q_{0}, \mathit{drag}_{0,2}\right) + {\left|\dot{\mathbf{q}}\right|}^{2} \\
+            \mathit{gap}\left(i, j\right) &= \mathbf{r}_{i} - \mathbf{r}_{j} \\
+            \mathbf{\mathit{field}} &= \mathbf{b} - 2 \, \mathbf{q} \\
+            F_{\mathbf{r}_{i}} &= -\mathbf{\mathit{drag}}_{i} - \dot{r}_{i,0} \, \mathbf{b} \\
+            F_{\mathbf{q}} &= -\mathbf{q}
+            \end{aligned}
+            ```
+
+            The compiler makes of it:
+
+            ```math
+            \begin{aligned}
+            E &= {\dot{q}_{0}}^{2} + {\dot{q}_{1}}^{2} + {\dot{q}_{2}}^{2} + 0.5 \, \sum_{i = 0}^{N - 1} m_{i} \, \left({\dot{r}_{i,0}}^{2} + {\dot{r}_{i,1}}^{2} + {\dot{r}_{i,2}}^{2}\right) \\
+            &\quad - \sum_{i = 0}^{N - 1} \sum_{j = i + 1}^{N - 1} \frac{m_{j} \, m_{i}}{\sqrt{{\left(r_{i,0} - r_{j,0}\right)}^{2} + {\left(r_{i,1} - r_{j,1}\right)}^{2} + {\left(r_{i,2} - r_{j,2}\right)}^{2}}}
+            \end{aligned}
+            ```
+        "#]],
+    );
+}

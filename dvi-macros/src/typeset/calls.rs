@@ -26,6 +26,15 @@ impl Typesetter {
             ("recip", [of]) => Tex::new(Strength::Product, format!(r"\frac{{1}}{{{}}}", of.text)),
             ("exp", [of]) => Tex::new(Strength::Function, format!(r"\mathrm{{e}}^{{{}}}", of.text)),
             ("abs", [of]) => Tex::atom(format!(r"\left|{}\right|", of.text)),
+            ("norm", [of]) => Tex::atom(format!(r"\left|{}\right|", of.text)),
+            ("norm_squared", [of]) => {
+                Tex::new(Strength::Function, format!(r"{{\left|{}\right|}}^{{2}}", of.text))
+            }
+            ("dot" | "cross", [a, b]) => {
+                let [a, b] = [a, b].map(|part| part.within(Strength::Function));
+                let sign = if name == "dot" { r"\cdot" } else { r"\times" };
+                Tex::new(Strength::Product, format!("{a} {sign} {b}"))
+            }
             ("hypot", [a, b]) => {
                 let [a, b] = [a, b].map(|part| part.within(Strength::Atom));
                 Tex::atom(format!(r"\sqrt{{{{{a}}}^2 + {{{b}}}^2}}"))

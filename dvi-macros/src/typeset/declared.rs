@@ -55,7 +55,6 @@ fn components(
 
 /// The component along a coordinate, or `|i| …` along those of an array.
 fn component(of: &str, coordinate: &str, formula: &Expr, typesetter: &mut Typesetter) -> Equation {
-    let name = typesetter.symbol(coordinate);
     match formula {
         Expr::Closure(closure) => {
             let index = closure
@@ -63,9 +62,13 @@ fn component(of: &str, coordinate: &str, formula: &Expr, typesetter: &mut Typese
                 .first()
                 .and_then(super::bound)
                 .map_or_else(String::new, |index| typesetter.symbol(&index));
-            typesetter.equation(format!("{of}_{{{name}_{{{index}}}}}"), &closure.body)
+            let entry = typesetter.placed(coordinate, None, &[index]);
+            typesetter.equation(format!("{of}_{{{entry}}}"), &closure.body)
         }
-        formula => typesetter.equation(format!("{of}_{{{name}}}"), formula),
+        formula => {
+            let name = typesetter.symbol(coordinate);
+            typesetter.equation(format!("{of}_{{{name}}}"), formula)
+        }
     }
 }
 

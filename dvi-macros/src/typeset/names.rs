@@ -6,6 +6,7 @@ use syn::{Expr, ExprField, ExprIndex, Member};
 
 use super::{Strength, Typesetter};
 use crate::errors::text;
+use crate::words::VELOCITIES;
 
 /// The names of Greek letters, as LaTeX has them; `lambda_` is a name of Rust's, too.
 #[rustfmt::skip]
@@ -94,8 +95,36 @@ impl Typesetter {
         self.placed(name, None, &[])
     }
 
+    /// Whether a formula is a vector, as far as its names tell.
+    pub(super) fn is_vector(&mut self, formula: &Expr) -> bool {
+        match formula {
+            Expr::Paren(inner) => self.is_vector(&inner.expr),
+            Expr::Unary(unary) => self.is_vector(&unary.expr),
+            Expr::Binary(binary) => self.is_vector(&binary.left) || self.is_vector(&binary.right),
+            Expr::Array(_) => true,
+            Expr::MethodCall(call) => call.method == "cross",
+            Expr::Call(call) => match (&*call.func, call.args.first()) {
+                (Expr::Path(path), Some(of)) if VELOCITIES.iter().any(|name| path.path.is_ident(name)) => {
+                    self.is_vector(of)
+                }
+                _ => false,
+            },
+            place => {
+                self.place(place).is_some_and(|(name, indices)| self.is_named_vector(&name, indices.len()))
+            }
+        }
+    }
+
+    fn is_named_vector(&self, name: &str, indices: usize) -> bool {
+        self.vectors
+            .iter()
+            .rev()
+            .find(|(known, _)| known == name)
+            .is_some_and(|(_, count)| *count == indices)
+    }
+
     /// `name` with `indices`, below `accent` if there is one.
-    fn placed(&self, name: &str, accent: Option<&str>, indices: &[String]) -> String {
+    pub(super) fn placed(&self, name: &str, accent: Option<&str>, indices: &[String]) -> String {
         let name = name.strip_prefix("r#").unwrap_or(name);
         let (first, below) = parts(name);
         let is_other = !below.is_empty() && self.arrays.iter().any(|array| array == first);
@@ -104,6 +133,8 @@ impl Typesetter {
         } else {
             (word(first), below.into_iter().map(word).collect())
         };
+        let is_bold = self.is_named_vector(name, indices.len());
+        let first = if is_bold { format!(r"\mathbf{{{first}}}") } else { first };
         below.extend_from_slice(indices);
         let first = accent.map_or_else(|| first.clone(), |accent| format!("{accent}{{{first}}}"));
         if below.is_empty() { first } else { format!("{first}_{{{}}}", below.join(",")) }
@@ -185,6 +216,9 @@ impl Typesetter {
 
     /// A place in an array that has no name of its own.
     fn of_other(&mut self, formula: &Expr) -> String {
+        if let Some(component) = velocity_of_component(formula) {
+            return self.expr(&component).text;
+        }
         match formula {
             Expr::Index(index) => {
                 let [of, at] = [&index.expr, &index.index].map(|part| self.expr(part));
@@ -193,4 +227,14 @@ impl Typesetter {
             other => self.expr(other).text,
         }
     }
+}
+
+/// `dot(r[i][k])` for `dot(r[i])[k]`.
+fn velocity_of_component(formula: &Expr) -> Option<Expr> {
+    let Expr::Index(ExprIndex { expr, index, .. }) = formula else { return None };
+    let Expr::Call(call) = &**expr else { return None };
+    let Expr::Path(path) = &*call.func else { return None };
+    let of = call.args.first()?;
+    let is_velocity = VELOCITIES.iter().any(|name| path.path.is_ident(name));
+    is_velocity.then(|| syn::parse_quote!(#path(#of[#index])))
 }

@@ -13,16 +13,19 @@ use super::point::{Branches, Directions, Point, Variable};
 use super::system::System;
 use crate::internal::internal;
 use crate::model::{Extended, Model};
-use crate::syntax::Force;
 use crate::work::step;
 
 mod calls;
 mod constraints;
+mod covectors;
 mod indices;
 mod locals;
+mod places;
+mod vectors;
 mod words;
 
 pub(super) use constraints::Combination;
+use vectors::Quantity;
 use words::{constant, literal_number, place_text};
 
 /// Why there is no value.
@@ -39,11 +42,11 @@ type Value<T> = Result<T, NoValue>;
 /// What a name of an inner scope stands for.
 #[derive(Clone)]
 enum Binding<'a> {
-    Number(Jet),
+    Value(Quantity),
     Shared(Shared<'a>),
     Index(i64),
-    /// An argument: what it is as a number, and as an index.
-    Argument(Option<Jet>, Option<i64>),
+    /// An argument: what it is as a value, and as an index.
+    Argument(Option<Quantity>, Option<i64>),
     /// A function, and the number of names that its body sees.
     Function(Rc<ExprClosure>, usize),
 }
@@ -152,7 +155,7 @@ pub(super) struct Evaluation<'a> {
     closures: usize,
     scope: Scope<'a>,
     /// The values of shared names that were used, each by the place of its definition and by how it was asked for.
-    known: HashMap<(usize, [bool; 3]), Vec<Jet>>,
+    known: HashMap<(usize, [bool; 3]), Vec<Quantity>>,
 }
 
 impl<'a> Evaluation<'a> {
@@ -162,13 +165,16 @@ impl<'a> Evaluation<'a> {
         directions: Directions<'a>,
         budget: u64,
     ) -> Self {
-        let names = model.blocks.iter().map(|block| texts.of(&block.name, || block.name.to_string()));
+        let coordinates = model.coordinates().into_iter().map(|blocks| {
+            let name = &model.blocks[blocks.start].name;
+            (texts.of(name, || name.to_string()), blocks.start)
+        });
         let own = model.functions.iter();
         let functions = own.map(|own| texts.of(&own.name, || own.name.to_string())).collect();
         let mut evaluation = Self {
             model,
             texts,
-            blocks: names.zip(0..).collect(),
+            blocks: coordinates.collect(),
             parameters: model.parameters.iter().map(|parameter| parameter.text.as_str()).collect(),
             functions,
             point,
@@ -186,54 +192,6 @@ impl<'a> Evaluation<'a> {
         };
         evaluation.share(&attribute.shared);
         evaluation
-    }
-
-    /// α·v of a list of components.
-    pub(super) fn components(&mut self, list: &syn::ExprArray) -> Value<Jet> {
-        let mut total = Jet::number(0.0);
-        for (block, component) in list.elems.iter().enumerate() {
-            for (index, component) in self.entries(block, component)? {
-                let velocity = self.variable(Variable::Velocity, block, index)?;
-                total = total.plus(&component.times(&velocity));
-            }
-        }
-        Ok(total)
-    }
-
-    /// The forces times the displacements along both directions: the work of a displacement.
-    pub(super) fn work(&mut self, forces: &[Force]) -> Value<[Jet; 2]> {
-        let mut work = [Jet::number(0.0), Jet::number(0.0)];
-        for force in forces {
-            let components: Vec<(usize, &Expr)> = match force {
-                Force::Components(list) => list.elems.iter().enumerate().collect(),
-                Force::On(name, formula) => match self.block(&name.to_string()) {
-                    Some(block) => vec![(block, formula)],
-                    None => unknown(name),
-                },
-            };
-            for (block, component) in components {
-                for (index, value) in self.entries(block, component)? {
-                    let Directions { first, second } = self.directions;
-                    for (work, (support, is_second)) in work.iter_mut().zip([(first, false), (second, true)])
-                    {
-                        let displacement = self.point.direction(support, is_second, block, index);
-                        *work = work.clone().plus(&value.clone().scaled(displacement));
-                    }
-                }
-            }
-        }
-        Ok(work)
-    }
-
-    /// A component of a covector at the entries of its block.
-    fn entries(&mut self, block: usize, component: &Expr) -> Value<Vec<(i64, Jet)>> {
-        match component {
-            Expr::Closure(closure) => {
-                let indices = self.point.visited(0, self.block_size(block));
-                indices.into_iter().map(|index| Ok((index, self.closure(closure, &[index])?))).collect()
-            }
-            _ => Ok(vec![(0, self.number(component)?)]),
-        }
     }
 
     /// The rate of the physical time, and the energy that is conjugate to it.
@@ -256,6 +214,10 @@ impl<'a> Evaluation<'a> {
     }
 
     pub(super) fn number(&mut self, syntax: &Expr) -> Value<Jet> {
+        Ok(self.quantity(syntax)?.number(syntax))
+    }
+
+    fn quantity(&mut self, syntax: &Expr) -> Value<Quantity> {
         step();
         self.budget = self.budget.checked_sub(1).ok_or(NoValue::TooLong)?;
         let value = self.evaluate(syntax)?;
@@ -263,40 +225,48 @@ impl<'a> Evaluation<'a> {
         Ok(value)
     }
 
-    fn evaluate(&mut self, syntax: &Expr) -> Value<Jet> {
+    fn evaluate(&mut self, syntax: &Expr) -> Value<Quantity> {
+        let number = |jet| Ok(Quantity::Number(jet));
         match syntax {
-            Expr::Lit(literal) => Ok(Jet::number(literal_number(&literal.lit))),
-            Expr::Paren(inner) => self.number(&inner.expr),
-            Expr::Unary(unary) => Ok(self.number(&unary.expr)?.scaled(-1.0)),
+            Expr::Lit(literal) => number(Jet::number(literal_number(&literal.lit))),
+            Expr::Paren(inner) => self.quantity(&inner.expr),
+            Expr::Unary(unary) => Ok(self.quantity(&unary.expr)?.map(|jet| jet.clone().scaled(-1.0))),
             Expr::Binary(binary) => {
-                let (left, right) = (self.number(&binary.left)?, self.number(&binary.right)?);
+                let (left, right) = (self.quantity(&binary.left)?, self.quantity(&binary.right)?);
                 match binary.op {
-                    BinOp::Add(_) => Ok(left.plus(&right)),
-                    BinOp::Sub(_) => Ok(left.minus(right)),
-                    BinOp::Mul(_) => Ok(left.times(&right)),
-                    BinOp::Div(_) => Ok(left.times(&right.reciprocal())),
+                    BinOp::Add(_) => Ok(left.with(&right, |a, b| a.clone().plus(b))),
+                    BinOp::Sub(_) => Ok(left.with(&right, |a, b| a.clone().minus(b.clone()))),
+                    BinOp::Mul(_) => Ok(self.scaled(left, &right, false)),
+                    BinOp::Div(_) => Ok(self.scaled(left, &right, true)),
                     _ => unknown(syntax),
                 }
+            }
+            Expr::Array(list) => {
+                let components: Result<Vec<Jet>, _> =
+                    list.elems.iter().map(|component| self.number(component)).collect();
+                Ok(Quantity::Vector(components?))
             }
             Expr::Path(path) => self.name(syntax, &path.path),
             Expr::Field(_) | Expr::Index(_) => self.entry(syntax),
             Expr::MethodCall(call) => self.method(call),
             Expr::Call(call) => self.call(call),
-            Expr::Cast(cast) if self.is_index(&cast.expr) => Ok(Jet::number(self.index(&cast.expr)? as f64)),
-            Expr::Cast(cast) => self.number(&cast.expr),
+            Expr::Cast(cast) if self.is_index(&cast.expr) => {
+                number(Jet::number(self.index(&cast.expr)? as f64))
+            }
+            Expr::Cast(cast) => number(self.number(&cast.expr)?),
             Expr::Block(block) => self.statements(&block.block),
             Expr::If(choice) => {
                 let Some((_, otherwise)) = &choice.else_branch else { unknown(syntax) };
                 match self.holds(&choice.cond)? {
                     true => self.statements(&choice.then_branch),
-                    false => self.number(otherwise),
+                    false => self.quantity(otherwise),
                 }
             }
             _ => unknown(syntax),
         }
     }
 
-    fn statements(&mut self, block: &syn::Block) -> Value<Jet> {
+    fn statements(&mut self, block: &syn::Block) -> Value<Quantity> {
         let outside = self.scope.len();
         let mut value = None;
         for statement in &block.stmts {
@@ -305,7 +275,7 @@ impl<'a> Evaluation<'a> {
                     let Some(init) = &local.init else { unknown(local) };
                     self.binding(&local.pat, &init.expr)?;
                 }
-                Stmt::Expr(expr, None) => value = Some(self.number(expr)?),
+                Stmt::Expr(expr, None) => value = Some(self.quantity(expr)?),
                 _ => unknown(statement),
             }
         }
@@ -355,10 +325,10 @@ impl<'a> Evaluation<'a> {
         self.scope.bindings.get(name).and_then(|bindings| bindings.last()).cloned()
     }
 
-    fn name(&mut self, syntax: &Expr, path: &syn::Path) -> Value<Jet> {
+    fn name(&mut self, syntax: &Expr, path: &syn::Path) -> Value<Quantity> {
         let text = self.texts.of(syntax, || written(path));
         match self.bound(&text) {
-            Some(Binding::Number(value) | Binding::Argument(Some(value), _)) => return Ok(value),
+            Some(Binding::Value(value) | Binding::Argument(Some(value), _)) => return Ok(value),
             Some(Binding::Shared(shared)) => return self.shared(shared),
             Some(Binding::Argument(None, _) | Binding::Index(_) | Binding::Function(..)) | None => {}
         }
@@ -366,15 +336,15 @@ impl<'a> Evaluation<'a> {
             return self.entry(syntax);
         }
         if let Some(size) = self.size(&text) {
-            return Ok(Jet::number(size as f64));
+            return Ok(Quantity::Number(Jet::number(size as f64)));
         }
         if let Some(value) = constant(&text) {
-            return Ok(Jet::number(value));
+            return Ok(Quantity::Number(Jet::number(value)));
         }
         match &*text {
             "t" => {
                 let time = Jet::variable(self.point.time(), [0.0, 0.0, 1.0, 0.0], [0.0; 2]);
-                Ok(if self.moves { time.moving(Jet::number(1.0)) } else { time })
+                Ok(Quantity::Number(if self.moves { time.moving(Jet::number(1.0)) } else { time }))
             }
             _ => unknown(syntax),
         }
@@ -398,59 +368,6 @@ impl<'a> Evaluation<'a> {
             Some(size) => size,
             None => internal("a size without a value"),
         }
-    }
-
-    /// A coordinate or an entry of a parameter: the kind of thing that `d(·)` may stand around.
-    fn entry(&mut self, syntax: &Expr) -> Value<Jet> {
-        let (name, indices) = self.place(syntax)?;
-        match (self.block(&name), indices.as_slice()) {
-            (Some(block), []) => self.variable(Variable::Position, block, 0),
-            (Some(block), [index]) => self.variable(Variable::Position, block, *index),
-            (Some(_), _) => unknown(syntax),
-            (None, _) if indices.iter().any(|index| *index < 0) => Err(NoValue::OutOfRange),
-            (None, _) => match self.parameter(&name) {
-                Some(name) => Ok(Jet::number(self.point.parameter(name, &indices))),
-                None => unknown(syntax),
-            },
-        }
-    }
-
-    /// The name of `x`, `self.x`, `x[i]`, `x[i][j]`, with its indices.
-    fn place(&mut self, syntax: &Expr) -> Value<(Rc<str>, Vec<i64>)> {
-        match syntax {
-            Expr::Path(_) | Expr::Field(_) => Ok((self.texts.of(syntax, || place_text(syntax)), Vec::new())),
-            Expr::Index(index) => {
-                let (name, mut indices) = self.place(&index.expr)?;
-                indices.push(self.index(&index.index)?);
-                Ok((name, indices))
-            }
-            Expr::Paren(inner) => self.place(&inner.expr),
-            _ => unknown(syntax),
-        }
-    }
-
-    fn variable(&self, kind: Variable, block: usize, index: i64) -> Value<Jet> {
-        if !(0..self.block_size(block)).contains(&index) {
-            return Err(NoValue::OutOfRange);
-        }
-        if kind == Variable::Velocity && self.is_still {
-            return Ok(Jet::number(0.0));
-        }
-        let value = self.point.variable(kind, block, index);
-        let a = self.point.direction(self.directions.first, false, block, index);
-        let b = self.point.direction(self.directions.second, true, block, index);
-        Ok(match kind {
-            Variable::Position => {
-                let a = if self.follows { self.point.variable(Variable::Velocity, block, index) } else { a };
-                let position = Jet::variable(value, [a, 0.0, 0.0, 0.0], [b, 0.0]);
-                if self.moves {
-                    position.moving(self.variable(Variable::Velocity, block, index)?)
-                } else {
-                    position
-                }
-            }
-            Variable::Velocity => Jet::variable(value, [0.0, a, 0.0, value], [0.0, b]),
-        })
     }
 }
 

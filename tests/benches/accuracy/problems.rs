@@ -133,10 +133,8 @@ pub(crate) fn planets() -> Problem {
     let mut methods = separable!(on, 4e6, 3e4);
     methods.extend(gauss!(on, 4e5, 4e4, 2e4, 5e3));
     methods.extend(galerkin!(on, 2e4, 5e3));
-    let flat = |x: [f64; 6], y: [f64; 6], z: [f64; 6]| -> [f64; 18] {
-        std::array::from_fn(|i| [x, y, z][i / 6][i % 6])
-    };
-    let (q, v) = (flat(at.x, at.y, at.z), flat(at.dot_x, at.dot_y, at.dot_z));
+    let flat = |of: [[f64; 3]; 6]| -> [f64; 18] { std::array::from_fn(|i| of[i % 6][i / 6]) };
+    let (q, v) = (flat(at.r), flat(at.dot_r));
     let start: [f64; 36] = std::array::from_fn(|i| if i < 18 { q[i] } else { v[i - 18] });
     methods.push(rk4(field.clone(), start, end, scale, coarse(8e5)));
     methods.push(kahan_li(field.clone(), [q, v], end, scale, fine(3e4)));

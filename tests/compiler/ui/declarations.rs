@@ -54,12 +54,12 @@ mod empty_coordinates {
     }
 }
 
-mod two_sizes {
+mod three_sizes {
     use super::*;
-    #[degenerate_lagrangian(coordinates(x[4][4], y), one_form = x * d(y), hamiltonian = x * y)]
+    #[degenerate_lagrangian(coordinates(x[4][4][4], y), one_form = x * d(y), hamiltonian = x * y)]
     pub struct System;
     pub fn run() {
-        let state = SystemState { x: [[1.0; 4]; 4], y: 0.0 };
+        let state = SystemState { x: [[[1.0; 4]; 4]; 4], y: 0.0 };
         let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
     }
 }

@@ -260,7 +260,7 @@ mod index_of_an_expression {
     #[degenerate_lagrangian(
         coordinates(x[4], y[4]),
         one_form = sum(0..4, |j| x[j] * d(y[j])),
-        hamiltonian = (x + y)[0],
+        hamiltonian = (x[0] + y[0])[0],
     )]
     pub struct System;
     pub fn run() {

@@ -129,9 +129,10 @@ fn nine_nodes_keep_the_energy_to_rounding() -> Outcome {
 
 /// Bodies at rest, side by side.
 fn row<const N: usize>() -> (Bodies<N>, BodiesState<N>) {
-    let row = |scale: f64| core::array::from_fn(|j| scale * (j as f64 + 0.1 * ((j * j) as f64).sin()));
-    let (x, y, z, rest) = (row(1.0), row(0.2), row(-0.1), [0.0; N]);
-    (Bodies { g: 1e-3, mass: [1.0; N] }, BodiesState { x, y, z, dot_x: rest, dot_y: rest, dot_z: rest })
+    let r = core::array::from_fn(|j| {
+        [1.0, 0.2, -0.1].map(|scale| scale * (j as f64 + 0.1 * ((j * j) as f64).sin()))
+    });
+    (Bodies { g: 1e-3, mass: [1.0; N] }, BodiesState { r, dot_r: [[0.0; 3]; N] })
 }
 
 #[test]

@@ -17,9 +17,16 @@ enum Known {
 /// A system without formulas.
 pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
     let known = *random.pick(&[Known::Literal, Known::Constant, Known::RunTime, Known::Mixed]);
-    let sizes = sizes(random, known);
-    let fields = fields(random, &sizes);
-    let blocks = blocks(random, regular, &sizes);
+    let mut sizes = sizes(random, known);
+    let width = if random.chance(35) { 2 + random.below(2) } else { 0 };
+    if width > 0 {
+        sizes.push(Size { kind: SizeKind::Literal, value: width as i64 });
+    }
+    let fields = fields(random, &sizes, width);
+    let blocks = match width {
+        0 => blocks(random, regular, &sizes),
+        width => vectors(random, regular, width, sizes.len() - 1),
+    };
     let dynamics = Dynamics::Regular(Formula::Time);
     let (gauge, time_transform) = (Gauge::None, None);
     let (forces, constraints, momenta) = (Vec::new(), Vec::new(), Vec::new());
@@ -28,6 +35,7 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
         sizes,
         fields,
         blocks,
+        width,
         dynamics,
         gauge,
         time_transform,
@@ -63,7 +71,7 @@ fn sizes(random: &mut Random, known: Known) -> Vec<Size> {
     sizes
 }
 
-fn fields(random: &mut Random, sizes: &[Size]) -> Vec<Field> {
+fn fields(random: &mut Random, sizes: &[Size], width: usize) -> Vec<Field> {
     let on_stack = |size: &usize| matches!(sizes[*size].kind, SizeKind::Literal | SizeKind::Constant(_));
     let entries = |random: &mut Random, container: Container, shape: &[usize]| {
         let count: i64 = shape.iter().map(|size| sizes[*size].value).product();
@@ -99,11 +107,41 @@ fn fields(random: &mut Random, sizes: &[Size]) -> Vec<Field> {
         let container = *random.pick(&[Container::Vector, Container::Slice]);
         declare(random, "g", container, vec![size]);
     }
+    if width > 0 {
+        let (size, of) = (random.below(2), sizes.len() - 1);
+        let container = match on_stack(&size) && random.chance(60) {
+            true => Container::Matrix,
+            false => Container::VectorOfArrays,
+        };
+        declare(random, "h", container, vec![size, of]);
+        declare(random, "f", Container::Array, vec![of]);
+    }
     fields
 }
 
+/// Coordinates with vectors among them; `of` is the size with their number of components.
+fn vectors(random: &mut Random, regular: bool, width: usize, of: usize) -> Vec<Block> {
+    let block = |name, size, axis| Block { name, size, axis };
+    let array = |name, size| (0..width).map(move |axis| block(name, Some(size), Some([axis, width])));
+    let whole = |name| block(name, Some(of), None);
+    let singles = [block("u", None, None), block("w", None, None)];
+    match (regular, random.below(4)) {
+        (true, 0) => array("r", 0).collect(),
+        (true, 1) => array("r", 0).chain([whole("q"), block("u", None, None)]).collect(),
+        (true, 2) => vec![block("u", None, None), whole("q")],
+        (true, _) => [block("x", Some(0), None)].into_iter().chain(array("r", 1)).collect(),
+        (false, 0) => array("r", 0).chain(array("z", 0)).collect(),
+        (false, 1) => vec![whole("q"), whole("p")],
+        (false, 2) => singles.into_iter().chain(array("r", 1)).chain(array("z", 1)).collect(),
+        (false, _) if width == 2 => array("r", 0).chain([whole("q"), whole("p")]).collect(),
+        (false, _) => {
+            [whole("q"), whole("p")].into_iter().chain(array("r", 1)).chain(array("z", 1)).collect()
+        }
+    }
+}
+
 fn blocks(random: &mut Random, regular: bool, sizes: &[Size]) -> Vec<Block> {
-    let block = |name, size| Block { name, size };
+    let block = |name, size| Block { name, size, axis: None };
     let square = sizes.iter().position(|size| matches!(size.kind, SizeKind::Product(..)));
     if square.is_some() && random.chance(60) {
         return vec![block("x", square), block("y", square)];

@@ -12,6 +12,12 @@ impl Generator<'_> {
         }
         self.budget -= 1;
         let less = depth - 1;
+        if self.system.width > 0
+            && self.random.chance(20)
+            && let Some(velocity) = self.vector_coordinate(scope, Formula::VectorVelocity)
+        {
+            return self.vector(scope, less.min(2)).dot(velocity);
+        }
         match self.random.below(12) {
             0..=4 => {
                 let loops = self.any_sum();
@@ -37,8 +43,8 @@ impl Generator<'_> {
             }
             10 => {
                 let value = self.value(scope, less);
-                let body = self.form(&scope.with_name(), less);
-                Formula::Let(scope.names, Box::new(value), Box::new(body))
+                let body = self.form(&scope.with_name(&value), less);
+                Formula::Let(scope.names.len(), Box::new(value), Box::new(body))
             }
             _ => self.value(scope, less.min(2)).times(self.velocity(scope)),
         }
@@ -109,9 +115,20 @@ impl Generator<'_> {
 
     /// ½ m v² for each velocity.
     pub(super) fn kinetic(&mut self) -> Formula {
-        let blocks = self.system.blocks.len();
-        let terms: Vec<Formula> = (0..blocks).map(|block| self.kinetic_of(block)).collect();
+        let coordinates = self.system.coordinates();
+        let terms = coordinates.into_iter().flat_map(|first| self.kinetic_along(first)).collect::<Vec<_>>();
         terms.into_iter().reduce(Formula::plus).expect("a system has coordinates")
+    }
+
+    /// That of all components of a coordinate, one by one or of the vector.
+    fn kinetic_along(&mut self, first: usize) -> Vec<Formula> {
+        let axes = self.system.axes(first);
+        if axes == 1 || self.random.chance(30) {
+            return (first..first + axes).map(|block| self.kinetic_of(block)).collect();
+        }
+        let velocity = Formula::VectorVelocity(first, Some(Index::bound(0)));
+        let square = Formula::NormSquared(Box::new(velocity)).over(Formula::Number("2.0"));
+        vec![self.over(self.system.blocks[first].size, square)]
     }
 
     fn kinetic_of(&mut self, block: usize) -> Formula {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Generator;
 use crate::oracle_tests::formula::{Atom, Formula, Index, Loops};
+use crate::oracle_tests::random::Random;
 use crate::oracle_tests::system::{SizeKind, System};
 
 /// What is bound around a formula.
@@ -13,8 +14,8 @@ pub(super) struct Scope {
     values: Vec<Vec<i64>>,
     /// The number of bound indices.
     pub(super) level: usize,
-    /// The number of names of `let`.
-    pub(super) names: usize,
+    /// Whether each name of a `let` is that of a vector.
+    pub(super) names: Vec<bool>,
 }
 
 /// No sum in sums runs over more terms.
@@ -23,7 +24,7 @@ const DEEPEST: usize = 5;
 
 impl Scope {
     pub(super) fn outside() -> Self {
-        Self { values: vec![Vec::new()], level: 0, names: 0 }
+        Self { values: vec![Vec::new()], level: 0, names: Vec::new() }
     }
 
     pub(super) fn over(&self, range: Range<i64>) -> Self {
@@ -34,12 +35,22 @@ impl Scope {
         Self {
             values: self.values.iter().flat_map(extended).collect(),
             level: self.level + 1,
-            names: self.names,
+            names: self.names.clone(),
         }
     }
 
-    pub(super) fn with_name(&self) -> Self {
-        Self { names: self.names + 1, ..self.clone() }
+    /// With a name for this value.
+    pub(super) fn with_name(&self, value: &Formula) -> Self {
+        let mut scope = self.clone();
+        scope.names.push(value.is_vector());
+        scope
+    }
+
+    /// A name for a vector, or for a number.
+    pub(super) fn name(&self, random: &mut Random, is_vector: bool) -> Option<usize> {
+        let names = self.names.iter().enumerate().filter(|(_, known)| **known == is_vector);
+        let names: Vec<usize> = names.map(|(name, _)| name).collect();
+        (!names.is_empty()).then(|| *random.pick(&names))
     }
 
     /// The scope of the body of a sum, or `None` if it has no terms or too many.
@@ -61,7 +72,7 @@ impl Scope {
         }
         let level = self.level + if matches!(loops, Loops::Single | Loops::Product) { 1 } else { 2 };
         let fits = !values.is_empty() && values.len() <= MOST_TERMS && level <= DEEPEST;
-        fits.then_some(Self { values, level, names: self.names })
+        fits.then_some(Self { values, level, names: self.names.clone() })
     }
 
     /// Whether a formula that was written elsewhere has a meaning here: its names are known and all of its
@@ -70,19 +81,23 @@ impl Scope {
         let sizes = system.size_values();
         let admits = |index: &Index, size: usize| self.admits(index, sizes[size], &sizes);
         let here = match formula {
-            Formula::Coordinate(block, index) | Formula::Velocity(block, index) => system.blocks[*block]
+            Formula::Coordinate(block, index)
+            | Formula::Velocity(block, index)
+            | Formula::Vector(block, index)
+            | Formula::VectorVelocity(block, index) => system.blocks[*block]
                 .size
                 .zip(index.as_ref())
                 .is_none_or(|(size, index)| admits(index, size)),
-            Formula::Parameter(field, indices) => {
+            Formula::Parameter(field, indices) | Formula::VectorParameter(field, indices) => {
                 indices.iter().zip(&system.fields[*field].shape).all(|(index, size)| admits(index, *size))
             }
             Formula::Count(index) => self.admits(index, i64::MAX, &sizes),
-            Formula::Name(name) => *name < self.names,
+            Formula::Name(name) => self.names.get(*name) == Some(&false),
+            Formula::VectorName(name) => self.names.get(*name) == Some(&true),
             Formula::Let(name, value, body) => {
-                return *name == self.names
+                return *name == self.names.len()
                     && self.admits_formula(value, system)
-                    && self.with_name().admits_formula(body, system);
+                    && self.with_name(value).admits_formula(body, system);
             }
             Formula::Sum(loops, level, lower, upper, body) => {
                 let inside = || self.inside(*loops, lower, upper, &sizes);
@@ -171,8 +186,7 @@ impl Generator<'_> {
         if scope.level == 0 {
             return if self.random.chance(15) { length.plus(-1) } else { entry };
         }
-        let bound =
-            |random: &mut crate::oracle_tests::random::Random| Atom::Bound(random.below(scope.level));
+        let bound = |random: &mut Random| Atom::Bound(random.below(scope.level));
         let (i, j) = (bound(self.random), bound(self.random));
         let j_alone = Index::atom(j.clone());
         let shift = self.random.below(5) as i64 - 2;

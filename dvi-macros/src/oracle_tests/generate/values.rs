@@ -34,6 +34,9 @@ impl Generator<'_> {
     }
 
     fn new_value(&mut self, scope: &Scope, less: usize) -> Formula {
+        if self.system.width > 0 && self.random.chance(30) {
+            return self.of_vectors(scope, less);
+        }
         match self.random.below(100) {
             0..=25 => self.sum(scope, less),
             26..=37 => {
@@ -87,8 +90,8 @@ impl Generator<'_> {
             }
             82..=86 => {
                 let value = self.value(scope, less);
-                let body = self.value(&scope.with_name(), less);
-                Formula::Let(scope.names, Box::new(value), Box::new(body))
+                let body = self.value(&scope.with_name(&value), less);
+                Formula::Let(scope.names.len(), Box::new(value), Box::new(body))
             }
             87 => Formula::MultiplyAdd(
                 Box::new(self.value(scope, less)),
@@ -144,7 +147,10 @@ impl Generator<'_> {
             2..=5 => self.parameter(scope),
             6 if scope.level > 0 => Formula::Count(self.count(scope)),
             7 => Formula::Pi,
-            8..=10 if scope.names > 0 => Formula::Name(self.random.below(scope.names)),
+            8..=10 => match scope.name(self.random, false) {
+                Some(name) => Formula::Name(name),
+                None => self.coordinate(scope),
+            },
             11..=13 if self.velocities == Velocities::Any => self.velocity(scope),
             _ => self.coordinate(scope),
         }

@@ -60,11 +60,15 @@ impl Formula {
             levels.extend(part.open_levels()?);
         }
         let own: Vec<&Index> = match self {
-            Self::Name(_) => return None,
-            Self::Coordinate(_, Some(index)) | Self::Velocity(_, Some(index)) | Self::Count(index) => {
+            Self::Name(_) | Self::VectorName(_) => return None,
+            Self::Coordinate(_, Some(index))
+            | Self::Velocity(_, Some(index))
+            | Self::Vector(_, Some(index))
+            | Self::VectorVelocity(_, Some(index))
+            | Self::Count(index) => {
                 vec![index]
             }
-            Self::Parameter(_, indices) => indices.iter().collect(),
+            Self::Parameter(_, indices) | Self::VectorParameter(_, indices) => indices.iter().collect(),
             Self::Sum(loops, level, lower, upper, _) => {
                 let bound = if matches!(loops, Loops::Single | Loops::Product) { 1 } else { 2 };
                 levels.retain(|open| !(*level..level + bound).contains(open));

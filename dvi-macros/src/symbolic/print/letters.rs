@@ -133,7 +133,11 @@ impl Letters<'_> {
         let (name, is_array) = self.names.coordinate(coordinate.block);
         match (self.name(&name), is_array, entry) {
             (name, _, Some(entry)) => format!("{name}[{}][{}]", entry / 3, entry % 3),
-            (name, true, None) => format!("{name}[{}]", self.index(&coordinate.index)),
+            (name, true, None) => {
+                let component = self.names.component(coordinate.block);
+                let component = component.map_or_else(String::new, |component| format!("[{component}]"));
+                format!("{name}[{}]{component}", self.index(&coordinate.index))
+            }
             (name, false, None) => name,
         }
     }

@@ -7,13 +7,18 @@ use super::super::functions;
 use super::super::jet::Jet;
 use super::super::point::Variable;
 use super::words::{exponent, pattern};
-use super::{Binding, Evaluation, Value, unknown, written};
+use super::{Binding, Evaluation, Quantity, Value, unknown, written};
 
 impl Evaluation<'_> {
-    pub(super) fn method(&mut self, call: &ExprMethodCall) -> Value<Jet> {
+    pub(super) fn method(&mut self, call: &ExprMethodCall) -> Value<Quantity> {
         let name = self.texts.of(call, || call.method.to_string());
-        let receiver = self.number(&call.receiver)?;
-        self.function(call, &name, receiver, &call.args.iter().collect::<Vec<_>>())
+        let receiver = self.quantity(&call.receiver)?;
+        if let Some(value) = self.vector_method(&name, call, &receiver)? {
+            return Ok(value);
+        }
+        let receiver = receiver.number(&call.receiver);
+        let value = self.function(call, &name, receiver, &call.args.iter().collect::<Vec<_>>())?;
+        Ok(Quantity::Number(value))
     }
 
     /// A function of the language by its name.
@@ -58,48 +63,62 @@ impl Evaluation<'_> {
         Ok(value)
     }
 
-    pub(super) fn call(&mut self, call: &ExprCall) -> Value<Jet> {
+    pub(super) fn call(&mut self, call: &ExprCall) -> Value<Quantity> {
+        let number = |jet| Ok(Quantity::Number(jet));
         let name = self.texts.of(call, || written(&call.func));
         if let Some(Binding::Function(closure, sees)) = self.bound(&name) {
             return self.call_function(&closure, sees, &call.args);
         }
-        if let Some(number) = self.functions.iter().position(|function| *function == name) {
+        if let Some(function) = self.functions.iter().position(|function| *function == name) {
             let argument = self.number(&call.args[0])?;
-            return Ok(functions::own(number, &argument));
+            return Ok(Quantity::Number(functions::own(function, &argument)));
         }
-        if let Some(number) = self.model.scalar_fields.iter().position(|field| field.text == *name) {
+        if let Some(field) = self.model.scalar_fields.iter().position(|field| field.text == *name) {
             let at: Result<Vec<Jet>, _> = call.args.iter().map(|argument| self.number(argument)).collect();
-            return Ok(functions::scalar_field(number, &at?));
+            return number(functions::scalar_field(field, &at?));
         }
         match &*name {
             "sum" | "product" | "sum_pairs" | "sum_ordered_pairs" => self.fold(&name, call),
             "d" | "dot" => {
-                let (name, indices) = self.place(&call.args[0])?;
-                let Some(block) = self.block(&name) else { unknown(call) };
-                self.variable(Variable::Velocity, block, indices.first().copied().unwrap_or(0))
+                let of = &call.args[0];
+                let Some((name, indices)) = self.place(of)? else { unknown(call) };
+                if self.block(&name).is_none() {
+                    unknown(call)
+                }
+                self.at_place(Variable::Velocity, of, &name, &indices)
             }
             // `f64::sin(x)` is `x.sin()`.
             _ => match name.strip_prefix("f64::").or_else(|| name.strip_prefix("f32::")) {
                 Some(method) => {
                     let receiver = self.number(&call.args[0])?;
-                    self.function(call, method, receiver, &call.args.iter().skip(1).collect::<Vec<_>>())
+                    number(self.function(
+                        call,
+                        method,
+                        receiver,
+                        &call.args.iter().skip(1).collect::<Vec<_>>(),
+                    )?)
                 }
                 None => unknown(call),
             },
         }
     }
 
-    fn fold(&mut self, name: &str, call: &ExprCall) -> Value<Jet> {
+    fn fold(&mut self, name: &str, call: &ExprCall) -> Value<Quantity> {
         let (Expr::Range(range), Expr::Closure(closure)) = (&call.args[0], &call.args[1]) else {
             unknown(call)
         };
         let (lower, upper) = self.bounds(range)?;
-        let mut total = if name == "product" { Jet::number(1.0) } else { Jet::empty_sum() };
+        let mut total = match name {
+            "product" => Quantity::Number(Jet::number(1.0)),
+            _ => Quantity::Empty(Jet::empty_sum()),
+        };
+        let plus = |a: &Jet, b: &Jet| a.clone().plus(b);
         for first in self.point.visited(lower, upper) {
             let seconds = match name {
                 "sum" | "product" => {
                     let term = self.closure(closure, &[first])?;
-                    total = if name == "sum" { total.plus(&term) } else { total.times(&term) };
+                    total =
+                        if name == "sum" { total.with(&term, plus) } else { total.with(&term, Jet::times) };
                     continue;
                 }
                 "sum_pairs" => self.point.visited(first + 1, upper),
@@ -108,7 +127,7 @@ impl Evaluation<'_> {
                 }
             };
             for second in seconds {
-                total = total.plus(&self.closure(closure, &[first, second])?);
+                total = total.with(&self.closure(closure, &[first, second])?, plus);
             }
         }
         Ok(total)
@@ -125,14 +144,14 @@ impl Evaluation<'_> {
         })
     }
 
-    pub(super) fn closure(&mut self, closure: &syn::ExprClosure, indices: &[i64]) -> Value<Jet> {
+    pub(super) fn closure(&mut self, closure: &syn::ExprClosure, indices: &[i64]) -> Value<Quantity> {
         let outside = self.scope.len();
         for (input, index) in closure.inputs.iter().zip(indices) {
             let name = self.texts.of(input, || pattern(input));
             self.scope.push(name, Binding::Index(*index));
         }
         self.closures += 1;
-        let value = self.number(&closure.body);
+        let value = self.quantity(&closure.body);
         self.closures -= 1;
         self.scope.truncate(outside);
         value

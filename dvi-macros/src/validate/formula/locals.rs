@@ -4,9 +4,8 @@ use syn::punctuated::Punctuated;
 use syn::{BinOp, Expr, ExprClosure, Lit, Local, Pat, Token};
 
 use super::super::functions;
-use super::super::jet::Jet;
 use super::words::pattern;
-use super::{Binding, Evaluation, Shared, Value, place_text, unknown, written};
+use super::{Binding, Evaluation, Quantity, Shared, Value, place_text, unknown, written};
 use crate::syntax::{closure, value};
 
 impl<'a> Evaluation<'a> {
@@ -26,7 +25,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// What a shared name stands for, found where it is first used: it sees the names before it.
-    pub(super) fn shared(&mut self, Shared { names, init, sees, part }: Shared<'a>) -> Value<Jet> {
+    pub(super) fn shared(&mut self, Shared { names, init, sees, part }: Shared<'a>) -> Value<Quantity> {
         let key = (std::ptr::from_ref(init) as usize, [self.is_still, self.moves, self.follows]);
         if let Some(values) = self.known.get(&key) {
             return Ok(values[part].clone());
@@ -47,7 +46,7 @@ impl<'a> Evaluation<'a> {
         }
         let values = self.values(names, init)?;
         for (name, value) in parts(names).into_iter().zip(values) {
-            self.bind(name, Binding::Number(value));
+            self.bind(name, Binding::Value(value));
         }
         Ok(())
     }
@@ -58,18 +57,18 @@ impl<'a> Evaluation<'a> {
     }
 
     /// As many values as there are names.
-    fn values(&mut self, names: &Pat, init: &Expr) -> Value<Vec<Jet>> {
+    fn values(&mut self, names: &Pat, init: &Expr) -> Value<Vec<Quantity>> {
         match (names, init) {
             (_, Expr::Paren(inner)) => self.values(names, &inner.expr),
             (Pat::Tuple(_), Expr::Tuple(values)) => {
-                values.elems.iter().map(|value| self.number(value)).collect()
+                values.elems.iter().map(|value| self.quantity(value)).collect()
             }
             (Pat::Tuple(_), Expr::MethodCall(call)) => {
                 let x = self.number(&call.receiver)?;
                 let function = |name| functions::unary(name, &x).unwrap_or_else(|| unknown(call));
-                Ok(vec![function("sin"), function("cos")])
+                Ok(["sin", "cos"].map(|name| Quantity::Number(function(name))).into())
             }
-            _ => Ok(vec![self.number(init)?]),
+            _ => Ok(vec![self.quantity(init)?]),
         }
     }
 
@@ -84,7 +83,7 @@ impl<'a> Evaluation<'a> {
         closure: &ExprClosure,
         sees: usize,
         arguments: &Punctuated<Expr, Token![,]>,
-    ) -> Value<Jet> {
+    ) -> Value<Quantity> {
         let mut bindings = Vec::new();
         for argument in arguments {
             bindings.push(self.argument(argument)?);
@@ -93,7 +92,7 @@ impl<'a> Evaluation<'a> {
         for (input, binding) in closure.inputs.iter().zip(bindings) {
             self.bind(input, binding);
         }
-        let value = self.number(&closure.body);
+        let value = self.quantity(&closure.body);
         self.scope.truncate(sees);
         self.scope.put_back(aside);
         value
@@ -102,7 +101,7 @@ impl<'a> Evaluation<'a> {
     /// An argument as a number and as an index, as far as it is one.
     fn argument(&mut self, syntax: &Expr) -> Value<Binding<'a>> {
         let index = if self.is_integer(syntax) { Some(self.index(syntax)?) } else { None };
-        let number = if self.is_number(syntax) { Some(self.number(syntax)?) } else { None };
+        let number = if self.is_number(syntax) { Some(self.quantity(syntax)?) } else { None };
         Ok(Binding::Argument(number, index))
     }
 
@@ -120,7 +119,7 @@ impl<'a> Evaluation<'a> {
                 match self.bound(&text) {
                     Some(Binding::Index(_) | Binding::Argument(_, Some(_))) => true,
                     Some(
-                        Binding::Number(_)
+                        Binding::Value(_)
                         | Binding::Shared(_)
                         | Binding::Argument(_, None)
                         | Binding::Function(..),

@@ -123,11 +123,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     ),
     mistake("program/degenerate.rs", "value: «part.value.negated()»", "part.value"),
     mistake("program.rs", "known.value = «graph.add(known.value, other.value)»", "other.value"),
-    mistake(
-        "lower/components.rs",
-        "self.component(block, formula, Role::Force)?",
-        "Component { block: 0, ..self.component(block, formula, Role::Force)? }",
-    ),
+    mistake("lower/components.rs", "self.along(«blocks», formula, Role::Force)", "0..1"),
     mistake(
         "structure/mass.rs",
         "constant && !formulas.force.iter().any(|part| depends_on_velocity(graph, part))",
@@ -146,6 +142,10 @@ pub(crate) const MISTAKES: &[Mistake] = &[
         "constraint: number as u32, member: «constraint.member.clone()»",
         "Index::literal(0)",
     ),
+    // Vectors.
+    mistake("lower/vectors.rs", "minor(a2, a0, «b2, b0»)", "b0, b2"),
+    mistake("lower/vectors.rs", "let term = self.graph.multiply(*a, «*b»);", "*a"),
+    mistake("lower/names.rs", "self.coordinate_node(«first + number», index.clone())", "first"),
     mistake("lower/constraints.rs", "Index::open(0).plus(&over.range.lower, -1)", "Index::open(0)"),
     // Constraints of the velocities: derivatives with the weights of others, or without themselves, and
     // without those by velocities in families and sums.

@@ -59,6 +59,16 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
              + sum(0..M, |j| dot(y[j]).powi(2) + y[j].sin())",
         "struct TwoSizes<const N: usize, const M: usize>;",
     ),
+    (
+        "regular",
+        "coordinates(r[N][3], q[3]), lagrangian = {
+             let gap = |i, j| r[i] - r[j];
+             sum(0..N, |i| m[i] / 2.0 * dot(r[i]).norm_squared() + field.dot(r[i].cross(dot(r[i])))) + dot(q).norm_squared()
+                 + sum_pairs(0..N, |i, j| m[i] * m[j] / gap(i, j).norm()) - sum(0..N, |i| (r[i] - q).norm_squared())
+         },
+         force(r) = |i| if t > 0.5 { -dot(r[i]) } else { field / m[i] }, force(q) = -2.0 * dot(q)",
+        "struct Bodies<const N: usize> { m: [f64; N], field: [f64; 3] }",
+    ),
     // Powers that are differentiated as what they are.
     (
         "regular",

@@ -1,0 +1,114 @@
+//! Coordinates that are vectors: `r[n][3]` is a block for each component, `r[i][0]`, `r[i][1]`, `r[i][2]`, of
+//! which each has the n coordinates of its own one after the other, and all have one name.
+
+use std::ops::{Range, RangeInclusive};
+
+use syn::ext::IdentExt as _;
+use syn::{Expr, ExprLit, Ident, Lit};
+
+use super::{Block, Model, Shape};
+use crate::syntax::Factor;
+
+/// The numbers of components that a vector may have. Formulas have a term for each.
+pub(crate) const COMPONENTS: RangeInclusive<i64> = 2..=16;
+
+/// Which component of a vector the coordinates of a block are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Axis {
+    pub(crate) number: usize,
+    /// The number of components.
+    pub(crate) of: usize,
+}
+
+impl Block {
+    /// The entry at an index, as formulas have it.
+    pub(crate) fn entry(&self, index: &str) -> String {
+        let component = self.axis.map_or_else(String::new, |axis| format!("[{}]", axis.number));
+        match &self.array {
+            Some(_) => format!("{}[{index}]{component}", self.name.unraw()),
+            None => self.name.unraw().to_string(),
+        }
+    }
+
+    /// What is said of all its coordinates: `x`, or `r[i][0]` where others have the same name.
+    pub(crate) fn label(&self) -> String {
+        match self.axis {
+            Some(_) => self.entry("i"),
+            None => self.name.to_string(),
+        }
+    }
+}
+
+impl Model {
+    /// The blocks of each coordinate that was declared, or that a time transformation has added: one, or
+    /// those of the components of a vector.
+    pub(crate) fn coordinates(&self) -> Vec<Range<usize>> {
+        let is_first = |block: &usize| self.blocks[*block].axis.is_none_or(|axis| axis.number == 0);
+        (0..self.blocks.len()).filter(is_first).map(|first| self.coordinate_at(first)).collect()
+    }
+
+    /// The blocks of the coordinate that begins with this one.
+    pub(crate) fn coordinate_at(&self, first: usize) -> Range<usize> {
+        first..first + self.blocks[first].axis.map_or(1, |axis| axis.of)
+    }
+
+    /// The blocks of the coordinate of this name.
+    pub(crate) fn coordinate_of(&self, name: &Ident) -> Option<Range<usize>> {
+        let first = self.blocks.iter().position(|block| block.name == *name)?;
+        Some(self.coordinate_at(first))
+    }
+
+    /// The number of components of the coordinate that begins with this block, if it is a vector as a whole:
+    /// an array of a few.
+    pub(crate) fn whole(&self, block: usize) -> Option<i64> {
+        let Block { array, axis: None, factor: Factor::Line | Factor::Sphere, .. } = &self.blocks[block]
+        else {
+            return None;
+        };
+        let size = array.as_ref()?.0.as_literal()?;
+        COMPONENTS.contains(&size).then_some(size)
+    }
+
+    /// The names that are vectors, each with the number of indices that it is one with.
+    pub(crate) fn vectors(&self) -> Vec<(String, usize)> {
+        let coordinate = |blocks: Range<usize>| {
+            let block = &self.blocks[blocks.start];
+            let indices = block.axis.map(|_| 1).or_else(|| self.whole(blocks.start).map(|_| 0))?;
+            Some((block.name.to_string(), indices))
+        };
+        let parameters = self.parameters.iter().filter_map(|parameter| {
+            let (mut indices, mut shape) = (0, &parameter.shape);
+            while let Shape::Array(length, entry) = shape {
+                if length.is_some_and(|length| are_components(length, entry)) {
+                    return Some((parameter.text.clone(), indices));
+                }
+                (indices, shape) = (indices + 1, entry);
+            }
+            None
+        });
+        self.coordinates().into_iter().filter_map(coordinate).chain(parameters).collect()
+    }
+}
+
+/// Whether an array of so many of these is a vector: of numbers, for all that is known of their type.
+pub(crate) fn are_components(length: i64, entry: &Shape) -> bool {
+    COMPONENTS.contains(&length) && !matches!(entry, Shape::Array(..) | Shape::Other)
+}
+
+/// The number of components in `r[n][3]`.
+pub(super) fn components(name: &Ident, declared: &Expr) -> syn::Result<usize> {
+    let literal = match declared {
+        Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => value.base10_parse::<i64>().ok(),
+        _ => None,
+    };
+    let message = match literal {
+        Some(count) if COMPONENTS.contains(&count) => return Ok(count as usize),
+        Some(1) => format!("a vector has two components or more: an array of numbers is `{name}[n]`"),
+        _ => format!(
+            "the number of components of a vector is a literal from {} to {}: write `{name}[n][3]` for n vectors in space",
+            COMPONENTS.start(),
+            COMPONENTS.end()
+        ),
+    };
+    Err(syn::Error::new_spanned(declared, message))
+}
