@@ -105,6 +105,10 @@ macro_rules! scalar {
             fn sinc2(self) -> Self {
                 crate::scalar::sinc::bessel::<2, Self>(self)
             }
+            /// j₃(`self`)/`self`³: −1/`self` times the derivative of [`sinc2`](Self::sinc2).
+            fn sinc3(self) -> Self {
+                crate::scalar::sinc::bessel::<3, Self>(self)
+            }
             $($(#[$doc])* fn $name(self) -> Self;)*
         }
 

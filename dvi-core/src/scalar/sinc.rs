@@ -1,4 +1,4 @@
-//! λₙ(x) = jₙ(x)/xⁿ for the spherical Bessel functions j₀ to j₂, on every scalar: sinc x = λ₀, and λₙ' =
+//! λₙ(x) = jₙ(x)/xⁿ for the spherical Bessel functions j₀ to j₃, on every scalar: sinc x = λ₀, and λₙ' =
 //! −xλₙ₊₁ (Abramowitz & Stegun 1964, 10.1.2, 10.1.19 and 10.1.24).
 //!
 //! For |x| ≤ 2 it is the power series, beyond that the recursion from λ₋₁ = cos x, which loses digits
@@ -48,6 +48,7 @@ mod tests {
                 (near::<0, f64>(x), far::<0, f64>(x)),
                 (near::<1, f64>(x), far::<1, f64>(x)),
                 (near::<2, f64>(x), far::<2, f64>(x)),
+                (near::<3, f64>(x), far::<3, f64>(x)),
             ];
             for (n, (near, far)) in pairs.into_iter().enumerate() {
                 assert!((near - far).abs() < 4e-15, "λ{n}({x}) = {near} or {far}");
@@ -63,6 +64,7 @@ mod tests {
             (bessel::<0, f64>(x), 0.841_470_985),
             (bessel::<1, f64>(x), 0.301_168_679),
             (bessel::<2, f64>(x), 0.062_035_052),
+            (bessel::<3, f64>(x), 0.009_006_581),
             (bessel::<0, f64>(10.0), -0.054_402_111),
             (bessel::<1, f64>(10.0) * 10.0, 0.078_466_942),
             (bessel::<2, f64>(10.0) * 100.0, 0.077_942_194),

@@ -86,7 +86,7 @@ pub(crate) fn bessel(order: i32, x: f64) -> f64 {
         rule.map(|(node, weight)| ((f64::from(piece) + 0.5 + node / 2.0) / 64.0, weight / 128.0))
     });
     let integral: f64 = pieces.map(|(s, weight)| weight * (1.0 - s * s).powi(order) * (x * s).cos()).sum();
-    integral / [1.0, 2.0, 8.0, 48.0, 384.0][order as usize]
+    integral / [1.0, 2.0, 8.0, 48.0, 384.0, 3840.0][order as usize]
 }
 
 macro_rules! row {

@@ -290,7 +290,8 @@ impl Integral<'_> {
             | Unary::Sign
             | Unary::Sinc
             | Unary::Sinc1
-            | Unary::Sinc2 => return None,
+            | Unary::Sinc2
+            | Unary::Sinc3 => return None,
         })
     }
 

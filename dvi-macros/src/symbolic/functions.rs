@@ -96,9 +96,10 @@ functions! {
     "sign" Sign sign, [Odd Internal] |_graph, _u, _f| Expr::ZERO;
     "erf" Erf erf, [Odd Smooth BelowItsArgument] |graph, u, _f| { let g = graph.power(u, 2).negated(); graph.unary(Unary::Exp, g).scaled(FRAC_2_SQRT_PI) };
     "sinc" Sinc |x| bessel(0, x), [Even Smooth] |graph, u, _f| { let g = graph.unary(Unary::Sinc1, u); graph.multiply(u, g).negated() };
-    /// j₁(u)/u and j₂(u)/u², of which the derivatives of `sinc` are made.
+    /// j₁(u)/u, j₂(u)/u² and j₃(u)/u³, of which the derivatives of `sinc` are made; a gauge has its third.
     "sinc1" Sinc1 |x| bessel(1, x), [Even Smooth Internal] |graph, u, _f| { let g = graph.unary(Unary::Sinc2, u); graph.multiply(u, g).negated() };
-    "sinc2" Sinc2 |x| bessel(2, x), [Even Internal] |graph, u, f| { let g = graph.unary(Unary::Sinc1, u); let g = graph.subtract(g, f.scaled(5.0)); graph.divide(g, u) };
+    "sinc2" Sinc2 |x| bessel(2, x), [Even Smooth Internal] |graph, u, _f| { let g = graph.unary(Unary::Sinc3, u); graph.multiply(u, g).negated() };
+    "sinc3" Sinc3 |x| bessel(3, x), [Even Internal] |graph, u, f| { let g = graph.unary(Unary::Sinc2, u); let g = graph.subtract(g, f.scaled(7.0)); graph.divide(g, u) };
 }
 
 impl Unary {

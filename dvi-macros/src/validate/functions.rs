@@ -67,16 +67,20 @@ fn sinc(x: f64) -> Taylor {
     sums
 }
 
-/// −f′/x of the sinc function, and the same of that: by their power series, or from the derivatives.
-fn sinc_slope(order: u32, x: f64) -> f64 {
+/// −f′/x of the sinc function, the same of that, and of that: by their power series, or from the derivatives.
+fn sinc_slope(order: i32, x: f64) -> f64 {
     if x.abs() > 2.0 {
-        let [_, first, second, ..] = sinc(x);
-        return if order == 1 { -first / x } else { (second - first / x) / (x * x) };
+        let [_, first, second, third, _] = sinc(x);
+        return match order {
+            1 => -first / x,
+            2 => (second - first / x) / (x * x),
+            _ => -(third - 3.0 * (second - first / x) / x) / (x * x * x),
+        };
     }
-    // (−1)ᵏ/(2k + 1)!, times −2k and then −(2k − 2), for x to the power 2k − 2 or 2k − 4.
+    // (−1)ᵏ/(2k + 1)!, times −2k, −(2k − 2) and −(2k − 4), for x to the power 2k − 2, 2k − 4 or 2k − 6.
     let terms = (0..16).scan(1.0, |coefficient, k| {
-        let slopes = if order == 1 { -2.0 * f64::from(k) } else { f64::from(2 * k) * f64::from(2 * k - 2) };
-        let exponent = 2 * (k - order as i32);
+        let slopes: f64 = (0..order).map(|slope| -f64::from(2 * (k - slope))).product();
+        let exponent = 2 * (k - order);
         let term = if exponent >= 0 { *coefficient * slopes * x.powi(exponent) } else { 0.0 };
         *coefficient /= f64::from(-(2 * k + 2) * (2 * k + 3));
         Some(term)
@@ -153,6 +157,7 @@ pub(super) fn printed_unary(name: &str, x: f64) -> f64 {
         }
         ("sinc1", _) => sinc_slope(1, x),
         ("sinc2", _) => sinc_slope(2, x),
+        ("sinc3", _) => sinc_slope(3, x),
         (_, Some([value, ..])) => value,
         _ => internal(format!("the self-check does not know the function `{name}`")),
     }

@@ -49,6 +49,7 @@ const UNARY: &[UnaryRow] = &[
     ("cosh",  f64::cosh),  ("tanh",  f64::tanh),  ("asinh", f64::asinh), ("acosh",  f64::acosh),
     ("atanh", f64::atanh), ("abs",   f64::abs),   ("signum", f64::signum), ("sign", sign), ("erf", erf),
     ("sinc", |x| bessel(0, x)), ("sinc1", |x| bessel(1, x)), ("sinc2", |x| bessel(2, x)),
+    ("sinc3", |x| bessel(3, x)),
 ];
 
 const BINARY: &[BinaryRow] = &[

@@ -46,7 +46,8 @@ fn slope<F: Field>(function: Unary, u: F) -> F {
         Unary::Erf    => call(Unary::Exp, -(u * u)) * F::lift(FRAC_2_SQRT_PI),
         Unary::Sinc   => -(u * call(Unary::Sinc1, u)),
         Unary::Sinc1  => -(u * call(Unary::Sinc2, u)),
-        Unary::Sinc2  => (call(Unary::Sinc1, u) - F::lift(5.0) * call(Unary::Sinc2, u)) / u,
+        Unary::Sinc2  => -(u * call(Unary::Sinc3, u)),
+        Unary::Sinc3  => (call(Unary::Sinc2, u) - F::lift(7.0) * call(Unary::Sinc3, u)) / u,
     }
 }
 

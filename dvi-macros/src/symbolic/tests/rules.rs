@@ -39,7 +39,8 @@ const DOMAINS: &[(&str, &[Interval])] = &[
     ("erf",    &[(-3.0, 3.0)]),
     ("sinc",   &[(-5.0, 5.0)]),
     ("sinc1",  &[(-5.0, 5.0)]),
-    ("sinc2",  &[(1.0, 5.0), (-5.0, -1.0)]),
+    ("sinc2",  &[(-5.0, 5.0)]),
+    ("sinc3",  &[(1.0, 5.0), (-5.0, -1.0)]),
 ];
 
 /// Rectangles of the plane, by the ranges of a and b.
