@@ -139,14 +139,15 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("program/constraints.rs", "Place::ConstraintDerivative(row(«number», constraint), column)", "0"),
     mistake(
         "program/constraints.rs",
-        "constraint: number as u32, member: «constraint.member.clone()»",
-        "Index::literal(0)",
+        "constraint: number as u32, member: «constraint.member()»",
+        "crate::symbolic::Index::literal(0).into()",
     ),
     // Vectors.
-    mistake("lower/vectors.rs", "minor(a2, a0, «b2, b0»)", "b0, b2"),
+    mistake("lower/vectors.rs", "minor(a2, a0, «b2», b0)", "b0"),
     mistake("lower/vectors.rs", "let term = self.graph.multiply(*a, «*b»);", "*a"),
-    mistake("lower/names.rs", "self.coordinate_node(«first + number», index.clone())", "first"),
-    mistake("lower/constraints.rs", "Index::open(0).plus(&over.range.lower, -1)", "Index::open(0)"),
+    mistake("lower/names.rs", "self.coordinate_node(«first + number», index.clone())", "first + axis.of - 1 - number"),
+    mistake("symbolic/count.rs", "Index::open(over.depth).plus(&over.range.lower, -1)", "Index::open(over.depth)"),
+    mistake("symbolic/count.rs", "Self { rows: «Some(rows)», rest: place(inner) }", "None"),
     // Constraints of the velocities: derivatives with the weights of others, or without themselves, and
     // without those by velocities in families and sums.
     mistake("program/constraints.rs", "Variable::Position => «Weight::Q»,", "Weight::V"),

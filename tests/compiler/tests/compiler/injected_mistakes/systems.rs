@@ -69,6 +69,12 @@ pub(crate) const SYSTEMS: &[(&str, &str, &str)] = &[
          force(r) = |i| if t > 0.5 { -dot(r[i]) } else { field / m[i] }, force(q) = -2.0 * dot(q)",
         "struct Bodies<const N: usize> { m: [f64; N], field: [f64; 3] }",
     ),
+    (
+        "regular",
+        "coordinates(x[4]), lagrangian = sum(0..4, |j| dot(x[j]).powi(2)),
+         constraint(i in 0..2, j in i + 1..3) = x[i] * x[j] - x[3]",
+        "struct Pairs;",
+    ),
     // Powers that are differentiated as what they are.
     (
         "regular",
