@@ -145,8 +145,16 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     // Vectors.
     mistake("lower/vectors.rs", "minor(a2, a0, «b2», b0)", "b0"),
     mistake("lower/vectors.rs", "let term = self.graph.multiply(*a, «*b»);", "*a"),
-    mistake("lower/names.rs", "self.coordinate_node(«first + number», index.clone())", "first + axis.of - 1 - number"),
-    mistake("symbolic/count.rs", "Index::open(over.depth).plus(&over.range.lower, -1)", "Index::open(over.depth)"),
+    mistake(
+        "lower/names.rs",
+        "self.coordinate_node(«first + number», index.clone())",
+        "first + axis.of - 1 - number",
+    ),
+    mistake(
+        "symbolic/count.rs",
+        "Index::open(over.depth).plus(&over.range.lower, -1)",
+        "Index::open(over.depth)",
+    ),
     mistake("symbolic/count.rs", "Self { rows: «Some(rows)», rest: place(inner) }", "None"),
     // Constraints of the velocities: derivatives with the weights of others, or without themselves, and
     // without those by velocities in families and sums.
