@@ -120,6 +120,9 @@ impl Model {
             Expr::Paren(inner) => self.size_form(&inner.expr),
             Expr::Binary(binary) => {
                 let (left, right) = (self.size_form(&binary.left)?, self.size_form(&binary.right)?);
+                if [&left, &right].iter().any(|part| !part.is_short()) {
+                    return Err(None);
+                }
                 match (binary.op, left.as_literal(), right.as_literal()) {
                     (BinOp::Add(_), ..) => Ok(left.plus(&right, 1)),
                     (BinOp::Sub(_), Some(above), Some(below)) if above >= below => {

@@ -101,6 +101,12 @@ impl Index {
         Self { constant, terms: Vec::new() }
     }
 
+    /// Whether sums and products with another such one have no more than 63 bits.
+    pub(crate) fn is_short(&self) -> bool {
+        let mut coefficients = self.terms.iter().map(|(_, coefficient)| coefficient).chain([&self.constant]);
+        coefficients.all(|coefficient| coefficient.unsigned_abs() < 1 << 31)
+    }
+
     pub(crate) fn atom(atom: Atom) -> Self {
         Self { constant: 0, terms: vec![(atom, 1)] }
     }
