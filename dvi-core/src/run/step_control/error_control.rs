@@ -298,10 +298,8 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
                 Ok(Verdict::TooLong { factor, failure: Some(failure) })
             })?;
         let h = at_seam.map_or(tried, |AtSeam { behind, .. }| behind);
-        // A first step that is too long has been no usual one.
-        let taken = if Scalar::abs(tried) < usual { Scalar::abs(tried) } else { usual };
         if let Some(seams) = seams
-            && let Err(failure) = seams.count(run, [h, taken], at_seam.is_some())
+            && let Err(failure) = seams.count(run, [h, usual], at_seam.is_some())
         {
             run.go_back();
             return Err(failure);

@@ -7,16 +7,15 @@
 //!
 //! with the sign that makes each seam gₖ positive where the step begins. It ends behind that place by some
 //! rounding errors, so that the next step begins on the other side, and its error is estimated where it is
-//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors. Where a
-//! seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for.
+//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors.
 
 use super::ControlledRun;
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
 use crate::methods::VariableStep;
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::reported;
-use crate::solve::crossing::{Sample, dip, zero};
+use crate::scalar::norm::{larger, reported};
+use crate::solve::crossing::zero;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// By how many rounding errors of the step a step ends behind a seam, at least. Those of the time are more:
@@ -27,14 +26,12 @@ const LEAVING: f64 = 256.0;
 /// A step may end so many times farther behind a seam, again and again, if it is not on the other side yet,
 /// and at most so many times what is rounded of the step and of the time.
 const WIDER: [f64; 2] = [8.0, 262_144.0];
-/// Looks at the turn of a seam that comes nearer at the beginning of a step and goes away at its end.
-const SURE: usize = 6;
 /// Iterations for the derivatives of a length, of numbers that carry some.
 const POLISHED: usize = 3;
 /// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
-/// hop is a step that begins or ends at a seam and is shorter than this part of usual ones, or is shorter by
-/// the machine precision.
-const HOPS: (usize, f64) = (32, 1e-6);
+/// hop is a step that begins or ends at a seam and is shorter than usual ones by the square root of the
+/// machine precision, or is shorter by all of it.
+const HOPS: usize = 8;
 
 /// What the seams of a system ask for.
 pub(super) struct Seams<S: System, T: Real> {
@@ -44,8 +41,6 @@ pub(super) struct Seams<S: System, T: Real> {
     v: Vector<S, T>,
     /// The velocity where it ends.
     v_end: Vector<S, T>,
-    /// A point near by.
-    near: [Vector<S, T>; 2],
     /// Hops without a longer step between them.
     hops: usize,
     /// How long steps were before them.
@@ -66,9 +61,9 @@ impl<S: System, T: Real> Memory<T> for Seams<S, T> {
 
 impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     pub(super) fn new(system: &S) -> Self {
-        let [q, v, v_end, near_q, near_v] = [(); 5].map(|()| system.space().vector());
+        let [q, v, v_end] = [(); 3].map(|()| system.space().vector());
         let zero = T::lift(0.0);
-        Self { t: zero, q, v, v_end, near: [near_q, near_v], hops: 0, usual: zero }
+        Self { t: zero, q, v, v_end, hops: 0, usual: zero }
     }
 
     /// Keeps the present point, at time `t`, where steps begin.
@@ -99,19 +94,14 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         if !at_break && let Some(behind) = self.leave(run, h, T::lift(LEAVING) * rounding)? {
             return Ok(Some(AtSeam { before: nothing, behind }));
         }
-        let mut last = [one, self.ahead(run, h)?.0];
-        if last[1] > nothing
-            && let Some(low) = self.dip(run, h)?
-        {
-            last = [low, self.look(run, low * h)?];
-        }
+        let (at_end, _) = self.ahead(run, h)?;
         // What is no number is no crossing.
-        let has_crossed = last[1] <= nothing;
+        let has_crossed = at_end <= nothing;
         if !has_crossed {
             return Ok(None);
         }
         let (at_begin, half) = (self.look(run, nothing)?, T::lift(0.5));
-        let mut found = zero([[nothing, at_begin], last], |place| self.look(run, place * h))?;
+        let mut found = zero([[nothing, at_begin], [one, at_end]], |place| self.look(run, place * h))?;
         loop {
             // A long step may have crossed it three times.
             let middle = half * found.place;
@@ -135,7 +125,9 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         let is_left_to_break = at_break && place <= T::lift(2.0 * BEHIND) * rounding;
         while !is_left_to_break && margin < most * rounding {
             let behind = if place + margin < one { (place + margin) * h } else { h };
-            let before = if place > margin { (place - margin) * h } else { nothing };
+            // The error is estimated at its end too, which no rounding of the time moves to the other side.
+            let short = larger(margin, T::lift(BEHIND) * rounding);
+            let before = if place > short { (place - short) * h } else { nothing };
             let (at_behind, at_before) = (self.look(run, behind)?, self.look(run, before)?);
             // Where the step was to end on the seam, the next one leaves it.
             let is_behind = at_behind < nothing || (at_behind == nothing && behind == h);
@@ -147,57 +139,6 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         // The motion touches the seam, or leaves it where the step begins.
         self.look(run, h)?;
         Ok(None)
-    }
-
-    /// A part of a step of length `h`, which has been taken, at which a seam has been crossed that is ahead at
-    /// its end. The run has then been moved.
-    fn dip<M: VariableStep<S, T>>(
-        &mut self,
-        run: &mut ControlledRun<'_, S, M, T>,
-        h: T,
-    ) -> Result<Option<T>, StepFailure> {
-        let (system, mut is_moved) = (run.system(), false);
-        for seam in 0..S::SEAMS {
-            if self.at_begin(system, seam) == T::lift(0.0) {
-                continue;
-            }
-            let to = self.sample(run, seam, [T::lift(1.0), h]);
-            let from = self.sample(run, seam, [T::lift(0.0), h]);
-            let low = dip([from, to], SURE, |place| {
-                is_moved = true;
-                self.look(run, place * h).map(|_| self.sample(run, seam, [place, h]))
-            })?;
-            if low.is_some() {
-                return Ok(low);
-            }
-            if is_moved {
-                self.look(run, h)?;
-            }
-        }
-        Ok(None)
-    }
-
-    /// How far ahead a seam is at a place of a step of length `h`, where the run is, or where the step begins,
-    /// and how that changes with the place: along the velocity, which changes evenly from the beginning.
-    fn sample<M: VariableStep<S, T>>(
-        &mut self,
-        run: &ControlledRun<'_, S, M, T>,
-        seam: usize,
-        [place, h]: [T; 2],
-    ) -> Sample<T> {
-        let (system, begins) = (run.system(), place == T::lift(0.0));
-        let (q, v) = if begins { (&*self.q, &*self.v) } else { (run.q(), &*self.v_end) };
-        let (t, chord) = (self.t + place * h, Scalar::sqrt(T::default_epsilon()));
-        let [near_q, near_v] = &mut self.near;
-        let part = chord / if begins { T::lift(1.0) } else { place };
-        for k in 0..q.len() {
-            near_q[k] = q[k] + chord * h * v[k];
-            near_v[k] = v[k] + part * (self.v_end[k] - self.v[k]);
-        }
-        let side = if self.at_begin(system, seam) < T::lift(0.0) { -T::lift(1.0) } else { T::lift(1.0) };
-        let value = side * system.seam(seam, q, v, t);
-        let near = side * system.seam(seam, &self.near[0], &self.near[1], t + chord * h);
-        Sample { place, value, slope: (near - value) / chord }
     }
 
     /// The length of this `part` of a step, if it leads away from a seam on which the step begins: there a
@@ -237,7 +178,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
             self.usual = usual;
         }
         let (length, rounding) = (Scalar::abs(h), T::default_epsilon());
-        if length > T::lift(HOPS.1) * self.usual {
+        if length > Scalar::sqrt(rounding) * self.usual {
             self.hops = 0;
             return Ok(());
         }
@@ -245,7 +186,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         if !(ends_at_seam || begins_at.is_some() || length < rounding * self.usual) {
             return Ok(());
         }
-        if self.hops >= HOPS.0 * S::SEAMS {
+        if self.hops >= HOPS * S::SEAMS {
             let seam = begins_at.map_or_else(|| self.ahead(run, h).map(|(_, seam)| seam), Ok)?;
             return Err(StepFailure::Seam { seam, time: reported(self.t + h) });
         }
