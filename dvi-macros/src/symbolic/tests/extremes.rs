@@ -61,7 +61,7 @@ const ROWS: &[Extremes] = &[
     ("sinc",   |x| -x * bessel(1, x), |x| x * x * bessel(2, x) - bessel(1, x), REAL),
     ("sinc1",  |x| -x * bessel(2, x), |x| x * x * bessel(3, x) - bessel(2, x), &[3.0, -20.0]),
     ("sinc2",  |x| -x * bessel(3, x), |x| x * x * bessel(4, x) - bessel(3, x), &[3.0, -20.0]),
-    ("sinc3",  |x| -x * bessel(4, x), |x| x * x * bessel(5, x) - bessel(4, x), &[3.0, -20.0]),
+    ("sinc3",  |x| -x * bessel(4, x), |x| x * x * bessel(5, x) - bessel(4, x), &[6.0, -20.0]),
 ];
 
 /// A graph with two coordinates, x and y.
