@@ -14,18 +14,16 @@ use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
 use crate::methods::VariableStep;
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::{larger, reported};
+use crate::scalar::norm::reported;
 use crate::solve::crossing::zero;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
-/// By how many rounding errors of the step a step ends behind a seam, at least. Those of the time are more:
-/// a motion that meets a seam some of them late each time gains energy.
+/// By how many rounding errors of the step and of the time a step ends behind a seam, at least.
 const BEHIND: f64 = 4.0;
 /// The same of one that leaves a seam on which it begins.
 const LEAVING: f64 = 256.0;
-/// A step may end so many times farther behind a seam, again and again, if it is not on the other side yet,
-/// and at most so many times what is rounded of the step and of the time.
-const WIDER: [f64; 2] = [8.0, 262_144.0];
+/// How often a step may end this many times farther behind a seam, if it is not on the other side yet.
+const WIDER: (usize, f64) = (6, 8.0);
 /// Iterations for the derivatives of a length, of numbers that carry some.
 const POLISHED: usize = 3;
 /// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
@@ -119,22 +117,20 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
                 place -= self.look(run, place * h)? / found.slope;
             }
         }
-        let [wider, most] = WIDER.map(T::lift);
-        let mut margin = T::lift(BEHIND) * T::default_epsilon();
+        let mut margin = T::lift(BEHIND) * rounding;
         // By rounding, one has ended before the break.
-        let is_left_to_break = at_break && place <= T::lift(2.0 * BEHIND) * rounding;
-        while !is_left_to_break && margin < most * rounding {
+        let is_left_to_break = at_break && place <= T::lift(2.0) * margin;
+        let tries = if is_left_to_break { 0 } else { WIDER.0 };
+        for _ in 0..tries {
             let behind = if place + margin < one { (place + margin) * h } else { h };
-            // The error is estimated at its end too, which no rounding of the time moves to the other side.
-            let short = larger(margin, T::lift(BEHIND) * rounding);
-            let before = if place > short { (place - short) * h } else { nothing };
+            let before = if place > margin { (place - margin) * h } else { nothing };
             let (at_behind, at_before) = (self.look(run, behind)?, self.look(run, before)?);
             // Where the step was to end on the seam, the next one leaves it.
             let is_behind = at_behind < nothing || (at_behind == nothing && behind == h);
             if is_behind && at_before >= nothing {
                 return Ok(Some(AtSeam { before, behind }));
             }
-            margin *= wider;
+            margin *= T::lift(WIDER.1);
         }
         // The motion touches the seam, or leaves it where the step begins.
         self.look(run, h)?;
