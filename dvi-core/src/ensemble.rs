@@ -268,7 +268,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     }
 
     /// Counts how often each member crosses the section g = 0, up to its end. The crossings are
-    /// [`Events`](crate::run::Events) of its run, and are seen within long steps too. A function that is not a
+    /// [`Events`](crate::run::Events) of its run, and are seen within long steps too. A function that is no
     /// number is a failure, and members go alone, not in lanes, as with [limits](Self::until).
     ///
     /// ```

@@ -266,8 +266,8 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     }
 
     /// The number of places within a step that are known when it has been taken, such as the stages of a
-    /// method of high order, whose steps are long: a search for events looks at up to eight of them. There are
-    /// none if nothing else is said.
+    /// method of high order, whose steps are long: a search for events looks at up to eight of them. There
+    /// are none if nothing else is said.
     fn places(&self) -> usize {
         0
     }

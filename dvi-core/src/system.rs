@@ -155,8 +155,8 @@ pub trait System: Held<System = Self> {
     /// [`IndexError`] names the first array that is too short, and the index.
     fn check(&self) -> Result<(), IndexError>;
 
-    /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …, of vectors `r[0].x`, `r[0].y`, …:
-    /// coordinates in the order of declaration, then the velocities of a regular system.
+    /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …, of vectors `r[0].x`, `r[0].y`,
+    /// …: coordinates in the order of declaration, then the velocities of a regular system.
     fn names(&self) -> impl Iterator<Item = Name>
     where
         Self: Sized,

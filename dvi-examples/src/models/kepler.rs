@@ -142,7 +142,14 @@ pub type OuterPlanets = BodiesState<6>;
 pub fn outer_solar_system() -> (OuterSolarSystem, OuterPlanets) {
     let system = Bodies {
         g: 2.959_122_082_86e-4,
-        mass: [1.000_005_976_82, 9.547_861_040_43e-4, 2.855_837_331_51e-4, 4.372_731_645_46e-5, 5.177_591_384_49e-5, 1.0 / 1.3e8],
+        mass: [
+            1.000_005_976_82,
+            9.547_861_040_43e-4,
+            2.855_837_331_51e-4,
+            4.372_731_645_46e-5,
+            5.177_591_384_49e-5,
+            1.0 / 1.3e8,
+        ],
     };
     let start = BodiesState {
         r: [

@@ -346,7 +346,8 @@ fn transfer(
         (false, true) => quote!(RunTime::read_vectors),
     };
     let writer = if is_vector { quote!(write_vectors) } else { quote!(write_block) };
-    let write = |length: TokenStream| quote!(#krate::__private::#writer(#text, &self.#field[..], #length, &mut __at, #flat)?;);
+    let entries = quote!(&self.#field[..]);
+    let write = |length: TokenStream| quote!(#krate::__private::#writer(#text, #entries, #length, &mut __at, #flat)?;);
     if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation {
         // An angular velocity has the first three of nine places.
         let write = write(quote!(3usize));

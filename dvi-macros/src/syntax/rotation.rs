@@ -1,8 +1,8 @@
 //! Rotations and unit vectors as coordinates: where they may stand, and how a rotation is written.
 //!
 //! Of `R: SO3` formulas have the entries `R[i][j]`, the axes of the body `R.column(j)`, and the angular
-//! velocity in the body `omega(R)`, both vectors. Nine coordinates `R[3 i + j]` and three velocities take their
-//! places here, once, so that no later stage knows of matrices.
+//! velocity in the body `omega(R)`, both vectors. Nine coordinates `R[3 i + j]` and three velocities take
+//! their places here, once, so that no later stage knows of matrices.
 
 use proc_macro2::{Ident, Literal};
 use syn::spanned::Spanned;

@@ -154,7 +154,8 @@ pub(super) struct Evaluation<'a> {
     /// The closures around.
     closures: usize,
     scope: Scope<'a>,
-    /// The values of shared names that were used, each by the place of its definition and by how it was asked for.
+    /// The values of shared names that were used, each by the place of its definition and by how it was
+    /// asked for.
     known: HashMap<(usize, [bool; 3]), Vec<Quantity>>,
 }
 

@@ -19,7 +19,7 @@ fn spring(phase: f64) -> SpringState {
 
 const LONG: f64 = 0.6;
 
-/// Where cos rises through `level` in (0, `end`], seen from the phase `phase` on; back in time it falls there.
+/// How often cos rises through `level` in (0, `end`], from the phase `phase` on; back in time it falls there.
 fn rises(level: f64, phase: f64, end: f64) -> u64 {
     // At −arccos(level) + 2πk.
     let turns = |t: f64| ((t + phase + level.acos()) / TAU).floor();

@@ -218,8 +218,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         self.steps == 1 || run.steps().is_multiple_of(RENEWED) || !self.watched.iter().zip(end).all(is_far)
     }
 
-    /// Passes over a step in which there are none. The rates that were seen within a step hold until these are
-    /// looked at again.
+    /// Passes over a step in which there are none. The rates that were seen within a step hold until these
+    /// are looked at again.
     fn pass_over(&mut self, run: &Dense<R>, end: [R::Scalar; N]) {
         let h = Scalar::abs(run.step_size());
         for (watched, b) in self.watched.iter_mut().zip(end) {
@@ -248,7 +248,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             let course = Course::after(before, (b - a) / h);
             let change = course.rate * h;
             if !WHOLE && to < one && Scalar::abs(b) <= unsure * change {
-                // At a stage values are as accurate as the polynomial through all of them.
+                // The polynomial through the stages is less accurate than a step to this place, which
+                // decides where the sign is in doubt.
                 run.settle()?;
                 b = self.within(run, index).look(to)?;
             }
