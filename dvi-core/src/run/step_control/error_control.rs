@@ -299,7 +299,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
             })?;
         let h = at_seam.map_or(tried, |AtSeam { behind, .. }| behind);
         if let Some(seams) = seams
-            && let Err(failure) = seams.count(run, [h, usual], at_seam.is_some())
+            && let Err(failure) = seams.count(run, [h, usual])
         {
             run.go_back();
             return Err(failure);

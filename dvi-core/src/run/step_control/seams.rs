@@ -14,22 +14,28 @@ use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
 use crate::methods::VariableStep;
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::reported;
+use crate::scalar::norm::{larger, reported};
 use crate::solve::crossing::zero;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
-/// By how many rounding errors of the step and of the time a step ends behind a seam, at least.
+/// By how many rounding errors of the step a step ends behind a seam, at least. Those of the time are more:
+/// a motion that meets a seam some of them late each time gains energy.
 const BEHIND: f64 = 4.0;
 /// The same of one that leaves a seam on which it begins.
 const LEAVING: f64 = 256.0;
-/// How often a step may end this many times farther behind a seam, if it is not on the other side yet.
-const WIDER: (usize, f64) = (6, 8.0);
+/// A step may end so many times farther behind a seam, again and again, if it is not on the other side yet,
+/// and at most so many times what is rounded of the step and of the time.
+const WIDER: [f64; 2] = [8.0, 262_144.0];
 /// Iterations for the derivatives of a length, of numbers that carry some.
 const POLISHED: usize = 3;
 /// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
-/// hop is a step that begins or ends at a seam and is shorter than usual ones by the square root of the
-/// machine precision, or is shorter by all of it.
-const HOPS: usize = 8;
+/// hop is a step that is shorter than this part of usual ones and begins or ends at a seam, or near one, or is
+/// shorter by all of the machine precision.
+const HOPS: (usize, f64) = (64, 1e-3);
+/// Within so many steps of this length a seam is near.
+const NEAR: f64 = 8.0;
+/// What is usual fades by this factor with each step, so that a motion may become faster.
+const FADING: f64 = 0.98;
 
 /// What the seams of a system ask for.
 pub(super) struct Seams<S: System, T: Real> {
@@ -41,7 +47,7 @@ pub(super) struct Seams<S: System, T: Real> {
     v_end: Vector<S, T>,
     /// Hops without a longer step between them.
     hops: usize,
-    /// How long steps were before them.
+    /// How long steps have been, the longest of them fading.
     usual: T,
 }
 
@@ -117,20 +123,22 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
                 place -= self.look(run, place * h)? / found.slope;
             }
         }
-        let mut margin = T::lift(BEHIND) * rounding;
+        let [wider, most] = WIDER.map(T::lift);
+        let mut margin = T::lift(BEHIND) * T::default_epsilon();
         // By rounding, one has ended before the break.
-        let is_left_to_break = at_break && place <= T::lift(2.0) * margin;
-        let tries = if is_left_to_break { 0 } else { WIDER.0 };
-        for _ in 0..tries {
+        let is_left_to_break = at_break && place <= T::lift(2.0 * BEHIND) * rounding;
+        while !is_left_to_break && margin < most * rounding {
             let behind = if place + margin < one { (place + margin) * h } else { h };
-            let before = if place > margin { (place - margin) * h } else { nothing };
+            // The error is estimated at its end too, which no rounding of the time moves to the other side.
+            let short = larger(margin, T::lift(BEHIND) * rounding);
+            let before = if place > short { (place - short) * h } else { nothing };
             let (at_behind, at_before) = (self.look(run, behind)?, self.look(run, before)?);
             // Where the step was to end on the seam, the next one leaves it.
             let is_behind = at_behind < nothing || (at_behind == nothing && behind == h);
             if is_behind && at_before >= nothing {
                 return Ok(Some(AtSeam { before, behind }));
             }
-            margin *= T::lift(WIDER.1);
+            margin *= wider;
         }
         // The motion touches the seam, or leaves it where the step begins.
         self.look(run, h)?;
@@ -160,7 +168,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         Ok(leaves.then_some(behind))
     }
 
-    /// Counts a step of length `h` where steps usually have another, whether it has ended at a seam or not.
+    /// Counts a step of length `h` where steps usually have another.
     ///
     /// # Errors
     /// [`StepFailure::Seam`]: nothing is counted then.
@@ -168,23 +176,24 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         &mut self,
         run: &ControlledRun<'_, S, M, T>,
         [h, usual]: [T; 2],
-        ends_at_seam: bool,
     ) -> Result<(), StepFailure> {
-        if self.hops == 0 {
-            self.usual = usual;
-        }
-        let (length, rounding) = (Scalar::abs(h), T::default_epsilon());
-        if length > Scalar::sqrt(rounding) * self.usual {
+        self.usual = larger(usual, T::lift(FADING) * self.usual);
+        if Scalar::abs(h) > T::lift(HOPS.1) * self.usual {
             self.hops = 0;
             return Ok(());
         }
-        let begins_at = (0..S::SEAMS).find(|&seam| self.at_begin(run.system(), seam) == T::lift(0.0));
-        if !(ends_at_seam || begins_at.is_some() || length < rounding * self.usual) {
-            return Ok(());
-        }
-        if self.hops >= HOPS * S::SEAMS {
-            let seam = begins_at.map_or_else(|| self.ahead(run, h).map(|(_, seam)| seam), Ok)?;
-            return Err(StepFailure::Seam { seam, time: reported(self.t + h) });
+        let (_, nearest) = self.ahead(run, h)?;
+        let (system, t) = (run.system(), self.t + h);
+        let is_near = |&seam: &usize| {
+            let begin = self.at_begin(system, seam);
+            let change = system.seam(seam, run.q(), &self.v_end, t) - begin;
+            Scalar::abs(begin) <= T::lift(NEAR) * Scalar::abs(change)
+        };
+        let near = (0..S::SEAMS).find(is_near);
+        let no_step = Scalar::abs(h) < T::default_epsilon() * self.usual;
+        let Some(seam) = near.or(no_step.then_some(nearest)) else { return Ok(()) };
+        if self.hops >= HOPS.0 * S::SEAMS {
+            return Err(StepFailure::Seam { seam, time: reported(t) });
         }
         self.hops += 1;
         Ok(())
