@@ -12,6 +12,7 @@ use dvi_tests::larger;
 use dvi_tests::zoo::regular::{DoublePendulum, DoublePendulumState, Kepler, KeplerState};
 
 mod breaks;
+mod grazes;
 mod problems;
 mod rough;
 mod seams;

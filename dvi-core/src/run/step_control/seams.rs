@@ -7,7 +7,8 @@
 //!
 //! with the sign that makes each seam gₖ positive where the step begins. It ends behind that place by some
 //! rounding errors, so that the next step begins on the other side, and its error is estimated where it is
-//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors.
+//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors. Where a
+//! seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for.
 
 use super::ControlledRun;
 use crate::error::StepFailure;
@@ -15,7 +16,7 @@ use crate::memory::{Memory, lasting};
 use crate::methods::VariableStep;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported};
-use crate::solve::crossing::zero;
+use crate::solve::crossing::{Sample, dip, zero};
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// By how many rounding errors of the step a step ends behind a seam, at least. Those of the time are more:
@@ -26,6 +27,10 @@ const LEAVING: f64 = 256.0;
 /// A step may end so many times farther behind a seam, again and again, if it is not on the other side yet,
 /// and at most so many times what is rounded of the step and of the time.
 const WIDER: [f64; 2] = [8.0, 262_144.0];
+/// A seam that is not crossed by so many rounding errors of its values at both ends of a step is touched.
+const TOUCHING: f64 = 64.0;
+/// Looks at the turn of a seam that comes nearer at the beginning of a step and goes away at its end.
+const SURE: usize = 6;
 /// Iterations for the derivatives of a length, of numbers that carry some.
 const POLISHED: usize = 3;
 /// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
@@ -45,6 +50,8 @@ pub(super) struct Seams<S: System, T: Real> {
     v: Vector<S, T>,
     /// The velocity where it ends.
     v_end: Vector<S, T>,
+    /// A point near by.
+    near: [Vector<S, T>; 2],
     /// Hops without a longer step between them.
     hops: usize,
     /// How long steps have been, the longest of them fading.
@@ -65,9 +72,9 @@ impl<S: System, T: Real> Memory<T> for Seams<S, T> {
 
 impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     pub(super) fn new(system: &S) -> Self {
-        let [q, v, v_end] = [(); 3].map(|()| system.space().vector());
+        let [q, v, v_end, near_q, near_v] = [(); 5].map(|()| system.space().vector());
         let zero = T::lift(0.0);
-        Self { t: zero, q, v, v_end, hops: 0, usual: zero }
+        Self { t: zero, q, v, v_end, near: [near_q, near_v], hops: 0, usual: zero }
     }
 
     /// Keeps the present point, at time `t`, where steps begin.
@@ -98,14 +105,19 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         if !at_break && let Some(behind) = self.leave(run, h, T::lift(LEAVING) * rounding)? {
             return Ok(Some(AtSeam { before: nothing, behind }));
         }
-        let (at_end, _) = self.ahead(run, h)?;
+        let mut last = [one, self.ahead(run, h)?.0];
+        if last[1] > nothing
+            && let Some(low) = self.dip(run, h)?
+        {
+            last = [low, self.look(run, low * h)?];
+        }
         // What is no number is no crossing.
-        let has_crossed = at_end <= nothing;
+        let has_crossed = last[1] <= nothing;
         if !has_crossed {
             return Ok(None);
         }
         let (at_begin, half) = (self.look(run, nothing)?, T::lift(0.5));
-        let mut found = zero([[nothing, at_begin], [one, at_end]], |place| self.look(run, place * h))?;
+        let mut found = zero([[nothing, at_begin], last], |place| self.look(run, place * h))?;
         loop {
             // A long step may have crossed it three times.
             let middle = half * found.place;
@@ -143,6 +155,61 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         // The motion touches the seam, or leaves it where the step begins.
         self.look(run, h)?;
         Ok(None)
+    }
+
+    /// A part of a step of length `h`, which has been taken, at which a seam has been crossed that is ahead at
+    /// its end. The run is moved to it, if there is one.
+    fn dip<M: VariableStep<S, T>>(
+        &mut self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        h: T,
+    ) -> Result<Option<T>, StepFailure> {
+        let [nothing, one] = [0.0, 1.0].map(T::lift);
+        for seam in 0..S::SEAMS {
+            if self.at_begin(run.system(), seam) == nothing {
+                continue;
+            }
+            let (from, to) = (self.sample(run, seam, [nothing, h]), self.sample(run, seam, [one, h]));
+            let rounding = T::lift(TOUCHING) * T::default_epsilon() * (from.value + to.value);
+            let mut is_moved = false;
+            let low = dip([from, to], SURE, |place| {
+                is_moved = true;
+                self.look(run, place * h)?;
+                let here = self.sample(run, seam, [place, h]);
+                Ok(Sample { value: here.value + rounding, ..here })
+            })?;
+            if low.is_some() {
+                return Ok(low);
+            }
+            if is_moved {
+                self.look(run, h)?;
+            }
+        }
+        Ok(None)
+    }
+
+    /// How far ahead a seam is at a place of a step of length `h`, where the run is, or where the step begins,
+    /// and how that changes with the place: along the velocity, which changes evenly from the beginning.
+    fn sample<M: VariableStep<S, T>>(
+        &mut self,
+        run: &ControlledRun<'_, S, M, T>,
+        seam: usize,
+        [place, h]: [T; 2],
+    ) -> Sample<T> {
+        let [nothing, one] = [0.0, 1.0].map(T::lift);
+        let (system, begins) = (run.system(), place == nothing);
+        let (q, v) = if begins { (&*self.q, &*self.v) } else { (run.q(), &*self.v_end) };
+        let (t, chord) = (self.t + place * h, Scalar::sqrt(T::default_epsilon()));
+        let part = chord / if begins { one } else { place };
+        let [near_q, near_v] = &mut self.near;
+        for k in 0..q.len() {
+            near_q[k] = q[k] + chord * h * v[k];
+            near_v[k] = v[k] + part * (self.v_end[k] - self.v[k]);
+        }
+        let side = if self.at_begin(system, seam) < nothing { -one } else { one };
+        let value = side * system.seam(seam, q, v, t);
+        let near = side * system.seam(seam, &self.near[0], &self.near[1], t + chord * h);
+        Sample { place, value, slope: (near - value) / chord }
     }
 
     /// The length of this `part` of a step, if it leads away from a seam on which the step begins: there a
