@@ -79,7 +79,7 @@ pub struct StiffeningSpring {}
     force = [-gamma * dot(x), -gamma * dot(y)],
     momenta(angular = x * dot(y) - y * dot(x)),
 )]
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct RadialFriction {
     /// Friction over mass.
     pub gamma: f64,

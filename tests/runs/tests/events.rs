@@ -9,58 +9,49 @@ use dvi_tests::{Numbers, Outcome};
 #[derive(Debug)]
 struct Free;
 
-/// 1 − cos x dips a little below zero once in each period, or comes as near to it from above: 10⁶ times, at
-/// all places within steps of all lengths.
-#[test]
-fn no_graze_is_missed_and_none_is_made_up() -> Outcome {
-    const PERIODS: u32 = 10_000;
-    let mut numbers = Numbers(11);
+/// A condition with `depth` dips a little below zero once in each period of x, `half_width` to each side of its
+/// middle, or comes as near to it from above: so many periods at all places within steps of all lengths, a
+/// hundred times.
+fn graze(
+    (seed, deepest, periods): (u64, f64, u32),
+    condition: impl Fn(f64, f64) -> f64,
+    half_width: impl Fn(f64) -> f64,
+) -> Outcome {
+    let mut numbers = Numbers(seed);
     let mut within = |low: f64, high: f64| low + (high - low) * (1.0 + numbers.next()) / 2.0;
     for k in 0..100 {
-        let (h, depth) = (within(0.1, 1.5), 10_f64.powf(within(-14.0, -1.0)));
+        let (h, depth) = (within(0.1, 1.5), 10_f64.powf(within(deepest, -1.0)));
         let depth = if k % 2 == 0 { depth } else { -depth };
         let start = FreeState { x: -PI - within(0.0, h), dot_x: 1.0 };
         let mut run = Integrator::new(&Free, Variational::trapezoid(), h, start)?;
-        let mut events = run.events([Direction::Either], |_, state| [1.0 - depth - state.x.cos()])?;
+        let mut events = run.events([Direction::Either], |_, state| [condition(state.x, depth)])?;
         let (mut falling, mut count) = (true, 0);
         while let Some(Event { state: FreeState { x, .. }, .. }) =
-            events.next_until(TAU * f64::from(PERIODS))?
+            events.next_until(TAU * f64::from(periods))?
         {
             // Left and right of the middle of a period.
             let place = x - TAU * (x / TAU).round();
             assert_eq!(place < 0.0, falling, "{x}, h = {h}, depth {depth:e}");
-            let off = place.abs() - (1.0 - depth).acos();
+            let off = place.abs() - half_width(depth);
             assert!(off.abs() < 1e-8, "{off:e} at {x}, h = {h}, depth {depth:e}");
             (falling, count) = (!falling, count + 1);
         }
-        assert_eq!(count, if depth > 0.0 { 2 * PERIODS } else { 0 }, "h = {h}, depth {depth:e}");
+        assert_eq!(count, if depth > 0.0 { 2 * periods } else { 0 }, "h = {h}, depth {depth:e}");
     }
     Ok(())
 }
 
-/// (1 − cos x)² − d, which is flat in the middle of each period to the fourth order.
+/// 10⁶ times.
+#[test]
+fn no_graze_is_missed_and_none_is_made_up() -> Outcome {
+    graze((11, -14.0, 10_000), |x, depth| 1.0 - depth - x.cos(), |depth| (1.0 - depth).acos())
+}
+
+/// One that is flat in the middle of each period to the fourth order.
 #[test]
 fn no_flat_graze_is_missed_and_none_is_made_up() -> Outcome {
-    const PERIODS: u32 = 300;
-    let mut numbers = Numbers(13);
-    let mut within = |low: f64, high: f64| low + (high - low) * (1.0 + numbers.next()) / 2.0;
-    for k in 0..100 {
-        let (h, depth) = (within(0.1, 1.5), 10_f64.powf(within(-8.0, -1.0)));
-        let depth = if k % 2 == 0 { depth } else { -depth };
-        let start = FreeState { x: -PI - within(0.0, h), dot_x: 1.0 };
-        let mut run = Integrator::new(&Free, Variational::trapezoid(), h, start)?;
-        let bowl = |_, state: &FreeState| [(1.0 - state.x.cos()).powi(2) - depth];
-        let (mut events, mut count) = (run.events([Direction::Either], bowl)?, 0);
-        while let Some(Event { state: FreeState { x, .. }, .. }) =
-            events.next_until(TAU * f64::from(PERIODS))?
-        {
-            let off = (x - TAU * (x / TAU).round()).abs() - (1.0 - depth.sqrt()).acos();
-            assert!(off.abs() < 1e-8, "{off:e} at {x}, h = {h}, depth {depth:e}");
-            count += 1;
-        }
-        assert_eq!(count, if depth > 0.0 { 2 * PERIODS } else { 0 }, "h = {h}, depth {depth:e}");
-    }
-    Ok(())
+    let condition = |x: f64, depth| (1.0 - x.cos()).powi(2) - depth;
+    graze((13, -8.0, 300), condition, |depth| (1.0 - depth.sqrt()).acos())
 }
 
 /// An oscillator that turns.

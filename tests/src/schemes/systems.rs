@@ -3,6 +3,9 @@
 
 use dvi_core::Lagrangian;
 use dvi_core::prelude::*;
+pub use dvi_examples::models::{
+    RadialFriction as Damped, RadialFrictionState as DampedState, RadialFrictionStateOf as DampedStateOf,
+};
 use nalgebra::{RealField, convert};
 
 use super::formula::Formula;
@@ -401,23 +404,6 @@ impl Formula for Linked {
             sum + v[j] * v[j] * real(0.5) + linked - real(self.k) * (square * real(0.5) + square * square)
         })
     }
-}
-
-/// A particle in a potential V(r) = r²(r² − 1)² with linear friction: the test case of the lectures of
-/// Marsden and West's method.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = {
-        let r2 = x * x + y * y;
-        (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - r2 * (r2 - 1.0).powi(2)
-    },
-    force = [-gamma * dot(x), -gamma * dot(y)],
-    momenta(l = x * dot(y) - y * dot(x)),
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Damped {
-    /// Friction.
-    pub gamma: f64,
 }
 
 impl Formula for Damped {
