@@ -117,8 +117,14 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
         let steps = dense.steps();
         let begun = dense.time() - dense.step_size();
         dense.state_at(1.03 * sign)?;
+        let mut watch = Watch::new(&mut dense, [Direction::Either], |_, _| [1.0])?;
         for target in [begun - 1e-9 * sign, -3.0 * sign, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            for error in [dense.state_at(target).err(), dense.advance_to(target).err()] {
+            let errors = [
+                dense.state_at(target).err(),
+                dense.advance_to(target).err(),
+                watch.next_until(&mut dense, target).err(),
+            ];
+            for error in errors {
                 let Some(StepFailure::Unreachable { now, target: named }) = error.map(|error| error.failure)
                 else {
                     panic!("{target}: {error:?}")

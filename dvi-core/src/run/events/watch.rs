@@ -146,6 +146,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     /// # Errors
     /// As [`Events::next_until`](super::Events::next_until), of the last step.
     pub fn next_until(&mut self, run: &mut Dense<R>, t: R::Scalar) -> Result<Option<EventOf<R>>, StepError> {
+        run.check_ahead(t)?;
         self.next_before(run, Some(t))
     }
 
