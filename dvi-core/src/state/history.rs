@@ -6,6 +6,7 @@
 use core::ops::{Deref, DerefMut};
 
 use crate::memory::{Memory, lasting};
+use crate::scalar::passes::lanes_stay_together;
 use crate::{Real, Scalar, Space, System, Vector};
 
 /// Where Newton begins.
@@ -173,10 +174,9 @@ fn combine<P: Scalar>(
     coefficients: &[f64; DEPTH],
     guess: &mut [P],
 ) {
-    // Coordinate by coordinate: row by row, the optimiser would gather equal lanes of different coordinates,
-    // and eight runs of four vortices take 2.4 times as long (`cargo bench -p dvi-benches --bench lanes`).
     let rows = ring.each_ref().map(|s| &s[..guess.len()]);
     for (k, guess) in guess.iter_mut().enumerate() {
+        lanes_stay_together::<P>();
         let terms = rows.iter().zip(coefficients).map(|(s, &coefficient)| P::lift(coefficient) * s[k]);
         // −0 is neutral for every number.
         *guess = terms.fold(P::lift(-0.0), |sum, term| sum + term);

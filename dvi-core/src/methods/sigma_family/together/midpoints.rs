@@ -5,6 +5,7 @@ use crate::methods::Clock;
 use crate::methods::sigma_family::Sigma;
 use crate::methods::together::{Companion, all_finite, load, of_lanes};
 use crate::scalar::lanes::read_lane;
+use crate::scalar::passes::lanes_stay_together;
 use crate::scalar::simd::{Task, widest};
 use crate::scalar::{Comparison, Lanes, smallest_normal};
 use crate::solve::{Convergences, Stopping, Verdict, sizes};
@@ -153,6 +154,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
             }
         }
         for ((next, &q), &s) in self.point.iter_mut().zip(self.q.iter()).zip(self.increment.iter()) {
+            lanes_stay_together::<Lanes<W>>();
             *next = q + s;
         }
         if !(all_finite(self.increment) && all_finite(self.point)) {
@@ -169,12 +171,14 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     fn iterate(&mut self, time: Lanes<W>, active: Lanes<W>) -> Lanes<W> {
         let half = Lanes::all(0.5);
         for ((point, &q), &s) in self.point.iter_mut().zip(self.q.iter()).zip(self.increment.iter()) {
+            lanes_stay_together::<Lanes<W>>();
             *point = q + half * s;
         }
         self.system.hamiltonian_gradient(self.point, time, self.gradient);
         let mut correction = Lanes::all(0.0);
         let increments = self.increment.iter().zip(self.corrected.iter_mut());
         for ((j, &reciprocal), (&s, corrected)) in self.reciprocals.iter().enumerate().zip(increments) {
+            lanes_stay_together::<Lanes<W>>();
             let trial = self.gradient[self.system.conjugate(j)] * reciprocal;
             correction = larger(correction, Scalar::abs(trial - s) * self.weights[j]);
             *corrected = Lanes::choose(active, Comparison::Greater, Lanes::all(0.0), trial, s);
