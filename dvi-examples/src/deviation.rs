@@ -153,7 +153,8 @@ impl<const N: usize> Series<N> {
 #[derive(Clone, Debug)]
 pub struct Decades<const N: usize> {
     intervals_of_each: f64,
-    latest: f64,
+    /// Where the latest interval ends.
+    end: f64,
     /// The first time in each interval, and the largest values.
     pub rows: Vec<(f64, [f64; N])>,
 }
@@ -161,14 +162,14 @@ pub struct Decades<const N: usize> {
 impl<const N: usize> Decades<N> {
     /// With so many intervals in a factor of ten.
     pub fn new(intervals_of_each: f64) -> Self {
-        Self { intervals_of_each, latest: f64::NEG_INFINITY, rows: Vec::new() }
+        Self { intervals_of_each, end: f64::MIN_POSITIVE, rows: Vec::new() }
     }
 
-    /// Adds values at time `t`, which is later than those before.
+    /// Adds values at time `t` > 0, which is later than those before.
     pub fn push(&mut self, t: f64, values: [f64; N]) {
-        let interval = (t.log10() * self.intervals_of_each).floor();
-        if interval > self.latest {
-            self.latest = interval;
+        if t >= self.end {
+            let interval = (t.log10() * self.intervals_of_each).floor();
+            self.end = 10f64.powf((interval + 1.0) / self.intervals_of_each);
             self.rows.push((t, [0.0; N]));
         }
         if let Some((_, row)) = self.rows.last_mut() {

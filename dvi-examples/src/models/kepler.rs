@@ -45,16 +45,18 @@ impl Orbit {
 
     /// The distance of (x, y) from where the planet is at time `t`.
     pub fn error(self, t: f64, q: &[f64]) -> f64 {
-        let [x, y] = self.position(t);
-        (q[0] - x).hypot(q[1] - y)
+        distance(self.position(t), q)
     }
 
-    /// The same, in half of the time, along a run: `last` is the phase of the step before.
+    /// The same along a run, in less time: `last` is the phase of the step before.
     pub fn error_after(self, last: &mut Phase, t: f64, q: &[f64]) -> f64 {
         let t = within_half_an_orbit(t);
-        *last = self.phase(t, last.anomaly + (t - last.t) * last.rate);
-        let [x, y] = self.position_in(*last);
-        (q[0] - x).hypot(q[1] - y)
+        // Ė = 1/(1 − e cos E), Ë = −e sin E Ė³
+        let Phase { anomaly, sine, rate, .. } = *last;
+        let advance = (t - last.t) * rate;
+        let guess = anomaly + advance * (1.0 - 0.5 * self.e * sine * rate * advance);
+        *last = self.phase(t, guess);
+        distance(self.position_in(*last), q)
     }
 
     fn position_in(self, Phase { sine, cosine, .. }: Phase) -> [f64; 2] {
@@ -69,8 +71,9 @@ impl Orbit {
         let (mut low, mut high) = (m, (m + e).min(PI));
         let guess = guess.copysign(guess * t);
         let mut anomaly = if (low..high).contains(&guess) { guess } else { 0.5 * (low + high) };
+        let (mut sine, mut cosine) = (0.0, 1.0);
         for _ in 0..60 {
-            let (sine, cosine) = anomaly.sin_cos();
+            (sine, cosine) = anomaly.sin_cos();
             let excess = anomaly - e * sine - m;
             if excess > 0.0 {
                 high = anomaly;
@@ -79,14 +82,14 @@ impl Orbit {
             }
             let newton = anomaly - excess / (1.0 - e * cosine);
             let next = if (low..=high).contains(&newton) { newton } else { 0.5 * (low + high) };
-            let change = (next - anomaly).abs();
+            let change = next - anomaly;
             anomaly = next;
-            // After so small a change the next one is lost in rounding.
-            if change <= 1e-9 * anomaly {
+            (sine, cosine) = (sine + cosine * change, cosine - sine * change);
+            // After so small a change the next one is lost in rounding, and so is its square.
+            if change.abs() <= 1e-9 * anomaly {
                 break;
             }
         }
-        let (sine, cosine) = anomaly.sin_cos();
         Phase {
             t,
             anomaly: anomaly.copysign(t),
@@ -105,6 +108,10 @@ pub struct Phase {
     sine: f64,
     cosine: f64,
     rate: f64,
+}
+
+fn distance([x, y]: [f64; 2], q: &[f64]) -> f64 {
+    ((q[0] - x).powi(2) + (q[1] - y).powi(2)).sqrt()
 }
 
 fn within_half_an_orbit(t: f64) -> f64 {
