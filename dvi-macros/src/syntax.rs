@@ -21,6 +21,7 @@ mod library;
 mod rotation;
 mod shared;
 pub(crate) mod tidy;
+mod unsaid;
 
 use argument::{Argument, Value};
 pub(crate) use closures::closure;
@@ -162,6 +163,9 @@ impl Kind {
         if FIELDS.contains(&keyword) {
             return "parameters are the fields of the struct, and formulas know them by their names"
                 .to_string();
+        }
+        if let Some(instead) = unsaid::instead_of(keyword) {
+            return instead.to_string();
         }
         match nearest(keyword, self.arguments()) {
             Some(near) => format!("did you mean `{near}`?"),
