@@ -22,7 +22,7 @@ fn any_kind() -> impl Strategy<Value = Kind> {
 fn vocabulary() -> Vec<TokenTree> {
     let words = quote! {
         x y z u w t n N PI gamma a s self Self sum sum_pairs sum_ordered_pairs d dot f sin powi powf atan2 len
-        coordinates one_form hamiltonian lagrangian force constraint nonholonomic momenta events functions crate
+        coordinates one_form hamiltonian lagrangian force dissipation constraint nonholonomic momenta events functions crate
         if else let match loop for in return break as f64 usize const unsafe async move struct true r#type _
         + - * / % ^ & | ! < > = == <= >= && || += .. ..= , ; : :: . ? @ # $ ~ -> =>
         0 1 2 3 4 -1 0.5 1e300 1e-300 1e999 18446744073709551615 99999999999999999999999999999999999999999

@@ -116,7 +116,7 @@ impl Programs {
 /// ∂L/∂q + F and ∂L/∂v
 fn gradient(graph: &mut Graph, lagrangian: Expr, force: &Force) -> Vec<Statement> {
     let by_lagrangian = graph.gradient(lagrangian, &[]);
-    let contributions = added(graph, by_lagrangian, force.iter().cloned());
+    let contributions = graph.added(by_lagrangian, force.iter().cloned());
     statements(graph, contributions, Output::Lq, Output::Lv)
 }
 
@@ -197,23 +197,6 @@ fn result(value: Expr) -> Vec<Statement> {
 fn first_derivatives(graph: &mut Graph, of: Expr, position: Output, velocity: Output) -> Vec<Statement> {
     let contributions = graph.gradient(of, &[]);
     statements(graph, contributions, position, velocity)
-}
-
-/// The sum, with one value for each place.
-fn added(
-    graph: &mut Graph,
-    mut contributions: Vec<Contribution>,
-    others: impl Iterator<Item = Contribution>,
-) -> Vec<Contribution> {
-    for other in others {
-        let same = |known: &&mut Contribution| known.target == other.target && known.loops == other.loops;
-        match contributions.iter_mut().find(same) {
-            Some(known) => known.value = graph.add(known.value, other.value),
-            None => contributions.push(other),
-        }
-    }
-    contributions.retain(|contribution| !contribution.value.is_zero());
-    contributions
 }
 
 /// Contributions by positions in one array and by velocities in another.

@@ -21,6 +21,7 @@ mod library;
 mod rotation;
 mod shared;
 pub(crate) mod tidy;
+mod unsaid;
 
 use argument::{Argument, Value};
 pub(crate) use closures::closure;
@@ -55,6 +56,8 @@ pub(crate) struct Attribute {
     pub(crate) time_transform: Option<TimeTransform>,
     pub(crate) lagrangian: Option<Expr>,
     pub(crate) forces: Vec<Force>,
+    /// R of the force −∂R/∂v.
+    pub(crate) dissipation: Option<Expr>,
     pub(crate) constraints: Vec<Constraint>,
     /// What the constraints are of, if some were declared, readable or not.
     pub(crate) constrained: Option<Constrained>,
@@ -78,7 +81,7 @@ pub(crate) struct Attribute {
 
 /// The arguments, and how they are written.
 #[rustfmt::skip]
-const ARGUMENTS: [(&str, &str); 16] = [
+const ARGUMENTS: [(&str, &str); 17] = [
     ("coordinates", "coordinates(x, y[n], r[n][3], R: SO3, s: S2)"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
@@ -86,6 +89,7 @@ const ARGUMENTS: [(&str, &str); 16] = [
     ("time_transform", "time_transform = ρ(q)"),
     ("lagrangian",  "lagrangian = …"),
     ("force",       "force = [F_x, |i| F_y(i)]`, or `force(x) = F_x"),
+    ("dissipation", "dissipation = R(q, v, t)"),
     ("constraint",  "constraint = g(q, t)`, or `constraint(i in 0..n) = g(i)"),
     ("nonholonomic", "nonholonomic = a(q, v, t)`, or `nonholonomic(i in 0..n) = a(i)"),
     ("impact",      "impact = g(q, t)`, or `impact(i in 0..n) = g(i)"),
@@ -99,12 +103,13 @@ const ARGUMENTS: [(&str, &str); 16] = [
 
 /// Other words, and the argument that is meant.
 #[rustfmt::skip]
-const OTHER_WORDS: [(&str, &[&str]); 8] = [
+const OTHER_WORDS: [(&str, &[&str]); 9] = [
     ("coordinates", &["coords", "variables", "vars", "q", "positions", "unknowns"]),
     ("lagrangian",  &["L", "l", "lagrange", "kinetic", "potential", "T", "V", "U"]),
     ("hamiltonian", &["H", "h", "energy"]),
     ("one_form",    &["alpha", "theta", "vartheta", "α", "ϑ", "θ", "symplectic"]),
-    ("force",       &["damping", "dissipation", "drag", "drive", "forces", "forcing", "friction", "rayleigh"]),
+    ("force",       &["damping", "drag", "drive", "forces", "forcing", "friction"]),
+    ("dissipation", &["rayleigh", "R"]),
     ("momenta",     &["conserved", "integrals", "invariants", "momentum"]),
     ("let",         &["abbreviations", "define", "definitions", "lets", "locals", "shared", "terms", "where", "with"]),
     ("events",      &["condition", "conditions", "crossings", "event", "section", "sections"]),
@@ -117,7 +122,7 @@ const FIELDS: [&str; 5] = ["constants", "parameter", "parameters", "params", "fi
 const DEGENERATE_ONLY: [&str; 4] = ["one_form", "hamiltonian", "gauge", "time_transform"];
 
 /// The arguments that a degenerate system does not have.
-const REGULAR_ONLY: [&str; 3] = ["constraint", "nonholonomic", "impact"];
+const REGULAR_ONLY: [&str; 4] = ["constraint", "nonholonomic", "impact", "dissipation"];
 
 impl Kind {
     pub(crate) const BOTH: [Self; 2] = [Self::Degenerate, Self::Regular];
@@ -158,6 +163,9 @@ impl Kind {
         if FIELDS.contains(&keyword) {
             return "parameters are the fields of the struct, and formulas know them by their names"
                 .to_string();
+        }
+        if let Some(instead) = unsaid::instead_of(keyword) {
+            return instead.to_string();
         }
         match nearest(keyword, self.arguments()) {
             Some(near) => format!("did you mean `{near}`?"),
@@ -227,6 +235,7 @@ impl Attribute {
             self.lagrangian.as_ref(),
             self.gauge(),
             rate,
+            self.dissipation.as_ref(),
         ];
         let forces = self.forces.iter().flat_map(Force::formulas);
         let named = self.momenta.iter().chain(&self.events).map(|named| &named.formula);
@@ -243,8 +252,14 @@ impl Attribute {
             Some(Gauge::Formula(formula)) => Some(formula),
             Some(Gauge::Auto(_)) | None => None,
         };
-        let dynamics =
-            [self.one_form.as_mut(), self.hamiltonian.as_mut(), self.lagrangian.as_mut(), gauge, rate];
+        let dynamics = [
+            self.one_form.as_mut(),
+            self.hamiltonian.as_mut(),
+            self.lagrangian.as_mut(),
+            gauge,
+            rate,
+            self.dissipation.as_mut(),
+        ];
         let forces = self.forces.iter_mut().flat_map(Force::formulas_mut);
         let named = self.momenta.iter_mut().chain(&mut self.events).map(|named| &mut named.formula);
         let constraints = self.constraints.iter_mut().map(|constraint| &mut constraint.formula);
@@ -260,6 +275,11 @@ impl Attribute {
             return;
         }
         match (keyword.as_str(), value) {
+            (word, _) if self.kind == Kind::Degenerate && other_word(word) == "dissipation" => {
+                let message = "a dissipation function is one of velocities, and those of a degenerate system are functions of the \
+                               coordinates: write the force itself, `force(x) = …`";
+                errors.push(&name, message);
+            }
             (other, _) if !self.kind.takes(other_word(other)) => {
                 let message = format!(
                     "`{}` takes all of L as `lagrangian = …`; {} are arguments of `{}`",
@@ -317,6 +337,7 @@ impl Attribute {
                     )),
                 }
             }
+            ("dissipation", Value::Assigned(tokens)) => self.dissipation = value_of(&name, tokens, errors),
             ("one_form", Value::Assigned(tokens)) => self.one_form = value_of(&name, tokens, errors),
             ("hamiltonian", Value::Assigned(tokens)) => self.hamiltonian = value_of(&name, tokens, errors),
             ("lagrangian", Value::Assigned(tokens)) => self.lagrangian = value_of(&name, tokens, errors),

@@ -3,4 +3,5 @@
 use dvi_tests::Outcome;
 
 mod declarations;
+mod dissipation;
 mod equations;

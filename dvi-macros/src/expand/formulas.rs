@@ -164,6 +164,10 @@ impl Stages {
         let momenta = named(&self.attribute.momenta, Role::Momentum, &mut lowering);
         let events = named(&self.attribute.events, Role::Event, &mut lowering);
         let force = lowering.forces(&self.attribute.forces);
+        let dissipation = match &self.attribute.dissipation {
+            Some(function) => lowering.dissipation(function),
+            None => Some(Vec::new()),
+        };
         let constraints = self.attribute.constrained.map(|of| {
             let list = lowering.constraints(of, &self.attribute.constraints)?;
             Some(DeclaredConstraints { of, list })
@@ -172,6 +176,7 @@ impl Stages {
         let quadratic = lowering.is_quadratic(lagrangian);
         let (force, constraints, momenta, events) =
             (force?, constraints.map_or(Some(None), |declared| declared.map(Some))?, momenta?, events?);
+        let force = lowering.graph.added(force, dissipation?.into_iter());
         let seams = lowering.seams;
         Some(RegularFormulas { lagrangian, quadratic, force, constraints, momenta, events, seams })
     }

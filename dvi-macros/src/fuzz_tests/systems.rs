@@ -38,6 +38,7 @@ fn regular_systems() -> Vec<(TokenStream, TokenStream)> {
                         + sum_pairs(0..N, |i, j| 1.0 / gap(i, j).norm()) + dot(q).dot([q[1], -q[0]]) + dot(q).norm_squared()
                 },
                 force(r) = |i| if t > 1.0 { field } else { -drag[i] / 2.0 },
+                dissipation = sum_pairs(0..N, |i, j| (dot(r[i]) - dot(r[j])).norm().powi(3)) + t * dot(q).norm_squared(),
                 momenta(l = sum(0..N, |i| r[i].cross(dot(r[i])))[2]),
             },
             quote!(

@@ -102,7 +102,7 @@ fn account(
         (format!("α_{along}"), Some(format!(r"\alpha_{{{}}}", in_tex(typesetter, &along))))
     });
     account.derived(emitter, &programs.hamiltonian_gradient.statements, |typesetter, _, entry| {
-        let [text, tex] = beside_force(emitter, &programs.shared, typesetter, '-', entry);
+        let [text, tex] = beside_force(emitter, attribute, &programs.shared, typesetter, '-', entry);
         let by = coordinate(entry);
         let text = format!("∂H/∂{by}{}", text.replace('-', "−"));
         (text, Some(format!(r"\partial H / \partial {}{tex}", in_tex(typesetter, &by))))

@@ -16,7 +16,7 @@ use crate::symbolic::{
     Coordinate, Count, Expr, Index, Rows, print_coordinate, print_expr, print_index, print_loops,
     print_velocity, write_expr,
 };
-use crate::syntax::{Attribute, Constrained, Factor, closure, value};
+use crate::syntax::{Attribute, Constrained, Factor, Force, closure, value};
 use crate::typeset::{Equation, Typesetter, block, declared, plain};
 
 pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
@@ -277,6 +277,7 @@ pub(super) fn in_tex(typesetter: &mut Typesetter, place: &str) -> String {
 /// sign, as text and in LaTeX; nothing where no force acts.
 pub(super) fn beside_force(
     emitter: &Emitter<'_>,
+    attribute: &Attribute,
     programs: &Programs,
     typesetter: &mut Typesetter,
     sign: char,
@@ -293,7 +294,18 @@ pub(super) fn beside_force(
         return Default::default();
     }
     let on = print_coordinate(entry, emitter.model);
-    [format!(" {sign} force({on})"), format!(" {sign} F_{{{}}}", in_tex(typesetter, &on))]
+    let is_on = |force: &Force| match force {
+        Force::Components(_) => true,
+        Force::On(name, _) => *name == emitter.model.blocks[entry.block as usize].name,
+    };
+    let declared = attribute.forces.iter().any(is_on);
+    let mut tex =
+        if declared { format!(" {sign} F_{{{}}}", in_tex(typesetter, &on)) } else { String::new() };
+    if attribute.dissipation.is_some() {
+        let by = print_velocity(entry, emitter.model);
+        tex += &format!(r" - \partial R / \partial {}", in_tex(typesetter, &by));
+    }
+    [format!(" {sign} force({on})"), tex]
 }
 
 fn operation_list(emitter: &Emitter<'_>, operations: &[Operations]) -> TokenStream {

@@ -78,7 +78,7 @@ fn account(
                 (format!("∂L/∂{by}"), Some(format!(r"\partial L / \partial {}", in_tex(typesetter, &by))))
             }
             Output::Lq | Output::Vector => {
-                let [text, tex] = beside_force(emitter, &programs.shared, typesetter, '+', entry);
+                let [text, tex] = beside_force(emitter, attribute, &programs.shared, typesetter, '+', entry);
                 let by = print_coordinate(entry, emitter.model);
                 (
                     format!("∂L/∂{by}{text}"),

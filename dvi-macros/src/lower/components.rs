@@ -64,6 +64,24 @@ impl Lowering<'_> {
         Some(acting.map(contribution).collect())
     }
 
+    /// The force −∂R/∂v of a dissipation function R.
+    pub(crate) fn dissipation(&mut self, formula: &Syntax) -> Option<Vec<Contribution>> {
+        let function = self.formula(formula, Role::Dissipation)?;
+        let mut force = Vec::new();
+        for part in self.graph.gradient(function, &[]) {
+            if let Node::Velocity(on) = self.graph.node(part.target).clone() {
+                let target = self.graph.intern(Node::Coordinate(on));
+                force.push(Contribution { target, value: part.value.negated(), ..part });
+            }
+        }
+        if force.is_empty() {
+            let message = "no velocity `dot(x)` stands in this dissipation function, or none is left: it makes no force";
+            self.errors.push(formula, message);
+            return None;
+        }
+        Some(force)
+    }
+
     fn declared_blocks(&mut self, name: &Ident) -> Option<Blocks<usize>> {
         let declared = self.declared();
         let found = declared.iter().find(|blocks| self.model.blocks[blocks.start].name == *name).cloned();

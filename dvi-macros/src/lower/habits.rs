@@ -318,7 +318,7 @@ impl Lowering<'_> {
     pub(super) fn velocity_called(&self, name: &str) -> Option<String> {
         let written = match self.role {
             Role::OneForm => "d",
-            Role::Lagrangian => "dot",
+            Role::Lagrangian | Role::Dissipation => "dot",
             Role::Shared => self.shared.velocity,
             Role::Momentum | Role::Event | Role::Force if self.model.has_velocities() => "dot",
             Role::Component

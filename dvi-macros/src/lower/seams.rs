@@ -15,6 +15,7 @@ impl Lowering<'_> {
             | Role::TimeTransform
             | Role::Lagrangian
             | Role::Force
+            | Role::Dissipation
             // A formula of the motion may use the name.
             | Role::Shared => true,
             Role::Gauge | Role::Constraint(_) | Role::Momentum | Role::Event => false,

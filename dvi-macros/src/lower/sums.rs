@@ -303,6 +303,7 @@ impl Lowering<'_> {
                 | Role::TimeTransform
                 | Role::Lagrangian
                 | Role::Force
+                | Role::Dissipation
                 | Role::Momentum
                 | Role::Event => "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
                 Role::Shared => format!(

@@ -195,8 +195,11 @@ impl Lowering<'_> {
     /// The index of a component, which is known.
     pub(super) fn axis(&mut self, index: &Syntax, count: usize, name: &str) -> Option<usize> {
         let Some(literal) = self.index(index)?.as_literal() else {
-            let message = format!("a component has a literal for its index, as in `{name}[0]`");
-            self.errors.push(index, message);
+            // What was declared may be no vector.
+            if !self.model.lost_coordinates {
+                let message = format!("a component has a literal for its index, as in `{name}[0]`");
+                self.errors.push(index, message);
+            }
             return None;
         };
         let place = usize::try_from(literal).ok().filter(|place| *place < count);

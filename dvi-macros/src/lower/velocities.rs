@@ -67,7 +67,9 @@ impl Lowering<'_> {
     pub(super) fn velocity_word(&self) -> Result<&'static str, String> {
         let reason = match self.role {
             Role::OneForm => return Ok("d"),
-            Role::Lagrangian | Role::Constraint(Constrained::Velocities) => return Ok("dot"),
+            Role::Lagrangian | Role::Dissipation | Role::Constraint(Constrained::Velocities) => {
+                return Ok("dot");
+            }
             Role::Momentum | Role::Event | Role::Force if self.model.kind == Kind::Regular => {
                 return Ok("dot");
             }

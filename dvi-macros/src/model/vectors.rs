@@ -105,7 +105,8 @@ pub(super) fn components(name: &Ident, declared: &Expr) -> syn::Result<usize> {
         Some(count) if COMPONENTS.contains(&count) => return Ok(count as usize),
         Some(1) => format!("a vector has two components or more: an array of numbers is `{name}[n]`"),
         _ => format!(
-            "the number of components of a vector is a literal from {} to {}: write `{name}[n][3]` for n vectors in space",
+            "the number of components of a vector is a literal from {} to {}: write `{name}[n][3]` for n vectors in space, and \
+             `{name}[n * m]` for numbers with two indices, of which `{name}[m * i + j]` is one",
             COMPONENTS.start(),
             COMPONENTS.end()
         ),

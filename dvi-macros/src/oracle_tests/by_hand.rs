@@ -112,6 +112,7 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         gauge: Gauge::None,
         time_transform: None,
         forces: Vec::new(),
+        dissipation: None,
         constraints: Vec::new(),
         constrained: Constrained::Positions,
         momenta: vec![Formula::Time],

@@ -295,6 +295,18 @@ impl<'a> Oracle<'a> {
                     .for_each(|(axis, force)| add(offset + axis * length + i, force));
             }
         }
+        if let Some(function) = &self.system.dissipation {
+            let (function, n) = (self.value(function)?, forces.len());
+            for (i, force) in forces.iter_mut().enumerate() {
+                let slope = Jet::from_derivatives(
+                    function.gradient(n + i),
+                    self.variables(),
+                    |j| function.hessian(n + i, j),
+                    |_, _| Sized::default(),
+                );
+                *force = force.plus(&slope.scaled(-1.0));
+            }
+        }
         Ok(forces)
     }
 

@@ -69,6 +69,7 @@ const EXPECTED: &[&str] = &[
     "no coordinate stands in this gap",
     "this gap is declared twice, up to a factor",
     "cannot be independent of each other",
+    "no velocity `dot(x)` stands in this dissipation function, or none is left",
     // It may come out as a constant.
     "a time transformation is positive",
 ];

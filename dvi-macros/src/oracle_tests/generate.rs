@@ -63,6 +63,9 @@ pub(super) fn system(random: &mut Random) -> System {
         generator.velocities = Velocities::None;
         generator.system.constraints = generator.constraints();
     }
+    if regular && generator.random.chance(30) {
+        generator.system.dissipation = Some(generator.dissipation());
+    }
     if generator.random.chance(30) {
         generator.velocities = if regular { Velocities::Any } else { Velocities::None };
         generator.system.forces = generator.forces();

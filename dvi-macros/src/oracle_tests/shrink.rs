@@ -35,6 +35,9 @@ fn smaller_systems(system: &System) -> Vec<System> {
         smaller.constraints.remove(constraint);
         candidates.push(smaller);
     }
+    if system.dissipation.is_some() {
+        candidates.push(System { dissipation: None, ..system.clone() });
+    }
     if system.time_transform.is_some() {
         candidates.push(system.clone().without_time_transform());
     }

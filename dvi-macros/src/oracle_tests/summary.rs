@@ -30,6 +30,9 @@ impl Summary {
                 if !system.constraints.is_empty() {
                     self.count(&format!("agrees, with {} constraints", system.constrained.adjective()));
                 }
+                if system.dissipation.is_some() {
+                    self.count("agrees, with a dissipation function");
+                }
                 if system.attribute().contains("let = {") {
                     self.count("agrees, with names that formulas share");
                 }

@@ -104,6 +104,8 @@ pub(super) struct System {
     pub(super) time_transform: Option<Formula>,
     /// The forces, each on a block. The index of an entry is that of level 0.
     pub(super) forces: Vec<(usize, Formula)>,
+    /// R of the force −∂R/∂v.
+    pub(super) dissipation: Option<Formula>,
     pub(super) constraints: Vec<Constraint>,
     pub(super) constrained: Constrained,
     pub(super) momenta: Vec<Formula>,
@@ -200,6 +202,7 @@ impl System {
         }
         formulas.extend(&mut self.time_transform);
         formulas.extend(self.forces.iter_mut().map(|(_, force)| force));
+        formulas.extend(&mut self.dissipation);
         formulas.extend(self.constraints.iter_mut().map(|constraint| &mut constraint.formula));
         formulas.extend(&mut self.momenta);
         formulas

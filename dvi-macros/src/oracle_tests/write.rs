@@ -82,6 +82,9 @@ impl System {
                 text += &format!(", force({}) = {entry}", self.blocks[*block].name);
             }
         }
+        if let Some(function) = &self.dissipation {
+            text += &format!(", dissipation = {}", dot.text(function));
+        }
         text += &self.constraint_arguments(&dot);
         let momenta = self.momenta.iter().enumerate();
         let momenta: Vec<String> = momenta.map(|(n, value)| format!("p{n} = {}", dot.text(value))).collect();

@@ -1,7 +1,7 @@
 //! What is special to L = α·v − H: the one-form, the Hamiltonian, the right side of the flow.
 
 use super::pairs::DegeneratePairs;
-use super::{Programs, added, first_derivatives, mirrored_pair, rates, result, statements};
+use super::{Programs, first_derivatives, mirrored_pair, rates, result, statements};
 use crate::formulas::{DegenerateFormulas, Force, TimeTransform, dalpha};
 use crate::internal::internal;
 use crate::routine::Routine;
@@ -73,7 +73,7 @@ impl DegeneratePrograms {
 /// ∇H − F
 pub(super) fn hamiltonian_gradient(graph: &mut Graph, hamiltonian: Expr, force: &Force) -> Vec<Statement> {
     let by_hamiltonian = graph.gradient(hamiltonian, &[]);
-    let contributions = added(graph, by_hamiltonian, negated(force));
+    let contributions = graph.added(by_hamiltonian, negated(force));
     statements(graph, contributions, Output::Vector, Output::Lv)
 }
 

@@ -30,6 +30,8 @@ pub(crate) struct MassMatrix {
     depends_on: Vec<&'static str>,
     /// Blocks that M does not involve, and whether L mentions their velocities at all.
     massless: Vec<(usize, bool)>,
+    /// Those of them that L is affine in, as in the multipliers of constraints.
+    multipliers: Vec<usize>,
     /// Coordinates of arrays that M does not involve.
     skipped: Vec<(usize, i64)>,
     /// Whether M is zero.
@@ -73,7 +75,8 @@ impl MassMatrix {
         let massless = (0..model.blocks.len())
             .filter(|block| !involved(*block))
             .map(|block| (block, mentioned.contains(&block)));
-        let massless = massless.collect();
+        let massless: Vec<(usize, bool)> = massless.collect();
+        let multipliers = multipliers(graph, entries, &massless);
         let places: Vec<[usize; 2]> =
             mass.iter().map(|entry| [block_of(&entry.row), block_of(&entry.column)]).collect();
         Self {
@@ -85,6 +88,7 @@ impl MassMatrix {
             pole: has_pole_where_bodies_meet(graph, formulas.lagrangian),
             depends_on,
             massless,
+            multipliers,
             skipped: skipped(model, &mass),
             zero: mass.is_empty(),
             invertible: has_matching(model, &places),
@@ -107,9 +111,14 @@ impl MassMatrix {
                 (true, true) => "is linear in",
                 (true, false) => "is piecewise linear in",
             };
+            let or_else = if self.multipliers.contains(block) {
+                ", or write `constraint = g` for what it multiplies"
+            } else {
+                ""
+            };
             let message = format!(
                 "L {relation} the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
-                 such as `{}`",
+                 such as `{}`{or_else}",
                 kinetic_energy(model, *block)
             );
             // What has no components has none for each of them.
@@ -303,6 +312,22 @@ fn has_pole_where_bodies_meet(graph: &Graph, lagrangian: Expr) -> bool {
 fn mixes_position_and_velocity(graph: &Graph, entries: &[SecondContribution]) -> bool {
     let kind = |id: Id| variable(graph, id).0;
     entries.iter().any(|entry| kind(entry.row) != kind(entry.column))
+}
+
+/// Those of the blocks without mass that L is affine in, with functions of other coordinates as factors.
+fn multipliers(graph: &Graph, entries: &[SecondContribution], massless: &[(usize, bool)]) -> Vec<usize> {
+    let blocks = |entry: &SecondContribution| {
+        let variables = [entry.row, entry.column].map(|id| variable(graph, id));
+        let positions = variables.iter().all(|(kind, _)| *kind == Variable::Position);
+        positions.then(|| variables.map(|(_, at)| at.block as usize))
+    };
+    let pairs: Vec<[usize; 2]> = entries.iter().filter_map(blocks).collect();
+    let multiplies = |block: usize| {
+        let mut with = pairs.iter().filter(|pair| pair.contains(&block)).peekable();
+        with.peek().is_some() && with.all(|pair| *pair != [block, block])
+    };
+    let unmentioned = massless.iter().filter(|(_, mentioned)| !mentioned);
+    unmentioned.map(|(block, _)| *block).filter(|block| multiplies(*block)).collect()
 }
 
 /// Whether ∂L/∂q is written without velocities.

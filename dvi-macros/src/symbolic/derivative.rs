@@ -218,6 +218,24 @@ impl Graph {
         }
     }
 
+    /// The sum of contributions, with one value for each place.
+    pub(crate) fn added(
+        &mut self,
+        mut contributions: Vec<Contribution>,
+        others: impl Iterator<Item = Contribution>,
+    ) -> Vec<Contribution> {
+        for other in others {
+            let same =
+                |known: &&mut Contribution| known.target == other.target && known.loops == other.loops;
+            match contributions.iter_mut().find(same) {
+                Some(known) => known.value = self.add(known.value, other.value),
+                None => contributions.push(other),
+            }
+        }
+        contributions.retain(|contribution| !contribution.value.is_zero());
+        contributions
+    }
+
     /// The second derivative of `root` by all coordinates and velocities.
     ///
     /// Each place of the formula belongs to one [`Family`], in the first derivative as in the second.

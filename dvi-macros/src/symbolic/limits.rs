@@ -16,7 +16,7 @@
 //! | √(a²ᵐ·b²ⁿ…) | it is \|a\|ᵐ·\|b\|ⁿ…, whose derivative at 0 is 0 |
 
 use super::functions::{Property, Unary};
-use super::graph::{Binary, Expr, Fold, Graph, Id, Node, Relation};
+use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation};
 use super::index::{Atom, Index, Range};
 use super::powers::{Part, Root, take};
 
@@ -130,7 +130,9 @@ impl Graph {
                 belongs && self.is_smooth(a.node) && self.is_smooth(b.node)
             }
             Root::Sqrt(u) => {
-                let belongs = *self.node(w) == Node::Unary(Unary::Sqrt, u) || self.holds_square(u.node, w);
+                let itself = Node::Unary(Unary::Sqrt, u);
+                let belongs =
+                    *self.node(w) == itself || self.holds_square(u.node, w) || self.holds_entries(u.node, w);
                 belongs && u.scale > 0.0 && self.is_never_negative(u.node) && self.is_smooth(u.node)
             }
         }
@@ -162,6 +164,22 @@ impl Graph {
         };
         let follows = entry.index == Index::atom(Atom::Bound(height));
         entry.block == w.block && follows && self.is_whole(range, w.block)
+    }
+
+    /// Whether the squares of all entries of an array, of which w is one, are terms of a sum, one by one:
+    /// `r[i]` beside the length of `r[3]`.
+    fn holds_entries(&self, of: Id, w: Id) -> bool {
+        let (entry, kind): (_, fn(Coordinate) -> Node) = match self.node(w) {
+            Node::Coordinate(entry) => (entry, Node::Coordinate),
+            Node::Velocity(entry) => (entry, Node::Velocity),
+            _ => return false,
+        };
+        let size = self.block_sizes.get(entry.block as usize).and_then(Index::as_literal);
+        let is_there = |number| {
+            let other = kind(Coordinate { index: Index::literal(number), ..entry.clone() });
+            self.find(&other).is_some_and(|other| self.holds_square(of, other))
+        };
+        size.is_some_and(|size| size > 0 && (0..size).all(is_there))
     }
 
     /// Whether a range runs over all entries of a block of coordinates.

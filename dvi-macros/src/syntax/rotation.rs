@@ -37,8 +37,9 @@ impl Attribute {
                 }
             };
             Some(format!("a system with rotations or unit vectors has no `{}` yet: {numbers}", of.word()))
-        } else if !self.forces.is_empty() {
-            Some("a system with rotations or unit vectors has no forces yet: leave `force` out".to_string())
+        } else if !self.forces.is_empty() || self.dissipation.is_some() {
+            let word = if self.forces.is_empty() { "dissipation" } else { "force" };
+            Some(format!("a system with rotations or unit vectors has no forces yet: leave `{word}` out"))
         } else {
             None
         };

@@ -273,6 +273,7 @@ fn rotations_constraints_choices_and_functions() {
                 lagrangian = sum(0..n, |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0
                     - if x[i] < 0.0 && t > 1.0 { k * x[i].abs() } else { x[(i + 1) % n].sin() }),
                 force(y) = |i| -drag * dot(y[i]),
+                dissipation = drag * sum_pairs(0..n, |i, j| (dot(x[i]) - dot(x[j])).powi(2)),
                 constraint = x[0].hypot(y[0]) - self.rod,
                 constraint(i in 1..n) = (x[i] - x[i - 1]).sqrt() - rod,
             },
@@ -287,9 +288,51 @@ fn rotations_constraints_choices_and_functions() {
             ```math
             \begin{aligned}
             L &= \sum_{i = 0}^{n - 1} \left(\frac{{\dot{x}_{i}}^{2} + {\dot{y}_{i}}^{2}}{2} - \begin{cases} k \, \left|x_{i}\right| & \text{if } x_{i} < 0 \text{ and } t > 1 \\ \sin x_{\left(i + 1\right) \bmod n} & \text{otherwise} \end{cases}\right) \\
+            R &= \mathit{drag} \, \sum_{0 \le i < j \le n - 1} {\left(\dot{x}_{i} - \dot{x}_{j}\right)}^{2} \\
             F_{y_{i}} &= -\mathit{drag} \, \dot{y}_{i} \\
             0 &= \sqrt{{x_{0}}^2 + {y_{0}}^2} - \mathit{rod} \\
             0 &= \sqrt{x_{i} - x_{i - 1}} - \mathit{rod} \qquad \text{for } 1 \le i \le n - 1
+            \end{aligned}
+            ```
+        "#]],
+    );
+}
+
+#[test]
+fn a_dissipation_function_stands_as_it_is_written() {
+    check(
+        lagrangian(
+            quote! {
+                coordinates(x, y),
+                lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+                force(y) = -y,
+                dissipation = gamma * dot(x).powi(2) / 2.0,
+            },
+            quote! { struct Damped { gamma: f64 } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \frac{{\dot{x}}^{2} + {\dot{y}}^{2}}{2} \\
+            R &= \frac{\gamma \, {\dot{x}}^{2}}{2} \\
+            F_{y} &= -y
+            \end{aligned}
+            ```
+
+            The compiler makes of it:
+
+            ```math
+            \begin{aligned}
+            E &= 0.5 \, \left({\dot{x}}^{2} + {\dot{y}}^{2}\right) \\
+            \partial L / \partial \dot{x} &= \dot{x} \\
+            \partial L / \partial \dot{y} &= \dot{y} \\
+            \partial L / \partial y + F_{y} - \partial R / \partial \dot{y} &= -y \\
+            \partial L / \partial x - \partial R / \partial \dot{x} &= -\dot{x} \, \gamma
             \end{aligned}
             ```
         "#]],

@@ -8,7 +8,7 @@ use crate::syntax::{Attribute, Constrained, Constraint, Force};
 /// The formulas of a system as they were written.
 pub(crate) fn declared(attribute: &Attribute, typesetter: &mut Typesetter) -> Vec<Equation> {
     let mut equations = Vec::new();
-    let Attribute { one_form, hamiltonian, lagrangian, time_transform, .. } = attribute;
+    let Attribute { one_form, hamiltonian, lagrangian, time_transform, dissipation, .. } = attribute;
     let rate = time_transform.as_ref().map(|transform| &transform.rate);
     if let Some(Expr::Array(list)) = one_form {
         equations.extend(components(attribute, r"\alpha", list, typesetter));
@@ -20,6 +20,7 @@ pub(crate) fn declared(attribute: &Attribute, typesetter: &mut Typesetter) -> Ve
         ("H", hamiltonian.as_ref()),
         ("F", attribute.gauge()),
         (r"\rho", rate),
+        ("R", dissipation.as_ref()),
     ];
     let dynamics = dynamics.into_iter().filter_map(|(name, formula)| Some((name, formula?)));
     equations.extend(dynamics.map(|(name, formula)| typesetter.equation(name, formula)));

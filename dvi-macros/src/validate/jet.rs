@@ -153,6 +153,21 @@ impl Jet {
         self.part(mixed(first as usize, second as usize))
     }
 
+    /// The derivatives along the first and the second direction of velocities, the first with what its own
+    /// along the second directions are.
+    pub(super) fn slopes(&self) -> [Self; 2] {
+        let [mut slope, mut other] = [Self::number(0.0), Self::number(0.0)];
+        let mut set =
+            |at: usize, part: Sized| (slope.0.value[at], slope.0.size[at]) = (part.value, part.size);
+        set(0, self.first(First::V));
+        for second in [Second::Q, Second::V] {
+            set(1 + FIRST + second as usize, self.both(First::V, second));
+        }
+        let along_second = self.second(Second::V);
+        (other.0.value[0], other.0.size[0]) = (along_second.value, along_second.size);
+        [slope, other]
+    }
+
     /// Whether it is a zero whose sign is not defined.
     pub(super) fn is_zero_without_sign(&self) -> bool {
         self.0.holds_empty_sum && self.0.value[0] == 0.0

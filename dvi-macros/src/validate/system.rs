@@ -110,7 +110,7 @@ impl System<'_> {
             }
         };
         evaluation.seams = seams;
-        let work = evaluation.work(&attribute.forces)?;
+        let work = evaluation.work(attribute)?;
         let seams = std::mem::take(&mut evaluation.seams);
         let constraints = match (part, attribute.constraints.as_slice()) {
             (Part::Form, _) | (Part::All, []) => None,

@@ -40,6 +40,7 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
         gauge,
         time_transform,
         forces,
+        dissipation: None,
         constraints,
         constrained,
         momenta,

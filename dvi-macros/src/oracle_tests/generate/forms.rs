@@ -131,6 +131,17 @@ impl Generator<'_> {
         vec![self.over(self.system.blocks[first].size, square)]
     }
 
+    /// A function with velocities in it.
+    pub(super) fn dissipation(&mut self) -> Formula {
+        self.budget = 8;
+        self.velocities = Velocities::Any;
+        let (scope, value) = (Scope::outside(), self.value(&Scope::outside(), 4));
+        match self.random.below(3) {
+            0 => value.times(self.velocity(&scope)),
+            _ => self.kinetic().plus(value),
+        }
+    }
+
     fn kinetic_of(&mut self, block: usize) -> Formula {
         let size = self.system.blocks[block].size;
         let scope = match size {

@@ -7,7 +7,7 @@ use syn::Expr;
 use super::super::jet::Jet;
 use super::super::point::{Directions, Variable};
 use super::{Evaluation, Quantity, Value, unknown};
-use crate::syntax::Force;
+use crate::syntax::{Attribute, Force};
 
 impl Evaluation<'_> {
     /// α·v of a list of components.
@@ -23,9 +23,13 @@ impl Evaluation<'_> {
     }
 
     /// The forces times the displacements along both directions: the work of a displacement.
-    pub(in super::super) fn work(&mut self, forces: &[Force]) -> Value<[Jet; 2]> {
-        let mut work = [Jet::number(0.0), Jet::number(0.0)];
-        for force in forces {
+    pub(in super::super) fn work(&mut self, attribute: &Attribute) -> Value<[Jet; 2]> {
+        let dissipated = match &attribute.dissipation {
+            Some(function) => self.number(function)?.slopes(),
+            None => [Jet::number(0.0), Jet::number(0.0)],
+        };
+        let mut work = dissipated.map(|dissipated| dissipated.scaled(-1.0));
+        for force in &attribute.forces {
             let components: Vec<(Blocks<usize>, &Expr)> = match force {
                 Force::Components(list) => self.model.coordinates().into_iter().zip(&list.elems).collect(),
                 Force::On(name, formula) => match self.block(&name.to_string()) {

@@ -7,3 +7,18 @@
 fn mistakes() {
     trybuild::TestCases::new().compile_fail("ui/*.rs");
 }
+
+/// The page of what the language does not say quotes what it says instead.
+#[test]
+fn what_is_not_said_has_the_messages_of_its_page() -> Result<(), Box<dyn std::error::Error>> {
+    let messages = std::fs::read_to_string("ui/unsaid.stderr")?;
+    let page = include_str!("../../../../dvi-macros/docs/degenerate_lagrangian.md");
+    let (_, section) = page.split_once("# What the language does not say").ok_or("no such section")?;
+    let rows = section.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").nth(1));
+    let quoted: Vec<&str> = rows.filter_map(|cell| cell.strip_prefix('"')?.strip_suffix('"')).collect();
+    assert_eq!(quoted.len(), 6);
+    for message in quoted {
+        assert!(messages.contains(message), "{message}");
+    }
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! Mistakes in dissipation functions.
+
+use dvi_core::prelude::*;
+
+mod without_velocities {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = 0.1 * x * x)]
+    struct S;
+
+    fn state() -> SState {
+        SState { x: 1.0, dot_x: 0.0 }
+    }
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = dot(x) - dot(x) + t)]
+    struct T;
+}
+
+mod velocities_of_other_names {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = dot_x.powi(2))]
+    struct S;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = d(x).powi(2))]
+    struct T;
+}
+
+mod on_a_coordinate {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation(x) = dot(x).powi(2))]
+    struct S;
+}
+
+mod no_number {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(r[2]),
+        lagrangian = dot(r).norm_squared() / 2.0,
+        dissipation = dot(r),
+    )]
+    struct S;
+}
+
+mod empty {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation =)]
+    struct S;
+}
+
+mod twice {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(x, y),
+        lagrangian = dot(x).powi(2) / 2.0 + dot(y).powi(2),
+        dissipation = dot(x).powi(2),
+        dissipation = dot(y).powi(2),
+    )]
+    struct S;
+}
+
+mod other_words {
+    use super::*;
+
+    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, rayleigh = dot(x).powi(2))]
+    struct S;
+}
+
+mod degenerate {
+    use super::*;
+
+    #[degenerate_lagrangian(
+        coordinates(x, p),
+        one_form = p * d(x),
+        hamiltonian = p * p / 2.0,
+        dissipation = dot(x).powi(2),
+    )]
+    struct S;
+
+    #[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0, rayleigh = p * p)]
+    struct T;
+}
+
+mod rotations {
+    use super::*;
+
+    #[lagrangian(
+        coordinates(R: SO3),
+        lagrangian = omega(R).norm_squared(),
+        dissipation = omega(R).norm_squared(),
+    )]
+    struct S;
+}
+
+fn main() {}

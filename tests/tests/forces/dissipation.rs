@@ -1,0 +1,181 @@
+//! Dissipation functions R: the force is −∂R/∂v.
+
+use dvi_core::diagnostics::Work;
+use dvi_core::prelude::*;
+use dvi_core::space::sink::Dense;
+use dvi_core::{Report, Weights};
+
+use super::Outcome;
+
+/// An oscillator with friction.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0,
+    dissipation = gamma * dot(x).powi(2) / 2.0,
+)]
+#[derive(Clone, Debug)]
+struct Oscillator {
+    gamma: f64,
+}
+
+#[test]
+fn an_oscillator_decays_as_its_closed_form() -> Outcome {
+    let gamma = 0.3;
+    let start = OscillatorState { x: 1.0, dot_x: 0.0 };
+    let mut run = Integrator::new(Oscillator { gamma }, Galerkin::<4>::new(), 0.05, start)?;
+    let (mut work, begin) = (Work::new(&run), run.energy());
+    for _ in 0..400 {
+        run.advance()?;
+        work.record(&run);
+        let (t, omega) = (run.time(), (1.0 - gamma * gamma / 4.0_f64).sqrt());
+        let (s, c) = (omega * t).sin_cos();
+        let x = (-gamma * t / 2.0).exp() * (c + gamma / (2.0 * omega) * s);
+        assert!((run.state().x - x).abs() < 1e-9, "{} {x}", run.state().x);
+        // v ∂R/∂v = 2R
+        assert!((run.power() + gamma * run.state().dot_x.powi(2)).abs() < 1e-15);
+    }
+    assert!((run.energy() - begin - work.total()).abs() < 1e-6);
+    Ok(())
+}
+
+/// Bodies on a line that rub against each other and against the air, by one function and by forces.
+#[lagrangian(
+    coordinates(x[n], y),
+    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i] * y) + dot(y).powi(2) / 2.0,
+    force(y) = -y,
+    dissipation = sum(0..n, |i| c[i] * dot(x[i]).powi(2)) / 2.0
+        + sum_pairs(0..n, |i, j| k[i][j] * gap(i, j).powi(2)) / 2.0 + x[0] * dot(y).powi(4) / 4.0,
+    let = { let gap = |i, j| dot(x[i]) - dot(x[j]); },
+)]
+#[derive(Clone, Debug)]
+struct Rubbing {
+    n: usize,
+    c: Vec<f64>,
+    k: Vec<Vec<f64>>,
+}
+
+#[lagrangian(
+    coordinates(x[n], y),
+    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i] * y) + dot(y).powi(2) / 2.0,
+    force(x) = |i| -c[i] * dot(x[i]) - sum(0..n, |j| k[i][j] * (dot(x[i]) - dot(x[j]))),
+    force(y) = -y - x[0] * dot(y).powi(3),
+)]
+#[derive(Clone, Debug)]
+struct Rubbed {
+    n: usize,
+    c: Vec<f64>,
+    k: Vec<Vec<f64>>,
+}
+
+#[test]
+fn it_is_the_force_that_is_written_by_hand() -> Outcome {
+    let (c, k) = (vec![0.1, 0.2, 0.3], vec![vec![0.0, 0.4, 0.1], vec![0.4, 0.0, 0.7], vec![0.1, 0.7, 0.0]]);
+    let (function, forces) = (Rubbing { n: 3, c: c.clone(), k: k.clone() }, Rubbed { n: 3, c, k });
+    let (x, dot_x) = (vec![0.3, -0.2, 0.5], vec![1.0, 2.0, 4.0]);
+    let start = RubbingState { x: x.clone(), y: 0.7, dot_x: dot_x.clone(), dot_y: 0.5 };
+    let mut rubbing = Integrator::new(&function, Variational::midpoint(), 0.05, start)?;
+    let start = RubbedState { x, y: 0.7, dot_x, dot_y: 0.5 };
+    let mut rubbed = Integrator::new(&forces, Variational::midpoint(), 0.05, start)?;
+    assert!((rubbing.power() - rubbed.power()).abs() < 1e-14 * rubbed.power().abs());
+    rubbing.take_steps(200)?;
+    rubbed.take_steps(200)?;
+    for (a, b) in rubbing.q().iter().zip(rubbed.q()) {
+        assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
+    Ok(())
+}
+
+/// Bodies whose force is the same expression either way.
+#[lagrangian(
+    coordinates(x[N]),
+    lagrangian = sum(0..N, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(4)),
+    dissipation = sum(0..N, |i| c * dot(x[i]).powi(2) / 2.0),
+)]
+#[derive(Clone, Debug)]
+struct Alone<const N: usize> {
+    c: f64,
+}
+
+#[lagrangian(
+    coordinates(x[N]),
+    lagrangian = sum(0..N, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(4)),
+    force(x) = |i| -c * dot(x[i]),
+)]
+#[derive(Clone, Debug)]
+struct AloneByHand<const N: usize> {
+    c: f64,
+}
+
+#[test]
+fn the_same_force_is_the_same_to_the_last_bit() -> Outcome {
+    let (x, dot_x) = ([0.3, -0.2, 0.5], [1.0, 2.0, 4.0]);
+    let mut run =
+        Integrator::new(&Alone { c: 0.3 }, Variational::midpoint(), 0.05, AloneState { x, dot_x })?;
+    let start = AloneByHandState { x, dot_x };
+    let mut by_hand = Integrator::new(&AloneByHand { c: 0.3 }, Variational::midpoint(), 0.05, start)?;
+    run.take_steps(200)?;
+    by_hand.take_steps(200)?;
+    assert_eq!((run.state().x, run.state().dot_x), (by_hand.state().x, by_hand.state().dot_x));
+    Ok(())
+}
+
+/// Drag of the square of the speed, as a function and as a force.
+#[lagrangian(
+    coordinates(r[3]),
+    lagrangian = dot(r).norm_squared() / 2.0,
+    dissipation = c * dot(r).norm().powi(3) / 3.0,
+)]
+#[derive(Clone, Debug)]
+struct Dragged {
+    c: f64,
+}
+
+#[lagrangian(
+    coordinates(r[3]),
+    lagrangian = dot(r).norm_squared() / 2.0,
+    force(r) = |i| -c * dot(r[i]) * dot(r).norm(),
+)]
+#[derive(Clone, Debug)]
+struct Braked {
+    c: f64,
+}
+
+#[test]
+fn drag_of_the_square_of_the_speed_slows_down_as_its_closed_form() -> Outcome {
+    let start = DraggedState { r: [0.0; 3], dot_r: [0.6, 0.0, 0.8] };
+    let mut run = Integrator::new(Dragged { c: 0.5 }, Galerkin::<4>::new(), 0.1, start)?;
+    run.take_steps(100)?;
+    // v = 1/(1 + c t), r = ln(1 + c t)/c
+    let (speed, way) = (1.0 / 6.0, 2.0 * 6.0_f64.ln());
+    for (axis, along) in [0.6, 0.0, 0.8].into_iter().enumerate() {
+        assert!((run.state().dot_r[axis] - speed * along).abs() < 1e-9);
+        assert!((run.state().r[axis] - way * along).abs() < 1e-9);
+    }
+    Ok(())
+}
+
+/// |v| v has the derivative 0 at v = 0, though that of |v| does not exist there.
+#[test]
+fn drag_begins_at_rest() -> Outcome {
+    fn check<S: RegularLagrangian>(system: &S, start: S::State<f64>) -> Outcome {
+        let ([mut l_q, mut l_v], mut matrix) = ([[0.0; 3]; 2], [0.0; 9]);
+        let weights = Weights { qq: 1.0, qv: 1.0, vq: 1.0, vv: 0.0 };
+        let sink = &mut Dense::new(&mut matrix, 3);
+        system.linearize(&[0.0; 3], &[0.0; 3], 0.0, weights, &mut l_q, &mut l_v, sink);
+        assert_eq!(matrix, [0.0; 9]);
+        let mut run = Integrator::new(system, Variational::midpoint(), 0.1, start)?;
+        run.take_steps(10)?;
+        assert!(run.v().iter().all(|v| *v == 0.0));
+        Ok(())
+    }
+    check(&Dragged { c: 0.5 }, DraggedState { r: [1.0; 3], dot_r: [0.0; 3] })?;
+    check(&Braked { c: 0.5 }, BrakedState { r: [1.0; 3], dot_r: [0.0; 3] })
+}
+
+#[test]
+fn the_report_has_the_force() {
+    let Report { formulas, structure, .. } = Oscillator::REPORT;
+    let force = formulas.iter().find(|formula| formula.name == "force(x)");
+    assert_eq!(force.map(|force| force.text), Some("-dot(x)·gamma"));
+    assert!(structure.iter().any(|sentence| sentence.starts_with("Forces act")));
+}
