@@ -47,20 +47,35 @@ impl Attribute {
         if let Some(message) = refused {
             errors.push(name, message);
         }
-        let declared = |Declaration { name, size, factor, .. }: &Declaration| {
-            (name.clone(), (*factor == Factor::Rotation).then_some(size.is_some()))
-        };
-        let coordinates: Vec<(Ident, Option<bool>)> = self.coordinates.iter().map(declared).collect();
+        let known = |declared: &Declaration| (declared.name.clone(), Known::of(declared));
+        let coordinates: Vec<(Ident, Known)> = self.coordinates.iter().map(known).collect();
         let mut entries = Entries { coordinates: &coordinates, hidden: Vec::new(), errors };
         self.formulas_mut().for_each(|formula| entries.visit_expr_mut(formula));
+    }
+}
+
+/// What is known of a coordinate.
+#[derive(Clone, Copy, PartialEq)]
+enum Known {
+    Rotation,
+    Rotations,
+    Other,
+}
+
+impl Known {
+    fn of(Declaration { size, factor, .. }: &Declaration) -> Self {
+        match (factor, size) {
+            (Factor::Rotation, None) => Self::Rotation,
+            (Factor::Rotation, Some(_)) => Self::Rotations,
+            (Factor::Line | Factor::Sphere, _) => Self::Other,
+        }
     }
 }
 
 /// Replaces what is written of rotations by coordinates and velocities. What cannot be is reported, and
 /// replaced by a number, so that it is not reported again.
 struct Entries<'a> {
-    /// The coordinates, each of those that are rotations with whether it is an array.
-    coordinates: &'a [(Ident, Option<bool>)],
+    coordinates: &'a [(Ident, Known)],
     /// The names that a `let` or a closure around has given to something else.
     hidden: Vec<Ident>,
     errors: &'a mut Errors,
@@ -117,7 +132,7 @@ impl ToTokens for Rotation<'_> {
 
 impl Entries<'_> {
     /// What is known of a coordinate of this name.
-    fn coordinate(&self, name: &Ident) -> Option<Option<bool>> {
+    fn coordinate(&self, name: &Ident) -> Option<Known> {
         let (_, known) = self.coordinates.iter().find(|(known, _)| known == name)?;
         (!self.hidden.contains(name)).then_some(*known)
     }
@@ -126,12 +141,13 @@ impl Entries<'_> {
     fn rotation<'b>(&self, syntax: &'b Expr) -> Option<Rotation<'b>> {
         let (of, index) = indexed(syntax).map_or((syntax, None), |[of, index]| (of, Some(index)));
         let name = name(of)?;
-        (self.coordinate(name)? == Some(index.is_some())).then_some(Rotation { name, index })
+        let written = if index.is_some() { Known::Rotations } else { Known::Rotation };
+        (self.coordinate(name)? == written).then_some(Rotation { name, index })
     }
 
     /// The array of rotations that this is the name of.
     fn array<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
-        name(syntax).filter(|name| self.coordinate(name) == Some(Some(true)))
+        name(syntax).filter(|name| self.coordinate(name) == Some(Known::Rotations))
     }
 
     /// The rotation that this is the angular velocity of.
@@ -235,7 +251,7 @@ impl Entries<'_> {
         let of = text(of);
         let message =
             format!("`{of}` is no rotation, of which `{ANGULAR_VELOCITY}` is the angular velocity");
-        (self.coordinate(name)? == None).then_some((syntax, message))
+        (self.coordinate(name)? == Known::Other).then_some((syntax, message))
     }
 
     /// A rotation as a whole, or an array of them without an index: this, or what this is made of, and what is
