@@ -14,6 +14,8 @@ mod node;
 mod step;
 mod tangents;
 
+use alloc::vec::Vec;
+
 use crate::discrete::Interval;
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Trapezoid};
 use crate::error::{StartError, StepFailure};
@@ -27,14 +29,14 @@ use crate::system::start::evaluate;
 use crate::{ManifoldLagrangian, Real, Space, Vector};
 
 use covectors::momentum;
-use memory::Kicks;
+use memory::{Kicks, MassEntry, is_dominant};
 use step::has_spheres;
 use tangents::{Equations, Legendre, TangentMass};
 
 use memory::GeodesicMemory;
 
-/// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, beside
-/// numbers.
+/// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, or
+/// arrays of them, beside numbers.
 ///
 /// ```math
 /// L_d(q_0, q_1) = h \sum_j w_j\, L(\gamma(c_j), \gamma'(c_j)/h, t + c_j h), \qquad
@@ -148,12 +150,13 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         legendre.linearize(v, tangents, &mut Statistics::default());
         tangents.matrix.factor().map_err(StartError::Starter)?;
         memory.is_positive = tangents.matrix.is_positive();
-        if !S::CONSTANT_MASS || has_spheres::<S, T>() {
+        let mass = if S::CONSTANT_MASS { MassEntry::all(system, [q, v], t) } else { Vec::new() };
+        if !S::CONSTANT_MASS || has_spheres::<S, T>() && !is_dominant(system, &mass) {
             let orientation = TangentMass::new(system, &mut tangents.node, [q, v], t);
             memory.orientation = Some(orientation.map_err(StartError::Starter)?);
         }
         if S::SEPARABLE && self.rule.interior_nodes() == 0 {
-            memory.kicks = Some(Kicks::new(system, [q, v], t));
+            memory.kicks = Some(Kicks::new(system, mass, q, t));
         }
         Ok(memory)
     }
