@@ -100,14 +100,17 @@ impl MassMatrix {
         }
         for (block, mentioned) in &self.massless {
             let at = &model.blocks[*block].name;
-            let name = model.blocks[*block].label();
+            let velocity = match model.blocks[*block].axis {
+                Some(_) => velocity(&model.blocks[*block], "i"),
+                None => format!("the velocity of `{at}`"),
+            };
             let relation = match (mentioned, self.quadratic) {
                 (false, _) => "does not mention",
                 (true, true) => "is linear in",
                 (true, false) => "is piecewise linear in",
             };
             let message = format!(
-                "L {relation} the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
+                "L {relation} {velocity}, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
                  such as `{}`",
                 kinetic_energy(model, *block)
             );
@@ -115,16 +118,8 @@ impl MassMatrix {
             errors.push_once(&format!("mass of {at}"), at, message);
         }
         for (block, index) in &self.skipped {
-            let Block { name, factor, axis, .. } = &model.blocks[*block];
-            let velocity = match (factor, axis) {
-                (Factor::Line | Factor::Sphere, _) => {
-                    format!("the velocity of `{}`", model.blocks[*block].entry(&index.to_string()))
-                }
-                (Factor::Rotation, Some(axis)) => {
-                    format!("the angular velocity `omega({name}[{index}])[{}]`", axis.number)
-                }
-                (Factor::Rotation, None) => format!("the angular velocity `omega({name})[{index}]`"),
-            };
+            let name = &model.blocks[*block].name;
+            let velocity = velocity(&model.blocks[*block], &index.to_string());
             let message = format!(
                 "{velocity} has no kinetic energy, so the mass matrix ∂²L/∂v∂v is singular; \
                  all entries have one with `{}`",
@@ -230,6 +225,18 @@ impl MassMatrix {
             .into_iter()
             .chain(encounters)
             .collect()
+    }
+}
+
+/// The velocity at an index of an array.
+fn velocity(block: &Block, index: &str) -> String {
+    let Block { name, factor, axis, .. } = block;
+    match (factor, axis) {
+        (Factor::Line | Factor::Sphere, _) => format!("the velocity of `{}`", block.entry(index)),
+        (Factor::Rotation, Some(axis)) => {
+            format!("the angular velocity `omega({name}[{index}])[{}]`", axis.number)
+        }
+        (Factor::Rotation, None) => format!("the angular velocity `omega({name})[{index}]`"),
     }
 }
 
