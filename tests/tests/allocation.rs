@@ -87,11 +87,12 @@ struct Links {
     rod: Vec<f64>,
 }
 
-/// A body and a rod beside a chain whose length is known at run time.
+/// Bodies and rods beside a chain, of a number that is known at run time.
 #[lagrangian(
-    coordinates(x[n], R: SO3, s: S2),
-    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(2)) + sum(0..3, |i| dot(s[i]).powi(2))
-        + omega(R)[0].powi(2) + 0.8 * omega(R)[1].powi(2) + 0.5 * omega(R)[2].powi(2) + x[0] * R[0][2] * s[0],
+    coordinates(x[n], R[n]: SO3, s[n]: S2),
+    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(2)) + sum(0..n, |i| dot(s[i]).norm_squared())
+        + sum(0..n, |i| omega(R[i])[0].powi(2) + 0.8 * omega(R[i])[1].powi(2) + 0.5 * omega(R[i])[2].powi(2))
+        + sum(1..n, |i| x[i] * R[i - 1].column(2).dot(s[i])),
 )]
 struct Turning {
     n: usize,
@@ -119,6 +120,23 @@ struct Balls {
 #[lagrangian(coordinates(y), lagrangian = -(1.0 - dot(y).powi(2)).sqrt() - y, impact = y)]
 #[derive(Debug)]
 struct FastBall;
+
+/// Bytes that a run of `n` bodies and `n` rods in a row takes.
+fn of_bodies(n: usize) -> f64 {
+    let system = Turning { n };
+    let start = TurningState {
+        x: vec![0.3; n],
+        R: vec![rotations::exp([0.3, -0.2, 0.6]); n],
+        s: vec![[0.6, 0.0, 0.8]; n],
+        dot_x: vec![0.2; n],
+        omega_R: vec![[0.4, 0.9, -0.3]; n],
+        dot_s: vec![[0.0, 0.4, 0.0]; n],
+    };
+    let before = dhat::HeapStats::get().total_bytes;
+    let mut run = Integrator::new(&system, Geodesic::trapezoid(), 0.01, start).expect("starts");
+    run.take_steps(3).expect("steps");
+    (dhat::HeapStats::get().total_bytes - before) as f64
+}
 
 /// Bytes that a constrained run of a chain of `n` rods takes.
 fn of_links(n: usize) -> f64 {
@@ -239,11 +257,11 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     let turning = Turning { n: 2 };
     let turning_start = TurningState {
         x: vec![0.3, -0.1],
-        R: rotations::exp([0.3, -0.2, 0.6]),
-        s: [0.6, 0.0, 0.8],
+        R: vec![rotations::exp([0.3, -0.2, 0.6]); 2],
+        s: vec![[0.6, 0.0, 0.8]; 2],
         dot_x: vec![0.2, 0.5],
-        omega_R: [0.4, 0.9, -0.3],
-        dot_s: [0.0, 0.4, 0.0],
+        omega_R: vec![[0.4, 0.9, -0.3]; 2],
+        dot_s: vec![[0.0, 0.4, 0.0]; 2],
     };
     assert_none!(
         turning,
@@ -256,6 +274,8 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     assert_none!(FastBall, fast_start, Impacts::reflecting(Variational::midpoint()));
     let [short, long] = [1000, 4000].map(of_links);
     assert!(long < 4.1 * short, "{long} bytes for four times as many rods as {short}");
+    let [short, long] = [100, 400].map(of_bodies);
+    assert!(long < 4.1 * short, "{long} bytes for four times as many bodies as {short}");
 
     // Of variable length, on the stack and on the heap, with steps that are undone.
     let fitted = || Variational::simpson().phase_fitted(Radial(Reading::Averaged));

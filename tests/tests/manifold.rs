@@ -4,6 +4,7 @@
 // Rotations are called R.
 #![allow(non_snake_case)]
 
+mod arrays;
 mod ends;
 mod motion;
 mod reference;

@@ -7,11 +7,14 @@
 //! moving frame of the body the discrete Euler–Lagrange equations of a rotation are those of Euler and
 //! Poincaré (Marsden, Pekarsky & Shkoller 1999).
 
+mod between;
 mod covectors;
 mod memory;
 mod node;
 mod step;
 mod tangents;
+
+use alloc::vec::Vec;
 
 use crate::discrete::Interval;
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Trapezoid};
@@ -23,17 +26,17 @@ use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::system::ManifoldSystem;
 use crate::system::start::evaluate;
-use crate::{ManifoldLagrangian, Real, Space, Vector, Weights};
+use crate::{ManifoldLagrangian, Real, Space, Vector};
 
-use covectors::{force, momentum};
-use memory::Kicks;
+use covectors::momentum;
+use memory::{Kicks, MassEntry, is_dominant};
 use step::has_spheres;
 use tangents::{Equations, Legendre, TangentMass};
 
 use memory::GeodesicMemory;
 
-/// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, beside
-/// numbers.
+/// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, or
+/// arrays of them, beside numbers.
 ///
 /// ```math
 /// L_d(q_0, q_1) = h \sum_j w_j\, L(\gamma(c_j), \gamma'(c_j)/h, t + c_j h), \qquad
@@ -139,7 +142,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         let [mut seed, mut l_q, mut l_v]: [Vector<S, T>; 3] = system.space().vectors();
         momentum(system, q, v, &mut seed);
         system.gradient(q, v, t, &mut l_q, &mut l_v);
-        let mut memory = GeodesicMemory::new(system, seed);
+        let mut memory = GeodesicMemory::new(system, [q, v], t, seed);
         momentum(system, q, &l_v, &mut memory.p);
         manifold::lift(system, q, &mut memory.lifted);
         let legendre = Legendre { system, q, p: &memory.p, t };
@@ -147,16 +150,13 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         legendre.linearize(v, tangents, &mut Statistics::default());
         tangents.matrix.factor().map_err(StartError::Starter)?;
         memory.is_positive = tangents.matrix.is_positive();
-        if !S::CONSTANT_MASS || has_spheres::<S, T>() {
+        let mass = if S::CONSTANT_MASS { MassEntry::all(system, [q, v], t) } else { Vec::new() };
+        if !S::CONSTANT_MASS || has_spheres::<S, T>() && !is_dominant(system, &mass) {
             let orientation = TangentMass::new(system, &mut tangents.node, [q, v], t);
             memory.orientation = Some(orientation.map_err(StartError::Starter)?);
         }
         if S::SEPARABLE && self.rule.interior_nodes() == 0 {
-            let (mut mass, mut f0) = (system.space().matrix(), system.space().vector());
-            system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut mass);
-            system.force(q, &[], t, &mut f0);
-            force(system, q, &mut f0);
-            memory.kicks = Some(Kicks { mass, force: f0 });
+            memory.kicks = Some(Kicks::new(system, mass, q, t));
         }
         Ok(memory)
     }

@@ -221,17 +221,22 @@ impl<S: Lagrangian> fmt::Debug for Recorder<'_, S> {
 /// The ends of unit vectors, and of the three axes of bodies that turn, in space.
 fn turning<S: Lagrangian>(system: &S) -> Vec<Body> {
     let mut bodies = Vec::new();
-    for block in S::REPORT.coordinates {
-        let of_block = |name: &Name| name.block == block.name && !name.is_velocity;
-        let entries: Vec<String> = system.names().filter(of_block).map(|name| name.to_string()).collect();
-        match (block.factor, &entries[..]) {
-            (Factor::Sphere, [_, _, _]) => {
-                bodies.push(Body { name: block.name.into(), position: entries, is_arm: true });
-            }
+    let mut names = system.names().filter(|name| !name.is_velocity).peekable();
+    while let Some(&first) = names.peek() {
+        let is_same =
+            |name: &Name| name.block == first.block && (name.index == first.index || first.axis.is_none());
+        let entries: Vec<String> =
+            std::iter::from_fn(|| names.next_if(is_same)).map(|name| name.to_string()).collect();
+        let name = match (first.axis, first.index) {
+            (Some(_), Some(index)) => format!("{}[{index}]", first.block),
+            _ => first.block.into(),
+        };
+        match (first.factor, &entries[..]) {
+            (Factor::Sphere, [_, _, _]) => bodies.push(Body { name, position: entries, is_arm: true }),
             // The columns of the matrix are the axes of the body.
             (Factor::Rotation, [_, _, _, _, _, _, _, _, _]) => {
                 bodies.extend((0..3).map(|axis| Body {
-                    name: format!("{}, axis {}", block.name, axis + 1),
+                    name: format!("{name}, axis {}", axis + 1),
                     position: [axis, axis + 3, axis + 6].map(|place| entries[place].clone()).into(),
                     is_arm: true,
                 }));

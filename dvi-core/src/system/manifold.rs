@@ -18,7 +18,7 @@ pub trait ManifoldSystem: System {
     fn tangent(&self) -> Self::Tangent;
 }
 
-/// A regular Lagrangian on ℝⁿ × SO(3) × … × S² × …, declared by coordinates such as `R: SO3` and `s: S2`.
+/// A regular Lagrangian on ℝⁿ × SO(3) × … × S² × …, declared by coordinates such as `R: SO3` and `s[n]: S2`.
 ///
 /// The functions of its other traits take vectors with a place for each coordinate. The angular velocity of
 /// a rotation has the first three of its nine places, and the other six are not read. Derivatives with

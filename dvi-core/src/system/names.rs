@@ -35,13 +35,19 @@ impl<S: System> Iterator for Entries<'_, S> {
             };
             let &mut Self { system, is_velocity, block, first, index } = self;
             let coordinates = system.block_len(block);
-            let count = if is_velocity { factor.velocities(coordinates) } else { coordinates };
             let blocks = axis.map_or(1, |axis| usize::from(axis.of));
-            if index < blocks * count {
+            // Of the components of an array, or of the entries of one, not all have velocities.
+            let velocities = |of| if is_velocity { factor.velocities(of) } else { of };
+            let [components, count] = if axis.is_some() {
+                [velocities(blocks), coordinates]
+            } else {
+                [1, velocities(coordinates)]
+            };
+            if index < components * count {
                 self.index += 1;
-                let (entry, number) = (index / blocks, index % blocks);
+                let (entry, number) = (index / components, index % components);
                 let index_in_array = (!size.is_empty()).then_some(entry);
-                let axis = axis.map(|axis| Axis { number: number as u8, ..axis });
+                let axis = axis.map(|_| Axis { number: number as u8, of: components as u8 });
                 return Some((
                     Name { block: name, is_velocity, index: index_in_array, axis, factor },
                     first + number * coordinates + entry,

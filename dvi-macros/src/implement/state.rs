@@ -194,16 +194,24 @@ fn fields(model: &Model) -> Vec<(Ident, String)> {
         }
         (None, name, _) => format!("{what} `{name}`."),
     };
+    // Of one, or of those of an array.
+    let turning = |block: &Block, [one, all]: [&str; 2]| match (&block.array, block.axis) {
+        (Some((_, size)), Some(_)) => format!("{all} `{0}[0]` to `{0}[{size} - 1]`", block.name.unraw()),
+        _ => format!("The {one} `{}`", block.name.unraw()),
+    };
     let coordinate = |block: &Block| match block.factor {
         Factor::Line => described(block, "Coordinate"),
         Factor::Rotation => {
-            format!("The rotation matrix `{}`, row by row: from the body to space.", block.name.unraw())
+            let matrices = turning(block, ["rotation matrix", "Rotation matrices"]);
+            format!("{matrices}, row by row: from the body to space.")
         }
-        Factor::Sphere => format!("The unit vector `{}`.", block.name.unraw()),
+        Factor::Sphere => format!("{}.", turning(block, ["unit vector", "Unit vectors"])),
     };
     let velocity = |block: &Block| match block.factor {
         Factor::Line | Factor::Sphere => described(block, "Velocity of coordinate"),
-        Factor::Rotation => format!("The angular velocity of `{}`, in the body.", block.name.unraw()),
+        Factor::Rotation => {
+            format!("{}, in the body.", turning(block, ["angular velocity of", "Angular velocities of"]))
+        }
     };
     let declared: Vec<&Block> = model.coordinates().iter().map(|of| &model.blocks[of.start]).collect();
     let coordinates = declared.iter().map(|block| (block.name.clone(), coordinate(block)));
@@ -268,15 +276,16 @@ fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
 
 fn field_type(emitter: &Emitter<'_>, block: usize, is_velocity: bool) -> TokenStream {
     let krate = emitter.krate();
-    let entry = match emitter.model.blocks[block].axis {
+    let Block { axis, factor, array, .. } = &emitter.model.blocks[block];
+    let is_angular = is_velocity && *factor == Factor::Rotation;
+    let entry = match axis {
+        Some(_) if is_angular => quote!([__T; 3usize]),
         Some(Axis { of, .. }) => quote!([__T; #of]),
         None => quote!(__T),
     };
-    match &emitter.model.blocks[block].array {
+    match array {
         None => entry,
-        Some(_) if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation => {
-            quote!([__T; 3usize])
-        }
+        Some(_) if is_angular && axis.is_none() => quote!([__T; 3usize]),
         Some((size, _)) if on_stack(emitter, block) => {
             let size = emitter.index(size);
             quote!([#entry; #size])
@@ -315,14 +324,21 @@ fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> Transfers {
             refill.extend(if on_stack(emitter, block) {
                 quote!(self.#field = #value;)
             } else {
-                let is_vector = emitter.model.blocks[block].axis.is_some();
-                let refill = if is_vector { quote!(refill_vectors) } else { quote!(refill_block) };
-                quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field);)
+                let Block { axis, factor, .. } = &emitter.model.blocks[block];
+                let refill = if axis.is_some() { quote!(refill_vectors) } else { quote!(refill_block) };
+                let is_angular = half == 1 && *factor == Factor::Rotation;
+                let unused = is_angular.then(|| angular_rest(block, true));
+                quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field); #unused)
             });
             read.extend(quote!(let #name = #value;));
         }
     }
     Transfers { write, read, refill }
+}
+
+/// Goes on by the six places of each rotation that its angular velocity does not have.
+fn angular_rest(block: usize, is_array: bool) -> TokenStream {
+    if is_array { quote!(__at += 6usize * __len(#block);) } else { quote!(__at += 6usize;) }
 }
 
 /// The statements that write a field at `__at`, and the expression that reads it there.
@@ -334,11 +350,12 @@ fn transfer(
     flat: &TokenStream,
 ) -> (TokenStream, TokenStream) {
     let (krate, text) = (emitter.krate(), field.unraw().to_string());
-    if emitter.model.blocks[block].array.is_none() {
+    let Block { array, axis, factor, .. } = &emitter.model.blocks[block];
+    if array.is_none() {
         let read = quote!({ let __value = #flat[__at]; __at += 1usize; __value });
         return (quote!(#flat[__at] = self.#field; __at += 1usize;), read);
     }
-    let is_vector = emitter.model.blocks[block].axis.is_some();
+    let is_vector = axis.is_some();
     let reader = match (on_stack(emitter, block), is_vector) {
         (true, false) => quote!(__private::read_array),
         (true, true) => quote!(__private::read_vectors),
@@ -348,12 +365,12 @@ fn transfer(
     let writer = if is_vector { quote!(write_vectors) } else { quote!(write_block) };
     let entries = quote!(&self.#field[..]);
     let write = |length: TokenStream| quote!(#krate::__private::#writer(#text, #entries, #length, &mut __at, #flat)?;);
-    if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation {
+    if is_velocity && *factor == Factor::Rotation {
         // An angular velocity has the first three of nine places.
-        let write = write(quote!(3usize));
-        let read =
-            quote!({ let __value = #krate::#reader(3usize, &mut __at, #flat); __at += 6usize; __value });
-        return (quote!(#write __at += 6usize;), read);
+        let length = if is_vector { quote!(__len(#block)) } else { quote!(3usize) };
+        let (write, unused) = (write(length.clone()), angular_rest(block, is_vector));
+        let read = quote!({ let __value = #krate::#reader(#length, &mut __at, #flat); #unused __value });
+        return (quote!(#write #unused), read);
     }
     (write(quote!(__len(#block))), quote!(#krate::#reader(__len(#block), &mut __at, #flat)))
 }

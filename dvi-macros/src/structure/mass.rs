@@ -1,7 +1,6 @@
 //! The mass matrix M = ∂²L/∂v∂v of a regular system.
 
 use syn::Expr as Syntax;
-use syn::ext::IdentExt as _;
 
 use super::has_matching;
 use super::singular::{is_numerically_singular, skipped};
@@ -73,7 +72,7 @@ impl MassMatrix {
             mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
         };
         let massless = (0..model.blocks.len())
-            .filter(|block| !involved(*block))
+            .filter(|&block| !involved(block) && !model.blocks[block].is_without_velocity())
             .map(|block| (block, mentioned.contains(&block)));
         let massless: Vec<(usize, bool)> = massless.collect();
         let multipliers = multipliers(graph, entries, &massless);
@@ -105,7 +104,10 @@ impl MassMatrix {
         }
         for (block, mentioned) in &self.massless {
             let at = &model.blocks[*block].name;
-            let name = model.blocks[*block].label();
+            let velocity = match model.blocks[*block].axis {
+                Some(_) => velocity(&model.blocks[*block], "i"),
+                None => format!("the velocity of `{at}`"),
+            };
             let relation = match (mentioned, self.quadratic) {
                 (false, _) => "does not mention",
                 (true, true) => "is linear in",
@@ -117,7 +119,7 @@ impl MassMatrix {
                 ""
             };
             let message = format!(
-                "L {relation} the velocity of `{name}`, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
+                "L {relation} {velocity}, so the mass matrix ∂²L/∂v∂v is singular; add a kinetic energy \
                  such as `{}`{or_else}",
                 kinetic_energy(model, *block)
             );
@@ -126,18 +128,13 @@ impl MassMatrix {
         }
         for (block, index) in &self.skipped {
             let name = &model.blocks[*block].name;
-            let velocity = match model.blocks[*block].factor {
-                Factor::Line | Factor::Sphere => {
-                    format!("the velocity of `{}`", model.blocks[*block].entry(&index.to_string()))
-                }
-                Factor::Rotation => format!("the angular velocity `omega({name})[{index}]`"),
-            };
+            let velocity = velocity(&model.blocks[*block], &index.to_string());
             let message = format!(
                 "{velocity} has no kinetic energy, so the mass matrix ∂²L/∂v∂v is singular; \
                  all entries have one with `{}`",
                 kinetic_energy(model, *block)
             );
-            errors.push(name, message);
+            errors.push_once(&format!("mass of {name}"), name, message);
         }
         if self.massless.is_empty() && self.skipped.is_empty() {
             self.check_rank(at, errors);
@@ -183,17 +180,20 @@ impl MassMatrix {
             (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
         };
         if model.is_on_manifold() {
-            let block = |block: &Block| match block.factor {
-                Factor::Line => None,
-                Factor::Rotation => Some(format!(
-                    "`{}` is in SO(3), and its velocity is that in the body.",
-                    block.name.unraw()
-                )),
-                Factor::Sphere => Some(format!("`{}` is in S².", block.name.unraw())),
+            let block = |block: &Block| {
+                let name = block.label().replace("r#", "");
+                match block.factor {
+                    Factor::Line => None,
+                    Factor::Rotation => {
+                        Some(format!("`{name}` is in SO(3), and its velocity is that in the body."))
+                    }
+                    Factor::Sphere => Some(format!("`{name}` is in S².")),
+                }
             };
+            let firsts = model.coordinates().into_iter().map(|blocks| &model.blocks[blocks.start]);
             let step = "A step moves along a geodesic, and solves for its velocity.".to_string();
             let begin = "Begin with `Geodesic::trapezoid()`.".to_string();
-            return model.blocks.iter().filter_map(block).chain([step, begin]).collect();
+            return firsts.filter_map(block).chain([step, begin]).collect();
         }
         let step = match (self.separable, self.diagonal) {
             _ if matches!(constrained, Some(Constrained::Positions | Constrained::Velocities)) => {
@@ -237,10 +237,25 @@ impl MassMatrix {
     }
 }
 
+/// The velocity at an index of an array.
+fn velocity(block: &Block, index: &str) -> String {
+    let Block { name, factor, axis, .. } = block;
+    match (factor, axis) {
+        (Factor::Line | Factor::Sphere, _) => format!("the velocity of `{}`", block.entry(index)),
+        (Factor::Rotation, Some(axis)) => {
+            format!("the angular velocity `omega({name}[{index}])[{}]`", axis.number)
+        }
+        (Factor::Rotation, None) => format!("the angular velocity `omega({name})[{index}]`"),
+    }
+}
+
 /// `dot(x).powi(2) / 2.0`
 fn kinetic_energy(model: &Model, block: usize) -> String {
     let Block { name, array, factor, axis } = &model.blocks[block];
     match array {
+        Some((_, size)) if *factor == Factor::Rotation && axis.is_some() => {
+            format!("sum(0..{size}, |j| omega({name}[j]).norm_squared() / 2.0)")
+        }
         Some(_) if *factor == Factor::Rotation => {
             format!("(omega({name})[0].powi(2) + omega({name})[1].powi(2) + omega({name})[2].powi(2)) / 2.0")
         }

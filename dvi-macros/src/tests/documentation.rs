@@ -234,6 +234,43 @@ fn sums_pairs_components_and_momenta() {
 }
 
 #[test]
+fn arrays_of_rotations_have_indices_before_those_of_entries() {
+    check(
+        lagrangian(
+            quote! {
+                coordinates(R[N]: SO3, s[N]: S2),
+                lagrangian = sum(0..N, |i| omega(R[i])[0].powi(2) + omega(R[i]).norm_squared() + dot(s[i]).norm_squared())
+                    - R[0][2][1] * s[0][2] - s[0].dot(R[0].column(1)),
+            },
+            quote! { struct Tops<const N: usize>; },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t), and what is declared with it:
+
+            ```math
+            \begin{aligned}
+            L &= \sum_{i = 0}^{N - 1} \left({\omega\left(R_{i}\right)_{0}}^{2} + {\left|\left(\omega\left(R_{i}\right)_{0}, \omega\left(R_{i}\right)_{1}, \omega\left(R_{i}\right)_{2}\right)\right|}^{2} + {\left|\dot{\mathbf{s}}_{i}\right|}^{2}\right) \\
+            &\quad - R_{0,2,1} \, s_{0,2} - \mathbf{s}_{0} \cdot \left(R_{0,0,1}, R_{0,1,1}, R_{0,2,1}\right)
+            \end{aligned}
+            ```
+
+            The compiler makes of it:
+
+            ```math
+            \begin{aligned}
+            E &= R_{0,2,1} \, s_{0,2} + s_{0,0} \, R_{0,0,1} + s_{0,1} \, R_{0,1,1} \\
+            &\quad + \sum_{i = 0}^{N - 1} \left({\omega\left(R_{i}\right)_{0}}^{2} + {\omega\left(R_{i}\right)_{0}}^{2} + {\omega\left(R_{i}\right)_{1}}^{2} + {\omega\left(R_{i}\right)_{2}}^{2} + {\dot{s}_{i,0}}^{2} + {\dot{s}_{i,1}}^{2} + {\dot{s}_{i,2}}^{2}\right) \\
+            &\quad + R_{0,2,1} \, s_{0,2}
+            \end{aligned}
+            ```
+        "#]],
+    );
+}
+
+#[test]
 fn rotations_constraints_choices_and_functions() {
     check(
         lagrangian(

@@ -126,5 +126,23 @@ fn with_constraints_impacts_and_rotations() -> Checked {
     };
     let states: Vec<_> = (0..4).map(state).collect();
     check("geodesic", &Top, Geodesic::midpoint(), 0.1, &states)?;
-    check("geodesic-trapezoid", &Top, Geodesic::trapezoid(), 0.1, &states)
+    check("geodesic-trapezoid", &Top, Geodesic::trapezoid(), 0.1, &states)?;
+
+    #[lagrangian(
+        coordinates(s[2]: S2, R[2]: SO3),
+        lagrangian = sum(0..2, |i| dot(s[i]).norm_squared() + omega(R[i]).norm_squared()) - s[0].dot(s[1]) - R[0].column(1).dot(s[1]),
+    )]
+    #[derive(Debug)]
+    struct Rotors;
+    let state = |k: u32| {
+        let rotation = dvi_core::rotations::exp([0.1 * f64::from(k), 0.2, 0.3]);
+        RotorsState {
+            s: [[0.6, 0.0, 0.8], [0.0, 1.0, 0.0]],
+            R: [rotation; 2],
+            dot_s: [[0.0, f64::from(k), 0.0], [0.5, 0.0, 0.0]],
+            omega_R: [[0.1, 0.2, f64::from(k)], [1.0, 0.0, 0.0]],
+        }
+    };
+    let states: Vec<_> = (0..4).map(state).collect();
+    check("geodesic-arrays", &Rotors, Geodesic::trapezoid(), 0.1, &states)
 }

@@ -1,11 +1,16 @@
 //! What a run along geodesics carries, and work space.
 
+use alloc::vec::Vec;
+
+use super::covectors::force;
 use super::tangents::{TangentMass, Tangents};
+use crate::mechanics::manifold::{Block, blocks};
 use crate::memory::{Memory, lasting};
+use crate::space::sink::Places;
 use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
 use crate::system::ManifoldSystem;
-use crate::{ManifoldLagrangian, Matrix, Real, Space, System, Vector};
+use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// The momentum of a run of [`Geodesic`](super::Geodesic), what its next step is guessed from, and work
 /// space.
@@ -33,10 +38,65 @@ pub struct GeodesicMemory<S: ManifoldSystem, T: Real> {
 /// What a step by kicks needs of L.
 #[derive(Debug)]
 pub(super) struct Kicks<S: System, T: Real> {
-    /// M
-    pub(super) mass: Matrix<S, T>,
+    /// M, without what is zero.
+    pub(super) mass: Vec<MassEntry<T>>,
     /// The force at the current point, as a covector of the manifold.
     pub(super) force: Vector<S, T>,
+}
+
+/// An entry of M.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MassEntry<T> {
+    /// Its row and column.
+    pub(super) place: [usize; 2],
+    pub(super) value: T,
+}
+
+impl<T: Real> MassEntry<T> {
+    /// Those at a point, row by row.
+    pub(super) fn all<S: ManifoldLagrangian<T>>(system: &S, [q, v]: [&[T]; 2], t: T) -> Vec<Self> {
+        let [mut l_q, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
+        let mut entries: Vec<Self> = Vec::new();
+        let mut sink = Places(|row: usize, column: usize, value: T| {
+            if value != T::lift(0.0) {
+                entries.push(Self { place: [row, column], value });
+            }
+        });
+        system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut sink);
+        entries.sort_by_key(|entry| entry.place);
+        entries.dedup_by(|other, entry| {
+            let is_same = other.place == entry.place;
+            if is_same {
+                entry.value += other.value;
+            }
+            is_same
+        });
+        entries
+    }
+}
+
+/// Whether a mass matrix with these entries, row by row, is certainly positive, and with it that of the tangent
+/// vectors everywhere: each row has more on the diagonal than beside it.
+pub(super) fn is_dominant<S: ManifoldSystem, T: Real>(system: &S, entries: &[MassEntry<T>]) -> bool {
+    let mut rows = 0;
+    let are_dominant = entries.chunk_by(|a, b| a.place[0] == b.place[0]).all(|row| {
+        rows += 1;
+        let of = |entry: &MassEntry<T>| {
+            if entry.place[0] == entry.place[1] { entry.value } else { -Scalar::abs(entry.value) }
+        };
+        row.iter().fold(T::lift(0.0), |sum, entry| sum + of(entry)) > T::lift(0.0)
+    });
+    are_dominant && rows == blocks(system).flat_map(Block::velocities).count()
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> Kicks<S, T> {
+    /// At the point `q`.
+    pub(super) fn new(system: &S, mass: Vec<MassEntry<T>>, q: &[T], t: T) -> Self {
+        let mut f0 = system.space().vector();
+        system.force(q, &[], t, &mut f0);
+        force(system, q, &mut f0);
+        Self { mass, force: f0 }
+    }
 }
 
 impl<S: System, T: Real> Memory<T> for Kicks<S, T> {
@@ -59,7 +119,8 @@ pub(super) struct Arrival<S: System, T: Real> {
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
-    pub(super) fn new(system: &S, seed: Vector<S, T>) -> Self {
+    /// For a run from (`q`, `v`) at time t, with the rates of displacement there.
+    pub(super) fn new(system: &S, at: [&[T]; 2], t: T, seed: Vector<S, T>) -> Self {
         let space = system.space();
         let [p, lifted, p0, displacement, increment, next, q, v, p1, force] = space.vectors();
         Self {
@@ -71,7 +132,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
             orientation: None,
             is_positive: true,
             p0,
-            tangents: Tangents::new(system),
+            tangents: Tangents::new(system, at, t),
             arrival: Arrival { displacement, increment, lifted: next, q, v, p: p1, force },
         }
     }
