@@ -229,6 +229,14 @@ pub enum StartError {
         /// What is allowed.
         tolerance: f64,
     },
+    /// A unit vector of a degenerate system has another length than one in the initial state.
+    #[error("`{entry}` has the length {length} in the state, and is a unit vector: divide it by its length")]
+    NoUnitVector {
+        /// Its name.
+        entry: Name,
+        /// Its length.
+        length: f64,
+    },
     /// A function that holds data is not known at the initial state.
     #[error(transparent)]
     Outside(#[from] OutsideError),

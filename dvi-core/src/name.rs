@@ -13,7 +13,8 @@ pub enum Factor {
     /// in the body, ω with Ṙ = R ω̂, ω̂ x = ω × x.
     Rotation,
     /// S²: `s: S2`. The coordinates are the entries of a unit vector, the velocities those of its rate of
-    /// change.
+    /// change. Of a degenerate system, whose states have these entries too, the flat coordinates are four,
+    /// those of a spinor z with s = z†σz.
     Sphere,
 }
 

@@ -24,6 +24,7 @@ mod nonholonomic;
 pub(crate) mod packable;
 mod pair_sum;
 pub(crate) mod report;
+pub(crate) mod spinors;
 pub(crate) mod stand_in;
 pub(crate) mod start;
 mod unilateral;
@@ -175,6 +176,7 @@ pub trait System: Held<System = Self> {
         let space = self.space();
         let (mut q, mut v) = (space.vector(), space.vector());
         state.write(|block| self.block_len(block), &mut q, &mut v)?;
+        spinors::lower_all(self, &mut q);
         Ok(names::entries(self).map(move |(name, place)| if name.is_velocity { v[place] } else { q[place] }))
     }
 }

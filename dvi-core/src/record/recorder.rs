@@ -10,6 +10,7 @@ use super::column::{Column, Quantity, Values};
 use super::{Record, RecordError};
 use crate::error::{LengthError, StepError};
 use crate::run::{Event, Run};
+use crate::system::report::CoordinateBlock;
 use crate::system::{Factor, Name};
 use crate::{Lagrangian, Space, State};
 
@@ -221,13 +222,16 @@ impl<S: Lagrangian> fmt::Debug for Recorder<'_, S> {
 /// The ends of unit vectors, and of the three axes of bodies that turn, in space.
 fn turning<S: Lagrangian>(system: &S) -> Vec<Body> {
     let mut bodies = Vec::new();
-    for block in S::REPORT.coordinates {
+    let is_first = |block: &&CoordinateBlock| block.axis.is_none_or(|axis| axis.number == 0);
+    for block in S::REPORT.coordinates.iter().filter(is_first) {
         let of_block = |name: &Name| name.block == block.name && !name.is_velocity;
         let entries: Vec<String> = system.names().filter(of_block).map(|name| name.to_string()).collect();
         match (block.factor, &entries[..]) {
-            (Factor::Sphere, [_, _, _]) => {
-                bodies.push(Body { name: block.name.into(), position: entries, is_arm: true });
-            }
+            (Factor::Sphere, entries) => bodies.extend(entries.chunks(3).map(|position| Body {
+                name: position[0].strip_suffix(".x").unwrap_or(block.name).into(),
+                position: position.to_vec(),
+                is_arm: true,
+            })),
             // The columns of the matrix are the axes of the body.
             (Factor::Rotation, [_, _, _, _, _, _, _, _, _]) => {
                 bodies.extend((0..3).map(|axis| Body {

@@ -1,12 +1,27 @@
 //! The entries of a state one after the other, with names: for the columns of a table.
 
-use super::{CoordinateBlock, System};
+use super::spinors::{self, is_spinor};
+use super::{CoordinateBlock, State, System};
 use crate::name::{Axis, Name};
+use crate::{Scalar, Space};
 
 /// The names of all entries of the states of `system`, coordinates first, each with its place among the
-/// coordinates or among the velocities.
+/// coordinates or among the velocities. Those of unit vectors of a degenerate system stand where
+/// [`spinors::lower_all`] puts them.
 pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
     Entries { system, is_velocity: false, block: 0, first: 0, index: 0 }
+}
+
+/// The state with these entries, in the order of [`System::names`]; those that are lacking are zero.
+#[cfg(feature = "ensembles")]
+pub(crate) fn state<S: System, T: Scalar>(system: &S, values: impl IntoIterator<Item = T>) -> S::State<T> {
+    let (mut q, mut v) = (system.space().vector(), system.space().vector());
+    for ((name, place), value) in entries(system).zip(values) {
+        let half: &mut [T] = if name.is_velocity { &mut v } else { &mut q };
+        half[place] = value;
+    }
+    spinors::lift_all(system, &mut q);
+    State::read(|block| system.block_len(block), &q, &v)
 }
 
 /// Stands before an entry.
@@ -25,23 +40,24 @@ impl<S: System> Iterator for Entries<'_, S> {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            let Some(&CoordinateBlock { name, size, axis, factor }) = S::REPORT.coordinates.get(self.block)
-            else {
+            let Some(declared) = S::REPORT.coordinates.get(self.block) else {
                 if self.is_velocity || !S::REGULAR {
                     return None;
                 }
                 *self = Self { is_velocity: true, ..entries(self.system) };
                 continue;
             };
+            let &CoordinateBlock { name, size, axis, factor } = declared;
             let &mut Self { system, is_velocity, block, first, index } = self;
             let coordinates = system.block_len(block);
             let count = if is_velocity { factor.velocities(coordinates) } else { coordinates };
             let blocks = axis.map_or(1, |axis| usize::from(axis.of));
-            if index < blocks * count {
+            let components = if is_spinor(declared, S::REGULAR) { spinors::COMPONENTS } else { blocks };
+            if index < components * count {
                 self.index += 1;
-                let (entry, number) = (index / blocks, index % blocks);
+                let (entry, number) = (index / components, index % components);
                 let index_in_array = (!size.is_empty()).then_some(entry);
-                let axis = axis.map(|axis| Axis { number: number as u8, ..axis });
+                let axis = axis.map(|_| Axis { number: number as u8, of: components as u8 });
                 return Some((
                     Name { block: name, is_velocity, index: index_in_array, axis, factor },
                     first + number * coordinates + entry,

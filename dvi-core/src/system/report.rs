@@ -103,7 +103,8 @@ impl fmt::Display for CoordinateBlock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.factor, self.size) {
             (Factor::Rotation, _) => write!(f, "{}: SO3", self.name),
-            (Factor::Sphere, _) => write!(f, "{}: S2", self.name),
+            (Factor::Sphere, "") => write!(f, "{}: S2", self.name),
+            (Factor::Sphere, size) => write!(f, "{}[{size}]: S2", self.name),
             (Factor::Line, "") => f.write_str(self.name),
             (Factor::Line, size) => {
                 write!(f, "{}[{size}]", self.name)?;

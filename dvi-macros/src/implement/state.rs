@@ -199,7 +199,12 @@ fn fields(model: &Model) -> Vec<(Ident, String)> {
         Factor::Rotation => {
             format!("The rotation matrix `{}`, row by row: from the body to space.", block.name.unraw())
         }
-        Factor::Sphere => format!("The unit vector `{}`.", block.name.unraw()),
+        Factor::Sphere => match (&block.array, block.name.unraw()) {
+            (Some((_, size)), name) if block.is_spinor() => {
+                format!("The unit vectors `{name}[0]` to `{name}[{size} - 1]`.")
+            }
+            (_, name) => format!("The unit vector `{name}`."),
+        },
     };
     let velocity = |block: &Block| match block.factor {
         Factor::Line | Factor::Sphere => described(block, "Velocity of coordinate"),
@@ -269,6 +274,7 @@ fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
 fn field_type(emitter: &Emitter<'_>, block: usize, is_velocity: bool) -> TokenStream {
     let krate = emitter.krate();
     let entry = match emitter.model.blocks[block].axis {
+        Some(_) if emitter.model.blocks[block].is_spinor() => quote!([__T; 3usize]),
         Some(Axis { of, .. }) => quote!([__T; #of]),
         None => quote!(__T),
     };
@@ -315,8 +321,7 @@ fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> Transfers {
             refill.extend(if on_stack(emitter, block) {
                 quote!(self.#field = #value;)
             } else {
-                let is_vector = emitter.model.blocks[block].axis.is_some();
-                let refill = if is_vector { quote!(refill_vectors) } else { quote!(refill_block) };
+                let refill = format_ident!("refill_{}", entries(&emitter.model.blocks[block], "block"));
                 quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field);)
             });
             read.extend(quote!(let #name = #value;));
@@ -334,21 +339,30 @@ fn transfer(
     flat: &TokenStream,
 ) -> (TokenStream, TokenStream) {
     let (krate, text) = (emitter.krate(), field.unraw().to_string());
-    if emitter.model.blocks[block].array.is_none() {
+    let declared = &emitter.model.blocks[block];
+    if declared.array.is_none() && declared.is_spinor() {
+        let read = quote!({
+            let [__value] = #krate::__private::read_spinors(1usize, &mut __at, #flat);
+            __value
+        });
+        let vectors = quote!(::core::slice::from_ref(&self.#field));
+        return (
+            quote!(#krate::__private::write_spinors(#text, #vectors, 1usize, &mut __at, #flat)?;),
+            read,
+        );
+    }
+    if declared.array.is_none() {
         let read = quote!({ let __value = #flat[__at]; __at += 1usize; __value });
         return (quote!(#flat[__at] = self.#field; __at += 1usize;), read);
     }
-    let is_vector = emitter.model.blocks[block].axis.is_some();
-    let reader = match (on_stack(emitter, block), is_vector) {
-        (true, false) => quote!(__private::read_array),
-        (true, true) => quote!(__private::read_vectors),
-        (false, false) => quote!(RunTime::read_block),
-        (false, true) => quote!(RunTime::read_vectors),
-    };
-    let writer = if is_vector { quote!(write_vectors) } else { quote!(write_block) };
+    let (place, numbers) =
+        if on_stack(emitter, block) { (quote!(__private), "array") } else { (quote!(RunTime), "block") };
+    let reader = format_ident!("read_{}", entries(declared, numbers));
+    let reader = quote!(#place::#reader);
+    let writer = format_ident!("write_{}", entries(declared, "block"));
     let entries = quote!(&self.#field[..]);
     let write = |length: TokenStream| quote!(#krate::__private::#writer(#text, #entries, #length, &mut __at, #flat)?;);
-    if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation {
+    if is_velocity && declared.factor == Factor::Rotation {
         // An angular velocity has the first three of nine places.
         let write = write(quote!(3usize));
         let read =
@@ -356,4 +370,13 @@ fn transfer(
         return (quote!(#write __at += 6usize;), read);
     }
     (write(quote!(__len(#block))), quote!(#krate::#reader(__len(#block), &mut __at, #flat)))
+}
+
+/// What an array has for entries, as functions that copy them are called: `numbers` where they are none else.
+fn entries(block: &Block, numbers: &'static str) -> &'static str {
+    match block.axis {
+        Some(_) if block.is_spinor() => "spinors",
+        Some(_) => "vectors",
+        None => numbers,
+    }
 }

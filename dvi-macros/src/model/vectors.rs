@@ -20,7 +20,15 @@ pub(crate) struct Axis {
     pub(crate) of: usize,
 }
 
+/// The coordinates of a spinor, of which a unit vector is made in a degenerate system: two complex numbers.
+pub(crate) const SPINOR: usize = 4;
+
 impl Block {
+    /// Whether the coordinates are of spinors.
+    pub(crate) fn is_spinor(&self) -> bool {
+        self.factor == Factor::Sphere && self.axis.is_some_and(|axis| axis.of == SPINOR)
+    }
+
     /// The entry at an index, as formulas have it.
     pub(crate) fn entry(&self, index: &str) -> String {
         let component = self.axis.map_or_else(String::new, |axis| format!("[{}]", axis.number));
@@ -30,9 +38,16 @@ impl Block {
         }
     }
 
-    /// What is said of all its coordinates: `x`, or `r[i][0]` where others have the same name.
+    /// What the spinor of a unit vector is called in reports.
+    pub(crate) fn spinor(&self) -> String {
+        format!("z_{}", self.name.unraw())
+    }
+
+    /// What is said of all its coordinates: `x`, or `r[i][0]` where others have the same name; of a spinor its
+    /// vector, `s[i]`.
     pub(crate) fn label(&self) -> String {
         match self.axis {
+            Some(_) if self.is_spinor() && self.array.is_some() => format!("{}[i]", self.name.unraw()),
             Some(_) => self.entry("i"),
             None => self.name.to_string(),
         }
@@ -40,6 +55,11 @@ impl Block {
 }
 
 impl Model {
+    /// Whether unit vectors are among the coordinates of a degenerate system.
+    pub(crate) fn has_spinors(&self) -> bool {
+        self.blocks.iter().any(Block::is_spinor)
+    }
+
     /// The blocks of each coordinate that was declared, or that a time transformation has added: one, or
     /// those of the components of a vector.
     pub(crate) fn coordinates(&self) -> Vec<Range<usize>> {
@@ -73,7 +93,11 @@ impl Model {
     pub(crate) fn vectors(&self) -> Vec<(String, usize)> {
         let coordinate = |blocks: Range<usize>| {
             let block = &self.blocks[blocks.start];
-            let indices = block.axis.map(|_| 1).or_else(|| self.whole(blocks.start).map(|_| 0))?;
+            let is_single = block.is_spinor() && block.array.is_none();
+            let indices = block
+                .axis
+                .map(|_| usize::from(!is_single))
+                .or_else(|| self.whole(blocks.start).map(|_| 0))?;
             Some((block.name.to_string(), indices))
         };
         let parameters = self.parameters.iter().filter_map(|parameter| {

@@ -177,6 +177,10 @@ impl Parse for Declaration {
                 "a coordinate is declared as `x`, `x[n]`, `r[n][3]`, `R: SO3` or `s: S2`, and followed by `,`",
             ));
         }
+        if let (Some(components), Factor::Rotation | Factor::Sphere) = (&components, factor) {
+            let message = format!("a unit vector has three components: n of them are `{name}[n]: S2`");
+            return Err(syn::Error::new_spanned(components, message));
+        }
         Ok(Self { name, size, components, factor })
     }
 }
@@ -197,13 +201,6 @@ fn bracketed(input: ParseStream<'_>, empty: impl FnOnce() -> String) -> syn::Res
 /// What stands behind the colon of `R: SO3`.
 fn factor(input: ParseStream<'_>, name: &Ident, is_array: bool) -> syn::Result<Factor> {
     let colon: Token![:] = input.parse()?;
-    if is_array {
-        let message = format!(
-            "a rotation or a unit vector is a block of its own, with a name for each: write `{name}1: SO3, {name}2: SO3`, or without a \
-             type `{name}[n]` for numbers"
-        );
-        return Err(syn::Error::new(colon.span, message));
-    }
     let advice = format!(
         "what a coordinate is, if it is no number, is `{name}: SO3`, a rotation matrix, or `{name}: S2`, a unit vector"
     );
@@ -222,9 +219,20 @@ fn factor(input: ParseStream<'_>, name: &Ident, is_array: bool) -> syn::Result<F
         }
         word => {
             let factor = Factor::named(&word.to_token_stream().to_string());
+            if factor == Some(Factor::Rotation) && is_array {
+                return Err(syn::Error::new(colon.span, no_array(name, "SO3")));
+            }
             factor.ok_or_else(|| syn::Error::new_spanned(word, &advice))
         }
     }
+}
+
+/// What is said of an array of rotations, or of unit vectors in a regular system.
+pub(super) fn no_array(name: &Ident, factor: &str) -> String {
+    format!(
+        "a rotation or a unit vector is a block of its own, with a name for each: write `{name}1: {factor}, {name}2: {factor}`, or \
+         without a type `{name}[n]` for numbers"
+    )
 }
 
 impl Named {

@@ -9,6 +9,7 @@ use syn::spanned::Spanned;
 use syn::visit_mut::{self, VisitMut};
 use syn::{Block, Expr, ExprClosure, Lit, Local, Pat, parse_quote_spanned};
 
+use super::declared::no_array;
 use super::{Attribute, Declaration, Factor, Kind};
 use crate::errors::Errors;
 
@@ -21,14 +22,22 @@ impl Attribute {
     /// Reports rotations and unit vectors where there are none, and replaces the entries of rotations in all
     /// formulas.
     pub(super) fn admit_factors(&mut self, errors: &mut Errors) {
-        let Some(first) = self.coordinates.iter().find(|declaration| declaration.factor != Factor::Line)
-        else {
-            return;
+        let is_array = |of: &&Declaration| of.factor == Factor::Sphere && of.size.is_some();
+        let is_regular = self.kind == Kind::Regular;
+        for Declaration { name, .. } in self.coordinates.iter().filter(is_array).filter(|_| is_regular) {
+            errors.push(name, no_array(name, "S2"));
+            self.lost_coordinates = true;
+        }
+        let is_special = |declaration: &&Declaration| match declaration.factor {
+            Factor::Line => false,
+            Factor::Rotation => true,
+            Factor::Sphere => is_regular,
         };
+        let Some(first) = self.coordinates.iter().find(is_special) else { return };
         let name = &first.name;
-        let refused = if self.kind == Kind::Degenerate {
+        let refused = if !is_regular {
             let regular = Kind::Regular.attribute();
-            Some(format!("rotations and unit vectors are coordinates of regular systems, in `{regular}`"))
+            Some(format!("rotations are coordinates of regular systems, in `{regular}`"))
         } else if let Some(of) = self.constrained {
             let numbers = match first.factor {
                 Factor::Rotation => format!("a rotation as numbers is `{name}[9]`, with six constraints"),

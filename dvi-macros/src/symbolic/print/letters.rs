@@ -133,12 +133,13 @@ impl Letters<'_> {
         let (name, is_array) = self.names.coordinate(coordinate.block);
         match (self.name(&name), is_array, entry) {
             (name, _, Some(entry)) => format!("{name}[{}][{}]", entry / 3, entry % 3),
-            (name, true, None) => {
+            (name, is_array, None) => {
+                let index =
+                    if is_array { format!("[{}]", self.index(&coordinate.index)) } else { String::new() };
                 let component = self.names.component(coordinate.block);
                 let component = component.map_or_else(String::new, |component| format!("[{component}]"));
-                format!("{name}[{}]{component}", self.index(&coordinate.index))
+                format!("{name}{index}{component}")
             }
-            (name, false, None) => name,
         }
     }
 
