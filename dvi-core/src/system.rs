@@ -179,6 +179,14 @@ pub trait System: Held<System = Self> {
         spinors::lower_all(self, &mut q);
         Ok(names::entries(self).map(move |(name, place)| if name.is_velocity { v[place] } else { q[place] }))
     }
+
+    /// The state with these entries, in the order of [`names`](Self::names); those that are lacking are zero.
+    fn state_of<T: Scalar>(&self, values: impl IntoIterator<Item = T>) -> Self::State<T>
+    where
+        Self: Sized,
+    {
+        names::state(self, values)
+    }
 }
 
 /// The Lagrangian L(q, v, t) of a system, in numbers of type `T`.

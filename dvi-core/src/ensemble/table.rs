@@ -8,7 +8,6 @@ use std::vec::Vec;
 use thiserror::Error;
 
 use crate::Lagrangian;
-use crate::system::names;
 
 crate::error::said!(TableError);
 
@@ -141,7 +140,7 @@ impl Table {
         let columns: Vec<usize> = columns.collect::<Result<_, _>>()?;
         let state = |row| {
             let values = columns.iter().map(|&place| self.number(row, place));
-            Ok(names::state(system, values.collect::<Result<Vec<f64>, _>>()?))
+            Ok(system.state_of(values.collect::<Result<Vec<f64>, _>>()?))
         };
         self.rows.iter().map(state).collect()
     }

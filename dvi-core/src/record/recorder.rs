@@ -10,7 +10,6 @@ use super::column::{Column, Quantity, Values};
 use super::{Record, RecordError};
 use crate::error::{LengthError, StepError};
 use crate::run::{Event, Run};
-use crate::system::report::CoordinateBlock;
 use crate::system::{Factor, Name};
 use crate::{Lagrangian, Space, State};
 
@@ -222,20 +221,22 @@ impl<S: Lagrangian> fmt::Debug for Recorder<'_, S> {
 /// The ends of unit vectors, and of the three axes of bodies that turn, in space.
 fn turning<S: Lagrangian>(system: &S) -> Vec<Body> {
     let mut bodies = Vec::new();
-    let is_first = |block: &&CoordinateBlock| block.axis.is_none_or(|axis| axis.number == 0);
-    for block in S::REPORT.coordinates.iter().filter(is_first) {
-        let of_block = |name: &Name| name.block == block.name && !name.is_velocity;
-        let entries: Vec<String> = system.names().filter(of_block).map(|name| name.to_string()).collect();
-        match (block.factor, &entries[..]) {
-            (Factor::Sphere, entries) => bodies.extend(entries.chunks(3).map(|position| Body {
-                name: position[0].strip_suffix(".x").unwrap_or(block.name).into(),
-                position: position.to_vec(),
-                is_arm: true,
-            })),
+    let mut names = system.names().filter(|name| !name.is_velocity).peekable();
+    while let Some(&first) = names.peek() {
+        let is_same =
+            |name: &Name| name.block == first.block && (name.index == first.index || first.axis.is_none());
+        let entries: Vec<String> =
+            std::iter::from_fn(|| names.next_if(is_same)).map(|name| name.to_string()).collect();
+        let name = match (first.axis, first.index) {
+            (Some(_), Some(index)) => format!("{}[{index}]", first.block),
+            _ => first.block.into(),
+        };
+        match (first.factor, &entries[..]) {
+            (Factor::Sphere, [_, _, _]) => bodies.push(Body { name, position: entries, is_arm: true }),
             // The columns of the matrix are the axes of the body.
             (Factor::Rotation, [_, _, _, _, _, _, _, _, _]) => {
                 bodies.extend((0..3).map(|axis| Body {
-                    name: format!("{}, axis {}", block.name, axis + 1),
+                    name: format!("{name}, axis {}", axis + 1),
                     position: [axis, axis + 3, axis + 6].map(|place| entries[place].clone()).into(),
                     is_arm: true,
                 }));

@@ -13,7 +13,6 @@ pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
 }
 
 /// The state with these entries, in the order of [`System::names`]; those that are lacking are zero.
-#[cfg(feature = "ensembles")]
 pub(crate) fn state<S: System, T: Scalar>(system: &S, values: impl IntoIterator<Item = T>) -> S::State<T> {
     let (mut q, mut v) = (system.space().vector(), system.space().vector());
     for ((name, place), value) in entries(system).zip(values) {

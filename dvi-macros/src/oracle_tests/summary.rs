@@ -30,6 +30,9 @@ impl Summary {
                 if !system.constraints.is_empty() {
                     self.count(&format!("agrees, with {} constraints", system.constrained.adjective()));
                 }
+                if system.has_spinors() {
+                    self.count("agrees, with unit vectors");
+                }
                 if system.attribute().contains("let = {") {
                     self.count("agrees, with names that formulas share");
                 }
