@@ -4,7 +4,7 @@ mod step;
 
 use thiserror::Error;
 
-use crate::name::{Along, Argument, Name};
+use crate::name::{Along, Argument, InArray, Name};
 
 pub use step::{StepError, StepFailure};
 
@@ -218,24 +218,19 @@ pub enum StartError {
     /// The initial state is not on the manifold that is declared: a matrix is no rotation, or a vector has
     /// another length than one or a velocity that would change it.
     #[error(
-        "`{block}` is off by {defect:e} in the state, and {tolerance:e} is allowed: a rotation is an orthogonal matrix with determinant 1, a \
-         unit vector has length 1 and a velocity at right angles to it; `rotations::exp` makes rotations"
+        "`{block}{}` is off by {defect:e} in the state, and {tolerance:e} is allowed: a rotation is an orthogonal matrix with determinant 1, a \
+         unit vector has length 1 and a velocity at right angles to it; `rotations::exp` makes rotations",
+        InArray(.index)
     )]
     OffManifold {
         /// The name of the coordinates.
         block: &'static str,
+        /// Which of them it is, if they are an array.
+        index: Option<usize>,
         /// The largest entry of RᵀR − 1, or the larger of |s·s − 1| and |s·ṡ|/|ṡ|.
         defect: f64,
         /// What is allowed.
         tolerance: f64,
-    },
-    /// A unit vector of a degenerate system has another length than one in the initial state.
-    #[error("`{entry}` has the length {length} in the state, and is a unit vector: divide it by its length")]
-    NoUnitVector {
-        /// Its name.
-        entry: Name,
-        /// Its length.
-        length: f64,
     },
     /// A function that holds data is not known at the initial state.
     #[error(transparent)]

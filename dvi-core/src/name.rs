@@ -8,18 +8,18 @@ pub enum Factor {
     /// ℝⁿ: `x`, or `x[n]`.
     #[default]
     Line,
-    /// SO(3): `R: SO3`. The coordinates are the nine entries of a rotation matrix, row by row, which takes
+    /// SO(3): `R: SO3` or `R[n]: SO3`. The coordinates are the nine entries of a rotation matrix, row by row, which takes
     /// vectors of the body to those of space. The velocities are the three entries of the angular velocity
     /// in the body, ω with Ṙ = R ω̂, ω̂ x = ω × x.
     Rotation,
-    /// S²: `s: S2`. The coordinates are the entries of a unit vector, the velocities those of its rate of
-    /// change. Of a degenerate system, whose states have these entries too, the flat coordinates are four,
-    /// those of a spinor z with s = z†σz.
+    /// S²: `s: S2` or `s[n]: S2`. The coordinates are the entries of a unit vector, the velocities those of its
+    /// rate of change. Of a degenerate system, whose states have these entries too, the flat coordinates are
+    /// four, those of a spinor z with s = z†σz.
     Sphere,
 }
 
 impl Factor {
-    /// How many velocities a block of so many coordinates has.
+    /// How many velocities belong to so many coordinates, those of one rotation or one unit vector.
     pub fn velocities(self, coordinates: usize) -> usize {
         match self {
             Self::Line | Self::Sphere => coordinates,
@@ -27,7 +27,7 @@ impl Factor {
         }
     }
 
-    /// The dimension of a block of so many coordinates.
+    /// The dimension of so many coordinates, those of one rotation or one unit vector.
     pub fn dimension(self, coordinates: usize) -> usize {
         match self {
             Self::Line => coordinates,
@@ -85,8 +85,17 @@ impl fmt::Display for Name {
             (true, Factor::Rotation) => "omega_",
         };
         write!(f, "{prefix}{}", self.block)?;
-        self.index.map_or(Ok(()), |index| write!(f, "[{index}]"))?;
+        InArray(&self.index).fmt(f)?;
         self.axis.map_or(Ok(()), |axis| write!(f, "{axis}"))
+    }
+}
+
+/// `[3]`, or nothing.
+pub(crate) struct InArray<'a>(pub(crate) &'a Option<usize>);
+
+impl fmt::Display for InArray<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |index| write!(f, "[{index}]"))
     }
 }
 

@@ -28,7 +28,8 @@ pub(crate) use vectors::{Axis, COMPONENTS, SPINOR, are_components};
 #[derive(Debug)]
 pub(crate) struct Block {
     pub(crate) name: Ident,
-    /// The size of an array, with its text.
+    /// The size of an array, with its text; of a rotation or a unit vector without an index, the number of its
+    /// entries.
     pub(crate) array: Option<(Index, String)>,
     /// Which component the coordinates are, if they are those of vectors.
     pub(crate) axis: Option<Axis>,
@@ -225,8 +226,10 @@ impl Model {
             // What is said of its uses is that of vectors.
             count.or(Some(3))
         });
+        // An array of rotations is one of vectors with nine components; unit vectors of degenerate systems have
+        // those of spinors.
         let is_spinor = factor == Factor::Sphere && self.kind == Kind::Degenerate;
-        let axes = if is_spinor { Some(SPINOR) } else { axes };
+        let axes = if is_spinor { Some(SPINOR) } else { axes.or(size.as_ref().and(factor.coordinates())) };
         let count = axes.unwrap_or(1);
         let array = size.as_ref().map(|size| {
             let index = self.declared_size(name, size, count as i64).unwrap_or_else(|message| {
@@ -237,10 +240,8 @@ impl Model {
             });
             (index, size.to_token_stream().to_string().replace("r#", "").replace(' ', ""))
         });
-        let array = factor
-            .coordinates()
-            .filter(|_| !is_spinor)
-            .map_or(array, |size| Some((Index::literal(size), size.to_string())));
+        let alone = || factor.coordinates().map(|count| (Index::literal(count as i64), count.to_string()));
+        let array = if is_spinor { array } else { array.or_else(alone) };
         let axis = |number| axes.map(|of| Axis { number, of });
         let block = |number| Block { name: name.clone(), array: array.clone(), axis: axis(number), factor };
         self.blocks.extend((0..count).map(block));

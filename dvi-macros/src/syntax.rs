@@ -79,7 +79,7 @@ pub(crate) struct Attribute {
 /// The arguments, and how they are written.
 #[rustfmt::skip]
 const ARGUMENTS: [(&str, &str); 16] = [
-    ("coordinates", "coordinates(x, y[n], r[n][3], R: SO3, s: S2)"),
+    ("coordinates", "coordinates(x, y[n], r[n][3], R: SO3, s[n]: S2)"),
     ("one_form",    "one_form = … * d(x) + …"),
     ("hamiltonian", "hamiltonian = …"),
     ("gauge",       "gauge = F(q)"),

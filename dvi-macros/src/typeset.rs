@@ -87,8 +87,9 @@ impl Tex {
 /// What walks formulas.
 #[derive(Debug, Default)]
 pub(crate) struct Typesetter {
-    /// The coordinates that are rotations, whose nine entries have two indices on paper.
-    rotations: Vec<String>,
+    /// The coordinates that are rotations, whose nine entries have two indices on paper, each with the number of
+    /// indices that it is one with.
+    rotations: Vec<(String, usize)>,
     /// The names of vectors, each with the number of indices that it is one with.
     vectors: Vec<(String, usize)>,
     /// Names that have indices: of `a`, `a0` is no entry, and keeps its name as it is.
@@ -100,7 +101,8 @@ pub(crate) struct Typesetter {
 impl Typesetter {
     pub(crate) fn new(attribute: &Attribute, vectors: Vec<(String, usize)>) -> Self {
         let rotations = attribute.coordinates.iter().filter(|block| block.factor == Factor::Rotation);
-        let rotations = rotations.map(|block| block.name.to_string()).collect();
+        let rotations =
+            rotations.map(|block| (block.name.to_string(), usize::from(block.size.is_some()))).collect();
         let mut arrays = Arrays::default();
         attribute.formulas().for_each(|formula| arrays.visit_expr(formula));
         Self { rotations, vectors, arrays: arrays.0, lets: Vec::new() }

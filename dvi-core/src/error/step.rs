@@ -5,7 +5,7 @@ use core::fmt;
 use thiserror::Error;
 
 use crate::error::{OutsideError, said};
-use crate::name::Name;
+use crate::name::{InArray, Name};
 
 said!(StepFailure, StepError);
 
@@ -115,11 +115,14 @@ pub enum StepFailure {
     /// A step turns a rotation, or moves a unit vector, by half a turn or more, where a geodesic is not the
     /// shortest way and the equations of the step have other solutions than the motion.
     #[error(
-        "`{block}` would turn by {angle} radians in one step, half a turn or more: a smaller step helps"
+        "`{block}{}` would turn by {angle} radians in one step, half a turn or more: a smaller step helps",
+        InArray(.index)
     )]
     HalfTurn {
         /// The name of the coordinates.
         block: &'static str,
+        /// Which of them it is, if they are an array.
+        index: Option<usize>,
         /// The angle.
         angle: f64,
     },

@@ -1,5 +1,6 @@
 //! Configuration spaces with rotations and unit vectors: the product of ℝⁿ, of SO(3) and of S², a block of
-//! coordinates each.
+//! coordinates each. An array of rotations or unit vectors is as many blocks, whose coordinates stand as those
+//! of vectors do: all first entries before all second ones.
 //!
 //! A displacement has a place for each coordinate, as velocities have: of a rotation the first three hold
 //! the rotation vector u in the body, R ↦ R exp(û); of a unit vector they hold the rotation vector w in
@@ -12,40 +13,49 @@ pub(crate) mod sphere;
 
 use core::ops::Range;
 
-use nalgebra::{Quaternion, Vector3, Vector4};
+use nalgebra::{Matrix3, Quaternion, Vector3, Vector4};
 
 use crate::error::StartError;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{self, reported};
-use crate::system::{Factor, ManifoldSystem};
+use crate::system::CoordinateBlock;
+use crate::system::{Axis, Factor, ManifoldSystem};
 use crate::{Real, Scalar};
 
 /// Where the numbers of a block of coordinates stand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     pub(crate) name: &'static str,
+    /// Its number in an array of rotations or unit vectors.
+    pub(crate) index: Option<usize>,
     pub(crate) factor: Factor,
-    /// Its first coordinate.
+    /// The place of its first coordinate, and how far from each other they are.
     at: usize,
+    stride: usize,
     coordinates: usize,
     /// Its first tangent vector in a basis of the tangent space.
     pub(crate) slot: usize,
 }
 
 impl Block {
+    /// The place of its coordinate of this number.
+    fn place(self, number: usize) -> usize {
+        self.at + number * self.stride
+    }
+
     /// The places of its coordinates.
-    pub(crate) fn places(self) -> Range<usize> {
-        self.at..self.at + self.coordinates
+    pub(crate) fn places(self) -> impl Iterator<Item = usize> {
+        (0..self.coordinates).map(move |number| self.place(number))
     }
 
     /// The places of its velocities.
-    pub(crate) fn velocities(self) -> Range<usize> {
-        self.at..self.at + self.factor.velocities(self.coordinates)
+    pub(crate) fn velocities(self) -> impl Iterator<Item = usize> {
+        (0..self.factor.velocities(self.coordinates)).map(move |number| self.place(number))
     }
 
-    /// The places of the first three of them, of a rotation or a unit vector.
-    pub(crate) fn vector(self) -> Range<usize> {
-        self.at..self.at + 3
+    /// The places of the first three coordinates, of a rotation or a unit vector.
+    pub(crate) fn vector(self) -> [usize; 3] {
+        [0, 1, 2].map(|number| self.place(number))
     }
 
     /// Its tangent vectors in that basis.
@@ -62,23 +72,61 @@ impl Block {
 /// The blocks of coordinates of `system`.
 pub(crate) fn blocks<S: ManifoldSystem>(system: &S) -> impl Iterator<Item = Block> {
     let (mut at, mut slot) = (0, 0);
-    S::REPORT.coordinates.iter().enumerate().map(move |(number, declared)| {
-        let coordinates = system.block_len(number);
-        let block = Block { name: declared.name, factor: declared.factor, at, coordinates, slot };
-        at += coordinates;
-        slot += block.dimension();
-        block
+    S::REPORT.coordinates.iter().enumerate().flat_map(move |(number, declared)| {
+        let &CoordinateBlock { name, axis, factor, .. } = declared;
+        let len = system.block_len(number);
+        let axis = axis.filter(|_| factor != Factor::Line);
+        // An array has its first coordinates in the first of the blocks that are declared.
+        let (count, coordinates) = match axis {
+            None => (1, len),
+            Some(Axis { number: 0, of }) => (len, usize::from(of)),
+            Some(Axis { .. }) => (0, 0),
+        };
+        let stride = axis.map_or(1, |_| len);
+        let first = Block { name, index: None, factor, at, stride, coordinates, slot };
+        at += len;
+        slot += count * first.dimension();
+        (0..count).map(move |index| Block {
+            index: axis.map(|_| index),
+            at: first.at + index,
+            slot: first.slot + index * first.dimension(),
+            ..first
+        })
     })
 }
 
 /// The three numbers at these places.
 pub(crate) fn vector<T: Real>(numbers: &[T], block: Block) -> Vector3<T> {
-    Vector3::from_column_slice(&numbers[block.vector()])
+    Vector3::from(block.vector().map(|place| numbers[place]))
 }
 
 /// Sets the three numbers at these places.
 pub(crate) fn set<T: Real>(numbers: &mut [T], block: Block, value: Vector3<T>) {
-    numbers[block.vector()].copy_from_slice(value.as_slice());
+    block.vector().into_iter().zip(value.iter()).for_each(|(place, &value)| numbers[place] = value);
+}
+
+/// Sets all numbers of a block.
+pub(crate) fn fill<T: Copy>(numbers: &mut [T], block: Block, value: T) {
+    block.places().for_each(|place| numbers[place] = value);
+}
+
+/// Copies the numbers of a block.
+pub(crate) fn copy<T: Copy>(from: &[T], block: Block, to: &mut [T]) {
+    block.places().for_each(|place| to[place] = from[place]);
+}
+
+/// The matrix with the numbers of a block, row by row.
+pub(crate) fn matrix<T: Real>(numbers: &[T], block: Block) -> Matrix3<T> {
+    Matrix3::from_fn(|row, column| numbers[block.place(3 * row + column)])
+}
+
+/// Sets the numbers of a block to the entries of a matrix, row by row.
+pub(crate) fn set_matrix<T: Real>(numbers: &mut [T], block: Block, matrix: &Matrix3<T>) {
+    for row in 0..3 {
+        for column in 0..3 {
+            numbers[block.place(3 * row + column)] = matrix[(row, column)];
+        }
+    }
 }
 
 /// What a run carries of the coordinates: of a rotation a quaternion, in the first four places, of a unit
@@ -87,10 +135,8 @@ pub(crate) fn set<T: Real>(numbers: &mut [T], block: Block, value: Vector3<T>) {
 pub(crate) fn lift<S: ManifoldSystem, T: Real>(system: &S, q: &[T], lifted: &mut [T]) {
     lifted.copy_from_slice(q);
     for block in blocks(system).filter(|block| block.factor == Factor::Rotation) {
-        let quaternion = rotation::quaternion(&rotation::matrix(&q[block.places()]));
-        let places = &mut lifted[block.places()];
-        places.fill(T::lift(0.0));
-        places[..4].copy_from_slice(quaternion.coords.as_slice());
+        fill(lifted, block, T::lift(0.0));
+        set_quaternion(lifted, block, &rotation::quaternion(&matrix(q, block)));
     }
 }
 
@@ -98,9 +144,9 @@ pub(crate) fn lift<S: ManifoldSystem, T: Real>(system: &S, q: &[T], lifted: &mut
 pub(crate) fn lower<S: ManifoldSystem, T: Real>(system: &S, lifted: &[T], q: &mut [T]) {
     for block in blocks(system) {
         match block.factor {
-            Factor::Line => q[block.places()].copy_from_slice(&lifted[block.places()]),
+            Factor::Line => copy(lifted, block, q),
             Factor::Rotation => {
-                rotation::set(&mut q[block.places()], &rotation::of_quaternion(&quaternion(lifted, block)));
+                set_matrix(q, block, &rotation::of_quaternion(&quaternion(lifted, block)));
             }
             Factor::Sphere => {
                 let along = vector(lifted, block);
@@ -112,11 +158,16 @@ pub(crate) fn lower<S: ManifoldSystem, T: Real>(system: &S, lifted: &[T], q: &mu
 
 /// The quaternion that is carried of a rotation.
 pub(crate) fn quaternion<T: Real>(lifted: &[T], block: Block) -> Quaternion<T> {
-    Quaternion::from(Vector4::from_column_slice(&lifted[block.places()][..4]))
+    Quaternion::from(Vector4::from_fn(|number, _| lifted[block.place(number)]))
+}
+
+/// Sets what is carried, or is added to it, of a rotation.
+pub(crate) fn set_quaternion<T: Real>(lifted: &mut [T], block: Block, quaternion: &Quaternion<T>) {
+    quaternion.coords.iter().enumerate().for_each(|(number, &entry)| lifted[block.place(number)] = entry);
 }
 
 /// How far a state may be off the manifold, in units of rounding.
-const TOLERANCE: f64 = 4096.0;
+pub(crate) const TOLERANCE: f64 = 4096.0;
 
 /// Whether a state is on the manifold, and its velocity tangent to it.
 ///
@@ -127,7 +178,7 @@ pub(crate) fn check<S: ManifoldSystem, T: Real>(system: &S, [q, v]: [&[T]; 2]) -
     for block in blocks(system) {
         let defect = match block.factor {
             Factor::Line => continue,
-            Factor::Rotation => rotation::defect(&rotation::matrix(&q[block.places()])),
+            Factor::Rotation => rotation::defect(&matrix(q, block)),
             Factor::Sphere => {
                 let (s, rate) = (vector(q, block), vector(v, block));
                 // 0 of a velocity that is zero.
@@ -137,8 +188,13 @@ pub(crate) fn check<S: ManifoldSystem, T: Real>(system: &S, [q, v]: [&[T]; 2]) -
         };
         let is_small = defect <= tolerance;
         if !is_small {
-            let (block, defect) = (block.name, reported(defect));
-            return Err(StartError::OffManifold { block, defect, tolerance: reported(tolerance) });
+            let (defect, tolerance) = (reported(defect), reported(tolerance));
+            return Err(StartError::OffManifold {
+                block: block.name,
+                index: block.index,
+                defect,
+                tolerance,
+            });
         }
     }
     Ok(())

@@ -7,6 +7,7 @@
 //! moving frame of the body the discrete Euler–Lagrange equations of a rotation are those of Euler and
 //! Poincaré (Marsden, Pekarsky & Shkoller 1999).
 
+mod between;
 mod covectors;
 mod memory;
 mod node;
@@ -23,9 +24,9 @@ use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::system::ManifoldSystem;
 use crate::system::start::evaluate;
-use crate::{ManifoldLagrangian, Real, Space, Vector, Weights};
+use crate::{ManifoldLagrangian, Real, Space, Vector};
 
-use covectors::{force, momentum};
+use covectors::momentum;
 use memory::Kicks;
 use step::has_spheres;
 use tangents::{Equations, Legendre, TangentMass};
@@ -139,7 +140,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         let [mut seed, mut l_q, mut l_v]: [Vector<S, T>; 3] = system.space().vectors();
         momentum(system, q, v, &mut seed);
         system.gradient(q, v, t, &mut l_q, &mut l_v);
-        let mut memory = GeodesicMemory::new(system, seed);
+        let mut memory = GeodesicMemory::new(system, [q, v], t, seed);
         momentum(system, q, &l_v, &mut memory.p);
         manifold::lift(system, q, &mut memory.lifted);
         let legendre = Legendre { system, q, p: &memory.p, t };
@@ -152,11 +153,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
             memory.orientation = Some(orientation.map_err(StartError::Starter)?);
         }
         if S::SEPARABLE && self.rule.interior_nodes() == 0 {
-            let (mut mass, mut f0) = (system.space().matrix(), system.space().vector());
-            system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut mass);
-            system.force(q, &[], t, &mut f0);
-            force(system, q, &mut f0);
-            memory.kicks = Some(Kicks { mass, force: f0 });
+            memory.kicks = Some(Kicks::new(system, [q, v], t));
         }
         Ok(memory)
     }

@@ -49,9 +49,14 @@ impl<S: System> Iterator for Entries<'_, S> {
             let &CoordinateBlock { name, size, axis, factor } = declared;
             let &mut Self { system, is_velocity, block, first, index } = self;
             let coordinates = system.block_len(block);
-            let count = if is_velocity { factor.velocities(coordinates) } else { coordinates };
             let blocks = axis.map_or(1, |axis| usize::from(axis.of));
-            let components = if is_spinor(declared, S::REGULAR) { spinors::COMPONENTS } else { blocks };
+            // Of the components of an array, or of the entries of one, not all have velocities.
+            let velocities = |of| if is_velocity { factor.velocities(of) } else { of };
+            let [components, count] = match axis {
+                Some(_) if is_spinor(declared, S::REGULAR) => [spinors::COMPONENTS, coordinates],
+                Some(_) => [velocities(blocks), coordinates],
+                None => [1, velocities(coordinates)],
+            };
             if index < components * count {
                 self.index += 1;
                 let (entry, number) = (index / components, index % components);

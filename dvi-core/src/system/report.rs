@@ -5,7 +5,7 @@ use core::fmt;
 use super::Factor;
 use crate::name::Axis;
 
-/// A block of coordinates: `x`, or `x[n]`, or those of `r[n][3]` along one axis.
+/// A block of coordinates: `x`, or `x[n]`, or those of `r[n][3]` or `s[n]: S2` along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CoordinateBlock {
     /// The name.
@@ -101,15 +101,17 @@ impl Report {
 
 impl fmt::Display for CoordinateBlock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.factor, self.size) {
-            (Factor::Rotation, _) => write!(f, "{}: SO3", self.name),
-            (Factor::Sphere, "") => write!(f, "{}: S2", self.name),
-            (Factor::Sphere, size) => write!(f, "{}[{size}]: S2", self.name),
-            (Factor::Line, "") => f.write_str(self.name),
-            (Factor::Line, size) => {
-                write!(f, "{}[{size}]", self.name)?;
-                self.axis.map_or(Ok(()), |axis| write!(f, "[{}]", axis.of))
-            }
+        let Self { name, size, axis, factor } = self;
+        f.write_str(name)?;
+        // A single rotation has the size of its nine entries.
+        if !size.is_empty() && (*factor == Factor::Line || axis.is_some()) {
+            write!(f, "[{size}]")?;
+        }
+        match (factor, axis) {
+            (Factor::Line, None) => Ok(()),
+            (Factor::Line, Some(axis)) => write!(f, "[{}]", axis.of),
+            (Factor::Rotation, _) => f.write_str(": SO3"),
+            (Factor::Sphere, _) => f.write_str(": S2"),
         }
     }
 }

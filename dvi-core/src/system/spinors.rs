@@ -13,6 +13,7 @@ use core::ops::Range;
 
 use super::{Name, System};
 use crate::error::{LengthError, StartError};
+use crate::mechanics::manifold::TOLERANCE;
 use crate::name::{Axis, Factor};
 use crate::scalar::norm::reported;
 use crate::scalar::{Comparison, Scalar};
@@ -168,13 +169,10 @@ pub(crate) fn lift_rates<S: System, T: Scalar>(system: &S, q: &[T], rates: &mut 
     }
 }
 
-/// How far a vector may be off the sphere, in units of rounding.
-const TOLERANCE: f64 = 4096.0;
-
 /// Whether the vectors of a state that is given have length 1.
 ///
 /// # Errors
-/// [`StartError::NoUnitVector`] with the first that has not.
+/// [`StartError::OffManifold`] with the first that has not.
 pub(crate) fn check<S: System, T: Real>(system: &S, q: &[T]) -> Result<(), StartError> {
     if !has::<S>() {
         return Ok(());
@@ -182,10 +180,11 @@ pub(crate) fn check<S: System, T: Real>(system: &S, q: &[T]) -> Result<(), Start
     let tolerance = reported(T::default_epsilon()) * TOLERANCE;
     for spinor in spinors(system) {
         let length = spinor.of(q).into_iter().fold(T::lift(0.0), |sum, z| sum + z * z);
-        let length = reported(length);
-        let is_unit = (length - 1.0).abs() <= tolerance;
+        let defect = reported(Scalar::abs(length * length - T::lift(1.0)));
+        let is_unit = defect <= tolerance;
         if !is_unit {
-            return Err(StartError::NoUnitVector { entry: spinor.name(), length });
+            let Spinor { name: block, index, .. } = spinor;
+            return Err(StartError::OffManifold { block, index, defect, tolerance });
         }
     }
     Ok(())

@@ -145,7 +145,7 @@ fn vectors() -> Result<Claim> {
     let axis = [0, 1, 2].map(|i| places[0][i] + 2.0 * places[1][i]);
     let rate = length(axis) / (TAU * length(difference(places[0], places[1])).powi(2));
     let distance = |q: &[f64]| away(pair.places(q), places, axis, rate * 40.0);
-    let errors = Problem::new(&pair, (places,)).errors(40.0, &[100, 150, 200], distance);
+    let errors = Problem::new(&pair, (places,)).errors(40.0, &[400, 600, 800], distance);
     let errors = errors.of(Sigma::midpoint())?;
     Ok(beyond("as unit vectors vortices keep all of the moment to rounding errors, and pass over the pole")
         .at_most("max|ΔM|/|M| of three in 20,000 steps", moved, 1e-12)

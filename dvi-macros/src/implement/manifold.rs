@@ -8,21 +8,19 @@ use super::{allow, in_numbers};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
 use crate::symbolic::{Count, Index};
-use crate::syntax::Factor;
 
 /// The implementations of `ManifoldSystem` and of `ManifoldLagrangian`.
 pub(super) fn manifold(emitter: &Emitter<'_>) -> TokenStream {
     let (krate, model, allow) = (emitter.krate(), emitter.model, allow());
     let name = &model.item.ident;
     let (impl_generics, type_generics, where_clause) = model.item.generics.split_for_impl();
-    let dimension = |block: usize| {
-        Count::from(match model.blocks[block].factor {
-            Factor::Line => model.block_size(block),
-            Factor::Rotation => Index::literal(3),
-            Factor::Sphere => Index::literal(2),
-        })
+    let dimension = |block: usize| match (model.blocks[block].factor.dimension(), model.blocks[block].axis) {
+        (None, _) => Some(model.block_size(block)),
+        (Some(dimension), None) => Some(Index::literal(dimension as i64)),
+        // As many blocks of the nine components of an array as each of its rotations has tangent vectors.
+        (Some(dimension), Some(axis)) => (axis.number < dimension).then(|| model.block_size(block)),
     };
-    let dimensions: Vec<Count> = (0..model.blocks.len()).map(dimension).collect();
+    let dimensions: Vec<Count> = (0..model.blocks.len()).filter_map(dimension).map(Count::from).collect();
     let (tangent, value) = space_of(emitter, &dimensions);
     let lagrangian = in_numbers(emitter, &quote!(ManifoldLagrangian), &TokenStream::new());
     quote! {

@@ -194,21 +194,24 @@ fn fields(model: &Model) -> Vec<(Ident, String)> {
         }
         (None, name, _) => format!("{what} `{name}`."),
     };
+    // Of one, or of those of an array.
+    let turning = |block: &Block, [one, all]: [&str; 2]| match (&block.array, block.axis) {
+        (Some((_, size)), Some(_)) => format!("{all} `{0}[0]` to `{0}[{size} - 1]`", block.name.unraw()),
+        _ => format!("The {one} `{}`", block.name.unraw()),
+    };
     let coordinate = |block: &Block| match block.factor {
         Factor::Line => described(block, "Coordinate"),
         Factor::Rotation => {
-            format!("The rotation matrix `{}`, row by row: from the body to space.", block.name.unraw())
+            let matrices = turning(block, ["rotation matrix", "Rotation matrices"]);
+            format!("{matrices}, row by row: from the body to space.")
         }
-        Factor::Sphere => match (&block.array, block.name.unraw()) {
-            (Some((_, size)), name) if block.is_spinor() => {
-                format!("The unit vectors `{name}[0]` to `{name}[{size} - 1]`.")
-            }
-            (_, name) => format!("The unit vector `{name}`."),
-        },
+        Factor::Sphere => format!("{}.", turning(block, ["unit vector", "Unit vectors"])),
     };
     let velocity = |block: &Block| match block.factor {
         Factor::Line | Factor::Sphere => described(block, "Velocity of coordinate"),
-        Factor::Rotation => format!("The angular velocity of `{}`, in the body.", block.name.unraw()),
+        Factor::Rotation => {
+            format!("{}, in the body.", turning(block, ["angular velocity of", "Angular velocities of"]))
+        }
     };
     let declared: Vec<&Block> = model.coordinates().iter().map(|of| &model.blocks[of.start]).collect();
     let coordinates = declared.iter().map(|block| (block.name.clone(), coordinate(block)));
@@ -273,16 +276,17 @@ fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
 
 fn field_type(emitter: &Emitter<'_>, block: usize, is_velocity: bool) -> TokenStream {
     let krate = emitter.krate();
-    let entry = match emitter.model.blocks[block].axis {
-        Some(_) if emitter.model.blocks[block].is_spinor() => quote!([__T; 3usize]),
+    let declared = &emitter.model.blocks[block];
+    let Block { axis, factor, array, .. } = declared;
+    let is_angular = is_velocity && *factor == Factor::Rotation;
+    let entry = match axis {
+        Some(_) if is_angular || declared.is_spinor() => quote!([__T; 3usize]),
         Some(Axis { of, .. }) => quote!([__T; #of]),
         None => quote!(__T),
     };
-    match &emitter.model.blocks[block].array {
+    match array {
         None => entry,
-        Some(_) if is_velocity && emitter.model.blocks[block].factor == Factor::Rotation => {
-            quote!([__T; 3usize])
-        }
+        Some(_) if is_angular && axis.is_none() => quote!([__T; 3usize]),
         Some((size, _)) if on_stack(emitter, block) => {
             let size = emitter.index(size);
             quote!([#entry; #size])
@@ -321,13 +325,21 @@ fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> Transfers {
             refill.extend(if on_stack(emitter, block) {
                 quote!(self.#field = #value;)
             } else {
-                let refill = format_ident!("refill_{}", entries(&emitter.model.blocks[block], "block"));
-                quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field);)
+                let declared = &emitter.model.blocks[block];
+                let refill = format_ident!("refill_{}", entries(declared, "block"));
+                let is_angular = half == 1 && declared.factor == Factor::Rotation;
+                let unused = is_angular.then(|| angular_rest(block, true));
+                quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field); #unused)
             });
             read.extend(quote!(let #name = #value;));
         }
     }
     Transfers { write, read, refill }
+}
+
+/// Goes on by the six places of each rotation that its angular velocity does not have.
+fn angular_rest(block: usize, is_array: bool) -> TokenStream {
+    if is_array { quote!(__at += 6usize * __len(#block);) } else { quote!(__at += 6usize;) }
 }
 
 /// The statements that write a field at `__at`, and the expression that reads it there.
@@ -364,10 +376,11 @@ fn transfer(
     let write = |length: TokenStream| quote!(#krate::__private::#writer(#text, #entries, #length, &mut __at, #flat)?;);
     if is_velocity && declared.factor == Factor::Rotation {
         // An angular velocity has the first three of nine places.
-        let write = write(quote!(3usize));
-        let read =
-            quote!({ let __value = #krate::#reader(3usize, &mut __at, #flat); __at += 6usize; __value });
-        return (quote!(#write __at += 6usize;), read);
+        let is_array = declared.axis.is_some();
+        let length = if is_array { quote!(__len(#block)) } else { quote!(3usize) };
+        let (write, unused) = (write(length.clone()), angular_rest(block, is_array));
+        let read = quote!({ let __value = #krate::#reader(#length, &mut __at, #flat); #unused __value });
+        return (quote!(#write #unused), read);
     }
     (write(quote!(__len(#block))), quote!(#krate::#reader(__len(#block), &mut __at, #flat)))
 }

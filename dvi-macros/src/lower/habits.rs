@@ -343,7 +343,8 @@ impl Lowering<'_> {
         })?;
         let entry = if block.array.is_some() { "[j]" } else { "" };
         if block.factor == Factor::Rotation {
-            return Some(format!("the angular velocity of `{0}` is written `omega({0})[k]`", block.name));
+            let name = block.axis.map_or_else(|| block.name.to_string(), |_| format!("{}[j]", block.name));
+            return Some(format!("the angular velocity of `{name}` is written `omega({name})[k]`"));
         }
         Some(match written {
             "" if self.role == Role::Constraint(Constrained::Gaps) => {

@@ -7,6 +7,7 @@ use syn::ext::IdentExt as _;
 use syn::{Expr, ExprLit, Ident, Lit};
 
 use super::{Block, Model, Shape};
+use crate::symbolic::Index;
 use crate::syntax::Factor;
 
 /// The numbers of components that a vector may have. Formulas have a term for each.
@@ -43,16 +44,27 @@ impl Block {
         format!("z_{}", self.name.unraw())
     }
 
-    /// What is said of all its coordinates: `x`, or `r[i][0]` where others have the same name; of a spinor its
-    /// vector, `s[i]`.
+    /// What is said of all its coordinates: `x`, or `r[i][0]` where others have the same name, or `R[i]` where
+    /// these are one.
     pub(crate) fn label(&self) -> String {
-        match self.axis {
-            Some(_) if self.is_spinor() && self.array.is_some() => format!("{}[i]", self.name.unraw()),
-            Some(_) => self.entry("i"),
-            None => self.name.to_string(),
+        match (self.axis, self.factor) {
+            (Some(_), Factor::Line) => self.entry("i"),
+            (Some(_), Factor::Rotation | Factor::Sphere) if self.array.is_some() => {
+                format!("{}[i]", self.name.unraw())
+            }
+            (_, Factor::Rotation | Factor::Sphere) | (None, Factor::Line) => self.name.to_string(),
         }
     }
+
+    /// Whether its coordinates are entries of rotations that no velocity has the places of: the nine entries of
+    /// a rotation have three.
+    pub(crate) fn is_without_velocity(&self) -> bool {
+        self.factor == Factor::Rotation && self.axis.is_some_and(|axis| axis.number >= VELOCITIES)
+    }
 }
+
+/// The velocities of a rotation.
+const VELOCITIES: usize = 3;
 
 impl Model {
     /// Whether unit vectors are among the coordinates of a degenerate system.
@@ -78,6 +90,15 @@ impl Model {
         Some(self.coordinate_at(first))
     }
 
+    /// How many coordinates of a block have a velocity.
+    pub(crate) fn velocities(&self, block: usize) -> Index {
+        match &self.blocks[block] {
+            Block { factor: Factor::Rotation, axis: None, .. } => Index::literal(VELOCITIES as i64),
+            block if block.is_without_velocity() => Index::literal(0),
+            _ => self.block_size(block),
+        }
+    }
+
     /// The number of components of the coordinate that begins with this block, if it is a vector as a whole:
     /// an array of a few.
     pub(crate) fn whole(&self, block: usize) -> Option<i64> {
@@ -92,12 +113,9 @@ impl Model {
     /// The names that are vectors, each with the number of indices that it is one with.
     pub(crate) fn vectors(&self) -> Vec<(String, usize)> {
         let coordinate = |blocks: Range<usize>| {
-            let block = &self.blocks[blocks.start];
-            let is_single = block.is_spinor() && block.array.is_none();
-            let indices = block
-                .axis
-                .map(|_| usize::from(!is_single))
-                .or_else(|| self.whole(blocks.start).map(|_| 0))?;
+            let block = Some(&self.blocks[blocks.start]).filter(|block| block.factor != Factor::Rotation)?;
+            let indices = usize::from(block.array.is_some());
+            let indices = block.axis.map(|_| indices).or_else(|| self.whole(blocks.start).map(|_| 0))?;
             Some((block.name.to_string(), indices))
         };
         let parameters = self.parameters.iter().filter_map(|parameter| {

@@ -1,7 +1,6 @@
 //! The mass matrix M = ∂²L/∂v∂v of a regular system.
 
 use syn::Expr as Syntax;
-use syn::ext::IdentExt as _;
 
 use super::has_matching;
 use super::singular::{is_numerically_singular, skipped};
@@ -71,7 +70,7 @@ impl MassMatrix {
             mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
         };
         let massless = (0..model.blocks.len())
-            .filter(|block| !involved(*block))
+            .filter(|&block| !involved(block) && !model.blocks[block].is_without_velocity())
             .map(|block| (block, mentioned.contains(&block)));
         let massless = massless.collect();
         let places: Vec<[usize; 2]> =
@@ -116,19 +115,22 @@ impl MassMatrix {
             errors.push_once(&format!("mass of {at}"), at, message);
         }
         for (block, index) in &self.skipped {
-            let name = &model.blocks[*block].name;
-            let velocity = match model.blocks[*block].factor {
-                Factor::Line | Factor::Sphere => {
+            let Block { name, factor, axis, .. } = &model.blocks[*block];
+            let velocity = match (factor, axis) {
+                (Factor::Line | Factor::Sphere, _) => {
                     format!("the velocity of `{}`", model.blocks[*block].entry(&index.to_string()))
                 }
-                Factor::Rotation => format!("the angular velocity `omega({name})[{index}]`"),
+                (Factor::Rotation, Some(axis)) => {
+                    format!("the angular velocity `omega({name}[{index}])[{}]`", axis.number)
+                }
+                (Factor::Rotation, None) => format!("the angular velocity `omega({name})[{index}]`"),
             };
             let message = format!(
                 "{velocity} has no kinetic energy, so the mass matrix ∂²L/∂v∂v is singular; \
                  all entries have one with `{}`",
                 kinetic_energy(model, *block)
             );
-            errors.push(name, message);
+            errors.push_once(&format!("mass of {name}"), name, message);
         }
         if self.massless.is_empty() && self.skipped.is_empty() {
             self.check_rank(at, errors);
@@ -174,17 +176,20 @@ impl MassMatrix {
             (false, variables) => format!("The {mass} mass matrix depends on {}.", variables.join(", ")),
         };
         if model.is_on_manifold() {
-            let block = |block: &Block| match block.factor {
-                Factor::Line => None,
-                Factor::Rotation => Some(format!(
-                    "`{}` is in SO(3), and its velocity is that in the body.",
-                    block.name.unraw()
-                )),
-                Factor::Sphere => Some(format!("`{}` is in S².", block.name.unraw())),
+            let block = |block: &Block| {
+                let name = block.label().replace("r#", "");
+                match block.factor {
+                    Factor::Line => None,
+                    Factor::Rotation => {
+                        Some(format!("`{name}` is in SO(3), and its velocity is that in the body."))
+                    }
+                    Factor::Sphere => Some(format!("`{name}` is in S².")),
+                }
             };
+            let firsts = model.coordinates().into_iter().map(|blocks| &model.blocks[blocks.start]);
             let step = "A step moves along a geodesic, and solves for its velocity.".to_string();
             let begin = "Begin with `Geodesic::trapezoid()`.".to_string();
-            return model.blocks.iter().filter_map(block).chain([step, begin]).collect();
+            return firsts.filter_map(block).chain([step, begin]).collect();
         }
         let step = match (self.separable, self.diagonal) {
             _ if matches!(constrained, Some(Constrained::Positions | Constrained::Velocities)) => {
@@ -232,6 +237,9 @@ impl MassMatrix {
 fn kinetic_energy(model: &Model, block: usize) -> String {
     let Block { name, array, factor, axis } = &model.blocks[block];
     match array {
+        Some((_, size)) if *factor == Factor::Rotation && axis.is_some() => {
+            format!("sum(0..{size}, |j| omega({name}[j]).norm_squared() / 2.0)")
+        }
         Some(_) if *factor == Factor::Rotation => {
             format!("(omega({name})[0].powi(2) + omega({name})[1].powi(2) + omega({name})[2].powi(2)) / 2.0")
         }

@@ -8,7 +8,7 @@ use crate::symbolic::{Atom, Index, Loop};
 /// while it involves others of that array.
 pub(super) fn skipped(model: &Model, mass: &[Entry]) -> Vec<(usize, i64)> {
     let first_skipped = |block: usize| {
-        let size = model.blocks[block].factor.velocities(model.block_size(block).as_literal()?);
+        let size = model.velocities(block).as_literal()?;
         let mut involved = Vec::new();
         for entry in mass {
             for coordinate in [&entry.row, &entry.column] {

@@ -1,5 +1,7 @@
 //! What is declared by name in the arguments: coordinates, momenta, functions, forces.
 
+use std::fmt;
+
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::ToTokens;
 use syn::ext::IdentExt;
@@ -10,7 +12,7 @@ use syn::{Expr, Path, Token, Type};
 use super::expression;
 use crate::errors::text;
 
-/// `x`, `x[n]`, `r[n][3]`, `R: SO3` or `s: S2`.
+/// `x`, `x[n]`, `r[n][3]`, `R: SO3`, `s: S2` or `s[n]: S2`.
 #[derive(Debug)]
 pub(crate) struct Declaration {
     pub(crate) name: Ident,
@@ -43,8 +45,8 @@ impl Factor {
         }
     }
 
-    /// The number of its coordinates, if that is not declared.
-    pub(crate) fn coordinates(self) -> Option<i64> {
+    /// The number of coordinates of one rotation or one unit vector.
+    pub(crate) fn coordinates(self) -> Option<usize> {
         match self {
             Self::Line => None,
             Self::Rotation => Some(9),
@@ -52,11 +54,12 @@ impl Factor {
         }
     }
 
-    /// How many of so many coordinates have a velocity.
-    pub(crate) fn velocities(self, coordinates: i64) -> i64 {
+    /// The dimension of the manifold, if that is not declared.
+    pub(crate) fn dimension(self) -> Option<usize> {
         match self {
-            Self::Line | Self::Sphere => coordinates,
-            Self::Rotation => 3,
+            Self::Line => None,
+            Self::Rotation => Some(3),
+            Self::Sphere => Some(2),
         }
     }
 }
@@ -145,6 +148,14 @@ impl Gauge {
     }
 }
 
+/// `x` or `x[n]`, as it was written.
+impl fmt::Display for Declaration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.name)?;
+        self.size.as_ref().map_or(Ok(()), |size| write!(f, "[{}]", text(size)))
+    }
+}
+
 impl Parse for Declaration {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let name = match input.call(Ident::parse_any) {
@@ -170,18 +181,16 @@ impl Parse for Declaration {
             let message = format!("a coordinate has two sizes at most: write `{name}[n][3]` for n vectors");
             return Err(input.error(message));
         }
-        let factor =
-            if input.peek(Token![:]) { factor(input, &name, size.is_some())? } else { Factor::Line };
+        let mut declared = Self { name, size, components, factor: Factor::Line };
+        if input.peek(Token![:]) {
+            declared.factor = factor(input, &declared)?;
+        }
         if !input.is_empty() {
             return Err(input.error(
-                "a coordinate is declared as `x`, `x[n]`, `r[n][3]`, `R: SO3` or `s: S2`, and followed by `,`",
+                "a coordinate is declared as `x`, `x[n]`, `r[n][3]`, `R: SO3`, `s: S2` or `s[n]: S2`, and followed by `,`",
             ));
         }
-        if let (Some(components), Factor::Rotation | Factor::Sphere) = (&components, factor) {
-            let message = format!("a unit vector has three components: n of them are `{name}[n]: S2`");
-            return Err(syn::Error::new_spanned(components, message));
-        }
-        Ok(Self { name, size, components, factor })
+        Ok(declared)
     }
 }
 
@@ -198,9 +207,10 @@ fn bracketed(input: ParseStream<'_>, empty: impl FnOnce() -> String) -> syn::Res
     expression(&content).map(Some)
 }
 
-/// What stands behind the colon of `R: SO3`.
-fn factor(input: ParseStream<'_>, name: &Ident, is_array: bool) -> syn::Result<Factor> {
-    let colon: Token![:] = input.parse()?;
+/// What stands behind the colon of `R: SO3`, of a declaration that is read up to there.
+fn factor(input: ParseStream<'_>, declared: &Declaration) -> syn::Result<Factor> {
+    let name = declared.to_string();
+    input.parse::<Token![:]>()?;
     let advice = format!(
         "what a coordinate is, if it is no number, is `{name}: SO3`, a rotation matrix, or `{name}: S2`, a unit vector"
     );
@@ -218,21 +228,18 @@ fn factor(input: ParseStream<'_>, name: &Ident, is_array: bool) -> syn::Result<F
             Err(syn::Error::new_spanned(path, message))
         }
         word => {
-            let factor = Factor::named(&word.to_token_stream().to_string());
-            if factor == Some(Factor::Rotation) && is_array {
-                return Err(syn::Error::new(colon.span, no_array(name, "SO3")));
+            let written = word.to_token_stream().to_string();
+            let factor = Factor::named(&written).ok_or_else(|| syn::Error::new_spanned(word, &advice))?;
+            match &declared.components {
+                Some(components) => {
+                    let message =
+                        format!("the components are those of `{written}`: write `{name}: {written}`");
+                    Err(syn::Error::new_spanned(components, message))
+                }
+                None => Ok(factor),
             }
-            factor.ok_or_else(|| syn::Error::new_spanned(word, &advice))
         }
     }
-}
-
-/// What is said of an array of rotations, or of unit vectors in a regular system.
-pub(super) fn no_array(name: &Ident, factor: &str) -> String {
-    format!(
-        "a rotation or a unit vector is a block of its own, with a name for each: write `{name}1: {factor}, {name}2: {factor}`, or \
-         without a type `{name}[n]` for numbers"
-    )
 }
 
 impl Named {

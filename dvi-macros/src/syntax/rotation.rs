@@ -1,17 +1,18 @@
 //! Rotations and unit vectors as coordinates: where they may stand, and how a rotation is written.
 //!
-//! Of `R: SO3` formulas have the entries `R[i][j]`, the axes of the body `R.column(j)`, and the angular
-//! velocity in the body `omega(R)`, both vectors. Nine coordinates `R[3 i + j]` and three velocities take
-//! their places here, once, so that no later stage knows of matrices.
+//! Of `R: SO3` formulas have the entries `R[j][k]`, the axes of the body `R.column(k)`, and the angular
+//! velocity in the body `omega(R)`, both vectors, and of an array `R[n]: SO3` the same of each `R[i]`. Nine
+//! coordinates `R[3 j + k]` or `R[i][3 j + k]` and three velocities take their places here, once, so that no
+//! later stage knows of matrices.
 
-use proc_macro2::{Ident, Literal};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{ToTokens, quote};
 use syn::spanned::Spanned;
 use syn::visit_mut::{self, VisitMut};
 use syn::{Block, Expr, ExprClosure, Lit, Local, Pat, parse_quote_spanned};
 
-use super::declared::no_array;
 use super::{Attribute, Declaration, Factor, Kind};
-use crate::errors::Errors;
+use crate::errors::{Errors, text};
 
 /// The angular velocity of a rotation, in the body.
 const ANGULAR_VELOCITY: &str = "omega";
@@ -22,12 +23,7 @@ impl Attribute {
     /// Reports rotations and unit vectors where there are none, and replaces the entries of rotations in all
     /// formulas.
     pub(super) fn admit_factors(&mut self, errors: &mut Errors) {
-        let is_array = |of: &&Declaration| of.factor == Factor::Sphere && of.size.is_some();
         let is_regular = self.kind == Kind::Regular;
-        for Declaration { name, .. } in self.coordinates.iter().filter(is_array).filter(|_| is_regular) {
-            errors.push(name, no_array(name, "S2"));
-            self.lost_coordinates = true;
-        }
         let is_special = |declaration: &&Declaration| match declaration.factor {
             Factor::Line => false,
             Factor::Rotation => true,
@@ -40,9 +36,9 @@ impl Attribute {
             Some(format!("rotations are coordinates of regular systems, in `{regular}`"))
         } else if let Some(of) = self.constrained {
             let numbers = match first.factor {
-                Factor::Rotation => format!("a rotation as numbers is `{name}[9]`, with six constraints"),
+                Factor::Rotation => format!("a rotation as numbers is `{first}[9]`, with six constraints"),
                 Factor::Sphere | Factor::Line => {
-                    format!("a unit vector as numbers is `{name}[3]`, with its length as a constraint")
+                    format!("a unit vector as numbers is `{first}[3]`, with its length as a constraint")
                 }
             };
             Some(format!("a system with rotations or unit vectors has no `{}` yet: {numbers}", of.word()))
@@ -54,11 +50,11 @@ impl Attribute {
         if let Some(message) = refused {
             errors.push(name, message);
         }
-        let rotations = self.coordinates.iter().filter(|declaration| declaration.factor == Factor::Rotation);
-        let rotations: Vec<Ident> = rotations.map(|Declaration { name, .. }| name.clone()).collect();
-        let others = self.coordinates.iter().filter(|declaration| declaration.factor != Factor::Rotation);
-        let others: Vec<Ident> = others.map(|Declaration { name, .. }| name.clone()).collect();
-        let mut entries = Entries { rotations: &rotations, others: &others, hidden: Vec::new(), errors };
+        let declared = |Declaration { name, size, factor, .. }: &Declaration| {
+            (name.clone(), (*factor == Factor::Rotation).then_some(size.is_some()))
+        };
+        let coordinates: Vec<(Ident, Option<bool>)> = self.coordinates.iter().map(declared).collect();
+        let mut entries = Entries { coordinates: &coordinates, hidden: Vec::new(), errors };
         self.formulas_mut().for_each(|formula| entries.visit_expr_mut(formula));
     }
 }
@@ -66,9 +62,8 @@ impl Attribute {
 /// Replaces what is written of rotations by coordinates and velocities. What cannot be is reported, and
 /// replaced by a number, so that it is not reported again.
 struct Entries<'a> {
-    rotations: &'a [Ident],
-    /// The other coordinates.
-    others: &'a [Ident],
+    /// The coordinates, each of those that are rotations with whether it is an array.
+    coordinates: &'a [(Ident, Option<bool>)],
     /// The names that a `let` or a closure around has given to something else.
     hidden: Vec<Ident>,
     errors: &'a mut Errors,
@@ -108,14 +103,42 @@ fn indexed(syntax: &Expr) -> Option<[&Expr; 2]> {
     }
 }
 
+/// A rotation of a formula: `R`, or `R[i]` of an array.
+#[derive(Clone, Copy)]
+struct Rotation<'a> {
+    name: &'a Ident,
+    index: Option<&'a Expr>,
+}
+
+impl ToTokens for Rotation<'_> {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        let Self { name, index } = self;
+        let index = index.map(|index| quote!([#index]));
+        tokens.extend(quote!(#name #index));
+    }
+}
+
 impl Entries<'_> {
-    /// The rotation that this is the name of.
-    fn rotation<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
-        name(syntax).filter(|name| self.rotations.contains(name) && !self.hidden.contains(name))
+    /// What is known of a coordinate of this name.
+    fn coordinate(&self, name: &Ident) -> Option<Option<bool>> {
+        let (_, known) = self.coordinates.iter().find(|(known, _)| known == name)?;
+        (!self.hidden.contains(name)).then_some(*known)
+    }
+
+    /// The rotation that this is.
+    fn rotation<'b>(&self, syntax: &'b Expr) -> Option<Rotation<'b>> {
+        let (of, index) = indexed(syntax).map_or((syntax, None), |[of, index]| (of, Some(index)));
+        let name = name(of)?;
+        (self.coordinate(name)? == Some(index.is_some())).then_some(Rotation { name, index })
+    }
+
+    /// The array of rotations that this is the name of.
+    fn array<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
+        name(syntax).filter(|name| self.coordinate(name) == Some(Some(true)))
     }
 
     /// The rotation that this is the angular velocity of.
-    fn angular_velocity<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
+    fn angular_velocity<'b>(&self, syntax: &'b Expr) -> Option<Rotation<'b>> {
         match called(ANGULAR_VELOCITY, syntax)?.as_slice() {
             [of] => self.rotation(of),
             _ => None,
@@ -123,14 +146,14 @@ impl Entries<'_> {
     }
 
     /// The rotation that this is an entry of, with its indices.
-    fn entry<'b>(&self, syntax: &'b Expr) -> Option<(&'b Ident, [&'b Expr; 2])> {
+    fn entry<'b>(&self, syntax: &'b Expr) -> Option<(Rotation<'b>, [&'b Expr; 2])> {
         let [row_of, column] = indexed(syntax)?;
         let [rotation, row] = indexed(row_of)?;
         Some((self.rotation(rotation)?, [row, column]))
     }
 
     /// The rotation that this is a column of, with its index.
-    fn column<'b>(&self, syntax: &'b Expr) -> Option<(&'b Ident, &'b Expr)> {
+    fn column<'b>(&self, syntax: &'b Expr) -> Option<(Rotation<'b>, &'b Expr)> {
         match unwrapped(syntax) {
             Expr::MethodCall(call) if call.method == "column" && call.args.len() == 1 => {
                 Some((self.rotation(&call.receiver)?, &call.args[0]))
@@ -158,73 +181,80 @@ impl Entries<'_> {
     /// What takes the place of this, if that is written of a rotation.
     fn replaced(&mut self, syntax: &Expr) -> Option<Expr> {
         let span = syntax.span();
-        if let Some((name, [row, column])) = self.entry(syntax) {
+        if let Some((of, [row, column])) = self.entry(syntax) {
             let entry = Literal::usize_unsuffixed(3 * self.index(row) + self.index(column));
-            return Some(parse_quote_spanned!(span=> #name[#entry]));
+            return Some(parse_quote_spanned!(span=> #of[#entry]));
         }
-        if let Some([of, index]) = indexed(syntax) {
-            if let Some(name) = self.angular_velocity(of) {
+        if let Some([inner, index]) = indexed(syntax) {
+            if let Some(of) = self.angular_velocity(inner) {
                 let index = Literal::usize_unsuffixed(self.index(index));
-                return Some(parse_quote_spanned!(span=> dot(#name[#index])));
+                return Some(parse_quote_spanned!(span=> dot(#of[#index])));
             }
-            if let Some((name, _)) = self.entry(of) {
-                self.errors.push(syntax, format!("an entry of `{name}` has two indices, `{name}[i][j]`"));
-                return Some(parse_quote_spanned!(span=> 0.0));
+            if let Some((of, _)) = self.entry(inner) {
+                let of = text(&of);
+                return Some(
+                    self.refused(syntax, format!("an entry of `{of}` has two indices, `{of}[j][k]`")),
+                );
             }
-            if let Some(name) = self.rotation(of) {
-                return Some(self.refused(of, name));
+            if let Some(of) = self.rotation(inner) {
+                return Some(self.refused(inner, is_whole(of)));
             }
         }
-        if let Some((name, column)) = self.column(syntax) {
+        if let Some((of, column)) = self.column(syntax) {
             let column = self.index(column);
             let [x, y, z] = [column, 3 + column, 6 + column].map(Literal::usize_unsuffixed);
-            return Some(parse_quote_spanned!(span=> [#name[#x], #name[#y], #name[#z]]));
+            return Some(parse_quote_spanned!(span=> [#of[#x], #of[#y], #of[#z]]));
         }
-        if let Some(name) = self.angular_velocity(syntax) {
-            return Some(parse_quote_spanned!(span=> [dot(#name[0]), dot(#name[1]), dot(#name[2])]));
+        if let Some(of) = self.angular_velocity(syntax) {
+            return Some(parse_quote_spanned!(span=> [dot(#of[0]), dot(#of[1]), dot(#of[2])]));
         }
-        if let Some([of]) = called(VELOCITY, syntax).as_deref()
-            && let Some((name, _)) = self.entry(of)
+        if let Some([inner]) = called(VELOCITY, syntax).as_deref()
+            && let Some((of, _)) = self.entry(inner)
         {
+            let of = text(&of);
             let message = format!(
-                "the velocity of a rotation is `{ANGULAR_VELOCITY}({name})[k]`, the angular velocity in the body; the rates of its \
-                 entries are products with it, as `{name}[0][1] * {ANGULAR_VELOCITY}({name})[2] - {name}[0][2] * {ANGULAR_VELOCITY}({name})[1]` \
-                 is that of `{name}[0][0]`"
+                "the velocity of a rotation is `{ANGULAR_VELOCITY}({of})[k]`, the angular velocity in the body; the rates of its \
+                 entries are products with it, as `{of}[0][1] * {ANGULAR_VELOCITY}({of})[2] - {of}[0][2] * {ANGULAR_VELOCITY}({of})[1]` \
+                 is that of `{of}[0][0]`"
             );
-            self.errors.push(of, message);
-            return Some(parse_quote_spanned!(span=> 0.0));
+            return Some(self.refused(inner, message));
         }
-        if let Some(of) = self.no_rotation(syntax) {
-            let message =
-                format!("`{of}` is no rotation, of which `{ANGULAR_VELOCITY}` is the angular velocity");
-            self.errors.push(syntax, message);
-            return Some(parse_quote_spanned!(span=> 0.0));
-        }
-        let (at, name) = self.whole(syntax)?;
-        Some(self.refused(at, name))
+        let (at, message) = self.no_rotation(syntax).or_else(|| self.whole(syntax))?;
+        let refused = self.refused(at, message);
+        let is_axis = matches!(unwrapped(syntax), Expr::MethodCall(call) if call.method == "column");
+        // A vector takes the place of one.
+        Some(if is_axis || called(ANGULAR_VELOCITY, syntax).is_some() {
+            parse_quote_spanned!(span=> [0.0, 0.0, 0.0])
+        } else {
+            refused
+        })
     }
 
-    /// The coordinate that is taken for a rotation in `omega(x)` or `omega(x)[k]`.
-    fn no_rotation<'b>(&self, syntax: &'b Expr) -> Option<&'b Ident> {
+    /// What is wrong with `omega(x)` or `omega(x)[k]` of another coordinate.
+    fn no_rotation<'b>(&self, syntax: &'b Expr) -> Option<(&'b Expr, String)> {
         let whole = indexed(syntax).map_or(syntax, |[of, _]| of);
-        match called(ANGULAR_VELOCITY, whole)?.as_slice() {
-            [of] => name(of).filter(|name| self.others.contains(name) && !self.hidden.contains(name)),
-            _ => None,
-        }
+        let [of] = *called(ANGULAR_VELOCITY, whole)?.as_slice() else { return None };
+        let name = name(indexed(of).map_or(of, |[array, _]| array))?;
+        let of = text(of);
+        let message =
+            format!("`{of}` is no rotation, of which `{ANGULAR_VELOCITY}` is the angular velocity");
+        (self.coordinate(name)? == None).then_some((syntax, message))
     }
 
-    /// A rotation that has no index: this, or what this is made of.
-    fn whole<'b>(&self, syntax: &'b Expr) -> Option<(&'b Expr, &'b Ident)> {
-        if let Some(name) = self.rotation(syntax) {
-            return Some((syntax, name));
-        }
-        let used = |part: &'b Expr| self.rotation(part).map(|name| (part, name));
-        match unwrapped(syntax) {
+    /// A rotation as a whole, or an array of them without an index: this, or what this is made of, and what is
+    /// wrong with it.
+    fn whole<'b>(&self, syntax: &'b Expr) -> Option<(&'b Expr, String)> {
+        let used = |part: &'b Expr| {
+            let of_array = |name: &Ident| format!("`{name}` is an array of rotations: write `{name}[i]`");
+            let message = self.rotation(part).map(is_whole).or_else(|| self.array(part).map(of_array));
+            message.map(|message| (part, message))
+        };
+        used(syntax).or_else(|| match unwrapped(syntax) {
             Expr::Call(call) => call.args.iter().find_map(used),
             Expr::MethodCall(call) => used(&call.receiver),
             Expr::Index(index) => used(&index.index),
             _ => None,
-        }
+        })
     }
 
     fn hide(&mut self, pattern: &Pat) {
@@ -237,14 +267,19 @@ impl Entries<'_> {
         }
     }
 
-    fn refused(&mut self, at: &Expr, name: &Ident) -> Expr {
-        let message = format!(
-            "`{name}` is a rotation: its entries are written `{name}[i][j]`, its angular velocity in the body \
-             `{ANGULAR_VELOCITY}({name})[k]`"
-        );
+    fn refused(&mut self, at: &Expr, message: String) -> Expr {
         self.errors.push(at, message);
         parse_quote_spanned!(at.span()=> 0.0)
     }
+}
+
+/// What is said of a rotation as a whole.
+fn is_whole(of: Rotation<'_>) -> String {
+    let of = text(&of);
+    format!(
+        "`{of}` is a rotation: its entries are written `{of}[j][k]`, its angular velocity in the body \
+         `{ANGULAR_VELOCITY}({of})[k]`"
+    )
 }
 
 impl VisitMut for Entries<'_> {

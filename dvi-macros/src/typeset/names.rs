@@ -174,8 +174,10 @@ impl Typesetter {
     /// A coordinate with an accent on its name, as `\dot{x}_i`; of a rotation, its angular velocity.
     pub(super) fn velocity(&mut self, of: &Expr, accent: &str) -> String {
         match self.place(of) {
-            Some((name, indices)) if self.rotations.contains(&name) => {
-                format!(r"\omega\left({}\right)_{{{}}}", self.symbol(&name), indices.join(","))
+            Some((name, indices)) if self.is_entry(&name, &indices) => {
+                let (place, of) =
+                    indices.split_last().map_or(("", [].as_slice()), |(k, of)| (k.as_str(), of));
+                format!(r"\omega\left({}\right)_{{{place}}}", self.placed(&name, None, of))
             }
             Some(_) => self.accented(of, Some(accent)),
             None => format!("{accent}{{{}}}", self.expr(of).text),
@@ -186,12 +188,18 @@ impl Typesetter {
         let Some((name, mut indices)) = self.place(formula) else {
             return self.of_other(formula);
         };
-        if let (true, [entry]) = (self.rotations.contains(&name), &indices[..])
-            && let Ok(entry) = entry.parse::<u32>()
+        if let (true, Some(last)) = (self.is_entry(&name, &indices), indices.last())
+            && let Ok(entry) = last.parse::<u32>()
         {
-            indices = vec![(entry / 3).to_string(), (entry % 3).to_string()];
+            indices.pop();
+            indices.extend([entry / 3, entry % 3].map(|index| index.to_string()));
         }
         self.placed(&name, accent, &indices)
+    }
+
+    /// Whether this is one of the nine entries of a rotation, by its number.
+    fn is_entry(&self, name: &str, indices: &[String]) -> bool {
+        self.rotations.iter().any(|(known, count)| known == name && indices.len() == count + 1)
     }
 
     /// The name and the indices of a place in an array that has a name of its own.

@@ -40,7 +40,7 @@ fn a_step_by_half_a_turn_is_an_error_that_says_by_how_much() {
     let start = BodyState { R: rotations::exp([0.0; 3]), omega_R: [0.0, 0.0, 2.0] };
     let mut run = Integrator::new(&FREE, Geodesic::trapezoid(), 1.6, start).expect("begins");
     match run.take_steps(1).map_err(|error| error.failure) {
-        Err(StepFailure::HalfTurn { block: "R", angle }) => {
+        Err(StepFailure::HalfTurn { block: "R", index: None, angle }) => {
             assert!(abs_diff_eq!(angle, 3.2, epsilon = 1e-12), "{angle}");
         }
         other => panic!("{other:?}"),

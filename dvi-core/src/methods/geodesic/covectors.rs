@@ -7,7 +7,9 @@ use super::node::{Forces, Path};
 use crate::discrete::NodeWork;
 use crate::mechanics::manifold::series::Series;
 use crate::mechanics::manifold::sphere::GreatCircle;
-use crate::mechanics::manifold::{Block, blocks, quaternion, rotation, set, vector};
+use crate::mechanics::manifold::{
+    Block, blocks, copy, fill, matrix, quaternion, rotation, set, set_quaternion, vector,
+};
 use crate::system::{Factor, ManifoldSystem};
 use crate::{Real, System};
 
@@ -16,9 +18,9 @@ use crate::{Real, System};
 pub(super) fn momentum<S: ManifoldSystem, T: Real>(system: &S, q: &[T], l_v: &[T], p: &mut [T]) {
     for block in blocks(system) {
         match block.factor {
-            Factor::Line => p[block.places()].copy_from_slice(&l_v[block.places()]),
+            Factor::Line => copy(l_v, block, p),
             Factor::Rotation => {
-                p[block.places()].fill(T::lift(0.0));
+                fill(p, block, T::lift(0.0));
                 set(p, block, vector(l_v, block));
             }
             Factor::Sphere => set(p, block, torque(block, q, l_v)),
@@ -40,15 +42,14 @@ fn torque<T: Real>(block: Block, q: &[T], l_q: &[T]) -> Vector3<T> {
     if block.factor == Factor::Sphere {
         return vector(q, block).cross(&vector(l_q, block));
     }
-    let here = rotation::matrix(&q[block.places()]);
-    rotation::torque(&(here.transpose() * rotation::matrix(&l_q[block.places()])))
+    rotation::torque(&(matrix(q, block).transpose() * matrix(l_q, block)))
 }
 
 /// Makes a force the covector of the manifold that it is at `q`.
 pub(super) fn force<S: ManifoldSystem, T: Real>(system: &S, q: &[T], force: &mut [T]) {
     for block in blocks(system).filter(|block| block.factor != Factor::Line) {
         let torque = torque(block, q, force);
-        force[block.places()].fill(T::lift(0.0));
+        fill(force, block, T::lift(0.0));
         set(force, block, torque);
     }
 }
@@ -62,8 +63,8 @@ pub(super) fn subtract_momentum<T: Real>(
 ) {
     match block.factor {
         Factor::Line | Factor::Rotation => {
-            for (residual, &p) in residual[block.slots()].iter_mut().zip(&p[block.places()]) {
-                *residual -= p;
+            for (residual, place) in residual[block.slots()].iter_mut().zip(block.places()) {
+                *residual -= p[place];
             }
         }
         Factor::Sphere => {
@@ -78,10 +79,10 @@ pub(super) fn subtract_momentum<T: Real>(
 /// Sets what a displacement adds to what is carried of the coordinates.
 pub(super) fn increment_of<T: Real>(block: Block, path: Path<'_, T>, lifted: &[T], increment: &mut [T]) {
     match block.factor {
-        Factor::Line => increment[block.places()].copy_from_slice(&path.displacement[block.places()]),
+        Factor::Line => copy(path.displacement, block, increment),
         Factor::Rotation => {
             let turn = rotation::increment(&quaternion(lifted, block), vector(path.displacement, block));
-            increment[block.places()][..4].copy_from_slice(turn.coords.as_slice());
+            set_quaternion(increment, block, &turn);
         }
         Factor::Sphere => set(increment, block, path.circle(block).increment()),
     }
@@ -90,9 +91,9 @@ pub(super) fn increment_of<T: Real>(block: Block, path: Path<'_, T>, lifted: &[T
 /// Sets `p` to p0, seen from the end of the step.
 pub(super) fn depart<T: Real>(block: Block, path: Path<'_, T>, p0: &[T], p: &mut [T]) {
     match block.factor {
-        Factor::Line | Factor::Sphere => p[block.places()].copy_from_slice(&p0[block.places()]),
+        Factor::Line | Factor::Sphere => copy(p0, block, p),
         Factor::Rotation => {
-            p[block.places()].fill(T::lift(0.0));
+            fill(p, block, T::lift(0.0));
             let back = Series::exp(-vector(path.displacement, block));
             set(p, block, back.of(&vector(p0, block)));
         }

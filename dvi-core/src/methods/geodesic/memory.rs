@@ -1,11 +1,15 @@
 //! What a run along geodesics carries, and work space.
 
+use alloc::vec::Vec;
+
+use super::covectors::force;
 use super::tangents::{TangentMass, Tangents};
 use crate::memory::{Memory, lasting};
+use crate::space::sink::Places;
 use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
 use crate::system::ManifoldSystem;
-use crate::{ManifoldLagrangian, Matrix, Real, Space, System, Vector};
+use crate::{ManifoldLagrangian, Real, Space, System, Vector, Weights};
 
 /// The momentum of a run of [`Geodesic`](super::Geodesic), what its next step is guessed from, and work
 /// space.
@@ -33,10 +37,43 @@ pub struct GeodesicMemory<S: ManifoldSystem, T: Real> {
 /// What a step by kicks needs of L.
 #[derive(Debug)]
 pub(super) struct Kicks<S: System, T: Real> {
-    /// M
-    pub(super) mass: Matrix<S, T>,
+    /// M, without what is zero.
+    pub(super) mass: Vec<MassEntry<T>>,
     /// The force at the current point, as a covector of the manifold.
     pub(super) force: Vector<S, T>,
+}
+
+/// An entry of M.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MassEntry<T> {
+    /// Its row and column.
+    pub(super) place: [usize; 2],
+    pub(super) value: T,
+}
+
+impl<S: ManifoldLagrangian<T>, T: Real> Kicks<S, T> {
+    /// At a point, where M is the same as everywhere.
+    pub(super) fn new(system: &S, [q, v]: [&[T]; 2], t: T) -> Self {
+        let [mut l_q, mut l_v, mut f0]: [Vector<S, T>; 3] = system.space().vectors();
+        let mut mass: Vec<MassEntry<T>> = Vec::new();
+        let mut sink = Places(|row: usize, column: usize, value: T| {
+            if value != T::lift(0.0) {
+                mass.push(MassEntry { place: [row, column], value });
+            }
+        });
+        system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut sink);
+        mass.sort_by_key(|entry| entry.place);
+        mass.dedup_by(|other, entry| {
+            let is_same = other.place == entry.place;
+            if is_same {
+                entry.value += other.value;
+            }
+            is_same
+        });
+        system.force(q, &[], t, &mut f0);
+        force(system, q, &mut f0);
+        Self { mass, force: f0 }
+    }
 }
 
 impl<S: System, T: Real> Memory<T> for Kicks<S, T> {
@@ -59,7 +96,8 @@ pub(super) struct Arrival<S: System, T: Real> {
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
-    pub(super) fn new(system: &S, seed: Vector<S, T>) -> Self {
+    /// For a run from (`q`, `v`) at time t, with the rates of displacement there.
+    pub(super) fn new(system: &S, at: [&[T]; 2], t: T, seed: Vector<S, T>) -> Self {
         let space = system.space();
         let [p, lifted, p0, displacement, increment, next, q, v, p1, force] = space.vectors();
         Self {
@@ -71,7 +109,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
             orientation: None,
             is_positive: true,
             p0,
-            tangents: Tangents::new(system),
+            tangents: Tangents::new(system, at, t),
             arrival: Arrival { displacement, increment, lifted: next, q, v, p: p1, force },
         }
     }

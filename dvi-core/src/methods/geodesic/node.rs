@@ -5,13 +5,15 @@ use core::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::between::{Between, By, Slots, slots};
+use super::memory::MassEntry;
 use crate::discrete::NodeWork;
 use crate::mechanics::manifold::series::Series;
 use crate::mechanics::manifold::sphere::GreatCircle;
-use crate::mechanics::manifold::{Block, blocks, rotation, set, vector};
+use crate::mechanics::manifold::{Block, blocks, fill, matrix, rotation, set, set_matrix, vector};
 use crate::space::Sink;
 use crate::system::Factor;
-use crate::{ManifoldLagrangian, Matrix, Real, Scalar, Space, System, Weights};
+use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Weights};
 
 /// Three numbers for each coordinate: how it varies with the tangent vectors of its block.
 type Rows<S, T> = <<S as System>::Space as Space>::Array<[T; 3]>;
@@ -19,8 +21,8 @@ type Rows<S, T> = <<S as System>::Space as Space>::Array<[T; 3]>;
 /// How the point and the velocity of a node vary, in each row with the tangent vectors of its block.
 #[derive(Debug)]
 pub(super) struct Variation<S: System, T: Real> {
-    point: Rows<S, T>,
-    velocity: Rows<S, T>,
+    pub(super) point: Rows<S, T>,
+    pub(super) velocity: Rows<S, T>,
 }
 
 /// A node, with L evaluated there.
@@ -32,8 +34,7 @@ pub(super) struct Node<S: System, T: Real> {
     first: Variation<S, T>,
     /// With the displacement.
     displacement: Variation<S, T>,
-    /// The first tangent vector of the block of each coordinate, and how many the block has.
-    tangents: <S::Space as Space>::Array<[usize; 2]>,
+    pub(super) slots: Slots<S>,
 }
 
 impl<S: System, T: Real> Variation<S, T> {
@@ -44,8 +45,8 @@ impl<S: System, T: Real> Variation<S, T> {
 
     /// In the three places of `block`: a variation by each of its tangent vectors, as columns.
     fn set(rows: &mut Rows<S, T>, block: Block, columns: &Matrix3<T>) {
-        for (row, place) in rows[block.vector()].iter_mut().zip(0..) {
-            *row = [0, 1, 2].map(|column| columns[(place, column)]);
+        for (number, place) in block.vector().into_iter().enumerate() {
+            rows[place] = [0, 1, 2].map(|column| columns[(number, column)]);
         }
     }
 
@@ -53,8 +54,8 @@ impl<S: System, T: Real> Variation<S, T> {
     fn turn(rows: &mut Rows<S, T>, block: Block, matrix: &Matrix3<T>, columns: &Matrix3<T>) {
         for column in 0..3 {
             let turned = matrix * columns.column(column).into_owned().cross_matrix();
-            for (row, &entry) in rows[block.places()].iter_mut().zip(turned.transpose().iter()) {
-                row[column] = entry;
+            for (place, &entry) in block.places().zip(turned.transpose().iter()) {
+                rows[place][column] = entry;
             }
         }
     }
@@ -84,20 +85,11 @@ impl<T: Real> Path<'_, T> {
 
 impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     pub(super) fn new(system: &S) -> Self {
-        let mut tangents = system.space().array(|| [0; 2]);
-        for block in blocks(system) {
-            for (number, entry) in tangents[block.places()].iter_mut().enumerate() {
-                *entry = match block.factor {
-                    Factor::Line => [block.slot + number, 1],
-                    Factor::Rotation | Factor::Sphere => [block.slot, block.dimension()],
-                };
-            }
-        }
         Self {
             work: NodeWork::new(system),
             first: Variation::new(system),
             displacement: Variation::new(system),
-            tangents,
+            slots: slots(system),
         }
     }
 
@@ -165,12 +157,12 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     /// R(c) = R0 exp(cû). With u varies R(c)ᵀδR = c J(−cu) δu; with R0 by η, where R1 is held, R(c)ᵀδR =
     /// exp(−cu) η + c J(−cu) δu.
     fn stand_on_rotations(&mut self, block: Block, Path { q, displacement, .. }: Path<'_, T>, c: T) {
-        let (start, u) = (rotation::matrix(&q[block.places()]), vector(displacement, block));
+        let (start, u) = (matrix(q, block), vector(displacement, block));
         let turn = Series::exp(u * c).matrix();
         let here = start * turn;
         let turned = Series::mean(u * -c).matrix() * c;
         let held = turned * Series::mean_inverse(u).matrix() - turn.transpose();
-        rotation::set(&mut self.work.point[block.places()], &here);
+        set_matrix(&mut self.work.point, block, &here);
         Variation::<S, T>::turn(&mut self.first.point, block, &here, &held);
         Variation::<S, T>::turn(&mut self.displacement.point, block, &here, &turned);
     }
@@ -253,8 +245,8 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         let (inverse, momentum) = (Series::mean_inverse(-u), vector(&self.work.momentum, block) / h);
         let Forces::Of = forces else { return -inverse.derivative(&momentum) };
         let (mean, exp) = (Series::mean(u * c), Series::exp(u * c));
-        let here = rotation::matrix(&q[block.places()]) * exp.matrix();
-        let m = here.transpose() * rotation::matrix(&self.work.gradient[block.places()]);
+        let here = matrix(q, block) * exp.matrix();
+        let m = here.transpose() * matrix(&self.work.gradient, block);
         let torque = rotation::torque(&m);
         let turned = Series::mean(u * -c).matrix() * c;
         let carried = inverse.matrix() * mean.matrix() * c - exp.matrix();
@@ -267,7 +259,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     /// Evaluates L with its derivatives, and adds `weight` times the second ones, by the first point and the
     /// displacement.
     pub(super) fn add_second_derivatives<K: Sink<T>>(&mut self, system: &S, t: T, weight: T, sink: &mut K) {
-        let Self { work: NodeWork { point, velocity, gradient, momentum }, first, displacement, tangents } =
+        let Self { work: NodeWork { point, velocity, gradient, momentum }, first, displacement, slots } =
             self;
         let zero = T::lift(0.0);
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
@@ -280,27 +272,25 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         // Where M is constant, positions and velocities do not mix.
         let mixed = if S::CONSTANT_MASS { 2 } else { 4 };
         for (by, weights) in &all[..mixed] {
-            let mut between = Between::<S, T, K>::new(first, displacement, tangents, *by, sink);
+            let mut between = Between::<S, T, K>::new(first, displacement, slots, *by, sink);
             system.linearize(point, velocity, t, *weights, gradient, momentum, &mut between);
         }
     }
 
     /// Adds `weight` times the second derivatives of ½ v·M v.
-    pub(super) fn add_kinetic<K: Sink<T>>(&self, system: &S, mass: &Matrix<S, T>, weight: T, sink: &mut K) {
-        let Self { work, first, displacement, tangents } = self;
-        let mut between = Between::<S, T, K>::new(first, displacement, tangents, [By::Velocity; 2], sink);
-        let dimension = work.velocity.len();
-        let places = || blocks(system).flat_map(Block::velocities);
-        for (row, column) in places().flat_map(|row| places().map(move |column| (row, column))) {
-            between.add(row, column, weight * mass[row * dimension + column]);
+    pub(super) fn add_kinetic<K: Sink<T>>(&self, mass: &[MassEntry<T>], weight: T, sink: &mut K) {
+        let Self { first, displacement, slots, .. } = self;
+        let mut between = Between::<S, T, K>::new(first, displacement, slots, [By::Velocity; 2], sink);
+        for &MassEntry { place: [row, column], value } in mass {
+            between.add(row, column, weight * value);
         }
     }
 
     /// Adds the mass matrix of the tangent vectors at a point, and leaves ∂L/∂v.
     pub(super) fn add_mass<K: Sink<T>>(&mut self, system: &S, [q, v]: [&[T]; 2], t: T, sink: &mut K) {
         self.rest(system, q, v);
-        let Self { work: NodeWork { point, velocity, gradient, momentum }, first, tangents, .. } = self;
-        let mut between = Between::<S, T, K>::new(first, first, tangents, [By::Velocity; 2], sink);
+        let Self { work: NodeWork { point, velocity, gradient, momentum }, first, slots, .. } = self;
+        let mut between = Between::<S, T, K>::new(first, first, slots, [By::Velocity; 2], sink);
         system.linearize(point, velocity, t, Weights::mass(), gradient, momentum, &mut between);
     }
 
@@ -312,10 +302,10 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         for block in blocks(system) {
             match block.factor {
                 Factor::Line => {
-                    self.first.velocity[block.places()].fill([one, T::lift(0.0), T::lift(0.0)]);
+                    fill(&mut self.first.velocity, block, [one, T::lift(0.0), T::lift(0.0)]);
                 }
                 Factor::Rotation => {
-                    self.work.velocity[block.places()][3..].fill(T::lift(0.0));
+                    block.places().skip(3).for_each(|place| self.work.velocity[place] = T::lift(0.0));
                     Variation::<S, T>::set(&mut self.first.velocity, block, &Matrix3::identity());
                 }
                 Factor::Sphere => {
@@ -334,7 +324,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     /// Adds `factor` times the derivative of L by the point, by the variation of that, to `sum`.
     pub(super) fn project_force(&self, factor: T, sum: &mut [T]) {
         let rows = self.work.gradient.iter().zip(self.first.point.iter());
-        for (&[slot, count], (&l_q, by_point)) in self.tangents.iter().zip(rows) {
+        for (&[slot, count], (&l_q, by_point)) in self.slots.iter().zip(rows) {
             for (sum, &entry) in sum[slot..slot + count].iter_mut().zip(by_point) {
                 *sum += factor * (l_q * entry);
             }
@@ -345,58 +335,9 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     #[inline]
     pub(super) fn project_momentum(&self, system: &S, factor: T, sum: &mut [T]) {
         for place in blocks(system).flat_map(Block::velocities) {
-            let ([slot, count], l_v) = (self.tangents[place], self.work.momentum[place]);
+            let ([slot, count], l_v) = (self.slots[place], self.work.momentum[place]);
             for (sum, &entry) in sum[slot..slot + count].iter_mut().zip(&self.first.velocity[place]) {
                 *sum += factor * (l_v * entry);
-            }
-        }
-    }
-}
-
-/// Which of the derivatives of L an entry is of.
-#[derive(Clone, Copy, Debug)]
-enum By {
-    Point,
-    Velocity,
-}
-
-/// Passes the entries of a matrix over the coordinates on as those of Aᵀ M B, where the rows of A and B are
-/// variations.
-struct Between<'a, S: System, T: Real, K> {
-    left: &'a [[T; 3]],
-    right: &'a [[T; 3]],
-    tangents: &'a <S::Space as Space>::Array<[usize; 2]>,
-    sink: &'a mut K,
-}
-
-impl<'a, S: System, T: Real, K> Between<'a, S, T, K> {
-    /// From variations of the first point to those `with`, into `sink`.
-    fn new(
-        first: &'a Variation<S, T>,
-        with: &'a Variation<S, T>,
-        tangents: &'a <S::Space as Space>::Array<[usize; 2]>,
-        [row, column]: [By; 2],
-        sink: &'a mut K,
-    ) -> Self {
-        let of = |variation: &'a Variation<S, T>, by: By| match by {
-            By::Point => &variation.point[..],
-            By::Velocity => &variation.velocity[..],
-        };
-        Self { left: of(first, row), right: of(with, column), tangents, sink }
-    }
-}
-
-impl<S: System, T: Real, K: Sink<T>> Sink<T> for Between<'_, S, T, K> {
-    #[inline]
-    fn add(&mut self, row: usize, column: usize, entry: T) {
-        // Blocks of weight zero come with the others.
-        if entry == T::lift(0.0) {
-            return;
-        }
-        let ([first, rows], [second, columns]) = (self.tangents[row], self.tangents[column]);
-        for i in 0..rows {
-            for j in 0..columns {
-                self.sink.add(first + i, second + j, self.left[row][i] * entry * self.right[column][j]);
             }
         }
     }

@@ -5,6 +5,7 @@ use core::mem;
 
 use nalgebra::Vector3;
 
+use super::between::visit_coupled;
 use super::covectors::{subtract_momentum, velocity};
 use super::node::Node;
 use crate::error::StepFailure;
@@ -18,7 +19,7 @@ use crate::space::SquareMatrix;
 use crate::space::inertia::{Inertia, inertia};
 use crate::state::Statistics;
 use crate::system::{Factor, ManifoldSystem};
-use crate::{ManifoldLagrangian, Real, Space};
+use crate::{ManifoldLagrangian, Real, Scalar, Space};
 
 /// A number for each tangent vector.
 type Tangent<S, T> = <<S as ManifoldSystem>::Tangent as Space>::Vector<T>;
@@ -46,17 +47,12 @@ pub(super) trait Equations<S: ManifoldSystem, T: Real> {
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
-    pub(super) fn new(system: &S) -> Self {
-        let dimension = system.tangent().dimension();
-        let all = |visit: &mut dyn FnMut(usize, usize)| {
-            (0..dimension).for_each(|row| (0..dimension).for_each(|column| visit(row, column)));
-        };
-        Self {
-            node: Node::new(system),
-            residual: system.tangent().vector(),
-            matrix: system.tangent().square(all),
-            weights: system.tangent().vector(),
-        }
+    /// With room for the second derivatives of L. Where they stand does not depend on the point, but the
+    /// formulas are defined at (`q`, `v`, `t`).
+    pub(super) fn new(system: &S, at: [&[T]; 2], t: T) -> Self {
+        let node = Node::new(system);
+        let matrix = system.tangent().square(|visit| visit_coupled(system, &node.slots, at, t, visit));
+        Self { node, residual: system.tangent().vector(), matrix, weights: system.tangent().vector() }
     }
 
     /// Improves the unknown by Newton's method.
@@ -89,7 +85,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
                         equations.corrected(block, vector(unknown, block), [change[0], change[1]]);
                     set(unknown, block, corrected);
                 } else {
-                    unknown[block.places()].iter_mut().zip(change).for_each(|(x, &change)| *x -= change);
+                    block.places().zip(change).for_each(|(place, &change)| unknown[place] -= change);
                 }
             }
             norm::finite(unknown)?;
@@ -113,14 +109,14 @@ impl<S: ManifoldLagrangian<T>, T: Real> Legendre<'_, S, T> {
     /// As [`Tangents::solve`].
     pub(super) fn solve(&self, v: &mut [T]) -> Result<(), StepFailure> {
         velocity(self.system, self.q, v);
-        let mut tangents = Tangents::new(self.system);
+        let mut tangents = Tangents::new(self.system, [self.q, v], self.t);
         tangents.solve(self, self.system, v, Stopping::default(), &mut Statistics::default())
     }
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> Equations<S, T> for Legendre<'_, S, T> {
     fn size(&self, block: Block, v: &[T]) -> T {
-        norm::largest(&v[block.places()])
+        block.places().fold(T::lift(0.0), |largest, place| norm::larger(largest, Scalar::abs(v[place])))
     }
 
     fn linearize(&self, v: &[T], tangents: &mut Tangents<S, T>, _statistics: &mut Statistics) {

@@ -129,25 +129,34 @@ impl Letters<'_> {
     }
 
     pub(super) fn coordinate(&self, coordinate: &Coordinate) -> String {
-        let entry = coordinate.index.as_literal().filter(|_| self.names.is_rotation(coordinate.block));
-        let (name, is_array) = self.names.coordinate(coordinate.block);
-        match (self.name(&name), is_array, entry) {
-            (name, _, Some(entry)) => format!("{name}[{}][{}]", entry / 3, entry % 3),
-            (name, is_array, None) => {
-                let index =
-                    if is_array { format!("[{}]", self.index(&coordinate.index)) } else { String::new() };
-                let component = self.names.component(coordinate.block);
-                let component = component.map_or_else(String::new, |component| format!("[{component}]"));
-                format!("{name}{index}{component}")
-            }
+        let Coordinate { block, index } = coordinate;
+        if let Some((name, entry)) = self.of_rotation(coordinate) {
+            return format!("{name}[{}][{}]", entry / 3, entry % 3);
         }
+        let (name, is_array) = self.names.coordinate(*block);
+        let name = self.name(&name);
+        let index = if is_array { format!("[{}]", self.index(index)) } else { String::new() };
+        let component = self.names.component(*block);
+        let component = component.map_or_else(String::new, |component| format!("[{component}]"));
+        format!("{name}{index}{component}")
     }
 
     pub(super) fn velocity(&self, coordinate: &Coordinate) -> String {
-        if self.names.is_rotation(coordinate.block) {
-            let name = self.name(&self.names.coordinate(coordinate.block).0);
-            return format!("omega({name})[{}]", self.index(&coordinate.index));
+        match self.of_rotation(coordinate) {
+            Some((name, entry)) => format!("omega({name})[{entry}]"),
+            None => format!("{}({})", self.names.velocity(), self.coordinate(coordinate)),
         }
-        format!("{}({})", self.names.velocity(), self.coordinate(coordinate))
+    }
+
+    /// The rotation that a coordinate is an entry of, or that a velocity is of, and which of them it is.
+    fn of_rotation(&self, Coordinate { block, index }: &Coordinate) -> Option<(String, i64)> {
+        if !self.names.is_rotation(*block) {
+            return None;
+        }
+        let name = self.name(&self.names.coordinate(*block).0);
+        Some(match self.names.component(*block) {
+            Some(entry) => (format!("{name}[{}]", self.index(index)), entry as i64),
+            None => (name, index.as_literal()?),
+        })
     }
 }
