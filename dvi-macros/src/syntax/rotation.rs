@@ -238,7 +238,7 @@ impl Entries<'_> {
         let of = text(of);
         let message =
             format!("`{of}` is no rotation, of which `{ANGULAR_VELOCITY}` is the angular velocity");
-        (self.coordinate(name)? == None).then_some((syntax, message))
+        self.coordinate(name)?.is_none().then_some((syntax, message))
     }
 
     /// A rotation as a whole, or an array of them without an index: this, or what this is made of, and what is
