@@ -12,8 +12,9 @@ pub enum Factor {
     /// vectors of the body to those of space. The velocities are the three entries of the angular velocity
     /// in the body, ω with Ṙ = R ω̂, ω̂ x = ω × x.
     Rotation,
-    /// S²: `s: S2` or `s[n]: S2`. The coordinates are the entries of a unit vector, the velocities those of its rate of
-    /// change.
+    /// S²: `s: S2` or `s[n]: S2`. The coordinates are the entries of a unit vector, the velocities those of its
+    /// rate of change. Of a degenerate system, whose states have these entries too, the flat coordinates are
+    /// four, those of a spinor z with s = z†σz.
     Sphere,
 }
 

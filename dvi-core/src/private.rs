@@ -12,6 +12,7 @@ pub use crate::space::room::FewInPlace;
 pub use crate::system::kind::{Degenerate, Holonomic, Manifold, Nonholonomic, Regular, Unilateral};
 pub use crate::system::packable::{Packable, Packing, Shared};
 pub use crate::system::report::{CoordinateBlock, Entry, Formula, OperationCount};
+pub use crate::system::spinors::{read_spinors, write_spinors};
 pub use crate::system::stand_in::StandIn;
 
 use crate::error::{IndexError, LengthError, OutsideError};

@@ -24,6 +24,7 @@ mod nonholonomic;
 pub(crate) mod packable;
 mod pair_sum;
 pub(crate) mod report;
+pub(crate) mod spinors;
 pub(crate) mod stand_in;
 pub(crate) mod start;
 mod unilateral;
@@ -175,7 +176,16 @@ pub trait System: Held<System = Self> {
         let space = self.space();
         let (mut q, mut v) = (space.vector(), space.vector());
         state.write(|block| self.block_len(block), &mut q, &mut v)?;
+        spinors::lower_all(self, &mut q);
         Ok(names::entries(self).map(move |(name, place)| if name.is_velocity { v[place] } else { q[place] }))
+    }
+
+    /// The state with these entries, in the order of [`names`](Self::names); those that are lacking are zero.
+    fn state_of<T: Scalar>(&self, values: impl IntoIterator<Item = T>) -> Self::State<T>
+    where
+        Self: Sized,
+    {
+        names::state(self, values)
     }
 }
 

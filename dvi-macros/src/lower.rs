@@ -30,6 +30,7 @@ mod names;
 mod reach;
 mod seams;
 mod shared;
+pub(crate) mod spinors;
 mod sums;
 mod unsupported;
 mod vectors;

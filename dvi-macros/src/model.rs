@@ -22,7 +22,7 @@ pub(crate) use parameters::ParameterName;
 use parameters::fields;
 pub(crate) use shape::Shape;
 use shape::mentions_generic;
-pub(crate) use vectors::{Axis, COMPONENTS, are_components};
+pub(crate) use vectors::{Axis, COMPONENTS, SPINOR, are_components};
 
 /// A block of coordinates: one, or an array.
 #[derive(Debug)]
@@ -226,8 +226,10 @@ impl Model {
             // What is said of its uses is that of vectors.
             count.or(Some(3))
         });
-        // An array of rotations is one of vectors with nine components.
-        let axes = axes.or(size.as_ref().and(factor.coordinates()));
+        // An array of rotations is one of vectors with nine components; unit vectors of degenerate systems have
+        // those of spinors.
+        let is_spinor = factor == Factor::Sphere && self.kind == Kind::Degenerate;
+        let axes = if is_spinor { Some(SPINOR) } else { axes.or(size.as_ref().and(factor.coordinates())) };
         let count = axes.unwrap_or(1);
         let array = size.as_ref().map(|size| {
             let index = self.declared_size(name, size, count as i64).unwrap_or_else(|message| {
@@ -239,7 +241,7 @@ impl Model {
             (index, size.to_token_stream().to_string().replace("r#", "").replace(' ', ""))
         });
         let alone = || factor.coordinates().map(|count| (Index::literal(count as i64), count.to_string()));
-        let array = array.or_else(alone);
+        let array = if is_spinor { array } else { array.or_else(alone) };
         let axis = |number| axes.map(|of| Axis { number, of });
         let block = |number| Block { name: name.clone(), array: array.clone(), axis: axis(number), factor };
         self.blocks.extend((0..count).map(block));
@@ -334,7 +336,8 @@ impl Model {
 impl Names for Model {
     fn coordinate(&self, block: u32) -> (String, bool) {
         let block = &self.blocks[block as usize];
-        (block.name.to_string(), block.array.is_some())
+        let name = if block.is_spinor() { block.spinor() } else { block.name.to_string() };
+        (name, block.array.is_some())
     }
     fn component(&self, block: u32) -> Option<usize> {
         self.blocks[block as usize].axis.map(|axis| axis.number)

@@ -25,6 +25,7 @@ mod rate;
 mod read;
 mod rust;
 mod shrink;
+mod spinors;
 mod structure;
 mod summary;
 mod system;

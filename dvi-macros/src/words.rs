@@ -61,6 +61,9 @@ pub(crate) const SUMS: [&str; 4] = ["sum", "sum_pairs", "sum_ordered_pairs", "pr
 /// Velocities, in a one-form and in a Lagrangian.
 pub(crate) const VELOCITIES: [&str; 2] = ["d", "dot"];
 
+/// The one-form of area on the sphere of unit vectors, where there are some.
+pub(crate) const AREA: &str = "area";
+
 /// The time, unless a coordinate or a field has that name.
 pub(crate) const TIME: &str = "t";
 

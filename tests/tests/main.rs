@@ -57,6 +57,7 @@ mod singular_forms;
 mod singular_masses;
 mod sizes;
 mod smallest_numbers;
+mod spins;
 mod splines;
 mod structure;
 mod time_transform;

@@ -1,14 +1,13 @@
 //! Initial conditions and parameters from a table with named columns.
 
 use std::borrow::ToOwned;
-use std::collections::BTreeMap;
 use std::io::Read;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
 use thiserror::Error;
 
-use crate::{Lagrangian, Space, State};
+use crate::Lagrangian;
 
 crate::error::said!(TableError);
 
@@ -137,27 +136,11 @@ impl Table {
     /// # Errors
     /// As of [`column`](Self::column).
     pub fn states<S: Lagrangian>(&self, system: &S) -> Result<Vec<S::State<f64>>, TableError> {
-        let mut columns = Vec::new();
-        // Coordinates come first, so that a block is met at its first coordinate; its velocities stand there.
-        let mut blocks = BTreeMap::new();
-        let length = |block| {
-            let number = S::REPORT.coordinates.iter().position(|known| known.name == block);
-            number.map_or(0, |number| system.block_len(number))
-        };
-        for (number, name) in system.names().enumerate() {
-            let first = *blocks.entry(name.block).or_insert(number);
-            // All first components of vectors stand before all second ones.
-            let before = name.axis.map_or(0, |axis| usize::from(axis.number) * length(name.block));
-            let index = first + before + name.index.unwrap_or(0);
-            columns.push((self.place(&name.to_string())?, name.is_velocity, index));
-        }
+        let columns = system.names().map(|name| self.place(&name.to_string()));
+        let columns: Vec<usize> = columns.collect::<Result<_, _>>()?;
         let state = |row| {
-            let (mut q, mut v) = (system.space().vector(), system.space().vector());
-            for &(place, is_velocity, index) in &columns {
-                let half: &mut [f64] = if is_velocity { &mut v } else { &mut q };
-                half[index] = self.number(row, place)?;
-            }
-            Ok(State::read(|block| system.block_len(block), &q, &v))
+            let values = columns.iter().map(|&place| self.number(row, place));
+            Ok(system.state_of(values.collect::<Result<Vec<f64>, _>>()?))
         };
         self.rows.iter().map(state).collect()
     }

@@ -2,6 +2,7 @@
 
 use crate::error::StartError;
 use crate::mechanics::motion::Rates;
+use crate::system::spinors;
 use crate::system::start::{evaluate, flatten, named, validate, velocities};
 use crate::{Lagrangian, Real, Space, State, System};
 
@@ -87,7 +88,8 @@ impl<S: AtState<T>, T: Real> AtTime<'_, S, T> {
         S: System<Kind: Rates<S, T>>,
     {
         let [q, v] = self.point(state)?;
-        let [rates, accelerations] = self.rates([&q, &v])?;
+        let [mut rates, accelerations] = self.rates([&q, &v])?;
+        spinors::lift_rates(self.system, &q, &mut rates);
         Ok(S::State::read(|block| self.system.block_len(block), &rates, &accelerations))
     }
 

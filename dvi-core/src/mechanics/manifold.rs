@@ -167,7 +167,7 @@ pub(crate) fn set_quaternion<T: Real>(lifted: &mut [T], block: Block, quaternion
 }
 
 /// How far a state may be off the manifold, in units of rounding.
-const TOLERANCE: f64 = 4096.0;
+pub(crate) const TOLERANCE: f64 = 4096.0;
 
 /// Whether a state is on the manifold, and its velocity tangent to it.
 ///

@@ -19,6 +19,7 @@ use crate::solve::{CoupledEquations, Stopping, from_either_guess, solve_coupled}
 use crate::space::sink::Product;
 use crate::space::{NodeSum, Sink, Storing};
 use crate::state::Statistics;
+use crate::system::spinors;
 use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights};
 
 /// The variational midpoint scheme with a projection onto p = α(q), for any degenerate system.
@@ -162,6 +163,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
         _h: T,
     ) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
+        if !S::AFFINE {
+            spinors::refuse::<S>("`Projected` where α is not affine")?;
+        }
         let space = system.space();
         let [middle, velocity, end, gradient, one_form, slope, rest] = space.vectors();
         Ok(ProjectedMemory {

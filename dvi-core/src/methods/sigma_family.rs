@@ -25,6 +25,7 @@ use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::space::sink::Places;
 use crate::state::summation::Summation;
+use crate::system::spinors;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
 pub(crate) use memory::SigmaMemory;
@@ -184,6 +185,15 @@ impl<T: Real> Sigma<T> {
         }
     }
 
+    /// Whether the lengths of unit vectors are kept, if there are some: the implicit midpoint rule keeps them.
+    fn keeps_lengths<S: DegenerateLagrangian<T>>(&self) -> Result<(), StartError> {
+        let is_midpoint_rule = S::AFFINE && self.is_midpoint() && self.start == Start::Consistent;
+        if is_midpoint_rule {
+            return Ok(());
+        }
+        spinors::refuse::<S>("a `Sigma` that is not the implicit midpoint rule")
+    }
+
     /// Whether the equations of σ = 0 or 1 can have a solution: not if a row of Dα is zero.
     fn go_with<S: DegenerateLagrangian<T>>(
         &self,
@@ -191,6 +201,7 @@ impl<T: Real> Sigma<T> {
         q: &Vector<S, T>,
         t: T,
     ) -> Result<(), StartError> {
+        self.keeps_lengths::<S>()?;
         // The matrix of σ = 1 is that of the end of a step.
         if !self.is_end() || (self.sigma == T::lift(1.0) && !S::AFFINE) {
             return Ok(());
@@ -317,6 +328,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
+        self.keeps_lengths::<S>()?;
         self.validate(S::AFFINE)
     }
 
@@ -338,6 +350,8 @@ impl<T: Real> Sigma<T> {
         t: T,
         h: T,
     ) -> Result<SigmaMemory<S, T>, StartError> {
+        // The phases between two states of unit vectors are not known.
+        spinors::refuse::<S>("a run from two points")?;
         self.validate(S::AFFINE)?;
         self.go_with(system, q0, t)?;
         SigmaMemory::between(system, self, [q0, q1], t, h)

@@ -9,6 +9,7 @@ use super::linear::{RunTimeCoupled, RunTimeSolver, Storing};
 use super::rows::SparseRows;
 use super::square::RunTimeSquare;
 use super::{Sink, Space};
+use crate::system::spinors;
 use crate::{Real, Scalar};
 
 /// A space whose dimension is known at run time only; its storage is on the heap.
@@ -73,6 +74,21 @@ impl RunTime {
         *at += D * len;
         vectors.clear();
         vectors.extend((0..len).map(|i| core::array::from_fn(|axis| flat[start + axis * len + i])));
+    }
+
+    /// Reads unit vectors of a state, of which spinors are carried.
+    #[doc(hidden)]
+    pub fn read_spinors<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> Vec<[T; 3]> {
+        let mut vectors = Vec::with_capacity(len);
+        Self::refill_spinors(len, at, flat, &mut vectors);
+        vectors
+    }
+
+    /// The same, into the storage of such vectors.
+    #[doc(hidden)]
+    pub fn refill_spinors<T: Scalar>(len: usize, at: &mut usize, flat: &[T], vectors: &mut Vec<[T; 3]>) {
+        vectors.clear();
+        vectors.extend((0..len).map(spinors::read(len, at, flat)));
     }
 
     /// The same as [`read_block`](Self::read_block), into the storage of such a block.

@@ -1,12 +1,26 @@
 //! The entries of a state one after the other, with names: for the columns of a table.
 
-use super::{CoordinateBlock, System};
+use super::spinors::{self, is_spinor};
+use super::{CoordinateBlock, State, System};
 use crate::name::{Axis, Name};
+use crate::{Scalar, Space};
 
 /// The names of all entries of the states of `system`, coordinates first, each with its place among the
-/// coordinates or among the velocities.
+/// coordinates or among the velocities. Those of unit vectors of a degenerate system stand where
+/// [`spinors::lower_all`] puts them.
 pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
     Entries { system, is_velocity: false, block: 0, first: 0, index: 0 }
+}
+
+/// The state with these entries, in the order of [`System::names`]; those that are lacking are zero.
+pub(crate) fn state<S: System, T: Scalar>(system: &S, values: impl IntoIterator<Item = T>) -> S::State<T> {
+    let (mut q, mut v) = (system.space().vector(), system.space().vector());
+    for ((name, place), value) in entries(system).zip(values) {
+        let half: &mut [T] = if name.is_velocity { &mut v } else { &mut q };
+        half[place] = value;
+    }
+    spinors::lift_all(system, &mut q);
+    State::read(|block| system.block_len(block), &q, &v)
 }
 
 /// Stands before an entry.
@@ -25,23 +39,23 @@ impl<S: System> Iterator for Entries<'_, S> {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            let Some(&CoordinateBlock { name, size, axis, factor }) = S::REPORT.coordinates.get(self.block)
-            else {
+            let Some(declared) = S::REPORT.coordinates.get(self.block) else {
                 if self.is_velocity || !S::REGULAR {
                     return None;
                 }
                 *self = Self { is_velocity: true, ..entries(self.system) };
                 continue;
             };
+            let &CoordinateBlock { name, size, axis, factor } = declared;
             let &mut Self { system, is_velocity, block, first, index } = self;
             let coordinates = system.block_len(block);
             let blocks = axis.map_or(1, |axis| usize::from(axis.of));
             // Of the components of an array, or of the entries of one, not all have velocities.
             let velocities = |of| if is_velocity { factor.velocities(of) } else { of };
-            let [components, count] = if axis.is_some() {
-                [velocities(blocks), coordinates]
-            } else {
-                [1, velocities(coordinates)]
+            let [components, count] = match axis {
+                Some(_) if is_spinor(declared, S::REGULAR) => [spinors::COMPONENTS, coordinates],
+                Some(_) => [velocities(blocks), coordinates],
+                None => [1, velocities(coordinates)],
             };
             if index < components * count {
                 self.index += 1;

@@ -6,7 +6,7 @@ use crate::scalar::norm::reported;
 use crate::scalar::smallest_normal;
 use crate::space::sink::Places;
 use crate::system::names::entries;
-use crate::system::{Factor, TimeTransform, TimeTransformed};
+use crate::system::{Factor, TimeTransform, TimeTransformed, spinors};
 use crate::{Lagrangian, Real, Scalar, Space, State, System, Vector, Weights};
 
 /// Whether a run can begin at time `t`, and the formulas of `system` stay within its arrays.
@@ -49,8 +49,7 @@ pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     else {
         return error;
     };
-    // Where coordinates are more than velocities, rows are not those of coordinates.
-    if S::REPORT.coordinates.iter().any(|block| block.factor != Factor::Line) {
+    if !has_rows_of_coordinates::<S>() {
         return error;
     }
     let [zero, one] = [0.0, 1.0].map(T::lift);
@@ -81,16 +80,25 @@ pub(crate) fn step_error<S: System, T: Real>(
     t: T,
     failure: StepFailure,
 ) -> StepError {
-    // Where coordinates are more than velocities, rows and columns are not those of coordinates.
     let is_entry = matches!(failure, StepFailure::NotFinite { .. });
-    let is_counted = is_entry || S::REPORT.coordinates.iter().all(|block| block.factor == Factor::Line);
+    let is_counted = is_entry || has_rows_of_coordinates::<S>();
     let counted = failure.coordinate().filter(|_| is_counted);
     let coordinate = counted.and_then(|place| coordinate(system, place));
     StepError { step, time: reported(t), failure, coordinate }
 }
 
-/// The name of the coordinate at a place in the flat state.
+/// Whether rows and columns of matrices are those of coordinates, which are not more than velocities.
+fn has_rows_of_coordinates<S: System>() -> bool {
+    spinors::has::<S>() || S::REPORT.coordinates.iter().all(|block| block.factor == Factor::Line)
+}
+
+/// The name of the coordinate at a place in the flat state; of a spinor that of its vector.
 fn coordinate<S: System>(system: &S, place: usize) -> Option<Name> {
+    if spinors::has::<S>()
+        && let Some(vector) = spinors::at_place(system, place)
+    {
+        return Some(vector);
+    }
     entries(system).find(|(name, at)| !name.is_velocity && *at == place).map(|(name, _)| name)
 }
 
@@ -198,6 +206,8 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
 
 /// Checks that the entries of a state are finite.
 pub(crate) fn finite<S: System, T: Real>(system: &S, q: &[T], v: &[T]) -> Result<(), StartError> {
+    let lowered = spinors::lowered(system, q);
+    let q = lowered.as_deref().unwrap_or(q);
     let mut values =
         entries(system).map(|(name, place)| (name, if name.is_velocity { v[place] } else { q[place] }));
     match values.find(|(_, x)| !x.is_finite()) {
@@ -211,7 +221,7 @@ pub(crate) fn velocities<S: System>(system: &S) -> usize {
     if S::REGULAR { system.space().dimension() } else { 0 }
 }
 
-/// The coordinates and, if the system is regular, the velocities of a state.
+/// The coordinates and, if the system is regular, the velocities of a state that is one of the system.
 pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
     system: &S,
     state: &S::State<T>,
@@ -219,5 +229,6 @@ pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
     let (mut q, mut v) = (system.space().vector(), system.space().vector());
     state.write(|block| system.block_len(block), &mut q, &mut v)?;
     finite(system, &q, &v)?;
+    spinors::check(system, &q)?;
     Ok([q, v])
 }

@@ -4,7 +4,7 @@
 //! A pair turns around its moment M = ΣΓr with the rate |M|/2πl², where l is its distance, and a ring of n
 //! equal vortices at height z around the axis with the rate Γ(n − 1)z/4π(1 − z²) (Polvani & Dritschel 1993).
 //! M is conserved. In coordinates along an axis a scheme is symmetric about that axis only: the component
-//! along it is kept, and M turns slowly around it.
+//! along it is kept, and M turns slowly around it. In unit vectors no axis is better than another.
 
 use crate::vocabulary::*;
 
@@ -43,7 +43,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     })?;
     let columns = ["method", "quantity", "t", "lowest", "mean", "highest"];
     job.publish(figure(&all, span.end), range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?)?;
-    claims([keep(&all), precession()?, pair()?, ring()?])
+    claims([keep(&all), precession()?, pair()?, ring()?, vectors()?])
 }
 
 fn three() -> Problem<'static, SphereVortices<3>> {
@@ -124,6 +124,33 @@ fn ring() -> Result<Claim> {
     let error = away(ring.places(run.q()), start, [0.0, 0.0, 1.0], rate * H * steps as f64);
     Ok(beyond("a ring of four vortices around the axis turns as it should, without error of the scheme")
         .at_most("distance from that after 100 steps of h = 0.5", error, 1e-11))
+}
+
+/// The three vortices, and a pair of which one begins at the pole.
+fn vectors() -> Result<Claim> {
+    let three = VortexVectors { gamma: THREE.gamma };
+    let begin = PLACES.map(|place| place.map(|x| x / length(place)));
+    let mut run = Problem::new(&three, (begin,)).run(Sigma::midpoint(), H)?;
+    let of = |q: &[f64]| -> [f64; 3] {
+        std::array::from_fn(|i| three.gamma.iter().zip(three.places(q)).map(|(gamma, r)| gamma * r[i]).sum())
+    };
+    let (start, mut moved, mut off) = (of(run.q()), 0.0_f64, 0.0_f64);
+    for _ in 0..100 {
+        run.take_steps(200)?;
+        moved = moved.max(length(difference(of(run.q()), start)) / length(start));
+        off = off.max(largest(three.places(run.q()).map(|r| (length(r) - 1.0).abs())));
+    }
+    let pair = VortexVectors { gamma: [1.0, 2.0] };
+    let places = [[0.6, 0.0, 0.8], [0.0, 0.0, 1.0]];
+    let axis = [0, 1, 2].map(|i| places[0][i] + 2.0 * places[1][i]);
+    let rate = length(axis) / (TAU * length(difference(places[0], places[1])).powi(2));
+    let distance = |q: &[f64]| away(pair.places(q), places, axis, rate * 40.0);
+    let errors = Problem::new(&pair, (places,)).errors(40.0, &[400, 600, 800], distance);
+    let errors = errors.of(Sigma::midpoint())?;
+    Ok(beyond("as unit vectors vortices keep all of the moment to rounding errors, and pass over the pole")
+        .at_most("max|ΔM|/|M| of three in 20,000 steps", moved, 1e-12)
+        .at_most("max||r| - 1|", off, 1e-12)
+        .near("order of the place of a pair that begins at the pole", order(errors), [2.0, 0.05]))
 }
 
 fn figure(all: &[Kept; 3], end: f64) -> Figure {

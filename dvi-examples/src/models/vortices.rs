@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use dvi_core::State as _;
 use dvi_core::prelude::*;
 
 /// Point vortices in the plane (Rowley & Marsden 2002, eq. 4, with each pair counted once).
@@ -96,6 +97,25 @@ impl<const N: usize> SphereVortices<N> {
             z: places.map(|[x, y, z]| z / (x * x + y * y + z * z).sqrt()),
             phi: places.map(|[x, y, _]| y.atan2(x)),
         }
+    }
+}
+
+/// The same as unit vectors, which know no poles.
+#[degenerate_lagrangian(
+    coordinates(r[N]: S2),
+    one_form    = sum(0..N, |j| gamma[j] * area(r[j])),
+    hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k] * (r[j] - r[k]).norm_squared().ln()) / (4.0 * PI),
+)]
+#[derive(Clone, Debug)]
+pub struct VortexVectors<const N: usize> {
+    /// The circulations Γ.
+    pub gamma: [f64; N],
+}
+
+impl<const N: usize> VortexVectors<N> {
+    /// r of each vortex of a state in flat form.
+    pub fn places(&self, q: &[f64]) -> [[f64; 3]; N] {
+        VortexVectorsState::read(|_| N, q, &[]).r
     }
 }
 

@@ -95,6 +95,16 @@ impl Stages {
             self.errors.push(formula, message);
             return None;
         }
+        let is_of_spinor = |node: &Node| match node {
+            Node::Coordinate(coordinate) => self.model.blocks[coordinate.block as usize].is_spinor(),
+            _ => false,
+        };
+        if self.graph.depends(gauge.node, is_of_spinor) {
+            let message = "unit vectors stand in no gauge: the one-form `area(s)` is in no class of one-step schemes, and \
+                           the other methods do as well without a gauge";
+            self.errors.push(formula, message);
+            return None;
+        }
         for (number, function) in self.model.functions.iter().enumerate() {
             let calls = |node: &Node| matches!(node, Node::Call(known, ..) if *known as usize == number);
             if !self.model.has_third_derivative(number as u32) && self.graph.depends(gauge.node, calls) {

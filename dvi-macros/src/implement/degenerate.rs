@@ -77,6 +77,18 @@ fn account(
     if formulas.gauge.is_some() {
         account.sentence("α and H contain the gauge F: dF/dt is added to L.".to_string());
     }
+    let spinors = emitter
+        .model
+        .blocks
+        .iter()
+        .filter(|block| block.is_spinor() && block.axis.is_some_and(|axis| axis.number == 0));
+    for block in spinors {
+        let (vector, spinor) =
+            (block.label(), block.label().replacen(&*block.name.to_string(), &block.spinor(), 1));
+        account.sentence(format!(
+            "`{vector}` is in S²: a run carries the four coordinates of a spinor `{spinor}`, of which it is the vector z†σz."
+        ));
+    }
     if formulas.time.is_some() {
         account.sentence(
             "The time is transformed, dt/dτ = ρ: steps are steps of τ, `t` is the physical time and `energy` the value of the \
@@ -230,14 +242,19 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
          has components along {components}",
         model.item.ident
     );
-    let advice = class.advice.as_ref().map_or_else(
-        || {
+    let advice = match &class.advice {
+        _ if model.has_spinors() => {
+            "unit vectors are in no such class: `Sigma::midpoint()` and `Gauss` keep their lengths".to_string()
+        }
+        Some(advice) => {
+            format!("the motion is the same with the differential of a function added to the one-form: {advice}")
+        }
+        None => {
             "the motion is the same for α + dF with any function F, written `gauge = F`: choose F such that the \
              components along one half of the coordinates vanish, as in ½ (x dy - y dx) + d(½ x y) = x dy"
                 .to_string()
-        },
-        |advice| format!("the motion is the same with the differential of a function added to the one-form: {advice}"),
-    );
+        }
+    };
     let (name, allow) = (&model.item.ident, super::allow());
     let lacking = format_ident!("{name}InClass");
     let mut generics = over_numbers(emitter);

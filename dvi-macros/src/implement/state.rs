@@ -276,10 +276,11 @@ fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
 
 fn field_type(emitter: &Emitter<'_>, block: usize, is_velocity: bool) -> TokenStream {
     let krate = emitter.krate();
-    let Block { axis, factor, array, .. } = &emitter.model.blocks[block];
+    let declared = &emitter.model.blocks[block];
+    let Block { axis, factor, array, .. } = declared;
     let is_angular = is_velocity && *factor == Factor::Rotation;
     let entry = match axis {
-        Some(_) if is_angular => quote!([__T; 3usize]),
+        Some(_) if is_angular || declared.is_spinor() => quote!([__T; 3usize]),
         Some(Axis { of, .. }) => quote!([__T; #of]),
         None => quote!(__T),
     };
@@ -324,9 +325,9 @@ fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> Transfers {
             refill.extend(if on_stack(emitter, block) {
                 quote!(self.#field = #value;)
             } else {
-                let Block { axis, factor, .. } = &emitter.model.blocks[block];
-                let refill = if axis.is_some() { quote!(refill_vectors) } else { quote!(refill_block) };
-                let is_angular = half == 1 && *factor == Factor::Rotation;
+                let declared = &emitter.model.blocks[block];
+                let refill = format_ident!("refill_{}", entries(declared, "block"));
+                let is_angular = half == 1 && declared.factor == Factor::Rotation;
                 let unused = is_angular.then(|| angular_rest(block, true));
                 quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field); #unused)
             });
@@ -350,27 +351,45 @@ fn transfer(
     flat: &TokenStream,
 ) -> (TokenStream, TokenStream) {
     let (krate, text) = (emitter.krate(), field.unraw().to_string());
-    let Block { array, axis, factor, .. } = &emitter.model.blocks[block];
-    if array.is_none() {
+    let declared = &emitter.model.blocks[block];
+    if declared.array.is_none() && declared.is_spinor() {
+        let read = quote!({
+            let [__value] = #krate::__private::read_spinors(1usize, &mut __at, #flat);
+            __value
+        });
+        let vectors = quote!(::core::slice::from_ref(&self.#field));
+        return (
+            quote!(#krate::__private::write_spinors(#text, #vectors, 1usize, &mut __at, #flat)?;),
+            read,
+        );
+    }
+    if declared.array.is_none() {
         let read = quote!({ let __value = #flat[__at]; __at += 1usize; __value });
         return (quote!(#flat[__at] = self.#field; __at += 1usize;), read);
     }
-    let is_vector = axis.is_some();
-    let reader = match (on_stack(emitter, block), is_vector) {
-        (true, false) => quote!(__private::read_array),
-        (true, true) => quote!(__private::read_vectors),
-        (false, false) => quote!(RunTime::read_block),
-        (false, true) => quote!(RunTime::read_vectors),
-    };
-    let writer = if is_vector { quote!(write_vectors) } else { quote!(write_block) };
+    let (place, numbers) =
+        if on_stack(emitter, block) { (quote!(__private), "array") } else { (quote!(RunTime), "block") };
+    let reader = format_ident!("read_{}", entries(declared, numbers));
+    let reader = quote!(#place::#reader);
+    let writer = format_ident!("write_{}", entries(declared, "block"));
     let entries = quote!(&self.#field[..]);
     let write = |length: TokenStream| quote!(#krate::__private::#writer(#text, #entries, #length, &mut __at, #flat)?;);
-    if is_velocity && *factor == Factor::Rotation {
+    if is_velocity && declared.factor == Factor::Rotation {
         // An angular velocity has the first three of nine places.
-        let length = if is_vector { quote!(__len(#block)) } else { quote!(3usize) };
-        let (write, unused) = (write(length.clone()), angular_rest(block, is_vector));
+        let is_array = declared.axis.is_some();
+        let length = if is_array { quote!(__len(#block)) } else { quote!(3usize) };
+        let (write, unused) = (write(length.clone()), angular_rest(block, is_array));
         let read = quote!({ let __value = #krate::#reader(#length, &mut __at, #flat); #unused __value });
         return (quote!(#write #unused), read);
     }
     (write(quote!(__len(#block))), quote!(#krate::#reader(__len(#block), &mut __at, #flat)))
+}
+
+/// What an array has for entries, as functions that copy them are called: `numbers` where they are none else.
+fn entries(block: &Block, numbers: &'static str) -> &'static str {
+    match block.axis {
+        Some(_) if block.is_spinor() => "spinors",
+        Some(_) => "vectors",
+        None => numbers,
+    }
 }

@@ -10,7 +10,7 @@ use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
 use crate::symbolic::{Expr, Partial, Relation, Unary};
-use crate::words::{Arithmetic, Method, SUMS, VELOCITIES, VectorMethod, callable, is_method};
+use crate::words::{AREA, Arithmetic, Method, SUMS, VELOCITIES, VectorMethod, callable, is_method};
 
 impl Lowering<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Value> {
@@ -179,6 +179,8 @@ impl Lowering<'_> {
             self.sum(&name, call)
         } else if VELOCITIES.contains(&name.as_str()) {
             self.velocity(&name, call)
+        } else if name == AREA && self.model.has_spinors() && !self.is_scalar_field(path.path.get_ident()?) {
+            self.area(call)
         } else {
             self.own_function(&name, call).map(Value::Number)
         }

@@ -9,6 +9,7 @@ use crate::errors::{here, listed, nearest};
 use crate::model::Block;
 use crate::symbolic::{Atom, Contribution, Coordinate, Expr, Fold, Index, Loop, Node, Range};
 use crate::syntax::Force;
+use crate::words::AREA;
 
 /// A component of a covector: its value at the entry `index` of a block, in the loop over that block if it
 /// is an array.
@@ -134,6 +135,17 @@ impl Lowering<'_> {
         let first = blocks.start;
         let Block { name, array, axis, .. } = &self.model.blocks[first];
         let (name, axis, whole) = (name.to_string(), *axis, self.model.whole(first));
+        if self.model.blocks[first].is_spinor() {
+            let message = match role {
+                Role::Force => format!("no force acts on the unit vector `{name}`: forces are on numbers"),
+                _ => format!(
+                    "the one-form along a unit vector is an area: write the one-form as a sum of terms, with `{AREA}({})` in it",
+                    self.model.blocks[first].label()
+                ),
+            };
+            self.errors.push(component, message);
+            return None;
+        }
         match (array.clone(), component) {
             (None, Syntax::Closure(_)) => {
                 let message = format!("`{name}` is a single coordinate: write its component without `|…|`");

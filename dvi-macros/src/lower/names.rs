@@ -45,6 +45,9 @@ impl Lowering<'_> {
                 return Some(Value::Vector(components.collect()));
             }
             let Block { array, axis, .. } = &self.model.blocks[block];
+            if array.is_none() && axis.is_some() {
+                return Some(self.unit_vector(block, &Index::literal(0)));
+            }
             if array.is_some() {
                 let entries = if axis.is_some() { "vectors" } else { "coordinates" };
                 self.errors.push(path, format!("`{name}` is an array of {entries}: write `{name}[i]`"));
@@ -207,7 +210,12 @@ impl Lowering<'_> {
             return None;
         }
         if let Some(block) = self.model.blocks.iter().position(|block| block.name == name) {
-            return match self.model.blocks[block].axis {
+            let declared = &self.model.blocks[block];
+            return match declared.axis {
+                Some(_) if declared.array.is_none() => {
+                    let vector = self.unit_vector(block, &Index::literal(0));
+                    self.component_of(vector, base, &indices)
+                }
                 Some(axis) => self.indexed_vector(syntax, block, axis, &indices),
                 None => self.indexed_coordinate(syntax, block, &indices).map(Value::Number),
             };
@@ -273,6 +281,16 @@ impl Lowering<'_> {
             return None;
         }
         let index = self.coordinate_index(first, indices[0]);
+        if self.model.blocks[first].is_spinor() {
+            let vector = self.unit_vector(first, &index?);
+            return match indices.get(1) {
+                Some(component) => {
+                    let place = self.axis(component, vector.entries().len(), &format!("{name}[i]"))?;
+                    Some(vector.entries()[place].into())
+                }
+                None => Some(vector),
+            };
+        }
         let component = indices.get(1).map(|component| self.axis(component, axis.of, &format!("{name}[i]")));
         match component {
             Some(component) => {
@@ -302,7 +320,7 @@ impl Lowering<'_> {
         Some(self.coordinate_node(block, index))
     }
 
-    fn coordinate_index(&mut self, block: usize, syntax: &Syntax) -> Option<Index> {
+    pub(super) fn coordinate_index(&mut self, block: usize, syntax: &Syntax) -> Option<Index> {
         let index = self.index(syntax)?;
         let size = self.model.block_size(block);
         let literal = size.as_literal().filter(|_| !self.model.lost_coordinates);

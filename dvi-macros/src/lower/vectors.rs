@@ -119,6 +119,10 @@ impl Lowering<'_> {
 
     /// a b, where one of them may be a vector.
     pub(super) fn product(&mut self, syntax: &syn::ExprBinary, left: Value, right: Value) -> Option<Value> {
+        if let (Value::Number(a), Value::Number(b)) = (&left, &right) {
+            self.check_strength(*a, (&syntax.right, *b))?;
+            self.check_strength(*b, (&syntax.left, *a))?;
+        }
         let (vector, factor) = match (left, right) {
             (Value::Number(factor), other) | (other, Value::Number(factor)) => (other, factor),
             (Value::Vector(_), Value::Vector(_)) => {
@@ -153,6 +157,7 @@ impl Lowering<'_> {
             return None;
         }
         left.map(|left| {
+            self.check_strength(left, (&syntax.right, right))?;
             let value = self.graph.divide(left, right);
             self.admitted(syntax, value)
         })
@@ -176,7 +181,18 @@ impl Lowering<'_> {
 
     /// `v[k]`, where v is no place in an array.
     pub(super) fn component(&mut self, base: &Syntax, indices: &[&Syntax]) -> Option<Value> {
-        let Value::Vector(components) = self.value(base)? else {
+        let value = self.value(base)?;
+        self.component_of(value, base, indices)
+    }
+
+    /// A component of the value of `base`.
+    pub(super) fn component_of(
+        &mut self,
+        value: Value,
+        base: &Syntax,
+        indices: &[&Syntax],
+    ) -> Option<Value> {
+        let Value::Vector(components) = value else {
             let message = match base {
                 Syntax::Path(name) => format!("`{}` is a number here: it takes no index", text(name)),
                 _ => "only coordinates, fields of the struct and vectors take an index".to_string(),

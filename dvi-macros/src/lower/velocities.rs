@@ -6,6 +6,7 @@ use super::{Lowering, Role, Value};
 use crate::errors::{here, text};
 use crate::symbolic::{Expr, Node};
 use crate::syntax::{Constrained, Kind};
+use crate::words::AREA;
 
 impl Lowering<'_> {
     /// `d(x)` in a one-form, `dot(x)` in a Lagrangian.
@@ -41,6 +42,17 @@ impl Lowering<'_> {
         if let Some(name_of) = root(&call.args[0]).filter(|name| self.binding_of(name).is_some()) {
             let message =
                 format!("`{name}` takes a coordinate, and `{name_of}` is a name of this formula here");
+            self.errors.push(&call.args[0], message);
+            return None;
+        }
+        let place = root(&call.args[0]);
+        let block =
+            self.model.blocks.iter().find(|block| place.as_ref().is_some_and(|name| block.name == name));
+        if let Some(block) = block.filter(|block| block.is_spinor()) {
+            let message = format!(
+                "a unit vector has no `{name}(…)` here: its one-form is that of the area on the sphere, `{AREA}({})`",
+                block.label()
+            );
             self.errors.push(&call.args[0], message);
             return None;
         }

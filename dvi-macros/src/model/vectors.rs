@@ -21,7 +21,15 @@ pub(crate) struct Axis {
     pub(crate) of: usize,
 }
 
+/// The coordinates of a spinor, of which a unit vector is made in a degenerate system: two complex numbers.
+pub(crate) const SPINOR: usize = 4;
+
 impl Block {
+    /// Whether the coordinates are of spinors.
+    pub(crate) fn is_spinor(&self) -> bool {
+        self.factor == Factor::Sphere && self.axis.is_some_and(|axis| axis.of == SPINOR)
+    }
+
     /// The entry at an index, as formulas have it.
     pub(crate) fn entry(&self, index: &str) -> String {
         let component = self.axis.map_or_else(String::new, |axis| format!("[{}]", axis.number));
@@ -31,13 +39,20 @@ impl Block {
         }
     }
 
+    /// What the spinor of a unit vector is called in reports.
+    pub(crate) fn spinor(&self) -> String {
+        format!("z_{}", self.name.unraw())
+    }
+
     /// What is said of all its coordinates: `x`, or `r[i][0]` where others have the same name, or `R[i]` where
     /// these are one.
     pub(crate) fn label(&self) -> String {
         match (self.axis, self.factor) {
             (Some(_), Factor::Line) => self.entry("i"),
-            (Some(_), Factor::Rotation | Factor::Sphere) => format!("{}[i]", self.name.unraw()),
-            (None, _) => self.name.to_string(),
+            (Some(_), Factor::Rotation | Factor::Sphere) if self.array.is_some() => {
+                format!("{}[i]", self.name.unraw())
+            }
+            (_, Factor::Rotation | Factor::Sphere) | (None, Factor::Line) => self.name.to_string(),
         }
     }
 
@@ -52,6 +67,11 @@ impl Block {
 const VELOCITIES: usize = 3;
 
 impl Model {
+    /// Whether unit vectors are among the coordinates of a degenerate system.
+    pub(crate) fn has_spinors(&self) -> bool {
+        self.blocks.iter().any(Block::is_spinor)
+    }
+
     /// The blocks of each coordinate that was declared, or that a time transformation has added: one, or
     /// those of the components of a vector.
     pub(crate) fn coordinates(&self) -> Vec<Range<usize>> {
@@ -94,7 +114,8 @@ impl Model {
     pub(crate) fn vectors(&self) -> Vec<(String, usize)> {
         let coordinate = |blocks: Range<usize>| {
             let block = Some(&self.blocks[blocks.start]).filter(|block| block.factor != Factor::Rotation)?;
-            let indices = block.axis.map(|_| 1).or_else(|| self.whole(blocks.start).map(|_| 0))?;
+            let indices = usize::from(block.array.is_some());
+            let indices = block.axis.map(|_| indices).or_else(|| self.whole(blocks.start).map(|_| 0))?;
             Some((block.name.to_string(), indices))
         };
         let parameters = self.parameters.iter().filter_map(|parameter| {

@@ -145,14 +145,11 @@ impl<'a> Oracle<'a> {
                 let known = self.names.iter().rev().find(|(known, _)| known == name);
                 single(known.ok_or(Outside::Index)?.1.clone())?
             }
-            Formula::Coordinate(block, index) => {
-                let place = self.coordinate(*block, index.as_ref())?;
-                Jet::variable(self.point.q[place], place, self.variables())
+            Formula::Coordinate(block, _) | Formula::Velocity(block, _) if self.system.is_spinor(*block) => {
+                self.of_spinor(formula)?
             }
-            Formula::Velocity(block, index) => {
-                let place = self.coordinate(*block, index.as_ref())?;
-                Jet::variable(self.point.v[place], self.point.q.len() + place, self.variables())
-            }
+            Formula::Coordinate(block, index) => self.variable(*block, index.as_ref(), false)?,
+            Formula::Velocity(block, index) => self.variable(*block, index.as_ref(), true)?,
             Formula::Parameter(field, indices) => Jet::constant(self.parameter(*field, indices)?),
             Formula::Count(index) => Jet::constant(self.index(index)? as f64),
             Formula::Negative(of) => self.value(of)?.scaled(-1.0),

@@ -42,7 +42,7 @@ pub(super) fn system(random: &mut Random) -> System {
         Generator { random, system, velocities: Velocities::None, budget, written: Vec::new() };
     let dynamics = if regular { generator.regular() } else { generator.degenerate() };
     generator.system.dynamics = dynamics;
-    if !regular && generator.random.chance(40) {
+    if !regular && !generator.system.has_spinors() && generator.random.chance(40) {
         generator.system.gauge = match generator.random.below(3) {
             0 => Gauge::Auto,
             _ => Gauge::Formula(generator.gauge()),
@@ -84,17 +84,18 @@ impl Generator<'_> {
     fn degenerate(&mut self) -> Dynamics {
         let scope = Scope::outside();
         match self.random.below(10) {
-            0..=4 => {
-                let hamiltonian = self.value(&scope, 6);
-                self.budget = self.budget.max(6);
-                let one_form = self.form(&scope, 4);
-                Dynamics::OneForm(self.with_base(one_form), hamiltonian)
-            }
-            5..=6 => {
+            // Components are of numbers.
+            5..=6 if !self.system.has_spinors() => {
                 let hamiltonian = self.value(&scope, 6);
                 let coordinates = self.system.coordinates();
                 let components = coordinates.into_iter().map(|first| self.component(first));
                 Dynamics::Components(components.collect(), hamiltonian)
+            }
+            0..=6 => {
+                let hamiltonian = self.value(&scope, 6);
+                self.budget = self.budget.max(6);
+                let one_form = self.form(&scope, 4);
+                Dynamics::OneForm(self.with_base(one_form), hamiltonian)
             }
             _ => {
                 let lagrangian = self.affine(&scope, 6);
@@ -138,7 +139,8 @@ impl Generator<'_> {
 
     /// Forces on all blocks, or on some in any order.
     fn forces(&mut self) -> Vec<(usize, Formula)> {
-        let coordinates = self.system.coordinates();
+        let mut coordinates = self.system.coordinates();
+        coordinates.retain(|first| !self.system.is_spinor(*first));
         if self.random.chance(50) {
             return coordinates.into_iter().map(|first| (first, self.entry(first))).collect();
         }

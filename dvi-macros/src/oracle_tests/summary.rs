@@ -33,6 +33,9 @@ impl Summary {
                 if system.dissipation.is_some() {
                     self.count("agrees, with a dissipation function");
                 }
+                if system.has_spinors() {
+                    self.count("agrees, with unit vectors");
+                }
                 if system.attribute().contains("let = {") {
                     self.count("agrees, with names that formulas share");
                 }

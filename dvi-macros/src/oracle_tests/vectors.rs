@@ -48,6 +48,9 @@ impl Oracle<'_> {
 
     fn components(&mut self, formula: &Formula) -> Result<Vec<Jet>, Outside> {
         Ok(match formula {
+            Formula::Vector(block, index) if self.system.is_spinor(*block) => {
+                self.unit_vector(*block, index.as_ref())?
+            }
             Formula::Vector(block, index) => {
                 let places = self.places(*block, index.as_ref())?;
                 places

@@ -39,8 +39,7 @@ impl System {
         let blocks = self.coordinates().into_iter().map(|first| {
             let block = &self.blocks[first];
             let size = block.size.map_or_else(String::new, |size| format!("[{}]", self.size_text(size)));
-            let axes = block.axis.map_or_else(String::new, |[_, of]| format!("[{of}]"));
-            format!("{}{size}{axes}", block.name)
+            format!("{}{size}{}", block.name, self.vectors_text(first))
         });
         let mut text = format!("coordinates({})", blocks.collect::<Vec<_>>().join(", "));
         let definitions = Definitions::default();
@@ -232,9 +231,7 @@ impl<'a> Writer<'a> {
             Formula::NormSquared(of) => method(of, "norm_squared", String::new()),
             Formula::Component(of, number) => postfix(format!("{}[{number}]", self.bound(of, Postfix))),
             Formula::Coordinate(block, index) => postfix(self.place(*block, index.as_ref())),
-            Formula::Velocity(block, index) => {
-                postfix(format!("{}({})", self.velocity, self.place(*block, index.as_ref())))
-            }
+            Formula::Velocity(block, index) => postfix(self.rate(*block, index.as_ref())),
             Formula::Parameter(field, indices) | Formula::VectorParameter(field, indices) => {
                 let indices: String =
                     indices.iter().map(|index| format!("[{}]", self.index(index))).collect();
@@ -361,13 +358,13 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn place(&self, block: usize, index: Option<&Index>) -> String {
+    pub(super) fn place(&self, block: usize, index: Option<&Index>) -> String {
         let component = self.system.blocks[block].axis.map(|[number, _]| format!("[{number}]"));
         format!("{}{}", self.whole(block, index), component.unwrap_or_default())
     }
 
     /// Without the index of a component.
-    fn whole(&self, block: usize, index: Option<&Index>) -> String {
+    pub(super) fn whole(&self, block: usize, index: Option<&Index>) -> String {
         let name = self.system.blocks[block].name;
         index.map_or_else(|| name.into(), |index| format!("{name}[{}]", self.index(index)))
     }

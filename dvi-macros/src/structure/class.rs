@@ -134,7 +134,11 @@ impl Class {
         for (block, known) in model.blocks.iter().zip(&self.components) {
             match known {
                 Components::Block(known) if *known == with => {
-                    names.push(format!("`{}`", block.label().replace("r#", "")));
+                    let name = format!("`{}`", block.label().replace("r#", ""));
+                    // That of a vector is said once for the four coordinates of its spinor.
+                    if !(block.is_spinor() && names.contains(&name)) {
+                        names.push(name);
+                    }
                 }
                 Components::Block(_) => {}
                 Components::Entries(entries) => {

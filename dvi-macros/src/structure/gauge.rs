@@ -76,6 +76,9 @@ pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr, effort: Effor
     if Class::new(&mut graph, model, one_form).is_proper {
         return Search::NotNeeded;
     }
+    if model.has_spinors() {
+        return Search::None("that of unit vectors, `area(s)`, has no such half".to_string());
+    }
     if graph.reachable([one_form.node]).len() > LONGEST {
         return Search::None("the one-form is too long for the search".to_string());
     }

@@ -5,8 +5,10 @@ use syn::Expr as Syntax;
 use super::{Class, has_matching};
 use crate::errors::Errors;
 use crate::formulas::dalpha;
+use crate::lower::spinors::{STRENGTH, is_constant};
 use crate::model::Model;
 use crate::symbolic::{Coordinate, Expr, Graph, Index, Loop, Node, Range, SecondContribution};
+use crate::words::AREA;
 
 /// The structure of a one-form; see the constants of `dvi_core::DegenerateLagrangian`.
 #[derive(Clone, Debug)]
@@ -24,6 +26,8 @@ pub(crate) struct OneForm {
     untouched: Vec<usize>,
     /// Whether the places of Ω that are not zero leave room for an inverse.
     invertible: bool,
+    /// Whether some area has a factor that is not constant.
+    bends_areas: bool,
 }
 
 /// An entry of Ω = (Dα)ᵀ − Dα above its diagonal.
@@ -127,20 +131,39 @@ impl OneForm {
         let class =
             Class::new(graph, model, one_form).with_advice(graph, model, declared, declared != one_form);
         let jacobian = dalpha(graph, entries);
+        let bends_areas = jacobian.iter().any(|(i, _, entry)| {
+            model.blocks[i.block as usize].is_spinor() && !is_constant(graph, entry.value.node)
+        });
         let jacobian = jacobian.iter().map(|(i, j, entry)| (i, j, entry.loops.as_slice()));
         let singular_ends = Class::lacks_row_or_column(model, jacobian);
-        Self { linear, matching, canonical, conjugates, class, singular_ends, untouched, invertible }
+        Self {
+            linear,
+            matching,
+            canonical,
+            conjugates,
+            class,
+            singular_ends,
+            untouched,
+            invertible,
+            bends_areas,
+        }
     }
 
     /// Reports what makes Ω singular for certain; `at` is the formula of α or L.
     pub(crate) fn check(&self, model: &Model, at: Option<&Syntax>, errors: &mut Errors) {
-        let odd = model.dimension().as_literal().filter(|dimension| dimension % 2 != 0);
-        if let (Some(dimension), Some(last)) = (odd, model.blocks.last()) {
+        // Those of a spinor are four.
+        let numbers: Vec<usize> =
+            (0..model.blocks.len()).filter(|block| !model.blocks[*block].is_spinor()).collect();
+        let dimension =
+            numbers.iter().fold(Index::default(), |sum, block| sum.plus(&model.block_size(*block), 1));
+        let odd = dimension.as_literal().filter(|dimension| dimension % 2 != 0);
+        if let (Some(dimension), Some(last)) = (odd, numbers.last()) {
+            let beside = if model.has_spinors() { " beside the unit vectors" } else { "" };
             let message = format!(
-                "there are {dimension} coordinates, but Ω = -dα is nondegenerate in even dimension only; \
+                "there are {dimension} coordinates{beside}, but Ω = -dα is nondegenerate in even dimension only; \
                  add the conjugate coordinate or remove one"
             );
-            errors.push(&last.name, message);
+            errors.push(&model.blocks[*last].name, message);
             return;
         }
         if self.untouched.len() == model.blocks.len()
@@ -171,9 +194,22 @@ impl OneForm {
                            conjugate; the one-form needs more terms such as `p * d(q)`";
             errors.push(at, message);
         }
+        if self.bends_areas
+            && let Some(at) = at
+        {
+            errors.push(at, STRENGTH);
+        }
         for block in &self.untouched {
             let block = &model.blocks[*block];
             let name = block.label();
+            if block.is_spinor() {
+                let message = format!(
+                    "Ω = -dα does not involve the unit vector `{name}`, so that nothing determines its motion: the one-form needs a \
+                     term `kappa * {AREA}({name})`"
+                );
+                errors.push_once(&format!("no area of {name}"), &block.name, message);
+                continue;
+            }
             let message = format!(
                 "Ω = -dα does not involve `{name}`, so it is singular and the motion of `{name}` is not \
                  determined; the one-form needs a term that couples it, such as `{name} * d(other)`"
@@ -184,11 +220,26 @@ impl OneForm {
 
     /// What is said of the structure in reports.
     pub(crate) fn sentences(&self, model: &Model, is_forced: bool) -> Vec<String> {
-        let mut sentences = Vec::new();
-        sentences.push(match self.linear {
+        let affine = match self.linear {
             true => "α is affine in q with constant coefficients: Ω is constant.",
             false => "α is nonlinear in q or depends on t.",
-        });
+        };
+        let conjugates = match self.canonical {
+            true => {
+                "Ω couples each coordinate to one conjugate: q' = X(q) takes one division per coordinate."
+            }
+            false => "Ω is dense: q' = X(q) takes one linear solve.",
+        };
+        if model.has_spinors() {
+            let first = match self.linear {
+                true => {
+                    "Begin with `Sigma::midpoint()`, the implicit midpoint rule, or `Gauss`: they keep the lengths of unit vectors."
+                }
+                false => "Begin with `Gauss::<2>::new()`: it keeps the lengths of unit vectors.",
+            };
+            return [affine, conjugates, first].map(str::to_string).into();
+        }
+        let mut sentences = vec![affine];
         sentences.push(match (self.singular_ends, self.linear, self.matching) {
             (true, ..) => "σ = 0 and σ = 1 cannot be used: Dα has a row or a column of zeros.",
             (_, true, true) => {
@@ -206,12 +257,7 @@ impl OneForm {
             }
         });
         sentences.push("0 < σ < 1 is implicit.");
-        sentences.push(match self.canonical {
-            true => {
-                "Ω couples each coordinate to one conjugate: q' = X(q) takes one division per coordinate."
-            }
-            false => "Ω is dense: q' = X(q) takes one linear solve.",
-        });
+        sentences.push(conjugates);
         let mut sentences: Vec<String> = sentences.into_iter().map(str::to_string).collect();
         sentences.push(self.class.sentence(model));
         let one_step = match is_forced {

@@ -23,14 +23,17 @@ impl Attribute {
     /// Reports rotations and unit vectors where there are none, and replaces the entries of rotations in all
     /// formulas.
     pub(super) fn admit_factors(&mut self, errors: &mut Errors) {
-        let Some(first) = self.coordinates.iter().find(|declaration| declaration.factor != Factor::Line)
-        else {
-            return;
+        let is_regular = self.kind == Kind::Regular;
+        let is_special = |declaration: &&Declaration| match declaration.factor {
+            Factor::Line => false,
+            Factor::Rotation => true,
+            Factor::Sphere => is_regular,
         };
+        let Some(first) = self.coordinates.iter().find(is_special) else { return };
         let name = &first.name;
-        let refused = if self.kind == Kind::Degenerate {
+        let refused = if !is_regular {
             let regular = Kind::Regular.attribute();
-            Some(format!("rotations and unit vectors are coordinates of regular systems, in `{regular}`"))
+            Some(format!("rotations are coordinates of regular systems, in `{regular}`"))
         } else if let Some(of) = self.constrained {
             let numbers = match first.factor {
                 Factor::Rotation => format!("a rotation as numbers is `{first}[9]`, with six constraints"),

@@ -377,6 +377,33 @@ fn a_dissipation_function_stands_as_it_is_written() {
 }
 
 #[test]
+fn unit_vectors_and_their_areas() {
+    check(
+        degenerate_lagrangian(
+            quote! {
+                coordinates(s[N]: S2, n: S2),
+                one_form = sum(0..N, |i| gamma[i] * area(s[i])) - area(n),
+                hamiltonian = sum(0..N, |i| s[i].dot(n)) + n[2],
+            },
+            quote! { struct Spins<const N: usize> { gamma: [f64; N] } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t) = α(q, t)·v − H(q, t), as it is declared:
+
+            ```math
+            \begin{aligned}
+            \alpha &= \sum_{i = 0}^{N - 1} \gamma_{i} \, \operatorname{area}\left(\mathbf{s}_{i}\right) - \operatorname{area}\left(\mathbf{n}\right) \\
+            H &= \sum_{i = 0}^{N - 1} \mathbf{s}_{i} \cdot \mathbf{n} + n_{2}
+            \end{aligned}
+            ```
+        "#]],
+    );
+}
+
+#[test]
 fn vectors_are_bold_and_their_products_signs() {
     check(
         lagrangian(

@@ -4,7 +4,7 @@ use syn::{Expr, ExprCall, ExprClosure};
 
 use super::{Strength, Tex, Typesetter, bound, plain};
 use crate::errors::text;
-use crate::words::{SUMS, VELOCITIES};
+use crate::words::{AREA, SUMS, VELOCITIES};
 
 /// Functions that LaTeX has under another name than Rust.
 const RENAMED: [(&str, &str); 4] =
@@ -72,6 +72,7 @@ impl Typesetter {
                     Tex::atom(self.velocity(of, r"\dot"))
                 }
             }
+            (AREA, [of]) => Tex::atom(format!(r"\operatorname{{area}}\left({}\right)", self.expr(of).text)),
             (sum, [range, Expr::Closure(closure)]) if SUMS.contains(&sum) => self.sum(sum, range, closure),
             _ => self.own(&name, &arguments),
         }

@@ -21,6 +21,7 @@ mod covectors;
 mod indices;
 mod locals;
 mod places;
+mod spinors;
 mod vectors;
 mod words;
 

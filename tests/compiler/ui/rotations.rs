@@ -23,7 +23,7 @@ mod declarations {
     #[lagrangian(coordinates(R: SO3 x), lagrangian = omega(R)[0].powi(2))]
     struct V;
 
-    #[degenerate_lagrangian(coordinates(s: S2, x), one_form = s[0] * d(x), hamiltonian = x)]
+    #[degenerate_lagrangian(coordinates(R: SO3, x), one_form = R[0][0] * d(x), hamiltonian = x)]
     struct W;
 
     #[lagrangian(coordinates(omega_R, R: SO3), lagrangian = omega(R)[0].powi(2))]

@@ -16,6 +16,7 @@ mod projected;
 mod rotating_frame;
 mod round_off;
 mod second_order;
+mod spins;
 mod splines;
 mod step_control;
 mod time_transform;

@@ -2,6 +2,7 @@
 
 use crate::oracle_tests::formula::Formula;
 use crate::oracle_tests::random::Random;
+use crate::oracle_tests::spinors::SPINOR;
 use crate::oracle_tests::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
 use crate::syntax::Constrained;
 
@@ -126,6 +127,14 @@ fn vectors(random: &mut Random, regular: bool, width: usize, of: usize) -> Vec<B
     let array = |name, size| (0..width).map(move |axis| block(name, Some(size), Some([axis, width])));
     let whole = |name| block(name, Some(of), None);
     let singles = [block("u", None, None), block("w", None, None)];
+    let spinors = |name, size| (0..SPINOR).map(move |axis| block(name, size, Some([axis, SPINOR])));
+    if !regular && width == SPINOR - 1 && random.chance(50) {
+        return match random.below(3) {
+            0 => singles.into_iter().chain(spinors("z", Some(0))).collect(),
+            1 => singles.into_iter().chain(spinors("r", None)).chain(spinors("z", Some(1))).collect(),
+            _ => [whole("q"), whole("p")].into_iter().chain(spinors("z", Some(1))).collect(),
+        };
+    }
     match (regular, random.below(4)) {
         (true, 0) => array("r", 0).collect(),
         (true, 1) => array("r", 0).chain([whole("q"), block("u", None, None)]).collect(),

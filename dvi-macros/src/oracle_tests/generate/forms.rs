@@ -14,7 +14,7 @@ impl Generator<'_> {
         let less = depth - 1;
         if self.system.width > 0
             && self.random.chance(20)
-            && let Some(velocity) = self.vector_coordinate(scope, Formula::VectorVelocity)
+            && let Some(velocity) = self.vector_velocity(scope)
         {
             return self.vector(scope, less.min(2)).dot(velocity);
         }
@@ -75,9 +75,14 @@ impl Generator<'_> {
         }
         let blocks = self.system.blocks.len();
         let pairs = (0..blocks / 2).map(|pair| (2 * pair, 2 * pair + 1));
-        let pairs: Vec<(usize, usize)> =
-            pairs.filter(|(x, y)| self.system.blocks[*x].size == self.system.blocks[*y].size).collect();
-        pairs.into_iter().fold(form, |form, (x, y)| form.plus(self.conjugate(x, y)))
+        let pairs: Vec<(usize, usize)> = pairs
+            .filter(|(x, y)| self.system.blocks[*x].size == self.system.blocks[*y].size)
+            .filter(|(x, _)| !self.system.is_spinor(*x))
+            .collect();
+        let form = pairs.into_iter().fold(form, |form, (x, y)| form.plus(self.conjugate(x, y)));
+        let mut spinors = self.system.coordinates();
+        spinors.retain(|first| self.system.is_spinor(*first));
+        spinors.into_iter().fold(form, |form, first| form.plus(self.area(first)))
     }
 
     /// A function of the coordinates, most often with c Σ xⱼ yⱼ in it, which may cancel in the one-form.
@@ -98,6 +103,18 @@ impl Generator<'_> {
             _ => Formula::Negative(Box::new(product)),
         };
         if self.random.chance(30) { product } else { product.plus(value) }
+    }
+
+    /// The areas of unit vectors, with a factor or without.
+    fn area(&mut self, first: usize) -> Formula {
+        let size = self.system.blocks[first].size;
+        let scope = match size {
+            Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
+            None => Scope::outside(),
+        };
+        let term = Formula::Velocity(first, size.map(|_| Index::bound(0)));
+        let term = if self.random.chance(60) { self.parameter(&scope).times(term) } else { term };
+        self.over(size, term)
     }
 
     /// Σ xⱼ dyⱼ, with a factor or without.

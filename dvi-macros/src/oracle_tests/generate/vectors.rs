@@ -3,7 +3,7 @@
 use super::indices::Scope;
 use super::{Generator, Velocities};
 use crate::oracle_tests::formula::{Formula, Index};
-use crate::oracle_tests::system::Container;
+use crate::oracle_tests::system::{Container, System};
 
 impl Generator<'_> {
     pub(super) fn vector(&mut self, scope: &Scope, depth: usize) -> Formula {
@@ -77,24 +77,33 @@ impl Generator<'_> {
         let leaf = match self.random.below(8) {
             0 => self.vector_parameter(scope),
             1..=2 => scope.name(self.random, true).map(Formula::VectorName),
-            3 if self.velocities == Velocities::Any => {
-                self.vector_coordinate(scope, Formula::VectorVelocity)
-            }
+            3 if self.velocities == Velocities::Any => self.vector_velocity(scope),
             _ => None,
         };
-        let leaf = leaf.or_else(|| self.vector_coordinate(scope, Formula::Vector));
+        let leaf = leaf.or_else(|| self.vector_coordinate(scope));
         leaf.unwrap_or_else(|| Formula::List((0..self.system.width).map(|_| self.value(scope, 0)).collect()))
     }
 
-    /// All of a coordinate, or its velocity.
-    pub(super) fn vector_coordinate(
+    /// All of a coordinate.
+    fn vector_coordinate(&mut self, scope: &Scope) -> Option<Formula> {
+        self.vector_of(scope, Formula::Vector, |_, _| true)
+    }
+
+    /// Its velocity, which no unit vector has.
+    pub(super) fn vector_velocity(&mut self, scope: &Scope) -> Option<Formula> {
+        self.vector_of(scope, Formula::VectorVelocity, |system, first| !system.is_spinor(first))
+    }
+
+    fn vector_of(
         &mut self,
         scope: &Scope,
         of: fn(usize, Option<Index>) -> Formula,
+        counts: fn(&System, usize) -> bool,
     ) -> Option<Formula> {
         let coordinates = self.system.coordinates().into_iter();
         let vectors: Vec<usize> = coordinates
             .filter(|first| self.system.axes(*first) > 1 || self.system.is_whole(*first))
+            .filter(|first| counts(&self.system, *first))
             .collect();
         if vectors.is_empty() {
             return None;

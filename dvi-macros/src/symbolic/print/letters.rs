@@ -135,12 +135,10 @@ impl Letters<'_> {
         }
         let (name, is_array) = self.names.coordinate(*block);
         let name = self.name(&name);
-        if !is_array {
-            return name;
-        }
+        let index = if is_array { format!("[{}]", self.index(index)) } else { String::new() };
         let component = self.names.component(*block);
         let component = component.map_or_else(String::new, |component| format!("[{component}]"));
-        format!("{name}[{}]{component}", self.index(index))
+        format!("{name}{index}{component}")
     }
 
     pub(super) fn velocity(&self, coordinate: &Coordinate) -> String {

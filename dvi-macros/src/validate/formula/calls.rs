@@ -87,6 +87,11 @@ impl Evaluation<'_> {
                 }
                 self.at_place(Variable::Velocity, of, &name, &indices)
             }
+            "area" => {
+                let Some((name, indices)) = self.place(&call.args[0])? else { unknown(call) };
+                let Some(first) = self.block(&name) else { unknown(call) };
+                number(self.area(first, indices.first().copied().unwrap_or(0))?)
+            }
             // `f64::sin(x)` is `x.sin()`.
             _ => match name.strip_prefix("f64::").or_else(|| name.strip_prefix("f32::")) {
                 Some(method) => {

@@ -42,6 +42,9 @@ impl Evaluation<'_> {
                 None => Quantity::Number(entry(indices)),
             });
         };
+        if self.model.blocks[block].is_spinor() {
+            return self.unit_vector(block, indices).map(|value| value.unwrap_or_else(|| unknown(syntax)));
+        }
         let components = self.model.coordinate_at(block);
         let entry = |block, index| self.variable(kind, block, index);
         match (components.len(), indices) {

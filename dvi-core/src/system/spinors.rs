@@ -1,0 +1,267 @@
+//! Unit vectors of degenerate systems: a run carries a spinor z ∈ ℂ² of each, of which s = z†σz.
+//!
+//! With z = (a + ib, c + id) these are the Hopf map and the pull-back of the one-form of area (McLachlan,
+//! Modin & Verdier 2014, *Collective symplectic integrators*),
+//!
+//! s = (2(ac + bd), 2(ad − bc), a² + b² − c² − d²),     A = 2 (a db − b da + c dd − d dc),     dA = area.
+//!
+//! |s| = |z|², which is quadratic: methods that preserve such invariants stay on the sphere. Neither the
+//! length of z nor its phase is the user's, so that there are no poles. The four coordinates of arrays lie one
+//! array after the other, as components of vectors do.
+
+use core::ops::Range;
+
+use super::{Name, System};
+use crate::error::{LengthError, StartError};
+use crate::mechanics::manifold::TOLERANCE;
+use crate::name::{Axis, Factor};
+use crate::scalar::norm::reported;
+use crate::scalar::{Comparison, Scalar};
+use crate::system::report::{CoordinateBlock, Report};
+use crate::{Real, Space, Vector};
+
+/// The coordinates of a spinor, and the components of a unit vector.
+const COORDINATES: usize = 4;
+pub(crate) const COMPONENTS: usize = 3;
+
+/// Whether a block is a coordinate of spinors.
+pub(crate) const fn is_spinor(block: &CoordinateBlock, is_regular: bool) -> bool {
+    !is_regular && matches!(block.factor, Factor::Sphere)
+}
+
+const fn has_spinors(report: &Report, is_regular: bool) -> bool {
+    let mut block = 0;
+    while block < report.coordinates.len() {
+        if is_spinor(&report.coordinates[block], is_regular) {
+            return true;
+        }
+        block += 1;
+    }
+    false
+}
+
+/// Whether unit vectors are among the coordinates of a degenerate system.
+pub(crate) const fn has<S: System>() -> bool {
+    const { has_spinors(&S::REPORT, S::REGULAR) }
+}
+
+/// Where the coordinates of a spinor lie.
+#[derive(Clone, Copy, Debug)]
+struct Spinor {
+    name: &'static str,
+    /// The index, in an array.
+    index: Option<usize>,
+    first: usize,
+    stride: usize,
+}
+
+impl Spinor {
+    fn places(self) -> [usize; COORDINATES] {
+        core::array::from_fn(|number| self.first + number * self.stride)
+    }
+
+    fn of<T: Scalar>(self, q: &[T]) -> [T; COORDINATES] {
+        self.places().map(|place| q[place])
+    }
+
+    fn set<T: Scalar>(self, q: &mut [T], z: [T; COORDINATES]) {
+        self.places().into_iter().zip(z).for_each(|(place, z)| q[place] = z);
+    }
+
+    fn name(self) -> Name {
+        let Self { name, index, .. } = self;
+        Name { block: name, is_velocity: false, index, axis: None, factor: Factor::Sphere }
+    }
+}
+
+/// All spinors of a system.
+fn spinors<S: System>(system: &S) -> impl Iterator<Item = Spinor> {
+    let blocks = S::REPORT.coordinates.iter().enumerate();
+    let blocks = blocks.scan(0, |end, (number, block)| {
+        let length = system.block_len(number);
+        *end += length;
+        Some((block, *end - length..*end))
+    });
+    let is_first = |axis: Option<Axis>| axis.is_some_and(|axis| axis.number == 0);
+    let blocks = blocks.filter(move |(block, _)| is_spinor(block, S::REGULAR) && is_first(block.axis));
+    blocks.flat_map(|(block, places): (_, Range<usize>)| {
+        let stride = places.len();
+        places.enumerate().map(move |(index, first)| Spinor {
+            name: block.name,
+            index: (!block.size.is_empty()).then_some(index),
+            first,
+            stride,
+        })
+    })
+}
+
+/// The unit vector that a place in the flat state belongs to.
+pub(crate) fn at_place<S: System>(system: &S, place: usize) -> Option<Name> {
+    spinors(system).find(|spinor| spinor.places().contains(&place)).map(Spinor::name)
+}
+
+/// A spinor of a vector, with |z|² = |s|, of which a component is real: a where s points up, c where it points
+/// down, so that the divisor is never small. Of what is no number the vector itself, and no number.
+pub(crate) fn lift<T: Scalar>([x, y, z]: [T; COMPONENTS]) -> [T; COORDINATES] {
+    let (zero, half) = (T::lift(0.0), T::lift(0.5));
+    let length = (x * x + y * y + z * z).sqrt();
+    let real = (half * (length + z.abs())).sqrt();
+    let [p, q] = [x, y].map(|component| half * component.over_root(real));
+    let (up, down) = ([real, zero, p, q], [p, -q, real, zero]);
+    let none = [x, y, z, T::lift(f64::NAN)];
+    core::array::from_fn(|k| {
+        let spinor = T::choose(z, Comparison::Less, zero, down[k], up[k]);
+        T::choose(length, Comparison::Less, T::lift(f64::INFINITY), spinor, none[k])
+    })
+}
+
+/// s = z†σz
+pub(crate) fn lower<T: Scalar>([a, b, c, d]: [T; COORDINATES]) -> [T; COMPONENTS] {
+    let two = T::lift(2.0);
+    [two * (a * c + b * d), two * (a * d - b * c), a * a + b * b - c * c - d * d]
+}
+
+/// Puts the components of vectors in the first three places of their spinors.
+pub(crate) fn lower_all<S: System, T: Scalar>(system: &S, q: &mut [T]) {
+    if !has::<S>() {
+        return;
+    }
+    for spinor in spinors(system) {
+        let z = spinor.of(q);
+        let s = lower(z);
+        // What no spinor is of is there as it is.
+        let is_number = |k: usize| T::choose(z[3], Comparison::Less, T::lift(f64::INFINITY), s[k], z[k]);
+        spinor.set(q, [is_number(0), is_number(1), is_number(2), z[3]]);
+    }
+}
+
+/// The same of a copy, if there are some.
+pub(crate) fn lowered<S: System, T: Scalar>(system: &S, q: &[T]) -> Option<Vector<S, T>> {
+    has::<S>().then(|| {
+        let mut lowered: Vector<S, T> = system.space().vector();
+        lowered.copy_from_slice(q);
+        lower_all(system, &mut lowered);
+        lowered
+    })
+}
+
+/// The reverse of [`lower_all`].
+pub(crate) fn lift_all<S: System, T: Scalar>(system: &S, q: &mut [T]) {
+    if has::<S>() {
+        spinors(system).for_each(|spinor| {
+            let [x, y, z, _] = spinor.of(q);
+            spinor.set(q, lift([x, y, z]));
+        });
+    }
+}
+
+/// Makes rates of spinors at `q` such that vectors are read from them as if they were states: those of the
+/// vectors, ṡ = 2 Re z†σż, as half of the difference of z†σz where z is moved by ż and by −ż.
+pub(crate) fn lift_rates<S: System, T: Scalar>(system: &S, q: &[T], rates: &mut [T]) {
+    if !has::<S>() {
+        return;
+    }
+    for spinor in spinors(system) {
+        let (z, rate) = (spinor.of(q), spinor.of(rates));
+        let forth = lower(core::array::from_fn(|k| z[k] + rate[k]));
+        let back = lower(core::array::from_fn(|k| z[k] - rate[k]));
+        spinor.set(rates, lift(core::array::from_fn(|k| T::lift(0.5) * (forth[k] - back[k]))));
+    }
+}
+
+/// Whether the vectors of a state that is given have length 1.
+///
+/// # Errors
+/// [`StartError::OffManifold`] with the first that has not.
+pub(crate) fn check<S: System, T: Real>(system: &S, q: &[T]) -> Result<(), StartError> {
+    if !has::<S>() {
+        return Ok(());
+    }
+    let tolerance = reported(T::default_epsilon()) * TOLERANCE;
+    for spinor in spinors(system) {
+        let length = spinor.of(q).into_iter().fold(T::lift(0.0), |sum, z| sum + z * z);
+        let defect = reported(Scalar::abs(length * length - T::lift(1.0)));
+        let is_unit = defect <= tolerance;
+        if !is_unit {
+            let Spinor { name: block, index, .. } = spinor;
+            return Err(StartError::OffManifold { block, index, defect, tolerance });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses what would not keep |z|, or is not said in terms of vectors.
+///
+/// # Errors
+/// [`StartError::Unsupported`] if there are unit vectors.
+pub(crate) fn refuse<S: System>(option: &'static str) -> Result<(), StartError> {
+    if !has::<S>() {
+        return Ok(());
+    }
+    let reason = "it would not keep the lengths of unit vectors; `Gauss`, and with affine α `Sigma::midpoint()` from \
+                  `Start::Consistent`, keep them";
+    Err(StartError::Unsupported { option, reason })
+}
+
+/// Copies vectors of a state to their places in a flat slice, as spinors.
+///
+/// # Errors
+/// [`LengthError`] if there are not as many as declared.
+pub fn write_spinors<T: Scalar>(
+    array: &'static str,
+    vectors: &[[T; COMPONENTS]],
+    expected: usize,
+    at: &mut usize,
+    flat: &mut [T],
+) -> Result<(), LengthError> {
+    let error = LengthError { array, expected, found: vectors.len() };
+    let end = *at + COORDINATES * expected;
+    let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
+    for (i, &vector) in vectors.iter().enumerate() {
+        for (number, z) in lift(vector).into_iter().enumerate() {
+            places[number * expected + i] = z;
+        }
+    }
+    *at = end;
+    Ok(())
+}
+
+/// Moves on behind so many spinors, and gives the vectors of them.
+pub(crate) fn read<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> impl Fn(usize) -> [T; COMPONENTS] {
+    let start = *at;
+    *at += COORDINATES * len;
+    move |i| lower(core::array::from_fn(|number| flat[start + number * len + i]))
+}
+
+/// Reads vectors, of which the number is known.
+#[inline]
+pub fn read_spinors<T: Scalar, const N: usize>(
+    _len: usize,
+    at: &mut usize,
+    flat: &[T],
+) -> [[T; COMPONENTS]; N] {
+    core::array::from_fn(read(N, at, flat))
+}
+
+#[test]
+fn a_spinor_of_a_vector_has_its_direction_and_length() {
+    let near = |s: [f64; 3]| {
+        let z = lift(s);
+        let found = lower(z);
+        let length = s.iter().map(|s| s * s).sum::<f64>().sqrt();
+        let error = found.iter().zip(s).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let norm: f64 = z.iter().map(|z| z * z).sum();
+        assert!(error <= 4.0 * f64::EPSILON * length, "{s:?} is read as {found:?}");
+        assert!((norm - length).abs() <= 4.0 * f64::EPSILON * length, "{s:?} has {z:?}");
+    };
+    // Everywhere on the sphere, at the poles and next to them.
+    for (k, j) in (0..=200).flat_map(|k| (0..40).map(move |j| (k, j))) {
+        let (polar, azimuth) = (f64::from(k) * 0.005 * core::f64::consts::PI, f64::from(j) * 0.157);
+        near([polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos()]);
+    }
+    for x in [0.0, 1e-100, -1e-9, 1e-3] {
+        for z in [1.0, -1.0, 0.0, -0.0, 2.5] {
+            near([x, -2.0 * x, z]);
+        }
+    }
+}
