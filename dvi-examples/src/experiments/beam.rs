@@ -136,8 +136,7 @@ fn figure(all: &[Vibration; 4], frequencies: &Frequencies, periods: f64) -> Resu
     let of_beam = shapes(loaded(&beam).run(newmark(OF_BEAM), h)?, 0.5 * STEPS_PER_PERIOD, |state| {
         state.w.into_iter().zip(1..).map(|(w, i)| [f64::from(i) / ELEMENTS as f64, w]).collect()
     })?;
-    let nodes = |state: RodState| points(&state.x, &state.y);
-    let of_rod = shapes(bent(&rod).run(newmark(OF_ROD), H)?, 0.5 * period() / H, nodes)?;
+    let of_rod = shapes(bent(&rod).run(newmark(OF_ROD), H)?, 0.5 * period() / H, |state| state.r)?;
     let half = |panel: Panel, shapes: [Shape; 6]| {
         let lines = shapes.map(|(t, colour, line)| (format!("*t* = {t:.2}"), solid(colour), line));
         panel.lines(lines).legend_at(Corner::Beside)

@@ -42,7 +42,7 @@ impl Errors {
                 let mut y = begin.reduced();
                 Ok(move || {
                     y = rk4(&y, H, |y| disc.reduced(y));
-                    Ok(disc.energy_of(&y))
+                    Ok(disc.energy_of(&y)?)
                 })
             })
         };
@@ -102,7 +102,7 @@ impl Errors {
 
 impl Growth {
     /// Of runs whose steps `begun` takes, each of which returns the energy after it.
-    fn new<F: FnMut() -> Result<f64, StepError>>(
+    fn new<F: FnMut() -> Result<f64>>(
         job: &Job<'_>,
         (name, stroke): (&'static str, Stroke),
         disc: &RollingDisc,
@@ -116,7 +116,7 @@ impl Growth {
         let mut points: Vec<[f64; 2]> = times.map(|t| [t, 0.0]).collect();
         for k in 0..STARTS {
             let begin = disc.rolling(PLACE, 0.3 + k as f64 * TAU / STARTS as f64, RATES);
-            let (first, mut step) = (disc.energy_of(&begin.reduced()), begun(begin)?);
+            let (first, mut step) = (disc.energy_of(&begin.reduced())?, begun(begin)?);
             let (mut largest, mut steps, mut next) = (0.0, 0_u64, 0);
             job.repeat((end / h).round() as u64, || {
                 largest = larger(largest, (step()? - first).abs());
@@ -125,7 +125,7 @@ impl Growth {
                     points[next][1] += largest / STARTS as f64;
                     next += 1;
                 }
-                Ok(())
+                anyhow::Ok(())
             })?;
         }
         Ok(Self { name, h, stroke, points })

@@ -3,7 +3,8 @@
 //! Rotation about the axis of the middle moment of inertia is unstable: the body turns over and back, in a
 //! period that grows with the logarithm of the nearness to the axis (Landau & Lifshitz 1976, section 37).
 
-use super::geodesics::{Shadow, crossing};
+use super::geodesics::Shadow;
+use super::turnings::crossing;
 use crate::vocabulary::*;
 
 pub const BODY: RigidBody = RigidBody { inertia: [1.0, 2.0, 3.0] };

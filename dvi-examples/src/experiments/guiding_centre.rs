@@ -78,7 +78,7 @@ fn follow<S: Lagrangian>(
     steps: u64,
 ) -> Result<Series<2>> {
     let (energy, [toroidal]) = (run.energy(), momenta(&run));
-    Ok(job.series(named, &mut run, steps, Span::of(steps, H, EARLY), |run, path| {
+    Ok(job.series(named, &mut run, Span::of(steps, H, EARLY), |run, path| {
         if run.steps() <= EARLY / 8 {
             path.push(place(run.q()));
         }

@@ -5,6 +5,7 @@
 //! takes the chord in place of the arc and finds the force that keeps the length.
 
 use super::geodesics::*;
+use super::turnings::*;
 use crate::vocabulary::*;
 
 const PENDULUM: SphericalPendulum = SphericalPendulum { gravity: 1.0 };
@@ -32,7 +33,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let mut run = chords.run(Rattle::default(), H)?;
     let later = || {
         run.take_steps(EVERY)?;
-        Ok(ConstrainedPendulum::on_sphere(&run.state()))
+        Ok(run.state().into())
     };
     let [rk4, great_circles] = long.both("great circles", PENDULUM, &begin(), kept)?;
     let all = [rk4, long.watch(("RATTLE", solid(GREEN)), later, kept)?, great_circles];
@@ -52,8 +53,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     })?;
     let by_chords = each(STEPS, |h| {
         let run = chords.run(Rattle::default(), h)?;
-        let on_sphere = |state| by_chord(ConstrainedPendulum::on_sphere(&state));
-        up_and_down(run, end, &before, by_chord(begin()), |run| on_sphere(run.state()))
+        up_and_down(run, end, &before, by_chord(begin()), |run| by_chord(run.state().into()))
     })?;
     let [rk4, chords, arcs] = all.each_ref().map(|series| &series.kept);
     // The largest that h²g makes of it, by the runs with the same step.
@@ -78,7 +78,8 @@ fn arcs() -> Problem<'static, SphericalPendulum> {
 }
 
 fn chords() -> Problem<'static, ConstrainedPendulum> {
-    Problem::new(&CONSTRAINED, ConstrainedPendulum::state_of(&begin()))
+    let SphericalPendulumState { s, dot_s } = begin();
+    Problem::new(&CONSTRAINED, ConstrainedPendulumState { s, dot_s })
 }
 
 /// At an angle from the direction downwards, with its rate and the rate around the vertical.
@@ -124,7 +125,7 @@ fn order_of_places() -> Result<Claim> {
     let (arcs, chords, simple) = (arcs(), chords(), Geodesic::trapezoid());
     let arc = |h| Ok(arcs.up_to(simple, h, ORDER_TIME)?.s);
     let composed = |h| Ok(arcs.up_to(Composition::suzuki(simple), h, ORDER_TIME)?.s);
-    let chord = |h| Ok(ConstrainedPendulum::on_sphere(&chords.up_to(Rattle::default(), h, ORDER_TIME)?).s);
+    let chord = |h| Ok(chords.up_to(Rattle::default(), h, ORDER_TIME)?.s);
     let order = |place: &dyn Fn(f64) -> Result<[f64; 3]>, from: &dyn Fn(f64) -> Result<[f64; 3]>| {
         order_of(STEPS, |h| Ok((h, length(difference(place(h)?, from(h)?)))))
     };

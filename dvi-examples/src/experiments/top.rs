@@ -6,6 +6,7 @@
 //! that nothing is projected. RK4 on the nine entries of the matrix leaves the group.
 
 use super::geodesics::*;
+use super::turnings::*;
 use crate::vocabulary::*;
 
 const TOP: Top = Top { across: 1.0, along: 0.5, weight: 1.0 };
