@@ -4,6 +4,7 @@
 //! not.
 
 use anyhow::Result;
+use dvi_core::error::StepError;
 
 use crate::figure::{Axis, Envelope, Line, Panel, Points, Stroke};
 use crate::numbers::{larger, least};
@@ -116,19 +117,26 @@ pub fn note<const N: usize>(kept: &mut [Deviation; N], t: f64, values: [f64; N])
 /// The name of a run, and the line that figures show it with.
 pub type Named<'a> = (&'a str, Stroke);
 
-/// A run by its name, by the line that figures show it with, by what it should keep, and by points of its
-/// path.
+/// A run by its name, by the line that figures show it with, by the length of its steps, by what it should
+/// keep, by points of its path, and by the error that has ended it early.
 #[derive(Clone, Debug)]
 pub struct Series<const N: usize> {
     pub name: String,
     pub stroke: Stroke,
+    pub h: f64,
     pub kept: [Deviation; N],
     pub path: Points,
+    pub ended: Option<StepError>,
 }
 
 impl<const N: usize> Series<N> {
-    pub fn new(name: impl Into<String>, stroke: Stroke, kept: [Deviation; N]) -> Self {
-        Self { name: name.into(), stroke, kept, path: Vec::new() }
+    pub fn new((name, stroke): Named<'_>, h: f64, kept: [Deviation; N]) -> Self {
+        Self { name: name.into(), stroke, h, kept, path: Vec::new(), ended: None }
+    }
+
+    /// The series of a run that comes to its end.
+    pub fn whole(self) -> Result<Self> {
+        self.ended.map_or(Ok(self), |error| Err(error.into()))
     }
 
     /// What the series is, for [`Panel::lines`], over any points.

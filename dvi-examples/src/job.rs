@@ -103,65 +103,53 @@ impl Job<'_> {
         Ok(kept)
     }
 
-    /// The same as a series of that name, with the points that `of` adds to its path.
+    /// The same as a series of that name, with the points that `of` adds to its path, up to the end of the run
+    /// or to the step that fails.
     pub fn series<R: Run<Scalar = f64>, const N: usize>(
         &self,
-        (name, stroke): Named<'_>,
+        named: Named<'_>,
         run: &mut R,
         span: Span,
         mut of: impl FnMut(&R, &mut Vec<[f64; 2]>) -> [f64; N],
-    ) -> Result<Series<N>, StepError> {
-        let mut path = Vec::new();
-        let kept = self.keep(run, span, |run| of(run, &mut path))?;
-        Ok(Series { path, ..Series::new(name, stroke, kept) })
+    ) -> Series<N> {
+        let mut series = Series::new(named, run.step_size(), span.deviations());
+        let Series { h, kept, path, .. } = &mut series;
+        series.ended = self.follow(run, span.steps(*h), |run| note(kept, run.time(), of(run, path))).err();
+        series
     }
 
-    /// The same of what is no run: `step` takes so many steps of length `h` at once.
+    /// A series of what is no run: `step` takes so many steps of length `h` at once.
     pub fn watch<E, const N: usize>(
         &self,
-        (name, stroke): Named<'_>,
+        named: Named<'_>,
         span: Span,
         (h, at_once): (f64, u64),
         mut step: impl FnMut() -> Result<[f64; N], E>,
     ) -> Result<Series<N>, E> {
-        let (mut kept, mut done) = (span.deviations(), 0);
+        let (mut series, mut done) = (Series::new(named, h, span.deviations()), 0);
         self.repeat(span.steps(h) / at_once, || {
             done += at_once;
-            step().map(|values| note(&mut kept, done as f64 * h, values))
+            step().map(|values| note(&mut series.kept, done as f64 * h, values))
         })?;
-        Ok(Series::new(name, stroke, kept))
+        Ok(series)
     }
 
-    /// E − E(0) of a run as a series of that name, with so many of its first places, and the error that has
-    /// ended it.
-    pub fn attempt(
-        &self,
-        (name, stroke): Named<'_>,
-        mut run: impl Run<Scalar = f64>,
-        span: Span,
-        places: usize,
-    ) -> (Series<1>, Option<StepError>) {
-        let (energy, mut path, mut kept) = (run.energy(), vec![place(&run)], span.deviations());
-        let steps = span.steps(run.step_size());
-        let followed = self.follow(&mut run, steps, |run| {
-            note(&mut kept, run.time(), [run.energy() - energy]);
-            if path.len() < places {
-                path.push(place(run));
-            }
-        });
-        (Series { path, ..Series::new(name, stroke, kept) }, followed.err())
-    }
-
-    /// The same of a run that comes to its end.
+    /// E − E(0) of a run as a series of that name, with so many of its first places.
     pub fn energy(
         &self,
         named: Named<'_>,
-        run: impl Run<Scalar = f64>,
+        mut run: impl Run<Scalar = f64>,
         span: Span,
         places: usize,
-    ) -> Result<Series<1>> {
-        let (series, ended) = self.attempt(named, run, span, places);
-        ended.map_or(Ok(series), |error| Err(error.into()))
+    ) -> Series<1> {
+        let (energy, start) = (run.energy(), place(&run));
+        let series = self.series(named, &mut run, span, |run, path| {
+            if path.len() + 1 < places {
+                path.push(place(run));
+            }
+            [run.energy() - energy]
+        });
+        Series { path: [&[start], &series.path[..]].concat(), ..series }
     }
 
     /// Writes the figure (SVG and PNG), which says if its run was short, and its data (CSV).

@@ -19,10 +19,9 @@ const RK4_STEP: f64 = 4.0 * STEPS[0];
 const EARLY: f64 = 200.0;
 pub const LAWS: [Collision; 2] = [Collision::Variational, Collision::Reflection];
 
-/// A long run: E − E(0), the step, bounces, and those at which no impulse keeps the discrete energy.
+/// A long run: E − E(0), bounces, and those at which no impulse keeps the discrete energy.
 struct Bounces {
     series: Series<1>,
-    h: f64,
     bounces: u64,
     grazing: u64,
 }
@@ -39,7 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         bounces(job, at_impact, fine, dashed(GREEN), end)?,
     ];
     let walks = Walks::new(job)?;
-    let curves = all.iter().map(|run| ([&run.series.name], [run.h], run.series.kept[0].magnitude()));
+    let curves = all.iter().map(|run| ([&run.series.name], [run.series.h], run.series.kept[0].magnitude()));
     let table = curve_table(&["kept", "h", "t", "largest_energy_error"], curves)?;
     job.publish(figure(&all, &walks, end)?, table)?;
     let full = |value: f64| job.only_full(value);
@@ -81,9 +80,9 @@ fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64
     let name = if collision == Collision::Variational { "discrete energy" } else { "energy at the impact" };
     let mut run = Integrator::new(&FLOOR, trapezoid(collision), h, START)?;
     let (begin, span) = (run.energy(), Span { end, early: EARLY, intervals: 300 });
-    let kept = job.keep(&mut run, span, |run| [run.energy() - begin])?;
-    let (series, memory) = (Series::new(name, stroke.width(1.2), kept), run.memory());
-    Ok(Bounces { series, h, bounces: memory.total(), grazing: memory.grazing() })
+    let named = (name, stroke.width(1.2));
+    let series = job.series(named, &mut run, span, |run, _| [run.energy() - begin]).whole()?;
+    Ok(Bounces { series, bounces: run.memory().total(), grazing: run.memory().grazing() })
 }
 
 /// RK4 between impacts, which are found by bisection and keep the energy.
@@ -112,7 +111,7 @@ fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
         y = after(&y, left);
         energy(y).map(|now| [now - begin])
     })?;
-    Ok(Bounces { series, h: RK4_STEP, bounces, grazing: 0 })
+    Ok(Bounces { series, bounces, grazing: 0 })
 }
 
 fn entries(BouncerState { x, y, dot_x, dot_y }: BouncerState) -> [f64; 4] {
@@ -148,8 +147,8 @@ fn back_again() -> Result<Claim> {
 }
 
 fn figure(all: &[Bounces; 5], walks: &Walks, end: f64) -> Result<Figure> {
-    let lines = all.iter().map(|Bounces { series, h, .. }| {
-        (format!("{}, *h* = {h}", series.name), series.stroke, series.kept[0].magnitude())
+    let lines = all.iter().map(|Bounces { series, .. }| {
+        (format!("{}, *h* = {}", series.name, series.h), series.stroke, series.kept[0].magnitude())
     });
     let error = ("largest |*E* − *E*(0)|", [1e-5, 1e4]);
     let energy = Panel::semilog("Energy", ("time *t*", [0.0, end]), error).lines(lines);

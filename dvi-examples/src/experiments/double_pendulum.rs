@@ -23,8 +23,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (midpoint, simpson) =
         (("variational, midpoint", solid(GREEN)), ("variational, Simpson", solid(BLUE)));
     let all = [
-        job.energy(midpoint, pendulum.run(Variational::midpoint(), H)?, span, places)?,
-        job.energy(simpson, pendulum.run(Variational::simpson(), H)?, span, places)?,
+        job.energy(midpoint, pendulum.run(Variational::midpoint(), H)?, span, places).whole()?,
+        job.energy(simpson, pendulum.run(Variational::simpson(), H)?, span, places).whole()?,
         job.watch(("RK4, by hand", dashed(VERMILLION)), span, (H, 1), || {
             y = rk4(&y, H, |y| SYSTEM.motion(y));
             SYSTEM.energy_at(&state(y)).map(|energy| [energy - begin])

@@ -36,8 +36,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
                 *landmark = Some(change);
             }
             [change]
-        })?;
-        Ok((error, landmarks, run.statistics().gradients))
+        });
+        Ok((error.whole()?, landmarks, run.statistics().gradients))
     })?;
     let columns = ["scheme", "t", "lowest", "mean", "highest"];
     job.publish(figure(&all, end), range_table(&columns, &[""], all.iter().map(|(series, ..)| series))?)?;

@@ -84,6 +84,24 @@ pub fn between_heights(panel: Panel, heights: &Heights) -> Panel {
     panel.each(radii, |panel, radius| panel.line(circle([0.0; 2], radius), dashed(SLATE).width(1.0)))
 }
 
+/// That integrals by hand, the energy first, are those of the declaration up to these bounds, and that the
+/// motion by hand keeps them.
+#[cfg(test)]
+pub fn assert_integrals<const D: usize, const N: usize, S: OnManifold<D>>(
+    (system, start): (S, S::State<f64>),
+    of: impl Fn(&S::State<f64>) -> [f64; N],
+    bounds: [f64; N],
+) {
+    let run = Integrator::new(&system, Geodesic::trapezoid(), 0.05, start.clone()).expect("a run");
+    let declared = |k: usize| if k == 0 { Some(run.energy()) } else { run.momentum(k - 1) };
+    let later = of(&system.state(&reference(system, &start, [2.0, 1e-3])));
+    for (k, by_hand) in of(&start).into_iter().enumerate() {
+        let declared = declared(k).expect("it is declared");
+        assert!((by_hand - declared).abs() <= bounds[k], "{k}: {by_hand} and {declared}");
+        assert!((by_hand - later[k]).abs() < 1e-11, "{k}: {by_hand} and later {}", later[k]);
+    }
+}
+
 /// The entries of a state after time `end`, by RK4 with short steps.
 pub fn reference<const D: usize, S: OnManifold<D>>(
     system: S,
@@ -119,8 +137,6 @@ pub fn order_claim<S: OnManifold<12>>(
 #[derive(Clone, Copy)]
 pub struct Shadow {
     h: f64,
-    /// E and g at the start.
-    begin: [f64; 2],
     /// The largest |E − E(0)|, what h²g makes of it, and the largest difference of both.
     largest: f64,
     pub predicted: f64,
@@ -128,15 +144,17 @@ pub struct Shadow {
 }
 
 impl Shadow {
-    pub fn new(h: f64, energy: f64, shift: f64) -> Self {
-        Self { h, begin: [energy, shift], largest: 0.0, predicted: 0.0, rest: 0.0 }
-    }
-
-    pub fn push(&mut self, energy: f64, shift: f64) {
-        let (change, predicted) = (energy - self.begin[0], self.h * self.h * (shift - self.begin[1]));
-        self.largest = larger(self.largest, change.abs());
-        self.predicted = larger(self.predicted, predicted.abs());
-        self.rest = larger(self.rest, (change - predicted).abs());
+    /// By E and g, from the start on.
+    pub fn of(h: f64, all: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        let (mut begin, mut shadow) = (None, Self { h, largest: 0.0, predicted: 0.0, rest: 0.0 });
+        for now in all {
+            let [change, rise] = difference(now, *begin.get_or_insert(now));
+            let predicted = h * h * rise;
+            shadow.largest = larger(shadow.largest, change.abs());
+            shadow.predicted = larger(shadow.predicted, predicted.abs());
+            shadow.rest = larger(shadow.rest, (change - predicted).abs());
+        }
+        shadow
     }
 }
 

@@ -43,11 +43,12 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ];
     let [trapezoid, midpoint, rattle] = each(constrained, |(named, mut run)| {
         let begin = run.energy();
-        Ok(job.series(named, &mut run, span, |run, tips| {
+        job.series(named, &mut run, span, |run, tips| {
             let state = run.state();
             tips.push(state.r[LINKS - 1]);
             deviations(run.energy() - begin, &state)
-        })?)
+        })
+        .whole()
     })?;
     let all = [trapezoid, midpoint, rattle, rk4(job, span)?];
     let table = magnitude_table(&["method", "t", "energy", "length", "velocity_along"], &all)?;

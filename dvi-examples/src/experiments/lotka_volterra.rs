@@ -23,17 +23,19 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let two_steps = ("two steps, σ = ½", solid(VERMILLION));
     // Whatever becomes of its parasitic mode.
     let unwatched = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
-    let (two_step, ended) = job.attempt(two_steps, symmetric.run(unwatched, H)?, short, places);
-    let all = [
-        job.energy(midpoint, one_sided.run(OneStep::midpoint(), H)?, span, places)?,
-        job.energy(gauss, one_sided.run(OneStepGauss::<2>::new(), H)?, span, places)?,
-        job.energy(("RK4", dashed(SLATE)), one_sided.run(RungeKutta::classical(), H)?, span, places)?,
-        two_step,
+    let two_step = job.energy(two_steps, symmetric.run(unwatched, H)?, short, places);
+    let runs = [
+        (midpoint, one_sided.run(OneStep::midpoint(), H)?),
+        (gauss, one_sided.run(OneStepGauss::<2>::new(), H)?),
+        (("RK4", dashed(SLATE)), one_sided.run(RungeKutta::classical(), H)?),
     ];
-    let half = job.energy(midpoint, one_sided.run(OneStep::midpoint(), H / 2.0)?, halved, 0)?;
-    let (_, watched) = job.attempt(two_steps, symmetric.run(Sigma::midpoint(), H)?, short, 0);
+    let [one, other, rk4] = each(runs, |(named, run)| job.energy(named, run, span, places).whole())?;
+    let all = [one, other, rk4, two_step];
+    let half = job.energy(midpoint, one_sided.run(OneStep::midpoint(), H / 2.0)?, halved, 0).whole()?;
+    let watched = job.energy(two_steps, symmetric.run(Sigma::midpoint(), H)?, short, 0);
     // The steps that failed.
-    let [ended, watched] = [ended, watched].map(|error| error.map_or(f64::INFINITY, |e| e.step as f64));
+    let ended = |run: &Series<1>| run.ended.map_or(f64::INFINITY, |error| error.step as f64);
+    let (ended, watched) = (ended(&all[3]), ended(&watched));
     let table = range_table(&["method", "t", "lowest", "mean", "highest"], &[""], &all)?;
     job.publish(figure(&all, ended, span.end), table)?;
     let near = |h: f64, run: &Series<1>, bound| {

@@ -31,14 +31,15 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (one_step, projected) =
         (along_x.run(OneStep::midpoint(), H)?, symmetric.run(Projected::symmetric(), H)?);
     let all = [
-        job.energy(("along *x*, one step", solid(BLUE)), one_step, span, 200)?,
-        job.energy(("symmetric, projected", solid(GREEN)), projected, span, 200)?,
-        job.energy(("RK4", dashed(SLATE)), symmetric.run(RungeKutta::classical(), H)?, span, 200)?,
+        job.energy(("along *x*, one step", solid(BLUE)), one_step, span, 200),
+        job.energy(("symmetric, projected", solid(GREEN)), projected, span, 200),
+        job.energy(("RK4", dashed(SLATE)), symmetric.run(RungeKutta::classical(), H)?, span, 200),
     ];
+    let all = each(all, Series::whole)?;
     let parasites = each(STEPS, |h| Parasite::new(job, h))?;
     let errors = all.iter().map(|series| {
-        let rows = series.kept[0].envelope.rows().into_iter();
-        (series.name.clone(), rows.map(|[t, low, _, high]| [t, low, high].map(Some)).collect())
+        let rows = series.kept[0].envelope.band().into_iter();
+        (series.name.clone(), rows.map(|row| row.map(Some)).collect())
     });
     let modes = parasites.iter().map(|Parasite { h, amplitudes, .. }| {
         let rows = amplitudes.iter().map(|[t, amplitude]| [Some(*t), Some(*amplitude), None]);

@@ -66,10 +66,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 fn kept<S: Lagrangian>(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, S>, end: f64) -> Result<Kept> {
     let (energy, begin): (_, [f64; 3]) = (run.energy(), momenta(&run));
-    Ok(job.series(named, &mut run, Span { end, early: 0.1 * end, intervals: 250 }, |run, _| {
+    job.series(named, &mut run, Span { end, early: 0.1 * end, intervals: 250 }, |run, _| {
         let ([length, along], [x, y, angular]) = (sides(run), difference(momenta(run), begin));
         [run.energy() / energy - 1.0, length, along, x, y, angular]
-    })?)
+    })
+    .whole()
 }
 
 /// The largest error of a side, and the largest velocity along one.

@@ -18,14 +18,15 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(3 * steps);
     let (begin, span) = (Problem::new(&SYSTEM, START), Span::of(steps, H, 1000));
-    let all = [
-        job.energy(("one step, midpoint", solid(BLUE)), begin.run(OneStep::midpoint(), H)?, span, 0)?,
-        job.energy(("one step, trapezoid", solid(GREEN)), begin.run(OneStep::trapezoid(), H)?, span, 0)?,
-        job.energy(("RK4", dashed(VERMILLION)), begin.run(RungeKutta::classical(), H)?, span, 0)?,
+    let runs = [
+        (("one step, midpoint", solid(BLUE)), begin.run(OneStep::midpoint(), H)?),
+        (("one step, trapezoid", solid(GREEN)), begin.run(OneStep::trapezoid(), H)?),
+        (("RK4", dashed(VERMILLION)), begin.run(RungeKutta::classical(), H)?),
     ];
+    let all = each(runs, |(named, run)| job.energy(named, run, span, 0).whole())?;
     let leapfrog = circles(OneStep::trapezoid(), 100, 8)?;
-    let errors = all.iter().flat_map(|series| {
-        series.kept[0].envelope.rows().into_iter().map(|[t, low, _, high]| ([&*series.name], [t, low, high]))
+    let errors = all.iter().flat_map(|Series { name, kept, .. }| {
+        kept[0].envelope.band().into_iter().map(move |row| ([name.as_str()], row))
     });
     let circles = leapfrog.iter().zip(0..);
     let points = circles.flat_map(|(c, t)| c.iter().map(move |&[x, p]| (["circle"], [f64::from(t), x, p])));

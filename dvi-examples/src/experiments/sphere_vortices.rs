@@ -30,7 +30,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let all = each(runs, |(named, mut run)| {
         let (energy, start) = (run.energy(), moment(&THREE, run.q()));
         let (mut before, mut turned) = (start, 0.0);
-        Ok(job.series(named, &mut run, span, |run, path| {
+        job.series(named, &mut run, span, |run, path| {
             let moment = moment(&THREE, run.q());
             if run.steps() <= 400 {
                 path.extend(THREE.places(run.q()).map(|[x, y, _]| [x, y]));
@@ -39,7 +39,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             before = moment;
             let axial = (moment[2] - start[2]) / length(start);
             [run.energy() - energy, length(moment) / length(start) - 1.0, turned, axial]
-        })?)
+        })
+        .whole()
     })?;
     let columns = ["method", "quantity", "t", "lowest", "mean", "highest"];
     job.publish(figure(&all, span.end), range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?)?;

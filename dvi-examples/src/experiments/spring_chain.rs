@@ -87,8 +87,8 @@ fn kept(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, SpringChain>, s: f6
             left = now / begin;
         }
         [run.energy() - energy, now - begin]
-    })?;
-    Ok((series, left))
+    });
+    Ok((series.whole()?, left))
 }
 
 fn long_steps(motion: &Exchange, long: &Exchange) -> Result<Claim> {

@@ -24,7 +24,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let all = [
         job.series(("one step, midpoint", solid(BLUE)), &mut run_from(START)?, span, |run, _| {
             [run.energy() / sum - 1.0, (run.q()[3] - product.ln()).exp_m1()]
-        })?,
+        })
+        .whole()?,
         job.watch(("RK4", solid(VERMILLION)), span, (H, 1), || {
             species = rk4(&species, H, rates);
             let [now, of_all] = invariants(&species);

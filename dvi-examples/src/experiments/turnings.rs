@@ -3,14 +3,6 @@
 use super::geodesics::Shadow;
 use crate::vocabulary::*;
 
-/// The turnings of a run.
-#[derive(Default)]
-struct Turnings {
-    last: Option<Sample>,
-    /// The lowest and the highest ones: the height, and g.
-    found: [Vec<[f64; 2]>; 2],
-}
-
 /// The height, its rate, the energy E, and g of the energy E − h²g that steps keep.
 #[derive(Clone, Copy)]
 pub struct Sample {
@@ -30,57 +22,46 @@ pub struct Extreme {
     predicted: f64,
 }
 
-/// Up and down to a time: the lowest and the highest turnings of a run, and its energy.
+/// Up and down to a time: the lowest and the highest turnings of a run, against the roots at its start, and
+/// its energy.
 pub fn up_and_down<R: Run<Scalar = f64>>(
     mut run: R,
     end: f64,
     heights: &Heights,
-    start: Sample,
     of: impl Fn(&R) -> Sample,
 ) -> Result<([Extreme; 2], Shadow)> {
-    let (h, mut turnings) = (run.step_size(), Turnings::default());
-    let mut shadow = Shadow::new(h, start.energy, start.shift);
-    for _ in 0..(end / h).round() as u64 {
-        run.advance()?;
-        let sample = of(&run);
-        shadow.push(sample.energy, sample.shift);
-        turnings.push(h, sample);
-    }
-    Ok((turnings.against(h, heights, start.shift), shadow))
+    let h = run.step_size();
+    let samples = course(&mut run, (end / h).round() as u64, of)?;
+    let (found, roots) = (turnings(h, &samples), heights.extremes());
+    let extremes = [0, 1].map(|side| {
+        let (root, found) = (roots[side], &found[side]);
+        let mean =
+            |of: &dyn Fn([f64; 2]) -> f64| found.iter().copied().map(of).sum::<f64>() / found.len() as f64;
+        Extreme {
+            h,
+            count: found.len(),
+            mean: mean(&|[height, _]| height - root),
+            largest: largest(found.iter().map(|[height, _]| (height - root).abs())),
+            predicted: mean(&|[_, g]| h * h * (g - samples[0].shift)) / heights.stiffness(root),
+        }
+    });
+    Ok((extremes, Shadow::of(h, samples.iter().map(|sample| [sample.energy, sample.shift]))))
 }
 
-impl Turnings {
-    fn push(&mut self, h: f64, now: Sample) {
-        if let Some(before) = self.last.replace(now)
-            && before.rate * now.rate < 0.0
-        {
-            // The extreme of the cubic polynomial through both heights with both rates.
-            let [first, square, cube] = hermite([before.height, before.rate], [now.height, now.rate], h);
-            let root = (square * square - 3.0 * cube * first).max(0.0).sqrt();
-            let s = first / (first.signum() * root - square);
-            let height = before.height + s * (first + s * (square + s * cube));
-            let g = before.shift + s * (now.shift - before.shift);
-            self.found[usize::from(before.rate > 0.0)].push([height, g]);
-        }
+/// The lowest and the highest turnings between samples: the height, and g.
+fn turnings(h: f64, samples: &[Sample]) -> [Points; 2] {
+    let mut found = [vec![], vec![]];
+    let turns = samples.iter().zip(&samples[1..]).filter(|(before, now)| before.rate * now.rate < 0.0);
+    for (before, now) in turns {
+        // The extreme of the cubic polynomial through both heights with both rates.
+        let [first, square, cube] = hermite([before.height, before.rate], [now.height, now.rate], h);
+        let root = (square * square - 3.0 * cube * first).max(0.0).sqrt();
+        let s = first / (first.signum() * root - square);
+        let height = before.height + s * (first + s * (square + s * cube));
+        let g = before.shift + s * (now.shift - before.shift);
+        found[usize::from(before.rate > 0.0)].push([height, g]);
     }
-
-    /// Against the roots at the start, of which g is `shift`: of the lowest and of the highest turnings.
-    fn against(&self, h: f64, heights: &Heights, shift: f64) -> [Extreme; 2] {
-        let roots = heights.extremes();
-        [0, 1].map(|side| {
-            let (root, found) = (roots[side], &self.found[side]);
-            let mean = |of: &dyn Fn([f64; 2]) -> f64| {
-                found.iter().copied().map(of).sum::<f64>() / found.len() as f64
-            };
-            Extreme {
-                h,
-                count: found.len(),
-                mean: mean(&|[height, _]| height - root),
-                largest: largest(found.iter().map(|[height, _]| (height - root).abs())),
-                predicted: mean(&|[_, g]| h * h * (g - shift)) / heights.stiffness(root),
-            }
-        })
-    }
+    found
 }
 
 /// The claim that `what` turns at the roots, by runs with three steps, each half of the one before.
@@ -132,12 +113,10 @@ mod tests {
 
     #[test]
     fn turnings_of_a_sine_are_found_between_the_steps() {
-        let mut turnings = Turnings::default();
-        for k in 0..400 {
-            let t = f64::from(k) * 0.1 + 0.03;
-            turnings.push(0.1, Sample { height: t.sin(), rate: t.cos(), energy: 0.5, shift: 0.0 });
-        }
-        for (side, found) in turnings.found.iter().enumerate() {
+        let times = (0..400).map(|k| f64::from(k) * 0.1 + 0.03);
+        let sample = |t: f64| Sample { height: t.sin(), rate: t.cos(), energy: 0.5, shift: 0.0 };
+        let found = turnings(0.1, &times.map(sample).collect::<Vec<_>>());
+        for (side, found) in found.iter().enumerate() {
             assert_eq!(found.len(), [6, 7][side]);
             assert!(found.iter().all(|[height, _]| (height - [-1.0, 1.0][side]).abs() < 1e-6), "{found:?}");
         }

@@ -87,11 +87,6 @@ impl RollingDiscState {
 }
 
 impl ChaplyginSleigh {
-    /// With the speed `v` along the blade and the rate ω of θ, at the origin in the direction of x.
-    pub fn sliding(v: f64, omega: f64) -> ChaplyginSleighState {
-        ChaplyginSleighState { x: 0.0, y: 0.0, theta: 0.0, dot_x: v, dot_y: 0.0, dot_theta: omega }
-    }
-
     /// The rates of (x, y, θ, v, ω) in the motion, with the constraint eliminated: v' = aω² and (I + a²)ω' =
     /// −avω.
     pub fn reduced(&self, &[_, _, theta, v, omega]: &[f64; 5]) -> [f64; 5] {
