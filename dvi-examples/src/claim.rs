@@ -12,6 +12,7 @@ use std::fmt;
 use anyhow::Result;
 
 use crate::gallery::Outcome;
+use crate::output::digits;
 
 /// The place of claims that no paper makes; they are counted apart.
 pub const BEYOND: &str = "beyond the paper";
@@ -59,15 +60,9 @@ pub struct Claim {
     subject: String,
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    Reproduced,
-    /// Not as printed; the text says what holds instead, and was checked.
-    Differs(String),
-    NotReproduced,
-    /// Something could not be measured in a run of this length.
-    Undecided,
-}
+/// What can be said of a claim or of a check by itself.
+pub const VERDICTS: [&str; 7] =
+    ["reproduced", "holds", "passes", "differs", "undecided", "not measured", "fails"];
 
 /// What a paper says at a place.
 pub fn says(place: impl Into<String>, text: impl Into<String>) -> Claim {
@@ -140,19 +135,25 @@ impl Claim {
         self
     }
 
-    pub fn verdict(&self) -> Verdict {
-        let all = |checks: &[Check], passes: fn(&Check) -> bool| checks.iter().all(passes);
-        let measured = |check: &Check| check.value.is_some();
-        if !all(&self.printed, measured) {
-            return Verdict::Undecided;
-        }
-        if all(&self.printed, Check::passes) {
-            return Verdict::Reproduced;
-        }
-        match &self.instead {
-            Some((_, checks)) if !all(checks, measured) => Verdict::Undecided,
-            Some((text, checks)) if all(checks, Check::passes) => Verdict::Differs(text.clone()),
-            _ => Verdict::NotReproduced,
+    /// One of [`VERDICTS`]: only what is printed can be reproduced, and what was not measured in a run of this
+    /// length decides nothing.
+    pub fn verdict(&self) -> &'static str {
+        let of = |checks: &[Check]| match checks {
+            _ if checks.iter().any(|check| check.value.is_none()) => "undecided",
+            _ if checks.iter().all(|check| check.verdict() == "passes") => "passes",
+            _ => "fails",
+        };
+        match (of(&self.printed), &self.instead) {
+            ("passes", _) => {
+                if self.is_printed() {
+                    "reproduced"
+                } else {
+                    "holds"
+                }
+            }
+            ("fails", Some((_, instead))) if of(instead) == "passes" => "differs",
+            ("fails", Some((_, instead))) => of(instead),
+            (undecided_or_fails, _) => undecided_or_fails,
         }
     }
 
@@ -161,13 +162,9 @@ impl Claim {
         self.place != BEYOND
     }
 
-    /// The verdict in words: only what is printed can be reproduced.
-    pub fn judgement(&self) -> String {
-        match self.verdict() {
-            Verdict::Reproduced if !self.is_printed() => "holds".into(),
-            Verdict::NotReproduced if !self.is_printed() => "does not hold".into(),
-            verdict => verdict.to_string(),
-        }
+    /// What holds instead, if that is the verdict.
+    pub fn differs(&self) -> Option<&str> {
+        self.instead.as_ref().filter(|_| self.verdict() == "differs").map(|(text, _)| text.as_str())
     }
 
     /// The checks that the verdict rests on.
@@ -182,15 +179,20 @@ impl Check {
         Self { quantity: quantity.into(), value: value.into(), bound }
     }
 
-    pub fn passes(&self) -> bool {
-        self.value.is_some_and(|value| self.bound.holds(value))
+    /// One of [`VERDICTS`].
+    pub fn verdict(&self) -> &'static str {
+        match self.value {
+            None => "not measured",
+            Some(value) if self.bound.holds(value) => "passes",
+            Some(_) => "fails",
+        }
     }
 
     /// The number with what is required of it.
     pub fn judged(&self) -> String {
         match self.value {
             None => format!("needs a longer run ({})", self.bound),
-            Some(value) if self.passes() => format!("{} ({})", measured(value), self.bound),
+            Some(value) if self.bound.holds(value) => format!("{} ({})", measured(value), self.bound),
             Some(value) => format!("{} (not {})", measured(value), self.bound),
         }
     }
@@ -214,52 +216,14 @@ impl fmt::Display for Check {
     }
 }
 
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Verdict::Reproduced => f.write_str("reproduced"),
-            Verdict::Differs(text) => write!(f, "differs: {text}"),
-            Verdict::NotReproduced => f.write_str("not reproduced"),
-            Verdict::Undecided => f.write_str("undecided: needs the full run"),
-        }
-    }
-}
-
 /// All digits, for bounds: rounded, a bound would be another one.
-pub fn exact(value: f64) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 || !value.is_finite() || (1e-3..1e6).contains(&magnitude) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
+fn exact(value: f64) -> String {
+    digits(value, 1e-3..1e6)
 }
 
 /// Up to seven digits, for measured numbers.
-pub fn measured(value: f64) -> String {
-    digits(value, 7)
-}
-
-/// `value` with that many significant digits, without trailing zeros.
-fn digits(value: f64, significant: usize) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    if (1e-2..1e6).contains(&magnitude) {
-        let decimals = (significant as i32 - 1 - magnitude.log10().floor() as i32).max(0) as usize;
-        let text = format!("{value:.decimals$}");
-        return trimmed(&text).to_owned();
-    }
-    let text = format!("{value:.*e}", significant - 1);
-    match text.split_once('e') {
-        Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
-        None => text,
-    }
-}
-
-fn trimmed(text: &str) -> &str {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+fn measured(value: f64) -> String {
+    digits(format!("{value:.6e}").parse().unwrap_or(value), 1e-2..1e6)
 }
 
 #[cfg(test)]
@@ -272,24 +236,20 @@ mod tests {
 
     #[test]
     fn verdicts_follow_from_the_numbers() {
-        assert_eq!(claim(1.05).verdict(), Verdict::Reproduced);
-        assert_eq!(claim(1.2).verdict(), Verdict::NotReproduced);
-        assert_eq!(claim(f64::NAN).verdict(), Verdict::NotReproduced);
-        assert_eq!(claim(None).verdict(), Verdict::Undecided);
+        let verdicts = [Some(1.05), Some(1.2), Some(f64::NAN), None].map(|value| claim(value).verdict());
+        assert_eq!(verdicts, ["reproduced", "fails", "fails", "undecided"]);
     }
 
     #[test]
     fn a_known_error_of_the_paper_is_confirmed_by_measurement_too() {
         let with = |it, two| claim(it).instead("it is two").check("it", two, Bound::AtLeast(1.9)).verdict();
-        assert_eq!(with(1.0, 1.0), Verdict::Reproduced);
-        assert_eq!(with(2.0, 2.0), Verdict::Differs("it is two".into()));
-        assert_eq!(with(1.5, 1.5), Verdict::NotReproduced);
+        assert_eq!([with(1.0, 1.0), with(2.0, 2.0), with(1.5, 1.5)], ["reproduced", "differs", "fails"]);
     }
 
     #[test]
     fn numbers_are_shown_with_the_digits_that_matter() {
-        let shown = [3.268824e-3, 2.0, 6362.0, -0.06, 1.25e7, 0.0].map(|value| digits(value, 5));
-        assert_eq!(shown, ["3.2688e-3", "2", "6362", "-0.06", "1.25e7", "0"]);
+        let shown = [3.268_824_49e-3, 2.0, 6362.0, -0.06, 1.25e7, 0.0].map(measured);
+        assert_eq!(shown, ["3.268824e-3", "2", "6362", "-0.06", "1.25e7", "0"]);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! not.
 
 use anyhow::Result;
+use dvi_core::error::StepError;
 
 use crate::figure::{Axis, Envelope, Line, Panel, Points, Stroke};
 use crate::numbers::{larger, least};
@@ -97,26 +98,14 @@ impl Span {
         Self { end: steps as f64 * h, early: early as f64 * h, intervals: 400 }
     }
 
+    /// How many steps of length `h` it has.
+    pub fn steps(self, h: f64) -> u64 {
+        (self.end / h).round() as u64
+    }
+
     /// Of several quantities.
     pub fn deviations<const N: usize>(self) -> [Deviation; N] {
         std::array::from_fn(|_| Deviation::new(self.end, self.intervals, self.early))
-    }
-}
-
-/// How long a run is of which the energy is watched, how many of its steps are its beginning, the intervals
-/// in which it is drawn, and how many of its first places are kept.
-#[derive(Clone, Copy, Debug)]
-pub struct Plan {
-    pub steps: u64,
-    pub h: f64,
-    pub early: u64,
-    pub intervals: usize,
-    pub places: usize,
-}
-
-impl Plan {
-    pub fn end(self) -> f64 {
-        self.steps as f64 * self.h
     }
 }
 
@@ -128,19 +117,26 @@ pub fn note<const N: usize>(kept: &mut [Deviation; N], t: f64, values: [f64; N])
 /// The name of a run, and the line that figures show it with.
 pub type Named<'a> = (&'a str, Stroke);
 
-/// A run by its name, by the line that figures show it with, by what it should keep, and by points of its
-/// path.
+/// A run by its name, by the line that figures show it with, by the length of its steps, by what it should
+/// keep, by points of its path, and by the error that has ended it early.
 #[derive(Clone, Debug)]
 pub struct Series<const N: usize> {
     pub name: String,
     pub stroke: Stroke,
+    pub h: f64,
     pub kept: [Deviation; N],
     pub path: Points,
+    pub ended: Option<StepError>,
 }
 
 impl<const N: usize> Series<N> {
-    pub fn new(name: impl Into<String>, stroke: Stroke, kept: [Deviation; N]) -> Self {
-        Self { name: name.into(), stroke, kept, path: Vec::new() }
+    pub fn new((name, stroke): Named<'_>, h: f64, kept: [Deviation; N]) -> Self {
+        Self { name: name.into(), stroke, h, kept, path: Vec::new(), ended: None }
+    }
+
+    /// The series of a run that comes to its end.
+    pub fn whole(self) -> Result<Self> {
+        self.ended.map_or(Ok(self), |error| Err(error.into()))
     }
 
     /// What the series is, for [`Panel::lines`], over any points.
@@ -206,15 +202,12 @@ pub fn magnitude_table<'a, const N: usize>(
 ) -> Result<Table> {
     let quantities = columns.len().saturating_sub(2).min(N);
     let curves = all.into_iter().map(|Series { name, kept, .. }| {
-        let magnitudes: Vec<_> = kept[..quantities].iter().map(Deviation::magnitude).collect();
-        let intervals = magnitudes.iter().map(Vec::len).min().unwrap_or(0);
-        let row = move |k: usize| {
-            [magnitudes[0][k][0]]
-                .into_iter()
-                .chain(magnitudes.iter().map(move |of| of[k][1]))
-                .collect::<Vec<_>>()
+        let others: Vec<_> = kept[1..quantities].iter().map(Deviation::magnitude).collect();
+        let rows = kept[0].magnitude().into_iter().enumerate();
+        let row = move |(k, first): (usize, [f64; 2])| {
+            first.into_iter().chain(others.iter().map(|of| of[k][1])).collect::<Vec<_>>()
         };
-        ([name], [], (0..intervals).map(row))
+        ([name], [], rows.map(row))
     });
     curve_table(columns, curves)
 }

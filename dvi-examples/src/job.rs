@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use anyhow::Result;
-use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use indicatif::ProgressBar;
 
-use crate::deviation::{Deviation, Named, Plan, Series, Span, note};
+use crate::deviation::{Deviation, Named, Series, Span, note};
 use crate::experiments::title;
 use crate::figure::Figure;
 use crate::motions;
@@ -69,11 +68,7 @@ impl Job<'_> {
     }
 
     /// Calls `step` `count` times, or until it fails.
-    pub fn repeat(
-        &self,
-        count: u64,
-        mut step: impl FnMut() -> Result<(), StepError>,
-    ) -> Result<(), StepError> {
+    pub fn repeat<E>(&self, count: u64, mut step: impl FnMut() -> Result<(), E>) -> Result<(), E> {
         for done in (0..count).step_by(CHUNK as usize) {
             let chunk = CHUNK.min(count - done);
             (0..chunk).try_for_each(|_| step())?;
@@ -96,67 +91,65 @@ impl Job<'_> {
         })
     }
 
-    /// How far quantities of a run are from their start in the course of so many steps; `of` returns that
-    /// after each of them.
+    /// How far quantities of a run are from their start; `of` returns that after each of its steps.
     pub fn keep<R: Run<Scalar = f64>, const N: usize>(
         &self,
         run: &mut R,
-        steps: u64,
         span: Span,
         mut of: impl FnMut(&R) -> [f64; N],
     ) -> Result<[Deviation; N], StepError> {
         let mut kept = span.deviations();
-        self.follow(run, steps, |run| note(&mut kept, run.time(), of(run)))?;
+        self.follow(run, span.steps(run.step_size()), |run| note(&mut kept, run.time(), of(run)))?;
         Ok(kept)
     }
 
-    /// The same as a series of that name, with the points that `of` adds to its path.
+    /// The same as a series of that name, with the points that `of` adds to its path, up to the end of the run
+    /// or to the step that fails.
     pub fn series<R: Run<Scalar = f64>, const N: usize>(
         &self,
-        (name, stroke): Named<'_>,
+        named: Named<'_>,
         run: &mut R,
-        steps: u64,
         span: Span,
         mut of: impl FnMut(&R, &mut Vec<[f64; 2]>) -> [f64; N],
-    ) -> Result<Series<N>, StepError> {
-        let mut path = Vec::new();
-        let kept = self.keep(run, steps, span, |run| of(run, &mut path))?;
-        Ok(Series { path, ..Series::new(name, stroke, kept) })
+    ) -> Series<N> {
+        let mut series = Series::new(named, run.step_size(), span.deviations());
+        let Series { h, kept, path, .. } = &mut series;
+        series.ended = self.follow(run, span.steps(*h), |run| note(kept, run.time(), of(run, path))).err();
+        series
     }
 
-    /// E − E(0) of a run as a series of that name, with its first places, and the error that has ended it.
-    pub fn attempt<S: Lagrangian>(
-        &self,
-        (name, stroke): Named<'_>,
-        system: &S,
-        method: impl Method<S, f64>,
-        start: impl Into<S::State<f64>>,
-        plan: Plan,
-    ) -> Result<(Series<1>, Option<StepError>), StartError> {
-        let mut run = Integrator::new(system, method, plan.h, start.into())?;
-        let (energy, mut path) = (run.energy(), vec![place(&run)]);
-        let span = Span { intervals: plan.intervals, ..Span::of(plan.steps, plan.h, plan.early) };
-        let mut kept = span.deviations();
-        let followed = self.follow(&mut run, plan.steps, |run| {
-            note(&mut kept, run.time(), [run.energy() - energy]);
-            if path.len() < plan.places {
-                path.push(place(run));
-            }
-        });
-        Ok((Series { path, ..Series::new(name, stroke, kept) }, followed.err()))
-    }
-
-    /// The same of a run that comes to its end.
-    pub fn energy<S: Lagrangian>(
+    /// A series of what is no run: `step` takes so many steps of length `h` at once.
+    pub fn watch<E, const N: usize>(
         &self,
         named: Named<'_>,
-        system: &S,
-        method: impl Method<S, f64>,
-        start: impl Into<S::State<f64>>,
-        plan: Plan,
-    ) -> Result<Series<1>> {
-        let (series, ended) = self.attempt(named, system, method, start, plan)?;
-        ended.map_or(Ok(series), |error| Err(error.into()))
+        span: Span,
+        (h, at_once): (f64, u64),
+        mut step: impl FnMut() -> Result<[f64; N], E>,
+    ) -> Result<Series<N>, E> {
+        let (mut series, mut done) = (Series::new(named, h, span.deviations()), 0);
+        self.repeat(span.steps(h) / at_once, || {
+            done += at_once;
+            step().map(|values| note(&mut series.kept, done as f64 * h, values))
+        })?;
+        Ok(series)
+    }
+
+    /// E − E(0) of a run as a series of that name, with so many of its first places.
+    pub fn energy(
+        &self,
+        named: Named<'_>,
+        mut run: impl Run<Scalar = f64>,
+        span: Span,
+        places: usize,
+    ) -> Series<1> {
+        let (energy, start) = (run.energy(), place(&run));
+        let series = self.series(named, &mut run, span, |run, path| {
+            if path.len() + 1 < places {
+                path.push(place(run));
+            }
+            [run.energy() - energy]
+        });
+        Series { path: [&[start], &series.path[..]].concat(), ..series }
     }
 
     /// Writes the figure (SVG and PNG), which says if its run was short, and its data (CSV).

@@ -29,7 +29,7 @@ use anyhow::{Context as _, Result};
 use clap::Parser as _;
 use console::Term;
 
-use dvi_examples::{figure, models, output};
+use dvi_examples::{figure, output};
 
 use crate::gallery::Experiment;
 use crate::job::Length;

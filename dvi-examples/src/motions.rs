@@ -1,9 +1,7 @@
 //! The motions that the page of the gallery shows: short runs beside those of the experiments, as records.
 
-use dvi_core::fast_sum::FastSum;
 use dvi_core::record::{Column, Record, Recorder};
 
-use crate::models::{self, Kepler, Links, Orbit, ShearLayer, TokamakInClass, TokamakInClassState, Top};
 use crate::vocabulary::*;
 
 /// That of an experiment; `None` if it has none.
@@ -20,7 +18,7 @@ pub fn of(experiment: &str) -> Result<Option<Record>> {
 }
 
 fn leapfrogging() -> Result<Record> {
-    let models::Case { vortices, start } = models::leapfrogging();
+    let Case { vortices, start } = models::leapfrogging();
     let record = Integrator::new(vortices, Gauss::<3>::new(), 0.25, start)?.record(1, 800)?;
     Ok(record.with_title("Two pairs of vortices that overtake each other"))
 }
@@ -83,10 +81,10 @@ fn shear_layer() -> Result<Record> {
     thinned(&record, "One in seven of the 1560 blobs of a shear layer", |k| k % 7 == 0)
 }
 
-/// 3 of `x[3]`.
+/// 3 of `x[3]` and of `r[3].x`.
 fn index(name: &str) -> Option<usize> {
-    let (name, index) = name.strip_suffix(']')?.split_once('[')?;
-    if name.starts_with("dot_") { None } else { index.parse().ok() }
+    let (name, index) = name.split_once('[')?;
+    if name.starts_with("dot_") { None } else { index.split_once(']')?.0.parse().ok() }
 }
 
 /// The time and the coordinates of some of many bodies, in thousandths: a page is as long as its digits.

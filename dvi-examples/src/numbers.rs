@@ -44,6 +44,11 @@ pub fn difference<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
+/// The sum of a vector and a multiple of another.
+pub fn moved<const N: usize>(from: [f64; N], by: f64, along: [f64; N]) -> [f64; N] {
+    std::array::from_fn(|i| from[i] + by * along[i])
+}
+
 /// The length of a vector.
 pub fn length<const N: usize>(v: [f64; N]) -> f64 {
     dot(v, v).sqrt()

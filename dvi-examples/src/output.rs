@@ -2,6 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::Write as _;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result};
@@ -28,14 +29,15 @@ pub fn prepare_folder(folder: &Path) -> Result<()> {
     probed.with_context(|| format!("cannot write into the folder {}", folder.display()))
 }
 
-/// A number as tables have it: all its digits, with an exponent where it would have many zeros.
+/// A number with all its digits, and with an exponent if it is not in the range.
+pub fn digits(value: f64, plain: Range<f64>) -> String {
+    let is_plain = value == 0.0 || !value.is_finite() || plain.contains(&value.abs());
+    if is_plain { value.to_string() } else { format!("{value:e}") }
+}
+
+/// A number as tables have it.
 pub fn number(value: f64) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 || !value.is_finite() || (1e-4..1e15).contains(&magnitude) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
+    digits(value, 1e-4..1e15)
 }
 
 /// A table with named columns.

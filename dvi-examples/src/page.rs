@@ -7,7 +7,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result};
 use askama::Template as _;
 
-use crate::claim::Verdict;
+use crate::claim::VERDICTS;
 use crate::experiments::{self, SOURCES};
 use crate::gallery::{Experiment, Outcome};
 use crate::record::{Part, State};

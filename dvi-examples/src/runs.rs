@@ -1,12 +1,13 @@
 //! What is read of runs, and runs that several experiments take.
 
 use anyhow::Result;
+use dvi_core::Space as _;
 use dvi_core::discrete::{Trapezoid, Unfitted};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 
 use crate::figure::{Colour, Points, SEQUENCE};
-use crate::numbers::{apart, each, indicator, larger, order};
+use crate::numbers::{apart, dot, each, indicator, larger, order};
 
 /// What `of` reads of a run, at its start and after each of so many steps.
 pub fn course<R: Run, T>(run: &mut R, steps: u64, mut of: impl FnMut(&R) -> T) -> Result<Vec<T>, StepError> {
@@ -146,13 +147,20 @@ pub fn back<S: Lagrangian, M: Method<S, f64>>(by: M, run: &Integrator<&S, M>) ->
 }
 
 /// The largest relative deviation of rods from their length, and the largest velocity of their ends along
-/// them, from the places and velocities of one end as seen from the other.
-pub fn stretched(length: f64, rods: impl IntoIterator<Item = [f64; 4]>) -> [f64; 2] {
-    rods.into_iter().fold([0.0; 2], |[deviation, along], [x, y, dot_x, dot_y]| {
-        let found = x.hypot(y);
-        let rate = (x * dot_x + y * dot_y) / found;
+/// them, from the place and velocity of one end as seen from the other.
+pub fn stretched(length: f64, rods: impl IntoIterator<Item = [[f64; 2]; 2]>) -> [f64; 2] {
+    rods.into_iter().fold([0.0; 2], |[deviation, along], [place, velocity]| {
+        let found = place[0].hypot(place[1]);
+        let rate = dot(place, velocity) / found;
         [larger(deviation, (found / length - 1.0).abs()), larger(along, rate.abs())]
     })
+}
+
+/// The entry of Ω of a system in the plane.
+pub fn omega<S: DegenerateLagrangian>(system: &S, place: [f64; 2]) -> f64 {
+    let mut entries = system.space().matrix();
+    system.one_form_jacobian(&place, 0.0, -1.0, 1.0, &mut entries);
+    entries[1]
 }
 
 /// Points from their coordinates.

@@ -6,7 +6,7 @@
 use anyhow::{Context as _, Result};
 use askama::Template as _;
 
-use crate::claim::{Check, Claim, Verdict};
+use crate::claim::{Check, Claim, VERDICTS};
 use crate::experiments::title;
 use crate::job::Length;
 use crate::record::{Part, State};
@@ -33,30 +33,6 @@ impl Summary<'_> {
     }
 }
 
-/// What can be said of a claim or of a regression check, in one word or two.
-pub const VERDICTS: [&str; 7] =
-    ["reproduced", "holds", "passes", "differs", "undecided", "not measured", "fails"];
-
-/// That of a claim: only what is printed can be reproduced.
-pub fn verdict(claim: &Claim) -> &'static str {
-    match claim.verdict() {
-        Verdict::Reproduced if claim.is_printed() => "reproduced",
-        Verdict::Reproduced => "holds",
-        Verdict::Differs(_) => "differs",
-        Verdict::NotReproduced => "fails",
-        Verdict::Undecided => "undecided",
-    }
-}
-
-/// That of a regression check.
-pub fn passing(check: &Check) -> &'static str {
-    match check.value {
-        None => "not measured",
-        Some(_) if check.passes() => "passes",
-        Some(_) => "fails",
-    }
-}
-
 /// Claims of the papers, claims beyond them, and regression checks, counted apart by their verdicts.
 pub fn tally<'a>(parts: impl IntoIterator<Item = &'a Part>) -> String {
     let complete = parts.into_iter().filter(|part| part.state == State::Complete);
@@ -66,9 +42,9 @@ pub fn tally<'a>(parts: impl IntoIterator<Item = &'a Part>) -> String {
     let checks = outcomes.iter().flat_map(|outcome| &outcome.references);
     format!(
         "Claims of the papers: {}; claims beyond them: {}; regression checks: {}.",
-        counted(printed.into_iter().map(verdict).collect()),
-        counted(beyond.into_iter().map(verdict).collect()),
-        counted(checks.map(passing).collect())
+        counted(printed.into_iter().map(Claim::verdict).collect()),
+        counted(beyond.into_iter().map(Claim::verdict).collect()),
+        counted(checks.map(Check::verdict).collect())
     )
 }
 
@@ -100,9 +76,10 @@ mod tests {
     }
 
     #[test]
-    fn a_summary_tells_verdicts_and_numbers() -> Result<()> {
-        let page = markdown(&[part(Length::Short)])?;
+    fn a_summary_tells_verdicts_and_numbers_of_parts_of_both_forms() -> Result<()> {
+        let page = markdown(&[Length::Short, Length::Full].map(part))?;
         for wanted in [
+            "The full form, experiments: 1. ",
             "The short form, experiments: 1. Claims of the papers: reproduced 1, fails 1; claims beyond \
              them: holds 1, undecided 1; regression checks: passes 1.",
             "The short form, today.\n",
@@ -113,16 +90,6 @@ mod tests {
         ] {
             assert!(page.contains(wanted), "{page}");
         }
-        Ok(())
-    }
-
-    #[test]
-    fn a_folder_tells_what_made_each_of_its_parts() -> Result<()> {
-        let page = markdown(&[Length::Short, Length::Full].map(part))?;
-        assert!(
-            page.contains("The full form, experiments: 1. ") && page.contains("The short form, "),
-            "{page}"
-        );
         Ok(())
     }
 }

@@ -14,8 +14,8 @@ pub use rayon::prelude::*;
 pub use crate::claim::{Bound, Check, Claim, beyond, claims, says};
 pub use crate::deviation::*;
 pub use crate::figure::{
-    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, PURPLE, Panel, Points,
-    SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
+    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, Line, PURPLE, Panel,
+    Points, SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
 };
 pub use crate::gallery::Outcome;
 pub use crate::job::Job;

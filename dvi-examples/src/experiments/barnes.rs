@@ -22,23 +22,15 @@ const AREA: f64 = 0.784_881_494_116_417_2;
 type Flow = (&'static str, fn([f64; 2], end: usize) -> Result<Points>, fn([f64; 2]) -> f64);
 
 const FLOWS: [Flow; 3] = [
-    ("*a* = −*x*", |start, end| spring(1.0, start, end), |[x, v]| (v * v + x * x) / 2.0),
-    ("*a* = +*x*", |start, end| spring(-1.0, start, end), |[x, v]| (v * v - x * x) / 2.0),
-    ("*a* = −sin *x*", pendulum, |[x, v]| v * v / 2.0 - x.cos()),
+    ("*a* = −*x*", |start, end| orbit(&Spring { k: 1.0 }, start, end), |[x, v]| (v * v + x * x) / 2.0),
+    ("*a* = +*x*", |start, end| orbit(&Spring { k: -1.0 }, start, end), |[x, v]| (v * v - x * x) / 2.0),
+    ("*a* = −sin *x*", |start, end| orbit(&Pendulum {}, start, end), |[x, v]| v * v / 2.0 - x.cos()),
 ];
 
-fn spring(k: f64, [x, dot_x]: [f64; 2], end: usize) -> Result<Points> {
-    orbit(&Spring { k }, SpringState { x, dot_x }, end)
-}
-
-fn pendulum([x, dot_x]: [f64; 2], end: usize) -> Result<Points> {
-    orbit(&Pendulum {}, PendulumState { x, dot_x }, end)
-}
-
-fn orbit<S: RegularLagrangian>(system: &S, start: S::State<f64>, end: usize) -> Result<Points> {
+fn orbit<S: RegularLagrangian>(system: &S, [x, v]: [f64; 2], end: usize) -> Result<Points> {
+    let start = State::read(|block| system.block_len(block), &[x], &[v]);
     let mut run = Integrator::new(system, Variational::trapezoid(), 1.0 / STEPS as f64, start)?;
-    // The mass is one: velocities are momenta.
-    Ok(course(&mut run, (end * STEPS) as u64, |run| [run.q()[0], run.memory().p()[0]])?)
+    Ok(course(&mut run, (end * STEPS) as u64, |run| [run.q()[0], run.v()[0]])?)
 }
 
 /// A regular polygon about (0, 1) at t = 0, 1, …, of whose corners `orbit` returns all steps.

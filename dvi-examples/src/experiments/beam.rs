@@ -50,9 +50,6 @@ fn loaded(beam: &Beam) -> Problem<'_, Beam> {
     Problem::new(beam, beam.loaded(DEFLECTION))
 }
 
-/// E/E(0) − 1, the step, and when the run is lost, in periods of the first mode.
-type Vibration = (Series<1>, f64, Option<f64>);
-
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let periods = job.choose([400.0, 50.0], [4.0, 1.0]);
     let (h, beam) = (period() / STEPS_PER_PERIOD, Beam { n: ELEMENTS });
@@ -64,18 +61,19 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (shorter, of_beam) = (format!("the same, *h* = {SHORT}"), format!("beam, {ELEMENTS} elements"));
     let (many, rod, linear) = (bent(&many), bent(&rod), loaded(&beam).run(newmark(OF_BEAM), h)?);
     let all = [
-        vibration(job, &of_many, VERMILLION, many.run(newmark(OF_ROD), H)?, end_many)?,
-        vibration(job, &shorter, AMBER, many.run(newmark(OF_ROD), SHORT)?, end_many)?,
-        vibration(job, &of_rod, GREEN, rod.run(newmark(OF_ROD), H)?, end_large)?,
-        vibration(job, &of_beam, BLUE, linear, end)?,
+        vibration(job, (&of_many, solid(VERMILLION)), many.run(newmark(OF_ROD), H)?, end_many),
+        vibration(job, (&shorter, solid(AMBER)), many.run(newmark(OF_ROD), SHORT)?, end_many),
+        vibration(job, (&of_rod, solid(GREEN)), rod.run(newmark(OF_ROD), H)?, end_large),
+        vibration(job, (&of_beam, solid(BLUE)), linear, end),
     ];
     let frequencies = Frequencies::new()?;
-    let curves = all.iter().map(|(series, h, _)| ([&series.name], [*h], series.kept[0].magnitude()));
+    let curves = all.iter().map(|series| ([&series.name], [series.h], series.kept[0].magnitude()));
     let table = curve_table(&["series", "h", "t", "energy_error"], curves)?;
     job.publish(figure(&all, &frequencies, periods[1])?, table)?;
     let [elements, segments] = frequencies.claims()?;
-    let [_, short, of_rod, of_beam] = all.each_ref().map(|(series, ..)| &series.kept[0]);
-    let until = |k: usize, end| job.only_full(all[k].2.unwrap_or(end));
+    let [_, short, of_rod, of_beam] = all.each_ref().map(|series| &series.kept[0]);
+    let lost = |error: StepError| error.time / period();
+    let until = |k: usize, end| job.only_full(all[k].ended.map_or(end, lost));
     let lost = is_lost(&mut loaded(&beam).run(Newmark::new(0.0), h / 1000.0)?, 1000, 1e6);
     let of_verlet = "runs lost of one by Störmer–Verlet with a step that is 1000 times shorter";
     let keeps = "200 elements, 100 steps in a period of the first mode: Newmark's method with β = 1/4 keeps \
@@ -102,19 +100,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ])
 }
 
-fn vibration<S: Lagrangian>(
-    job: &Job<'_>,
-    name: &str,
-    colour: Colour,
-    mut run: AnyRun<'_, S>,
-    end: f64,
-) -> Result<Vibration> {
-    let (h, begin) = (run.step_size(), run.energy());
-    let mut energy = Deviation::new(end, 200, 2.0 * period());
-    let ended = job.follow(&mut run, (end / h).round() as u64, |run| {
-        energy.push(run.time(), run.energy() / begin - 1.0);
-    });
-    Ok((Series::new(name, solid(colour), [energy]), h, ended.err().map(|_| run.time() / period())))
+/// E/E(0) − 1.
+fn vibration<S: Lagrangian>(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, S>, end: f64) -> Series<1> {
+    let (span, begin) = (Span { end, early: 2.0 * period(), intervals: 200 }, run.energy());
+    job.series(named, &mut run, span, |run, _| [run.energy() / begin - 1.0])
 }
 
 fn work(steps: u64) -> Result<Claim> {
@@ -131,13 +120,12 @@ fn work(steps: u64) -> Result<Claim> {
     }))
 }
 
-fn figure(all: &[Vibration; 4], frequencies: &Frequencies, periods: f64) -> Result<Figure> {
-    let (beam, rod, h) = (Beam { n: ELEMENTS }, rod(SEGMENTS), all[3].1);
+fn figure(all: &[Series<1>; 4], frequencies: &Frequencies, periods: f64) -> Result<Figure> {
+    let (beam, rod, h) = (Beam { n: ELEMENTS }, rod(SEGMENTS), all[3].h);
     let of_beam = shapes(loaded(&beam).run(newmark(OF_BEAM), h)?, 0.5 * STEPS_PER_PERIOD, |state| {
         state.w.into_iter().zip(1..).map(|(w, i)| [f64::from(i) / ELEMENTS as f64, w]).collect()
     })?;
-    let nodes = |state: RodState| points(&state.x, &state.y);
-    let of_rod = shapes(bent(&rod).run(newmark(OF_ROD), H)?, 0.5 * period() / H, nodes)?;
+    let of_rod = shapes(bent(&rod).run(newmark(OF_ROD), H)?, 0.5 * period() / H, |state| state.r)?;
     let half = |panel: Panel, shapes: [Shape; 6]| {
         let lines = shapes.map(|(t, colour, line)| (format!("*t* = {t:.2}"), solid(colour), line));
         panel.lines(lines).legend_at(Corner::Beside)
@@ -146,7 +134,7 @@ fn figure(all: &[Vibration; 4], frequencies: &Frequencies, periods: f64) -> Resu
     let of_beam = half(Panel::new(format!("{ELEMENTS} elements, half a period"), along, across), of_beam);
     let of_rod = half(Panel::plane(format!("{SEGMENTS} segments, half a period"), "*x*", "*y*"), of_rod);
     let time = ("time *t*, in periods of the first mode", [0.0, periods]);
-    let lines = all.iter().map(|(series, ..)| {
+    let lines = all.iter().map(|series| {
         series.line(series.kept[0].magnitude().into_iter().map(|[t, error]| [t / period(), error]).collect())
     });
     let energy = Panel::semilog("Energy", time, ("largest |*E*/*E*(0) − 1|", [1e-16, 1.0])).lines(lines);

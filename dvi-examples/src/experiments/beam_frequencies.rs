@@ -72,16 +72,12 @@ where
     // hω = ½, and the mean is taken over 200 steps.
     let h = 0.5 / guess;
     let mut run = Integrator::new(system, method, h, start)?;
-    let velocity = |state: &S::State<f64>| -> Result<Vec<f64>> {
-        let values: Vec<f64> = system.values(state)?.collect();
-        Ok(values[values.len() / 2..].to_vec())
-    };
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut last = run.memory().p().to_vec();
     run.advance()?;
     let (mut across, mut along) = (0.0, 0.0);
     for _ in 0..200 {
-        let (v, p) = (velocity(&run.state())?, run.memory().p().to_vec());
+        let (v, p) = (run.v(), run.memory().p().to_vec());
         run.advance()?;
         across += dot(&v, &last) + dot(&v, run.memory().p());
         along += 2.0 * dot(&v, &p);

@@ -19,10 +19,9 @@ const RK4_STEP: f64 = 4.0 * STEPS[0];
 const EARLY: f64 = 200.0;
 pub const LAWS: [Collision; 2] = [Collision::Variational, Collision::Reflection];
 
-/// A long run: E − E(0), the step, bounces, and those at which no impulse keeps the discrete energy.
+/// A long run: E − E(0), bounces, and those at which no impulse keeps the discrete energy.
 struct Bounces {
     series: Series<1>,
-    h: f64,
     bounces: u64,
     grazing: u64,
 }
@@ -39,7 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         bounces(job, at_impact, fine, dashed(GREEN), end)?,
     ];
     let walks = Walks::new(job)?;
-    let curves = all.iter().map(|run| ([&run.series.name], [run.h], run.series.kept[0].magnitude()));
+    let curves = all.iter().map(|run| ([&run.series.name], [run.series.h], run.series.kept[0].magnitude()));
     let table = curve_table(&["kept", "h", "t", "largest_energy_error"], curves)?;
     job.publish(figure(&all, &walks, end)?, table)?;
     let full = |value: f64| job.only_full(value);
@@ -81,16 +80,16 @@ fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64
     let name = if collision == Collision::Variational { "discrete energy" } else { "energy at the impact" };
     let mut run = Integrator::new(&FLOOR, trapezoid(collision), h, START)?;
     let (begin, span) = (run.energy(), Span { end, early: EARLY, intervals: 300 });
-    let kept = job.keep(&mut run, (end / h) as u64, span, |run| [run.energy() - begin])?;
-    let (series, memory) = (Series::new(name, stroke.width(1.2), kept), run.memory());
-    Ok(Bounces { series, h, bounces: memory.total(), grazing: memory.grazing() })
+    let named = (name, stroke.width(1.2));
+    let series = job.series(named, &mut run, span, |run, _| [run.energy() - begin]).whole()?;
+    Ok(Bounces { series, bounces: run.memory().total(), grazing: run.memory().grazing() })
 }
 
 /// RK4 between impacts, which are found by bisection and keep the energy.
 fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
-    let (mut y, mut steps, mut bounces) = (entries(START), 0_u32, 0);
-    let mut kept = Span { end, early: EARLY, intervals: 300 }.deviations();
-    let begin = FLOOR.energy_at(y);
+    let (mut y, mut bounces, span) = (entries(START), 0, Span { end, early: EARLY, intervals: 300 });
+    let energy = |[x, y, dot_x, dot_y]: [f64; 4]| FLOOR.energy_at(&BouncerState { x, y, dot_x, dot_y });
+    let begin: f64 = energy(y)?;
     let after = |y: &[f64; 4], h: f64| {
         rk4(y, h, |&[x, y, u, w]| {
             let [f, g] = FLOOR.acceleration([x, y]);
@@ -98,17 +97,10 @@ fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
         })
     };
     let gap = |[x, y, ..]: [f64; 4]| Bouncer::above([x, y], FLOOR.a).0;
-    job.repeat((end / RK4_STEP) as u64, || {
+    let series = job.watch(("RK4", solid(VERMILLION).width(1.2)), span, (RK4_STEP, 1), || {
         let mut left = RK4_STEP;
         while gap(after(&y, left)) < 0.0 {
-            let [mut open, mut closed] = [0.0, left];
-            loop {
-                let middle = 0.5 * (open + closed);
-                if middle <= open || middle >= closed {
-                    break;
-                }
-                if gap(after(&y, middle)) >= 0.0 { open = middle } else { closed = middle }
-            }
+            let open = bisected([0.0, left], |h| gap(after(&y, h)) >= 0.0);
             left -= open;
             let [x, height, u, w] = after(&y, open);
             let (_, normal) = Bouncer::above([x, height], FLOOR.a);
@@ -117,12 +109,9 @@ fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
             bounces += 1;
         }
         y = after(&y, left);
-        steps += 1;
-        note(&mut kept, f64::from(steps) * RK4_STEP, [FLOOR.energy_at(y) - begin]);
-        Ok(())
+        energy(y).map(|now| [now - begin])
     })?;
-    let series = Series::new("RK4", solid(VERMILLION).width(1.2), kept);
-    Ok(Bounces { series, h: RK4_STEP, bounces, grazing: 0 })
+    Ok(Bounces { series, bounces, grazing: 0 })
 }
 
 fn entries(BouncerState { x, y, dot_x, dot_y }: BouncerState) -> [f64; 4] {
@@ -158,8 +147,8 @@ fn back_again() -> Result<Claim> {
 }
 
 fn figure(all: &[Bounces; 5], walks: &Walks, end: f64) -> Result<Figure> {
-    let lines = all.iter().map(|Bounces { series, h, .. }| {
-        (format!("{}, *h* = {h}", series.name), series.stroke, series.kept[0].magnitude())
+    let lines = all.iter().map(|Bounces { series, .. }| {
+        (format!("{}, *h* = {}", series.name, series.h), series.stroke, series.kept[0].magnitude())
     });
     let error = ("largest |*E* − *E*(0)|", [1e-5, 1e4]);
     let energy = Panel::semilog("Energy", ("time *t*", [0.0, end]), error).lines(lines);

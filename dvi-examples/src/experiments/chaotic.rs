@@ -5,10 +5,11 @@
 
 use std::collections::HashMap;
 
-use super::sections::{self, Scheme, *};
+use super::crossings::{self, Scheme, *};
+use super::sections::{self, CAVEAT};
 use crate::vocabulary::*;
 
-const RUNS: [(Scheme, f64); 6] = sections::runs([0.2, 0.5, 1.0]);
+const RUNS: [(Scheme, f64); 6] = crossings::runs([0.2, 0.5, 1.0]);
 
 /// Displacements grow less than this in 2000 units of time on tori, and to 1e10 on chaotic orbits.
 const REGULAR: f64 = 1e5;

@@ -52,7 +52,7 @@ fn free(job: &Job<'_>) -> Result<Claim> {
     let mut run = Problem::new(&FREE, begin(&FREE)).run(midpoint(), H)?;
     let (energy, [rolling, turning], mut across) = (run.energy(), momenta(&run), 0.0);
     job.expect(steps);
-    let [energy, rolling, turning] = job.keep(&mut run, steps, Span::of(steps, H, 0), |run| {
+    let [energy, rolling, turning] = job.keep(&mut run, Span::of(steps, H, 0), |run| {
         let RollingDiscState { phi, dot_x, dot_y, dot_theta, .. } = run.state();
         let speed = FREE.radius * dot_theta;
         // |ẋ − Rθ̇ cos φ| and |ẏ − Rθ̇ sin φ|

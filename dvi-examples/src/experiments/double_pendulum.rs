@@ -3,7 +3,7 @@
 //! The variational step is implicit here, p0 = −D₁L_d(q0, q1), and the compiler has differentiated what it
 //! needs. Beside it stands the classical Runge–Kutta method on equations of motion written by hand.
 
-use super::rk4::keep_rk4;
+use super::rk4::rk4;
 use crate::vocabulary::*;
 
 const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };
@@ -17,18 +17,18 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e4, 1e3);
     let steps = (end / H).round() as u64;
     job.expect(3 * steps);
-    let span = Span { end: steps as f64 * H, early: EARLY, intervals: 400 };
-    let energy = |y: &[f64; 4]| [SYSTEM.energy_of(y) - SYSTEM.energy_of(&START)];
-    let by_rk4 = keep_rk4(job, START, (H, steps), span, |y| SYSTEM.motion(y), energy)?;
-    let [a, b, dot_a, dot_b] = START;
-    let start = DoublePendulumState { a, b, dot_a, dot_b };
-    let plan = Plan { steps, h: H, early: (EARLY / H) as u64, intervals: 400, places: (SHOWN / H) as usize };
+    let (span, places) = (Span { early: EARLY, ..Span::of(steps, H, 0) }, (SHOWN / H) as usize);
+    let (pendulum, mut y) = (Problem::new(&SYSTEM, state(START)), START);
+    let begin: f64 = SYSTEM.energy_at(&state(START))?;
     let (midpoint, simpson) =
         (("variational, midpoint", solid(GREEN)), ("variational, Simpson", solid(BLUE)));
     let all = [
-        job.energy(midpoint, &SYSTEM, Variational::midpoint(), start, plan)?,
-        job.energy(simpson, &SYSTEM, Variational::simpson(), start, plan)?,
-        Series::new("RK4, by hand", dashed(VERMILLION), by_rk4),
+        job.energy(midpoint, pendulum.run(Variational::midpoint(), H)?, span, places).whole()?,
+        job.energy(simpson, pendulum.run(Variational::simpson(), H)?, span, places).whole()?,
+        job.watch(("RK4, by hand", dashed(VERMILLION)), span, (H, 1), || {
+            y = rk4(&y, H, |y| SYSTEM.motion(y));
+            SYSTEM.energy_at(&state(y)).map(|energy| [energy - begin])
+        })?,
     ];
     let table = range_table(&["method", "t", "lowest", "mean", "highest"], &[""], &all)?;
     job.publish(figure(&all, end), table)?;
@@ -41,6 +41,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_most("Simpson: max|ΔE| over all / to t = 100", simpson.growth(), 3.0),
         beyond(loses).at_least("RK4: |ΔE| at the end / max|ΔE| to t = 100", growth, 5.0),
     ])
+}
+
+fn state([a, b, dot_a, dot_b]: [f64; 4]) -> DoublePendulumState {
+    DoublePendulumState { a, b, dot_a, dot_b }
 }
 
 fn figure(all: &[Series<1>; 3], end: f64) -> Figure {

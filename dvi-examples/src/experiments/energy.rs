@@ -26,8 +26,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ];
     let span = Span { end, early: 0.1 * end, intervals: 500 };
     let all = each(runs, |(named, mut run)| -> Result<Motion> {
-        let (initial, mut landmarks, steps) = (run.energy(), [None; 2], (end / run.step_size()) as u64);
-        let error = job.series(named, &mut run, steps, span, |run, beginning| {
+        let (initial, mut landmarks) = (run.energy(), [None; 2]);
+        let error = job.series(named, &mut run, span, |run, beginning| {
             let (t, change) = (run.time(), run.energy() - initial);
             if t <= CLOSE_UP {
                 beginning.push([t, change]);
@@ -36,8 +36,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
                 *landmark = Some(change);
             }
             [change]
-        })?;
-        Ok((error, landmarks, run.statistics().gradients))
+        });
+        Ok((error.whole()?, landmarks, run.statistics().gradients))
     })?;
     let columns = ["scheme", "t", "lowest", "mean", "highest"];
     job.publish(figure(&all, end), range_table(&columns, &[""], all.iter().map(|(series, ..)| series))?)?;

@@ -190,8 +190,8 @@ impl NoStep {
 fn energy_of_step(StiffeningSpringState { x, y, dot_x, dot_y }: StiffeningSpringState, h: f64) -> f64 {
     let (q, p) = ([x, y], [dot_x, dot_y]);
     let slope = 1.0 + dot(q, q);
-    let velocity = [0, 1].map(|i: usize| p[i] - 0.5 * h * slope * q[i]);
-    let q1 = [0, 1].map(|i: usize| q[i] + h * velocity[i]);
+    let velocity = moved(p, -0.5 * h * slope, q);
+    let q1 = moved(q, h, velocity);
     let potential = |q: [f64; 2]| 0.5 * dot(q, q) + 0.25 * dot(q, q).powi(2);
     0.5 * dot(velocity, velocity) + 0.5 * (potential(q) + potential(q1))
 }

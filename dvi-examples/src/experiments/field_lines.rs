@@ -20,22 +20,20 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (turns, shown) = (job.choose(100_000, 4000), job.choose(1500, 120));
     let [abc, tokamak] = starts();
     job.expect(STEPS * (2 * turns + shown * (abc.len() + tokamak.len()) as u64));
-    let abc = abc.into_iter().map(|start| section(job, &ABC, start, shown)).collect::<Result<Lines>>()?;
-    let tokamak = tokamak.into_iter().map(|start| section(job, &TOKAMAK, start, shown));
-    let tokamak = tokamak.collect::<Result<Lines>>()?;
+    let (abc, tokamak) = (lines(job, &ABC, abc, shown)?, lines(job, &TOKAMAK, tokamak, shown)?);
     // How well a line of the unperturbed tokamak stays on its surface: (ψ − ψ(0))/ψ(0) after each step.
     let line = Problem::new(&UNPERTURBED, (1.0 + RHO, 0.0));
     let runs = [
         (("one step, midpoint", solid(BLUE)), line.run(OneStep::midpoint(), TAU / STEPS as f64)?),
         (("RK4", dashed(VERMILLION)), line.run(RungeKutta::classical(), TAU / STEPS as f64)?),
     ];
-    let surfaces = each(runs, |((name, stroke), mut run)| {
+    let surfaces = each(runs, |(named, mut run)| {
         let mut kept = Span { end: turns as f64, early: 1000.0, intervals: 400 }.deviations();
         job.follow(&mut run, turns * STEPS, |run| {
             let rho = (run.q()[0] - 1.0).hypot(run.q()[1]);
             note(&mut kept, run.time() / TAU, [UNPERTURBED.flux(rho) / UNPERTURBED.flux(RHO) - 1.0]);
         })?;
-        Ok(Series::new(name, stroke, kept))
+        Ok(Series::new(named, run.step_size(), kept))
     })?;
     let table = table(&abc, &tokamak, &surfaces)?;
     job.publish(figure(abc, tokamak, &surfaces, turns), table)?;
@@ -85,15 +83,17 @@ fn starts() -> [Vec<Place>; 2] {
     [abc.concat(), [&inner[..], &islands.concat(), &between, &[[1.4, 0.0], [1.43, 0.0]]].concat()]
 }
 
-/// Where the line through `start` meets the plane after each of `count` turns.
-fn section(job: &Job<'_>, field: &impl Field, start: Place, count: u64) -> Result<Vec<Place>> {
-    let (mut place, mut places) = (start, Vec::new());
-    for _ in 0..count {
-        place = turned(field, OneStep::midpoint(), STEPS, place)?;
-        places.push(place);
-        job.proceed(STEPS);
-    }
-    Ok(places)
+/// Where the lines through `starts` meet the plane after each of `count` turns.
+fn lines(job: &Job<'_>, field: &impl Field, starts: Vec<Place>, count: u64) -> Result<Lines> {
+    let line = |mut place| {
+        let turn = |_| {
+            place = turned(field, OneStep::midpoint(), STEPS, place)?;
+            job.proceed(STEPS);
+            Ok(place)
+        };
+        (0..count).map(turn).collect()
+    };
+    starts.into_iter().map(line).collect()
 }
 
 /// Against Gauss's method of order eight with steps of a tenth, over five turns.

@@ -3,7 +3,8 @@
 //! Rotation about the axis of the middle moment of inertia is unstable: the body turns over and back, in a
 //! period that grows with the logarithm of the nearness to the axis (Landau & Lifshitz 1976, section 37).
 
-use super::geodesics::{Shadow, crossing};
+use super::geodesics::Shadow;
+use super::turnings::crossing;
 use crate::vocabulary::*;
 
 pub const BODY: RigidBody = RigidBody { inertia: [1.0, 2.0, 3.0] };
@@ -71,24 +72,19 @@ pub struct Flips {
 
 impl Flips {
     pub fn new(wave: &Wave, h: f64, periods: f64) -> Result<Self> {
-        let start = begin();
-        let mut run = Problem::new(&BODY, start).run(Geodesic::trapezoid(), h)?;
-        let mut energy = Shadow::new(h, run.energy(), BODY.shift(&start));
-        let (mut before, mut times, mut error) = ([start.omega_R[1], 0.0], Vec::new(), 0.0);
-        for _ in 0..(periods * wave.period() / h) as u64 {
-            let t = run.time();
-            run.advance()?;
-            let state = run.state();
-            let now = [state.omega_R[1], BODY.acceleration(state.omega_R)[1]];
-            if before[0] * now[0] < 0.0 {
-                times.push(t + h * crossing(before, now, h));
-            }
-            if run.time() < wave.period() {
-                error = larger(error, (now[0] - wave.at(run.time())).abs());
-            }
-            energy.push(run.energy(), BODY.shift(&state));
-            before = now;
-        }
+        let mut run = Problem::new(&BODY, begin()).run(Geodesic::trapezoid(), h)?;
+        let steps = (periods * wave.period() / h) as u64;
+        let all = course(&mut run, steps, |run| (run.time(), run.state(), run.energy()))?;
+        // ω₂ with its rate.
+        let middle = |state: &RigidBodyState| [state.omega_R[1], BODY.acceleration(state.omega_R)[1]];
+        let flips = all.iter().zip(&all[1..]).filter_map(|((t, before, _), (_, now, _))| {
+            let [before, now] = [before, now].map(middle);
+            (before[0] * now[0] < 0.0).then(|| t + h * crossing(before, now, h))
+        });
+        let times: Vec<f64> = flips.collect();
+        let first = all.iter().take_while(|(t, ..)| *t < wave.period());
+        let error = largest(first.map(|(t, state, _)| (state.omega_R[1] - wave.at(*t)).abs()));
+        let energy = Shadow::of(h, all.iter().map(|(_, state, energy)| [*energy, BODY.shift(state)]));
         let count = times.len();
         let between = times.last().zip(times.first()).map_or(f64::NAN, |(last, first)| last - first);
         Ok(Self { h, period: 2.0 * between / (count as f64 - 1.0), count: count as u32, error, energy })

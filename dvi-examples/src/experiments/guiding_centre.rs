@@ -78,13 +78,14 @@ fn follow<S: Lagrangian>(
     steps: u64,
 ) -> Result<Series<2>> {
     let (energy, [toroidal]) = (run.energy(), momenta(&run));
-    Ok(job.series(named, &mut run, steps, Span::of(steps, H, EARLY), |run, path| {
+    job.series(named, &mut run, Span::of(steps, H, EARLY), |run, path| {
         if run.steps() <= EARLY / 8 {
             path.push(place(run.q()));
         }
         let [momentum] = momenta(run);
         [(run.energy() - energy) / energy, momentum / toroidal - 1.0]
-    })?)
+    })
+    .whole()
 }
 
 fn figure([banana, passing]: &[Orbit; 2], end: f64) -> Figure {

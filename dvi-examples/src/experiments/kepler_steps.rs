@@ -5,7 +5,7 @@
 //! the same? The answer depends on what is compared: the rule of the reference, and whether both runs choose
 //! their steps by (23), as printed, or keep them fixed. Each reading is shown.
 
-use super::kepler::*;
+use super::equal_errors::*;
 use crate::vocabulary::*;
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];

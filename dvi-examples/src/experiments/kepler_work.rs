@@ -2,6 +2,7 @@
 //! many periods, for all families of this library, with the state of the art beside.
 
 use super::kepler::*;
+use super::regularised::{levi_civita, logarithmic_hamiltonian};
 use crate::vocabulary::*;
 
 const ECCENTRICITIES: [f64; 4] = [0.2, 0.5, 0.8, 0.95];

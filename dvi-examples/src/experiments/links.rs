@@ -34,8 +34,7 @@ fn bent(links: &Links) -> Problem<'_, Links> {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let span = Span { end: job.choose(300.0, 6.0), early: 5.0, intervals: 300 };
-    let steps = (span.end / H).round() as u64;
-    job.expect(4 * steps);
+    job.expect(4 * span.steps(H));
     let pendulum = bent(&PENDULUM);
     let constrained = [
         (("constrained trapezoid", solid(GREEN).width(6.0)), pendulum.run(trapezoid(), H)?),
@@ -44,13 +43,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ];
     let [trapezoid, midpoint, rattle] = each(constrained, |(named, mut run)| {
         let begin = run.energy();
-        Ok(job.series(named, &mut run, steps, span, |run, tips| {
+        job.series(named, &mut run, span, |run, tips| {
             let state = run.state();
-            tips.push([state.x[LINKS - 1], state.y[LINKS - 1]]);
+            tips.push(state.r[LINKS - 1]);
             deviations(run.energy() - begin, &state)
-        })?)
+        })
+        .whole()
     })?;
-    let all = [trapezoid, midpoint, rattle, rk4(job, steps, span)?];
+    let all = [trapezoid, midpoint, rattle, rk4(job, span)?];
     let table = magnitude_table(&["method", "t", "energy", "length", "velocity_along"], &all)?;
     job.publish(figure(&all, span.end)?, table)?;
     let [energy, length, along] = &all[3].kept;
@@ -84,40 +84,25 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ])
 }
 
-fn deviations(energy: f64, LinksState { x, y, dot_x, dot_y }: &LinksState) -> [f64; 3] {
-    let ends = (0..LINKS).map(|i| [x[i], y[i], dot_x[i], dot_y[i]]);
-    let before = [[0.0; 4]].into_iter().chain(ends.clone());
-    let [length, along] = stretched(PENDULUM.rod(), ends.zip(before).map(|(a, b)| difference(a, b)));
+fn deviations(energy: f64, LinksState { r, dot_r }: &LinksState) -> [f64; 3] {
+    let from_before = |of: &[[f64; 2]], i| if i == 0 { of[0] } else { difference(of[i], of[i - 1]) };
+    let rods = (0..LINKS).map(|i| [r, dot_r].map(|of| from_before(of, i)));
+    let [length, along] = stretched(PENDULUM.rod(), rods);
     [energy, length, along]
 }
 
-fn rk4(job: &Job<'_>, count: u64, span: Span) -> Result<Motion> {
+fn rk4(job: &Job<'_>, span: Span) -> Result<Motion> {
     let mut run = Accelerations::new(&PENDULUM, H, &PENDULUM.bent(ANGLE))?;
-    let (begin, mut kept, mut steps, mut lost) = (run.energy()?, span.deviations(), 0, Ok(()));
-    let mut step = || -> Result<(), StartError> {
+    let begin = run.energy()?;
+    job.watch(("RK4", solid(VERMILLION)), span, (H, 1), || {
         run.step()?;
-        steps += 1;
-        note(&mut kept, f64::from(steps) * H, deviations(run.energy()? - begin, &run.state()));
-        Ok(())
-    };
-    job.repeat(count, || {
-        if lost.is_ok() {
-            lost = step();
-        }
-        Ok(())
-    })?;
-    lost?;
-    Ok(Series::new("RK4", solid(VERMILLION), kept))
-}
-
-fn shape(LinksState { x, y, .. }: LinksState) -> Vec<[f64; 2]> {
-    points(&x, &y)
+        Ok(deviations(run.energy()? - begin, &run.state()))
+    })
 }
 
 fn order_of_positions() -> Result<Claim> {
-    let [fine, double] = each([0.00125, 0.0025], |h| {
-        Ok(shape(Accelerations::new(&PENDULUM, h, &PENDULUM.bent(ANGLE))?.up_to(2.0)?))
-    })?;
+    let by_rk4 = |h| Ok(Accelerations::new(&PENDULUM, h, &PENDULUM.bent(ANGLE))?.up_to(2.0)?.r);
+    let [fine, double] = each([0.00125, 0.0025], by_rk4)?;
     let error = |q: &[f64]| farthest(&points(&q[..LINKS], &q[LINKS..]), &fine);
     let errors = bent(&PENDULUM).errors(2.0, &[100, 200, 400, 800], error);
     Ok(beyond("the positions are of second order, against RK4 with half the shortest step")
@@ -157,7 +142,7 @@ fn figure(all: &[Motion; 4], end: f64) -> Result<Figure> {
     let lengths = panel(["Lengths of the rods", "largest relative deviation"], [1e-16, 1.0], 1);
     let along = panel(["Velocities along the rods", "largest difference at the ends"], [1e-18, 1e-2], 2);
     let axes = (Axis::linear("*x*"), Axis::linear("*y*").within(-1.02, 0.02));
-    let shapes = shapes(bent(&PENDULUM).run(trapezoid(), H)?, 250.0, shape)?;
+    let shapes = shapes(bent(&PENDULUM).run(trapezoid(), H)?, 250.0, |state| state.r)?;
     let half_a_swing = Panel::new("The pendulum over half a swing", axes.0, axes.1).equal();
     let half_a_swing = half_a_swing.each(shapes, |panel, (t, colour, line)| {
         let masses = line[1..].to_vec();

@@ -6,6 +6,8 @@
 
 use crate::vocabulary::*;
 
+const ONE_SIDED: OneSidedPredators = OneSidedPredators {};
+const SYMMETRIC: Predators = Predators { share: 1.0, shift: 0.0 };
 const START: (f64, f64) = (2.0, 1.0);
 const H: f64 = 0.1;
 const EARLY: u64 = 1000;
@@ -13,27 +15,29 @@ const EARLY: u64 = 1000;
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(5 * steps + 2 * EARLY);
-    let (one_sided, symmetric) = (OneSidedPredators {}, SymmetricPredators {});
-    let plan = Plan { steps, h: H, early: EARLY, intervals: 400, places: EARLY as usize + 1 };
-    let (halved, short) = (Plan { steps: 2 * steps, h: H / 2.0, ..plan }, Plan { steps: EARLY, ..plan });
+    let (one_sided, symmetric) = (Problem::new(&ONE_SIDED, START), Problem::new(&SYMMETRIC, START));
+    let [span, short] = [steps, EARLY].map(|steps| Span::of(steps, H, EARLY));
+    let (halved, places) = (Span::of(2 * steps, H / 2.0, EARLY), EARLY as usize + 1);
     let [midpoint, gauss] = [("one step, midpoint", BLUE), ("one step, Gauss of order 4", GREEN)]
         .map(|(name, colour)| (name, solid(colour)));
     let two_steps = ("two steps, σ = ½", solid(VERMILLION));
     // Whatever becomes of its parasitic mode.
     let unwatched = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
-    let (two_step, ended) = job.attempt(two_steps, &symmetric, unwatched, START, short)?;
-    let all = [
-        job.energy(midpoint, &one_sided, OneStep::midpoint(), START, plan)?,
-        job.energy(gauss, &one_sided, OneStepGauss::<2>::new(), START, plan)?,
-        job.energy(("RK4", dashed(SLATE)), &one_sided, RungeKutta::classical(), START, plan)?,
-        two_step,
+    let two_step = job.energy(two_steps, symmetric.run(unwatched, H)?, short, places);
+    let runs = [
+        (midpoint, one_sided.run(OneStep::midpoint(), H)?),
+        (gauss, one_sided.run(OneStepGauss::<2>::new(), H)?),
+        (("RK4", dashed(SLATE)), one_sided.run(RungeKutta::classical(), H)?),
     ];
-    let half = job.energy(midpoint, &one_sided, OneStep::midpoint(), START, halved)?;
-    let (_, watched) = job.attempt(two_steps, &symmetric, Sigma::midpoint(), START, short)?;
+    let [one, other, rk4] = each(runs, |(named, run)| job.energy(named, run, span, places).whole())?;
+    let all = [one, other, rk4, two_step];
+    let half = job.energy(midpoint, one_sided.run(OneStep::midpoint(), H / 2.0)?, halved, 0).whole()?;
+    let watched = job.energy(two_steps, symmetric.run(Sigma::midpoint(), H)?, short, 0);
     // The steps that failed.
-    let [ended, watched] = [ended, watched].map(|error| error.map_or(f64::INFINITY, |e| e.step as f64));
+    let ended = |run: &Series<1>| run.ended.map_or(f64::INFINITY, |error| error.step as f64);
+    let (ended, watched) = (ended(&all[3]), ended(&watched));
     let table = range_table(&["method", "t", "lowest", "mean", "highest"], &[""], &all)?;
-    job.publish(figure(&all, ended, plan.end()), table)?;
+    job.publish(figure(&all, ended, span.end), table)?;
     let near = |h: f64, run: &Series<1>, bound| {
         Check::new(format!("one step, midpoint, h = {h}: max|ΔH|"), run.kept[0].largest, bound)
     };
@@ -57,27 +61,18 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 /// Four one-forms that differ by gauges.
 fn gauges() -> Result<Claim> {
-    let systems =
-        (OneSidedPredators {}, SymmetricPredators {}, ShiftedPredators {}, ShiftedSymmetricPredators {});
-    let forms = [omega(&systems.0), omega(&systems.1), omega(&systems.2), omega(&systems.3)];
-    let apart = forms.iter().flat_map(|form| form.iter().zip(&forms[0])).map(|(a, b)| (a / b - 1.0).abs());
+    let others = [SYMMETRIC, Predators { share: 0.0, shift: 1.0 }, Predators { shift: 1.0, ..SYMMETRIC }];
+    let places = || (0..25).map(|k| [0.3 + 0.7 * f64::from(k / 5), 0.2 + 0.6 * f64::from(k % 5)]);
+    let apart = others.iter().flat_map(|other| {
+        places().map(move |place| (omega(other, place) / omega(&ONE_SIDED, place) - 1.0).abs())
+    });
     let [coarse, fine] = each([H, H / 2.0], |h| {
-        let ends = [end(&systems.0, h)?, end(&systems.1, h)?, end(&systems.2, h)?, end(&systems.3, h)?];
-        Ok(largest(ends.iter().flat_map(|&a| ends.map(|b| distance(a, b)))))
+        let ([b, c, d], a) = (each(others.each_ref(), |system| end(system, h))?, end(&ONE_SIDED, h)?);
+        Ok(largest([a, b, c, d].iter().flat_map(|&one| [a, b, c, d].map(|other| distance(one, other)))))
     })?;
     Ok(beyond("four gauges have one Ω, and their runs differ by the second order of the scheme")
         .at_most("largest relative difference of Ω", largest(apart), 1e-14)
         .near("projected, spread at t = 10: h = 0.1 over h = 0.05", coarse / fine, [4.0, 0.4]))
-}
-
-/// The entry of Ω at some points.
-fn omega<S: DegenerateLagrangian>(system: &S) -> [f64; 25] {
-    std::array::from_fn(|place| {
-        let q = [0.3 + 0.7 * (place / 5) as f64, 0.2 + 0.6 * (place % 5) as f64];
-        let mut omega = system.space().matrix();
-        system.one_form_jacobian(&q, 0.0, -1.0, 1.0, &mut omega);
-        omega[1]
-    })
 }
 
 /// Where a projected run is at t = 10.

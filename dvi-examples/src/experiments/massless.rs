@@ -4,13 +4,13 @@
 //! with a potential along x only there are one-step schemes; with the symmetric one the two-step midpoint
 //! scheme has a parasitic mode that grows.
 
-use dvi_core::space::sink::Dense;
-
 use crate::vocabulary::*;
 
 const ALONG_X: MasslessAlongX = MasslessAlongX {};
 const SYMMETRIC: MasslessSymmetric = MasslessSymmetric {};
 const START: (f64, f64) = (1.0, 1.0);
+/// The step of the long runs.
+const H: f64 = 0.5;
 /// The steps at which the parasitic mode is measured, and until when at most.
 const STEPS: [f64; 3] = [0.5, 0.25, 0.125];
 const END: f64 = 1500.0;
@@ -26,17 +26,20 @@ struct Parasite {
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(3 * steps + STEPS.map(|h| (END / h) as u64).iter().sum::<u64>());
-    let plan = Plan { steps, h: 0.5, early: 2000, intervals: 100, places: 200 };
-    let (one_step, projected) = (OneStep::midpoint(), Projected::symmetric());
+    let span = Span { intervals: 100, ..Span::of(steps, H, 2000) };
+    let (along_x, symmetric) = (Problem::new(&ALONG_X, START), Problem::new(&SYMMETRIC, START));
+    let (one_step, projected) =
+        (along_x.run(OneStep::midpoint(), H)?, symmetric.run(Projected::symmetric(), H)?);
     let all = [
-        job.energy(("along *x*, one step", solid(BLUE)), &ALONG_X, one_step, START, plan)?,
-        job.energy(("symmetric, projected", solid(GREEN)), &SYMMETRIC, projected, START, plan)?,
-        job.energy(("RK4", dashed(SLATE)), &SYMMETRIC, RungeKutta::classical(), START, plan)?,
+        job.energy(("along *x*, one step", solid(BLUE)), one_step, span, 200),
+        job.energy(("symmetric, projected", solid(GREEN)), projected, span, 200),
+        job.energy(("RK4", dashed(SLATE)), symmetric.run(RungeKutta::classical(), H)?, span, 200),
     ];
+    let all = each(all, Series::whole)?;
     let parasites = each(STEPS, |h| Parasite::new(job, h))?;
     let errors = all.iter().map(|series| {
-        let rows = series.kept[0].envelope.rows().into_iter();
-        (series.name.clone(), rows.map(|[t, low, _, high]| [t, low, high].map(Some)).collect())
+        let rows = series.kept[0].envelope.band().into_iter();
+        (series.name.clone(), rows.map(|row| row.map(Some)).collect())
     });
     let modes = parasites.iter().map(|Parasite { h, amplitudes, .. }| {
         let rows = amplitudes.iter().map(|[t, amplitude]| [Some(*t), Some(*amplitude), None]);
@@ -44,7 +47,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     });
     let curves = errors.chain(modes).map(|(name, rows): (_, Vec<_>)| ([name], [], rows));
     let table = curve_table(&["series", "t", "amplitude or lowest ΔH", "highest ΔH"], curves)?;
-    job.publish(figure(&all, &parasites, plan.end()), table)?;
+    job.publish(figure(&all, &parasites, span.end), table)?;
     let [one_step, projected, rk4] = all.each_ref().map(|series| series.kept[0].growth());
     let flat = beyond("the energy error is no larger in the whole run than in its beginning")
         .at_most("along x, one step: max|ΔH| over all / over 2000 steps", one_step, 1.001)
@@ -54,13 +57,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 }
 
 fn same_motion() -> Result<Claim> {
-    fn omega<S: DegenerateLagrangian>(system: &S, q: [f64; 2]) -> [f64; 4] {
-        let mut entries = [0.0; 4];
-        system.one_form_jacobian(&q, 0.0, 1.0, -1.0, &mut Dense::new(&mut entries, 2));
-        entries
-    }
     let places = [[1.0, 1.0], [-0.3, 2.0], [0.8, -0.7]];
-    let difference = largest(places.map(|q| apart(&omega(&ALONG_X, q), &omega(&SYMMETRIC, q))));
+    let difference = largest(places.map(|q| (omega(&ALONG_X, q) - omega(&SYMMETRIC, q)).abs()));
     let (along_x, symmetric) = (Problem::new(&ALONG_X, START), Problem::new(&SYMMETRIC, START));
     let MasslessSymmetricState { x, y } = symmetric.up_to(Gauss::<4>::new(), 0.05, 20.0)?;
     let (counts, far) = ([160, 240, 320], |q: &[f64]| distance([x, y], [q[0], q[1]]));

@@ -1,12 +1,14 @@
 //! The experiments, a file each, and the ideas beside them, which several of them may share.
 
 mod accuracy_cost;
+mod average_acceleration;
 mod barnes;
 mod beam;
 mod beam_frequencies;
 mod billiard;
 mod bounces;
 mod chaotic;
+mod crossings;
 mod decay;
 mod disc;
 mod disc_energy;
@@ -14,6 +16,7 @@ mod double_pendulum;
 mod energy;
 mod energy_momentum;
 mod energy_steps;
+mod equal_errors;
 mod exchange;
 mod field_lines;
 mod flips;
@@ -39,6 +42,7 @@ mod phase_space;
 mod poincare_map;
 mod quasi_periodic;
 mod random_walk;
+mod regularised;
 mod rigid_body;
 mod rk4;
 mod round_off;
@@ -54,6 +58,7 @@ mod symmetry;
 mod tabulated_field;
 mod three_species;
 mod top;
+mod turnings;
 
 use crate::gallery::{Experiment, Outcome};
 use crate::job::Job;

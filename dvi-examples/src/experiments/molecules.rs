@@ -9,6 +9,7 @@ use super::rk4::Accelerations;
 use crate::vocabulary::*;
 
 const MOLECULES: usize = 8;
+const ATOMS: usize = 3 * MOLECULES;
 const BETA: f64 = 4.0;
 const SPEED: f64 = 0.4;
 pub const RIGID: RigidMolecules = RigidMolecules { n: MOLECULES, beta: BETA };
@@ -65,30 +66,24 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 fn kept<S: Lagrangian>(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, S>, end: f64) -> Result<Kept> {
     let (energy, begin): (_, [f64; 3]) = (run.energy(), momenta(&run));
-    let steps = (end / run.step_size()).round() as u64;
-    Ok(job.series(named, &mut run, steps, Span { end, early: 0.1 * end, intervals: 250 }, |run, _| {
-        let state: Vec<f64> = run.system().values(&run.state()).into_iter().flatten().collect();
-        let ([length, along], [x, y, angular]) = (sides(&state), difference(momenta(run), begin));
+    job.series(named, &mut run, Span { end, early: 0.1 * end, intervals: 250 }, |run, _| {
+        let ([length, along], [x, y, angular]) = (sides(run), difference(momenta(run), begin));
         [run.energy() / energy - 1.0, length, along, x, y, angular]
-    })?)
+    })
+    .whole()
 }
 
 /// The largest error of a side, and the largest velocity along one.
-fn sides(state: &[f64]) -> [f64; 2] {
-    let atoms = 3 * MOLECULES;
-    let sides = (0..atoms).map(|i| [i, i / 3 * 3 + (i + 1) % 3]);
-    stretched(1.0, sides.map(|[i, j]| [0, 1, 2, 3].map(|k| state[k * atoms + j] - state[k * atoms + i])))
-}
-
-fn atoms(RigidMoleculesState { x, y, .. }: &RigidMoleculesState) -> Vec<[f64; 2]> {
-    points(x, y)
+fn sides(run: &impl Run<Scalar = f64>) -> [f64; 2] {
+    let [r, v] = [run.q(), &run.v()].map(|flat| points(&flat[..ATOMS], &flat[ATOMS..]));
+    let sides = (0..ATOMS).map(|i| [i, i / 3 * 3 + (i + 1) % 3]);
+    stretched(1.0, sides.map(|[i, j]| [&r, &v].map(|of| difference(of[j], of[i]))))
 }
 
 fn order_of_positions() -> Result<Claim> {
-    let [fine, double] = each([0.00125, 0.0025], |h| {
-        Ok(atoms(&Accelerations::new(&RIGID, h, &RIGID.chain(SPEED)?)?.up_to(2.0)?))
-    })?;
-    let error = |q: &[f64]| farthest(&points(&q[..3 * MOLECULES], &q[3 * MOLECULES..]), &fine);
+    let [fine, double] =
+        each([0.00125, 0.0025], |h| Ok(Accelerations::new(&RIGID, h, &RIGID.chain(SPEED)?)?.up_to(2.0)?.r))?;
+    let error = |q: &[f64]| farthest(&points(&q[..ATOMS], &q[ATOMS..]), &fine);
     let errors = Problem::new(&RIGID, RIGID.chain(SPEED)?).errors(2.0, &[50, 100, 200, 400], error);
     Ok(beyond("the positions by RATTLE are of second order, against RK4 on the accelerations")
         .at_most("largest distance of the atoms of two references", farthest(&fine, &double), 2e-9)
@@ -114,7 +109,7 @@ fn figure(both: [&Kept; 2], scans: &Scans, end: f64) -> Result<Figure> {
 fn chain() -> Result<Panel> {
     let mut run = Problem::new(&RIGID, RIGID.chain(SPEED)?).run(Rattle::default(), H)?;
     run.take_steps(1000)?;
-    let atoms = atoms(&run.state());
+    let atoms = run.state().r;
     let centre = [0, 1].map(|i: usize| atoms.iter().map(|atom| atom[i]).sum::<f64>() / atoms.len() as f64);
     let atoms: Vec<[f64; 2]> = atoms.into_iter().map(|atom| difference(atom, centre)).collect();
     let pairs = (1..MOLECULES).flat_map(|m| [[3 * m - 2, 3 * m], [3 * m - 1, 3 * m + 1]]);

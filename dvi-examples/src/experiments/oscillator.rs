@@ -21,7 +21,7 @@ const SHOWN: [(usize, Colour); 4] = [(0, BLUE), (1, SLATE), (2, VERMILLION), (5,
 type Row = (&'static str, Quadrature, Points, Points);
 
 /// A run from given position and velocity: max |q_k − exact|.
-type Given = (&'static str, Stroke, Points);
+type Given = Line<&'static str>;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let many = job.choose(100_000, 10_000);

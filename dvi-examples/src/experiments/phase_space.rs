@@ -17,20 +17,21 @@ type Circles = Vec<Points>;
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(3 * steps);
-    let plan = Plan { steps, h: H, early: 1000, intervals: 400, places: 0 };
-    let all = [
-        job.energy(("one step, midpoint", solid(BLUE)), &SYSTEM, OneStep::midpoint(), START, plan)?,
-        job.energy(("one step, trapezoid", solid(GREEN)), &SYSTEM, OneStep::trapezoid(), START, plan)?,
-        job.energy(("RK4", dashed(VERMILLION)), &SYSTEM, RungeKutta::classical(), START, plan)?,
+    let (begin, span) = (Problem::new(&SYSTEM, START), Span::of(steps, H, 1000));
+    let runs = [
+        (("one step, midpoint", solid(BLUE)), begin.run(OneStep::midpoint(), H)?),
+        (("one step, trapezoid", solid(GREEN)), begin.run(OneStep::trapezoid(), H)?),
+        (("RK4", dashed(VERMILLION)), begin.run(RungeKutta::classical(), H)?),
     ];
+    let all = each(runs, |(named, run)| job.energy(named, run, span, 0).whole())?;
     let leapfrog = circles(OneStep::trapezoid(), 100, 8)?;
-    let errors = all.iter().flat_map(|series| {
-        series.kept[0].envelope.rows().into_iter().map(|[t, low, _, high]| ([&*series.name], [t, low, high]))
+    let errors = all.iter().flat_map(|Series { name, kept, .. }| {
+        kept[0].envelope.band().into_iter().map(move |row| ([name.as_str()], row))
     });
     let circles = leapfrog.iter().zip(0..);
     let points = circles.flat_map(|(c, t)| c.iter().map(move |&[x, p]| (["circle"], [f64::from(t), x, p])));
     let table = Table::of(&["series", "t", "x or lowest ΔH", "p or highest ΔH"], errors.chain(points))?;
-    job.publish(figure(&all, &leapfrog, plan.end()), table)?;
+    job.publish(figure(&all, &leapfrog, span.end), table)?;
     let text = "the energy error of one-step schemes is no larger in the whole run than in its beginning";
     let growth = |series: &Series<1>| format!("{}: max|ΔH| over all / over 1000 steps", series.name);
     let flat = beyond(text)
@@ -55,9 +56,10 @@ fn same_schemes() -> Result<Claim> {
     let midpoint = course(&mut begin.run(OneStep::midpoint(), H)?, 500, place)?;
     let gauss = course(&mut begin.run(Gauss::<1>::new(), H)?, 500, place)?;
     let two_step = course(&mut symmetric.run(Sigma::midpoint(), H)?, 500, place)?;
-    let start = PendulumState { x: START.x, dot_x: 0.0 };
-    let mut run = Integrator::new(&Pendulum {}, Variational::trapezoid(), H, start)?;
-    let from_verlet = farthest(&trapezoid, &course(&mut run, 500, |run| [run.q()[0], run.memory().p()[0]])?);
+    let regular = Problem::new(&Pendulum {}, PendulumState { x: START.x, dot_x: 0.0 });
+    let verlet =
+        course(&mut regular.run(Variational::trapezoid(), H)?, 500, |run| [run.q()[0], run.v()[0]])?;
+    let from_verlet = farthest(&trapezoid, &verlet);
     Ok(beyond("with α = p dx the trapezoidal scheme is leapfrog and the midpoint one is implicit midpoint")
         .at_most("500 steps: trapezoid from Störmer–Verlet on L(x, x')", from_verlet, 1e-11)
         .at_most("500 steps: midpoint from Gauss of one stage", farthest(&midpoint, &gauss), 1e-11)

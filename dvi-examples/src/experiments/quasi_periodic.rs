@@ -3,10 +3,11 @@
 //! The exact section is a closed curve. Each run is compared with that curve, computed by Gauss
 //! collocation of order six.
 
-use super::sections::{self, Scheme, *};
+use super::crossings::{self, Scheme, *};
+use super::sections::{self, CAVEAT};
 use crate::vocabulary::*;
 
-const RUNS: [(Scheme, f64); 6] = sections::runs([0.1, 0.2, 0.5]);
+const RUNS: [(Scheme, f64); 6] = crossings::runs([0.1, 0.2, 0.5]);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(1e5, 4.5e4);

@@ -1,37 +1,38 @@
 //! The classical Runge–Kutta method, beside which others are set.
 
+use std::convert::Infallible;
+
 use crate::vocabulary::*;
 
 pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
-    let moved = |by: f64, slope: &[f64; N]| std::array::from_fn(|i| y[i] + by * slope[i]);
-    let first = f(y);
-    let second = f(&moved(0.5 * h, &first));
-    let third = f(&moved(0.5 * h, &second));
-    let fourth = f(&moved(h, &third));
-    std::array::from_fn(|i| y[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
+    let Ok(next) = try_rk4(y, h, |y| Ok::<_, Infallible>(f(y)));
+    next
+}
+
+/// The same with slopes that may fail.
+fn try_rk4<Y, E>(y: &Y, h: f64, f: impl Fn(&Y) -> Result<Y, E>) -> Result<Y, E>
+where
+    Y: Clone + AsRef<[f64]> + AsMut<[f64]>,
+{
+    let moved = |by: f64, slope: &Y| {
+        let mut moved = y.clone();
+        moved.as_mut().iter_mut().zip(slope.as_ref()).for_each(|(y, k)| *y += by * k);
+        moved
+    };
+    let first = f(y)?;
+    let second = f(&moved(0.5 * h, &first))?;
+    let third = f(&moved(0.5 * h, &second))?;
+    let fourth = f(&moved(h, &third))?;
+    let [a, b, c, d] = [&first, &second, &third, &fourth].map(Y::as_ref);
+    let mut next = y.clone();
+    for (i, next) in next.as_mut().iter_mut().enumerate() {
+        *next += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
+    }
+    Ok(next)
 }
 
 pub fn rk4_to<const N: usize>(y: [f64; N], end: f64, h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
     (0..(end / h).round() as u64).fold(y, |y, _| rk4(&y, h, &f))
-}
-
-/// How far quantities are from their start, as `of` says after each of so many steps.
-pub fn keep_rk4<const D: usize, const N: usize>(
-    job: &Job<'_>,
-    mut y: [f64; D],
-    (h, steps): (f64, u64),
-    span: Span,
-    f: impl Fn(&[f64; D]) -> [f64; D],
-    of: impl Fn(&[f64; D]) -> [f64; N],
-) -> Result<[Deviation; N]> {
-    let (mut kept, mut step) = (span.deviations(), 0_u32);
-    job.repeat(steps, || {
-        y = rk4(&y, h, &f);
-        step += 1;
-        note(&mut kept, f64::from(step) * h, of(&y));
-        Ok(())
-    })?;
-    Ok(kept)
 }
 
 /// A run of it on what a system with constraints is without them: the equations of motion with the
@@ -48,7 +49,7 @@ pub struct Accelerations<'a, S> {
 
 impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
     pub fn new(system: &'a S, h: f64, start: &S::State<f64>) -> Result<Self> {
-        Ok(Self { system, h, y: system.values(start)?.collect() })
+        Ok(Self { system, h, y: flat(system, start)? })
     }
 
     pub fn state(&self) -> S::State<f64> {
@@ -60,15 +61,7 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
     }
 
     pub fn step(&mut self) -> Result<(), StartError> {
-        let (h, y) = (self.h, self.y.clone());
-        let moved = |by: f64, k: &[f64]| -> Vec<f64> { y.iter().zip(k).map(|(y, k)| y + by * k).collect() };
-        let first = self.slope(&y)?;
-        let second = self.slope(&moved(0.5 * h, &first))?;
-        let third = self.slope(&moved(0.5 * h, &second))?;
-        let fourth = self.slope(&moved(h, &third))?;
-        for (i, y) in self.y.iter_mut().enumerate() {
-            *y += h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]);
-        }
+        self.y = try_rk4(&self.y, self.h, |y| self.slope(y))?;
         Ok(())
     }
 
@@ -83,10 +76,17 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
     }
 
     fn slope(&self, y: &[f64]) -> Result<Vec<f64>, StartError> {
-        let rates = self.system.vector_field(&self.read(y))?;
-        // The lengths are those of the state that was read.
-        Ok(self.system.values(&rates).map_or_else(|_| Vec::new(), Iterator::collect))
+        flat(self.system, &self.system.vector_field(&self.read(y))?)
     }
+}
+
+/// Coordinates and velocities of a state, in the order of runs.
+fn flat<S: System>(system: &S, state: &S::State<f64>) -> Result<Vec<f64>, StartError> {
+    let n = system.space().dimension();
+    let mut y = vec![0.0; 2 * n];
+    let (q, v) = y.split_at_mut(n);
+    state.write(|block| system.block_len(block), q, v)?;
+    Ok(y)
 }
 
 #[cfg(test)]

@@ -107,7 +107,7 @@ fn watch<R: Run<Scalar = f64>>(job: &Job<'_>, mut run: R, n: u64, of: impl Fn(&R
             rows.push([run.steps() as f64, (squares / count as f64).sqrt()]);
             (squares, count, interval) = (0.0, 0, interval + 1.0);
         }
-        Ok(())
+        anyhow::Ok(())
     })?;
     Ok(rows)
 }

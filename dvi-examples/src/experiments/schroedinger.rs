@@ -31,7 +31,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         (("weak excitation", solid(GREEN)), begin(weak).run(OneStep::midpoint(), H)?),
     ];
     let sum = |values: &Amplitudes| values.iter().sum::<f64>();
-    let all = each(runs, |((name, stroke), mut run)| -> Result<Excitation> {
+    let all = each(runs, |(named, mut run)| -> Result<Excitation> {
         let (energy, mut profiles) = (run.energy(), [densities(run.q()); 2]);
         let mut kept = Span { end: periods as f64, early: 100.0, intervals: 400 }.deviations();
         job.follow(&mut run, periods * STEPS, |run| {
@@ -41,7 +41,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             note(&mut kept, run.time() * OMEGA / TAU, [sites, norm, run.energy() / energy - 1.0]);
             profiles[1] = densities;
         })?;
-        Ok((Series::new(name, stroke, kept), profiles))
+        Ok((Series::new(named, H, kept), profiles))
     })?;
     let columns = ["series", "quantity", "period", "lowest", "mean", "highest"];
     let table = range_table(&columns, &["sites", "ΔN/N", "ΔH/H"], all.iter().map(|(series, _)| series))?;

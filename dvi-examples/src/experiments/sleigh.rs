@@ -5,8 +5,9 @@ use super::rk4::rk4;
 use crate::vocabulary::*;
 
 const SLEIGH: ChaplyginSleigh = ChaplyginSleigh { inertia: 1.0, a: 0.5 };
-/// v and ω at the start: backwards and in rotation.
-const SLIDING: [f64; 2] = [-1.0, 2.0];
+/// At the origin in the direction of x, backwards and in rotation.
+const START: ChaplyginSleighState =
+    ChaplyginSleighState { x: 0.0, y: 0.0, theta: 0.0, dot_x: -1.0, dot_y: 0.0, dot_theta: 2.0 };
 /// The steps, of which the first is drawn, and that of the motion.
 pub const STEPS: [f64; 4] = [0.1, 0.1 / 2.0, 0.1 / 4.0, 0.1 / 8.0];
 pub const H: f64 = STEPS[0];
@@ -32,7 +33,7 @@ fn steps(t: f64, h: f64) -> usize {
 }
 
 fn begin() -> Problem<'static, ChaplyginSleigh> {
-    Problem::new(&SLEIGH, ChaplyginSleigh::sliding(SLIDING[0], SLIDING[1]))
+    Problem::new(&SLEIGH, START)
 }
 
 impl Sleigh {
@@ -42,7 +43,7 @@ impl Sleigh {
             let all = |run: &AnyRun<'_, _>| (run.time(), run.state(), run.energy());
             Ok(course(&mut run, steps(STRAIGHT, h) as u64, all)?)
         })?;
-        let start = [0.0, 0.0, 0.0, SLIDING[0], SLIDING[1]];
+        let start = [START.x, START.y, START.theta, START.dot_x, START.dot_theta];
         let next = |y: &[f64; 5]| Some(rk4(y, FINE, |y| SLEIGH.reduced(y)));
         let motion = std::iter::successors(Some(start), next).take(steps(DRAWN, FINE) + 1).collect();
         Ok(Self { runs, motion })

@@ -30,7 +30,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let all = each(runs, |(named, mut run)| {
         let (energy, start) = (run.energy(), moment(&THREE, run.q()));
         let (mut before, mut turned) = (start, 0.0);
-        Ok(job.series(named, &mut run, steps, span, |run, path| {
+        job.series(named, &mut run, span, |run, path| {
             let moment = moment(&THREE, run.q());
             if run.steps() <= 400 {
                 path.extend(THREE.places(run.q()).map(|[x, y, _]| [x, y]));
@@ -39,7 +39,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             before = moment;
             let axial = (moment[2] - start[2]) / length(start);
             [run.energy() - energy, length(moment) / length(start) - 1.0, turned, axial]
-        })?)
+        })
+        .whole()
     })?;
     let columns = ["method", "quantity", "t", "lowest", "mean", "highest"];
     job.publish(figure(&all, span.end), range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?)?;
@@ -88,9 +89,8 @@ fn precession() -> Result<Claim> {
 /// `v` turned around an axis by an angle (Rodrigues).
 fn turned(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let k = axis.map(|x| x / length(axis));
-    let cross = [k[1] * v[2] - k[2] * v[1], k[2] * v[0] - k[0] * v[2], k[0] * v[1] - k[1] * v[0]];
-    let (sin, cos) = angle.sin_cos();
-    std::array::from_fn(|i| v[i] * cos + cross[i] * sin + k[i] * dot(k, v) * (1.0 - cos))
+    let ((sin, cos), across) = (angle.sin_cos(), cross(k, v));
+    std::array::from_fn(|i| v[i] * cos + across[i] * sin + k[i] * dot(k, v) * (1.0 - cos))
 }
 
 /// The largest distance of a vortex from its place at the start, turned.

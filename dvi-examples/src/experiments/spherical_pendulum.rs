@@ -5,6 +5,7 @@
 //! takes the chord in place of the arc and finds the force that keeps the length.
 
 use super::geodesics::*;
+use super::turnings::*;
 use crate::vocabulary::*;
 
 const PENDULUM: SphericalPendulum = SphericalPendulum { gravity: 1.0 };
@@ -32,7 +33,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let mut run = chords.run(Rattle::default(), H)?;
     let later = || {
         run.take_steps(EVERY)?;
-        Ok(ConstrainedPendulum::on_sphere(&run.state()))
+        Ok(run.state().into())
     };
     let [rk4, great_circles] = long.both("great circles", PENDULUM, &begin(), kept)?;
     let all = [rk4, long.watch(("RATTLE", solid(GREEN)), later, kept)?, great_circles];
@@ -40,20 +41,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         ["method", "t", "largest_energy_error", "largest_change_of_length", "largest_change_of_momentum"];
     job.publish(figure(&all, long)?, magnitude_table(&columns, &all)?)?;
     let end = job.choose(400.0, 25.0);
-    let sample = |state: SphericalPendulumState, shift| {
-        let energy = PENDULUM.heights(&state).energy;
-        Sample { height: state.s[2], rate: state.dot_s[2], energy, shift }
-    };
-    let by_arc = |state| sample(state, PENDULUM.shift(&state));
-    let by_chord = |state| sample(state, CONSTRAINED.shift(&state));
     let by_arcs = each(STEPS, |h| {
         let run = arcs.run(Geodesic::trapezoid(), h)?;
-        up_and_down(run, end, &before, by_arc(begin()), |run| by_arc(run.state()))
+        up_and_down(run, end, &before, |run| sample(run, PENDULUM.shift(&run.state())))
     })?;
     let by_chords = each(STEPS, |h| {
         let run = chords.run(Rattle::default(), h)?;
-        let on_sphere = |state| by_chord(ConstrainedPendulum::on_sphere(&state));
-        up_and_down(run, end, &before, by_chord(begin()), |run| on_sphere(run.state()))
+        up_and_down(run, end, &before, |run| sample(run, CONSTRAINED.shift(&run.state().into())))
     })?;
     let [rk4, chords, arcs] = all.each_ref().map(|series| &series.kept);
     // The largest that h²g makes of it, by the runs with the same step.
@@ -72,13 +66,18 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ])
 }
 
+fn sample(run: &impl Run<Scalar = f64>, shift: f64) -> Sample {
+    Sample { height: run.q()[2], rate: run.v()[2], energy: run.energy(), shift }
+}
+
 /// The motion by unit vectors, and by a constraint.
 fn arcs() -> Problem<'static, SphericalPendulum> {
     Problem::new(&PENDULUM, begin())
 }
 
 fn chords() -> Problem<'static, ConstrainedPendulum> {
-    Problem::new(&CONSTRAINED, ConstrainedPendulum::state_of(&begin()))
+    let SphericalPendulumState { s, dot_s } = begin();
+    Problem::new(&CONSTRAINED, ConstrainedPendulumState { s, dot_s })
 }
 
 /// At an angle from the direction downwards, with its rate and the rate around the vertical.
@@ -124,7 +123,7 @@ fn order_of_places() -> Result<Claim> {
     let (arcs, chords, simple) = (arcs(), chords(), Geodesic::trapezoid());
     let arc = |h| Ok(arcs.up_to(simple, h, ORDER_TIME)?.s);
     let composed = |h| Ok(arcs.up_to(Composition::suzuki(simple), h, ORDER_TIME)?.s);
-    let chord = |h| Ok(ConstrainedPendulum::on_sphere(&chords.up_to(Rattle::default(), h, ORDER_TIME)?).s);
+    let chord = |h| Ok(chords.up_to(Rattle::default(), h, ORDER_TIME)?.s);
     let order = |place: &dyn Fn(f64) -> Result<[f64; 3]>, from: &dyn Fn(f64) -> Result<[f64; 3]>| {
         order_of(STEPS, |h| Ok((h, length(difference(place(h)?, from(h)?)))))
     };
@@ -161,21 +160,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_integrals_by_hand_are_those_of_the_declarations() {
-        let heights = PENDULUM.heights(&begin());
-        let run = arcs().run(Geodesic::trapezoid(), H).expect("a run");
-        let chords = chords().run(Rattle::default(), H).expect("a run");
-        for (energy, vertical) in [(run.energy(), run.momentum(0)), (chords.energy(), chords.momentum(0))] {
-            assert!((energy - heights.energy).abs() < 1e-15);
-            assert!(vertical.is_some_and(|vertical| (vertical - heights.vertical).abs() < 1e-15));
-        }
-    }
-
-    #[test]
-    fn the_motion_by_hand_keeps_the_integrals() {
-        let end = PENDULUM.state(&reference(PENDULUM, &begin(), [ORDER_TIME, FINE]));
-        let [before, after] = [begin(), end].map(|state| PENDULUM.heights(&state));
-        assert!((before.energy - after.energy).abs() < 1e-11);
-        assert!((before.vertical - after.vertical).abs() < 1e-11);
+    fn integrals_by_hand_are_those_of_the_declarations_and_are_kept() {
+        let of = |state: &SphericalPendulumState| {
+            let heights = PENDULUM.heights(state);
+            [heights.energy, heights.vertical]
+        };
+        assert_integrals((PENDULUM, begin()), of, [1e-15; 2]);
+        let run = chords().run(Rattle::default(), H).expect("a run");
+        assert!(apart(&of(&begin()), &[run.energy(), run.momentum(0).expect("one")]) < 1e-15);
     }
 }

@@ -81,14 +81,14 @@ fn kept(job: &Job<'_>, named: Named<'_>, mut run: AnyRun<'_, SpringChain>, s: f6
     let sum = |state| CHAIN.oscillatory(&state, s).iter().sum::<f64>();
     let (energy, begin, mut left) = (run.energy(), sum(run.state()), f64::NAN);
     let span = Span { end: t, early: 0.01 * t, intervals: 300 };
-    let series = job.series(named, &mut run, (t / H).round() as u64, span, |run, _| {
+    let series = job.series(named, &mut run, span, |run, _| {
         let now = sum(run.state());
         if run.steps() == (20.0 / H).round() as u64 {
             left = now / begin;
         }
         [run.energy() - energy, now - begin]
-    })?;
-    Ok((series, left))
+    });
+    Ok((series.whole()?, left))
 }
 
 fn long_steps(motion: &Exchange, long: &Exchange) -> Result<Claim> {

@@ -90,7 +90,7 @@ impl Motion {
                     lost = t;
                 }
             }
-            Ok(())
+            anyhow::Ok(())
         })?;
         Ok(Self { name, colour, errors, lost, end, failure })
     }

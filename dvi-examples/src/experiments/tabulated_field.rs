@@ -35,7 +35,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let coarse = by_cubic(COARSE)?;
     let mut run = Problem::new(&coarse, start(0.2)).run(OneStep::midpoint(), H)?;
     let (begin, span) = (run.energy(), Span::of(steps, H, EARLY));
-    let [energy] = job.keep(&mut run, steps, span, |run| [(run.energy() - begin) / begin])?;
+    let [energy] = job.keep(&mut run, span, |run| [(run.energy() - begin) / begin])?;
     let both = [("cubic splines", &cubic.0), ("quintic splines", &quintic.0)];
     let curves = both.map(|(name, of_grids)| ([name], [], of_grids.iter().copied()));
     let table = curve_table(&["spline", "intervals", "difference"], curves)?;

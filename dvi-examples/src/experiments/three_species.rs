@@ -5,7 +5,7 @@
 //! conjugate to it, it has one, in the class of one-step schemes; s' = z then says that s counts the third
 //! species.
 
-use super::rk4::{keep_rk4, rk4_to};
+use super::rk4::{rk4, rk4_to};
 use crate::vocabulary::*;
 
 /// x, y and z at the start; the paths in the figure begin at others too.
@@ -20,17 +20,18 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     job.expect(2 * steps);
     // Relative changes of x + y + z and of xyz.
-    let span = Span::of(steps, H, EARLY);
-    let [sum, product] = invariants(&START);
-    let one_step = job.keep(&mut run_from(START)?, steps, span, |run| {
-        [run.energy() / sum - 1.0, (run.q()[3] - product.ln()).exp_m1()]
-    })?;
-    let rk4 = keep_rk4(job, START, (H, steps), span, rates, |species| {
-        let [now, of_all] = invariants(species);
-        [now / sum - 1.0, of_all / product - 1.0]
-    })?;
-    let all = [("one step, midpoint", BLUE, one_step), ("RK4", VERMILLION, rk4)]
-        .map(|(name, colour, kept)| Series::new(name, solid(colour), kept));
+    let (span, [sum, product], mut species) = (Span::of(steps, H, EARLY), invariants(&START), START);
+    let all = [
+        job.series(("one step, midpoint", solid(BLUE)), &mut run_from(START)?, span, |run, _| {
+            [run.energy() / sum - 1.0, (run.q()[3] - product.ln()).exp_m1()]
+        })
+        .whole()?,
+        job.watch(("RK4", solid(VERMILLION)), span, (H, 1), || {
+            species = rk4(&species, H, rates);
+            let [now, of_all] = invariants(&species);
+            anyhow::Ok([now / sum - 1.0, of_all / product - 1.0])
+        })?,
+    ];
     let columns = ["method", "invariant", "t", "lowest", "mean", "highest"];
     job.publish(figure(&all, span.end)?, range_table(&columns, &["x + y + z", "xyz"], &all)?)?;
     let text = "one step keeps xyz to rounding errors, and its error of x + y + z is no larger in the \

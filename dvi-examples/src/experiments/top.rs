@@ -6,6 +6,7 @@
 //! that nothing is projected. RK4 on the nine entries of the matrix leaves the group.
 
 use super::geodesics::*;
+use super::turnings::*;
 use crate::vocabulary::*;
 
 const TOP: Top = Top { across: 1.0, along: 0.5, weight: 1.0 };
@@ -39,8 +40,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let all = long.both("geodesics", TOP, &begin(), kept)?;
     let (motion, end) = (Problem::new(&TOP, begin()), job.choose(400.0, 20.0));
     let nutations = each(STEPS, |h| {
-        let (run, start) = (motion.run(Geodesic::trapezoid(), h)?, sample(&begin(), energy(&before)));
-        up_and_down(run, end, &before, start, |run| sample(&run.state(), run.energy()))
+        up_and_down(motion.run(Geodesic::trapezoid(), h)?, end, &before, |run| {
+            let (state, energy) = (run.state(), run.energy());
+            let [height, rate] = Top::height(&state);
+            Sample { height, rate, energy, shift: TOP.shift(&state) }
+        })
     })?;
     let table = magnitude_table(&["method", "t", "largest_energy_error", "largest_defect"], &all)?;
     job.publish(figure(&all, long)?, table)?;
@@ -64,11 +68,6 @@ fn begin() -> TopState {
 
 fn energy(heights: &Heights) -> f64 {
     heights.energy + heights.spin * heights.spin / (2.0 * TOP.along)
-}
-
-fn sample(state: &TopState, energy: f64) -> Sample {
-    let [height, rate] = Top::height(state);
-    Sample { height, rate, energy, shift: TOP.shift(state) }
 }
 
 fn rounding(long: Long<'_>, [_, defect, spin, vertical]: &[Deviation; 4]) -> Claim {
@@ -125,23 +124,14 @@ fn figure(all: &[Series<4>; 2], long: Long<'_>) -> Result<Figure> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::geodesics::reference;
     use super::*;
 
     #[test]
-    fn the_integrals_by_hand_are_those_of_the_declaration() {
-        let heights = TOP.heights(&begin());
-        let run = Integrator::new(&TOP, Geodesic::trapezoid(), H, begin()).expect("a run");
-        assert!((energy(&heights) - run.energy()).abs() < 1e-14);
-        assert_eq!(run.momentum(0), Some(heights.spin));
-        assert!((heights.vertical - run.momentum(1).expect("two momenta")).abs() < 1e-15);
-    }
-
-    #[test]
-    fn the_motion_by_hand_keeps_the_integrals() {
-        let end = TOP.state(&reference(TOP, &begin(), [ORDER_TIME, FINE]));
-        let [then, now] = [begin(), end].map(|state| TOP.heights(&state));
-        let pairs = [(then.energy, now.energy), (then.spin, now.spin), (then.vertical, now.vertical)];
-        assert!(pairs.into_iter().all(|(before, after)| (before - after).abs() < 1e-11), "{pairs:?}");
+    fn integrals_by_hand_are_those_of_the_declaration_and_are_kept() {
+        let of = |state: &TopState| {
+            let heights = TOP.heights(state);
+            [energy(&heights), heights.spin, heights.vertical]
+        };
+        assert_integrals((TOP, begin()), of, [1e-14, 0.0, 1e-15]);
     }
 }

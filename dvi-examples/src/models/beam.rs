@@ -3,6 +3,8 @@
 
 use dvi_core::prelude::*;
 
+use super::joined;
+
 /// The deflection of a beam by n cubic elements (Euler and Bernoulli; Przemieniecki 1968, chapters 5 and
 /// 11): in all of mass 1, length 1 and bending stiffness 1. Node i is at (i + 1)/n, with the deflection w
 /// and the slope w′; the mass matrix is the consistent one.
@@ -31,17 +33,15 @@ pub struct Beam {
 /// 2008, in the plane): in all of mass 1, length 1 and bending stiffness 1. Mass i is at the end of segment
 /// i, and the last mass is half of another. The first segment bends against the x axis.
 #[lagrangian(
-    coordinates(x[n], y[n]),
+    coordinates(r[n][2]),
     lagrangian = {
         let l = 1.0 / (n as f64);
-        let kinetic = sum(0..n, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) - (dot(x[n - 1]).powi(2) + dot(y[n - 1]).powi(2)) / 2.0;
-        let stretched = ((x[0].powi(2) + y[0].powi(2)).sqrt() - l).powi(2)
-            + sum(1..n, |i| (((x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2)).sqrt() - l).powi(2));
-        let clamped = 2.0 * y[0].atan2(x[0]).powi(2);
-        let second = (x[0] * (y[1] - y[0]) - y[0] * (x[1] - x[0])).atan2(x[0] * (x[1] - x[0]) + y[0] * (y[1] - y[0])).powi(2);
-        let bent = sum(2..n, |i| ((x[i - 1] - x[i - 2]) * (y[i] - y[i - 1]) - (y[i - 1] - y[i - 2]) * (x[i] - x[i - 1]))
-            .atan2((x[i - 1] - x[i - 2]) * (x[i] - x[i - 1]) + (y[i - 1] - y[i - 2]) * (y[i] - y[i - 1])).powi(2));
-        l / 2.0 * kinetic - stretching / (2.0 * l) * stretched - (clamped + second + bent) / (2.0 * l)
+        let bend = |a, b| (a[0] * b[1] - a[1] * b[0]).atan2(a.dot(b)).powi(2);
+        let kinetic = sum(0..n, |i| dot(r[i]).norm_squared()) - dot(r[n - 1]).norm_squared() / 2.0;
+        let stretched = (r[0].norm() - l).powi(2) + sum(1..n, |i| ((r[i] - r[i - 1]).norm() - l).powi(2));
+        let clamped = 2.0 * r[0][1].atan2(r[0][0]).powi(2) + bend(r[0], r[1] - r[0]);
+        let bent = sum(2..n, |i| bend(r[i - 1] - r[i - 2], r[i] - r[i - 1]));
+        l / 2.0 * kinetic - stretching / (2.0 * l) * stretched - (clamped + bent) / (2.0 * l)
     },
 )]
 #[derive(Clone, Debug)]
@@ -113,22 +113,17 @@ impl Beam {
 impl Rod {
     /// Straight, with velocities across it that are those of a mode times `speed`.
     pub fn struck(&self, mode: Mode, speed: f64) -> RodState {
-        let x: Vec<f64> = (1..=self.n).map(|i| i as f64 / self.n as f64).collect();
-        let dot_y = x.iter().map(|&s| speed * mode.shape(s)[0]).collect();
-        RodState { x, y: vec![0.0; self.n], dot_x: vec![0.0; self.n], dot_y }
+        let places = (1..=self.n).map(|i| i as f64 / self.n as f64);
+        let (r, dot_r) = places.map(|s| ([s, 0.0], [0.0, speed * mode.shape(s)[0]])).unzip();
+        RodState { r, dot_r }
     }
 
     /// At rest and not stretched, with the curvature 3a(1 − s)² at s, so that its end has the angle a and
     /// its energy is 0.9a² but for the length of the segments.
     pub fn bent(&self, angle: f64) -> RodState {
-        let (mut x, mut y, mut place) = (Vec::new(), Vec::new(), [0.0; 2]);
         let l = 1.0 / self.n as f64;
-        for i in 0..self.n {
-            let along = angle * (1.0 - (1.0 - (i as f64 + 0.5) * l).powi(3));
-            place = [place[0] + l * along.cos(), place[1] + l * along.sin()];
-            x.push(place[0]);
-            y.push(place[1]);
-        }
-        RodState { x, y, dot_x: vec![0.0; self.n], dot_y: vec![0.0; self.n] }
+        let along = |i: f64| angle * (1.0 - (1.0 - i * l).powi(3));
+        let r = joined(self.n, |i| [along(i).cos(), along(i).sin()]);
+        RodState { r, dot_r: vec![[0.0; 2]; self.n] }
     }
 }

@@ -6,13 +6,15 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_6, TAU};
 use dvi_core::error::StartError;
 use dvi_core::prelude::*;
 
+use super::joined;
+
 /// n equal masses on equal rods without mass, one below the other: in all of mass 1 and length 1, with g =
 /// 1.
 #[lagrangian(
-    coordinates(x[n], y[n]),
-    lagrangian = sum(0..n, |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - y[i]) / (n as f64),
-    constraint = x[0].powi(2) + y[0].powi(2) - 1.0 / (n as f64).powi(2),
-    constraint(i in 1..n) = (x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2) - 1.0 / (n as f64).powi(2),
+    coordinates(r[n][2]),
+    lagrangian = sum(0..n, |i| dot(r[i]).norm_squared() / 2.0 - r[i][1]) / (n as f64),
+    constraint = r[0].norm_squared() - 1.0 / (n as f64).powi(2),
+    constraint(i in 1..n) = (r[i] - r[i - 1]).norm_squared() - 1.0 / (n as f64).powi(2),
 )]
 #[derive(Clone, Debug)]
 pub struct Links {
@@ -28,14 +30,9 @@ impl Links {
 
     /// At rest, with angles from the vertical that grow from zero at the pivot to `angle` at the end.
     pub fn bent(&self, angle: f64) -> LinksState {
-        let (mut x, mut y, mut place) = (Vec::new(), Vec::new(), [0.0; 2]);
-        for i in 0..self.n {
-            let theta = angle * (i as f64 + 0.5) * self.rod();
-            place = [place[0] + self.rod() * theta.sin(), place[1] - self.rod() * theta.cos()];
-            x.push(place[0]);
-            y.push(place[1]);
-        }
-        LinksState { x, y, dot_x: vec![0.0; self.n], dot_y: vec![0.0; self.n] }
+        let theta = |i: f64| angle * i * self.rod();
+        let r = joined(self.n, |i| [theta(i).sin(), -theta(i).cos()]);
+        LinksState { r, dot_r: vec![[0.0; 2]; self.n] }
     }
 }
 
@@ -84,20 +81,18 @@ impl SpringChain {
 /// has the potential (1 − e^{−β(r − r₀)})² of Morse, with r₀ = 1 or √2, so that at rest the four are the
 /// corners of a square.
 #[lagrangian(
-    coordinates(x[3 * n], y[3 * n]),
-    lagrangian = sum(0..3 * n, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0
-        - sum(0..n - 1, |m| sum(0..2, |a| {
-            let side = ((x[3 * m + 3 + a] - x[3 * m + 1 + a]).powi(2) + (y[3 * m + 3 + a] - y[3 * m + 1 + a]).powi(2)).sqrt();
-            let diagonal = ((x[3 * m + 4 - a] - x[3 * m + 1 + a]).powi(2) + (y[3 * m + 4 - a] - y[3 * m + 1 + a]).powi(2)).sqrt();
-            (1.0 - (-beta * (side - 1.0)).exp()).powi(2) + (1.0 - (-beta * (diagonal - 2.0_f64.sqrt())).exp()).powi(2)
-        })),
-    constraint(m in 0..n) = (x[3 * m + 1] - x[3 * m]).powi(2) + (y[3 * m + 1] - y[3 * m]).powi(2) - 1.0,
-    constraint(m in 0..n) = (x[3 * m + 2] - x[3 * m + 1]).powi(2) + (y[3 * m + 2] - y[3 * m + 1]).powi(2) - 1.0,
-    constraint(m in 0..n) = (x[3 * m] - x[3 * m + 2]).powi(2) + (y[3 * m] - y[3 * m + 2]).powi(2) - 1.0,
+    coordinates(r[3 * n][2]),
+    lagrangian = sum(0..3 * n, |i| dot(r[i]).norm_squared()) / 2.0 - sum(0..n - 1, |m| sum(0..2, |a| {
+        let bond = |i, j, rest| (1.0 - (-beta * ((r[i] - r[j]).norm() - rest)).exp()).powi(2);
+        bond(3 * m + 3 + a, 3 * m + 1 + a, 1.0) + bond(3 * m + 4 - a, 3 * m + 1 + a, 2.0_f64.sqrt())
+    })),
+    constraint(m in 0..n) = (r[3 * m + 1] - r[3 * m]).norm_squared() - 1.0,
+    constraint(m in 0..n) = (r[3 * m + 2] - r[3 * m + 1]).norm_squared() - 1.0,
+    constraint(m in 0..n) = (r[3 * m] - r[3 * m + 2]).norm_squared() - 1.0,
     momenta(
-        along = sum(0..3 * n, |i| dot(x[i])),
-        across = sum(0..3 * n, |i| dot(y[i])),
-        angular = sum(0..3 * n, |i| x[i] * dot(y[i]) - y[i] * dot(x[i])),
+        along = sum(0..3 * n, |i| dot(r[i]))[0],
+        across = sum(0..3 * n, |i| dot(r[i]))[1],
+        angular = sum(0..3 * n, |i| r[i][0] * dot(r[i][1]) - r[i][1] * dot(r[i][0])),
     ),
 )]
 #[derive(Clone, Debug)]
@@ -110,21 +105,16 @@ pub struct RigidMolecules {
 
 /// The same molecules with springs of the stiffness `k` in place of the rods.
 #[lagrangian(
-    coordinates(x[3 * n], y[3 * n]),
-    lagrangian = sum(0..3 * n, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0
-        - sum(0..n - 1, |m| sum(0..2, |a| {
-            let side = ((x[3 * m + 3 + a] - x[3 * m + 1 + a]).powi(2) + (y[3 * m + 3 + a] - y[3 * m + 1 + a]).powi(2)).sqrt();
-            let diagonal = ((x[3 * m + 4 - a] - x[3 * m + 1 + a]).powi(2) + (y[3 * m + 4 - a] - y[3 * m + 1 + a]).powi(2)).sqrt();
-            (1.0 - (-beta * (side - 1.0)).exp()).powi(2) + (1.0 - (-beta * (diagonal - 2.0_f64.sqrt())).exp()).powi(2)
-        }))
-        - k / 2.0 * sum(0..n, |m| sum(0..3, |a| {
-            let r2 = (x[3 * m + (a + 1) % 3] - x[3 * m + a]).powi(2) + (y[3 * m + (a + 1) % 3] - y[3 * m + a]).powi(2);
-            (r2.sqrt() - 1.0).powi(2)
-        })),
+    coordinates(r[3 * n][2]),
+    lagrangian = sum(0..3 * n, |i| dot(r[i]).norm_squared()) / 2.0 - sum(0..n - 1, |m| sum(0..2, |a| {
+        let bond = |i, j, rest| (1.0 - (-beta * ((r[i] - r[j]).norm() - rest)).exp()).powi(2);
+        bond(3 * m + 3 + a, 3 * m + 1 + a, 1.0) + bond(3 * m + 4 - a, 3 * m + 1 + a, 2.0_f64.sqrt())
+    }))
+        - k / 2.0 * sum(0..n, |m| sum(0..3, |a| ((r[3 * m + (a + 1) % 3] - r[3 * m + a]).norm() - 1.0).powi(2))),
     momenta(
-        along = sum(0..3 * n, |i| dot(x[i])),
-        across = sum(0..3 * n, |i| dot(y[i])),
-        angular = sum(0..3 * n, |i| x[i] * dot(y[i]) - y[i] * dot(x[i])),
+        along = sum(0..3 * n, |i| dot(r[i]))[0],
+        across = sum(0..3 * n, |i| dot(r[i]))[1],
+        angular = sum(0..3 * n, |i| r[i][0] * dot(r[i][1]) - r[i][1] * dot(r[i][0])),
     ),
 )]
 #[derive(Clone, Debug)]
@@ -144,28 +134,27 @@ impl RigidMolecules {
     /// # Errors
     /// Those of [`projected`](dvi_core::mechanics::OnConstraints::projected).
     pub fn chain(&self, speed: f64) -> Result<RigidMoleculesState, StartError> {
-        let (mut x, mut y, mut dot_x, mut dot_y) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let radius = 1.0 / 3.0_f64.sqrt();
         let apart = 1.0 + radius;
-        for m in 0..self.n {
+        let atom = |i: usize| {
+            let (m, a) = (i / 3, i % 3);
             let sign = if m % 2 == 0 { 1.0 } else { -1.0 };
             let along = (m as f64 - 0.5 * (self.n as f64 - 1.0)) * apart * FRAC_PI_6.cos();
-            for a in 0..3 {
-                let angle = FRAC_PI_2 + (1.0 - f64::from(a)) * TAU / 3.0;
-                x.push(along + radius * angle.cos());
-                y.push(sign * (radius * angle.sin() - 0.25 * apart));
-                let square = (x.len() * x.len()) as f64;
-                dot_x.push(speed * (2.1 * square).sin());
-                dot_y.push(speed * (1.7 * square).cos());
-            }
-        }
-        self.projected(0.0, &RigidMoleculesState { x, y, dot_x, dot_y })
+            let angle = FRAC_PI_2 + (1.0 - a as f64) * TAU / 3.0;
+            let square = ((i + 1) * (i + 1)) as f64;
+            (
+                [along + radius * angle.cos(), sign * (radius * angle.sin() - 0.25 * apart)],
+                [speed * (2.1 * square).sin(), speed * (1.7 * square).cos()],
+            )
+        };
+        let (r, dot_r) = (0..3 * self.n).map(atom).unzip();
+        self.projected(0.0, &RigidMoleculesState { r, dot_r })
     }
 }
 
 impl From<RigidMoleculesState> for SpringMoleculesState {
-    fn from(RigidMoleculesState { x, y, dot_x, dot_y }: RigidMoleculesState) -> Self {
-        Self { x, y, dot_x, dot_y }
+    fn from(RigidMoleculesState { r, dot_r }: RigidMoleculesState) -> Self {
+        Self { r, dot_r }
     }
 }
 

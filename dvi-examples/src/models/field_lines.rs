@@ -6,6 +6,8 @@
 
 use dvi_core::prelude::*;
 
+use super::bisected;
+
 /// The field of Arnold, Beltrami and Childress with a uniform one along z, which is the time:
 /// B = (a sin z + c cos y, b sin x + a cos z, uniform + c sin y + b cos x).
 ///
@@ -72,10 +74,6 @@ impl PerturbedTokamak {
     /// The distance from the axis at which a line turns around it `turns` times; 1/q falls with the
     /// distance.
     pub fn resonance(&self, turns: f64) -> f64 {
-        let halve = |[low, high]: [f64; 2], _| {
-            let middle = 0.5 * (low + high);
-            if self.turns(middle) > turns { [middle, high] } else { [low, middle] }
-        };
-        (0..60).fold([0.0, 0.9], halve)[0]
+        bisected([0.0, 0.9], |rho| self.turns(rho) > turns)
     }
 }

@@ -1,10 +1,10 @@
 //! What tops and spherical pendulums have in common, heights between which they go up and down, and states
 //! on a manifold; and a mass on a sphere, by a unit vector and by a constraint.
 
-use std::f64::consts::TAU;
-
 use dvi_core::State;
 use dvi_core::prelude::*;
+
+use super::bisected;
 
 /// What the height u of a top depends on: (A u̇)² = (1 − u²) 2A(E − weight u) − (vertical − spin u)², by its
 /// integrals (Goldstein 1980, section 5.7). A mass of 1 on a rod of length 1 has A = 1 and no spin.
@@ -25,28 +25,13 @@ pub struct Heights {
 impl Heights {
     /// The roots of the cubic between −1 and 1, the lower one first. The third root is above 1, or is 1.
     pub fn extremes(&self) -> [f64; 2] {
-        // u³ + a u² + b u + c = 0
+        // u³ + a u² + b u + … = 0 has its peak between them.
         let Self { across, weight, energy, spin, vertical } = self;
         let leading = 2.0 * across * weight;
         let a = -(2.0 * across * energy + spin * spin) / leading;
         let b = (2.0 * spin * vertical - leading) / leading;
-        let c = (2.0 * across * energy - vertical * vertical) / leading;
-        // Viète: three real roots −a/3 + 2r cos((φ + 2πk)/3), the largest with k = 0.
-        let r = ((a * a - 3.0 * b) / 9.0).max(0.0).sqrt();
-        let cosine = -(2.0 * a.powi(3) - 9.0 * a * b + 27.0 * c) / (54.0 * r.powi(3));
-        let phi = cosine.clamp(-1.0, 1.0).acos();
-        [1.0, 2.0].map(|k| self.polished(2.0 * r * ((phi + TAU * k) / 3.0).cos() - a / 3.0))
-    }
-
-    /// Newton's method from a root up to rounding.
-    fn polished(&self, mut u: f64) -> f64 {
-        for _ in 0..3 {
-            let change = self.value(u) / self.slope(u);
-            if change.is_finite() {
-                u -= change;
-            }
-        }
-        u
+        let peak = -(a + (a * a - 3.0 * b).max(0.0).sqrt()) / 3.0;
+        [bisected([-1.0, peak], |u| self.value(u) < 0.0), bisected([peak, 1.0], |u| self.value(u) > 0.0)]
     }
 
     /// How much the energy changes with an extreme that is near `u`, for the same momenta.
@@ -88,7 +73,7 @@ pub trait OnManifold<const D: usize>: ManifoldLagrangian + Copy {
 /// A mass of 1 on a rod of length 1, as a unit vector, in gravity along the third axis.
 #[lagrangian(
     coordinates(s: S2),
-    lagrangian = (dot(s[0]).powi(2) + dot(s[1]).powi(2) + dot(s[2]).powi(2)) / 2.0 - gravity * s[2],
+    lagrangian = dot(s).norm_squared() / 2.0 - gravity * s[2],
     momenta(vertical = s[0] * dot(s[1]) - s[1] * dot(s[0])),
 )]
 #[derive(Clone, Copy, Debug)]
@@ -99,10 +84,10 @@ pub struct SphericalPendulum {
 
 /// The same in the coordinates of space, with the rod as an equation.
 #[lagrangian(
-    coordinates(x, y, z),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0 - gravity * z,
-    constraint = x * x + y * y + z * z - 1.0,
-    momenta(vertical = x * dot(y) - y * dot(x)),
+    coordinates(s[3]),
+    lagrangian = dot(s).norm_squared() / 2.0 - gravity * s[2],
+    constraint = s.norm_squared() - 1.0,
+    momenta(vertical = s[0] * dot(s[1]) - s[1] * dot(s[0])),
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedPendulum {
@@ -151,23 +136,17 @@ impl OnManifold<6> for SphericalPendulum {
 }
 
 impl ConstrainedPendulum {
-    /// The state of a pendulum of unit vectors.
-    pub fn state_of(state: &SphericalPendulumState) -> ConstrainedPendulumState {
-        let SphericalPendulumState { s: [x, y, z], dot_s: [dot_x, dot_y, dot_z] } = *state;
-        ConstrainedPendulumState { x, y, z, dot_x, dot_y, dot_z }
-    }
-
-    /// The state as that of a pendulum of unit vectors.
-    pub fn on_sphere(state: &ConstrainedPendulumState) -> SphericalPendulumState {
-        let ConstrainedPendulumState { x, y, z, dot_x, dot_y, dot_z } = *state;
-        SphericalPendulumState { s: [x, y, z], dot_s: [dot_x, dot_y, dot_z] }
-    }
-
     /// The same as [`SphericalPendulum::shift`] for RATTLE: the kinetic energy of a step is that of the
     /// chord, which is shorter than the arc, chord² = θ² − θ⁴/12 + …, so that L of a step is less by
     /// h³|ṡ|⁴/24.
     pub fn shift(&self, state: &SphericalPendulumState) -> f64 {
         SphericalPendulum { gravity: self.gravity }.shift(state) - squared(&state.dot_s).powi(2) / 24.0
+    }
+}
+
+impl From<ConstrainedPendulumState> for SphericalPendulumState {
+    fn from(ConstrainedPendulumState { s, dot_s }: ConstrainedPendulumState) -> Self {
+        Self { s, dot_s }
     }
 }
 

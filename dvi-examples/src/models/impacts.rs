@@ -47,12 +47,6 @@ impl Bouncer {
         [-0.3 * x - 0.4 * x.powi(3) - 0.3 * x * y * y, -1.0 - 0.3 * x * x * y]
     }
 
-    /// The energy.
-    pub fn energy_at(&self, [x, y, dot_x, dot_y]: [f64; 4]) -> f64 {
-        let potential = y + 0.15 * x * x + 0.1 * x.powi(4) + 0.15 * x * x * y * y;
-        (dot_x * dot_x + dot_y * dot_y) / 2.0 + potential
-    }
-
     /// The height above the floor, and the direction away from it.
     pub fn above([x, y]: [f64; 2], a: f64) -> (f64, [f64; 2]) {
         (y - a * x.cos(), [a * x.sin(), 1.0])

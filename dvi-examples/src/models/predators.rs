@@ -1,4 +1,4 @@
-//! Predators and prey: x' = x(y − 2) and y' = y(1 − x) in four one-forms of the same motion, and three
+//! Predators and prey: x' = x(y − 2) and y' = y(1 − x) in several one-forms of the same motion, and three
 //! species in a circle.
 
 use dvi_core::prelude::*;
@@ -13,32 +13,19 @@ use dvi_core::prelude::*;
 #[derive(Clone, Debug)]
 pub struct OneSidedPredators {}
 
-/// The same motion with the symmetric one-form, which has components along both coordinates.
+/// The same motion with one-forms that have components along both coordinates, and differ by gauges.
 #[degenerate_lagrangian(
     coordinates(x, y),
-    one_form    = (y.ln() / x * d(x) - x.ln() / y * d(y)) / 2.0,
+    one_form    = ((2.0 - share) * y.ln() / x * d(x) - share * x.ln() / y * d(y)) / 2.0 + shift * (y * d(x) + x * d(y)),
     hamiltonian = x - x.ln() + y - 2.0 * y.ln(),
 )]
 #[derive(Clone, Debug)]
-pub struct SymmetricPredators {}
-
-/// The one-sided form with d(xy) added.
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form    = (y + y.ln() / x) * d(x) + x * d(y),
-    hamiltonian = x - x.ln() + y - 2.0 * y.ln(),
-)]
-#[derive(Clone, Debug)]
-pub struct ShiftedPredators {}
-
-/// The symmetric form with d(xy) added.
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form    = (y + y.ln() / (2.0 * x)) * d(x) + (x - x.ln() / (2.0 * y)) * d(y),
-    hamiltonian = x - x.ln() + y - 2.0 * y.ln(),
-)]
-#[derive(Clone, Debug)]
-pub struct ShiftedSymmetricPredators {}
+pub struct Predators {
+    /// How much of the one-form is along y: 1 makes it symmetric, 0 one-sided.
+    pub share: f64,
+    /// How much of d(xy) is added.
+    pub shift: f64,
+}
 
 /// Three species that eat each other in a circle, x' = x(y − z), y' = y(z − x), z' = z(x − y), as a
 /// degenerate system of four.

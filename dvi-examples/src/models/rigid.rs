@@ -28,7 +28,7 @@ pub struct Top {
 /// A body without forces, by the axes of its moments of inertia.
 #[lagrangian(
     coordinates(R: SO3),
-    lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2) + inertia[2] * omega(R)[2].powi(2)) / 2.0,
+    lagrangian = inertia.dot([omega(R)[0].powi(2), omega(R)[1].powi(2), omega(R)[2].powi(2)]) / 2.0,
     momenta(
         x = R[0][0] * inertia[0] * omega(R)[0] + R[0][1] * inertia[1] * omega(R)[1] + R[0][2] * inertia[2] * omega(R)[2],
         y = R[1][0] * inertia[0] * omega(R)[0] + R[1][1] * inertia[1] * omega(R)[1] + R[1][2] * inertia[2] * omega(R)[2],
@@ -139,7 +139,8 @@ fn vertical(rotation: &[f64; 9]) -> [f64; 3] {
     [rotation[6], rotation[7], rotation[8]]
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+/// a × b
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 

@@ -22,8 +22,12 @@ fn gallery(arguments: &[&str], out: &Path) -> Command {
     command
 }
 
-fn run(arguments: &[&str], out: &Path) -> Output {
-    gallery(arguments, out).output().expect("the program starts")
+/// What a run that ends with this code prints, and its messages.
+fn told(command: &mut Command, code: i32) -> [String; 2] {
+    let Output { status, stdout, stderr } = command.output().expect("the program starts");
+    let told = [stdout, stderr].map(|text| String::from_utf8(text).expect("UTF-8"));
+    assert_eq!(status.code(), Some(code), "{told:?}");
+    told
 }
 
 fn names(folder: &Path) -> BTreeSet<String> {
@@ -32,8 +36,8 @@ fn names(folder: &Path) -> BTreeSet<String> {
 }
 
 fn list() -> Vec<String> {
-    let list = run(&["--list"], Path::new(".")).stdout;
-    String::from_utf8(list).expect("UTF-8").lines().map(str::to_owned).collect()
+    let [list, _] = told(&mut gallery(&["--list"], Path::new(".")), 0);
+    list.lines().map(str::to_owned).collect()
 }
 
 fn listed() -> Vec<String> {
@@ -47,9 +51,7 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     if folder.exists() {
         fs::remove_dir_all(&folder).expect("removed");
     }
-    let output = run(&["--short", "--all"], &folder);
-    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{printed}{}", String::from_utf8_lossy(&output.stderr));
+    let [printed, _] = told(&mut gallery(&["--short", "--all"], &folder), 0);
     let experiments = listed();
     assert!(experiments.len() >= 40, "{experiments:?}");
     let files =
@@ -114,8 +116,7 @@ fn results_are_the_same_for_every_number_of_threads() {
         let folder = tempdir().expect("a folder");
         let experiments =
             ["--short", "--threads", threads, "--only", "fig2-energy", "stability", "kepler-work"];
-        let output = gallery(&experiments, folder.path()).env("SOURCE_DATE_EPOCH", "0").output();
-        assert_eq!(output.expect("starts").status.code(), Some(0));
+        told(gallery(&experiments, folder.path()).env("SOURCE_DATE_EPOCH", "0"), 0);
         let read = |name: String| fs::read(folder.path().join(name)).expect("readable");
         names(folder.path()).into_iter().map(read).collect::<Vec<_>>()
     });
@@ -127,34 +128,21 @@ fn results_are_the_same_for_every_number_of_threads() {
 fn a_run_without_a_terminal_leaves_what_was_asked_for_and_plain_lines() {
     let folder = tempdir().expect("a folder");
     let mut command = Command::new(env!("CARGO_BIN_EXE_dvi-examples"));
-    let output =
-        command.args(["--short", "--only", "momenta", "barnes"]).current_dir(folder.path()).output();
-    let output = output.expect("starts");
-    assert_eq!(output.status.code(), Some(0));
-    let files = [
-        "barnes.csv",
-        "barnes.png",
-        "barnes.svg",
-        "index.html",
-        "momenta.csv",
-        "momenta.png",
-        "momenta.svg",
-        "summary.csv",
-        "summary.md",
-    ];
-    assert_eq!(names(&folder.path().join("results-short")).into_iter().collect::<Vec<_>>(), files);
-    let lines = String::from_utf8(output.stderr).expect("UTF-8");
+    let command = command.args(["--short", "--only", "momenta", "barnes"]).current_dir(folder.path());
+    let [_, lines] = told(command, 0);
+    let of = |name: &str| ["csv", "png", "svg"].map(|kind| format!("{name}.{kind}"));
+    let files =
+        [of("barnes"), of("momenta"), ["index.html", "summary.csv", "summary.md"].map(str::to_owned)];
+    assert_eq!(names(&folder.path().join("results-short")), files.into_iter().flatten().collect());
     assert!(!lines.contains(['\u{1b}', '\r']) && lines.contains("(2 of 2)"), "{lines}");
 }
 
 #[test]
 fn the_main_job_is_that_of_the_papers() {
     let folder = tempdir().expect("a folder");
-    let output = run(&["--short"], folder.path());
-    assert_eq!(output.status.code(), Some(0));
+    let [_, messages] = told(&mut gallery(&["--short"], folder.path()), 0);
     let names = names(folder.path());
     assert!(names.contains("fig5-chaotic.svg") && !names.contains("friction.svg"), "{names:?}");
-    let messages = String::from_utf8_lossy(&output.stderr).into_owned();
     let place = |name: &str| messages.find(&format!("\n{name} ")).expect("it ended");
     assert!(place("order") < place("kepler-long"), "{messages}");
 }
@@ -164,8 +152,7 @@ fn a_run_completes_the_summary_of_its_folder() {
     let folder = tempdir().expect("a folder");
     let new = folder.path().join("new/folder");
     for (name, seconds) in [("momenta", "0"), ("barnes", "86400"), ("momenta", "0")] {
-        let output = gallery(&["--short", "--only", name], &new).env("SOURCE_DATE_EPOCH", seconds).output();
-        assert_eq!(output.expect("starts").status.code(), Some(0));
+        told(gallery(&["--short", "--only", name], &new).env("SOURCE_DATE_EPOCH", seconds), 0);
     }
     let summary = fs::read_to_string(new.join("summary.md")).expect("readable");
     let section =
@@ -184,9 +171,7 @@ fn results_that_could_not_be_written_are_refused_before_anything_runs() {
         (folder.path().to_owned(), "remove it or choose another folder"),
         (table.join("below"), "cannot create the folder"),
     ] {
-        let output = run(&["--short", "--only", "momenta"], &out);
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{message}");
+        let [_, message] = told(&mut gallery(&["--short", "--only", "momenta"], &out), 1);
         assert!(message.starts_with("error: ") && message.contains(words), "{message}");
     }
     assert_eq!(names(folder.path()).into_iter().collect::<Vec<_>>(), ["summary.csv"]);
@@ -196,9 +181,7 @@ fn results_that_could_not_be_written_are_refused_before_anything_runs() {
 fn bad_arguments_are_refused_before_anything_is_written() {
     let folder = tempdir().expect("a folder");
     let refused = |arguments: &[&str], hint: &str| {
-        let output = run(arguments, &folder.path().join("out"));
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{message}");
+        let [_, message] = told(&mut gallery(arguments, &folder.path().join("out")), 2);
         assert!(message.contains(hint), "{message}");
     };
     refused(&["--only", "fig2-energi"], "fig2-energy");

@@ -1,0 +1,94 @@
+//! Newmark's method with β = ¼ and γ = ½, written by hand for linear friction, and which method it is.
+
+use super::decay::{Case, START};
+use crate::vocabulary::*;
+
+/// A point with its velocity and acceleration.
+#[derive(Clone)]
+pub struct AverageAcceleration {
+    system: RadialFriction,
+    h: f64,
+    q: [f64; 2],
+    v: [f64; 2],
+    a: [f64; 2],
+}
+
+impl AverageAcceleration {
+    pub fn new(case: Case, RadialFrictionState { x, y, dot_x, dot_y }: RadialFrictionState) -> Self {
+        let (system, h, q, v) = (case.system(), case.h, [x, y], [dot_x, dot_y]);
+        Self { a: acceleration(&system, q, v), system, h, q, v }
+    }
+
+    /// Solves a1 + γ v1 + ∇V(q1) = 0 by iteration, with the acceleration ½(a0 + a1) over the whole step.
+    pub fn step(&mut self) {
+        let Self { system, h, q, v, a } = self.clone();
+        // It needs about twenty.
+        for _ in 0..100 {
+            let mean = [0, 1].map(|i: usize| 0.5 * (a[i] + self.a[i]));
+            self.v = moved(v, h, mean);
+            self.q = moved(moved(q, h, v), 0.5 * h * h, mean);
+            let next = acceleration(&system, self.q, self.v);
+            let change = length(difference(next, self.a));
+            self.a = next;
+            if change < 1e-15 {
+                break;
+            }
+        }
+    }
+
+    /// q − ½h v and v − ½h a.
+    pub fn half_a_step_back(&self) -> RadialFrictionState {
+        let Self { h, q, v, a, .. } = *self;
+        let ([x, y], [dot_x, dot_y]) = (moved(q, -0.5 * h, v), moved(v, -0.5 * h, a));
+        RadialFrictionState { x, y, dot_x, dot_y }
+    }
+
+    /// The energy and the angular momentum.
+    pub fn integrals(&self) -> [f64; 2] {
+        let ([x, y], [u, w], r2) = (self.q, self.v, dot(self.q, self.q));
+        [0.5 * dot(self.v, self.v) + r2 * (r2 - 1.0).powi(2), x * w - y * u]
+    }
+}
+
+/// With z' = F(z) Newmark's method is z1 − ½hF(z1) = z0 + ½hF(z0). So the points z − ½hF(z) are those of the
+/// implicit midpoint rule, which is what the variational midpoint rule is for this Lagrangian and these
+/// forces.
+pub fn is_midpoint(job: &Job<'_>, case: Case) -> Result<Claim> {
+    let (mut newmark, midpoint) = (AverageAcceleration::new(case, START), Variational::midpoint());
+    let mut run = Integrator::new(case.system(), midpoint, case.h, newmark.half_a_step_back())?;
+    let entries = |RadialFrictionState { x, y, dot_x, dot_y }| [x, y, dot_x, dot_y];
+    let mut most = 0.0;
+    job.follow(&mut run, case.steps(), |run| {
+        newmark.step();
+        most = larger(most, apart(&entries(run.state()), &entries(newmark.half_a_step_back())));
+    })?;
+    let text = "Newmark's method with β = ¼ is the variational midpoint rule half a step back, with \
+                friction too";
+    Ok(beyond(text).at_most("largest difference of a coordinate or a velocity", most, 1e-10))
+}
+
+/// −γ v − ∇V(q)
+fn acceleration(system: &RadialFriction, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|i: usize| -system.slope(&q) * q[i] - system.gamma * v[i])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_satisfies_the_equations_of_newmark() {
+        let start = RadialFrictionState { x: 1.2, y: 0.1, dot_x: -0.3, dot_y: 0.5 };
+        let before = AverageAcceleration::new(Case { gamma: 0.3, h: 0.2, end: 0.0 }, start);
+        let mut after = before.clone();
+        after.step();
+        let slope = after.system.slope(&after.q);
+        for i in 0..2 {
+            let moved = 0.2 * before.v[i] + 0.01 * (before.a[i] + after.a[i]);
+            assert!((after.q[i] - before.q[i] - moved).abs() < 1e-15);
+            let faster = 0.1 * (before.a[i] + after.a[i]);
+            assert!((after.v[i] - before.v[i] - faster).abs() < 1e-14);
+            assert!((after.a[i] + 0.3 * after.v[i] + slope * after.q[i]).abs() < 1e-12);
+        }
+    }
+}
