@@ -94,7 +94,7 @@ use std::vec::Vec;
 use crate::Lagrangian;
 use crate::diagnostics::LyapunovExponent;
 use crate::discrete::TwiceDifferentiable;
-use crate::methods::{InStep, Method, VariationalMethod};
+use crate::methods::{InStep, Method, Suits, VariationalMethod};
 use crate::run::{Direction, Together};
 use limits::Given;
 use plan::Plan;
@@ -165,18 +165,23 @@ pub struct Progress {
 
 impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// Runs on one system from each of the `states`, at time 0 and with step `h`, which may be negative.
-    pub fn new(system: &'a S, method: M, h: f64, states: impl IntoIterator<Item = S::State<f64>>) -> Self {
-        Self::of(Systems::Same(system), method, h, states)
+    pub fn new(
+        system: &'a S,
+        method: impl Suits<S, f64, M>,
+        h: f64,
+        states: impl IntoIterator<Item = S::State<f64>>,
+    ) -> Self {
+        Self::of(Systems::Same(system), method.suited(), h, states)
     }
 
     /// Runs on a system for each of the `states`, such as one with parameters from a table.
     pub fn with_systems(
         systems: &'a [S],
-        method: M,
+        method: impl Suits<S, f64, M>,
         h: f64,
         states: impl IntoIterator<Item = S::State<f64>>,
     ) -> Self {
-        Self::of(Systems::Each(systems), method, h, states)
+        Self::of(Systems::Each(systems), method.suited(), h, states)
     }
 
     fn of(

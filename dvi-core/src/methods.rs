@@ -85,6 +85,7 @@ use crate::discrete::{DiscreteLagrangian, Span};
 use crate::error::{StartError, StepFailure};
 use crate::memory::Memory;
 use crate::state::Statistics;
+use crate::system::Same;
 use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::Composition;
@@ -214,6 +215,11 @@ pub trait Carries<S: System, T: Real> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
+    /// `M`, and nothing else has to be said in a method of your own. One for systems of one kind may take it
+    /// from the trait of that kind, as `<S as RegularLagrangian<T>>::Suited<M>`: then rustc reports once, where
+    /// a run begins, that a system is of another kind.
+    type Suited<M>: Same<M, As = M>;
+
     /// Prepares a run with step `h` from (`q`, `t`), with velocity `v` if the system is regular; for
     /// degenerate systems `v` is empty. Everything that needs memory is allocated here.
     ///
@@ -308,6 +314,19 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     }
 }
 
+/// A [`Method`] for `S` that is `M`: where it is one for systems of another kind, rustc does not know `M`.
+pub trait Suits<S: Lagrangian<T>, T: Real, M> {
+    /// The method as it is.
+    fn suited(self) -> M;
+}
+
+impl<S: Lagrangian<T>, T: Real, M, X: Method<S, T, Suited<X>: Same<X, As = M>>> Suits<S, T, M> for X {
+    #[inline]
+    fn suited(self) -> M {
+        X::Suited::<X>::same(self)
+    }
+}
+
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
 /// may follow one another.
 pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
@@ -384,6 +403,9 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     note = "such a method is `Variational`; `EnergyLimit` goes around `Constrained`"
 )]
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
+    /// As [`Method::Suited`].
+    type Suited<M>: Same<M, As = M>;
+
     /// Refuses options that have no effect there.
     ///
     /// # Errors

@@ -33,8 +33,8 @@ pub use integrator::Integrator;
 #[cfg(feature = "alloc")]
 pub use resume::Resume;
 pub use step_control::{
-    CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, ErrorControl, Osculating,
-    Power, Reversible, StepControl,
+    CentreSpeed, ControlledIntegrator, ControlledRun, Controls, Density, EnergyMomentum, ErrorControl,
+    Osculating, Power, Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;
 

@@ -27,6 +27,7 @@ pub(crate) mod report;
 pub(crate) mod spinors;
 pub(crate) mod stand_in;
 pub(crate) mod start;
+mod suited;
 mod unilateral;
 
 use core::fmt::Debug;
@@ -50,6 +51,7 @@ pub(crate) use packable::Packable;
 pub use pair_sum::{DegeneratePairSum, PairSum, RegularPairSum};
 pub(crate) use report::CoordinateBlock;
 pub use report::Report;
+pub use suited::Same;
 pub use unilateral::UnilateralLagrangian;
 
 /// A point, velocity or covector of the space of `S`.
@@ -314,6 +316,9 @@ pub trait Lagrangian<T: Scalar = f64>: System {
     note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
 )]
 pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degenerate> {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
+
     /// Whether α is affine in q with constant coefficients, so that Dα is one constant matrix.
     const AFFINE: bool;
     /// Whether Dα couples each coordinate to exactly one other, its conjugate, and to nothing else; then a
@@ -437,6 +442,9 @@ pub trait TimeTransformed<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degene
     note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
 )]
 pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
+
     /// The place of a coordinate, below the dimension n, in the order (x, y): below n/2 if α has a component
     /// along it.
     fn place(&self, coordinate: usize) -> usize;

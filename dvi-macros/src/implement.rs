@@ -253,6 +253,13 @@ fn in_numbers_with(emitter: &Emitter<'_>, implemented: &TokenStream, items: &Tok
     }
 }
 
+/// What stands in each trait by which a method asks for a kind of systems.
+pub(crate) fn suited() -> TokenStream {
+    quote!(
+        type Suited<__M> = __M;
+    )
+}
+
 /// The type that says what kind of Lagrangian it is.
 pub(crate) fn kind(
     krate: &Path,

@@ -168,6 +168,7 @@ impl<S: System> Carries<S, f64> for Detour {
 }
 
 impl<S: Lagrangian> StepControl<S, f64> for Detour {
+    type Suited<C> = C;
     const REJECTS: bool = true;
     fn begin(&self, _system: &S, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
         Ok(((), self.h))

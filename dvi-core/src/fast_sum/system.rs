@@ -133,6 +133,8 @@ impl<S, const D: usize> DegenerateLagrangian for FastSum<'_, S, D>
 where
     S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + Sync,
 {
+    type Suited<M> = M;
+
     const AFFINE: bool = <S as DegenerateLagrangian<f64>>::AFFINE;
     const MATCHING: bool = <S as DegenerateLagrangian<f64>>::MATCHING;
     const CANONICAL: bool = <S as DegenerateLagrangian<f64>>::CANONICAL;
@@ -179,6 +181,8 @@ impl<S, const D: usize> ProperlyDegenerate for FastSum<'_, S, D>
 where
     S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + ProperlyDegenerate + Sync,
 {
+    type Suited<M> = M;
+
     fn place(&self, coordinate: usize) -> usize {
         ProperlyDegenerate::place(self.system, coordinate)
     }
@@ -208,15 +212,19 @@ where
 }
 
 #[diagnostic::do_not_recommend]
-impl<S, const D: usize> RegularLagrangian for FastSum<'_, S, D> where
-    S: RegularPairSum<f64, D> + PairSum<Pack, D> + RegularLagrangian + Sync
+impl<S, const D: usize> RegularLagrangian for FastSum<'_, S, D>
+where
+    S: RegularPairSum<f64, D> + PairSum<Pack, D> + RegularLagrangian + Sync,
 {
+    type Suited<M> = M;
 }
 
 #[diagnostic::do_not_recommend]
-impl<S, const D: usize> Separable for FastSum<'_, S, D> where
-    S: RegularPairSum<f64, D> + PairSum<Pack, D> + Separable + Sync
+impl<S, const D: usize> Separable for FastSum<'_, S, D>
+where
+    S: RegularPairSum<f64, D> + PairSum<Pack, D> + Separable + Sync,
 {
+    type Suited<M> = M;
 }
 
 #[diagnostic::do_not_recommend]

@@ -26,7 +26,7 @@ use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::sink::{Places, TransposedProduct};
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
-use crate::system::Kind;
+use crate::system::{Kind, Same};
 use crate::{ConstrainedSystem, NondegenerateLagrangian, Real, Scalar, Space, System};
 
 pub(crate) use solver::ConstraintSolver;
@@ -40,6 +40,9 @@ pub(crate) type Augmented<S, T> = <<S as ConstrainedSystem>::Augmented as Space>
 /// of velocities, A(q, t) v + b(q, t) = 0. All functions set `out` to one number for each constraint and
 /// **add** a matrix with a row for each to `sink`.
 pub trait Constraints<S: System, T: Real>: Kind {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
+
     /// Whether positions are constrained.
     const OF_POSITIONS: bool;
 
@@ -70,12 +73,16 @@ pub trait Constraints<S: System, T: Real>: Kind {
 pub trait ConstrainedLagrangian<T: Real = f64>:
     NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind: Constraints<Self, T>> + Sized
 {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
 }
 
 #[diagnostic::do_not_recommend]
-impl<S, T: Real> ConstrainedLagrangian<T> for S where
-    S: NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind: Constraints<S, T>>
+impl<S, T: Real> ConstrainedLagrangian<T> for S
+where
+    S: NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind: Constraints<S, T>>,
 {
+    type Suited<M> = <S::Kind as Constraints<S, T>>::Suited<M>;
 }
 
 /// A point and a time at which constraints are evaluated.

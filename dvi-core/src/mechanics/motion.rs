@@ -20,7 +20,7 @@ use crate::memory::Memory;
 #[cfg(feature = "alloc")]
 use crate::memory::{Reader, Record};
 use crate::state::Statistics;
-use crate::system::Kind;
+use crate::system::{Kind, Same};
 use crate::{Real, Scalar, Sink, System, Vector, Weights};
 
 use stages::FirstOrderInLanes;
@@ -123,6 +123,9 @@ pub(crate) type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point
     note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
 pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
+
     /// The equations at (`q`, `v`, `t`).
     ///
     /// # Errors

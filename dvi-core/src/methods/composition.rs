@@ -204,6 +204,8 @@ impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for Composition<M> {
 }
 
 impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition<M> {
+    type Suited<X> = M::Suited<X>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let begin = || self.method.begin(system, q, v, t, h);
         Ok(CompositionMemory { inner: begin()?, before: Before { inner: begin()?, q: q.clone() } })

@@ -22,6 +22,7 @@ use crate::solve::{Due, Guess, Solver, Stopping, from_either_guess, newton, size
 use crate::state::Statistics;
 use crate::state::rates::is_similar;
 use crate::state::summation::Summation;
+use crate::system::Same;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
@@ -316,6 +317,8 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> for Constrained<M> {
+    type Suited<X> = M::Suited<<S::Suited<X> as Same<X>>::As>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         self.scheme.admit(system)?;

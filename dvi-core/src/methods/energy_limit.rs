@@ -90,6 +90,8 @@ impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for EnergyLimit<M> {
 }
 
 impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
+    type Suited<X> = M::Suited<X>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         if self.limit.is_nan() || self.limit <= 0.0 {
             let (value, range) = (self.limit, "positive");

@@ -140,6 +140,8 @@ where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
     E: StageEvaluation<STAGES, S, T>,
 {
+    type Suited<X> = <S::Kind as FirstOrder<S, T>>::Suited<X>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let path = Path::begin(system, q, v, t)?;

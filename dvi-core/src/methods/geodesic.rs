@@ -133,6 +133,8 @@ impl<S: ManifoldSystem, R, T: Real> Carries<S, T> for Geodesic<R> {
 }
 
 impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
+    type Suited<X> = S::Suited<X>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         Quadrature::new(self.rule.nodes(), self.rule.weights())?;
         self.stopping.validate()?;

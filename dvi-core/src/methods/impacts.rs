@@ -7,6 +7,7 @@ mod passage;
 
 use crate::error::{StartError, StepFailure};
 use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step};
+use crate::system::Same;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, UnilateralLagrangian, Vector};
 pub use memory::Impact;
@@ -162,6 +163,8 @@ impl<S: ConstrainedSystem, T: Real, M: Carries<S, T>, const MOST: usize> Carries
 impl<S: UnilateralLagrangian<T>, T: Real, M: FreeFlight<S, T>, const MOST: usize> Method<S, T>
     for Impacts<M, MOST>
 {
+    type Suited<X> = M::Suited<<S::Suited<X> as Same<X>>::As>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let e = self.restitution;
         if e.is_nan() || e <= 0.0 || e > 1.0 {

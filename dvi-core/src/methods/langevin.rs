@@ -19,6 +19,7 @@ use crate::memory::{Memory, lasting};
 use crate::methods::kicks::kick;
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use crate::scalar::norm;
+use crate::system::Same;
 use crate::{Real, RegularLagrangian, Scalar, Separable, Space, System, Vector};
 
 /// Langevin dynamics, for [`Separable`] systems: friction and noise as of a heat bath, by the splitting
@@ -159,6 +160,8 @@ impl<S: System, T: Real> Carries<S, T> for Langevin {
 }
 
 impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin {
+    type Suited<X> = <S as Separable<T>>::Suited<<<S as RegularLagrangian<T>>::Suited<X> as Same<X>>::As>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(h)?;
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;

@@ -24,6 +24,7 @@ use crate::solve::{Ladder, Solver, Stopping};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
+use crate::system::Same;
 use crate::{Linear, Real, RegularLagrangian, Separable, System, Vector, Weights};
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t): for [`Separable`] systems.
@@ -196,6 +197,8 @@ impl<S: System, T: Real> Carries<S, T> for Newmark<T> {
 }
 
 impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T> {
+    type Suited<X> = <S as Separable<T>>::Suited<<<S as RegularLagrangian<T>>::Suited<X> as Same<X>>::As>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.validate()?;
         let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };

@@ -148,6 +148,8 @@ impl<S: System, T: Real> Carries<S, T> for OneStep {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
+    type Suited<X> = <S as ProperlyDegenerate<T>>::Suited<X>;
+
     fn begin(
         &self,
         system: &S,

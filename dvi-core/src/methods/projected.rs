@@ -154,6 +154,8 @@ impl<S: System, T: Real> Carries<S, T> for Projected {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
+    type Suited<X> = S::Suited<X>;
+
     fn begin(
         &self,
         system: &S,

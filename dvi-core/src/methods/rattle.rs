@@ -19,6 +19,7 @@ use crate::methods::constrained::Impulses;
 use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
 use crate::solve::{Convergence, Stopping};
 use crate::space::SquareMatrix;
+use crate::system::Same;
 use crate::{ConstrainedSystem, HolonomicLagrangian, Real, Separable, Vector};
 use arrival::{Arrival, constrain};
 use refinement::Refinement;
@@ -122,6 +123,8 @@ impl<S: ConstrainedSystem, T: Real> Carries<S, T> for Rattle {
 }
 
 impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle {
+    type Suited<X> = <S as Separable<T>>::Suited<<<S as HolonomicLagrangian<T>>::Suited<X> as Same<X>>::As>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;

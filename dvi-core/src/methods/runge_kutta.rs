@@ -141,6 +141,8 @@ impl<S: System<Kind: Motion<S, T>>, T: Real> Carries<S, T> for RungeKutta {
 }
 
 impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> for RungeKutta {
+    type Suited<X> = <S::Kind as FirstOrder<S, T>>::Suited<X>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         Ok(RungeKuttaMemory {
             equations: S::Kind::begin(system, q, v, t)?,

@@ -265,6 +265,8 @@ impl<S: System, T: Real> Carries<S, T> for Sigma<T> {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
+    type Suited<X> = S::Suited<X>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;

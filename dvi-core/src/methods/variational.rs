@@ -270,6 +270,8 @@ impl<S: System, F, R, T: Real> Carries<S, T> for Variational<F, R> {
 }
 
 impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
+    type Suited<X> = S::Suited<X>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate::<S, T>(system)?;
         VariationalMemory::new(system, self, q, v, t, h)

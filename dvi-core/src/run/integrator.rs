@@ -5,7 +5,7 @@ use core::fmt;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::memory::Aside;
-use crate::methods::{Carries, Clock, Method};
+use crate::methods::{Carries, Clock, Method, Suits};
 use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
@@ -51,7 +51,10 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Integrato
     /// `h` is zero or not finite, a coordinate is not finite, an option of the method is out of range,
     /// the energy or a first derivative of L is not finite at the start ([`StartError::Undefined`]), or the
     /// starting values cannot be computed.
-    pub fn new(system: H, method: M, h: T, start: StateOf<H, T>) -> Result<Self, StartError> {
+    pub fn new<X>(system: H, method: X, h: T, start: StateOf<H, T>) -> Result<Self, StartError>
+    where
+        X: Suits<H::System, T, M>,
+    {
         Self::new_at(system, method, T::lift(0.0), h, start)
     }
 
@@ -59,8 +62,11 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Integrato
     ///
     /// # Errors
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
-    pub fn new_at(system: H, method: M, t: T, h: T, start: StateOf<H, T>) -> Result<Self, StartError> {
-        let held = system.held();
+    pub fn new_at<X>(system: H, method: X, t: T, h: T, start: StateOf<H, T>) -> Result<Self, StartError>
+    where
+        X: Suits<H::System, T, M>,
+    {
+        let (held, method) = (system.held(), method.suited());
         let [q, v] = checked(held, t, h, &start)?;
         let begin = || {
             let begun = method.begin(held, &q, &v[..velocities(held)], t, h);
@@ -77,9 +83,12 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Integrato
     /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than this method
     /// carries on this system, or numbers that no run has.
     #[cfg(feature = "alloc")]
-    pub fn resume(system: H, method: M, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
+    pub fn resume<X>(system: H, method: X, checkpoint: &Checkpoint<T>) -> Result<Self, StartError>
+    where
+        X: Suits<H::System, T, M>,
+    {
         let (t, h) = (checkpoint.time(), checkpoint.step_size());
-        let held = system.held();
+        let (held, method) = (system.held(), method.suited());
         crate::system::start::validate(held, t)?;
         validate_step(t, h)?;
         let [q, v] = checkpoint.point(held)?;

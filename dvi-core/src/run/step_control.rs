@@ -22,6 +22,7 @@ use crate::error::{StartError, StepFailure};
 #[cfg(doc)]
 use crate::memory::Memory;
 use crate::methods::{Carries, VariableStep};
+use crate::system::Same;
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real};
 
@@ -50,6 +51,9 @@ pub use reversible::{Density, Power, Reversible};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
+    /// As [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<C>: Same<C, As = C>;
+
     /// Whether steps may be taken back, so that the run has to keep what it takes.
     const REJECTS: bool = false;
 
@@ -88,6 +92,21 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
         run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure>;
+}
+
+/// A [`StepControl`] for `S` that is `C`, as a method [`Suits`](crate::methods::Suits) a system.
+pub trait Controls<S: Lagrangian<T>, T: Real, C> {
+    /// The control as it is.
+    fn suited(self) -> C;
+}
+
+impl<S: Lagrangian<T>, T: Real, C, X: StepControl<S, T, Suited<X>: Same<X, As = C>>> Controls<S, T, C>
+    for X
+{
+    #[inline]
+    fn suited(self) -> C {
+        X::Suited::<X>::same(self)
+    }
 }
 
 /// Whether the options of a control that steps to a tolerance are in range.

@@ -1,6 +1,6 @@
 //! What the compiler knows of coordinates that are rotations or unit vectors.
 
-use crate::system::{Manifold, NondegenerateLagrangian, System};
+use crate::system::{Manifold, NondegenerateLagrangian, Same, System};
 use crate::{Scalar, Space};
 
 /// A system with rotations or unit vectors, whatever numbers it is computed in.
@@ -55,4 +55,6 @@ pub trait ManifoldSystem: System {
 pub trait ManifoldLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ManifoldSystem + System<Kind = Manifold>
 {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
 }

@@ -1,7 +1,7 @@
 //! What the compiler knows of a Lagrangian with a regular mass matrix.
 
 use crate::Scalar;
-use crate::system::{Lagrangian, Regular, System};
+use crate::system::{Lagrangian, Regular, Same, System};
 
 /// A system whose mass matrix M = ∂²L/∂v∂v is regular, so that the Legendre transform (q, v) ↦ (q, p =
 /// ∂L/∂v) is invertible, at least locally (Marsden & Ratiu 1999, section 7.2). There may be constraints
@@ -67,7 +67,10 @@ pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
     note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
-pub trait RegularLagrangian<T: Scalar = f64>: NondegenerateLagrangian<T> + System<Kind = Regular> {}
+pub trait RegularLagrangian<T: Scalar = f64>: NondegenerateLagrangian<T> + System<Kind = Regular> {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
+}
 
 /// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where
 /// [`SEPARABLE`](NondegenerateLagrangian::SEPARABLE) holds.
@@ -76,7 +79,10 @@ pub trait RegularLagrangian<T: Scalar = f64>: NondegenerateLagrangian<T> + Syste
     label = "its report says what the mass matrix and the forces depend on",
     note = "`Variational` and `Galerkin` step any regular system, and `Constrained` any one with constraints"
 )]
-pub trait Separable<T: Scalar = f64>: NondegenerateLagrangian<T> {}
+pub trait Separable<T: Scalar = f64>: NondegenerateLagrangian<T> {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
+}
 
 /// A system whose L is a polynomial of degree at most two in v. The attribute implements it where
 /// [`QUADRATIC`](NondegenerateLagrangian::QUADRATIC) holds.

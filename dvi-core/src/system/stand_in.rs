@@ -6,12 +6,15 @@ use super::{
     AffineOneForm, ConstrainedSystem, Degenerate, DegenerateLagrangian, Holonomic, HolonomicLagrangian,
     Lagrangian, Manifold, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, Nonholonomic,
     NonholonomicLagrangian, Packable, ProperlyDegenerate, QuadraticInVelocity, Regular, RegularLagrangian,
-    Separable, System, Unilateral, UnilateralLagrangian, Weights,
+    Same, Separable, System, Unilateral, UnilateralLagrangian, Weights,
 };
 use crate::{Scalar, Sink};
 
 /// A system with mistakes in it.
-pub trait StandIn: System {}
+pub trait StandIn: System {
+    /// `M`, which steps systems of any kind.
+    type Suited<M>: Same<M, As = M>;
+}
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn, T: Scalar> Lagrangian<T> for S {
@@ -40,6 +43,7 @@ impl<S: StandIn, T: Scalar> Lagrangian<T> for S {
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> DegenerateLagrangian<T> for S {
+    type Suited<M> = S::Suited<M>;
     const AFFINE: bool = false;
     const MATCHING: bool = false;
     const CANONICAL: bool = false;
@@ -62,6 +66,7 @@ impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> DegenerateLagrangian<T> 
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> ProperlyDegenerate<T> for S {
+    type Suited<M> = S::Suited<M>;
     fn place(&self, coordinate: usize) -> usize {
         coordinate
     }
@@ -80,9 +85,13 @@ impl<S: StandIn, T: Scalar> NondegenerateLagrangian<T> for S {
 }
 
 #[diagnostic::do_not_recommend]
-impl<S: StandIn + System<Kind = Regular>, T: Scalar> RegularLagrangian<T> for S {}
+impl<S: StandIn + System<Kind = Regular>, T: Scalar> RegularLagrangian<T> for S {
+    type Suited<M> = S::Suited<M>;
+}
 #[diagnostic::do_not_recommend]
-impl<S: StandIn, T: Scalar> Separable<T> for S {}
+impl<S: StandIn, T: Scalar> Separable<T> for S {
+    type Suited<M> = S::Suited<M>;
+}
 #[diagnostic::do_not_recommend]
 impl<S: StandIn, T: Scalar> QuadraticInVelocity<T> for S {}
 
@@ -106,6 +115,7 @@ impl<S: StandIn + ConstrainedSystem + System<Kind = Nonholonomic>, T: Scalar> No
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + ConstrainedSystem + System<Kind = Holonomic>, T: Scalar> HolonomicLagrangian<T> for S {
+    type Suited<M> = S::Suited<M>;
     fn constraint(&self, _: &[T], _: T, _: &mut [T]) {}
     fn constraint_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: &mut [T], _: &mut K) {}
     fn constraint_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
@@ -114,13 +124,16 @@ impl<S: StandIn + ConstrainedSystem + System<Kind = Holonomic>, T: Scalar> Holon
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + ConstrainedSystem + System<Kind = Unilateral>, T: Scalar> UnilateralLagrangian<T> for S {
+    type Suited<M> = S::Suited<M>;
     fn gap(&self, _: &[T], _: T, _: &mut [T]) {}
     fn gap_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: &mut [T], _: &mut K) {}
     fn gap_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
 }
 
 #[diagnostic::do_not_recommend]
-impl<S: StandIn + ManifoldSystem + System<Kind = Manifold>, T: Scalar> ManifoldLagrangian<T> for S {}
+impl<S: StandIn + ManifoldSystem + System<Kind = Manifold>, T: Scalar> ManifoldLagrangian<T> for S {
+    type Suited<M> = S::Suited<M>;
+}
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> AffineOneForm<T> for S {}

@@ -2,7 +2,7 @@
 
 use crate::Scalar;
 use crate::space::sink::Sink;
-use crate::system::{ConstrainedSystem, NondegenerateLagrangian, System, Unilateral};
+use crate::system::{ConstrainedSystem, NondegenerateLagrangian, Same, System, Unilateral};
 
 /// A regular Lagrangian whose motion stays where g(q, t) ≥ 0, declared by `impact = g`. Between impacts it
 /// is that of L; where a gap function g becomes zero, the momentum jumps by a multiple of ∂g/∂q.
@@ -40,6 +40,9 @@ use crate::system::{ConstrainedSystem, NondegenerateLagrangian, System, Unilater
 pub trait UnilateralLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind = Unilateral>
 {
+    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
+    type Suited<M>: Same<M, As = M>;
+
     /// Sets `out` to g(q, t), one entry for each surface, in the units of its formula.
     fn gap(&self, q: &[T], t: T, out: &mut [T]);
     /// Sets `out` to g(q, t), and **adds** the entries of ∂g/∂q to `sink`, with a row for each surface and a

@@ -71,7 +71,7 @@ impl StandIn<'_> {
     fn implementations(&self) -> TokenStream {
         let Self { name, krate, space, state, .. } = self;
         let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
-        let allow = implement::allow();
+        let (allow, suited) = (implement::allow(), implement::suited());
         let never = quote!({ ::core::unreachable!() });
         let held = implement::held(krate, name, self.generics);
         let kind = implement::kind(krate, self.kind, self.constrained, self.is_on_manifold);
@@ -93,7 +93,7 @@ impl StandIn<'_> {
                     fn block_len(&self, _: ::core::primitive::usize) -> ::core::primitive::usize #never
                     fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
                 }
-                impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause {}
+                impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause { #suited }
                 #time_transformed
                 #constrained
                 #manifold

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::state::space_of;
-use super::{allow, in_numbers};
+use super::{allow, in_numbers, suited};
 use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, constraint_members, first_constraint, local};
 use crate::program::Constraints;
@@ -95,8 +95,9 @@ fn holonomic(emitter: &Emitter<'_>, constraints: &Constraints, curvature: &Routi
     let krate = emitter.krate();
     let [value, rate, curvature] = [&constraints.value, &constraints.rate, curvature]
         .map(|routine| emitter.for_constraints(constraints, routine));
-    let jacobian = emitter.constraint_jacobian(constraints);
+    let (jacobian, suited) = (emitter.constraint_jacobian(constraints), suited());
     let items = quote! {
+        #suited
         #[inline]
         fn constraint(&self, __q: &[__T], __t: __T, __g: &mut [__T]) { #value }
         #[inline]
@@ -137,8 +138,9 @@ fn unilateral(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let krate = emitter.krate();
     let [value, rate] =
         [&constraints.value, &constraints.rate].map(|routine| emitter.for_constraints(constraints, routine));
-    let jacobian = emitter.constraint_jacobian(constraints);
+    let (jacobian, suited) = (emitter.constraint_jacobian(constraints), suited());
     let items = quote! {
+        #suited
         #[inline]
         fn gap(&self, __q: &[__T], __t: __T, __g: &mut [__T]) { #value }
         #[inline]

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::document::{Account, beside_force, in_tex, quantity};
 use super::pairs::degenerate_pairs;
-use super::{in_numbers, over_numbers};
+use super::{in_numbers, over_numbers, suited};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
 use crate::errors::listed;
@@ -159,7 +159,9 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let indices = 0..programs.momentum_gradients.len();
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
     let affine = linear.then(|| in_numbers(emitter, &quote!(AffineOneForm), &TokenStream::new()));
+    let suited = suited();
     let items = quote! {
+            #suited
             const AFFINE: ::core::primitive::bool = #linear;
             const MATCHING: ::core::primitive::bool = #matching;
             const CANONICAL: ::core::primitive::bool = #canonical;
@@ -229,8 +231,9 @@ fn time_transformed(
 fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
     let (krate, model) = (emitter.krate(), emitter.model);
     if class.is_proper {
-        let place = place(emitter, class);
+        let (place, suited) = (place(emitter, class), suited());
         let items = quote! {
+            #suited
             #ForceInline
             fn place(&self, __coordinate: ::core::primitive::usize) -> ::core::primitive::usize { #place }
         };
@@ -268,9 +271,13 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
             note = #advice,
             note = "`Gauss` and `Projected` step any degenerate system"
         )]
-        trait #lacking {}
+        #[allow(unreachable_pub)]
+        pub trait #lacking {
+            type Suited<__M>: #krate::system::Same<__M, As = __M>;
+        }
         #allow
         impl #impl_generics #krate::ProperlyDegenerate<__T> for #name #type_generics #where_clause {
+            type Suited<__M> = <__T as #lacking>::Suited<__M>;
             fn place(&self, __coordinate: ::core::primitive::usize) -> ::core::primitive::usize { __coordinate }
         }
     }

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::state::space_of;
-use super::{allow, in_numbers};
+use super::{allow, in_numbers, suited};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
 use crate::symbolic::{Count, Index};
@@ -22,7 +22,7 @@ pub(super) fn manifold(emitter: &Emitter<'_>) -> TokenStream {
     };
     let dimensions: Vec<Count> = (0..model.blocks.len()).filter_map(dimension).map(Count::from).collect();
     let (tangent, value) = space_of(emitter, &dimensions);
-    let lagrangian = in_numbers(emitter, &quote!(ManifoldLagrangian), &TokenStream::new());
+    let lagrangian = in_numbers(emitter, &quote!(ManifoldLagrangian), &suited());
     quote! {
         #[automatically_derived]
         #allow

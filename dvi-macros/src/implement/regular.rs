@@ -5,9 +5,9 @@ use quote::quote;
 
 use super::constraints::constraints;
 use super::document::{Account, beside_force, in_tex, quantity};
-use super::in_numbers;
 use super::manifold::manifold;
 use super::pairs::regular_pairs;
+use super::{in_numbers, suited};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
 use crate::formulas::RegularFormulas;
@@ -95,9 +95,6 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     let MassMatrix { constant, uniform, separable, diagonal, quadratic, .. } = *structure;
     let [force, momentum, rate] = [&programs.force, &programs.momentum, &programs.momentum_rate]
         .map(|routine| emitter.vector(routine));
-    let traits = [(separable, quote!(Separable)), (quadratic, quote!(QuadraticInVelocity))];
-    let traits = traits.into_iter().filter_map(|(holds, name)| holds.then_some(name));
-    let traits = traits.map(|structure| in_numbers(emitter, &structure, &TokenStream::new()));
     let lagrangian = quote! {
         const CONSTANT_MASS: ::core::primitive::bool = #constant;
         const UNIFORM_MASS: ::core::primitive::bool = #uniform;
@@ -113,11 +110,14 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
         fn momentum_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #rate }
     };
     let lagrangian = in_numbers(emitter, &quote!(NondegenerateLagrangian), &lagrangian);
+    let separable = separable.then(|| in_numbers(emitter, &quote!(Separable), &suited()));
+    let quadratic =
+        quadratic.then(|| in_numbers(emitter, &quote!(QuadraticInVelocity), &TokenStream::new()));
     let motion = match &programs.shared.constraints {
         Some(programs) => constraints(emitter, programs),
         None if emitter.model.is_on_manifold() => manifold(emitter),
-        None => in_numbers(emitter, &quote!(RegularLagrangian), &TokenStream::new()),
+        None => in_numbers(emitter, &quote!(RegularLagrangian), &suited()),
     };
     let pairs = programs.pairs.as_ref().map(|pairs| regular_pairs(emitter, pairs));
-    quote!(#lagrangian #motion #(#traits)* #pairs)
+    quote!(#lagrangian #motion #separable #quadratic #pairs)
 }

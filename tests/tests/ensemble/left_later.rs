@@ -53,6 +53,8 @@ impl<S: System, M: Carries<S, f64>> Carries<S, f64> for Marked<M> {
 }
 
 impl<S: Lagrangian, M: Method<S, f64>> Method<S, f64> for Marked<M> {
+    type Suited<X> = X;
+
     fn begin(
         &self,
         system: &S,

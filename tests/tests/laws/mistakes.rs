@@ -83,6 +83,8 @@ impl<S: System, T: Real> Carries<S, T> for Mistaken {
 }
 
 impl<S: RegularLagrangian<T>, T: Real> Method<S, T> for Mistaken {
+    type Suited<M> = M;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let inner = Variational::midpoint().begin(system, q, v, t, h)?;
         Ok(Kept { inner, length: [T::lift(1.0)], mistake: self.0 })

@@ -92,6 +92,7 @@ fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
         type Memory = ();
     }
     impl dvi_core::run::StepControl<Pair, f64> for Trying {
+        type Suited<C> = C;
         const REJECTS: bool = true;
         fn begin(&self, _system: &Pair, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
             Ok(((), 0.1))

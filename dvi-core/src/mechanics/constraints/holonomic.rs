@@ -7,6 +7,8 @@ use crate::system::Holonomic;
 use crate::{HolonomicLagrangian, Real};
 
 impl<S: HolonomicLagrangian<T>, T: Real> Constraints<S, T> for Holonomic {
+    type Suited<M> = M;
+
     const OF_POSITIONS: bool = true;
 
     fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K) {

@@ -8,6 +8,8 @@ use crate::system::Nonholonomic;
 use crate::{NonholonomicLagrangian, Real};
 
 impl<S: NonholonomicLagrangian<T>, T: Real> Constraints<S, T> for Nonholonomic {
+    type Suited<M> = M;
+
     const OF_POSITIONS: bool = false;
 
     fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K) {

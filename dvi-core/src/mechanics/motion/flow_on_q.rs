@@ -32,6 +32,8 @@ impl<S: System, T: Real> Motion<S, T> for Degenerate {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
+    type Suited<M> = M;
+
     fn begin(system: &S, q: &Vector<S, T>, _v: &[T], t: T) -> Result<FlowOnQ<S, T>, StartError> {
         Ok(FlowOnQ {
             field: VectorField::new(system, q, t).map_err(StartError::Starter)?,

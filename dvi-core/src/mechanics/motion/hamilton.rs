@@ -130,6 +130,8 @@ impl<S: System, T: Real> Motion<S, T> for Regular {
 }
 
 impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
+    type Suited<M> = M;
+
     const HAS_VELOCITY_FORCES: bool = !S::SEPARABLE;
     const OF_SECOND_ORDER: bool = S::SEPARABLE && S::DIAGONAL_MASS;
 

@@ -98,6 +98,8 @@ where
     F: FrequencyIn<T>,
     E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
+    type Suited<X> = S::Suited<X>;
+
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         GalerkinMemory::new(self, system, [q, v], [t, h])
     }
@@ -130,6 +132,8 @@ where
     S: NondegenerateLagrangian<T>,
     E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
+    type Suited<X> = X;
+
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         GalerkinMemory::new(self, system, [q, v], [t, h])
     }

@@ -109,6 +109,8 @@ impl<const STAGES: usize, S: System, T: Real> Carries<S, T> for OneStepGauss<STA
 }
 
 impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStepGauss<STAGES> {
+    type Suited<X> = <S as ProperlyDegenerate<T>>::Suited<X>;
+
     fn begin(
         &self,
         system: &S,

@@ -33,6 +33,8 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
 }
 
 impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Variational<Unfitted, R> {
+    type Suited<X> = X;
+
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate::<S, T>(system)?;
         VariationalMemory::new(system, self, q, v, t, h)

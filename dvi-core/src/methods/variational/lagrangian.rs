@@ -355,6 +355,8 @@ impl<S: NondegenerateLagrangian<T>, F, R, T: Real> InnerScheme<S, T> for Variati
 where
     Self: VariationalMethod<S, T>,
 {
+    type Suited<X> = X;
+
     fn admit_inside(&self) -> Result<(), StartError> {
         without_effect_inside(self.solver, self.stopping, self.summation)
     }

@@ -295,6 +295,8 @@ impl<S: System, T: Real> Carries<S, T> for EnergyMomentum {
 }
 
 impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
+    type Suited<X> = S::Suited<X>;
+
     const REJECTS: bool = true;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {

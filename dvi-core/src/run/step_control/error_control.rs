@@ -220,6 +220,8 @@ impl<S: System, T: Real> Carries<S, T> for ErrorControl<'_> {
 }
 
 impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
+    type Suited<X> = X;
+
     const REJECTS: bool = true;
 
     fn begin(&self, system: &S, _q: &[T], _v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {

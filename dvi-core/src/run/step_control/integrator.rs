@@ -3,12 +3,12 @@
 use core::fmt;
 
 use super::controlled::{ControlledRun, KeptSteps};
-use super::{ErrorControl, Reversible, StepControl, reversible};
+use super::{Controls, ErrorControl, Reversible, StepControl, reversible};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, Clock, VariableStep};
+use crate::methods::{Carries, Clock, Suits, VariableStep};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
 use crate::run::{Between, Run, Stepper, WithMethod};
@@ -65,7 +65,12 @@ where
     /// # Errors
     /// [`StartError`] if an array has the wrong length, a coordinate is not finite, an option of the method
     /// or of the control is out of range, or their starting values cannot be computed.
-    pub fn new(system: H, method: M, control: C, start: StateOf<H, T>) -> Result<Self, StartError> {
+    pub fn new(
+        system: H,
+        method: impl Suits<H::System, T, M>,
+        control: impl Controls<H::System, T, C>,
+        start: StateOf<H, T>,
+    ) -> Result<Self, StartError> {
         Self::new_at(system, method, control, T::lift(0.0), start)
     }
 
@@ -73,8 +78,14 @@ where
     ///
     /// # Errors
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
-    pub fn new_at(system: H, method: M, control: C, t: T, start: StateOf<H, T>) -> Result<Self, StartError> {
-        let held = system.held();
+    pub fn new_at(
+        system: H,
+        method: impl Suits<H::System, T, M>,
+        control: impl Controls<H::System, T, C>,
+        t: T,
+        start: StateOf<H, T>,
+    ) -> Result<Self, StartError> {
+        let (held, method, control) = (system.held(), method.suited(), control.suited());
         if H::System::TIME_TRANSFORMED {
             let reason = "the time of the system is transformed, which sets the lengths of its steps";
             return Err(StartError::Unsupported { option: "a step control", reason });
@@ -98,9 +109,14 @@ where
     /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than method and
     /// control carry on this system, or numbers that no run has.
     #[cfg(feature = "alloc")]
-    pub fn resume(system: H, method: M, control: C, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
+    pub fn resume(
+        system: H,
+        method: impl Suits<H::System, T, M>,
+        control: impl Controls<H::System, T, C>,
+        checkpoint: &Checkpoint<T>,
+    ) -> Result<Self, StartError> {
         let (t, mut h) = (checkpoint.time(), checkpoint.step_size());
-        let held = system.held();
+        let (held, method, control) = (system.held(), method.suited(), control.suited());
         validate(held, t)?;
         let [q, all] = checkpoint.point(held)?;
         let v = &all[..velocities(held)];

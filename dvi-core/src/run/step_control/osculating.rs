@@ -182,6 +182,8 @@ impl<S: System, T: Real> Carries<S, T> for Osculating {
 }
 
 impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Osculating {
+    type Suited<X> = S::Suited<X>;
+
     const REJECTS: bool = true;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {

@@ -178,6 +178,8 @@ impl<S: System, D, T: Real> Carries<S, T> for Reversible<D> {
 }
 
 impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
+    type Suited<X> = S::Suited<X>;
+
     fn begin(&self, system: &S, q: &[T], v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
         self.validate()?;
         let density = self.start.map_or_else(|| self.density.value(q), T::lift);

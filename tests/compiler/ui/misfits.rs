@@ -1,0 +1,106 @@
+//! A method or a step control that does not fit its system is one error, where the run begins: what is done
+//! with the run is none.
+
+use dvi_core::prelude::*;
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) - y * d(x), hamiltonian = x * x + y * y)]
+pub struct Vortex;
+
+#[lagrangian(coordinates(x), lagrangian = (1.0 + x * x) * dot(x) * dot(x) / 2.0 - x * x)]
+pub struct Bead;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x) * dot(x) + dot(y) * dot(y)) / 2.0 - y,
+    constraint = x * x + y * y - 1.0,
+)]
+pub struct Rod;
+
+const VORTEX: VortexState = VortexState { x: 1.0, y: 0.0 };
+const BEAD: BeadState = BeadState { x: 1.0, dot_x: 0.0 };
+const ROD: RodState = RodState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn another_kind() -> Outcome {
+    let mut run = Integrator::new(&Bead, Sigma::midpoint(), 0.1, BEAD)?;
+    run.take_steps(100)?;
+    for state in run.by_ref().take(3) {
+        println!("{:?}", state?);
+    }
+    for state in run.states_at([20.0, 21.0])? {
+        println!("{:?}", state?);
+    }
+    println!("{:?} {} {}", run.state(), run.energy(), run.statistics().steps);
+    let boxed: Box<dyn Run<System = Bead, Scalar = f64>> = Box::new(run);
+    println!("{}", boxed.energy());
+    Ok(())
+}
+
+fn owned() -> Outcome {
+    let mut run = Integrator::new(Vortex, Variational::trapezoid(), 0.1, VORTEX)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn not_separable() -> Outcome {
+    let mut run = Integrator::new(&Bead, Newmark::new(0.25), 0.1, BEAD)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn constrained_and_separable() -> Outcome {
+    let mut run = Integrator::new(&Rod, Newmark::new(0.25), 0.1, ROD)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn constrained() -> Outcome {
+    let mut run = Integrator::new(&Rod, Gauss::<2>::new(), 0.1, ROD)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn out_of_class() -> Outcome {
+    let mut run = Integrator::new(&Vortex, OneStep::midpoint(), 0.1, VORTEX)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn composed() -> Outcome {
+    let method = Composition::yoshida(Variational::midpoint());
+    let mut run = Integrator::new(&Vortex, EnergyLimit { method, limit: 1e-3 }, 0.1, VORTEX)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn without_constraints() -> Outcome {
+    let mut run = Integrator::new(&Bead, Constrained::new(Variational::midpoint()), 0.1, BEAD)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn controlled() -> Outcome {
+    let control = ErrorControl::new(1e-9, 0.1);
+    let mut run = ControlledIntegrator::new(&Rod, Gauss::<4>::new(), control, ROD)?;
+    run.advance_to(10.0)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn a_control_of_another_kind() -> Outcome {
+    let control = EnergyMomentum::new(0.1);
+    let mut run = ControlledIntegrator::new(&Vortex, Gauss::<2>::new(), control, VORTEX)?;
+    run.take_steps(100)?;
+    println!("{:?} {} {}", run.state(), run.energy(), run.control_memory().defect());
+    Ok(())
+}
+
+fn main() {}
