@@ -14,8 +14,6 @@ mod node;
 mod step;
 mod tangents;
 
-use alloc::vec::Vec;
-
 use crate::discrete::Interval;
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Trapezoid};
 use crate::error::{StartError, StepFailure};
@@ -29,7 +27,7 @@ use crate::system::start::evaluate;
 use crate::{ManifoldLagrangian, Real, Space, Vector};
 
 use covectors::momentum;
-use memory::{Kicks, MassEntry, is_dominant};
+use memory::{Kicks, is_positive, mass_rows};
 use step::has_spheres;
 use tangents::{Equations, Legendre, TangentMass};
 
@@ -152,13 +150,14 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         legendre.linearize(v, tangents, &mut Statistics::default());
         tangents.matrix.factor().map_err(StartError::Starter)?;
         memory.is_positive = tangents.matrix.is_positive();
-        let mass = if S::CONSTANT_MASS { MassEntry::all(system, [q, v], t) } else { Vec::new() };
-        if !S::CONSTANT_MASS || has_spheres::<S, T>() && !is_dominant(system, &mass) {
+        let mass = if S::CONSTANT_MASS { Some(mass_rows(system, [q, v], t)) } else { None };
+        let is_definite = |mass| !has_spheres::<S, T>() || is_positive(system, mass);
+        if !mass.as_ref().is_some_and(is_definite) {
             let orientation = TangentMass::new(system, &mut tangents.node, [q, v], t);
             memory.orientation = Some(orientation.map_err(StartError::Starter)?);
         }
         if S::SEPARABLE && self.rule.interior_nodes() == 0 {
-            memory.kicks = Some(Kicks::new(system, mass, q, t));
+            memory.kicks = mass.map(|mass| Kicks::new(system, mass, q, t));
         }
         Ok(memory)
     }

@@ -1,4 +1,4 @@
-//! The rows of a matrix that has one for each constraint and a column for each coordinate.
+//! The rows of a matrix that has one for each constraint, or coordinate, and a column for each coordinate.
 //!
 //! With sizes that are fixed at compile time the rows are full and on the stack. With one that is known at
 //! run time only, they keep the entries that their pattern has.
@@ -22,6 +22,8 @@ pub trait RowMatrix<T>: Sink<T> + Memory<T> + Debug {
     fn clear(&mut self);
     /// Σⱼ wⱼ aₖⱼ bₖⱼ over row `k` of this matrix and of another one with the same pattern, with `weights` w.
     fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T;
+    /// The entries of row `k` that may differ from zero, each with its column.
+    fn row(&self, k: usize, each: impl FnMut(usize, T));
     /// Σⱼ aₖⱼ xⱼ over row `k`.
     fn times(&self, k: usize, x: &[T]) -> T;
 }
@@ -60,6 +62,9 @@ impl<T: Scalar, V: DerefMut<Target = [T]> + Debug, A: DerefMut<Target = [V]> + D
     }
     fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T {
         weighted(&self.0[k], &other.0[k], weights.iter().copied())
+    }
+    fn row(&self, k: usize, mut each: impl FnMut(usize, T)) {
+        self.0[k].iter().enumerate().for_each(|(column, &entry)| each(column, entry));
     }
     fn times(&self, k: usize, x: &[T]) -> T {
         self.0[k].iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x)
@@ -138,6 +143,11 @@ impl<T: Scalar> RowMatrix<T> for SparseRows<T> {
         let places = self.places(k);
         let of_columns = self.columns[places.clone()].iter().map(|&column| weights[column as usize]);
         weighted(&self.entries[places.clone()], &other.entries[places], of_columns)
+    }
+    fn row(&self, k: usize, mut each: impl FnMut(usize, T)) {
+        let places = self.places(k);
+        let columns = self.columns[places.clone()].iter();
+        columns.zip(&self.entries[places]).for_each(|(&column, &entry)| each(column as usize, entry));
     }
     fn times(&self, k: usize, x: &[T]) -> T {
         let places = self.places(k);

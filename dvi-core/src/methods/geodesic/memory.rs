@@ -1,12 +1,13 @@
 //! What a run along geodesics carries, and work space.
 
-use alloc::vec::Vec;
-
 use super::covectors::force;
 use super::tangents::{TangentMass, Tangents};
 use crate::mechanics::manifold::{Block, blocks};
 use crate::memory::{Memory, lasting};
+use crate::space::inertia::inertia;
+
 use crate::space::sink::Places;
+use crate::space::{RowMatrix, Sink};
 use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
 use crate::system::ManifoldSystem;
@@ -35,63 +36,62 @@ pub struct GeodesicMemory<S: ManifoldSystem, T: Real> {
     pub(super) arrival: Arrival<S, T>,
 }
 
+/// The rows of M, where it is the same everywhere.
+pub(super) type MassRows<S, T> = <<S as System>::Space as Space>::Rows<<S as System>::Space, T>;
+
 /// What a step by kicks needs of L.
 #[derive(Debug)]
 pub(super) struct Kicks<S: System, T: Real> {
-    /// M, without what is zero.
-    pub(super) mass: Vec<MassEntry<T>>,
+    pub(super) mass: MassRows<S, T>,
     /// The force at the current point, as a covector of the manifold.
     pub(super) force: Vector<S, T>,
 }
 
-/// An entry of M.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct MassEntry<T> {
-    /// Its row and column.
-    pub(super) place: [usize; 2],
-    pub(super) value: T,
-}
-
-impl<T: Real> MassEntry<T> {
-    /// Those at a point, row by row.
-    pub(super) fn all<S: ManifoldLagrangian<T>>(system: &S, [q, v]: [&[T]; 2], t: T) -> Vec<Self> {
-        let [mut l_q, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
-        let mut entries: Vec<Self> = Vec::new();
-        let mut sink = Places(|row: usize, column: usize, value: T| {
-            if value != T::lift(0.0) {
-                entries.push(Self { place: [row, column], value });
+/// M, from its entries at a point.
+pub(super) fn mass_rows<S: ManifoldLagrangian<T>, T: Real>(
+    system: &S,
+    [q, v]: [&[T]; 2],
+    t: T,
+) -> MassRows<S, T> {
+    let space = system.space();
+    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = space.vectors();
+    let mut each = |add: &mut dyn FnMut(usize, usize, T)| {
+        let mut sink = Places(|row: usize, column: usize, entry: T| {
+            if entry != T::lift(0.0) {
+                add(row, column, entry);
             }
         });
         system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut sink);
-        entries.sort_by_key(|entry| entry.place);
-        entries.dedup_by(|other, entry| {
-            let is_same = other.place == entry.place;
-            if is_same {
-                entry.value += other.value;
-            }
-            is_same
-        });
-        entries
-    }
+    };
+    let mut rows: MassRows<S, T> = space.rows(space, |visit| each(&mut |row, column, _| visit(row, column)));
+    each(&mut |row, column, entry| rows.add(row, column, entry));
+    rows
 }
 
-/// Whether a mass matrix with these entries, row by row, is certainly positive, and with it that of the tangent
-/// vectors everywhere: each row has more on the diagonal than beside it.
-pub(super) fn is_dominant<S: ManifoldSystem, T: Real>(system: &S, entries: &[MassEntry<T>]) -> bool {
-    let mut rows = 0;
-    let are_dominant = entries.chunk_by(|a, b| a.place[0] == b.place[0]).all(|row| {
-        rows += 1;
-        let of = |entry: &MassEntry<T>| {
-            if entry.place[0] == entry.place[1] { entry.value } else { -Scalar::abs(entry.value) }
-        };
-        row.iter().fold(T::lift(0.0), |sum, entry| sum + of(entry)) > T::lift(0.0)
-    });
-    are_dominant && rows == blocks(system).flat_map(Block::velocities).count()
+/// Whether M is positive, and with it that of the tangent vectors at all points.
+pub(super) fn is_positive<S: ManifoldLagrangian<T>, T: Real>(system: &S, mass: &MassRows<S, T>) -> bool {
+    let places = || blocks(system).flat_map(Block::velocities);
+    // Each row has more on the diagonal than beside it.
+    let is_dominant = |row: usize| {
+        let mut sum = T::lift(0.0);
+        mass.row(row, |column, entry| sum += if column == row { entry } else { -Scalar::abs(entry) });
+        sum > T::lift(0.0)
+    };
+    places().all(is_dominant) || {
+        let (mut matrix, mut removed) = (system.space().matrix(), system.space().vector());
+        // What has no velocity counts as positive.
+        (0..removed.len()).for_each(|place| matrix.add(place, place, T::lift(1.0)));
+        for row in places() {
+            matrix.add(row, row, -T::lift(1.0));
+            mass.row(row, |column, entry| matrix.add(row, column, entry));
+        }
+        inertia(&mut matrix, &mut removed).is_ok_and(|inertia| inertia.negative == 0)
+    }
 }
 
 impl<S: ManifoldLagrangian<T>, T: Real> Kicks<S, T> {
     /// At the point `q`.
-    pub(super) fn new(system: &S, mass: Vec<MassEntry<T>>, q: &[T], t: T) -> Self {
+    pub(super) fn new(system: &S, mass: MassRows<S, T>, q: &[T], t: T) -> Self {
         let mut f0 = system.space().vector();
         system.force(q, &[], t, &mut f0);
         force(system, q, &mut f0);

@@ -6,12 +6,13 @@ use core::fmt::Debug;
 use nalgebra::{Matrix3, Vector3};
 
 use super::between::{Between, By, Slots, slots};
-use super::memory::MassEntry;
+use super::memory::MassRows;
 use crate::discrete::NodeWork;
 use crate::mechanics::manifold::series::Series;
 use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{Block, blocks, fill, matrix, rotation, set, set_matrix, vector};
-use crate::space::Sink;
+use crate::space::{RowMatrix, Sink};
+
 use crate::system::Factor;
 use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Weights};
 
@@ -278,11 +279,17 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// Adds `weight` times the second derivatives of ½ v·M v.
-    pub(super) fn add_kinetic<K: Sink<T>>(&self, mass: &[MassEntry<T>], weight: T, sink: &mut K) {
+    pub(super) fn add_kinetic<K: Sink<T>>(
+        &self,
+        system: &S,
+        mass: &MassRows<S, T>,
+        weight: T,
+        sink: &mut K,
+    ) {
         let Self { first, displacement, slots, .. } = self;
         let mut between = Between::<S, T, K>::new(first, displacement, slots, [By::Velocity; 2], sink);
-        for &MassEntry { place: [row, column], value } in mass {
-            between.add(row, column, weight * value);
+        for row in blocks(system).flat_map(Block::velocities) {
+            mass.row(row, |column, entry| between.add(row, column, weight * entry));
         }
     }
 

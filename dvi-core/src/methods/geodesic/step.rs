@@ -13,7 +13,7 @@
 use nalgebra::Vector3;
 
 use super::covectors::{depart, force, increment_of, push, subtract_momentum, velocity};
-use super::memory::{Arrival, GeodesicMemory, Kicks, MassEntry};
+use super::memory::{Arrival, GeodesicMemory, Kicks, MassRows};
 use super::node::{Forces, Path};
 use super::tangents::{Equations, Tangents};
 use crate::discrete::quadrature::Rule;
@@ -37,7 +37,7 @@ struct Begin<'a, S: System, R, T: Real> {
     q: &'a [T],
     p: &'a [T],
     /// M, where L is ½ v·M v alone.
-    mass: Option<&'a [MassEntry<T>]>,
+    mass: Option<&'a MassRows<S, T>>,
 }
 
 /// Whether a coordinate of `S` is a unit vector. Without these what a drift needs is the same at all its
@@ -76,7 +76,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
         if let Some(Kicks { force, .. }) = kicks {
             kick(p0, first, force);
         }
-        let mass = kicks.as_ref().map(|kicks| &*kicks.mass);
+        let mass = kicks.as_ref().map(|kicks| &kicks.mass);
         let begin = Begin { system, rule, interval, q, p: p0, mass };
         from_either_guess(|guess| {
             let displacement = &mut arrival.displacement;
@@ -226,7 +226,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S
         };
         for [c, weight] in self.drifts() {
             node.drift(system, path, self.interval.time(c), c);
-            node.add_kinetic(mass, weight, entries);
+            node.add_kinetic(system, mass, weight, entries);
             node.bend(system, path, [c, weight], Forces::Without, entries);
             node.project_momentum(system, weight, residual);
         }
