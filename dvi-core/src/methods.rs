@@ -41,6 +41,9 @@
 //! | [`Projected`] | 2 | Ω if α is affine | for all other α, if momenta of cyclic coordinates and Ω, to terms of order h⁵ in a step, count more than digits |
 //! | [`RungeKutta`] | 2, 4 | nothing | to compare with |
 //!
+//! The lengths of unit vectors `s: S2` are kept by [`Sigma::midpoint`] and [`Projected`] where α is affine, and
+//! by [`Gauss`]. Others are refused, and [`RungeKutta`] loses the lengths with its order.
+//!
 //! # Around another method
 //!
 //! | method | order | preserves | when to take it |
