@@ -96,7 +96,8 @@ fn a_formula_with_functions_is_what_rust_makes_of_it() -> Outcome {
     coordinates(x[4]),
     lagrangian = {
         let number = |i| i as f64;
-        let weight = |i| 1.0 + number(i) / 2.0;
+        let next = |i| (i + 1) as f64;
+        let weight = |i| (number(i) + next(i) + 3.0) / 4.0;
         let one = |_i| 1.0;
         let x = |i| { let entry = |place| x[place]; entry(i) * entry((i + 1) % 4) };
         sum(0..4, |i| strength[i] * weight(i) * x(i) * one(i))

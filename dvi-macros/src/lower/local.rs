@@ -36,7 +36,7 @@ pub(super) struct Local {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Use {
     index: bool,
-    /// Elsewhere than in `a as f64`.
+    /// Elsewhere than in `a as f64` and `(a + 1) as f64`.
     number: bool,
 }
 
@@ -234,7 +234,7 @@ impl<'ast> Visit<'ast> for Places<'_, '_> {
     }
 
     fn visit_expr_cast(&mut self, cast: &'ast syn::ExprCast) {
-        if !is_path(&cast.expr) {
+        if !is_arithmetic(&cast.expr) {
             self.visit(&cast.expr, false);
         }
     }
@@ -248,7 +248,7 @@ impl<'ast> Visit<'ast> for Places<'_, '_> {
         for (place, argument) in call.args.iter().enumerate() {
             match uses.as_ref().and_then(|uses| uses.get(place)) {
                 // What is nothing in particular there is nothing in particular here.
-                Some(used) if *used == Use::default() && is_path(argument) => {}
+                Some(used) if *used == Use::default() && is_arithmetic(argument) => {}
                 Some(used) => self.visit(argument, used.index),
                 None => self.visit(argument, place == 0 && SUMS.contains(&name.as_str())),
             }
@@ -278,10 +278,13 @@ impl<'ast> Visit<'ast> for Places<'_, '_> {
     }
 }
 
-fn is_path(syntax: &Syntax) -> bool {
+/// Whether it is made of names and literals alone, so that it is an index where these are.
+fn is_arithmetic(syntax: &Syntax) -> bool {
     match syntax {
-        Syntax::Paren(inner) => is_path(&inner.expr),
-        Syntax::Path(_) => true,
+        Syntax::Paren(inner) => is_arithmetic(&inner.expr),
+        Syntax::Unary(unary) => is_arithmetic(&unary.expr),
+        Syntax::Binary(binary) => is_arithmetic(&binary.left) && is_arithmetic(&binary.right),
+        Syntax::Path(_) | Syntax::Lit(_) => true,
         _ => false,
     }
 }
