@@ -103,7 +103,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     }
 
     /// Sets `x` to the solution of (a Dα + b (Dα)ᵀ) x = `rhs`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn solve(&self, system: &S, rhs: &[T], x: &mut [T]) {
         let Some(matrix) = self.factors() else { return divide(system, &self.scales, rhs, (0, x)) };
         for ((x, &rhs), &scale) in x.iter_mut().zip(rhs).zip(self.scales.iter()) {
@@ -115,7 +115,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
 
 /// Sets `x`, which begins with coordinate `first`, to the products of the reciprocals with the entries of
 /// the conjugates.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 fn divide<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
     reciprocals: &[T],
@@ -142,7 +142,7 @@ fn divide<S: DegenerateLagrangian<T>, T: Real>(
 
 impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     /// Gives the solution x, as of [`solve`](Self::solve), to `take`, block by block.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn solve_in_blocks(
         &self,
         system: &S,

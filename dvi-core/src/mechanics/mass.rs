@@ -86,19 +86,19 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     }
 
     /// 1/m of each coordinate, if M is diagonal.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn reciprocals(&self) -> Option<&[T]> {
         S::DIAGONAL_MASS.then_some(&*self.reciprocals)
     }
 
     /// x·M x, if M is diagonal and positive.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn squared(&self, x: &[T]) -> T {
         x.iter().zip(self.masses.iter()).fold(T::lift(-0.0), |sum, (&x, &mass)| sum + mass * x * x)
     }
 
     /// Overwrites `p` with M⁻¹`p`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn solve_in_place(&self, p: &mut [T]) {
         match &self.coupled {
             Some(Coupled { factors, scales, .. }) if !S::DIAGONAL_MASS => {
@@ -114,7 +114,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     }
 
     /// Sets `v` to M⁻¹`p`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn solve(&self, p: &[T], v: &mut [T]) {
         // What is known when compiled keeps elimination out of the steps with a diagonal matrix.
         match &self.coupled {
@@ -131,7 +131,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     }
 
     /// Sets `delta` to h M⁻¹`p`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn displace(&self, h: T, p: &[T], delta: &mut [T]) {
         match &self.coupled {
             Some(_) if !S::DIAGONAL_MASS => {
@@ -147,7 +147,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     }
 
     /// Adds `factor` M`x` to `p`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn multiply_add(&self, factor: T, x: &[T], p: &mut [T]) {
         match &self.coupled {
             Some(Coupled { matrix, .. }) if !S::DIAGONAL_MASS => matrix.multiply_add(factor, x, p),

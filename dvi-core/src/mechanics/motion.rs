@@ -34,14 +34,14 @@ pub struct Point<V, const K: usize>([V; K]);
 
 impl<V, const K: usize> Deref for Point<V, K> {
     type Target = [V];
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn deref(&self) -> &[V] {
         &self.0
     }
 }
 
 impl<V, const K: usize> DerefMut for Point<V, K> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn deref_mut(&mut self) -> &mut [V] {
         &mut self.0
     }
