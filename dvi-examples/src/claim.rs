@@ -135,8 +135,8 @@ impl Claim {
         self
     }
 
-    /// One of [`VERDICTS`]: only what is printed can be reproduced, and what was not measured in a run of this
-    /// length decides nothing.
+    /// One of [`VERDICTS`]: only what is printed can be reproduced, and what was not measured in a run of
+    /// this length decides nothing.
     pub fn verdict(&self) -> &'static str {
         let of = |checks: &[Check]| match checks {
             _ if checks.iter().any(|check| check.value.is_none()) => "undecided",
@@ -144,13 +144,8 @@ impl Claim {
             _ => "fails",
         };
         match (of(&self.printed), &self.instead) {
-            ("passes", _) => {
-                if self.is_printed() {
-                    "reproduced"
-                } else {
-                    "holds"
-                }
-            }
+            ("passes", _) if self.is_printed() => "reproduced",
+            ("passes", _) => "holds",
             ("fails", Some((_, instead))) if of(instead) == "passes" => "differs",
             ("fails", Some((_, instead))) => of(instead),
             (undecided_or_fails, _) => undecided_or_fails,

@@ -248,30 +248,29 @@ where
 mod tests {
     use super::*;
 
+    /// In intervals of length one.
+    fn of<const N: usize>([end, early]: [f64; 2], values: [(f64, f64); N]) -> Deviation {
+        let mut deviation = Deviation::new(end, end as usize, early);
+        values.into_iter().for_each(|(t, value)| deviation.push(t, value));
+        deviation
+    }
+
     #[test]
     fn the_end_of_the_beginning_belongs_to_it() {
-        let mut deviation = Deviation::new(4.0, 4, 2.0);
-        for (t, value) in [(1.0, 1.0), (2.0, -2.0), (3.0, 6.0), (4.0, -5.0)] {
-            deviation.push(t, value);
-        }
+        let deviation = of([4.0, 2.0], [(1.0, 1.0), (2.0, -2.0), (3.0, 6.0), (4.0, -5.0)]);
         assert_eq!((deviation.largest, deviation.largest_early, deviation.last), (6.0, 2.0, -5.0));
         assert_eq!(deviation.growth(), 3.0);
     }
 
     #[test]
     fn a_value_that_is_not_a_number_is_not_forgotten() {
-        let mut deviation = Deviation::new(2.0, 2, 1.0);
-        deviation.push(1.0, f64::NAN);
-        deviation.push(2.0, 1.0);
+        let deviation = of([2.0, 1.0], [(1.0, f64::NAN), (2.0, 1.0)]);
         assert!(deviation.largest.is_nan() && deviation.growth().is_nan() && deviation.trend().is_nan());
     }
 
     #[test]
     fn a_trend_is_that_of_the_last_tenth() {
-        let mut deviation = Deviation::new(20.0, 20, 20.0);
-        for k in 0..20 {
-            deviation.push(f64::from(k) + 0.5, -f64::from(k + 1));
-        }
-        assert_eq!(deviation.trend(), 10.0);
+        let values = std::array::from_fn::<_, 20, _>(|k| (k as f64 + 0.5, -(k as f64 + 1.0)));
+        assert_eq!(of([20.0; 2], values).trend(), 10.0);
     }
 }

@@ -6,7 +6,7 @@ use anyhow::Result;
 use dvi_core::prelude::*;
 use indicatif::ProgressBar;
 
-use crate::deviation::{Deviation, Named, Series, Span, note};
+use crate::deviation::{Named, Series, Span, note};
 use crate::experiments::title;
 use crate::figure::Figure;
 use crate::motions;
@@ -91,20 +91,8 @@ impl Job<'_> {
         })
     }
 
-    /// How far quantities of a run are from their start; `of` returns that after each of its steps.
-    pub fn keep<R: Run<Scalar = f64>, const N: usize>(
-        &self,
-        run: &mut R,
-        span: Span,
-        mut of: impl FnMut(&R) -> [f64; N],
-    ) -> Result<[Deviation; N], StepError> {
-        let mut kept = span.deviations();
-        self.follow(run, span.steps(run.step_size()), |run| note(&mut kept, run.time(), of(run)))?;
-        Ok(kept)
-    }
-
-    /// The same as a series of that name, with the points that `of` adds to its path, up to the end of the run
-    /// or to the step that fails.
+    /// How far quantities of a run are from their start, as a series of that name: `of` returns that after
+    /// each step, up to the last or to one that fails, and may add points to its path.
     pub fn series<R: Run<Scalar = f64>, const N: usize>(
         &self,
         named: Named<'_>,

@@ -52,14 +52,15 @@ fn free(job: &Job<'_>) -> Result<Claim> {
     let mut run = Problem::new(&FREE, begin(&FREE)).run(midpoint(), H)?;
     let (energy, [rolling, turning], mut across) = (run.energy(), momenta(&run), 0.0);
     job.expect(steps);
-    let [energy, rolling, turning] = job.keep(&mut run, Span::of(steps, H, 0), |run| {
+    let series = job.series(("free disc", solid(GREEN)), &mut run, Span::of(steps, H, 0), |run, _| {
         let RollingDiscState { phi, dot_x, dot_y, dot_theta, .. } = run.state();
         let speed = FREE.radius * dot_theta;
         // |ẋ − Rθ̇ cos φ| and |ẏ − Rθ̇ sin φ|
         across = largest([across, (dot_x - speed * phi.cos()).abs(), (dot_y - speed * phi.sin()).abs()]);
         let now: [f64; 2] = momenta(run);
         [run.energy() / energy, now[0] / rolling, now[1] / turning].map(|ratio| ratio - 1.0)
-    })?;
+    });
+    let [energy, rolling, turning] = series.whole()?.kept;
     let text = format!(
         "without a potential, h = {H}: energy and momenta are kept to rounding, which grows with the angle θ"
     );

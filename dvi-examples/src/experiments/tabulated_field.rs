@@ -35,18 +35,19 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let coarse = by_cubic(COARSE)?;
     let mut run = Problem::new(&coarse, start(0.2)).run(OneStep::midpoint(), H)?;
     let (begin, span) = (run.energy(), Span::of(steps, H, EARLY));
-    let [energy] = job.keep(&mut run, span, |run| [(run.energy() - begin) / begin])?;
+    let named = ("cubic splines", solid(GREEN));
+    let series = job.series(named, &mut run, span, |run, _| [(run.energy() - begin) / begin]).whole()?;
     let both = [("cubic splines", &cubic.0), ("quintic splines", &quintic.0)];
     let curves = both.map(|(name, of_grids)| ([name], [], of_grids.iter().copied()));
     let table = curve_table(&["spline", "intervals", "difference"], curves)?;
-    job.publish(figure(&cubic, &quintic, &energy, span.end), table)?;
+    job.publish(figure(&cubic, &quintic, &series, span.end), table)?;
     let quantity = format!("cubic, {COARSE} intervals: max|ΔH| over all / over {EARLY} steps");
     let kept = "the energy of a table is kept as that of a formula is";
     claims([
         beyond("orbits in a table tend to those of the formulas as the splines do")
             .near("order in the distances of the grid, cubic", cubic.1, [3.0, 0.3])
             .near("order in the distances of the grid, quintic", quintic.1, [5.0, 0.3]),
-        beyond(kept).at_most(quantity, energy.growth(), 1.02),
+        beyond(kept).at_most(quantity, series.kept[0].growth(), 1.02),
     ])
 }
 
@@ -83,7 +84,7 @@ fn differences<F: ScalarField<2>>(
     Ok((of_grids.into(), -falls))
 }
 
-fn figure(cubic: &Differences, quintic: &Differences, energy: &Deviation, end: f64) -> Figure {
+fn figure(cubic: &Differences, quintic: &Differences, energy: &Series<1>, end: f64) -> Figure {
     let slope = |(of_grids, _): &Differences, order: i32| {
         let [n, apart] = of_grids[GRIDS.len() - 1];
         [of_grids[0][0], n].map(|at| [at, apart * (n / at).powi(order)]).to_vec()
@@ -99,7 +100,8 @@ fn figure(cubic: &Differences, quintic: &Differences, energy: &Deviation, end: f
         .labelled(format!("quintic: order {:.1}", quintic.1));
     let title = format!("Relative error of the energy, cubic splines of {COARSE} intervals");
     let axis = ("largest |Δ*H*/*H*| of each interval", [1e-7, 1e-3]);
-    let error = Panel::semilog(title, ("time *t*", [0.0, end]), axis).line(energy.magnitude(), solid(GREEN));
+    let error = Panel::semilog(title, ("time *t*", [0.0, end]), axis)
+        .line(energy.kept[0].magnitude(), energy.stroke);
     Figure::of(format!(
         "*q* = {Q}, *μ* = {MU}, bananas from *R* = 1.19 to 1.235, *h* = {H}, one-step midpoint"
     ))

@@ -110,7 +110,9 @@ pub struct RigidMolecules {
         let bond = |i, j, rest| (1.0 - (-beta * ((r[i] - r[j]).norm() - rest)).exp()).powi(2);
         bond(3 * m + 3 + a, 3 * m + 1 + a, 1.0) + bond(3 * m + 4 - a, 3 * m + 1 + a, 2.0_f64.sqrt())
     }))
-        - k / 2.0 * sum(0..n, |m| sum(0..3, |a| ((r[3 * m + (a + 1) % 3] - r[3 * m + a]).norm() - 1.0).powi(2))),
+        - k / 2.0 * sum(0..n, |m| sum(0..3, |a| {
+            ((r[3 * m + (a + 1) % 3] - r[3 * m + a]).norm() - 1.0).powi(2)
+        })),
     momenta(
         along = sum(0..3 * n, |i| dot(r[i]))[0],
         across = sum(0..3 * n, |i| dot(r[i]))[1],

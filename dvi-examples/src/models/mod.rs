@@ -13,6 +13,11 @@ mod rigid;
 mod tokamak;
 mod vortices;
 
+pub use self::{
+    beam::*, chains::*, disc::*, field_lines::*, heights::*, impacts::*, kepler::*, oscillators::*,
+    predators::*, rigid::*, tokamak::*, vortices::*,
+};
+
 /// The last number of an interval, to rounding, up to which something is so.
 pub fn bisected([mut low, mut high]: [f64; 2], is_so: impl Fn(f64) -> bool) -> f64 {
     loop {
@@ -24,8 +29,8 @@ pub fn bisected([mut low, mut high]: [f64; 2], is_so: impl Fn(f64) -> bool) -> f
     }
 }
 
-/// The ends of n segments of length 1/n, one after the other, by their directions in their middles, which are
-/// counted as ½, 3/2, ….
+/// The ends of n segments of length 1/n, one after the other, by their directions in their middles, which
+/// are counted as ½, 3/2, ….
 fn joined(n: usize, direction: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
     let (mut end, length) = ([0.0; 2], 1.0 / n as f64);
     let segment = |i| {
@@ -35,8 +40,3 @@ fn joined(n: usize, direction: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
     };
     (0..n).map(segment).collect()
 }
-
-pub use self::{
-    beam::*, chains::*, disc::*, field_lines::*, heights::*, impacts::*, kepler::*, oscillators::*,
-    predators::*, rigid::*, tokamak::*, vortices::*,
-};

@@ -16,7 +16,8 @@ pub struct OneSidedPredators {}
 /// The same motion with one-forms that have components along both coordinates, and differ by gauges.
 #[degenerate_lagrangian(
     coordinates(x, y),
-    one_form    = ((2.0 - share) * y.ln() / x * d(x) - share * x.ln() / y * d(y)) / 2.0 + shift * (y * d(x) + x * d(y)),
+    one_form    = ((2.0 - share) * y.ln() / x * d(x) - share * x.ln() / y * d(y)) / 2.0
+        + shift * (y * d(x) + x * d(y)),
     hamiltonian = x - x.ln() + y - 2.0 * y.ln(),
 )]
 #[derive(Clone, Debug)]
