@@ -122,7 +122,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
         "found.into_iter().map(|by| SecondContribution { row: by.column, column: by.row, ..by }).collect()",
     ),
     mistake("program/degenerate.rs", "value: «part.value.negated()»", "part.value"),
-    mistake("program.rs", "known.value = «graph.add(known.value, other.value)»", "other.value"),
+    mistake("symbolic/derivative.rs", "known.value = «self.add(known.value, other.value)»", "other.value"),
     mistake("lower/components.rs", "self.along(«blocks», formula, Role::Force)", "0..1"),
     mistake(
         "structure/mass.rs",
