@@ -67,9 +67,10 @@ impl System {
             Gauge::Formula(gauge) => format!(", gauge = {}", d.text(gauge)),
             Gauge::Auto => ", gauge = auto".to_string(),
         };
-        if let Some(rate) = &self.time_transform {
-            text += &format!(", time_transform = {}", d.text(rate));
-        }
+        text.extend(self.time_transform.iter().map(|rate| format!(", time_transform = {}", d.text(rate))));
+        text.extend(
+            self.dissipation.iter().map(|friction| format!(", dissipation = {}", dot.text(friction))),
+        );
         let entries = self
             .forces
             .iter()
@@ -81,9 +82,6 @@ impl System {
             for ((block, _), entry) in self.forces.iter().zip(entries) {
                 text += &format!(", force({}) = {entry}", self.blocks[*block].name);
             }
-        }
-        if let Some(function) = &self.dissipation {
-            text += &format!(", dissipation = {}", dot.text(function));
         }
         text += &self.constraint_arguments(&dot);
         let momenta = self.momenta.iter().enumerate();
