@@ -68,9 +68,7 @@ impl System {
             Gauge::Auto => ", gauge = auto".to_string(),
         };
         text.extend(self.time_transform.iter().map(|rate| format!(", time_transform = {}", d.text(rate))));
-        text.extend(
-            self.dissipation.iter().map(|friction| format!(", dissipation = {}", dot.text(friction))),
-        );
+        text.extend(self.dissipation.iter().map(|of| format!(", dissipation = {}", dot.text(of))));
         let entries = self
             .forces
             .iter()
