@@ -15,6 +15,7 @@ mod compare;
 mod evaluate;
 mod exhaustive;
 mod expand;
+mod forces;
 mod formula;
 pub(crate) mod functions;
 mod generate;

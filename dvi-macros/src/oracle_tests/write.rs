@@ -66,9 +66,8 @@ impl System {
             Gauge::Formula(gauge) => format!(", gauge = {}", d.text(gauge)),
             Gauge::Auto => ", gauge = auto".to_string(),
         };
-        if let Some(rate) = &self.time_transform {
-            text += &format!(", time_transform = {}", d.text(rate));
-        }
+        text.extend(self.time_transform.iter().map(|rate| format!(", time_transform = {}", d.text(rate))));
+        text.extend(self.dissipation.iter().map(|of| format!(", dissipation = {}", dot.text(of))));
         let entries = self
             .forces
             .iter()
@@ -80,9 +79,6 @@ impl System {
             for ((block, _), entry) in self.forces.iter().zip(entries) {
                 text += &format!(", force({}) = {entry}", self.blocks[*block].name);
             }
-        }
-        if let Some(function) = &self.dissipation {
-            text += &format!(", dissipation = {}", dot.text(function));
         }
         text += &self.constraint_arguments(&dot);
         let momenta = self.momenta.iter().enumerate();
