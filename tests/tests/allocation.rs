@@ -122,7 +122,7 @@ struct Balls {
 struct FastBall;
 
 /// Bytes that a run of `n` bodies and `n` rods in a row takes.
-fn of_bodies(n: usize) -> f64 {
+fn of_turning(n: usize) -> f64 {
     let system = Turning { n };
     let start = TurningState {
         x: vec![0.3; n],
@@ -274,7 +274,7 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     assert_none!(FastBall, fast_start, Impacts::reflecting(Variational::midpoint()));
     let [short, long] = [1000, 4000].map(of_links);
     assert!(long < 4.1 * short, "{long} bytes for four times as many rods as {short}");
-    let [short, long] = [100, 400].map(of_bodies);
+    let [short, long] = [100, 400].map(of_turning);
     assert!(long < 4.1 * short, "{long} bytes for four times as many bodies as {short}");
 
     // Of variable length, on the stack and on the heap, with steps that are undone.
