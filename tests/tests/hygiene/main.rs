@@ -137,6 +137,8 @@ mod shadowed {
     struct Vec;
     struct Box;
     struct String;
+    struct K;
+    struct W;
     trait Copy {}
     trait Clone {}
     trait Debug {}
