@@ -12,12 +12,12 @@ pub use crate::space::room::FewInPlace;
 pub use crate::system::kind::{Degenerate, Holonomic, Manifold, Nonholonomic, Regular, Unilateral};
 pub use crate::system::packable::{Packable, Packing, Shared};
 pub use crate::system::report::{CoordinateBlock, Entry, Formula, OperationCount};
-pub use crate::system::spinors::{read_spinors, write_spinors};
 pub use crate::system::stand_in::StandIn;
 
 use crate::error::{IndexError, LengthError, OutsideError};
 use crate::field::Expansion;
 use crate::scalar::norm::reported;
+use crate::scalar::spinor;
 use crate::{Real, Scalar};
 
 /// The Euclidean remainder of an index that rarely leaves 0..modulus by more than one turn.
@@ -160,6 +160,35 @@ pub fn read_vectors<T: Copy, const D: usize, const N: usize>(
     let start = *at;
     *at += D * N;
     core::array::from_fn(|i| core::array::from_fn(|axis| flat[start + axis * N + i]))
+}
+
+/// Copies vectors of a state to their places in a flat slice, as spinors.
+///
+/// # Errors
+/// [`LengthError`] if there are not as many as declared.
+pub fn write_spinors<T: Scalar>(
+    array: &'static str,
+    vectors: &[[T; 3]],
+    expected: usize,
+    at: &mut usize,
+    flat: &mut [T],
+) -> Result<(), LengthError> {
+    let error = LengthError { array, expected, found: vectors.len() };
+    let end = *at + spinor::COORDINATES * expected;
+    let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
+    for (i, &vector) in vectors.iter().enumerate() {
+        for (number, z) in spinor::lift(vector).into_iter().enumerate() {
+            places[number * expected + i] = z;
+        }
+    }
+    *at = end;
+    Ok(())
+}
+
+/// Reads vectors, of which the number is known.
+#[inline]
+pub fn read_spinors<T: Scalar, const N: usize>(_len: usize, at: &mut usize, flat: &[T]) -> [[T; 3]; N] {
+    core::array::from_fn(spinor::read(N, at, flat))
 }
 
 /// Reads a block of known length.

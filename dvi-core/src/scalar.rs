@@ -16,6 +16,7 @@ pub(crate) mod pairs;
 pub(crate) mod passes;
 pub(crate) mod simd;
 mod sinc;
+pub(crate) mod spinor;
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

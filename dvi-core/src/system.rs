@@ -17,7 +17,7 @@ mod constrained;
 mod held;
 mod holonomic;
 pub(crate) mod kind;
-mod manifold;
+pub(crate) mod manifold;
 pub(crate) mod names;
 mod nondegenerate;
 mod nonholonomic;

@@ -19,6 +19,7 @@ use crate::error::StartError;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{self, reported};
 use crate::system::CoordinateBlock;
+use crate::system::manifold::TOLERANCE;
 use crate::system::{Axis, Factor, ManifoldSystem};
 use crate::{Real, Scalar};
 
@@ -165,9 +166,6 @@ pub(crate) fn quaternion<T: Real>(lifted: &[T], block: Block) -> Quaternion<T> {
 pub(crate) fn set_quaternion<T: Real>(lifted: &mut [T], block: Block, quaternion: &Quaternion<T>) {
     quaternion.coords.iter().enumerate().for_each(|(number, &entry)| lifted[block.place(number)] = entry);
 }
-
-/// How far a state may be off the manifold, in units of rounding.
-pub(crate) const TOLERANCE: f64 = 4096.0;
 
 /// Whether a state is on the manifold, and its velocity tangent to it.
 ///

@@ -9,7 +9,7 @@ use super::linear::{RunTimeCoupled, RunTimeSolver, Storing};
 use super::rows::SparseRows;
 use super::square::RunTimeSquare;
 use super::{Sink, Space};
-use crate::system::spinors;
+use crate::scalar::spinor;
 use crate::{Real, Scalar};
 
 /// A space whose dimension is known at run time only; its storage is on the heap.
@@ -88,7 +88,7 @@ impl RunTime {
     #[doc(hidden)]
     pub fn refill_spinors<T: Scalar>(len: usize, at: &mut usize, flat: &[T], vectors: &mut Vec<[T; 3]>) {
         vectors.clear();
-        vectors.extend((0..len).map(spinors::read(len, at, flat)));
+        vectors.extend((0..len).map(spinor::read(len, at, flat)));
     }
 
     /// The same as [`read_block`](Self::read_block), into the storage of such a block.

@@ -3,6 +3,7 @@
 use super::spinors::{self, is_spinor};
 use super::{CoordinateBlock, State, System};
 use crate::name::{Axis, Name};
+use crate::scalar::spinor;
 use crate::{Scalar, Space};
 
 /// The names of all entries of the states of `system`, coordinates first, each with its place among the
@@ -53,7 +54,7 @@ impl<S: System> Iterator for Entries<'_, S> {
             // Of the components of an array, or of the entries of one, not all have velocities.
             let velocities = |of| if is_velocity { factor.velocities(of) } else { of };
             let [components, count] = match axis {
-                Some(_) if is_spinor(declared, S::REGULAR) => [spinors::COMPONENTS, coordinates],
+                Some(_) if is_spinor(declared, S::REGULAR) => [spinor::COMPONENTS, coordinates],
                 Some(_) => [velocities(blocks), coordinates],
                 None => [1, velocities(coordinates)],
             };

@@ -12,17 +12,14 @@
 use core::ops::Range;
 
 use super::{Name, System};
-use crate::error::{LengthError, StartError};
-use crate::mechanics::manifold::TOLERANCE;
+use crate::error::StartError;
 use crate::name::{Axis, Factor};
 use crate::scalar::norm::reported;
+use crate::scalar::spinor::{COORDINATES, lift, lower};
 use crate::scalar::{Comparison, Scalar};
+use crate::system::manifold::TOLERANCE;
 use crate::system::report::{CoordinateBlock, Report};
 use crate::{Real, Space, Vector};
-
-/// The coordinates of a spinor, and the components of a unit vector.
-const COORDINATES: usize = 4;
-pub(crate) const COMPONENTS: usize = 3;
 
 /// Whether a block is a coordinate of spinors.
 pub(crate) const fn is_spinor(block: &CoordinateBlock, is_regular: bool) -> bool {
@@ -98,27 +95,6 @@ fn spinors<S: System>(system: &S) -> impl Iterator<Item = Spinor> {
 /// The unit vector that a place in the flat state belongs to.
 pub(crate) fn at_place<S: System>(system: &S, place: usize) -> Option<Name> {
     spinors(system).find(|spinor| spinor.places().contains(&place)).map(Spinor::name)
-}
-
-/// A spinor of a vector, with |z|² = |s|, of which a component is real: a where s points up, c where it points
-/// down, so that the divisor is never small. Of what is no number the vector itself, and no number.
-pub(crate) fn lift<T: Scalar>([x, y, z]: [T; COMPONENTS]) -> [T; COORDINATES] {
-    let (zero, half) = (T::lift(0.0), T::lift(0.5));
-    let length = (x * x + y * y + z * z).sqrt();
-    let real = (half * (length + z.abs())).sqrt();
-    let [p, q] = [x, y].map(|component| half * component.over_root(real));
-    let (up, down) = ([real, zero, p, q], [p, -q, real, zero]);
-    let none = [x, y, z, T::lift(f64::NAN)];
-    core::array::from_fn(|k| {
-        let spinor = T::choose(z, Comparison::Less, zero, down[k], up[k]);
-        T::choose(length, Comparison::Less, T::lift(f64::INFINITY), spinor, none[k])
-    })
-}
-
-/// s = z†σz
-pub(crate) fn lower<T: Scalar>([a, b, c, d]: [T; COORDINATES]) -> [T; COMPONENTS] {
-    let two = T::lift(2.0);
-    [two * (a * c + b * d), two * (a * d - b * c), a * a + b * b - c * c - d * d]
 }
 
 /// Puts the components of vectors in the first three places of their spinors.
@@ -201,67 +177,4 @@ pub(crate) fn refuse<S: System>(option: &'static str) -> Result<(), StartError> 
     let reason = "it would not keep the lengths of unit vectors; `Gauss`, and with affine α `Sigma::midpoint()` from \
                   `Start::Consistent`, keep them";
     Err(StartError::Unsupported { option, reason })
-}
-
-/// Copies vectors of a state to their places in a flat slice, as spinors.
-///
-/// # Errors
-/// [`LengthError`] if there are not as many as declared.
-pub fn write_spinors<T: Scalar>(
-    array: &'static str,
-    vectors: &[[T; COMPONENTS]],
-    expected: usize,
-    at: &mut usize,
-    flat: &mut [T],
-) -> Result<(), LengthError> {
-    let error = LengthError { array, expected, found: vectors.len() };
-    let end = *at + COORDINATES * expected;
-    let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
-    for (i, &vector) in vectors.iter().enumerate() {
-        for (number, z) in lift(vector).into_iter().enumerate() {
-            places[number * expected + i] = z;
-        }
-    }
-    *at = end;
-    Ok(())
-}
-
-/// Moves on behind so many spinors, and gives the vectors of them.
-pub(crate) fn read<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> impl Fn(usize) -> [T; COMPONENTS] {
-    let start = *at;
-    *at += COORDINATES * len;
-    move |i| lower(core::array::from_fn(|number| flat[start + number * len + i]))
-}
-
-/// Reads vectors, of which the number is known.
-#[inline]
-pub fn read_spinors<T: Scalar, const N: usize>(
-    _len: usize,
-    at: &mut usize,
-    flat: &[T],
-) -> [[T; COMPONENTS]; N] {
-    core::array::from_fn(read(N, at, flat))
-}
-
-#[test]
-fn a_spinor_of_a_vector_has_its_direction_and_length() {
-    let near = |s: [f64; 3]| {
-        let z = lift(s);
-        let found = lower(z);
-        let length = s.iter().map(|s| s * s).sum::<f64>().sqrt();
-        let error = found.iter().zip(s).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let norm: f64 = z.iter().map(|z| z * z).sum();
-        assert!(error <= 4.0 * f64::EPSILON * length, "{s:?} is read as {found:?}");
-        assert!((norm - length).abs() <= 4.0 * f64::EPSILON * length, "{s:?} has {z:?}");
-    };
-    // Everywhere on the sphere, at the poles and next to them.
-    for (k, j) in (0..=200).flat_map(|k| (0..40).map(move |j| (k, j))) {
-        let (polar, azimuth) = (f64::from(k) * 0.005 * core::f64::consts::PI, f64::from(j) * 0.157);
-        near([polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos()]);
-    }
-    for x in [0.0, 1e-100, -1e-9, 1e-3] {
-        for z in [1.0, -1.0, 0.0, -0.0, 2.5] {
-            near([x, -2.0 * x, z]);
-        }
-    }
 }
