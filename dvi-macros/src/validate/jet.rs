@@ -129,7 +129,9 @@ impl Jet {
 
     /// Its rate; that of a constant is zero.
     pub(super) fn rate(&self) -> Self {
-        self.0.rate.clone().unwrap_or_else(|| Self::number(0.0))
+        // What is not known has no rate that is.
+        let constant = || Self::number(if self.0.value[0].is_nan() { f64::NAN } else { 0.0 });
+        self.0.rate.clone().unwrap_or_else(constant)
     }
 
     fn part(&self, at: usize) -> Sized {
@@ -156,6 +158,10 @@ impl Jet {
     /// The derivatives along the first and the second direction of velocities, the first with what its own
     /// along the second directions are.
     pub(super) fn slopes(&self) -> [Self; 2] {
+        // What is not known has no slopes that are.
+        if self.0.value[0].is_nan() {
+            return [Self::number(f64::NAN), Self::number(f64::NAN)];
+        }
         let [mut slope, mut other] = [Self::number(0.0), Self::number(0.0)];
         let mut set =
             |at: usize, part: Sized| (slope.0.value[at], slope.0.size[at]) = (part.value, part.size);
@@ -338,5 +344,18 @@ impl Jet {
             term(n * (n - 1.0) * (n - 2.0), exponent - 3),
             term(n * (n - 1.0) * (n - 2.0) * (n - 3.0), exponent - 4),
         ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Jet;
+
+    /// Else a force from a dissipation function would seem to be zero where R is lost in rounding.
+    #[test]
+    fn what_is_not_known_has_no_derivatives_that_are() {
+        let unknown = Jet::number(f64::NAN);
+        let [one, other] = unknown.slopes();
+        assert!([one, other, unknown.rate()].iter().all(|jet| jet.value().value.is_nan()));
     }
 }
