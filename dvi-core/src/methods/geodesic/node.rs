@@ -289,7 +289,11 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         let Self { first, displacement, slots, .. } = self;
         let mut between = Between::<S, T, K>::new(first, displacement, slots, [By::Velocity; 2], sink);
         for row in blocks(system).flat_map(Block::velocities) {
-            mass.row(row, |column, entry| between.add(row, column, weight * entry));
+            mass.row(row, |column, entry| {
+                if entry != T::lift(0.0) {
+                    between.add(row, column, weight * entry);
+                }
+            });
         }
     }
 
