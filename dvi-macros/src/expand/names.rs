@@ -10,8 +10,9 @@ const INTERNAL: &str = "__T";
 /// What it is called where the user has nothing of that name.
 const NUMBERS: [&str; 4] = ["T", "Number", "Numbers", "Scalar"];
 
-/// Generics besides, and what they are called in the traits, where the user has nothing of that name.
-const GENERICS: [(&str, &str); 2] = [("__K", "K"), ("__W", "W")];
+/// Generics besides, and what they are called where the user has nothing of that name. A type `W` beside the
+/// system would hide a constant `W`.
+const GENERICS: [(&str, &str); 2] = [("__K", "K"), ("__W", "LANES")];
 
 /// Arguments as the stages write them, and what they are called where the user has nothing of the first name:
 /// as in the traits but for the last letter, since a constant of the user's may be called `q` or `t`, and no

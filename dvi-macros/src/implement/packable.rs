@@ -58,7 +58,7 @@ fn as_one(krate: &Path, item: &ItemStruct) -> TokenStream {
     quote! {
         #[automatically_derived]
         #allow
-        impl #impl_generics #krate::__private::Packable<{ __W }> for #name #type_generics #where_clause {
+        impl #impl_generics #krate::__private::Packable<__W> for #name #type_generics #where_clause {
             type Packed = Self;
             fn packed<__R>(__systems: &[&Self; __W], __f: impl ::core::ops::FnOnce(&Self) -> __R) -> __R {
                 __f(__systems[0])
@@ -71,7 +71,7 @@ fn as_one(krate: &Path, item: &ItemStruct) -> TokenStream {
 fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream {
     let (name, allow) = (&item.ident, allow());
     let (private, number) = (quote!(#krate::__private), quote!(::core::primitive::f64));
-    let pack = quote!(#krate::Varied<#krate::scalar::Lanes<{ __W }>>);
+    let pack = quote!(#krate::Varied<#krate::scalar::Lanes<__W>>);
     let constants = item.generics.const_params().map(|constant| {
         let mut constant = constant.clone();
         constant.default = None;
@@ -90,12 +90,12 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
         let [of_numbers, of_packs] =
             [&number, &pack].map(|of| replaced(ty.to_token_stream(), &generic.ident, of));
         if of_numbers.to_string() == ty.to_token_stream().to_string() {
-            bounds.push(quote!(#ty: #private::Shared<{ __W }>));
-            fits.push(quote!(#private::Shared::<{ __W }>::same(&self.#field, &__other.#field)));
-            values.push(quote!(#field: #private::Shared::<{ __W }>::copy(&__systems[0].#field)));
+            bounds.push(quote!(#ty: #private::Shared<__W>));
+            fits.push(quote!(#private::Shared::<__W>::same(&self.#field, &__other.#field)));
+            values.push(quote!(#field: #private::Shared::<__W>::copy(&__systems[0].#field)));
         } else {
-            bounds.push(quote!(#of_numbers: #private::Packing<{ __W }, Packed = #of_packs>));
-            fits.push(quote!(#private::Packing::<{ __W }>::fits(&self.#field, &__other.#field)));
+            bounds.push(quote!(#of_numbers: #private::Packing<__W, Packed = #of_packs>));
+            fits.push(quote!(#private::Packing::<__W>::fits(&self.#field, &__other.#field)));
             values.push(quote!(#field: #private::Packing::pack(__systems.map(|__system| &__system.#field))));
         }
     }
@@ -103,7 +103,7 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
         #[automatically_derived]
         #allow
         #[allow(deprecated)]
-        impl<#(#constants,)* const __W: ::core::primitive::usize> #krate::__private::Packable<{ __W }> for #name #of_numbers
+        impl<#(#constants,)* const __W: ::core::primitive::usize> #krate::__private::Packable<__W> for #name #of_numbers
         where #(#bounds),*
         {
             type Packed = #name #of_packs;
