@@ -1,9 +1,10 @@
 //! One-step schemes of systems in class: units, failures, and how the class is seen.
 
-use approx::abs_diff_eq;
+use approx::{abs_diff_eq, assert_relative_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{ProperlyDegenerate, Space};
+use dvi_examples::models::{TokamakInClass, TokamakInClassState};
 use dvi_tests::schemes::systems::{Belt, Mixed};
 use dvi_tests::steps::{apart, stepped};
 use dvi_tests::systems::{SphereForm, SphereFormState};
@@ -174,4 +175,18 @@ fn reports_say_where_the_ends_cannot_be_used() {
     }
     let can = structure!(x * d(y) - y * d(x));
     assert!(can.contains("σ = 0 and σ = 1 are explicit"), "{can}");
+}
+
+/// What is left of the equations where they hold to rounding errors, of angles of a million here, is no kick.
+#[test]
+fn momenta_are_kept_however_large_the_angles_are() -> Outcome {
+    let system = TokamakInClass { q: 2.0, mu: 6e-5 };
+    let start = TokamakInClassState { r: 0.2, theta: 1e6, phi: 2e6, u: 1.2e-2 };
+    let mut run = Integrator::new(&system, OneStep::midpoint(), 60.0, start)?;
+    let before = run.momentum(0).ok_or("no momentum")?;
+    for _ in 0..500 {
+        run.advance()?;
+        assert_relative_eq!(run.momentum(0).ok_or("no momentum")?, before, max_relative = 1e-14);
+    }
+    Ok(())
 }
