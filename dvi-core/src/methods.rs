@@ -41,8 +41,8 @@
 //! | [`Projected`] | 2 | Ω if α is affine | for all other α, if momenta of cyclic coordinates and Ω, to terms of order h⁵ in a step, count more than digits |
 //! | [`RungeKutta`] | 2, 4 | nothing | to compare with |
 //!
-//! The lengths of unit vectors `s: S2` are kept by [`Sigma::midpoint`] and [`Projected`] where α is affine, and
-//! by [`Gauss`]. Others are refused, and [`RungeKutta`] loses the lengths with its order.
+//! The lengths of unit vectors `s: S2` are kept by [`Sigma::midpoint`] and [`Projected`] where α is affine,
+//! and by [`Gauss`]. Others are refused, and [`RungeKutta`] loses the lengths with its order.
 //!
 //! # Around another method
 //!
@@ -219,8 +219,8 @@ pub trait Carries<S: System, T: Real> {
 /// ```
 pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     /// `M`, and nothing else has to be said in a method of your own. One for systems of one kind may take it
-    /// from the trait of that kind, as `<S as RegularLagrangian<T>>::Suited<M>`: then rustc reports once, where
-    /// a run begins, that a system is of another kind.
+    /// from the trait of that kind, as `<S as RegularLagrangian<T>>::Suited<M>`: then rustc reports once,
+    /// where a run begins, that a system is of another kind.
     type Suited<M>: Same<M, As = M>;
 
     /// Prepares a run with step `h` from (`q`, `t`), with velocity `v` if the system is regular; for

@@ -8,13 +8,13 @@ pub enum Factor {
     /// ℝⁿ: `x`, or `x[n]`.
     #[default]
     Line,
-    /// SO(3): `R: SO3` or `R[n]: SO3`. The coordinates are the nine entries of a rotation matrix, row by row, which takes
-    /// vectors of the body to those of space. The velocities are the three entries of the angular velocity
-    /// in the body, ω with Ṙ = R ω̂, ω̂ x = ω × x.
+    /// SO(3): `R: SO3` or `R[n]: SO3`. The coordinates are the nine entries of a rotation matrix, row by
+    /// row, which takes vectors of the body to those of space. The velocities are the three entries of the
+    /// angular velocity in the body, ω with Ṙ = R ω̂, ω̂ x = ω × x.
     Rotation,
-    /// S²: `s: S2` or `s[n]: S2`. The coordinates are the entries of a unit vector, the velocities those of its
-    /// rate of change. Of a degenerate system, whose states have these entries too, the flat coordinates are
-    /// four, those of a spinor z with s = z†σz.
+    /// S²: `s: S2` or `s[n]: S2`. The coordinates are the entries of a unit vector, the velocities those of
+    /// its rate of change. Of a degenerate system, whose states have these entries too, the flat coordinates
+    /// are four, those of a spinor z with s = z†σz.
     Sphere,
 }
 

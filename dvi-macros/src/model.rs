@@ -28,8 +28,8 @@ pub(crate) use vectors::{Axis, COMPONENTS, SPINOR, are_components};
 #[derive(Debug)]
 pub(crate) struct Block {
     pub(crate) name: Ident,
-    /// The size of an array, with its text; of a rotation or a unit vector without an index, the number of its
-    /// entries.
+    /// The size of an array, with its text; of a rotation or a unit vector without an index, the number of
+    /// its entries.
     pub(crate) array: Option<(Index, String)>,
     /// Which component the coordinates are, if they are those of vectors.
     pub(crate) axis: Option<Axis>,
@@ -226,8 +226,8 @@ impl Model {
             // What is said of its uses is that of vectors.
             count.or(Some(3))
         });
-        // An array of rotations is one of vectors with nine components; unit vectors of degenerate systems have
-        // those of spinors.
+        // An array of rotations is one of vectors with nine components; unit vectors of degenerate systems
+        // have those of spinors.
         let is_spinor = factor == Factor::Sphere && self.kind == Kind::Degenerate;
         let axes = if is_spinor { Some(SPINOR) } else { axes.or(size.as_ref().and(factor.coordinates())) };
         let count = axes.unwrap_or(1);

@@ -87,8 +87,8 @@ impl Tex {
 /// What walks formulas.
 #[derive(Debug, Default)]
 pub(crate) struct Typesetter {
-    /// The coordinates that are rotations, whose nine entries have two indices on paper, each with the number of
-    /// indices that it is one with.
+    /// The coordinates that are rotations, whose nine entries have two indices on paper, each with the
+    /// number of indices that it is one with.
     rotations: Vec<(String, usize)>,
     /// The names of vectors, each with the number of indices that it is one with.
     vectors: Vec<(String, usize)>,

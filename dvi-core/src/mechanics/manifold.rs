@@ -1,6 +1,6 @@
 //! Configuration spaces with rotations and unit vectors: the product of ℝⁿ, of SO(3) and of S², a block of
-//! coordinates each. An array of rotations or unit vectors is as many blocks, whose coordinates stand as those
-//! of vectors do: all first entries before all second ones.
+//! coordinates each. An array of rotations or unit vectors is as many blocks, whose coordinates stand as
+//! those of vectors do: all first entries before all second ones.
 //!
 //! A displacement has a place for each coordinate, as velocities have: of a rotation the first three hold
 //! the rotation vector u in the body, R ↦ R exp(û); of a unit vector they hold the rotation vector w in

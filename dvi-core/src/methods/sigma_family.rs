@@ -185,7 +185,8 @@ impl<T: Real> Sigma<T> {
         }
     }
 
-    /// Whether the lengths of unit vectors are kept, if there are some: the implicit midpoint rule keeps them.
+    /// Whether the lengths of unit vectors are kept, if there are some: the implicit midpoint rule keeps
+    /// them.
     fn keeps_lengths<S: DegenerateLagrangian<T>>(&self) -> Result<(), StartError> {
         let is_midpoint_rule = S::AFFINE && self.is_midpoint() && self.start == Start::Consistent;
         if is_midpoint_rule {

@@ -6,8 +6,9 @@ use super::{Comparison, Scalar};
 pub(crate) const COORDINATES: usize = 4;
 pub(crate) const COMPONENTS: usize = 3;
 
-/// A spinor of a vector, with |z|² = |s|, of which a component is real: a where s points up, c where it points
-/// down, so that the divisor is never small. Of what is no number the vector itself, and no number.
+/// A spinor of a vector, with |z|² = |s|. One component is real, a where s points up and c where it points
+/// down, so that the divisor is never small. A vector whose length is infinite or no number has none: its
+/// entries stand there, and NaN.
 pub(crate) fn lift<T: Scalar>([x, y, z]: [T; COMPONENTS]) -> [T; COORDINATES] {
     let (zero, half) = (T::lift(0.0), T::lift(0.5));
     let length = (x * x + y * y + z * z).sqrt();

@@ -2,9 +2,9 @@
 //!
 //! The coordinates of a block, `x[n]` or `r[n][3]`, have one unit, and one size: the largest |q| + |Δ| among
 //! them. So what is next to nothing beside its neighbours, as where a wave has not arrived yet, is no task
-//! of its own. Sizes go with the units of blocks, and what is judged in them does not: units do not matter. They
-//! are those of the guess; where a correction is as large as its block, they are taken again. They are kept
-//! as weights, one over the size of each coordinate.
+//! of its own. Sizes go with the units of blocks, and what is judged in them does not: units do not matter.
+//! They are those of the guess; where a correction is as large as its block, they are taken again. They are
+//! kept as weights, one over the size of each coordinate.
 
 use core::ops::{DerefMut, Range};
 

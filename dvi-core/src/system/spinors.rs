@@ -6,8 +6,8 @@
 //! s = (2(ac + bd), 2(ad − bc), a² + b² − c² − d²),     A = 2 (a db − b da + c dd − d dc),     dA = area.
 //!
 //! |s| = |z|², which is quadratic: methods that preserve such invariants stay on the sphere. Neither the
-//! length of z nor its phase is the user's, so that there are no poles. The four coordinates of arrays lie one
-//! array after the other, as components of vectors do.
+//! length of z nor its phase is the user's, so that there are no poles. The four coordinates of arrays lie
+//! one array after the other, as components of vectors do.
 
 use core::ops::Range;
 

@@ -44,8 +44,8 @@ impl Block {
         format!("z_{}", self.name.unraw())
     }
 
-    /// What is said of all its coordinates: `x`, or `r[i][0]` where others have the same name, or `R[i]` where
-    /// these are one.
+    /// What is said of all its coordinates: `x`, or `r[i][0]` where others have the same name, or `R[i]`
+    /// where these are one.
     pub(crate) fn label(&self) -> String {
         match (self.axis, self.factor) {
             (Some(_), Factor::Line) => self.entry("i"),
@@ -56,8 +56,8 @@ impl Block {
         }
     }
 
-    /// Whether its coordinates are entries of rotations that no velocity has the places of: the nine entries of
-    /// a rotation have three.
+    /// Whether its coordinates are entries of rotations that no velocity has the places of: the nine entries
+    /// of a rotation have three.
     pub(crate) fn is_without_velocity(&self) -> bool {
         self.factor == Factor::Rotation && self.axis.is_some_and(|axis| axis.number >= VELOCITIES)
     }

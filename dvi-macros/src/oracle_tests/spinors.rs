@@ -9,7 +9,7 @@ use super::jet::Jet;
 use super::system::System;
 use super::write::Writer;
 
-/// The number of coordinates of a spinor, which no other vector has.
+/// The number of coordinates of a spinor; the generator makes no other vectors of so many.
 pub(super) const SPINOR: usize = 4;
 
 /// Re z†σ w of both parts of z and w, as sums of these products: (sign, part of z, part of w).

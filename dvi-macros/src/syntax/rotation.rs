@@ -258,8 +258,8 @@ impl Entries<'_> {
         (self.coordinate(name)? == Known::Other).then_some((syntax, message))
     }
 
-    /// A rotation as a whole, or an array of them without an index: this, or what this is made of, and what is
-    /// wrong with it.
+    /// A rotation as a whole, or an array of them without an index: this, or what this is made of, and what
+    /// is wrong with it.
     fn whole<'b>(&self, syntax: &'b Expr) -> Option<(&'b Expr, String)> {
         let used = |part: &'b Expr| {
             let of_array = |name: &Ident| format!("`{name}` is an array of rotations: write `{name}[i]`");

@@ -9,9 +9,9 @@ use dvi_tests::{Numbers, Outcome};
 #[derive(Debug)]
 struct Free;
 
-/// A condition with `depth` dips a little below zero once in each period of x, `half_width` to each side of its
-/// middle, or comes as near to it from above: so many periods at all places within steps of all lengths, a
-/// hundred times.
+/// A condition with `depth` dips a little below zero once in each period of x, `half_width` to each side of
+/// its middle, or comes as near to it from above: so many periods at all places within steps of all lengths,
+/// a hundred times.
 fn graze(
     (seed, deepest, periods): (u64, f64, u32),
     condition: impl Fn(f64, f64) -> f64,

@@ -23,8 +23,8 @@ pub(super) fn slots<S: ManifoldSystem>(system: &S) -> Slots<S> {
     slots
 }
 
-/// Visits the tangent vectors that depend on one another in the equations of a step: those of coordinates that
-/// a second derivative of L at a point couples, and those of one block.
+/// Visits the tangent vectors that depend on one another in the equations of a step: those of coordinates
+/// that a second derivative of L at a point couples, and those of one block.
 pub(super) fn visit_coupled<S: ManifoldLagrangian<T>, T: Real>(
     system: &S,
     slots: &Slots<S>,

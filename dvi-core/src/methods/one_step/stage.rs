@@ -130,7 +130,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
         let Equations { unknown, momentum, .. } = equations;
         let size = |j: usize| Scalar::abs(step.q[j]) + Scalar::abs(unknown[j]);
         let residual = linear::residual(&mut equations, size, |i| momentum[i], [&mut *correction, weights]);
-        // What has been evaluated is at the unknowns, and what is left of the equations there is rounding: no kick.
+        // What has been evaluated is at the unknowns, and what is left of the equations there is rounding:
+        // no kick.
         correction.fill(T::lift(0.0));
         let half = T::lift(0.5) * step.h;
         for i in 0..self.one_form.len() {

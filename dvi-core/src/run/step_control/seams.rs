@@ -7,8 +7,8 @@
 //!
 //! with the sign that makes each seam gₖ positive where the step begins. It ends behind that place by some
 //! rounding errors, so that the next step begins on the other side, and its error is estimated where it is
-//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors. Where a
-//! seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for.
+//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors. Where
+//! a seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for.
 
 use super::ControlledRun;
 use crate::error::StepFailure;
@@ -34,8 +34,8 @@ const SURE: usize = 6;
 /// Iterations for the derivatives of a length, of numbers that carry some.
 const POLISHED: usize = 3;
 /// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
-/// hop is a step that is shorter than this part of usual ones and begins or ends at a seam, or near one, or is
-/// shorter by all of the machine precision.
+/// hop is a step that is shorter than this part of usual ones and begins or ends at a seam, or near one, or
+/// is shorter by all of the machine precision.
 const HOPS: (usize, f64) = (64, 1e-3);
 /// Within so many steps of this length a seam is near.
 const NEAR: f64 = 8.0;
@@ -157,8 +157,8 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         Ok(None)
     }
 
-    /// A part of a step of length `h`, which has been taken, at which a seam has been crossed that is ahead at
-    /// its end. The run is moved to it, if there is one.
+    /// A part of a step of length `h`, which has been taken, at which a seam has been crossed that is ahead
+    /// at its end. The run is moved to it, if there is one.
     fn dip<M: VariableStep<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
@@ -188,8 +188,9 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         Ok(None)
     }
 
-    /// How far ahead a seam is at a place of a step of length `h`, where the run is, or where the step begins,
-    /// and how that changes with the place: along the velocity, which changes evenly from the beginning.
+    /// How far ahead a seam is at a place of a step of length `h`, where the run is, or where the step
+    /// begins, and how that changes with the place: along the velocity, which changes evenly from the
+    /// beginning.
     fn sample<M: VariableStep<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,

@@ -1,5 +1,5 @@
-//! Unit vectors of degenerate systems, in complex numbers: with z = (z₁, z₂) a vector has x + iy = 2 z₁* z₂ and
-//! the height |z₁|² − |z₂|², and the one-form of area is 2 Im(z₁* dz₁ + z₂* dz₂).
+//! Unit vectors of degenerate systems, in complex numbers: with z = (z₁, z₂) a vector has x + iy = 2 z₁* z₂
+//! and the height |z₁|² − |z₂|², and the one-form of area is 2 Im(z₁* dz₁ + z₂* dz₂).
 
 use super::super::jet::Jet;
 use super::super::point::Variable;
