@@ -77,8 +77,7 @@ pub struct Gauss<const S: usize, E = OneByOne> {
     pub solver: Solver,
     /// The criterion by which the stages count as converged. Default: to rounding errors.
     pub stopping: Stopping,
-    /// How the increments of the steps are added up. Default: [`Summation::Compensated`]; the stages are
-    /// then iterated until nothing is left to gain, which takes about one iteration more.
+    /// How the increments of the steps are added up. Default: [`Summation::Compensated`].
     pub summation: Summation,
     /// How the stages are evaluated.
     pub evaluation: E,
@@ -267,10 +266,6 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         }
         // Where equations are of second order, this sets the positions that are guessed.
         path.place(h);
-        let stopping = match summation {
-            Summation::Plain => stopping,
-            Summation::Compensated => stopping.exhaustive(),
-        };
         let convergence = Convergence::fixed_point(stopping, budget);
         let stages: Stages<'_, STAGES, E, S, T> = Stages { system, path, q, t, h, evaluation: PhantomData };
         repeat(convergence, statistics, stages)?;

@@ -171,7 +171,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         budget: usize,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let criterion = (self.stopping.exhaustive(), budget);
+        let criterion = (self.stopping, budget);
         self.solve_by_mass::<false, E>(equations, criterion, statistics)
     }
 

@@ -78,14 +78,6 @@ impl Stopping {
     }
 }
 
-impl Stopping {
-    /// An iteration that may go to rounding goes on until nothing is left to gain: beside compensated sums,
-    /// which round less than a step, what it leaves over would be seen.
-    pub(crate) fn exhaustive(self) -> Self {
-        if is_below_rounding::<f64>(self) { Self { tolerance: 0.0, ..self } } else { self }
-    }
-}
-
 /// So many corrections in turn may be no smaller than the smallest before them.
 const MOST_IN_VAIN: usize = 3;
 

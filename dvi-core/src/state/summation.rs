@@ -35,8 +35,9 @@ pub enum Summation {
     /// What rounding leaves out of x + Δ is carried on and added to the next increment (Kahan 1965), so that
     /// only Δ itself is rounded: worth it for long runs with small steps. It costs two vectors, some eight
     /// additions a step and coordinate, and the fast path of explicit steps. What a run shows are the sums
-    /// rounded; forces are evaluated at these. A fixed point is then iterated until nothing is left to gain.
-    /// Newton's method rounds as much as a plain sum.
+    /// rounded; forces are evaluated at these. The fixed point of [`Sigma`](crate::methods::Sigma) takes one
+    /// gradient more, for what rounding of its node leaves out of Δ. Newton's method rounds as much as a
+    /// plain sum.
     Compensated,
 }
 
@@ -82,17 +83,25 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
         x.copy_from_slice(sum);
     }
 
-    /// Moves `x` by an increment, if the sum is finite.
+    /// Moves `x` by an increment in two parts, of which the second is below the rounding of the first, if the
+    /// sum is finite.
     #[inline(never)]
     pub(crate) fn move_by(
         &mut self,
         x: &mut [T],
-        increment: &[T],
+        [increment, small]: [&[T]; 2],
         sum: &mut [T],
     ) -> Result<(), StepFailure> {
-        self.add(x, increment, sum);
+        for (k, (sum, &x)) in sum.iter_mut().zip(x.iter()).enumerate() {
+            *sum = x + (increment[k] + (small[k] + self.left_out_of(k)));
+        }
         norm::finite(sum)?;
-        self.advance(x, increment, sum);
+        for (k, rest) in self.rest.iter_mut().flat_map(|rest| rest.iter_mut()).enumerate() {
+            let small = small[k] + *rest;
+            let added = increment[k] + small;
+            *rest = left_out(x[k], added, sum[k]) + left_out(increment[k], small, added);
+        }
+        x.copy_from_slice(sum);
         Ok(())
     }
 }

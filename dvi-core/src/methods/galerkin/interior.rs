@@ -187,7 +187,7 @@ where
         self.depart(at);
         // The momentum is that of the forces before the last correction, whose size counts, and not that of
         // the next one alone.
-        let convergence = Convergence::fixed_point(stopping.exhaustive(), budget);
+        let convergence = Convergence::fixed_point(stopping, budget);
         iterate(
             convergence,
             statistics,

@@ -66,7 +66,7 @@ pub(super) struct Work<S: System, T: Real> {
     pub(super) trial: Vector<S, T>,
     /// In which iterations judge coordinates.
     pub(super) weights: Vector<S, T>,
-    /// (D₁ + D₂)L_d
+    /// (D₁ + D₂)L_d; where α is affine and sums are compensated, what rounding leaves out of s.
     pub(super) sum: Vector<S, T>,
     pub(super) next: Vector<S, T>,
 }

@@ -119,7 +119,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         let Self { step, q, carried, .. } = self;
         let Step { system, method, t, .. } = **step;
         let Carried { defect, defect_vanishes, one_form, history, l_d, work, .. } = &mut **carried;
-        let Work { increment, shift, next: p0, trial, weights, .. } = work;
+        let Work { increment, shift, next: p0, trial, weights, sum: left_out, .. } = work;
+        left_out.fill(T::lift(0.0));
         let shift = (S::AFFINE && !*defect_vanishes).then_some(&*shift);
         guess.begin(increment, |increment| history.extrapolate(increment));
         if let Some(shift) = shift {
@@ -155,7 +156,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
     /// Moves to q1 = q0 + K⁻¹c0 + s, and to c1 = K'Δ − σh∇H(q_σ): for affine α.
     fn arrive(&mut self, step: &Step<'_, S, T>, q: &mut Vector<S, T>) -> Result<(), StepFailure> {
         let Self { defect, defect_vanishes, history, product, l_d, rest, work, .. } = self;
-        let Work { shift, increment, trial, next, .. } = work;
+        let Work { shift, increment, trial, sum: left_out, next, .. } = work;
         let delta = if *defect_vanishes {
             &*increment
         } else {
@@ -163,7 +164,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
             &*trial
         };
         match step.method.summation {
-            Summation::Compensated => rest.move_by(q, delta, next)?,
+            Summation::Compensated => rest.move_by(q, [delta, left_out], next)?,
             Summation::Plain => {
                 scratch!(next = step.system, *next);
                 add(q, delta, next);
