@@ -52,7 +52,7 @@ impl From<Vec<Claim>> for Outcome {
     }
 }
 
-/// Runs the experiments, the shortest first, and hands what each has left to `keep` as soon as it has ended.
+/// Runs the experiments, from the shortest on, and hands what each has left to `keep` as soon as it has ended.
 pub fn run(
     experiments: &[Experiment],
     folder: &Path,
@@ -77,6 +77,10 @@ pub fn run(
     };
     let mut order: Vec<usize> = (0..experiments.len()).collect();
     order.sort_by(|&i, &j| experiments[i].share.total_cmp(&experiments[j].share));
+    // Beside the others, which must not wait for it, the longest begins at once: else it would end alone.
+    if pool.current_num_threads() > 1 && order.len() > 1 {
+        order.rotate_right(1);
+    }
     std::thread::scope(|scope| {
         // Until this is dropped, which a panic does too.
         let (_running, ended) = mpsc::channel();

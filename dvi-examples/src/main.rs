@@ -6,7 +6,7 @@
 #![allow(unreachable_pub, reason = "in a binary `pub` means: for the other modules")]
 
 mod claim;
-mod deviation;
+mod envelope;
 mod experiments;
 mod gallery;
 mod job;
@@ -17,6 +17,7 @@ mod page;
 mod progress;
 mod record;
 mod runs;
+mod series;
 mod summary;
 mod vocabulary;
 

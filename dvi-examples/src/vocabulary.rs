@@ -12,16 +12,17 @@ pub use dvi_core::{ProperlyDegenerate, Separable, Space as _, rotations};
 pub use rayon::prelude::*;
 
 pub use crate::claim::{Bound, Check, Claim, beyond, claims, says};
-pub use crate::deviation::*;
+pub use crate::envelope::*;
 pub use crate::figure::{
-    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, Line, PURPLE, Panel,
-    Points, SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
+    AMBER, Anchor, Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, INK, Line, PURPLE, Panel, Points,
+    SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
 };
 pub use crate::gallery::Outcome;
 pub use crate::job::Job;
 pub use crate::numbers::*;
 pub use crate::output::Table;
 pub use crate::runs::*;
+pub use crate::series::*;
 pub use dvi_examples::models::{self, *};
 
 /// A line of that colour.

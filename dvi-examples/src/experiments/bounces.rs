@@ -39,8 +39,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ];
     let walks = Walks::new(job)?;
     let curves = all.iter().map(|run| ([&run.series.name], [run.series.h], run.series.kept[0].magnitude()));
-    let table = curve_table(&["kept", "h", "t", "largest_energy_error"], curves)?;
-    job.publish(figure(&all, &walks, end)?, table)?;
+    job.publish(figure(&all, &walks, end)?, curve_table("kept,h,t,largest_energy_error", curves))?;
     let full = |value: f64| job.only_full(value);
     let kept = all.each_ref().map(|run| &run.series.kept[0]);
     let [of_rk4, of_coarse, of_fine, coarse, fine] = kept.map(|kept| full(kept.largest));

@@ -21,7 +21,7 @@ pub const RATES: [f64; 2] = [1.2, 0.4];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (errors, sleigh) = (Errors::new(job)?, Sleigh::new()?);
-    job.publish(figure(&errors, &sleigh)?, errors.table()?)?;
+    job.publish(figure(&errors, &sleigh)?, errors.table())?;
     let [springs, magnet] = errors.claims(job);
     let undone = Problem::new(&MAGNET, begin(&MAGNET)).there_and_back(midpoint(), H, 200)?;
     claims([

@@ -52,7 +52,7 @@ impl Errors {
 
     pub fn table(&self) -> Result<Table> {
         let curves = self.0.iter().map(|growth| ([&growth.name], [growth.h], growth.path.iter().copied()));
-        curve_table(&["series", "h", "t", "largest_energy_error"], curves)
+        curve_table("series,h,t,largest_energy_error", curves)
     }
 
     pub fn panel(&self) -> Panel {

@@ -59,7 +59,7 @@ impl Long<'_> {
     }
 
     /// The checks that the energy error of a run is no larger than predicted, and has no trend.
-    pub fn flat_energy(self, claim: Claim, run: &str, energy: &Deviation, predicted: f64) -> Claim {
+    pub fn flat_energy(self, claim: Claim, run: &str, energy: &Envelope, predicted: f64) -> Claim {
         let trend = format!("{run}: max|ΔE|, last tenth of the time over the first");
         let claim = claim.at_most(format!("{run}: max|ΔE|"), energy.largest, 1.02 * predicted);
         claim.near(trend, self.job.only_full(energy.trend()), [1.0, 0.01])

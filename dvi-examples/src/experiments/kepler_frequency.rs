@@ -27,7 +27,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     })?;
     let readings = &readings[1..];
     let rows = readings.iter().step_by(20).map(|row| ([""; 0], *row));
-    job.publish(figure(readings), Table::of(&["t", "r", "omega_curvature", "omega_radial"], rows)?)?;
+    job.publish(figure(readings), Table::of("t,r,omega_curvature,omega_radial", rows))?;
     let curvatures = || readings.iter().map(|reading| reading[2]);
     let (highest, lowest) = (largest(curvatures()), least(curvatures()));
     let share = |is_so: &dyn Fn(f64) -> bool| {

@@ -51,8 +51,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         .whole()
     })?;
     let all = [trapezoid, midpoint, rattle, rk4(job, span)?];
-    let table = magnitude_table(&["method", "t", "energy", "length", "velocity_along"], &all)?;
-    job.publish(figure(&all, span.end)?, table)?;
+    job.publish(figure(&all, span.end)?, magnitude_table("method,t,energy,length,velocity_along", &all))?;
     let [energy, length, along] = &all[3].kept;
     let of_constrained = |k: usize| largest(all[..3].iter().map(|series| series.kept[k].largest));
     let growth = largest(all[..3].iter().map(|series| series.kept[0].growth()));

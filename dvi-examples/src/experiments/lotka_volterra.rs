@@ -14,7 +14,6 @@ const EARLY: u64 = 1000;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
-    job.expect(5 * steps + 2 * EARLY);
     let (one_sided, symmetric) = (Problem::new(&ONE_SIDED, START), Problem::new(&SYMMETRIC, START));
     let [span, short] = [steps, EARLY].map(|steps| Span::of(steps, H, EARLY));
     let (halved, places) = (Span::of(2 * steps, H / 2.0, EARLY), EARLY as usize + 1);
@@ -36,8 +35,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     // The steps that failed.
     let ended = |run: &Series<1>| run.ended.map_or(f64::INFINITY, |error| error.step as f64);
     let (ended, watched) = (ended(&all[3]), ended(&watched));
-    let table = range_table(&["method", "t", "lowest", "mean", "highest"], &[""], &all)?;
-    job.publish(figure(&all, ended, span.end), table)?;
+    job.publish(figure(&all, ended, span.end), range_table("method,t", &[""], &all))?;
     let near = |h: f64, run: &Series<1>, bound| {
         Check::new(format!("one step, midpoint, h = {h}: max|ΔH|"), run.kept[0].largest, bound)
     };

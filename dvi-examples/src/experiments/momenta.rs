@@ -35,8 +35,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         drifts(&case, "RK4", RungeKutta::classical(), one_step)?,
         drifts(&case, "Gauss, order 4", Gauss::<2>::new(), one_step)?,
     ];
-    let columns = ["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"];
-    job.publish(figure(&all), Table::of(&columns, all.iter().map(|(scheme, of)| ([*scheme], *of)))?)?;
+    let columns = "scheme,sum_gamma_x,sum_gamma_y,sum_gamma_z2,J_d,two_form";
+    job.publish(figure(&all), Table::of(columns, all.iter().map(|(scheme, of)| ([*scheme], *of))))?;
     let [vi2, started, quarter, ve2, rk2, rk4, gauss] = &all;
     let most = |all: &[Drifts], quantity: usize| largest(all.iter().filter_map(|(_, of)| of[quantity]));
     let [angular, two_form] = [ANGULAR, 4].map(|quantity| move |(_, of): &Drifts| of[quantity]);

@@ -38,7 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             ([problem], [*sigma], errors.iter().map(move |(h, error)| [*h, *error, *order]))
         })
     });
-    job.publish(figure(&rows), curve_table(&["problem", "sigma", "h", "error", "fitted_order"], curves)?)?;
+    job.publish(figure(&rows), curve_table("problem,sigma,h,error,fitted_order", curves))?;
     let notes = rows.iter().map(|(sigma, _, [linear, vortices])| {
         format!("σ = {sigma:.4}: order {linear:.3} linear, {vortices:.3} vortices.")
     });

@@ -43,8 +43,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let curves = CASES.iter().zip(&pairs).flat_map(|((name, ..), pair)| {
         ["plain", "compensated"].into_iter().zip(pair).map(move |(sums, of)| ([*name, sums], [], of.clone()))
     });
-    let table = curve_table(&["quantity", "sums", "steps", "error"], curves)?;
-    job.publish(figure(&pairs, steps as f64), table)?;
+    job.publish(figure(&pairs, steps as f64), curve_table("quantity,sums,steps,error", curves))?;
     let cases = || CASES.iter().zip(&pairs);
     let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ \
                   steps, as independent ones do";

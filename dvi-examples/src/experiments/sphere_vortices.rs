@@ -42,8 +42,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         })
         .whole()
     })?;
-    let columns = ["method", "quantity", "t", "lowest", "mean", "highest"];
-    job.publish(figure(&all, span.end), range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?)?;
+    job.publish(
+        figure(&all, span.end),
+        range_table("method,quantity,t", &["ΔH", "Δ|M|/|M|", "angle of M"], &all),
+    )?;
     claims([keep(&all), precession()?, pair()?, ring()?, vectors()?])
 }
 

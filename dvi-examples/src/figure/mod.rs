@@ -24,7 +24,7 @@ use anyhow::Result;
 use crate::output::write_whole;
 
 pub use axis::{Axis, at_most, scientific};
-pub use decimate::{Envelope, thin};
+pub use decimate::thin;
 pub use mark::Fill;
 pub use palette::*;
 pub use panel::{Corner, Line, Panel, Points, Ranged};

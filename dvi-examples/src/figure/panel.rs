@@ -1,7 +1,6 @@
 //! One pair of axes with what is drawn on it.
 
 use super::axis::{Axis, Scale};
-use super::decimate::Envelope;
 use super::mark::{Fill, Frame, Mark};
 use super::palette::{Colour, GRID, PAPER, SLATE};
 use super::svg::{Anchor, Stroke, Svg, number};
@@ -107,10 +106,13 @@ impl Panel {
         })
     }
 
-    /// The range of a quantity in each interval of time, and its mean, with their names in the legend.
-    pub fn ranges<'a>(self, all: impl IntoIterator<Item = (&'a str, Colour, &'a Envelope)>) -> Self {
-        self.each(all, |panel, (name, colour, of)| {
-            panel.band(of.band(), colour).line(of.mean(), Stroke::solid(colour)).labelled(name)
+    /// The range of a quantity in each interval of time, and its mean, with their names in the legend:
+    /// by [x, lowest, mean, highest].
+    pub fn ranges<const N: usize>(self, all: [(&str, Colour, Vec<[f64; 4]>); N]) -> Self {
+        self.each(all, |panel, (name, colour, rows)| {
+            let mean = rows.iter().map(|row| [row[0], row[2]]).collect();
+            let band = rows.iter().map(|row| [row[0], row[1], row[3]]).collect();
+            panel.band(band, colour).line(mean, Stroke::solid(colour)).labelled(name)
         })
     }
 

@@ -93,12 +93,12 @@ fn stroke(i: usize, colours: [Colour; 7]) -> Stroke {
 
 /// Writes `accuracy.csv` with all points.
 pub(crate) fn write(all: &[Measured<'_>], folder: &Path) -> Result<()> {
-    let columns = ["problem", "method", "steps_or_tolerance", "milliseconds", "energy_error", "evaluations"];
+    let columns = "problem,method,steps_or_tolerance,milliseconds,energy_error,evaluations";
     let rows = all.iter().flat_map(|Measured { problem, points }| {
         points.iter().map(|Point { method, knob, milliseconds, error, evaluations }| {
             let evaluations = evaluations.map(|count| count as f64);
             ([problem.name, method], [Some(*knob), Some(*milliseconds), Some(*error), evaluations])
         })
     });
-    Table::of(&columns, rows)?.save(folder, "accuracy")
+    Table::of(columns, rows)?.save(folder, "accuracy")
 }
