@@ -66,25 +66,21 @@ pub const VERDICTS: [&str; 7] =
 
 /// What a paper says at a place.
 pub fn says(place: impl Into<String>, text: impl Into<String>) -> Claim {
-    Claim::new(place, text)
+    let (place, says) = (place.into(), text.into());
+    Claim { place, says, printed: Vec::new(), instead: None, subject: String::new() }
 }
 
 /// What no paper says.
 pub fn beyond(says: impl Into<String>) -> Claim {
-    Claim::new(BEYOND, says)
+    self::says(BEYOND, says)
 }
 
 /// What an experiment has to say that has claims only.
 pub fn claims<const N: usize>(all: [Claim; N]) -> Result<Outcome> {
-    Ok(Vec::from(all).into())
+    Ok(Outcome { claims: all.into(), ..Outcome::default() })
 }
 
 impl Claim {
-    pub fn new(place: impl Into<String>, says: impl Into<String>) -> Self {
-        let (place, says) = (place.into(), says.into());
-        Self { place, says, printed: Vec::new(), instead: None, subject: String::new() }
-    }
-
     /// The quantities of the checks that follow begin with the name of what they are of, without its marks of
     /// italics, and a colon.
     pub fn of(mut self, name: impl AsRef<str>) -> Self {
@@ -226,7 +222,7 @@ mod tests {
     use super::*;
 
     fn claim(value: impl Into<Option<f64>>) -> Claim {
-        Claim::new("p. 1", "it is one").check("it", value, Bound::Near(1.0, 0.1))
+        says("p. 1", "it is one").check("it", value, Bound::Near(1.0, 0.1))
     }
 
     #[test]

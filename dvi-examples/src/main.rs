@@ -16,6 +16,7 @@ mod options;
 mod page;
 mod progress;
 mod record;
+mod rk4;
 mod runs;
 mod series;
 mod summary;
@@ -35,7 +36,7 @@ use dvi_examples::{figure, output};
 use crate::gallery::Experiment;
 use crate::job::Length;
 use crate::options::Options;
-use crate::record::{Part, State};
+use crate::record::Part;
 
 fn main() -> ExitCode {
     let options = Options::parse();
@@ -74,7 +75,7 @@ fn run(options: &Options) -> Result<ExitCode> {
     parts.retain(|part| chosen.iter().any(|experiment| experiment.name == part.experiment));
     say(&format!("\n{}", summary::markdown(&parts)?))?;
     eprintln!("look at {}", folder.join("index.html").display());
-    let has_failed = parts.iter().any(|part| matches!(part.state, State::Failed(_)));
+    let has_failed = parts.iter().any(|part| part.outcome.is_err());
     Ok(if has_failed { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 

@@ -84,7 +84,7 @@ pub fn over_time<'a, const N: usize>(
     all: impl IntoIterator<Item = &'a Series<N>>,
     quantity: usize,
 ) -> Panel {
-    let axis = Axis::logarithmic(label).within(low, high);
+    let axis = Axis::logarithmic(label).within([low, high]);
     Panel::new(title, Axis::time(end), axis).lines(magnitudes(all, quantity))
 }
 

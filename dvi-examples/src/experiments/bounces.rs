@@ -7,7 +7,6 @@
 //! walk.
 
 use super::random_walk::Walks;
-use super::rk4::rk4;
 use crate::vocabulary::*;
 
 pub const FLOOR: Bouncer = Bouncer { a: 0.8 };

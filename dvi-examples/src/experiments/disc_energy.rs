@@ -2,7 +2,6 @@
 //! |E − E(0)| up to time t.
 
 use super::disc::{MAGNET, PLACE, RATES, SPRINGS};
-use super::rk4::rk4;
 use super::sleigh::{H, midpoint};
 use crate::vocabulary::*;
 

@@ -3,7 +3,6 @@
 //! The variational step is implicit here, p0 = −D₁L_d(q0, q1), and the compiler has differentiated what it
 //! needs. Beside it stands the classical Runge–Kutta method on equations of motion written by hand.
 
-use super::rk4::rk4;
 use crate::vocabulary::*;
 
 const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };

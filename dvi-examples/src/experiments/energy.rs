@@ -108,14 +108,14 @@ fn starting_with_rk2() -> Sigma {
 fn figure([(ve2, ..), (rk2, ..)]: &[Motion; 2], end: f64) -> Figure {
     let energy = || Axis::linear("*H*(*t*) − *H*(0)   [Γ²]");
     let time = || Axis::linear("time *t*   [*L*²/Γ]");
-    let whole = Panel::new("The whole run (range and mean)", time().within(0.0, end), energy())
+    let whole = Panel::new("The whole run (range and mean)", time().within([0.0, end]), energy())
         .ranges([
             ("VE2 (σ = 0), *h* = 2", BLUE, ve2.kept[0].rows()),
             ("RK2 (midpoint), *h* = 1", VERMILLION, rk2.kept[0].rows()),
         ])
         .legend_at(Corner::TopLeft)
         .weight(1.25);
-    let beginning = Panel::new("The beginning", time().within(0.0, CLOSE_UP), energy())
+    let beginning = Panel::new("The beginning", time().within([0.0, CLOSE_UP]), energy())
         .line(ve2.path.clone(), solid(BLUE).width(1.3))
         .line(rk2.path.clone(), solid(VERMILLION).width(1.3));
     Figure::of("VE2 takes one evaluation of ∇*H* per step, RK2 two")

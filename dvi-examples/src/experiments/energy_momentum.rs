@@ -142,10 +142,10 @@ fn figure(all: &[Runs; 2], none: &NoStep) -> Figure {
         Panel::new(title, x, y).lines(lines)
     };
     let (step, time) = (Axis::linear("number of the step"), || Axis::time(BEGINNING));
-    let defect = Axis::logarithmic("largest |*E*_d − *e*| of many steps").within(1e-16, 1.0);
+    let defect = Axis::logarithmic("largest |*E*_d − *e*| of many steps").within([1e-16, 1.0]);
     let discrete = panel(0, "Discrete energy", step, defect);
     let energy = panel(1, "Energy at the points of the run", time(), Axis::linear("*E* − *E*(0)"));
-    let lengths = panel(2, "Length of the steps", time(), Axis::linear("*h*").within(0.0, 0.22));
+    let lengths = panel(2, "Length of the steps", time(), Axis::linear("*h*").within([0.0, 0.22]));
     Figure::of(format!(
         "midpoint rule; a spring with *V* = *r*²/2 + *r*⁴/4, first step {}, and a Kepler orbit of \
          eccentricity {}, first step {}; “one length” is the mean of the other run",

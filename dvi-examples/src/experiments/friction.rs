@@ -173,7 +173,7 @@ fn figure(reference: &Reference, steps: &[Runs; 4], rk4_alone: &Decay) -> Figure
         .lines(lines(|run| run.error.mean().into_iter().map(|[t, mean]| [t, mean.abs()]).collect()));
     let l = ("largest |*l*/(*l*(0) exp(−*γt*)) − 1|", [1e-13, 1.0]);
     let momentum = Panel::semilog("Angular momentum", time, l).lines(lines(|run| run.momentum.magnitude()));
-    let h = Axis::logarithmic("step *h*").within(0.02, 0.25);
+    let h = Axis::logarithmic("step *h*").within([0.02, 0.25]);
     let rate = Axis::logarithmic("|error| of the rate of *E*   [*γ*]");
     let excess = |method: usize| {
         let points = steps.iter().map(|runs| [runs[method].case.h, runs[method].excess().abs()]);

@@ -1,6 +1,5 @@
 //! Long runs along geodesics, beside RK4 on the entries of the states, and what is claimed of them.
 
-use super::rk4::{rk4, rk4_to};
 use crate::vocabulary::*;
 
 /// What a few operations leave that are not repeated, as those of a matrix of products.

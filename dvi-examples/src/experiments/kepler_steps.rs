@@ -120,7 +120,7 @@ fn figure(all: &[Comparison]) -> Figure {
     let compared = |title: &str, steps: Steps| {
         let e = Axis::names("eccentricity", ECCENTRICITIES.iter().map(f64::to_string).collect());
         let place = |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |k| k as f64);
-        Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within(0.0, 1.7))
+        Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within([0.0, 1.7]))
             .guide([[-0.6, THIRD], [3.6, THIRD]], "one third")
             .each(
                 REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]),

@@ -33,11 +33,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
          time is not reproducible from machine to machine; that the pairs come apart is.",
         rk2.overtakings.last().copied().unwrap_or(0.0)
     );
-    let failures =
-        [("VE2", &ve2), ("RK2", &rk2)].into_iter().filter_map(|(name, Motion { failure, .. })| {
-            failure.map(|error| format!("{name} at h = 2 ended early: {error}."))
-        });
-    let notes = [note].into_iter().chain(failures).collect();
+    let ended = |(name, motion): (&str, &Motion)| {
+        motion.failure.map(|error| format!("{name} at h = 2 ended early: {error}."))
+    };
+    let notes = [note].into_iter().chain([("VE2", &ve2), ("RK2", &rk2)].into_iter().filter_map(ended));
     let infinite = job.only_full(indicator(!rk2.extent.is_finite()));
     let claims = vec![
         says("Fig. 3", "the two pairs leapfrog past each other")
@@ -49,7 +48,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_least("longest time between overtakings, RK2 at h = 2", rk2.longest_interval(), 200.0)
             .at_most("largest coordinate at the end", rk2.extent, 1e6),
     ];
-    Ok(Outcome { claims, references: vec![], notes })
+    Ok(Outcome { claims, references: vec![], notes: notes.collect() })
 }
 
 impl Motion {
@@ -97,7 +96,7 @@ fn figure([ve2, rk2, exact]: [&Motion; 3], end: f64) -> Figure {
         let start = points.iter().take(1).copied().collect();
         path.dots(points.clone(), 1.9, colour).discs(start, colour, Fill::Hollow)
     });
-    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
+    let time = Axis::linear("time *t*   [*L*²/Γ]").within([0.0, end]);
     let axis = Axis::logarithmic("|*z*₁ − *z*₂|   [*L*]");
     let distance = Panel::new("Distance of vortices 1 and 2 (range and mean)", time, axis).ranges([
         ("RK2, *h* = 2", SLATE, rk2.distance.rows()),

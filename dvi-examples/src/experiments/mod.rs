@@ -44,7 +44,6 @@ mod quasi_periodic;
 mod random_walk;
 mod regularised;
 mod rigid_body;
-mod rk4;
 mod round_off;
 mod schroedinger;
 mod sections;

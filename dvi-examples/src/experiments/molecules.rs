@@ -5,7 +5,6 @@
 //! whatever the chain does; with rods the chain sets the length of the steps.
 
 use super::longest_steps::Scans;
-use super::rk4::Accelerations;
 use crate::vocabulary::*;
 
 const MOLECULES: usize = 8;

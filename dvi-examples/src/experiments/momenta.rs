@@ -136,7 +136,7 @@ fn figure(all: &[Drifts]) -> Figure {
     const SMALLEST: f64 = 1e-17;
     let names = all.iter().rev().map(|(scheme, _)| (*scheme).to_owned()).collect();
     let label = "largest deviation from the initial value; of the two-form, largest change in a step";
-    let drift = Axis::logarithmic(label).within(0.5 * SMALLEST, 10.0);
+    let drift = Axis::logarithmic(label).within([0.5 * SMALLEST, 10.0]);
     let empty = Panel::new("Deviations over 1000 steps", drift, Axis::names("", names));
     let panel = empty.each(QUANTITIES.into_iter().enumerate(), |panel, (i, (name, colour))| {
         let lift = 0.3 - 0.15 * i as f64;

@@ -115,7 +115,7 @@ impl Motion {
 
 fn figure(leapfrogging: &[Motion; 4], chaotic: &[Motion; 4]) -> Figure {
     let panel = |title: &str, label: &str, all: &[Motion; 4], column: usize| {
-        let axis = Axis::logarithmic(label).within(1e-9, 30.0);
+        let axis = Axis::logarithmic(label).within([1e-9, 30.0]);
         let empty = Panel::new(title, Axis::linear("time *t*   [*L*²/Γ]"), axis);
         empty.legend_at(Corner::BottomRight).each(all.iter().zip(COLOURS), |panel, (run, colour)| {
             let points: Points = run.points.iter().map(|point| [point[0], point[column]]).collect();

@@ -5,7 +5,6 @@
 //! conjugate to it, it has one, in the class of one-step schemes; s' = z then says that s counts the third
 //! species.
 
-use super::rk4::{rk4, rk4_to};
 use crate::vocabulary::*;
 
 /// x, y and z at the start; the paths in the figure begin at others too.

@@ -3,7 +3,7 @@
 use super::axis::{Axis, Scale};
 use super::mark::{Fill, Frame, Mark};
 use super::palette::{Colour, GRID, PAPER, SLATE};
-use super::svg::{Anchor, Stroke, Svg, number};
+use super::svg::{Anchor, Stroke, Svg, dashed, number, solid};
 
 /// A corner of a panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,17 +61,17 @@ impl Panel {
 
     /// Linear axes.
     pub fn linear(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
-        Self::new(title, Axis::linear(x.0).range(x.1), Axis::linear(y.0).range(y.1))
+        Self::new(title, Axis::linear(x.0).within(x.1), Axis::linear(y.0).within(y.1))
     }
 
     /// A logarithmic y axis.
     pub fn semilog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
-        Self::new(title, Axis::linear(x.0).range(x.1), Axis::logarithmic(y.0).range(y.1))
+        Self::new(title, Axis::linear(x.0).within(x.1), Axis::logarithmic(y.0).within(y.1))
     }
 
     /// Logarithmic axes.
     pub fn loglog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
-        Self::new(title, Axis::logarithmic(x.0).range(x.1), Axis::logarithmic(y.0).range(y.1))
+        Self::new(title, Axis::logarithmic(x.0).within(x.1), Axis::logarithmic(y.0).within(y.1))
     }
 
     /// A plane with the coordinates `x` and `y`.
@@ -112,13 +112,13 @@ impl Panel {
         self.each(all, |panel, (name, colour, rows)| {
             let mean = rows.iter().map(|row| [row[0], row[2]]).collect();
             let band = rows.iter().map(|row| [row[0], row[1], row[3]]).collect();
-            panel.band(band, colour).line(mean, Stroke::solid(colour)).labelled(name)
+            panel.band(band, colour).line(mean, solid(colour)).labelled(name)
         })
     }
 
     /// A straight line that others are to be seen beside, with its name in the legend.
     pub fn guide(self, ends: [[f64; 2]; 2], name: impl Into<String>) -> Self {
-        self.line(ends.into(), Stroke::dashed(SLATE).width(1.2)).labelled(name)
+        self.line(ends.into(), dashed(SLATE).width(1.2)).labelled(name)
     }
 
     /// A line below everything that was added before.
@@ -135,14 +135,14 @@ impl Panel {
 
     /// Small dots.
     pub fn dots(self, points: Points, radius: f64, colour: Colour) -> Self {
-        self.with(Mark::Dots(points, vec![Stroke::solid(colour).width(2.0 * radius).opacity(0.8)]))
+        self.with(Mark::Dots(points, vec![solid(colour).width(2.0 * radius).opacity(0.8)]))
     }
 
     /// Large dots with a white rim, for few points.
     pub fn discs(self, points: Points, colour: Colour, fill: Fill) -> Self {
-        let mut strokes = vec![Stroke::solid(PAPER).width(12.0), Stroke::solid(colour).width(9.0)];
+        let mut strokes = vec![solid(PAPER).width(12.0), solid(colour).width(9.0)];
         if fill == Fill::Hollow {
-            strokes.push(Stroke::solid(PAPER).width(5.0));
+            strokes.push(solid(PAPER).width(5.0));
         }
         self.with(Mark::Dots(points, strokes))
     }
@@ -259,8 +259,8 @@ impl Panel {
             let x = number(x);
             if text.is_empty() { short += &format!("M{x} {b}v-4") } else { grid += &format!("M{x} {t}V{b}") }
         }
-        svg.stroke(&grid, Stroke::solid(GRID).width(1.0));
-        svg.stroke(&(short + &format!("M{l} {t}V{b}H{r}")), Stroke::solid(SLATE).width(1.0));
+        svg.stroke(&grid, solid(GRID).width(1.0));
+        svg.stroke(&(short + &format!("M{l} {t}V{b}H{r}")), solid(SLATE).width(1.0));
         svg.text("end grey", [right, bottom + 38.0], &x.factor);
         svg.text("middle grey", [left - 8.0, top - 10.0], &y.factor);
         svg.text("middle strong", [left + width / 2.0, top - 12.0], &self.title);
