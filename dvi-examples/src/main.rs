@@ -65,10 +65,9 @@ fn run(options: &Options) -> Result<ExitCode> {
     let length = if options.short { Length::Short } else { Length::Full };
     eprintln!("experiments: {}; results go to {}", chosen.len(), folder.display());
 
-    let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
     gallery::run(&chosen, &folder, length, options.threads, |part| {
         let mut parts = parts.lock().unwrap_or_else(PoisonError::into_inner);
-        record::put(&mut parts, part, &names);
+        record::put(&mut parts, part, &experiments::names());
         write(&folder, &parts)
     })?;
     let mut parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);

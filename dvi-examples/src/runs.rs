@@ -100,6 +100,16 @@ impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Convergence<'a, S, E> {
     }
 }
 
+/// A member of the σ-family whose second point comes from RK2, as in the paper.
+pub fn begun_by_rk2(sigma: f64) -> Sigma {
+    Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::new(sigma) }
+}
+
+/// The same scheme, whatever becomes of its parasitic mode.
+pub fn unwatched(scheme: Sigma) -> Sigma {
+    Sigma { parasitic_limit: None, ..scheme }
+}
+
 /// The first of the momenta of a run; not numbers if it has not as many.
 pub fn momenta<const N: usize>(run: &impl Run<Scalar = f64>) -> [f64; N] {
     std::array::from_fn(|k| run.momentum(k).unwrap_or(f64::NAN))

@@ -119,16 +119,14 @@ fn figure(all: &[Comparison]) -> Figure {
         }));
     let compared = |title: &str, steps: Steps| {
         let e = Axis::names("eccentricity", ECCENTRICITIES.iter().map(f64::to_string).collect());
+        let beside = REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]);
         let place = |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |k| k as f64);
         Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within([0.0, 1.7]))
             .guide([[-0.6, THIRD], [3.6, THIRD]], "one third")
-            .each(
-                REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]),
-                |panel, ((reference, _, colour), aside)| {
-                    let points = of(reference, steps).map(|c| [place(c.e) + aside, c.ratio()]).collect();
-                    panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
-                },
-            )
+            .each(beside, |panel, ((reference, _, colour), aside)| {
+                let points = of(reference, steps).map(|c| [place(c.e) + aside, c.ratio()]).collect();
+                panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
+            })
     };
     let controlled = compared("Both with (23) as printed", Controlled);
     Figure::of("Phase-fitted Simpson; (19) is left-frozen with (23), a part of L_d with fixed steps")

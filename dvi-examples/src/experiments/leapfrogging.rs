@@ -19,8 +19,7 @@ struct Motion {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let end = job.choose(2e5, 2e4);
-    let start = Start::RungeKutta(RungeKutta::midpoint());
-    let ve2 = Motion::new(job, Sigma { start, ..Sigma::leapfrog() }, 2.0, end)?;
+    let ve2 = Motion::new(job, begun_by_rk2(0.0), 2.0, end)?;
     let rk2 = Motion::new(job, RungeKutta::midpoint(), 2.0, end)?;
     let exact = Motion::new(job, Gauss::<3>::new(), 0.5, SHOWN)?;
     let rows = (0..ve2.trajectories[0].len()).map(|k| {

@@ -20,9 +20,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let [midpoint, gauss] = [("one step, midpoint", BLUE), ("one step, Gauss of order 4", GREEN)]
         .map(|(name, colour)| (name, solid(colour)));
     let two_steps = ("two steps, σ = ½", solid(VERMILLION));
-    // Whatever becomes of its parasitic mode.
-    let unwatched = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
-    let two_step = job.energy(two_steps, symmetric.run(unwatched, H)?, short, places);
+    let two_step = job.energy(two_steps, symmetric.run(unwatched(Sigma::midpoint()), H)?, short, places);
     let runs = [
         (midpoint, one_sided.run(OneStep::midpoint(), H)?),
         (gauss, one_sided.run(OneStepGauss::<2>::new(), H)?),

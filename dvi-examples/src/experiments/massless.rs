@@ -22,11 +22,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     let span = Span { intervals: 100, ..Span::of(steps, H, 2000) };
     let (along_x, symmetric) = (Problem::new(&ALONG_X, START), Problem::new(&SYMMETRIC, START));
-    let (one_step, projected) =
-        (along_x.run(OneStep::midpoint(), H)?, symmetric.run(Projected::symmetric(), H)?);
     let all = [
-        job.energy(("along *x*, one step", solid(BLUE)), one_step, span, 200),
-        job.energy(("symmetric, projected", solid(GREEN)), projected, span, 200),
+        job.energy(("along *x*, one step", solid(BLUE)), along_x.run(OneStep::midpoint(), H)?, span, 200),
+        job.energy(
+            ("symmetric, projected", solid(GREEN)),
+            symmetric.run(Projected::symmetric(), H)?,
+            span,
+            200,
+        ),
         job.energy(("RK4", dashed(SLATE)), symmetric.run(RungeKutta::classical(), H)?, span, 200),
     ];
     let all = each(all, Series::whole)?;
@@ -67,8 +70,7 @@ fn same_motion() -> Result<Claim> {
 }
 
 fn parasite(job: &Job<'_>, h: f64, stroke: Stroke) -> Result<Parasite> {
-    let method = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
-    let mut run = Problem::new(&SYMMETRIC, START).run(method, h)?;
+    let mut run = Problem::new(&SYMMETRIC, START).run(unwatched(Sigma::midpoint()), h)?;
     let (mut filter, mut amplitudes) = (AlternatingComponent::new(&SYMMETRIC), vec![]);
     let span = Span { end: END, early: END, intervals: 1 };
     let series = job.series((&format!("h = {h}"), stroke), &mut run, span, |run, path| {

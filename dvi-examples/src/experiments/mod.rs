@@ -165,6 +165,10 @@ pub const ALL: &[Experiment] = &[
         "Of three species one step keeps xyz to rounding, by a coordinate that is conjugate to the Casimir"),
 ];
 
+pub fn names() -> Vec<&'static str> {
+    ALL.iter().map(|experiment| experiment.name).collect()
+}
+
 pub fn title(name: &str) -> &'static str {
     ALL.iter().find(|experiment| experiment.name == name).map_or("", |experiment| experiment.title)
 }

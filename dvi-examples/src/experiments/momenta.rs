@@ -23,13 +23,12 @@ const QUANTITIES: [(&str, Colour); 5] = [
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let case = models::quasi_periodic();
-    let start = Start::RungeKutta(RungeKutta::midpoint());
     // What VE2 preserves, it preserves whatever becomes of its parasitic mode.
-    let ve2 = Sigma { start, parasitic_limit: None, ..Sigma::leapfrog() };
+    let ve2 = unwatched(begun_by_rk2(0.0));
     let all = [
         drifts(&case, "VI2 (σ = ½)", Sigma::midpoint(), two_step)?,
-        drifts(&case, "σ = ½, RK2 start", Sigma { start, ..Sigma::midpoint() }, two_step)?,
-        drifts(&case, "σ = ¼", Sigma { start, ..Sigma::new(0.25) }, two_step)?,
+        drifts(&case, "σ = ½, RK2 start", begun_by_rk2(0.5), two_step)?,
+        drifts(&case, "σ = ¼", begun_by_rk2(0.25), two_step)?,
         drifts(&case, "VE2 (σ = 0)", ve2, two_step)?,
         drifts(&case, "RK2", RungeKutta::midpoint(), one_step)?,
         drifts(&case, "RK4", RungeKutta::classical(), one_step)?,

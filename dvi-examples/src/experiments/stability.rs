@@ -16,10 +16,6 @@ const LARGE: f64 = 1e8;
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
 const FEW: usize = 1000;
 
-fn unlimited(sigma: f64) -> Sigma {
-    Sigma { parasitic_limit: None, ..Sigma::new(sigma) }
-}
-
 /// The limit of |λh| on the imaginary axis.
 fn formula(sigma: f64) -> f64 {
     1.0 / (1.0 - 2.0 * sigma).abs()
@@ -81,7 +77,7 @@ fn limit(sigma: f64, steps: u64) -> Result<f64> {
 fn largest_amplitude(sigma: f64, omega: f64, steps: u64) -> Result<f64> {
     let rotation = Rotation { omega };
     let [first, second] = [0.0, omega.min(1.0)].map(|a| RotationState { x: a.cos(), y: a.sin() });
-    let mut run = Integrator::from_two_points(&rotation, unlimited(sigma), 1.0, first, second)?;
+    let mut run = Integrator::from_two_points(&rotation, unwatched(Sigma::new(sigma)), 1.0, first, second)?;
     let mut largest = 0.0f64;
     for _ in 0..steps {
         // Once it is large enough to be called unstable, or ended, there is no need to go on to infinity.
@@ -108,7 +104,8 @@ impl Damped {
     fn new(sigma: f64, lambda: [f64; 2]) -> Result<Self> {
         let [first, second] = [[1.0, 0.0], [0.0, 1.0]].map(|z| LinearState { z, w: [0.0; 2] });
         let system = Linear { real: lambda[0], imaginary: lambda[1] };
-        let mut run = Integrator::from_two_points(&system, unlimited(sigma), 1.0, first, second)?;
+        let mut run =
+            Integrator::from_two_points(&system, unwatched(Sigma::new(sigma)), 1.0, first, second)?;
         let (mut sizes, mut before) = (vec![1.0f64], 1.0f64);
         while sizes.len() <= FEW && before < 1e60 && run.advance().is_ok() {
             // Two points, so that no oscillation is mistaken for decay.

@@ -71,10 +71,8 @@ impl Motion {
         let Case { vortices, mut start } = models::leapfrogging();
         start.x[0] += dx;
         start.y[0] += dy;
-        // The run is to go on until its energy is lost, so the limit of the parasitic mode is off.
-        let second_point = Start::RungeKutta(RungeKutta::midpoint());
-        let method = Sigma { start: second_point, parasitic_limit: None, ..Sigma::leapfrog() };
-        let mut run = Integrator::new(&vortices, method, H, start)?;
+        // The run is to go on until its energy is lost.
+        let mut run = Integrator::new(&vortices, unwatched(begun_by_rk2(0.0)), H, start)?;
         let (initial, mut errors) = (run.energy(), Decades::new(40.0));
         let (mut lost, mut failure) = (f64::INFINITY, None);
         job.repeat((end / H) as u64 / STRIDE, || {

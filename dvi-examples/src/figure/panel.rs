@@ -31,8 +31,8 @@ pub struct Panel {
     title: String,
     x: Axis,
     y: Axis,
-    marks: Vec<Mark>,
-    legend: Vec<(usize, String)>,
+    /// Each with its line in the legend, if it has one.
+    marks: Vec<(Mark, Option<String>)>,
     corner: Corner,
     /// The place in data coordinates, the text, and how it hangs there.
     notes: Vec<([f64; 2], String, Anchor, Colour)>,
@@ -123,8 +123,7 @@ impl Panel {
 
     /// A line below everything that was added before.
     pub fn below(mut self, points: Points, stroke: Stroke) -> Self {
-        self.marks.insert(0, Mark::Line(points, stroke));
-        self.legend.iter_mut().for_each(|(mark, _)| *mark += 1);
+        self.marks.insert(0, (Mark::Line(points, stroke), None));
         self
     }
 
@@ -149,7 +148,9 @@ impl Panel {
 
     /// Gives what was added last a line in the legend.
     pub fn labelled(mut self, text: impl Into<String>) -> Self {
-        self.legend.push((self.marks.len().saturating_sub(1), text.into()));
+        if let Some((_, name)) = self.marks.last_mut() {
+            *name = Some(text.into());
+        }
         self
     }
 
@@ -172,7 +173,7 @@ impl Panel {
 
     /// Leaves the legend to a neighbour that shows the same.
     pub fn without_legend(mut self) -> Self {
-        self.legend.clear();
+        self.marks.iter_mut().for_each(|(_, name)| *name = None);
         self
     }
 
@@ -189,12 +190,12 @@ impl Panel {
     }
 
     fn with(mut self, mark: Mark) -> Self {
-        self.marks.push(mark);
+        self.marks.push((mark, None));
         self
     }
 
     fn frame(&self, [left, top, width, height]: [f64; 4]) -> Frame {
-        let points: Points = self.marks.iter().flat_map(Mark::corners).collect();
+        let points: Points = self.marks.iter().flat_map(|(mark, _)| mark.corners()).collect();
         let span = |axis: &Axis, i: usize| {
             let values = points.iter().map(|point| [point[i]; 2]).filter(|value| axis.shows(value[0]));
             values.reduce(|[low, high], [v, _]| [low.min(v), high.max(v)])
@@ -218,7 +219,7 @@ impl Panel {
         let frame = self.frame(inner);
         self.draw_axes(svg, &frame);
         svg.open(inner);
-        for mark in &self.marks {
+        for (mark, _) in &self.marks {
             mark.draw(svg, &frame);
         }
         svg.close();
@@ -233,10 +234,14 @@ impl Panel {
         }
     }
 
+    fn legend(&self) -> impl Iterator<Item = (&Mark, &String)> {
+        self.marks.iter().filter_map(|(mark, name)| Some((mark, name.as_ref()?)))
+    }
+
     /// What the longest text of the legend needs, with its sample.
     fn legend_width(&self) -> f64 {
         let letters = |text: &str| text.chars().filter(|&letter| letter != '*').count() as f64;
-        let longest = self.legend.iter().map(|(_, text)| letters(text)).fold(0.0, f64::max);
+        let longest = self.legend().map(|(_, text)| letters(text)).fold(0.0, f64::max);
         BESIDE.max(44.0 + LETTER * longest + 6.0)
     }
 
@@ -273,15 +278,13 @@ impl Panel {
     fn draw_legend(&self, svg: &mut Svg, inner: [f64; 4]) {
         const LINE: f64 = 21.0;
         const SAMPLE: f64 = 44.0;
-        let below = LINE * self.legend.len().saturating_sub(1) as f64;
+        let below = LINE * self.legend().count().saturating_sub(1) as f64;
         let ([x, first], anchor) = hold(self.corner, inner, SAMPLE, below);
         let sample = if anchor == Anchor::Start { x - 20.0 } else { x + 20.0 };
-        for (i, (mark, text)) in self.legend.iter().enumerate() {
+        for (i, (mark, text)) in self.legend().enumerate() {
             let y = first + LINE * i as f64;
             svg.text(anchor.rimmed(), [x, y + RISE], text);
-            if let Some(mark) = self.marks.get(*mark) {
-                mark.draw_sample(svg, [sample, y]);
-            }
+            mark.draw_sample(svg, [sample, y]);
         }
     }
 }
