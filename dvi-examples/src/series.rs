@@ -34,7 +34,7 @@ impl Span {
 
 /// Adds the values of several quantities at time `t`.
 pub fn note<const N: usize>(kept: &mut [Envelope; N], t: f64, values: [f64; N]) {
-    kept.iter_mut().zip(values).for_each(|(deviation, value)| deviation.push(t, value));
+    kept.iter_mut().zip(values).for_each(|(of, value)| of.push(t, value));
 }
 
 /// The name of a run, and the line that figures show it with.

@@ -43,14 +43,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         })?;
         Ok((Series::new(named, H, kept), profiles))
     })?;
-    job.publish(
-        figure(&all, periods as f64),
-        range_table(
-            "series,quantity,period",
-            &["sites", "ΔN/N", "ΔH/H"],
-            all.iter().map(|(series, _)| series),
-        ),
-    )?;
+    let (series, quantities) = (all.iter().map(|(series, _)| series), ["sites", "ΔN/N", "ΔH/H"]);
+    job.publish(figure(&all, periods as f64), range_table("series,quantity,period", &quantities, series))?;
     let [[sites, norm, energy], [_, of_rk4, _], [weak, ..]] = all.each_ref().map(|(series, _)| &series.kept);
     let kept =
         "the one-step midpoint scheme keeps the norm to rounding errors, and the energy error does not grow";

@@ -43,10 +43,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         })
         .whole()
     })?;
-    job.publish(
-        figure(&all, span.end),
-        range_table("method,quantity,t", &["ΔH", "Δ|M|/|M|", "angle of M"], &all),
-    )?;
+    let table = range_table("method,quantity,t", &["ΔH", "Δ|M|/|M|", "angle of M"], &all);
+    job.publish(figure(&all, span.end), table)?;
     claims([keep(&all), precession()?, pair()?, ring()?, vectors()?])
 }
 

@@ -74,15 +74,13 @@ impl Figure {
     }
 
     /// Small print: the source, and what the reader should be warned of.
-    pub fn footer(mut self, text: impl Into<String>) -> Self {
-        self.footer = text.into();
-        self
+    pub fn footer(self, text: impl Into<String>) -> Self {
+        Self { footer: text.into(), ..self }
     }
 
     /// Explains the colours of [`SEQUENCE`], from its first to its last.
-    pub fn sequence_key(mut self, from: impl Into<String>, to: impl Into<String>) -> Self {
-        self.key = Some([from.into(), to.into()]);
-        self
+    pub fn sequence_key(self, from: impl Into<String>, to: impl Into<String>) -> Self {
+        Self { key: Some([from.into(), to.into()]), ..self }
     }
 
     pub fn svg(&self) -> String {

@@ -166,9 +166,8 @@ impl Panel {
         self
     }
 
-    pub fn legend_at(mut self, corner: Corner) -> Self {
-        self.corner = corner;
-        self
+    pub fn legend_at(self, corner: Corner) -> Self {
+        Self { corner, ..self }
     }
 
     /// Leaves the legend to a neighbour that shows the same.
@@ -178,15 +177,13 @@ impl Panel {
     }
 
     /// The width of the panel relative to the others of its row.
-    pub fn weight(mut self, weight: f64) -> Self {
-        self.weight = weight;
-        self
+    pub fn weight(self, weight: f64) -> Self {
+        Self { weight, ..self }
     }
 
     /// One unit is as long on the x axis as on the y axis.
-    pub fn equal(mut self) -> Self {
-        self.equal = true;
-        self
+    pub fn equal(self) -> Self {
+        Self { equal: true, ..self }
     }
 
     fn with(mut self, mark: Mark) -> Self {
