@@ -57,9 +57,14 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
         there.take_steps(steps)?;
         let mut back = Integrator::new_at(self.system, by, there.time(), -h, there.state())?;
         back.take_steps(steps)?;
+        self.apart(&back.state(), &self.start)
+    }
+
+    /// The largest difference of a coordinate or velocity of two states.
+    pub fn apart(&self, one: &S::State<f64>, other: &S::State<f64>) -> Result<f64> {
         let values = |state| Ok(self.system.values(state)?.collect::<Vec<f64>>());
-        let [end, start] = each([&back.state(), &self.start], values)?;
-        Ok(apart(&end, &start))
+        let [one, other] = each([one, other], values)?;
+        Ok(apart(&one, &other))
     }
 
     /// Iterations of a step, on average over so many of them.

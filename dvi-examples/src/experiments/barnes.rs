@@ -28,8 +28,8 @@ const FLOWS: [Flow; 3] = [
 ];
 
 fn orbit<S: RegularLagrangian>(system: &S, [x, v]: [f64; 2], end: usize) -> Result<Points> {
-    let start = State::read(|block| system.block_len(block), &[x], &[v]);
-    let mut run = Integrator::new(system, Variational::trapezoid(), 1.0 / STEPS as f64, start)?;
+    let mut run =
+        Problem::new(system, system.state_of([x, v])).run(Variational::trapezoid(), 1.0 / STEPS as f64)?;
     Ok(course(&mut run, (end * STEPS) as u64, |run| [run.q()[0], run.v()[0]])?)
 }
 

@@ -85,8 +85,9 @@ fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64
 
 /// RK4 between impacts, which are found by bisection and keep the energy.
 fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
-    let (mut y, mut bounces, span) = (entries(START), 0, Span { end, early: EARLY, intervals: 300 });
-    let energy = |[x, y, dot_x, dot_y]: [f64; 4]| FLOOR.energy_at(&BouncerState { x, y, dot_x, dot_y });
+    let (mut bounces, span) = (0, Span { end, early: EARLY, intervals: 300 });
+    let mut y = [START.x, START.y, START.dot_x, START.dot_y];
+    let energy = |y: [f64; 4]| FLOOR.energy_at(&FLOOR.state_of(y));
     let begin: f64 = energy(y)?;
     let after = |y: &[f64; 4], h: f64| {
         rk4(y, h, |&[x, y, u, w]| {
@@ -112,17 +113,13 @@ fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
     Ok(Bounces { series, bounces, grazing: 0 })
 }
 
-fn entries(BouncerState { x, y, dot_x, dot_y }: BouncerState) -> [f64; 4] {
-    [x, y, dot_x, dot_y]
-}
-
 fn order_of_states() -> Result<Claim> {
     let motion = Problem::new(&FLOOR, START);
-    let expected = entries(motion.up_to(Impacts::reflecting(Galerkin::<5>::new()), 6.0 / 4000.0, 6.0)?);
+    let expected = motion.up_to(Impacts::reflecting(Galerkin::<5>::new()), 6.0 / 4000.0, 6.0)?;
     // Six lengths near each of four: where in a step the impacts are changes the error.
     let counts = [150, 300, 600, 1200].map(|few| [0, 1, 2, 3, 4, 5].map(|n| few + few * n / 12)).concat();
     let order = |after: &dyn Fn(f64) -> Result<BouncerState>| {
-        let error = |h| Ok((h, apart(&entries(after(h)?), &expected)));
+        let error = |h| Ok((h, motion.apart(&after(h)?, &expected)?));
         order_of(counts.iter().map(|steps: &u64| 6.0 / *steps as f64), error)
     };
     let [discrete, at_impact] = each(LAWS, |law| order(&|h| motion.up_to(trapezoid(law), h, 6.0)))?;
@@ -137,7 +134,7 @@ fn back_again() -> Result<Claim> {
     let [discrete, at_impact] = each(LAWS, |collision| {
         let mut run = Integrator::new(&FLOOR, trapezoid(collision), STEPS[0], START)?;
         run.take_steps(300)?;
-        Ok(apart(&entries(back(trapezoid(collision), &run)?), &entries(START)))
+        Problem::new(&FLOOR, START).apart(&back(trapezoid(collision), &run)?, &START)
     })?;
     Ok(beyond("the way back is the way there, bounces among it")
         .at_most("discrete energy: largest difference from the start", discrete, 1e-11)

@@ -17,8 +17,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = (end / H).round() as u64;
     job.expect(3 * steps);
     let (span, places) = (Span { early: EARLY, ..Span::of(steps, H, 0) }, (SHOWN / H) as usize);
-    let (pendulum, mut y) = (Problem::new(&SYSTEM, state(START)), START);
-    let begin: f64 = SYSTEM.energy_at(&state(START))?;
+    let (pendulum, mut y) = (Problem::new(&SYSTEM, SYSTEM.state_of(START)), START);
+    let begin: f64 = SYSTEM.energy_at(&SYSTEM.state_of(START))?;
     let (midpoint, simpson) =
         (("variational, midpoint", solid(GREEN)), ("variational, Simpson", solid(BLUE)));
     let all = [
@@ -26,7 +26,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         job.energy(simpson, pendulum.run(Variational::simpson(), H)?, span, places).whole()?,
         job.watch(("RK4, by hand", dashed(VERMILLION)), span, (H, 1), || {
             y = rk4(&y, H, |y| SYSTEM.motion(y));
-            SYSTEM.energy_at(&state(y)).map(|energy| [energy - begin])
+            SYSTEM.energy_at(&SYSTEM.state_of(y)).map(|energy| [energy - begin])
         })?,
     ];
     job.publish(figure(&all, end), range_table("method,t", &[""], &all))?;
@@ -39,10 +39,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_most("Simpson: max|ΔE| over all / to t = 100", simpson.growth(), 3.0),
         beyond(loses).at_least("RK4: |ΔE| at the end / max|ΔE| to t = 100", growth, 5.0),
     ])
-}
-
-fn state([a, b, dot_a, dot_b]: [f64; 4]) -> DoublePendulumState {
-    DoublePendulumState { a, b, dot_a, dot_b }
 }
 
 fn figure(all: &[Series<1>; 3], end: f64) -> Figure {

@@ -46,7 +46,7 @@ impl Long<'_> {
         let mut y = system.entries(start);
         let by_rk4 = || {
             y = (0..self.every).fold(y, |y, _| rk4(&y, self.h, |y| system.motion(y)));
-            Ok(system.state(&y))
+            Ok(system.state_of(y))
         };
         let mut run = Integrator::new(&system, Geodesic::trapezoid(), self.h, start.clone())?;
         let along = || {
@@ -93,7 +93,7 @@ pub fn assert_integrals<const D: usize, const N: usize, S: OnManifold<D>>(
 ) {
     let run = Integrator::new(&system, Geodesic::trapezoid(), 0.05, start.clone()).expect("a run");
     let declared = |k: usize| if k == 0 { Some(run.energy()) } else { run.momentum(k - 1) };
-    let later = of(&system.state(&reference(system, &start, [2.0, 1e-3])));
+    let later = of(&system.state_of(reference(system, &start, [2.0, 1e-3])));
     for (k, by_hand) in of(&start).into_iter().enumerate() {
         let declared = declared(k).expect("it is declared");
         assert!((by_hand - declared).abs() <= bounds[k], "{k}: {by_hand} and {declared}");
