@@ -66,41 +66,38 @@ pub const VERDICTS: [&str; 7] =
 
 /// What a paper says at a place.
 pub fn says(place: impl Into<String>, text: impl Into<String>) -> Claim {
-    Claim::new(place, text)
+    let (place, says) = (place.into(), text.into());
+    Claim { place, says, printed: Vec::new(), instead: None, subject: String::new() }
 }
 
 /// What no paper says.
 pub fn beyond(says: impl Into<String>) -> Claim {
-    Claim::new(BEYOND, says)
+    self::says(BEYOND, says)
 }
 
 /// What an experiment has to say that has claims only.
 pub fn claims<const N: usize>(all: [Claim; N]) -> Result<Outcome> {
-    Ok(Vec::from(all).into())
+    Ok(Outcome { claims: all.into(), ..Outcome::default() })
 }
 
 impl Claim {
-    pub fn new(place: impl Into<String>, says: impl Into<String>) -> Self {
-        let (place, says) = (place.into(), says.into());
-        Self { place, says, printed: Vec::new(), instead: None, subject: String::new() }
-    }
-
     /// The quantities of the checks that follow begin with the name of what they are of, without its marks of
     /// italics, and a colon.
-    pub fn of(mut self, name: impl AsRef<str>) -> Self {
-        self.subject = format!("{}: ", name.as_ref().replace('*', ""));
-        self
+    pub fn of(self, name: impl AsRef<str>) -> Self {
+        Self { subject: format!("{}: ", name.as_ref().replace('*', "")), ..self }
     }
 
     /// Adds a check; after [`instead`](Self::instead), to the list of what holds instead.
     pub fn check(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, bound: Bound) -> Self {
         let mut claim = self;
         let check = Check::new(claim.subject.clone() + &quantity.into(), value, bound);
-        match &mut claim.instead {
-            Some((_, checks)) => checks.push(check),
-            None => claim.printed.push(check),
-        }
+        claim.latest().push(check);
         claim
+    }
+
+    /// The list that the next check belongs to.
+    pub fn latest(&mut self) -> &mut Vec<Check> {
+        self.instead.as_mut().map_or(&mut self.printed, |(_, checks)| checks)
     }
 
     /// The check that a number is at most `high`.
@@ -130,9 +127,8 @@ impl Claim {
     }
 
     /// What holds where the claim as printed does not; the checks that follow decide on it.
-    pub fn instead(mut self, text: impl Into<String>) -> Self {
-        self.instead = Some((text.into(), Vec::new()));
-        self
+    pub fn instead(self, text: impl Into<String>) -> Self {
+        Self { instead: Some((text.into(), Vec::new())), ..self }
     }
 
     /// One of [`VERDICTS`]: only what is printed can be reproduced, and what was not measured in a run of
@@ -226,7 +222,7 @@ mod tests {
     use super::*;
 
     fn claim(value: impl Into<Option<f64>>) -> Claim {
-        Claim::new("p. 1", "it is one").check("it", value, Bound::Near(1.0, 0.1))
+        says("p. 1", "it is one").check("it", value, Bound::Near(1.0, 0.1))
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::experiments::SOURCES;
 use crate::job::{Job, Length};
 use crate::output::now;
 use crate::progress::Progress;
-use crate::record::{Part, State};
+use crate::record::Part;
 
 /// One model and one picture.
 #[derive(Clone, Copy, Debug)]
@@ -46,13 +46,7 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
-impl From<Vec<Claim>> for Outcome {
-    fn from(claims: Vec<Claim>) -> Self {
-        Self { claims, ..Self::default() }
-    }
-}
-
-/// Runs the experiments, the shortest first, and hands what each has left to `keep` as soon as it has ended.
+/// Runs the experiments, from the shortest on, and hands what each has left to `keep` as soon as it has ended.
 pub fn run(
     experiments: &[Experiment],
     folder: &Path,
@@ -66,17 +60,19 @@ pub fn run(
     let one = |number: usize| {
         let Experiment { name, run, .. } = experiments[number];
         let job = Job { name, folder, length, bar: progress.start(number) };
-        let (how, state, outcome) = match run(&job).and_then(|outcome| Ok((job.publish_motion()?, outcome)))
-        {
-            Ok(((), outcome)) => ("done", State::Complete, outcome),
-            Err(error) => ("failed", State::Failed(format!("{error:#}")), Outcome::default()),
-        };
-        keep(Part { experiment: name.to_owned(), length, when: now(), state, outcome })?;
+        let outcome = run(&job).and_then(|outcome| job.publish_motion().map(|()| outcome));
+        let outcome = outcome.map_err(|error| format!("{error:#}"));
+        let how = if outcome.is_ok() { "done" } else { "failed" };
+        keep(Part { experiment: name.to_owned(), length, when: now(), outcome })?;
         progress.end(number, how);
         Ok(())
     };
     let mut order: Vec<usize> = (0..experiments.len()).collect();
     order.sort_by(|&i, &j| experiments[i].share.total_cmp(&experiments[j].share));
+    // Beside the others, which must not wait for it, the longest begins at once: else it would end alone.
+    if pool.current_num_threads() > 1 && order.len() > 1 {
+        order.rotate_right(1);
+    }
     std::thread::scope(|scope| {
         // Until this is dropped, which a panic does too.
         let (_running, ended) = mpsc::channel();
@@ -96,12 +92,12 @@ mod tests {
     fn one_failure_does_not_stop_the_others() -> Result<()> {
         let named = |name, run| Experiment { name, title: "", source: "", share: 1.0, run };
         let both = [named("a", |_| anyhow::bail!("no ink")), named("b", |_| Ok(Outcome::default()))];
-        let states = Mutex::new(Vec::new());
+        let failures = Mutex::new(Vec::new());
         run(&both, Path::new("."), Length::Short, Some(1), |part| {
-            states.lock().expect("one thread").push(part.state);
+            failures.lock().expect("one thread").push(part.outcome.err());
             Ok(())
         })?;
-        assert_eq!(*states.lock().expect("one thread"), [State::Failed("no ink".into()), State::Complete]);
+        assert_eq!(*failures.lock().expect("one thread"), [Some("no ink".into()), None]);
         Ok(())
     }
 }

@@ -6,12 +6,12 @@ use anyhow::Result;
 use dvi_core::prelude::*;
 use indicatif::ProgressBar;
 
-use crate::deviation::{Named, Series, Span, note};
 use crate::experiments::title;
 use crate::figure::Figure;
 use crate::motions;
 use crate::output::{Table, write_whole};
 use crate::runs::place;
+use crate::series::{Named, Series, Span, note};
 
 /// Full length as in the papers, or seconds instead of minutes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -57,7 +57,7 @@ impl Job<'_> {
         self.choose(value.into(), None)
     }
 
-    /// Announces steps for the progress bar to count; best all of an experiment at its beginning.
+    /// Announces steps for the progress to count; best all of an experiment at its beginning.
     pub fn expect(&self, steps: u64) {
         self.bar.inc_length(steps);
     }
@@ -100,7 +100,7 @@ impl Job<'_> {
         span: Span,
         mut of: impl FnMut(&R, &mut Vec<[f64; 2]>) -> [f64; N],
     ) -> Series<N> {
-        let mut series = Series::new(named, run.step_size(), span.deviations());
+        let mut series = Series::new(named, run.step_size(), span.envelopes());
         let Series { h, kept, path, .. } = &mut series;
         series.ended = self.follow(run, span.steps(*h), |run| note(kept, run.time(), of(run, path))).err();
         series
@@ -114,7 +114,7 @@ impl Job<'_> {
         (h, at_once): (f64, u64),
         mut step: impl FnMut() -> Result<[f64; N], E>,
     ) -> Result<Series<N>, E> {
-        let (mut series, mut done) = (Series::new(named, h, span.deviations()), 0);
+        let (mut series, mut done) = (Series::new(named, h, span.envelopes()), 0);
         self.repeat(span.steps(h) / at_once, || {
             done += at_once;
             step().map(|values| note(&mut series.kept, done as f64 * h, values))
@@ -141,10 +141,10 @@ impl Job<'_> {
     }
 
     /// Writes the figure (SVG and PNG), which says if its run was short, and its data (CSV).
-    pub fn publish(&self, figure: Figure, data: Table) -> Result<()> {
+    pub fn publish(&self, figure: Figure, data: Result<Table>) -> Result<()> {
         let figure = figure.titled(&format!("{}{}", title(self.name), self.choose("", " — short form")));
         figure.save(self.folder, self.name)?;
-        data.save(self.folder, self.name)
+        data?.save(self.folder, self.name)
     }
 
     /// Writes the page of its motion (HTML), if it has one.

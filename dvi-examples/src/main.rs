@@ -6,7 +6,7 @@
 #![allow(unreachable_pub, reason = "in a binary `pub` means: for the other modules")]
 
 mod claim;
-mod deviation;
+mod envelope;
 mod experiments;
 mod gallery;
 mod job;
@@ -16,7 +16,9 @@ mod options;
 mod page;
 mod progress;
 mod record;
+mod rk4;
 mod runs;
+mod series;
 mod summary;
 mod vocabulary;
 
@@ -34,7 +36,7 @@ use dvi_examples::{figure, output};
 use crate::gallery::Experiment;
 use crate::job::Length;
 use crate::options::Options;
-use crate::record::{Part, State};
+use crate::record::Part;
 
 fn main() -> ExitCode {
     let options = Options::parse();
@@ -63,17 +65,16 @@ fn run(options: &Options) -> Result<ExitCode> {
     let length = if options.short { Length::Short } else { Length::Full };
     eprintln!("experiments: {}; results go to {}", chosen.len(), folder.display());
 
-    let names: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.name).collect();
     gallery::run(&chosen, &folder, length, options.threads, |part| {
         let mut parts = parts.lock().unwrap_or_else(PoisonError::into_inner);
-        record::put(&mut parts, part, &names);
+        record::put(&mut parts, part, &experiments::names());
         write(&folder, &parts)
     })?;
     let mut parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);
     parts.retain(|part| chosen.iter().any(|experiment| experiment.name == part.experiment));
     say(&format!("\n{}", summary::markdown(&parts)?))?;
     eprintln!("look at {}", folder.join("index.html").display());
-    let has_failed = parts.iter().any(|part| matches!(part.state, State::Failed(_)));
+    let has_failed = parts.iter().any(|part| part.outcome.is_err());
     Ok(if has_failed { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 

@@ -19,6 +19,12 @@ pub fn least(values: impl IntoIterator<Item = f64>) -> f64 {
     -values.into_iter().map(|value| -value).fold(f64::NEG_INFINITY, larger)
 }
 
+/// The mean of some numbers.
+pub fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    values.sum::<f64>() / count
+}
+
 /// The largest difference of a number of one from the number of the other in the same place.
 pub fn apart<'a>(one: impl IntoIterator<Item = &'a f64>, other: impl IntoIterator<Item = &'a f64>) -> f64 {
     largest(one.into_iter().zip(other).map(|(a, b)| (a - b).abs()))

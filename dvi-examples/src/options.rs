@@ -31,7 +31,7 @@ pub struct Options {
     pub short: bool,
 
     /// Run only these experiments (see --list)
-    #[arg(long, value_name = "NAME", num_args = 1.., value_parser = PossibleValuesParser::new(names()),
+    #[arg(long, value_name = "NAME", num_args = 1.., value_parser = PossibleValuesParser::new(experiments::names()),
           hide_possible_values = true)]
     pub only: Vec<String>,
 
@@ -55,7 +55,3 @@ const AFTER_HELP: &str = "\
 Experiments that have ended are in the summary and on the page at once, also if Ctrl-C stops the others.
 
 Exit status: 0 all experiments ran, 1 an error, 2 a bad argument.";
-
-fn names() -> Vec<&'static str> {
-    experiments::ALL.iter().map(|experiment| experiment.name).collect()
-}

@@ -45,18 +45,18 @@ pub fn number(value: f64) -> String {
 pub struct Table(csv::Writer<Vec<u8>>);
 
 impl Table {
-    /// A table of rows that have texts first, from which the marks of italics are taken out, and then
-    /// numbers, some of which may be missing.
+    /// A table of columns with these names, and of rows that have texts first, from which the marks of italics
+    /// are taken out, and then numbers, some of which may be missing.
     ///
     /// # Errors
     /// If a row has more or fewer cells than there are columns.
-    pub fn of<T, N>(columns: &[&str], rows: impl IntoIterator<Item = (T, N)>) -> Result<Self>
+    pub fn of<T, N>(columns: &str, rows: impl IntoIterator<Item = (T, N)>) -> Result<Self>
     where
         T: IntoIterator<Item: AsRef<str>>,
         N: IntoIterator<Item: Into<Option<f64>>>,
     {
         let mut table = csv::Writer::from_writer(Vec::new());
-        table.write_record(columns)?;
+        table.write_record(columns.split(','))?;
         for (texts, numbers) in rows {
             let texts = texts.into_iter().map(|text| text.as_ref().replace('*', ""));
             let numbers = numbers.into_iter().map(|value| value.into().map(number).unwrap_or_default());
@@ -102,8 +102,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let row = |name, numbers: &[Option<f64>]| ([name], numbers.to_vec());
         let rows = [row("*one*", &[Some(0.0), Some(0.1)]), row("two", &[Some(1e-15), None])];
-        let table = Table::of(&["name", "t", "H"], rows).expect("a table");
-        assert!(Table::of(&["name", "t", "H"], [row("one", &[Some(0.0)])]).is_err());
+        let table = Table::of("name,t,H", rows).expect("a table");
+        assert!(Table::of("name,t,H", [row("one", &[Some(0.0)])]).is_err());
         table.save(folder.path(), "series").expect("saved");
         let text = fs::read_to_string(folder.path().join("series.csv")).expect("readable");
         assert_eq!(text, "name,t,H\none,0,0.1\ntwo,1e-15,\n");

@@ -10,7 +10,7 @@ use askama::Template as _;
 use crate::claim::VERDICTS;
 use crate::experiments::{self, SOURCES};
 use crate::gallery::{Experiment, Outcome};
-use crate::record::{Part, State};
+use crate::record::Part;
 use crate::summary;
 
 const BEYOND: &str = "beyond the papers";

@@ -1,60 +1,57 @@
-//! How far the experiments are: bars on a terminal, plain lines in regular intervals elsewhere.
-//!
-//! A terminal shows a bar for each experiment that runs, one for all, and the time left; an experiment that
-//! has ended leaves a line. The bars are as wide as the terminal allows.
+//! How far the experiments are: a bar on a terminal, plain lines in regular intervals elsewhere, with the time
+//! left and what runs. An experiment that has ended leaves a line.
 
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::gallery::Experiment;
 
-/// Between two looks at the bar of all.
+/// Between two looks at what is done.
 const TICK: Duration = Duration::from_millis(200);
 /// Between two plain lines.
 const INTERVAL: Duration = Duration::from_secs(10);
 /// What was done longer ago than this, in seconds, tells little of how fast the rest will be.
 const MEMORY: f64 = 60.0;
-/// Steps of the bar of all.
+/// Steps of the bar.
 const TOTAL: f64 = 1e6;
 
 /// The progress of all experiments of a run.
 #[derive(Debug)]
 pub struct Progress {
     /// Hidden where there is no terminal.
-    bars: MultiProgress,
     all: ProgressBar,
-    /// Each with its bar, once it has begun.
-    items: Vec<(Experiment, OnceLock<ProgressBar>)>,
+    /// Each with its counter.
+    items: Vec<(Experiment, ProgressBar)>,
     ended: AtomicUsize,
 }
 
 impl Progress {
     pub fn new(experiments: &[Experiment]) -> Self {
-        let bars = MultiProgress::new();
-        let all = ProgressBar::new(TOTAL as u64).with_prefix("all").with_style(style("magenta"));
-        let items = experiments.iter().map(|&experiment| (experiment, OnceLock::new())).collect();
-        Self { all: bars.add(all), bars, items, ended: AtomicUsize::new(0) }
+        let style = ProgressStyle::with_template("{bar:20.magenta} {percent:>3} % of all, {wide_msg}");
+        // The template is a constant: if it were wrong, the plain default would still do.
+        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸─");
+        let counter = || ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
+        let items = experiments.iter().map(|&experiment| (experiment, counter())).collect();
+        Self { all: ProgressBar::new(TOTAL as u64).with_style(style), items, ended: AtomicUsize::new(0) }
     }
 
     /// Begins the experiment of that number and gives its counter.
     pub fn start(&self, number: usize) -> ProgressBar {
-        let (experiment, bar) = &self.items[number];
-        let new = || ProgressBar::new(0).with_style(style("cyan")).with_prefix(experiment.name);
-        bar.get_or_init(|| self.bars.insert_before(&self.all, new())).clone()
+        let (_, counter) = &self.items[number];
+        counter.reset_elapsed();
+        counter.clone()
     }
 
     /// Ends the experiment of that number, with a word on how.
     pub fn end(&self, number: usize, how: &str) {
-        let (name, bar) = (self.items[number].0.name, self.start(number));
-        bar.finish_and_clear();
-        self.bars.remove(&bar);
+        let (Experiment { name, .. }, counter) = &self.items[number];
+        counter.finish();
         let (ended, of) = (1 + self.ended.fetch_add(1, Ordering::Relaxed), self.items.len());
-        let seconds = bar.elapsed().as_secs_f64();
-        self.bars.suspend(|| eprintln!("{name:<20} {how}, {seconds:.1} s ({ended} of {of})"));
+        let seconds = counter.elapsed().as_secs_f64();
+        self.all.suspend(|| eprintln!("{name:<20} {how}, {seconds:.1} s ({ended} of {of})"));
     }
 
     /// Shows how far all are every now and then, until the other end of the channel is dropped.
@@ -66,29 +63,23 @@ impl Progress {
                 left if left < 1e5 => format!("{:#} left", HumanDuration(Duration::from_secs_f64(left))),
                 _ => "…".to_owned(),
             };
-            self.all.set_position((done * TOTAL) as u64);
-            self.all.set_message(left);
-            if self.bars.is_hidden() && spoken.elapsed() >= INTERVAL {
+            let running = self.items.iter().filter(|(_, counter)| is_running(counter));
+            let running = running.map(|(of, counter)| format!("{} {:.0} %", of.name, 100.0 * part(counter)));
+            let message = format!("{left}: {}", running.collect::<Vec<_>>().join(", "));
+            if self.all.is_hidden() && spoken.elapsed() >= INTERVAL {
                 spoken = Instant::now();
-                self.speak();
+                eprintln!("{:3.0} % of all, {message}", 100.0 * done);
             }
+            self.all.set_position((done * TOTAL) as u64);
+            self.all.set_message(message);
         }
         self.all.finish_and_clear();
-    }
-
-    fn speak(&self) {
-        let is_running = |bar: &ProgressBar| !bar.is_finished();
-        let running = self.items.iter().filter(|(_, bar)| bar.get().is_some_and(is_running));
-        let running = running.map(|(of, bar)| format!("{} {:.0} %", of.name, 100.0 * fraction(bar.get())));
-        let (percent, left) = (100.0 * self.fraction(), self.all.message());
-        eprintln!("{percent:3.0} % of all, {left}: {}", running.collect::<Vec<_>>().join(", "));
     }
 
     /// The part of the work that is done.
     fn fraction(&self) -> f64 {
         let all: f64 = self.items.iter().map(|(of, _)| of.share).sum();
-        let done: f64 = self.items.iter().map(|(of, bar)| of.share * fraction(bar.get())).sum();
-        done / all
+        self.items.iter().map(|(of, counter)| of.share * part(counter)).sum::<f64>() / all
     }
 }
 
@@ -113,18 +104,14 @@ impl Speed {
     }
 }
 
-/// The part of its work that the experiment of a bar has done.
-fn fraction(bar: Option<&ProgressBar>) -> f64 {
-    let counted = |bar: &ProgressBar| bar.position() as f64 / bar.length().unwrap_or(0).max(1) as f64;
-    bar.map_or(0.0, |bar| if bar.is_finished() { 1.0 } else { counted(bar).min(1.0) })
+fn is_running(counter: &ProgressBar) -> bool {
+    counter.length() > Some(0) && !counter.is_finished()
 }
 
-/// Name, bar, per cent and a message, in any width from 50 columns on.
-fn style(colour: &str) -> ProgressStyle {
-    let template = format!("{{prefix:<20}} {{wide_bar:.{colour}}} {{percent:>3}} % {{msg:>11}}");
-    // The template is a constant: if it were wrong, the plain default would still do.
-    let style = ProgressStyle::with_template(&template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    style.progress_chars("━╸─")
+/// The part of its work that an experiment has done; those that take a few seconds do not count.
+fn part(counter: &ProgressBar) -> f64 {
+    let counted = counter.position() as f64 / counter.length().unwrap_or(0).max(1) as f64;
+    if counter.is_finished() { 1.0 } else { counted.min(1.0) }
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result, bail};
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::claim::{Bound, Check, Claim};
+use crate::claim::{Bound, Check, Claim, says};
 use crate::gallery::Outcome;
 use crate::job::Length;
 use crate::output::{number, write_whole};
@@ -25,16 +25,8 @@ pub struct Part {
     pub length: Length,
     /// When the run ended, in words.
     pub when: String,
-    pub state: State,
-    pub outcome: Outcome,
-}
-
-/// How the run of a part ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum State {
-    Complete,
-    /// With the words of the error.
-    Failed(String),
+    /// What it has to say, or the words of the error that has ended it.
+    pub outcome: Result<Outcome, String>,
 }
 
 /// Puts a part in the place of that of an earlier run, in the order of `names`; what has another name goes.
@@ -116,14 +108,15 @@ impl Row {
 
 /// The rows of a part: how it ended, its claims with their checks, reference values, notes.
 fn rows(part: &Part) -> Vec<Row> {
-    let mut rows = vec![match &part.state {
-        State::Complete => Row::new(part, Kind::Complete, ""),
-        State::Failed(words) => Row::new(part, Kind::Failed, words),
-    }];
+    let outcome = match &part.outcome {
+        Ok(outcome) => outcome,
+        Err(words) => return vec![Row::new(part, Kind::Failed, words)],
+    };
+    let mut rows = vec![Row::new(part, Kind::Complete, "")];
     let checks = |kind, checks: &[Check]| -> Vec<Row> {
         checks.iter().map(|check| Row::check(part, kind, check)).collect()
     };
-    for claim in &part.outcome.claims {
+    for claim in &outcome.claims {
         let (place, verdict) = (claim.place.clone(), claim.verdict());
         let verdict = match claim.differs() {
             Some(instead) => format!("{verdict}: {instead}"),
@@ -137,8 +130,8 @@ fn rows(part: &Part) -> Vec<Row> {
             rows.extend(checks(Kind::Check, instead));
         }
     }
-    rows.extend(checks(Kind::Reference, &part.outcome.references));
-    rows.extend(part.outcome.notes.iter().map(|note| Row::new(part, Kind::Note, note)));
+    rows.extend(checks(Kind::Reference, &outcome.references));
+    rows.extend(outcome.notes.iter().map(|note| Row::new(part, Kind::Note, note)));
     rows
 }
 
@@ -175,16 +168,13 @@ fn parse(text: &str) -> Result<Vec<Part>> {
 
 fn add(parts: &mut Vec<Part>, row: Row) -> Result<()> {
     let (experiment, length, when) = (row.experiment.clone(), row.form, row.when.clone());
-    let begin = |state| Part { experiment, length, when, state, outcome: Outcome::default() };
+    let begin = |outcome| Part { experiment, length, when, outcome };
     match row.row {
-        Kind::Complete => parts.push(begin(State::Complete)),
-        Kind::Failed => parts.push(begin(State::Failed(row.text))),
-        Kind::Claim => last(parts)?.claims.push(Claim::new(row.place, row.text)),
+        Kind::Complete => parts.push(begin(Ok(Outcome::default()))),
+        Kind::Failed => parts.push(begin(Err(row.text))),
+        Kind::Claim => last(parts)?.claims.push(says(row.place, row.text)),
         Kind::Instead => claim(parts)?.instead = Some((row.text, Vec::new())),
-        Kind::Check => {
-            let Claim { printed, instead, .. } = claim(parts)?;
-            instead.as_mut().map_or(printed, |(_, checks)| checks).push(row.to_check()?);
-        }
+        Kind::Check => claim(parts)?.latest().push(row.to_check()?),
         Kind::Reference => last(parts)?.references.push(row.to_check()?),
         Kind::Note => last(parts)?.notes.push(row.text),
     }
@@ -192,7 +182,8 @@ fn add(parts: &mut Vec<Part>, row: Row) -> Result<()> {
 }
 
 fn last(parts: &mut [Part]) -> Result<&mut Outcome> {
-    Ok(&mut parts.last_mut().context("it does not begin with a part")?.outcome)
+    let part = parts.last_mut().context("it does not begin with a part")?;
+    part.outcome.as_mut().ok().context("a failed part with more rows")
 }
 
 fn claim(parts: &mut [Part]) -> Result<&mut Claim> {
@@ -204,30 +195,28 @@ mod tests {
     use super::*;
 
     fn part(experiment: &str, length: Length, value: Option<f64>) -> Part {
-        let claim = Claim::new("p. 1", "it is \"one\", says it")
+        let claim = says("p. 1", "it is \"one\", says it")
             .check("it", value, Bound::Near(1.0, 1e-15))
             .instead("it is two")
             .check("it", value, Bound::Within(1.5, 2.5));
         let references = vec![Check::new("it", value, Bound::AtMost(3.0))];
-        let outcome = Outcome { claims: vec![claim], references, notes: vec!["A note.".into()] };
+        let outcome = Ok(Outcome { claims: vec![claim], references, notes: vec!["A note.".into()] });
         let (experiment, when) = (experiment.to_owned(), "today".to_owned());
-        Part { experiment, length, when, state: State::Complete, outcome }
+        Part { experiment, length, when, outcome }
     }
 
     #[test]
     fn what_is_written_is_read_again() -> Result<()> {
         let folder = tempfile::tempdir()?;
-        let failed = Part { state: State::Failed("no ink".into()), ..part("c", Length::Full, None) };
+        let failed = Part { outcome: Err("no ink".into()), ..part("c", Length::Full, None) };
         let parts = [part("a", Length::Full, Some(2.0)), part("b", Length::Short, None), failed];
         save(folder.path(), &parts)?;
         let read = load(folder.path())?;
         assert_eq!(read.len(), 3);
         for (one, other) in parts.iter().zip(&read) {
             assert_eq!(rows(one), rows(other));
-            assert_eq!(
-                (&one.experiment, one.length, &one.when),
-                (&other.experiment, other.length, &other.when)
-            );
+            assert_eq!((&one.experiment, &one.when), (&other.experiment, &other.when));
+            assert_eq!(one.length, other.length);
         }
         Ok(())
     }

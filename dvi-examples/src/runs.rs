@@ -57,9 +57,14 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
         there.take_steps(steps)?;
         let mut back = Integrator::new_at(self.system, by, there.time(), -h, there.state())?;
         back.take_steps(steps)?;
+        self.apart(&back.state(), &self.start)
+    }
+
+    /// The largest difference of a coordinate or velocity of two states.
+    pub fn apart(&self, one: &S::State<f64>, other: &S::State<f64>) -> Result<f64> {
         let values = |state| Ok(self.system.values(state)?.collect::<Vec<f64>>());
-        let [end, start] = each([&back.state(), &self.start], values)?;
-        Ok(apart(&end, &start))
+        let [one, other] = each([one, other], values)?;
+        Ok(apart(&one, &other))
     }
 
     /// Iterations of a step, on average over so many of them.
@@ -98,6 +103,16 @@ impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Convergence<'a, S, E> {
     pub fn order(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Option<f64>> {
         Ok(order(self.of(method)?))
     }
+}
+
+/// A member of the σ-family whose second point comes from RK2, as in the paper.
+pub fn begun_by_rk2(sigma: f64) -> Sigma {
+    Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::new(sigma) }
+}
+
+/// The same scheme, whatever becomes of its parasitic mode.
+pub fn unwatched(scheme: Sigma) -> Sigma {
+    Sigma { parasitic_limit: None, ..scheme }
 }
 
 /// The first of the momenta of a run; not numbers if it has not as many.

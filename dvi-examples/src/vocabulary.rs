@@ -12,24 +12,16 @@ pub use dvi_core::{ProperlyDegenerate, Separable, Space as _, rotations};
 pub use rayon::prelude::*;
 
 pub use crate::claim::{Bound, Check, Claim, beyond, claims, says};
-pub use crate::deviation::*;
+pub use crate::envelope::*;
 pub use crate::figure::{
-    AMBER, Anchor, Axis, BLUE, Colour, Corner, Envelope, Figure, Fill, GREEN, INK, Line, PURPLE, Panel,
-    Points, SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, scientific, thin,
+    AMBER, Anchor, Axis, BLUE, Colour, Corner, Figure, Fill, GREEN, INK, Line, PURPLE, Panel, Points,
+    SEQUENCE, SKY, SLATE, Stroke, VERMILLION, at_most, dashed, scientific, solid, thin,
 };
 pub use crate::gallery::Outcome;
 pub use crate::job::Job;
 pub use crate::numbers::*;
 pub use crate::output::Table;
+pub use crate::rk4::*;
 pub use crate::runs::*;
+pub use crate::series::*;
 pub use dvi_examples::models::{self, *};
-
-/// A line of that colour.
-pub const fn solid(colour: Colour) -> Stroke {
-    Stroke::solid(colour)
-}
-
-/// A dashed line of that colour.
-pub const fn dashed(colour: Colour) -> Stroke {
-    Stroke::dashed(colour)
-}

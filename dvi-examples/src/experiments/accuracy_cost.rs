@@ -53,8 +53,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         all.flat_map(|(of, (name, ..))| of.iter().zip(METHODS).map(move |(curve, of)| (name, of.0, curve)))
     };
     let rows = curves().map(|(problem, method, (all, _))| ([problem, method], [], all.iter().copied()));
-    let columns = ["problem", "method", "steps", "evaluations", "evaluations_in_turn", "energy_error"];
-    job.publish(figure(&all), curve_table(&columns, rows)?)?;
+    let table = curve_table("problem,method,steps,evaluations,evaluations_in_turn,energy_error", rows);
+    job.publish(figure(&all), table)?;
     let notes = curves().flat_map(|(.., (_, failures))| failures.clone()).collect();
     Ok(Outcome { claims: claims(job, &all), references: vec![], notes })
 }

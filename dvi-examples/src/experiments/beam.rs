@@ -68,8 +68,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ];
     let frequencies = Frequencies::new()?;
     let curves = all.iter().map(|series| ([&series.name], [series.h], series.kept[0].magnitude()));
-    let table = curve_table(&["series", "h", "t", "energy_error"], curves)?;
-    job.publish(figure(&all, &frequencies, periods[1])?, table)?;
+    job.publish(figure(&all, &frequencies, periods[1])?, curve_table("series,h,t,energy_error", curves))?;
     let [elements, segments] = frequencies.claims()?;
     let [_, short, of_rod, of_beam] = all.each_ref().map(|series| &series.kept[0]);
     let lost = |error: StepError| error.time / period();

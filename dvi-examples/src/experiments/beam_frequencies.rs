@@ -46,7 +46,7 @@ impl Frequencies {
             sizes.into_iter().zip(errors).map(|(n, errors)| [n as f64, errors[k].abs()]).collect()
         };
         let slope = |n: f64, error: f64, order: i32| vec![[n, error], [2.0 * n, error / 2f64.powi(order)]];
-        let n = Axis::logarithmic("elements or segments *n*").within(6.0, 130.0);
+        let n = Axis::logarithmic("elements or segments *n*").within([6.0, 130.0]);
         Panel::new("Frequencies", n, Axis::logarithmic("relative error of the frequency"))
             .each([BLUE, GREEN, PURPLE].into_iter().enumerate(), |panel, (k, colour)| {
                 panel.marked([

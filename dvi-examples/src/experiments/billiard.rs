@@ -51,8 +51,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         let orbits = orbits.iter().enumerate();
         orbits.map(move |(k, orbit)| ([curve], [k as f64], orbit.section.iter().copied().take(300)))
     });
-    let table = curve_table(&["curve", "orbit", "angle", "velocity_along"], sections)?;
-    job.publish(figure(&ellipse, &square), table)?;
+    job.publish(figure(&ellipse, &square), curve_table("curve,orbit,angle,velocity_along", sections))?;
     let text = format!(
         "{ORBITS} orbits in an ellipse keep the product of the angular momenta about its foci over 10⁵ \
          impacts, with steps of length {H} and with steps of length {LONG}, in which there are several"

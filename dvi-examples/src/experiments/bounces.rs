@@ -7,7 +7,6 @@
 //! walk.
 
 use super::random_walk::Walks;
-use super::rk4::rk4;
 use crate::vocabulary::*;
 
 pub const FLOOR: Bouncer = Bouncer { a: 0.8 };
@@ -39,8 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ];
     let walks = Walks::new(job)?;
     let curves = all.iter().map(|run| ([&run.series.name], [run.series.h], run.series.kept[0].magnitude()));
-    let table = curve_table(&["kept", "h", "t", "largest_energy_error"], curves)?;
-    job.publish(figure(&all, &walks, end)?, table)?;
+    job.publish(figure(&all, &walks, end)?, curve_table("kept,h,t,largest_energy_error", curves))?;
     let full = |value: f64| job.only_full(value);
     let kept = all.each_ref().map(|run| &run.series.kept[0]);
     let [of_rk4, of_coarse, of_fine, coarse, fine] = kept.map(|kept| full(kept.largest));
@@ -87,8 +85,9 @@ fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64
 
 /// RK4 between impacts, which are found by bisection and keep the energy.
 fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
-    let (mut y, mut bounces, span) = (entries(START), 0, Span { end, early: EARLY, intervals: 300 });
-    let energy = |[x, y, dot_x, dot_y]: [f64; 4]| FLOOR.energy_at(&BouncerState { x, y, dot_x, dot_y });
+    let (mut bounces, span) = (0, Span { end, early: EARLY, intervals: 300 });
+    let mut y = [START.x, START.y, START.dot_x, START.dot_y];
+    let energy = |y: [f64; 4]| FLOOR.energy_at(&FLOOR.state_of(y));
     let begin: f64 = energy(y)?;
     let after = |y: &[f64; 4], h: f64| {
         rk4(y, h, |&[x, y, u, w]| {
@@ -114,17 +113,13 @@ fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
     Ok(Bounces { series, bounces, grazing: 0 })
 }
 
-fn entries(BouncerState { x, y, dot_x, dot_y }: BouncerState) -> [f64; 4] {
-    [x, y, dot_x, dot_y]
-}
-
 fn order_of_states() -> Result<Claim> {
     let motion = Problem::new(&FLOOR, START);
-    let expected = entries(motion.up_to(Impacts::reflecting(Galerkin::<5>::new()), 6.0 / 4000.0, 6.0)?);
+    let expected = motion.up_to(Impacts::reflecting(Galerkin::<5>::new()), 6.0 / 4000.0, 6.0)?;
     // Six lengths near each of four: where in a step the impacts are changes the error.
     let counts = [150, 300, 600, 1200].map(|few| [0, 1, 2, 3, 4, 5].map(|n| few + few * n / 12)).concat();
     let order = |after: &dyn Fn(f64) -> Result<BouncerState>| {
-        let error = |h| Ok((h, apart(&entries(after(h)?), &expected)));
+        let error = |h| Ok((h, motion.apart(&after(h)?, &expected)?));
         order_of(counts.iter().map(|steps: &u64| 6.0 / *steps as f64), error)
     };
     let [discrete, at_impact] = each(LAWS, |law| order(&|h| motion.up_to(trapezoid(law), h, 6.0)))?;
@@ -139,7 +134,7 @@ fn back_again() -> Result<Claim> {
     let [discrete, at_impact] = each(LAWS, |collision| {
         let mut run = Integrator::new(&FLOOR, trapezoid(collision), STEPS[0], START)?;
         run.take_steps(300)?;
-        Ok(apart(&entries(back(trapezoid(collision), &run)?), &entries(START)))
+        Problem::new(&FLOOR, START).apart(&back(trapezoid(collision), &run)?, &START)
     })?;
     Ok(beyond("the way back is the way there, bounces among it")
         .at_most("discrete energy: largest difference from the start", discrete, 1e-11)

@@ -29,7 +29,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ];
     let figure = sections::figure(titles, &all, end, |run| panel(run, &region))
         .footer(format!("After Rowley & Marsden 2002, Fig. 5. {CAVEAT}"));
-    job.publish(figure, sections::table(&all)?)?;
+    job.publish(figure, sections::table(&all))?;
     // Brackets around what earlier runs have found.
     let error = |run: &Crossings, largest: Option<f64>, bound| {
         Check::new(format!("max|ΔH|, {}", run.name()), largest, bound)

@@ -39,7 +39,7 @@ pub struct Crossings {
     /// [t, R₁, P₁] of each crossing.
     pub points: Vec<[f64; 3]>,
     /// H − H(0); the beginning is the first tenth of the time.
-    pub error: Deviation,
+    pub error: Envelope,
     /// By what factor a displacement of 1e-10 at the end grows in 2000 units of time more.
     pub growth: f64,
     pub failure: Option<StepError>,
@@ -95,7 +95,7 @@ impl Motion<'_> {
 
     /// The section of one run with the vortices in the given order.
     pub fn crossings(self, (scheme, h): (Scheme, f64), labels: Labels) -> Result<Crossings> {
-        let (end, points, error) = (self.end, Vec::new(), Deviation::new(self.end, 300, 0.1 * self.end));
+        let (end, points, error) = (self.end, Vec::new(), Envelope::new(self.end, 300, 0.1 * self.end));
         let blank = Crossings { scheme, h, end, labels, points, error, growth: f64::NAN, failure: None };
         match scheme {
             Scheme::Vi2 => self.gather(Sigma::midpoint(), blank),

@@ -64,8 +64,8 @@ pub struct Decay {
     pub name: &'static str,
     pub case: Case,
     pub energy: Envelope,
-    pub error: Deviation,
-    pub momentum: Deviation,
+    pub error: Envelope,
+    pub momentum: Envelope,
     /// The time at which the energy is twice that of the start, and why it ended early.
     pub doubled: Option<f64>,
     lost: Option<StepError>,
@@ -118,8 +118,8 @@ impl Setting<'_> {
     {
         let Self { job, case, reference } = self;
         let (windows, end) = ((case.end / WINDOW).round() as usize, case.end);
-        let [mut error, mut momentum] = Span { end, early: WINDOW, intervals: windows }.deviations();
-        let (mut energy, mut doubled) = (Envelope::new(end, 10 * windows), None);
+        let [mut error, mut momentum] = Span { end, early: WINDOW, intervals: windows }.envelopes();
+        let (mut energy, mut doubled) = (Envelope::new(end, 10 * windows, 0.0), None);
         let ended = job.repeat(case.steps(), || {
             let (t, [e, l]) = step()?;
             energy.push(t, e);
@@ -137,13 +137,13 @@ impl Setting<'_> {
 impl Decay {
     /// The relative deviation of the energy in the first and in the last window, on average over each.
     pub fn means(&self) -> [f64; 2] {
-        let means = self.error.envelope.mean();
+        let means = self.error.mean();
         [means.first(), means.last()].map(|point| point.map_or(f64::NAN, |[_, mean]| *mean))
     }
 
     /// The largest magnitude of the deviation of the energy, on average over a window.
     pub fn largest_mean(&self) -> f64 {
-        largest(self.error.envelope.mean().iter().map(|[_, mean]| mean.abs()))
+        largest(self.error.mean().iter().map(|[_, mean]| mean.abs()))
     }
 
     /// By how much faster the energy decays than it should, from first to last window, in units of γ.

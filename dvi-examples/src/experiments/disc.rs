@@ -6,7 +6,6 @@
 //! others (Modin & Verdier 2020).
 
 use super::disc_energy::{Errors, STARTS};
-use super::rk4::rk4_to;
 use super::sleigh::{H, STEPS, Sleigh, midpoint};
 use crate::vocabulary::*;
 
@@ -21,7 +20,7 @@ pub const RATES: [f64; 2] = [1.2, 0.4];
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (errors, sleigh) = (Errors::new(job)?, Sleigh::new()?);
-    job.publish(figure(&errors, &sleigh)?, errors.table()?)?;
+    job.publish(figure(&errors, &sleigh)?, errors.table())?;
     let [springs, magnet] = errors.claims(job);
     let undone = Problem::new(&MAGNET, begin(&MAGNET)).there_and_back(midpoint(), H, 200)?;
     claims([
@@ -102,7 +101,7 @@ fn places(disc: &RollingDisc, end: f64) -> Result<Points> {
 
 fn figure(errors: &Errors, sleigh: &Sleigh) -> Result<Figure> {
     let exact = (0..=400).map(|i| on_circle(f64::from(i) * 0.04)).collect();
-    let free = Panel::new("Free", Axis::linear("*x*"), Axis::linear("*y*").within(-1.0, 9.0))
+    let free = Panel::new("Free", Axis::linear("*x*"), Axis::linear("*y*").within([-1.0, 9.0]))
         .equal()
         .lines([("circle", solid(SLATE).width(1.2), exact)])
         .dots(places(&FREE, 16.0)?.into_iter().step_by(4).collect(), 2.2, GREEN)

@@ -2,7 +2,6 @@
 //! |E − E(0)| up to time t.
 
 use super::disc::{MAGNET, PLACE, RATES, SPRINGS};
-use super::rk4::rk4;
 use super::sleigh::{H, midpoint};
 use crate::vocabulary::*;
 
@@ -52,7 +51,7 @@ impl Errors {
 
     pub fn table(&self) -> Result<Table> {
         let curves = self.0.iter().map(|growth| ([&growth.name], [growth.h], growth.path.iter().copied()));
-        curve_table(&["series", "h", "t", "largest_energy_error"], curves)
+        curve_table("series,h,t,largest_energy_error", curves)
     }
 
     pub fn panel(&self) -> Panel {

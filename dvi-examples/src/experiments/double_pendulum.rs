@@ -3,7 +3,6 @@
 //! The variational step is implicit here, p0 = −D₁L_d(q0, q1), and the compiler has differentiated what it
 //! needs. Beside it stands the classical Runge–Kutta method on equations of motion written by hand.
 
-use super::rk4::rk4;
 use crate::vocabulary::*;
 
 const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };
@@ -18,8 +17,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = (end / H).round() as u64;
     job.expect(3 * steps);
     let (span, places) = (Span { early: EARLY, ..Span::of(steps, H, 0) }, (SHOWN / H) as usize);
-    let (pendulum, mut y) = (Problem::new(&SYSTEM, state(START)), START);
-    let begin: f64 = SYSTEM.energy_at(&state(START))?;
+    let (pendulum, mut y) = (Problem::new(&SYSTEM, SYSTEM.state_of(START)), START);
+    let begin: f64 = SYSTEM.energy_at(&SYSTEM.state_of(START))?;
     let (midpoint, simpson) =
         (("variational, midpoint", solid(GREEN)), ("variational, Simpson", solid(BLUE)));
     let all = [
@@ -27,11 +26,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         job.energy(simpson, pendulum.run(Variational::simpson(), H)?, span, places).whole()?,
         job.watch(("RK4, by hand", dashed(VERMILLION)), span, (H, 1), || {
             y = rk4(&y, H, |y| SYSTEM.motion(y));
-            SYSTEM.energy_at(&state(y)).map(|energy| [energy - begin])
+            SYSTEM.energy_at(&SYSTEM.state_of(y)).map(|energy| [energy - begin])
         })?,
     ];
-    let table = range_table(&["method", "t", "lowest", "mean", "highest"], &[""], &all)?;
-    job.publish(figure(&all, end), table)?;
+    job.publish(figure(&all, end), range_table("method,t", &[""], &all))?;
     let [midpoint, simpson, rk4] = all.each_ref().map(|series| &series.kept[0]);
     let growth = rk4.last.abs() / rk4.largest_early;
     let loses = "RK4 loses energy steadily at the same step";
@@ -41,10 +39,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_most("Simpson: max|ΔE| over all / to t = 100", simpson.growth(), 3.0),
         beyond(loses).at_least("RK4: |ΔE| at the end / max|ΔE| to t = 100", growth, 5.0),
     ])
-}
-
-fn state([a, b, dot_a, dot_b]: [f64; 4]) -> DoublePendulumState {
-    DoublePendulumState { a, b, dot_a, dot_b }
 }
 
 fn figure(all: &[Series<1>; 3], end: f64) -> Figure {

@@ -17,7 +17,6 @@ const FINE: f64 = 0.02;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(100_000, 10_000);
-    job.expect(2 * steps * (ON_SPRING.len() + ON_ORBIT.len()) as u64);
     let [fine, double] = each([FINE, 2.0 * FINE], reference)?;
     let spring = Motion {
         system: &StiffeningSpring {},
@@ -34,7 +33,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let all = [spring.runs(job, "spring", ON_SPRING, steps)?, kepler.runs(job, "Kepler", ON_ORBIT, steps)?];
     let between = largest(fine.iter().step_by(2).zip(&double).map(|(a, b)| (a.x - b.x).hypot(a.y - b.y)));
     let none = NoStep::new()?;
-    job.publish(figure(&all, &none), table(&all, &none)?)?;
+    job.publish(figure(&all, &none), table(&all, &none))?;
     outcome(&all, between, &none)
 }
 
@@ -133,7 +132,7 @@ fn drawn([spring, kepler]: &[Runs; 2]) -> [Drawn; 4] {
     ]
     .map(|(name, colour, steps)| {
         let [lengths, energy] = [1, 2].map(|k| steps.beginning.iter().map(|of| [of[0], of[k]]).collect());
-        (name, solid(colour), [steps.kept[0].envelope.magnitude(), energy, lengths])
+        (name, solid(colour), [steps.kept[0].magnitude(), energy, lengths])
     })
 }
 
@@ -143,10 +142,10 @@ fn figure(all: &[Runs; 2], none: &NoStep) -> Figure {
         Panel::new(title, x, y).lines(lines)
     };
     let (step, time) = (Axis::linear("number of the step"), || Axis::time(BEGINNING));
-    let defect = Axis::logarithmic("largest |*E*_d − *e*| of many steps").within(1e-16, 1.0);
+    let defect = Axis::logarithmic("largest |*E*_d − *e*| of many steps").within([1e-16, 1.0]);
     let discrete = panel(0, "Discrete energy", step, defect);
     let energy = panel(1, "Energy at the points of the run", time(), Axis::linear("*E* − *E*(0)"));
-    let lengths = panel(2, "Length of the steps", time(), Axis::linear("*h*").within(0.0, 0.22));
+    let lengths = panel(2, "Length of the steps", time(), Axis::linear("*h*").within([0.0, 0.22]));
     Figure::of(format!(
         "midpoint rule; a spring with *V* = *r*²/2 + *r*⁴/4, first step {}, and a Kepler orbit of \
          eccentricity {}, first step {}; “one length” is the mean of the other run",
@@ -163,5 +162,5 @@ fn table(all: &[Runs; 2], none: &NoStep) -> Result<Table> {
         named.into_iter().zip(curves)
     });
     let curves = of_runs.chain(none.curves()).map(|(names, points)| (names, [], points));
-    curve_table(&["run", "quantity", "over", "at", "value"], curves)
+    curve_table("run,quantity,over,at,value", curves)
 }

@@ -19,7 +19,7 @@ pub struct Motion<'a, S: RegularLagrangian<f64>> {
 
 pub struct Steps {
     /// Over the number of the step: E_d − e, E − E(0), l − l(0), and the length of the step.
-    pub kept: [Deviation; 4],
+    pub kept: [Envelope; 4],
     /// The mean length of the steps, and that of their last tenth over that of the first.
     pub length: f64,
     pub lengthening: f64,
@@ -52,16 +52,14 @@ impl<S: RegularLagrangian<f64>> Motion<'_, S> {
         let mean = each(kept.each_ref(), |kept| plain(kept.length, steps))?;
         let work = each([0, 1, 2, 3], |i| {
             let h = mean[i].length * mean[i].work / kept[i].work;
-            let steps = (COMPARED / h).ceil() as u64;
-            job.expect(steps);
-            plain(h, steps)
+            plain(h, (COMPARED / h).ceil() as u64)
         })?;
         Ok(Runs { name, kept, mean, work })
     }
 
     fn steps(&self, job: &Job<'_>, mut run: impl Run<Scalar = f64>, wanted: u64) -> Result<Steps> {
         let span = Span { end: wanted as f64, early: wanted as f64 / 10.0, intervals: 100 };
-        let (mut kept, mut tenths, mut farthest) = (span.deviations(), [0.0; 2], 0.0);
+        let (mut kept, mut tenths, mut farthest) = (span.envelopes(), [0.0; 2], 0.0);
         let (mut end, mut beginning, tenth) = (0.0, Vec::new(), wanted / 10);
         let (energy, [momentum]) = (run.energy(), momenta(&run));
         let (mut before, mut first) = (place(&run), None);

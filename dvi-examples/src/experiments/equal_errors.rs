@@ -5,7 +5,7 @@ use super::kepler::*;
 use crate::vocabulary::*;
 
 /// Of a factor 1000, down to 10⁻⁴.
-pub const BISECTIONS: u32 = 17;
+const BISECTIONS: u32 = 17;
 
 /// How the steps of a run are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

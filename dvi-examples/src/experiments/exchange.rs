@@ -96,12 +96,10 @@ impl Exchange {
 
     /// The mean square of the difference from those of `motion` at times that are `speed` times as long.
     fn apart(&self, motion: &Self, speed: f64) -> f64 {
-        let pairs = self.0.iter().enumerate();
-        let squares = pairs.map(|(k, mean)| match motion.at(speed * (k as f64 + 0.5)) {
+        mean(self.0.iter().enumerate().map(|(k, mean)| match motion.at(speed * (k as f64 + 0.5)) {
             Some(other) => mean.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>(),
             None => f64::INFINITY,
-        });
-        squares.sum::<f64>() / self.0.len() as f64
+        }))
     }
 
     /// How many times as fast as in `motion` the exchange is, by the least mean square of differences.

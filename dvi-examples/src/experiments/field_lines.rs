@@ -19,8 +19,7 @@ type Lines = Vec<Vec<Place>>;
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (turns, shown) = (job.choose(100_000, 4000), job.choose(1500, 120));
     let [abc, tokamak] = starts();
-    job.expect(STEPS * (2 * turns + shown * (abc.len() + tokamak.len()) as u64));
-    let (abc, tokamak) = (lines(job, &ABC, abc, shown)?, lines(job, &TOKAMAK, tokamak, shown)?);
+    let (abc, tokamak) = (lines(&ABC, abc, shown)?, lines(&TOKAMAK, tokamak, shown)?);
     // How well a line of the unperturbed tokamak stays on its surface: (ψ − ψ(0))/ψ(0) after each step.
     let line = Problem::new(&UNPERTURBED, (1.0 + RHO, 0.0));
     let runs = [
@@ -28,14 +27,14 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         (("RK4", dashed(VERMILLION)), line.run(RungeKutta::classical(), TAU / STEPS as f64)?),
     ];
     let surfaces = each(runs, |(named, mut run)| {
-        let mut kept = Span { end: turns as f64, early: 1000.0, intervals: 400 }.deviations();
+        let mut kept = Span { end: turns as f64, early: 1000.0, intervals: 400 }.envelopes();
         job.follow(&mut run, turns * STEPS, |run| {
             let rho = (run.q()[0] - 1.0).hypot(run.q()[1]);
             note(&mut kept, run.time() / TAU, [UNPERTURBED.flux(rho) / UNPERTURBED.flux(RHO) - 1.0]);
         })?;
         Ok(Series::new(named, run.step_size(), kept))
     })?;
-    let table = table(&abc, &tokamak, &surfaces)?;
+    let table = table(&abc, &tokamak, &surfaces);
     job.publish(figure(abc, tokamak, &surfaces, turns), table)?;
     let [midpoint, rk4] = surfaces.each_ref().map(|series: &Series<1>| series.kept[0].growth());
     let growth = "max|Δψ| over all / over 1000 turns";
@@ -84,11 +83,10 @@ fn starts() -> [Vec<Place>; 2] {
 }
 
 /// Where the lines through `starts` meet the plane after each of `count` turns.
-fn lines(job: &Job<'_>, field: &impl Field, starts: Vec<Place>, count: u64) -> Result<Lines> {
+fn lines(field: &impl Field, starts: Vec<Place>, count: u64) -> Result<Lines> {
     let line = |mut place| {
         let turn = |_| {
             place = turned(field, OneStep::midpoint(), STEPS, place)?;
-            job.proceed(STEPS);
             Ok(place)
         };
         (0..count).map(turn).collect()
@@ -108,10 +106,8 @@ fn order_on(field: &impl Field, start: Place) -> Result<Option<f64>> {
 
 fn figure(abc: Lines, tokamak: Lines, surfaces: &[Series<1>; 2], turns: u64) -> Figure {
     let dots = |panel: Panel, lines: Lines| {
-        panel
-            .each(lines.into_iter().zip(SEQUENCE.into_iter().cycle().step_by(3)), |panel, (line, colour)| {
-                panel.dots(line, 0.7, colour)
-            })
+        let colours = SEQUENCE.into_iter().cycle().step_by(3);
+        panel.each(lines.into_iter().zip(colours), |panel, (line, colour)| panel.dots(line, 0.7, colour))
     };
     let period = |low| [low, low + TAU];
     let (x, y) = (("*x*", period(-FRAC_PI_2)), ("*y*", period(-PI)));
@@ -147,8 +143,8 @@ fn table(abc: &Lines, tokamak: &Lines, surfaces: &[Series<1>; 2]) -> Result<Tabl
     });
     let flux = surfaces.iter().flat_map(|Series { name, kept, .. }| {
         let row = |[turn, low, _, high]: [f64; 4]| [None, Some(turn), None, None, Some(low), Some(high)];
-        kept[0].envelope.rows().into_iter().map(move |of| (name.as_str(), row(of)))
+        kept[0].rows().into_iter().map(move |of| (name.as_str(), row(of)))
     });
-    let columns = ["series", "line", "turn", "x or R", "y or Z", "lowest Δψ/ψ", "highest Δψ/ψ"];
-    Table::of(&columns, lines.chain(flux).map(|(name, row)| ([name], row)))
+    let rows = lines.chain(flux).map(|(name, row)| ([name], row));
+    Table::of("series,line,turn,x or R,y or Z,lowest Δψ/ψ,highest Δψ/ψ", rows)
 }

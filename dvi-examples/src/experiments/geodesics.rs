@@ -1,6 +1,5 @@
 //! Long runs along geodesics, beside RK4 on the entries of the states, and what is claimed of them.
 
-use super::rk4::{rk4, rk4_to};
 use crate::vocabulary::*;
 
 /// What a few operations leave that are not repeated, as those of a matrix of products.
@@ -47,7 +46,7 @@ impl Long<'_> {
         let mut y = system.entries(start);
         let by_rk4 = || {
             y = (0..self.every).fold(y, |y, _| rk4(&y, self.h, |y| system.motion(y)));
-            Ok(system.state(&y))
+            Ok(system.state_of(y))
         };
         let mut run = Integrator::new(&system, Geodesic::trapezoid(), self.h, start.clone())?;
         let along = || {
@@ -59,7 +58,7 @@ impl Long<'_> {
     }
 
     /// The checks that the energy error of a run is no larger than predicted, and has no trend.
-    pub fn flat_energy(self, claim: Claim, run: &str, energy: &Deviation, predicted: f64) -> Claim {
+    pub fn flat_energy(self, claim: Claim, run: &str, energy: &Envelope, predicted: f64) -> Claim {
         let trend = format!("{run}: max|ΔE|, last tenth of the time over the first");
         let claim = claim.at_most(format!("{run}: max|ΔE|"), energy.largest, 1.02 * predicted);
         claim.near(trend, self.job.only_full(energy.trend()), [1.0, 0.01])
@@ -94,7 +93,7 @@ pub fn assert_integrals<const D: usize, const N: usize, S: OnManifold<D>>(
 ) {
     let run = Integrator::new(&system, Geodesic::trapezoid(), 0.05, start.clone()).expect("a run");
     let declared = |k: usize| if k == 0 { Some(run.energy()) } else { run.momentum(k - 1) };
-    let later = of(&system.state(&reference(system, &start, [2.0, 1e-3])));
+    let later = of(&system.state_of(reference(system, &start, [2.0, 1e-3])));
     for (k, by_hand) in of(&start).into_iter().enumerate() {
         let declared = declared(k).expect("it is declared");
         assert!((by_hand - declared).abs() <= bounds[k], "{k}: {by_hand} and {declared}");

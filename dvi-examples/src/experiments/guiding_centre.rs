@@ -24,10 +24,9 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let orbits = each(ORBITS, |(_, u)| orbit(job, u, steps))?;
     let named = || ORBITS.iter().map(|(name, _)| *name).zip(&orbits);
     let rows = named().flat_map(|(orbit, runs)| {
-        runs.iter().map(move |series| ([orbit, &series.name], [], series.kept[0].envelope.rows()))
+        runs.iter().map(move |series| ([orbit, &series.name], [], series.kept[0].rows()))
     });
-    let table = curve_table(&["orbit", "method", "t", "lowest", "mean", "highest"], rows)?;
-    job.publish(figure(&orbits, steps as f64 * H), table)?;
+    job.publish(figure(&orbits, steps as f64 * H), curve_table("orbit,method,t,lowest,mean,highest", rows))?;
     let reach = |series: &Series<2>| largest(series.path.iter().map(|[_, z]| z.abs()));
     let growth = format!("max|ΔH| over all / over {EARLY} steps");
     let flat = "energy errors are no larger in the whole run than in its beginning";

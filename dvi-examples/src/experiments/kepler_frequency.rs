@@ -21,13 +21,12 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         let (q, v) = (run.q(), run.memory().p());
         let r = q[0].hypot(q[1]);
         let a = [-q[0] / r.powi(3), -q[1] / r.powi(3)];
-        let [curvature, radial] =
-            [Curvature(Reading::Averaged).at(q, v, &a), Radial(Reading::Averaged).at(q, v, &a)];
-        [run.time(), r, curvature, radial]
+        let (curvature, radial) = (Curvature(Reading::Averaged), Radial(Reading::Averaged));
+        [run.time(), r, curvature.at(q, v, &a), radial.at(q, v, &a)]
     })?;
     let readings = &readings[1..];
     let rows = readings.iter().step_by(20).map(|row| ([""; 0], *row));
-    job.publish(figure(readings), Table::of(&["t", "r", "omega_curvature", "omega_radial"], rows)?)?;
+    job.publish(figure(readings), Table::of("t,r,omega_curvature,omega_radial", rows))?;
     let curvatures = || readings.iter().map(|reading| reading[2]);
     let (highest, lowest) = (largest(curvatures()), least(curvatures()));
     let share = |is_so: &dyn Fn(f64) -> bool| {

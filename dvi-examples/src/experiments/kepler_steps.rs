@@ -18,15 +18,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let cases = [Fixed, Controlled].into_iter().flat_map(|steps| orbits.iter().map(move |&e| (steps, e)));
     let of_each = |(steps, e)| finenesses(steps, e).into_iter().take(count).map(move |of| (steps, e, of));
     let cases: Vec<_> = cases.flat_map(of_each).collect();
-    job.expect(cases.len() as u64 * (1 + 3 * u64::from(BISECTIONS + 1)));
     let compared = cases.into_par_iter().map(|(steps, e, fine)| equal_errors(job, steps, e, fine));
     let all: Vec<Comparison> = compared.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-    let columns = ["steps", "e", "reference", "energy_error", "fitted", "linear", "ratio"];
     let rows = all.iter().map(|c| {
         let how = if c.steps == Fixed { "fixed" } else { "controlled" };
         ([how, &c.e.to_string(), c.reference].map(str::to_owned), [c.energy, c.fitted, c.linear, c.ratio()])
     });
-    job.publish(figure(&all), Table::of(&columns, rows)?)?;
+    job.publish(figure(&all), Table::of("steps,e,reference,energy_error,fitted,linear,ratio", rows))?;
     let notes = all.iter().filter(|c| c.e == HIGH).map(|c| {
         let how = match c.steps {
             Fixed => "fixed steps, (19) in the discrete Lagrangian",
@@ -121,16 +119,14 @@ fn figure(all: &[Comparison]) -> Figure {
         }));
     let compared = |title: &str, steps: Steps| {
         let e = Axis::names("eccentricity", ECCENTRICITIES.iter().map(f64::to_string).collect());
+        let beside = REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]);
         let place = |e: f64| ECCENTRICITIES.iter().position(|x| *x == e).map_or(f64::NAN, |k| k as f64);
-        Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within(0.0, 1.7))
+        Panel::new(title, e, Axis::linear("steps, phase-fitted / linear").within([0.0, 1.7]))
             .guide([[-0.6, THIRD], [3.6, THIRD]], "one third")
-            .each(
-                REFERENCES.into_iter().zip([-0.18, 0.0, 0.18]),
-                |panel, ((reference, _, colour), aside)| {
-                    let points = of(reference, steps).map(|c| [place(c.e) + aside, c.ratio()]).collect();
-                    panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
-                },
-            )
+            .each(beside, |panel, ((reference, _, colour), aside)| {
+                let points = of(reference, steps).map(|c| [place(c.e) + aside, c.ratio()]).collect();
+                panel.discs(points, colour, Fill::Hollow).labelled(format!("against {reference}"))
+            })
     };
     let controlled = compared("Both with (23) as printed", Controlled);
     Figure::of("Phase-fitted Simpson; (19) is left-frozen with (23), a part of L_d with fixed steps")

@@ -93,13 +93,12 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let orbit = Orbit { e: 0.95 };
     let leapfrog = logarithmic_hamiltonian(job, orbit, 25, long)?;
     let [regular, shorter] = each([8, 32], |steps| levi_civita(job, orbit, steps, long))?;
-    let columns =
-        ["method", "e", "steps_per_period", "evaluations_per_period", "energy_error", "position_error"];
     let rows = curves.iter().map(|Curve { contender, e, courses, .. }| {
         let rows = courses.iter().map(|c| [c.steps, c.evaluations, c.energy, c.position]);
         ([CONTENDERS[*contender].0], [*e], rows)
     });
-    job.publish(figure(&curves), curve_table(&columns, rows)?)?;
+    let columns = "method,e,steps_per_period,evaluations_per_period,energy_error,position_error";
+    job.publish(figure(&curves), curve_table(columns, rows))?;
     // Numbers of independent programs.
     let [averaged, variational] = [4, 5].map(|contender| job.only_full(energy(&curves, contender)));
     let references = vec![

@@ -5,7 +5,6 @@
 //! accelerations at each state does neither. The potential is linear, so that RATTLE and the constrained
 //! steps of the trapezoidal and of the midpoint rule are one method, which three codes compute.
 
-use super::rk4::Accelerations;
 use crate::vocabulary::*;
 
 /// How many links there are, and the angle of the last one at the start.
@@ -51,8 +50,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         .whole()
     })?;
     let all = [trapezoid, midpoint, rattle, rk4(job, span)?];
-    let table = magnitude_table(&["method", "t", "energy", "length", "velocity_along"], &all)?;
-    job.publish(figure(&all, span.end)?, table)?;
+    job.publish(figure(&all, span.end)?, magnitude_table("method,t,energy,length,velocity_along", &all))?;
     let [energy, length, along] = &all[3].kept;
     let of_constrained = |k: usize| largest(all[..3].iter().map(|series| series.kept[k].largest));
     let growth = largest(all[..3].iter().map(|series| series.kept[0].growth()));
@@ -141,7 +139,7 @@ fn figure(all: &[Motion; 4], end: f64) -> Result<Figure> {
     let energy = panel(["Energy", "largest |*E* − *E*(0)|"], [1e-9, 1e-3], 0);
     let lengths = panel(["Lengths of the rods", "largest relative deviation"], [1e-16, 1.0], 1);
     let along = panel(["Velocities along the rods", "largest difference at the ends"], [1e-18, 1e-2], 2);
-    let axes = (Axis::linear("*x*"), Axis::linear("*y*").within(-1.02, 0.02));
+    let axes = (Axis::linear("*x*"), Axis::linear("*y*").within([-1.02, 0.02]));
     let shapes = shapes(bent(&PENDULUM).run(trapezoid(), H)?, 250.0, |state| state.r)?;
     let half_a_swing = Panel::new("The pendulum over half a swing", axes.0, axes.1).equal();
     let half_a_swing = half_a_swing.each(shapes, |panel, (t, colour, line)| {

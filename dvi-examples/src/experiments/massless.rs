@@ -20,21 +20,23 @@ type Parasite = (Series<0>, Points);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
-    job.expect(3 * steps + STEPS.map(|h| (END / h) as u64).iter().sum::<u64>());
     let span = Span { intervals: 100, ..Span::of(steps, H, 2000) };
     let (along_x, symmetric) = (Problem::new(&ALONG_X, START), Problem::new(&SYMMETRIC, START));
-    let (one_step, projected) =
-        (along_x.run(OneStep::midpoint(), H)?, symmetric.run(Projected::symmetric(), H)?);
     let all = [
-        job.energy(("along *x*, one step", solid(BLUE)), one_step, span, 200),
-        job.energy(("symmetric, projected", solid(GREEN)), projected, span, 200),
+        job.energy(("along *x*, one step", solid(BLUE)), along_x.run(OneStep::midpoint(), H)?, span, 200),
+        job.energy(
+            ("symmetric, projected", solid(GREEN)),
+            symmetric.run(Projected::symmetric(), H)?,
+            span,
+            200,
+        ),
         job.energy(("RK4", dashed(SLATE)), symmetric.run(RungeKutta::classical(), H)?, span, 200),
     ];
     let all = each(all, Series::whole)?;
     let strokes = [solid(VERMILLION), dashed(GREEN), dashed(SLATE)];
     let parasites = each([0, 1, 2], |k: usize| parasite(job, STEPS[k], strokes[k]))?;
     let errors = all.iter().map(|series| {
-        let rows = series.kept[0].envelope.band().into_iter();
+        let rows = series.kept[0].band().into_iter();
         (series.name.clone(), rows.map(|row| row.map(Some)).collect())
     });
     let modes = parasites.iter().map(|(series, amplitudes)| {
@@ -42,7 +44,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         (format!("parasitic mode, {}", series.name), rows.collect())
     });
     let curves = errors.chain(modes).map(|(name, rows): (_, Vec<_>)| ([name], [], rows));
-    let table = curve_table(&["series", "t", "amplitude or lowest ΔH", "highest ΔH"], curves)?;
+    let table = curve_table("series,t,amplitude or lowest ΔH,highest ΔH", curves);
     job.publish(figure(&all, &parasites, span.end), table)?;
     let [one_step, projected, rk4] = all.each_ref().map(|series| series.kept[0].growth());
     let flat = beyond("the energy error is no larger in the whole run than in its beginning")
@@ -68,8 +70,7 @@ fn same_motion() -> Result<Claim> {
 }
 
 fn parasite(job: &Job<'_>, h: f64, stroke: Stroke) -> Result<Parasite> {
-    let method = Sigma { parasitic_limit: None, ..Sigma::midpoint() };
-    let mut run = Problem::new(&SYMMETRIC, START).run(method, h)?;
+    let mut run = Problem::new(&SYMMETRIC, START).run(unwatched(Sigma::midpoint()), h)?;
     let (mut filter, mut amplitudes) = (AlternatingComponent::new(&SYMMETRIC), vec![]);
     let span = Span { end: END, early: END, intervals: 1 };
     let series = job.series((&format!("h = {h}"), stroke), &mut run, span, |run, path| {

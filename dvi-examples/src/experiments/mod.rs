@@ -44,7 +44,6 @@ mod quasi_periodic;
 mod random_walk;
 mod regularised;
 mod rigid_body;
-mod rk4;
 mod round_off;
 mod schroedinger;
 mod sections;
@@ -165,6 +164,10 @@ pub const ALL: &[Experiment] = &[
     of("three-species", 1.5, "", three_species::run,
         "Of three species one step keeps xyz to rounding, by a coordinate that is conjugate to the Casimir"),
 ];
+
+pub fn names() -> Vec<&'static str> {
+    ALL.iter().map(|experiment| experiment.name).collect()
+}
 
 pub fn title(name: &str) -> &'static str {
     ALL.iter().find(|experiment| experiment.name == name).map_or("", |experiment| experiment.title)

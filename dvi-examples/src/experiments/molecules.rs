@@ -5,7 +5,6 @@
 //! whatever the chain does; with rods the chain sets the length of the steps.
 
 use super::longest_steps::Scans;
-use super::rk4::Accelerations;
 use crate::vocabulary::*;
 
 const MOLECULES: usize = 8;
@@ -38,8 +37,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         rows.map(move |([t, energy], [_, length])| (["over time"], [k, h, t, energy, length].map(Some)))
     });
     let over_step = scans.rows().map(|[k, h, e]| (["over step"], [Some(k), Some(h), None, Some(e), None]));
-    let columns = ["series", "k", "h", "t", "energy", "length"];
-    job.publish(figure([&springs, &rods], &scans, end)?, Table::of(&columns, over_time.chain(over_step))?)?;
+    let table = Table::of("series,k,h,t,energy,length", over_time.chain(over_step));
+    job.publish(figure([&springs, &rods], &scans, end)?, table)?;
     let [steps, same] = scans.claims();
     let undone = rigid.there_and_back(Rattle::default(), H, 400)?;
     let difference = "largest difference of a coordinate or a velocity from the start";
@@ -110,7 +109,7 @@ fn chain() -> Result<Panel> {
     let mut run = Problem::new(&RIGID, RIGID.chain(SPEED)?).run(Rattle::default(), H)?;
     run.take_steps(1000)?;
     let atoms = run.state().r;
-    let centre = [0, 1].map(|i: usize| atoms.iter().map(|atom| atom[i]).sum::<f64>() / atoms.len() as f64);
+    let centre = [0, 1].map(|i: usize| mean(atoms.iter().map(|atom| atom[i])));
     let atoms: Vec<[f64; 2]> = atoms.into_iter().map(|atom| difference(atom, centre)).collect();
     let pairs = (1..MOLECULES).flat_map(|m| [[3 * m - 2, 3 * m], [3 * m - 1, 3 * m + 1]]);
     Ok(Panel::plane(format!("The chain at *t* = {:.0}, about its centre of mass", run.time()), "*x*", "*y*")

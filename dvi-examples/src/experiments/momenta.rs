@@ -23,20 +23,19 @@ const QUANTITIES: [(&str, Colour); 5] = [
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let case = models::quasi_periodic();
-    let start = Start::RungeKutta(RungeKutta::midpoint());
     // What VE2 preserves, it preserves whatever becomes of its parasitic mode.
-    let ve2 = Sigma { start, parasitic_limit: None, ..Sigma::leapfrog() };
+    let ve2 = unwatched(begun_by_rk2(0.0));
     let all = [
         drifts(&case, "VI2 (σ = ½)", Sigma::midpoint(), two_step)?,
-        drifts(&case, "σ = ½, RK2 start", Sigma { start, ..Sigma::midpoint() }, two_step)?,
-        drifts(&case, "σ = ¼", Sigma { start, ..Sigma::new(0.25) }, two_step)?,
+        drifts(&case, "σ = ½, RK2 start", begun_by_rk2(0.5), two_step)?,
+        drifts(&case, "σ = ¼", begun_by_rk2(0.25), two_step)?,
         drifts(&case, "VE2 (σ = 0)", ve2, two_step)?,
         drifts(&case, "RK2", RungeKutta::midpoint(), one_step)?,
         drifts(&case, "RK4", RungeKutta::classical(), one_step)?,
         drifts(&case, "Gauss, order 4", Gauss::<2>::new(), one_step)?,
     ];
-    let columns = ["scheme", "sum_gamma_x", "sum_gamma_y", "sum_gamma_z2", "J_d", "two_form"];
-    job.publish(figure(&all), Table::of(&columns, all.iter().map(|(scheme, of)| ([*scheme], *of)))?)?;
+    let columns = "scheme,sum_gamma_x,sum_gamma_y,sum_gamma_z2,J_d,two_form";
+    job.publish(figure(&all), Table::of(columns, all.iter().map(|(scheme, of)| ([*scheme], *of))))?;
     let [vi2, started, quarter, ve2, rk2, rk4, gauss] = &all;
     let most = |all: &[Drifts], quantity: usize| largest(all.iter().filter_map(|(_, of)| of[quantity]));
     let [angular, two_form] = [ANGULAR, 4].map(|quantity| move |(_, of): &Drifts| of[quantity]);
@@ -136,7 +135,7 @@ fn figure(all: &[Drifts]) -> Figure {
     const SMALLEST: f64 = 1e-17;
     let names = all.iter().rev().map(|(scheme, _)| (*scheme).to_owned()).collect();
     let label = "largest deviation from the initial value; of the two-form, largest change in a step";
-    let drift = Axis::logarithmic(label).within(0.5 * SMALLEST, 10.0);
+    let drift = Axis::logarithmic(label).within([0.5 * SMALLEST, 10.0]);
     let empty = Panel::new("Deviations over 1000 steps", drift, Axis::names("", names));
     let panel = empty.each(QUANTITIES.into_iter().enumerate(), |panel, (i, (name, colour))| {
         let lift = 0.3 - 0.15 * i as f64;

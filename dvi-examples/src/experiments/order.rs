@@ -38,7 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             ([problem], [*sigma], errors.iter().map(move |(h, error)| [*h, *error, *order]))
         })
     });
-    job.publish(figure(&rows), curve_table(&["problem", "sigma", "h", "error", "fitted_order"], curves)?)?;
+    job.publish(figure(&rows), curve_table("problem,sigma,h,error,fitted_order", curves))?;
     let notes = rows.iter().map(|(sigma, _, [linear, vortices])| {
         format!("σ = {sigma:.4}: order {linear:.3} linear, {vortices:.3} vortices.")
     });
@@ -104,7 +104,8 @@ fn figure(rows: &[Row]) -> Figure {
     let linear = Panel::new("Linear: *z*' = i*z*, *t* = 10", h, error).marked(errors(0, |_, error| error));
     let linear = slope(slope(linear, 2, [0.0125, 3e-3]), 4, [0.025, 2e-9]);
     // Error/h², which second order makes flat: the curves of the errors themselves lie on each other.
-    let (h, y) = (Axis::logarithmic("step *h*").within(1e-3, 0.1), Axis::linear("error at the end / *h*²"));
+    let (h, y) =
+        (Axis::logarithmic("step *h*").within([1e-3, 0.1]), Axis::linear("error at the end / *h*²"));
     let vortices = Panel::new("Four vortices, *t* = 4", h, y).marked(errors(1, |h, error| error / (h * h)));
     let orders = |problem| rows.iter().map(|row| [row.0, row.2[problem]]).collect::<Vec<_>>();
     let over_sigma = Panel::linear("Order over σ", ("σ", [-0.05, 1.05]), ("fitted order", [1.0, 5.0]))

@@ -53,8 +53,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         [(["recursion error", name], [], recursion.clone()), (["momentum factor", name], [], factor.clone())]
     });
     let curves = given.iter().map(|(name, _, all)| (["error from velocities", *name], [], all.clone()));
-    let table = curve_table(&["quantity", "rule", "u", "value"], of_rules.chain(curves))?;
-    job.publish(figure(&rows, &given, many), table)?;
+    job.publish(figure(&rows, &given, many), curve_table("quantity,rule,u,value", of_rules.chain(curves)))?;
     // Numbers of independent programs.
     let [midpoint, simpson] = [0, 2].map(|rule| at_one(&rows[rule].3));
     let references = vec![

@@ -16,7 +16,6 @@ type Circles = Vec<Points>;
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
-    job.expect(3 * steps);
     let (begin, span) = (Problem::new(&SYSTEM, START), Span::of(steps, H, 1000));
     let runs = [
         (("one step, midpoint", solid(BLUE)), begin.run(OneStep::midpoint(), H)?),
@@ -26,11 +25,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let all = each(runs, |(named, run)| job.energy(named, run, span, 0).whole())?;
     let leapfrog = circles(OneStep::trapezoid(), 100, 8)?;
     let errors = all.iter().flat_map(|Series { name, kept, .. }| {
-        kept[0].envelope.band().into_iter().map(move |row| ([name.as_str()], row))
+        kept[0].band().into_iter().map(move |row| ([name.as_str()], row))
     });
     let circles = leapfrog.iter().zip(0..);
     let points = circles.flat_map(|(c, t)| c.iter().map(move |&[x, p]| (["circle"], [f64::from(t), x, p])));
-    let table = Table::of(&["series", "t", "x or lowest ΔH", "p or highest ΔH"], errors.chain(points))?;
+    let table = Table::of("series,t,x or lowest ΔH,p or highest ΔH", errors.chain(points));
     job.publish(figure(&all, &leapfrog, span.end), table)?;
     let text = "the energy error of one-step schemes is no larger in the whole run than in its beginning";
     let growth = |series: &Series<1>| format!("{}: max|ΔH| over all / over 1000 steps", series.name);

@@ -37,8 +37,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     };
     let all = long.both("geodesics", BODY, &start, kept)?;
     let flips = each(STEPS, |h| Flips::new(&wave, h, job.choose(20.0, 1.5)))?;
-    let columns = ["method", "t", "largest_energy_error", "largest_change_of_momentum", "largest_defect"];
-    job.publish(figure(&all, &wave, long)?, magnitude_table(&columns, &all)?)?;
+    let columns = "method,t,largest_energy_error,largest_change_of_momentum,largest_defect";
+    job.publish(figure(&all, &wave, long)?, magnitude_table(columns, &all))?;
     let [rk4, geodesics] = all.each_ref().map(|series| &series.kept);
     let ([_, space, defect, body], walk) = (geodesics, long.random_walk());
     let keeps = "a free body keeps its angular momentum in space, in length and in direction, up to errors \

@@ -43,8 +43,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let curves = CASES.iter().zip(&pairs).flat_map(|((name, ..), pair)| {
         ["plain", "compensated"].into_iter().zip(pair).map(move |(sums, of)| ([*name, sums], [], of.clone()))
     });
-    let table = curve_table(&["quantity", "sums", "steps", "error"], curves)?;
-    job.publish(figure(&pairs, steps as f64), table)?;
+    job.publish(figure(&pairs, steps as f64), curve_table("quantity,sums,steps,error", curves))?;
     let cases = || CASES.iter().zip(&pairs);
     let growth = "with compensated sums the errors of the energy of oscillators grow with √n over 10⁸ \
                   steps, as independent ones do";
@@ -64,8 +63,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 /// The errors of the run of a case that begins at its own angle, with so many looks.
 fn errors(job: &Job<'_>, case: usize, summation: Summation, run: usize, looks: u64) -> Result<Points> {
     let (sin, cos) = (0.2 + 1.1 * run as f64).sin_cos();
-    let (midpoint, verlet) =
-        (Sigma { summation, ..Sigma::midpoint() }, Variational { summation, ..Variational::trapezoid() });
+    let midpoint = Sigma { summation, ..Sigma::midpoint() };
+    let verlet = Variational { summation, ..Variational::trapezoid() };
     match case {
         0 => {
             let start = RotationState { x: cos, y: sin };

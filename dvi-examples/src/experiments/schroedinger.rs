@@ -33,7 +33,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let sum = |values: &Amplitudes| values.iter().sum::<f64>();
     let all = each(runs, |(named, mut run)| -> Result<Excitation> {
         let (energy, mut profiles) = (run.energy(), [densities(run.q()); 2]);
-        let mut kept = Span { end: periods as f64, early: 100.0, intervals: 400 }.deviations();
+        let mut kept = Span { end: periods as f64, early: 100.0, intervals: 400 }.envelopes();
         job.follow(&mut run, periods * STEPS, |run| {
             let densities = densities(run.q());
             let sites = sum(&densities).powi(2) / sum(&densities.map(|density| density * density));
@@ -43,9 +43,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         })?;
         Ok((Series::new(named, H, kept), profiles))
     })?;
-    let columns = ["series", "quantity", "period", "lowest", "mean", "highest"];
-    let table = range_table(&columns, &["sites", "ΔN/N", "ΔH/H"], all.iter().map(|(series, _)| series))?;
-    job.publish(figure(&all, periods as f64), table)?;
+    let (series, quantities) = (all.iter().map(|(series, _)| series), ["sites", "ΔN/N", "ΔH/H"]);
+    job.publish(figure(&all, periods as f64), range_table("series,quantity,period", &quantities, series))?;
     let [[sites, norm, energy], [_, of_rk4, _], [weak, ..]] = all.each_ref().map(|(series, _)| &series.kept);
     let kept =
         "the one-step midpoint scheme keeps the norm to rounding errors, and the energy error does not grow";
@@ -103,7 +102,7 @@ fn figure(all: &[Excitation; 3], periods: f64) -> Figure {
     let time = ("time *t*   [periods 2π/*ω*]", [0.0, periods]);
     let sites = ("(Σ|*ψ*|²)² / Σ|*ψ*|⁴, mean of each interval", [0.0, SITES as f64]);
     let sites = Panel::linear("Excited sites", time, sites)
-        .lines([one_step, weak].map(|series| series.line(series.kept[0].envelope.mean())));
+        .lines([one_step, weak].map(|series| series.line(series.kept[0].mean())));
     let error = ("largest relative error of each interval", [1e-16, 10.0]);
     let errors = Panel::semilog("Errors of the norm and of the energy", time, error).lines([
         ("one step: *H*", solid(BLUE), one_step.kept[2].magnitude()),

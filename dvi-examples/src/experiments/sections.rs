@@ -52,14 +52,15 @@ pub fn figure(
     end: f64,
     panel: impl Fn(&Crossings) -> Panel,
 ) -> Figure {
-    let time = Axis::linear("time *t*   [*L*²/Γ]").within(0.0, end);
+    let time = Axis::linear("time *t*   [*L*²/Γ]").within([0.0, end]);
     let largest = "Largest error of the Hamiltonian in each interval of time";
     let lines = all.iter().zip([BLUE, GREEN, VERMILLION].into_iter().cycle()).map(|(run, colour)| {
         let stroke = if run.scheme == Scheme::Vi2 { solid(colour) } else { dashed(colour) };
-        (run.title(), stroke, run.error.envelope.magnitude())
+        (run.title(), stroke, run.error.magnitude())
     });
     let energy = Panel::new(largest, time, Axis::logarithmic("|*H*(*t*) − *H*(0)|   [Γ²]")).lines(lines);
-    Figure::new(title, subtitle)
+    Figure::of(subtitle)
+        .titled(title)
         .sequence_key("colour: *t* = 0", format!("*t* = {}", scientific(end)))
         .row(370.0, all[..3].iter().map(&panel).collect())
         .row(370.0, all[3..].iter().map(&panel).collect())
@@ -76,5 +77,5 @@ pub fn notes(all: &[Crossings]) -> Vec<String> {
 
 pub fn table(all: &[Crossings]) -> Result<Table> {
     let curves = all.iter().map(|run| ([run.scheme.name()], [run.h], thin(&run.points, SHOWN)));
-    curve_table(&["scheme", "h", "t", "R1", "P1"], curves)
+    curve_table("scheme,h,t,R1,P1", curves)
 }

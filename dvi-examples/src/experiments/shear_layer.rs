@@ -25,7 +25,7 @@ struct RollUp {
     /// Places of the blobs at the times that the figure shows.
     snapshots: Vec<VortexBlobsState>,
     /// Relative changes of H, ΣΓx and ΣΓy over the sum of |Γ| times the length, and of ΣΓ|z|².
-    kept: [Deviation; 3],
+    kept: [Envelope; 3],
     /// Evaluations of the gradient in a step, and the error of the forces at the start and at the end.
     evaluations: f64,
     errors: [f64; 2],
@@ -44,8 +44,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let counts = operations.iter().flat_map(|&(blobs, pairs, products)| {
         [("pairs", pairs), ("products", products)].map(|(name, n)| ([name], [blobs as f64, n as f64]))
     });
-    let table = Table::of(&["quantity", "t_or_blobs", "value"], kept.chain(counts))?;
-    job.publish(figure(&rolled, &operations), table)?;
+    job.publish(figure(&rolled, &operations), Table::of("quantity,t_or_blobs,value", kept.chain(counts)))?;
     let [energy, impulse, angular] = rolled.kept.each_ref().map(|kept| kept.largest);
     let [at_start, at_end] = rolled.errors;
     let total = |&(blobs, pairs, products): &Operations| (blobs as f64, (pairs + products) as f64);
@@ -82,7 +81,7 @@ impl RollUp {
         let mut run = Integrator::new(&fast, method(), H, layer.state())?;
         let (energy, before, mut snapshots) = (run.energy(), momenta(&run), vec![]);
         let end = SHOWN[2] as f64 * H;
-        let mut kept = Span { end, early: end, intervals: SHOWN[2] as usize }.deviations();
+        let mut kept = Span { end, early: end, intervals: SHOWN[2] as usize }.envelopes();
         for step in 1..=SHOWN[2] {
             run.advance()?;
             job.proceed(1);

@@ -1,7 +1,6 @@
 //! A sleigh on a blade, which turns around and ends in straight motion: to that no symplectic map could
 //! lead.
 
-use super::rk4::rk4;
 use crate::vocabulary::*;
 
 const SLEIGH: ChaplyginSleigh = ChaplyginSleigh { inertia: 1.0, a: 0.5 };

@@ -28,10 +28,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         (("RK4", dashed(VERMILLION)), three.run(RungeKutta::classical(), H)?),
     ];
     let all = each(runs, |(named, mut run)| {
-        let (energy, start) = (run.energy(), moment(&THREE, run.q()));
+        let of_three = |run: &AnyRun<'_, _>| moment(THREE.gamma, THREE.places(run.q()));
+        let (energy, start) = (run.energy(), of_three(&run));
         let (mut before, mut turned) = (start, 0.0);
         job.series(named, &mut run, span, |run, path| {
-            let moment = moment(&THREE, run.q());
+            let moment = of_three(run);
             if run.steps() <= 400 {
                 path.extend(THREE.places(run.q()).map(|[x, y, _]| [x, y]));
             }
@@ -42,8 +43,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         })
         .whole()
     })?;
-    let columns = ["method", "quantity", "t", "lowest", "mean", "highest"];
-    job.publish(figure(&all, span.end), range_table(&columns, &["ΔH", "Δ|M|/|M|", "angle of M"], &all)?)?;
+    let table = range_table("method,quantity,t", &["ΔH", "Δ|M|/|M|", "angle of M"], &all);
+    job.publish(figure(&all, span.end), table)?;
     claims([keep(&all), precession()?, pair()?, ring()?, vectors()?])
 }
 
@@ -51,9 +52,14 @@ fn three() -> Problem<'static, SphereVortices<3>> {
     Problem::new(&THREE, SphereVortices::state(PLACES))
 }
 
-fn moment<const N: usize>(vortices: &SphereVortices<N>, q: &[f64]) -> [f64; 3] {
-    let places = vortices.places(q);
-    std::array::from_fn(|i| vortices.gamma.iter().zip(places).map(|(gamma, place)| gamma * place[i]).sum())
+fn moment<const N: usize>(gamma: [f64; N], places: [[f64; 3]; N]) -> [f64; 3] {
+    std::array::from_fn(|i| gamma.iter().zip(places).map(|(gamma, place)| gamma * place[i]).sum())
+}
+
+/// The moment of a pair, and the rate at which the pair turns around it.
+fn turning(gamma: [f64; 2], places: [[f64; 3]; 2]) -> ([f64; 3], f64) {
+    let moment = moment(gamma, places);
+    (moment, length(moment) / (TAU * length(difference(places[0], places[1])).powi(2)))
 }
 
 /// By what angle a vector has turned around the z axis, less than half a turn.
@@ -76,7 +82,8 @@ fn keep(all: &[Kept; 3]) -> Claim {
 /// The angle by which M has turned at t = 400, over the step.
 fn precession() -> Result<Claim> {
     let begin = three().run(OneStep::midpoint(), H)?;
-    let angle = |q: &[f64]| angle(moment(&THREE, begin.q()), moment(&THREE, q)).abs();
+    let of_three = |q: &[f64]| moment(THREE.gamma, THREE.places(q));
+    let angle = |q: &[f64]| angle(of_three(begin.q()), of_three(q)).abs();
     let angles = three().errors(400.0, &[400, 600, 800], angle);
     let (midpoint, gauss) = (OneStep::midpoint(), OneStepGauss::<2>::new());
     let text = "the moment turns slowly around the axis of the coordinates, at a rate that falls with the \
@@ -102,8 +109,8 @@ fn pair() -> Result<Claim> {
     let pair = SphereVortices { gamma: [1.0, 2.0] };
     let motion = Problem::new(&pair, SphereVortices::state([[0.8, 0.3, 0.2], [-0.3, 0.5, 0.6]]));
     let begin = motion.run(OneStep::midpoint(), H)?;
-    let (places, axis) = (pair.places(begin.q()), moment(&pair, begin.q()));
-    let rate = length(axis) / (TAU * length(difference(places[0], places[1])).powi(2));
+    let places = pair.places(begin.q());
+    let (axis, rate) = turning(pair.gamma, places);
     let distance = |q: &[f64]| away(pair.places(q), places, axis, rate * 40.0);
     let errors = motion.errors(40.0, &[100, 150, 200], distance).of(OneStep::midpoint())?;
     Ok(beyond("a pair turns around its moment with the rate |M|/2πl², to the order of the scheme")
@@ -131,9 +138,7 @@ fn vectors() -> Result<Claim> {
     let three = VortexVectors { gamma: THREE.gamma };
     let begin = PLACES.map(|place| place.map(|x| x / length(place)));
     let mut run = Problem::new(&three, (begin,)).run(Sigma::midpoint(), H)?;
-    let of = |q: &[f64]| -> [f64; 3] {
-        std::array::from_fn(|i| three.gamma.iter().zip(three.places(q)).map(|(gamma, r)| gamma * r[i]).sum())
-    };
+    let of = |q: &[f64]| moment(three.gamma, three.places(q));
     let (start, mut moved, mut off) = (of(run.q()), 0.0_f64, 0.0_f64);
     for _ in 0..100 {
         run.take_steps(200)?;
@@ -142,8 +147,7 @@ fn vectors() -> Result<Claim> {
     }
     let pair = VortexVectors { gamma: [1.0, 2.0] };
     let places = [[0.6, 0.0, 0.8], [0.0, 0.0, 1.0]];
-    let axis = [0, 1, 2].map(|i| places[0][i] + 2.0 * places[1][i]);
-    let rate = length(axis) / (TAU * length(difference(places[0], places[1])).powi(2));
+    let (axis, rate) = turning(pair.gamma, places);
     let distance = |q: &[f64]| away(pair.places(q), places, axis, rate * 40.0);
     let errors = Problem::new(&pair, (places,)).errors(40.0, &[400, 600, 800], distance);
     let errors = errors.of(Sigma::midpoint())?;

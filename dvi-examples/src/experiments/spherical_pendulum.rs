@@ -37,9 +37,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     };
     let [rk4, great_circles] = long.both("great circles", PENDULUM, &begin(), kept)?;
     let all = [rk4, long.watch(("RATTLE", solid(GREEN)), later, kept)?, great_circles];
-    let columns =
-        ["method", "t", "largest_energy_error", "largest_change_of_length", "largest_change_of_momentum"];
-    job.publish(figure(&all, long)?, magnitude_table(&columns, &all)?)?;
+    let columns = "method,t,largest_energy_error,largest_change_of_length,largest_change_of_momentum";
+    job.publish(figure(&all, long)?, magnitude_table(columns, &all))?;
     let end = job.choose(400.0, 25.0);
     let by_arcs = each(STEPS, |h| {
         let run = arcs.run(Geodesic::trapezoid(), h)?;
@@ -85,7 +84,7 @@ fn begin() -> SphericalPendulumState {
     SphericalPendulum::hanging(0.8, [0.3, 0.35])
 }
 
-fn rounding(long: Long<'_>, arcs: &[Deviation; 3], chords: &[Deviation; 3]) -> Claim {
+fn rounding(long: Long<'_>, arcs: &[Envelope; 3], chords: &[Envelope; 3]) -> Claim {
     let text = "unit vectors have the length one to a few units of rounding for the whole run; the \
                 momentum about the vertical is kept up to errors no larger than a unit of rounding times \
                 the square root of the number of steps, and by RATTLE up to what the errors of the length \
@@ -100,7 +99,7 @@ fn rounding(long: Long<'_>, arcs: &[Deviation; 3], chords: &[Deviation; 3]) -> C
         .at_most(format!("RATTLE: {momentum}"), chords[2].largest, steps * chords[1].largest)
 }
 
-fn loses(job: &Job<'_>, [energy, length, vertical]: &[Deviation; 3], arcs: &[Deviation; 3]) -> Claim {
+fn loses(job: &Job<'_>, [energy, length, vertical]: &[Envelope; 3], arcs: &[Envelope; 3]) -> Claim {
     let text =
         "RK4 on s and its rate leaves the sphere, and loses energy and momentum in proportion to the time";
     let over = |kept: usize, factor: f64| factor * arcs[kept].largest;

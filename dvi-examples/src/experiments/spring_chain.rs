@@ -41,11 +41,11 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             })
         },
     );
-    let columns = ["series", "h", "t", "energy_error", "first", "second", "third"];
     let rows = over_time.chain(of_springs).map(|(name, numbers)| ([name], numbers));
-    job.publish(figure(&series, &motion, &exchanges, &long, end), Table::of(&columns, rows)?)?;
+    let table = Table::of("series,h,t,energy_error,first,second,third", rows);
+    job.publish(figure(&series, &motion, &exchanges, &long, end), table)?;
     let [energies, sums] = [0, 1].map(|k: usize| newmark.each_ref().map(|(series, _)| &series.kept[k]));
-    let growth = job.only_full(largest(energies.map(Deviation::growth)));
+    let growth = job.only_full(largest(energies.map(Envelope::growth)));
     let trend = job.only_full(largest(sums.map(|sum| sum.drift().abs())));
     let trends = "all β: difference of the means of I in the last and the first tenth of the run";
     let flat = "hω = 1: the energy of Newmark's method does not drift; its error is the smaller, the nearer \

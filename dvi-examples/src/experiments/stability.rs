@@ -16,10 +16,6 @@ const LARGE: f64 = 1e8;
 const DAMPED: [[f64; 2]; 5] = [[-1.0, 1.0], [-1.0, 0.0], [-0.1, 0.5], [-0.1, 0.3], [-10.0, 3.0]];
 const FEW: usize = 1000;
 
-fn unlimited(sigma: f64) -> Sigma {
-    Sigma { parasitic_limit: None, ..Sigma::new(sigma) }
-}
-
 /// The limit of |λh| on the imaginary axis.
 fn formula(sigma: f64) -> f64 {
     1.0 / (1.0 - 2.0 * sigma).abs()
@@ -27,10 +23,8 @@ fn formula(sigma: f64) -> f64 {
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(40_000, 8_000);
-    // A bisection takes some 32 runs.
-    job.expect(steps * (3 + 32 * SIGMAS.len() as u64));
-    let measured = SIGMAS.par_iter().map(|&s| Ok([s, limit(job, s, steps)?])).collect::<Result<Points>>()?;
-    let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(job, 0.5, 1e3, steps))?;
+    let measured = SIGMAS.par_iter().map(|&s| Ok([s, limit(s, steps)?])).collect::<Result<Points>>()?;
+    let [once, twice] = each([steps, 2 * steps], |steps| largest_amplitude(0.5, 1e3, steps))?;
     let damped = SIGMAS.into_iter().chain([0.5]).flat_map(|sigma| DAMPED.map(|lambda| (sigma, lambda)));
     let damped = damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<Vec<_>>>()?;
     let right = Damped::new(0.5, [0.01, 1.0])?.factor;
@@ -38,8 +32,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let growths = damped
         .iter()
         .map(|run| (["growth per step"], [run.sigma, run.lambda[0], run.lambda[1], run.factor, run.root()]));
-    let columns = ["quantity", "sigma", "lambda_h_real", "lambda_h_imaginary", "measured", "formula"];
-    job.publish(figure(&measured, &damped), Table::of(&columns, limits.chain(growths))?)?;
+    let columns = "quantity,sigma,lambda_h_real,lambda_h_imaginary,measured,formula";
+    job.publish(figure(&measured, &damped), Table::of(columns, limits.chain(growths)))?;
 
     let (half, others): (Vec<_>, Vec<_>) = damped.iter().partition(|run| run.sigma == 0.5);
     let away = others.iter().map(|run| (run.factor - run.root()).abs());
@@ -66,8 +60,8 @@ fn deviation(measured: &[[f64; 2]]) -> f64 {
 }
 
 /// The largest ω at which runs with h = 1 stay bounded.
-fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
-    let is_stable = |omega: f64| anyhow::Ok(largest_amplitude(job, sigma, omega, steps)? < LARGE);
+fn limit(sigma: f64, steps: u64) -> Result<f64> {
+    let is_stable = |omega: f64| anyhow::Ok(largest_amplitude(sigma, omega, steps)? < LARGE);
     let (mut low, mut high) = (0.0, 0.5);
     while is_stable(high)? {
         (low, high) = (high, 2.0 * high);
@@ -80,10 +74,10 @@ fn limit(job: &Job<'_>, sigma: f64, steps: u64) -> Result<f64> {
 }
 
 /// max |z| over a run with h = 1 from 1 and from a second point that excites both modes.
-fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Result<f64> {
+fn largest_amplitude(sigma: f64, omega: f64, steps: u64) -> Result<f64> {
     let rotation = Rotation { omega };
     let [first, second] = [0.0, omega.min(1.0)].map(|a| RotationState { x: a.cos(), y: a.sin() });
-    let mut run = Integrator::from_two_points(&rotation, unlimited(sigma), 1.0, first, second)?;
+    let mut run = Integrator::from_two_points(&rotation, unwatched(Sigma::new(sigma)), 1.0, first, second)?;
     let mut largest = 0.0f64;
     for _ in 0..steps {
         // Once it is large enough to be called unstable, or ended, there is no need to go on to infinity.
@@ -93,7 +87,6 @@ fn largest_amplitude(job: &Job<'_>, sigma: f64, omega: f64, steps: u64) -> Resul
         }
         largest = run.q().iter().fold(largest, |largest, q| larger(q.abs(), largest));
     }
-    job.proceed(steps);
     Ok(largest)
 }
 
@@ -111,7 +104,8 @@ impl Damped {
     fn new(sigma: f64, lambda: [f64; 2]) -> Result<Self> {
         let [first, second] = [[1.0, 0.0], [0.0, 1.0]].map(|z| LinearState { z, w: [0.0; 2] });
         let system = Linear { real: lambda[0], imaginary: lambda[1] };
-        let mut run = Integrator::from_two_points(&system, unlimited(sigma), 1.0, first, second)?;
+        let mut run =
+            Integrator::from_two_points(&system, unwatched(Sigma::new(sigma)), 1.0, first, second)?;
         let (mut sizes, mut before) = (vec![1.0f64], 1.0f64);
         while sizes.len() <= FEW && before < 1e60 && run.advance().is_ok() {
             // Two points, so that no oscillation is mistaken for decay.

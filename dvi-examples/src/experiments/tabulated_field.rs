@@ -25,7 +25,6 @@ type Differences = (Points, f64);
 
 pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 10_000);
-    job.expect(steps);
     let exact = TokamakInClass { q: Q, mu: MU };
     let paths = each(RADII, |r| path(&exact, TokamakInClassState { r, theta: 0.0, phi: 0.0, u: VELOCITY }))?;
     let by_cubic = |n| TabulatedTokamak::sampled(Q, MU, n, |axes, of| Ok(Spline::sample(axes, of)?));
@@ -39,7 +38,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let series = job.series(named, &mut run, span, |run, _| [(run.energy() - begin) / begin]).whole()?;
     let both = [("cubic splines", &cubic.0), ("quintic splines", &quintic.0)];
     let curves = both.map(|(name, of_grids)| ([name], [], of_grids.iter().copied()));
-    let table = curve_table(&["spline", "intervals", "difference"], curves)?;
+    let table = curve_table("spline,intervals,difference", curves);
     job.publish(figure(&cubic, &quintic, &series, span.end), table)?;
     let quantity = format!("cubic, {COARSE} intervals: max|ΔH| over all / over {EARLY} steps");
     let kept = "the energy of a table is kept as that of a formula is";
@@ -78,7 +77,7 @@ fn differences<F: ScalarField<2>>(
         let system = sampled(n)?;
         let paths = each(RADII, |r| path(&system, start(r)))?;
         let squares = paths.iter().zip(orbits).map(|(path, orbit)| difference(path, orbit).powi(2));
-        Ok([n as f64, (squares.sum::<f64>() / RADII.len() as f64).sqrt()])
+        Ok([n as f64, mean(squares).sqrt()])
     })?;
     let falls = order(of_grids.iter().map(|&[n, apart]| (n, apart))).context("differences that fall")?;
     Ok((of_grids.into(), -falls))

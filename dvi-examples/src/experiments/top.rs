@@ -46,8 +46,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             Sample { height, rate, energy, shift: TOP.shift(&state) }
         })
     })?;
-    let table = magnitude_table(&["method", "t", "largest_energy_error", "largest_defect"], &all)?;
-    job.publish(figure(&all, long)?, table)?;
+    job.publish(figure(&all, long)?, magnitude_table("method,t,largest_energy_error,largest_defect", &all))?;
     let [rk4, geodesics] = all.each_ref().map(|series| &series.kept);
     let text = "the energy error of a heavy top has no trend, and is that of the closed form all the time";
     // The largest that h²g makes of it, by the run with the same step.
@@ -70,7 +69,7 @@ fn energy(heights: &Heights) -> f64 {
     heights.energy + heights.spin * heights.spin / (2.0 * TOP.along)
 }
 
-fn rounding(long: Long<'_>, [_, defect, spin, vertical]: &[Deviation; 4]) -> Claim {
+fn rounding(long: Long<'_>, [_, defect, spin, vertical]: &[Envelope; 4]) -> Claim {
     let text = "the matrices of a heavy top are orthogonal to a few units of rounding for the whole run; \
                 its momenta are kept up to errors no larger than a unit of rounding times the square root \
                 of the number of steps";
@@ -82,7 +81,7 @@ fn rounding(long: Long<'_>, [_, defect, spin, vertical]: &[Deviation; 4]) -> Cla
         .at_most("geodesics: max|RᵀR − 1|", defect.largest, FEW_UNITS)
 }
 
-fn shrinks(long: Long<'_>, [energy, defect, ..]: &[Deviation; 4], by_geodesics: f64) -> Claim {
+fn shrinks(long: Long<'_>, [energy, defect, ..]: &[Envelope; 4], by_geodesics: f64) -> Claim {
     // ω at the start; the precession makes the entries of the matrix a little slower or faster than that.
     let [dot_theta, dot_phi, spinning] = RATES;
     let square = dot_theta.powi(2) + (dot_phi * LEANING.sin()).powi(2) + spinning.powi(2);

@@ -35,14 +35,13 @@ pub fn up_and_down<R: Run<Scalar = f64>>(
     let (found, roots) = (turnings(h, &samples), heights.extremes());
     let extremes = [0, 1].map(|side| {
         let (root, found) = (roots[side], &found[side]);
-        let mean =
-            |of: &dyn Fn([f64; 2]) -> f64| found.iter().copied().map(of).sum::<f64>() / found.len() as f64;
+        let over_all = |of: &dyn Fn([f64; 2]) -> f64| mean(found.iter().copied().map(of));
         Extreme {
             h,
             count: found.len(),
-            mean: mean(&|[height, _]| height - root),
+            mean: over_all(&|[height, _]| height - root),
             largest: largest(found.iter().map(|[height, _]| (height - root).abs())),
-            predicted: mean(&|[_, g]| h * h * (g - samples[0].shift)) / heights.stiffness(root),
+            predicted: over_all(&|[_, g]| h * h * (g - samples[0].shift)) / heights.stiffness(root),
         }
     });
     Ok((extremes, Shadow::of(h, samples.iter().map(|sample| [sample.energy, sample.shift]))))

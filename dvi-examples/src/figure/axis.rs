@@ -20,7 +20,7 @@ impl Axis {
 
     /// The time from 0 to `end`.
     pub fn time(end: f64) -> Self {
-        Self::linear("time *t*").within(0.0, end)
+        Self::linear("time *t*").within([0.0, end])
     }
 
     /// An axis on which 0, 1, 2, … have names.
@@ -30,11 +30,7 @@ impl Axis {
     }
 
     /// Fixes the range; without it the data decide.
-    pub fn within(self, low: f64, high: f64) -> Self {
-        self.range([low, high])
-    }
-
-    pub(super) fn range(self, range: [f64; 2]) -> Self {
+    pub fn within(self, range: [f64; 2]) -> Self {
         Self { range: Some(range), ..self }
     }
 

@@ -24,11 +24,11 @@ use anyhow::Result;
 use crate::output::write_whole;
 
 pub use axis::{Axis, at_most, scientific};
-pub use decimate::{Envelope, thin};
+pub use decimate::thin;
 pub use mark::Fill;
 pub use palette::*;
 pub use panel::{Corner, Line, Panel, Points, Ranged};
-pub use svg::{Anchor, Stroke};
+pub use svg::{Anchor, Stroke, dashed, solid};
 use svg::{Svg, number};
 
 const WIDTH: f64 = 1200.0;
@@ -47,14 +47,10 @@ pub struct Figure {
 }
 
 impl Figure {
-    pub fn new(title: impl Into<String>, subtitle: impl Into<String>) -> Self {
-        let (title, subtitle) = (title.into(), subtitle.into());
-        Self { title, subtitle, footer: String::new(), key: None, rows: Vec::new() }
-    }
-
-    /// A figure that has the title of its experiment.
+    /// A figure that gets its title later.
     pub fn of(subtitle: impl Into<String>) -> Self {
-        Self::new("", subtitle)
+        let [title, footer] = [const { String::new() }; 2];
+        Self { title, subtitle: subtitle.into(), footer, key: None, rows: Vec::new() }
     }
 
     /// Gives it this title if it has none.
@@ -78,15 +74,13 @@ impl Figure {
     }
 
     /// Small print: the source, and what the reader should be warned of.
-    pub fn footer(mut self, text: impl Into<String>) -> Self {
-        self.footer = text.into();
-        self
+    pub fn footer(self, text: impl Into<String>) -> Self {
+        Self { footer: text.into(), ..self }
     }
 
     /// Explains the colours of [`SEQUENCE`], from its first to its last.
-    pub fn sequence_key(mut self, from: impl Into<String>, to: impl Into<String>) -> Self {
-        self.key = Some([from.into(), to.into()]);
-        self
+    pub fn sequence_key(self, from: impl Into<String>, to: impl Into<String>) -> Self {
+        Self { key: Some([from.into(), to.into()]), ..self }
     }
 
     pub fn svg(&self) -> String {
@@ -119,7 +113,7 @@ impl Figure {
         let left = right - step * SEQUENCE.len() as f64;
         for (i, &colour) in SEQUENCE.iter().enumerate() {
             let x = number(left + step * i as f64);
-            svg.stroke(&format!("M{x} {y}h{}", step + 0.5), Stroke::solid(colour).width(12.0));
+            svg.stroke(&format!("M{x} {y}h{}", step + 0.5), solid(colour).width(12.0));
         }
         svg.text("end", [left - 8.0, y + 4.5], from);
         svg.text("", [right + 8.0, y + 4.5], to);
@@ -141,13 +135,14 @@ mod tests {
         let wave = (0..20_000).map(|i| [f64::from(i) * 0.01, 1e-3 * (f64::from(i) * 0.3).sin()]).collect();
         let dots = (0..5_000).map(|i| [f64::from(i).cos(), f64::from(i).sin()]).collect();
         let left = Panel::new("Left", Axis::linear("time *t*"), Axis::linear("*H* < 1 & more"))
-            .line(wave, Stroke::solid(BLUE))
+            .line(wave, solid(BLUE))
             .labelled("a wave");
         let right = Panel::new("Right", Axis::linear("*x*"), Axis::linear("*y*"))
             .dots(dots, 1.0, PURPLE)
             .equal()
             .labelled("a circle");
-        Figure::new("A title", "and more")
+        Figure::of("and more")
+            .titled("A title")
             .row(400.0, vec![left, right])
             .sequence_key("first", "last")
             .footer("source")
@@ -185,11 +180,11 @@ mod tests {
     #[test]
     fn a_figure_without_data_is_still_a_figure() {
         let empty = Panel::new("Empty", Axis::linear("*x*"), Axis::logarithmic("*y*"))
-            .line(vec![[f64::NAN, 1.0]], Stroke::solid(BLUE))
-            .line(vec![[1.0, 2.0], [1.5, 1e40], [2.0, 3.0]], Stroke::solid(BLUE))
+            .line(vec![[f64::NAN, 1.0]], solid(BLUE))
+            .line(vec![[1.0, 2.0], [1.5, 1e40], [2.0, 3.0]], solid(BLUE))
             .band(vec![[1.0, -1.0, f64::INFINITY]], BLUE)
             .dots(vec![], 1.0, PURPLE);
-        let svg = Figure::new("", "").row(300.0, vec![empty]).svg();
+        let svg = Figure::of("").row(300.0, vec![empty]).svg();
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         assert!(raster::png(&svg).is_ok());
     }

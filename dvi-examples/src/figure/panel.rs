@@ -1,10 +1,9 @@
 //! One pair of axes with what is drawn on it.
 
 use super::axis::{Axis, Scale};
-use super::decimate::Envelope;
 use super::mark::{Fill, Frame, Mark};
 use super::palette::{Colour, GRID, PAPER, SLATE};
-use super::svg::{Anchor, Stroke, Svg, number};
+use super::svg::{Anchor, Stroke, Svg, dashed, number, solid};
 
 /// A corner of a panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,8 +31,8 @@ pub struct Panel {
     title: String,
     x: Axis,
     y: Axis,
-    marks: Vec<Mark>,
-    legend: Vec<(usize, String)>,
+    /// Each with its line in the legend, if it has one.
+    marks: Vec<(Mark, Option<String>)>,
     corner: Corner,
     /// The place in data coordinates, the text, and how it hangs there.
     notes: Vec<([f64; 2], String, Anchor, Colour)>,
@@ -62,17 +61,17 @@ impl Panel {
 
     /// Linear axes.
     pub fn linear(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
-        Self::new(title, Axis::linear(x.0).range(x.1), Axis::linear(y.0).range(y.1))
+        Self::new(title, Axis::linear(x.0).within(x.1), Axis::linear(y.0).within(y.1))
     }
 
     /// A logarithmic y axis.
     pub fn semilog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
-        Self::new(title, Axis::linear(x.0).range(x.1), Axis::logarithmic(y.0).range(y.1))
+        Self::new(title, Axis::linear(x.0).within(x.1), Axis::logarithmic(y.0).within(y.1))
     }
 
     /// Logarithmic axes.
     pub fn loglog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
-        Self::new(title, Axis::logarithmic(x.0).range(x.1), Axis::logarithmic(y.0).range(y.1))
+        Self::new(title, Axis::logarithmic(x.0).within(x.1), Axis::logarithmic(y.0).within(y.1))
     }
 
     /// A plane with the coordinates `x` and `y`.
@@ -107,22 +106,24 @@ impl Panel {
         })
     }
 
-    /// The range of a quantity in each interval of time, and its mean, with their names in the legend.
-    pub fn ranges<'a>(self, all: impl IntoIterator<Item = (&'a str, Colour, &'a Envelope)>) -> Self {
-        self.each(all, |panel, (name, colour, of)| {
-            panel.band(of.band(), colour).line(of.mean(), Stroke::solid(colour)).labelled(name)
+    /// The range of a quantity in each interval of time, and its mean, with their names in the legend:
+    /// by [x, lowest, mean, highest].
+    pub fn ranges<const N: usize>(self, all: [(&str, Colour, Vec<[f64; 4]>); N]) -> Self {
+        self.each(all, |panel, (name, colour, rows)| {
+            let mean = rows.iter().map(|row| [row[0], row[2]]).collect();
+            let band = rows.iter().map(|row| [row[0], row[1], row[3]]).collect();
+            panel.band(band, colour).line(mean, solid(colour)).labelled(name)
         })
     }
 
     /// A straight line that others are to be seen beside, with its name in the legend.
     pub fn guide(self, ends: [[f64; 2]; 2], name: impl Into<String>) -> Self {
-        self.line(ends.into(), Stroke::dashed(SLATE).width(1.2)).labelled(name)
+        self.line(ends.into(), dashed(SLATE).width(1.2)).labelled(name)
     }
 
     /// A line below everything that was added before.
     pub fn below(mut self, points: Points, stroke: Stroke) -> Self {
-        self.marks.insert(0, Mark::Line(points, stroke));
-        self.legend.iter_mut().for_each(|(mark, _)| *mark += 1);
+        self.marks.insert(0, (Mark::Line(points, stroke), None));
         self
     }
 
@@ -133,21 +134,23 @@ impl Panel {
 
     /// Small dots.
     pub fn dots(self, points: Points, radius: f64, colour: Colour) -> Self {
-        self.with(Mark::Dots(points, vec![Stroke::solid(colour).width(2.0 * radius).opacity(0.8)]))
+        self.with(Mark::Dots(points, vec![solid(colour).width(2.0 * radius).opacity(0.8)]))
     }
 
     /// Large dots with a white rim, for few points.
     pub fn discs(self, points: Points, colour: Colour, fill: Fill) -> Self {
-        let mut strokes = vec![Stroke::solid(PAPER).width(12.0), Stroke::solid(colour).width(9.0)];
+        let mut strokes = vec![solid(PAPER).width(12.0), solid(colour).width(9.0)];
         if fill == Fill::Hollow {
-            strokes.push(Stroke::solid(PAPER).width(5.0));
+            strokes.push(solid(PAPER).width(5.0));
         }
         self.with(Mark::Dots(points, strokes))
     }
 
     /// Gives what was added last a line in the legend.
     pub fn labelled(mut self, text: impl Into<String>) -> Self {
-        self.legend.push((self.marks.len().saturating_sub(1), text.into()));
+        if let Some((_, name)) = self.marks.last_mut() {
+            *name = Some(text.into());
+        }
         self
     }
 
@@ -163,36 +166,33 @@ impl Panel {
         self
     }
 
-    pub fn legend_at(mut self, corner: Corner) -> Self {
-        self.corner = corner;
-        self
+    pub fn legend_at(self, corner: Corner) -> Self {
+        Self { corner, ..self }
     }
 
     /// Leaves the legend to a neighbour that shows the same.
     pub fn without_legend(mut self) -> Self {
-        self.legend.clear();
+        self.marks.iter_mut().for_each(|(_, name)| *name = None);
         self
     }
 
     /// The width of the panel relative to the others of its row.
-    pub fn weight(mut self, weight: f64) -> Self {
-        self.weight = weight;
-        self
+    pub fn weight(self, weight: f64) -> Self {
+        Self { weight, ..self }
     }
 
     /// One unit is as long on the x axis as on the y axis.
-    pub fn equal(mut self) -> Self {
-        self.equal = true;
-        self
+    pub fn equal(self) -> Self {
+        Self { equal: true, ..self }
     }
 
     fn with(mut self, mark: Mark) -> Self {
-        self.marks.push(mark);
+        self.marks.push((mark, None));
         self
     }
 
     fn frame(&self, [left, top, width, height]: [f64; 4]) -> Frame {
-        let points: Points = self.marks.iter().flat_map(Mark::corners).collect();
+        let points: Points = self.marks.iter().flat_map(|(mark, _)| mark.corners()).collect();
         let span = |axis: &Axis, i: usize| {
             let values = points.iter().map(|point| [point[i]; 2]).filter(|value| axis.shows(value[0]));
             values.reduce(|[low, high], [v, _]| [low.min(v), high.max(v)])
@@ -216,7 +216,7 @@ impl Panel {
         let frame = self.frame(inner);
         self.draw_axes(svg, &frame);
         svg.open(inner);
-        for mark in &self.marks {
+        for (mark, _) in &self.marks {
             mark.draw(svg, &frame);
         }
         svg.close();
@@ -231,10 +231,14 @@ impl Panel {
         }
     }
 
+    fn legend(&self) -> impl Iterator<Item = (&Mark, &String)> {
+        self.marks.iter().filter_map(|(mark, name)| Some((mark, name.as_ref()?)))
+    }
+
     /// What the longest text of the legend needs, with its sample.
     fn legend_width(&self) -> f64 {
         let letters = |text: &str| text.chars().filter(|&letter| letter != '*').count() as f64;
-        let longest = self.legend.iter().map(|(_, text)| letters(text)).fold(0.0, f64::max);
+        let longest = self.legend().map(|(_, text)| letters(text)).fold(0.0, f64::max);
         BESIDE.max(44.0 + LETTER * longest + 6.0)
     }
 
@@ -257,8 +261,8 @@ impl Panel {
             let x = number(x);
             if text.is_empty() { short += &format!("M{x} {b}v-4") } else { grid += &format!("M{x} {t}V{b}") }
         }
-        svg.stroke(&grid, Stroke::solid(GRID).width(1.0));
-        svg.stroke(&(short + &format!("M{l} {t}V{b}H{r}")), Stroke::solid(SLATE).width(1.0));
+        svg.stroke(&grid, solid(GRID).width(1.0));
+        svg.stroke(&(short + &format!("M{l} {t}V{b}H{r}")), solid(SLATE).width(1.0));
         svg.text("end grey", [right, bottom + 38.0], &x.factor);
         svg.text("middle grey", [left - 8.0, top - 10.0], &y.factor);
         svg.text("middle strong", [left + width / 2.0, top - 12.0], &self.title);
@@ -271,15 +275,13 @@ impl Panel {
     fn draw_legend(&self, svg: &mut Svg, inner: [f64; 4]) {
         const LINE: f64 = 21.0;
         const SAMPLE: f64 = 44.0;
-        let below = LINE * self.legend.len().saturating_sub(1) as f64;
+        let below = LINE * self.legend().count().saturating_sub(1) as f64;
         let ([x, first], anchor) = hold(self.corner, inner, SAMPLE, below);
         let sample = if anchor == Anchor::Start { x - 20.0 } else { x + 20.0 };
-        for (i, (mark, text)) in self.legend.iter().enumerate() {
+        for (i, (mark, text)) in self.legend().enumerate() {
             let y = first + LINE * i as f64;
             svg.text(anchor.rimmed(), [x, y + RISE], text);
-            if let Some(mark) = self.marks.get(*mark) {
-                mark.draw_sample(svg, [sample, y]);
-            }
+            mark.draw_sample(svg, [sample, y]);
         }
     }
 }

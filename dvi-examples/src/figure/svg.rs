@@ -32,15 +32,17 @@ pub struct Stroke {
     more: &'static str,
 }
 
+/// A line of that colour.
+pub const fn solid(colour: Colour) -> Stroke {
+    Stroke { colour, width: 1.8, opacity: 1.0, more: "" }
+}
+
+/// A dashed line of that colour.
+pub const fn dashed(colour: Colour) -> Stroke {
+    Stroke { more: " stroke-dasharray=\"7 5\"", ..solid(colour) }
+}
+
 impl Stroke {
-    pub const fn solid(colour: Colour) -> Self {
-        Self { colour, width: 1.8, opacity: 1.0, more: "" }
-    }
-
-    pub const fn dashed(colour: Colour) -> Self {
-        Self { more: " stroke-dasharray=\"7 5\"", ..Self::solid(colour) }
-    }
-
     pub const fn width(self, width: f64) -> Self {
         Self { width, ..self }
     }

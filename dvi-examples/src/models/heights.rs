@@ -1,7 +1,6 @@
 //! What tops and spherical pendulums have in common, heights between which they go up and down, and states
 //! on a manifold; and a mass on a sphere, by a unit vector and by a constraint.
 
-use dvi_core::State;
 use dvi_core::prelude::*;
 
 use super::bisected;
@@ -54,16 +53,10 @@ impl Heights {
 
 /// A system on a manifold whose states are so many numbers, for methods that know nothing of the manifold.
 pub trait OnManifold<const D: usize>: ManifoldLagrangian + Copy {
-    /// The places and the velocities, of which there are three.
+    /// The places and the velocities.
     fn entries(&self, state: &Self::State<f64>) -> [f64; D] {
         let values: Vec<f64> = self.values(state).into_iter().flatten().collect();
         std::array::from_fn(|i| values[i])
-    }
-
-    /// The state with these entries.
-    fn state(&self, y: &[f64; D]) -> Self::State<f64> {
-        let (q, v) = y.split_at(D - 3);
-        State::read(|block| self.block_len(block), q, v)
     }
 
     /// The rates of the entries in the motion.

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use dvi_examples::figure::{
     AMBER, Axis, BLUE, Colour, Corner, Figure, GREEN, INK, PURPLE, Panel, SKY, SLATE, Stroke, VERMILLION,
+    dashed, solid,
 };
 use dvi_examples::output::Table;
 
@@ -65,40 +66,37 @@ impl Measured<'_> {
     /// Writes `accuracy-<problem>.svg` and `.png`.
     pub(crate) fn draw(&self, folder: &Path) -> Result<()> {
         let x = Axis::logarithmic("milliseconds");
-        let y = Axis::logarithmic(format!("max {}", self.problem.error)).within(1e-16, 1e-2);
+        let y = Axis::logarithmic(format!("max {}", self.problem.error)).within([1e-16, 1e-2]);
         let colours = [SLATE, SKY, GREEN, PURPLE, AMBER, BLUE, INK];
         let mut panel = Panel::new("", x, y).legend_at(Corner::Beside);
         for (i, method) in self.methods().into_iter().enumerate() {
             let emphasised = method == GAUSS_16;
-            let stroke = if emphasised { Stroke::solid(VERMILLION).width(3.4) } else { stroke(i, colours) };
+            let stroke = if emphasised { solid(VERMILLION).width(3.4) } else { stroke(i, colours) };
             let points = self.points.iter().filter(|point| point.method == method);
             let points: Vec<[f64; 2]> = points.map(|point| [point.milliseconds, point.error]).collect();
             panel = panel.line(points.clone(), stroke).labelled(method).dots(points, 2.4, stroke.colour());
         }
         let Problem { title, name, .. } = self.problem;
-        let figure = Figure::new(
-            format!("Accuracy against cost: {title}"),
-            "Medians of interleaved runs; the energy is looked at after each step of a run that is not timed",
-        )
-        .row(620.0, vec![panel]);
-        figure.save(folder, &format!("accuracy-{name}"))
+        let subtitle = "Medians of interleaved runs; the energy is looked at after each step of a run that is not timed";
+        let figure = Figure::of(subtitle).titled(&format!("Accuracy against cost: {title}"));
+        figure.row(620.0, vec![panel]).save(folder, &format!("accuracy-{name}"))
     }
 }
 
 /// Solid lines first, then dashed ones in the same colours.
 fn stroke(i: usize, colours: [Colour; 7]) -> Stroke {
     let colour = colours[i % colours.len()];
-    if i < colours.len() { Stroke::solid(colour) } else { Stroke::dashed(colour) }
+    if i < colours.len() { solid(colour) } else { dashed(colour) }
 }
 
 /// Writes `accuracy.csv` with all points.
 pub(crate) fn write(all: &[Measured<'_>], folder: &Path) -> Result<()> {
-    let columns = ["problem", "method", "steps_or_tolerance", "milliseconds", "energy_error", "evaluations"];
+    let columns = "problem,method,steps_or_tolerance,milliseconds,energy_error,evaluations";
     let rows = all.iter().flat_map(|Measured { problem, points }| {
         points.iter().map(|Point { method, knob, milliseconds, error, evaluations }| {
             let evaluations = evaluations.map(|count| count as f64);
             ([problem.name, method], [Some(*knob), Some(*milliseconds), Some(*error), evaluations])
         })
     });
-    Table::of(&columns, rows)?.save(folder, "accuracy")
+    Table::of(columns, rows)?.save(folder, "accuracy")
 }

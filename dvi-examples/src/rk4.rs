@@ -49,11 +49,11 @@ pub struct Accelerations<'a, S> {
 
 impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
     pub fn new(system: &'a S, h: f64, start: &S::State<f64>) -> Result<Self> {
-        Ok(Self { system, h, y: flat(system, start)? })
+        Ok(Self { system, h, y: system.values(start)?.collect() })
     }
 
     pub fn state(&self) -> S::State<f64> {
-        self.read(&self.y)
+        self.system.state_of(self.y.iter().copied())
     }
 
     pub fn energy(&self) -> Result<f64, StartError> {
@@ -70,23 +70,10 @@ impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
         Ok(self.state())
     }
 
-    fn read(&self, y: &[f64]) -> S::State<f64> {
-        let (q, v) = y.split_at(y.len() / 2);
-        S::State::read(|block| self.system.block_len(block), q, v)
-    }
-
     fn slope(&self, y: &[f64]) -> Result<Vec<f64>, StartError> {
-        flat(self.system, &self.system.vector_field(&self.read(y))?)
+        let rates = self.system.vector_field(&self.system.state_of(y.iter().copied()))?;
+        Ok(self.system.values(&rates)?.collect())
     }
-}
-
-/// Coordinates and velocities of a state, in the order of runs.
-fn flat<S: System>(system: &S, state: &S::State<f64>) -> Result<Vec<f64>, StartError> {
-    let n = system.space().dimension();
-    let mut y = vec![0.0; 2 * n];
-    let (q, v) = y.split_at_mut(n);
-    state.write(|block| system.block_len(block), q, v)?;
-    Ok(y)
 }
 
 #[cfg(test)]
