@@ -73,7 +73,8 @@ fn compensated_sums_round_as_little_as_it_is_said() {
     };
     said!(
         "After 10⁸ steps on an oscillator the rounding error of the conserved energy is then at most {:.1} \
-         % of that with plain sums for Verlet's method",
+         % of that with plain sums for σ = ½, and {:.1} % for Verlet's method.",
+        percent("oscillator, σ = ½"),
         percent("oscillator, Verlet")
     );
 }
