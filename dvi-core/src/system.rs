@@ -313,7 +313,8 @@ pub trait Lagrangian<T: Scalar = f64>: System {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and this is for systems with `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
-    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`",
+    note = "those with constraints by `Constrained`, with impacts by `Impacts`, with rotations or unit vectors by `Geodesic`"
 )]
 pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degenerate> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
@@ -439,7 +440,8 @@ pub trait TimeTransformed<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degene
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and one-step schemes are for systems with `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
-    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`",
+    note = "those with constraints by `Constrained`, with impacts by `Impacts`, with rotations or unit vectors by `Geodesic`"
 )]
 pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
