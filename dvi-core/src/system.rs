@@ -220,7 +220,7 @@ pub trait Lagrangian<T: Scalar = f64>: System {
     /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to `sink`, entry (i, j), w.qq
     /// ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ. With a force F on the system
     /// ∂L/∂qⁱ + Fᵢ stands in the place of ∂L/∂qⁱ: w.qq ∂Fᵢ/∂qʲ + w.qv ∂Fᵢ/∂vʲ comes with it, and none of the
-    /// matrices is symmetric.
+    /// matrices is symmetric. A derivative of F that is not finite, as that of √|v| is at rest, is left out.
     #[allow(clippy::too_many_arguments)]
     fn linearize<K: Sink<T>>(
         &self,
