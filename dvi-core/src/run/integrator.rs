@@ -223,6 +223,7 @@ impl<H: Held<System = S>, S: DegenerateLagrangian<T>, T: Real> Integrator<H, Sig
     ///
     /// # Errors
     /// As [`new`](Self::new).
+    #[allow(clippy::type_complexity)]
     pub fn from_two_points(
         system: H,
         method: Sigma<T>,
