@@ -332,7 +332,16 @@ impl<S: Lagrangian<T>, T: Real, M, X: Method<S, T, Suited<X>: Same<X, As = M>>> 
 
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
 /// may follow one another.
+#[diagnostic::on_unimplemented(
+    message = "the steps of `{Self}` are all of one length",
+    label = "a composition takes steps of different lengths",
+    note = "degenerate systems are stepped in any length by `OneStep`, `Projected`, `Gauss` and `RungeKutta`",
+    note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, `Rattle` and `Geodesic`"
+)]
 pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
+    /// As [`Method::Suited`].
+    type SuitedToAnyStep<M>: Same<M, As = M>;
+
     /// Whether [`discrete_energy`](Self::discrete_energy) is known.
     fn has_discrete_energy(&self) -> bool {
         false
@@ -366,6 +375,28 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
         _statistics: &mut Statistics,
     ) -> Result<Option<T>, StepFailure> {
         Ok(None)
+    }
+}
+
+/// A [`VariableStep`] method for `S` that is `M`, as a method [`Suits`] a system.
+#[diagnostic::on_unimplemented(
+    message = "the steps of `{Self}` are all of one length",
+    label = "a step control takes steps of different lengths",
+    note = "degenerate systems are stepped in any length by `OneStep`, `Projected`, `Gauss` and `RungeKutta`",
+    note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, `Rattle` and `Geodesic`"
+)]
+pub trait SuitsAnyStep<S: Lagrangian<T>, T: Real, M> {
+    /// The method as it is.
+    fn suited(self) -> M;
+}
+
+impl<S: Lagrangian<T>, T: Real, M, X> SuitsAnyStep<S, T, M> for X
+where
+    X: VariableStep<S, T, SuitedToAnyStep<X>: Same<X, As = M>>,
+{
+    #[inline]
+    fn suited(self) -> M {
+        X::SuitedToAnyStep::<X>::same(self)
     }
 }
 

@@ -220,7 +220,7 @@ pub trait Lagrangian<T: Scalar = f64>: System {
     /// Sets the gradients as [`gradient`](Self::gradient) does and **adds** to `sink`, entry (i, j), w.qq
     /// ∂²L/∂qⁱ∂qʲ + w.qv ∂²L/∂qⁱ∂vʲ + w.vq ∂²L/∂vⁱ∂qʲ + w.vv ∂²L/∂vⁱ∂vʲ. With a force F on the system
     /// ∂L/∂qⁱ + Fᵢ stands in the place of ∂L/∂qⁱ: w.qq ∂Fᵢ/∂qʲ + w.qv ∂Fᵢ/∂vʲ comes with it, and none of the
-    /// matrices is symmetric.
+    /// matrices is symmetric. A derivative of F that is not finite, as that of √|v| is at rest, is left out.
     #[allow(clippy::too_many_arguments)]
     fn linearize<K: Sink<T>>(
         &self,
@@ -313,7 +313,8 @@ pub trait Lagrangian<T: Scalar = f64>: System {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and this is for systems with `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
-    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`",
+    note = "those with constraints by `Constrained`, with impacts by `Impacts`, with rotations or unit vectors by `Geodesic`"
 )]
 pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degenerate> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
@@ -439,7 +440,8 @@ pub trait TimeTransformed<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degene
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and one-step schemes are for systems with `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
-    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`"
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`",
+    note = "those with constraints by `Constrained`, with impacts by `Impacts`, with rotations or unit vectors by `Geodesic`"
 )]
 pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).

@@ -71,8 +71,9 @@ impl Programs {
         [momenta, events]: [&[Expr]; 2],
     ) -> Self {
         let gradient = gradient(graph, lagrangian, force);
-        entries.extend(force_derivatives(graph, force));
-        let linearize = linearize(graph, &gradient, &entries);
+        let by_forces = force_derivatives(graph, force);
+        let linearize = linearize(graph, &gradient, [&entries, &by_forces]);
+        entries.extend(by_forces);
         let domain = domain(graph, lagrangian, force);
         Self {
             lagrangian: Routine::new(graph, result(lagrangian)),
@@ -121,9 +122,20 @@ fn gradient(graph: &mut Graph, lagrangian: Expr, force: &Force) -> Vec<Statement
 }
 
 /// The gradient, and the second derivatives times their weights.
-fn linearize(graph: &mut Graph, gradient: &[Statement], entries: &[SecondContribution]) -> Vec<Statement> {
-    let hessian = weighted_hessian(graph, entries);
-    gradient.iter().cloned().chain(hessian).collect()
+fn linearize(
+    graph: &mut Graph,
+    gradient: &[Statement],
+    [of_lagrangian, of_forces]: [&[SecondContribution]; 2],
+) -> Vec<Statement> {
+    let mut statements = gradient.to_vec();
+    statements.extend(weighted_hessian(graph, of_lagrangian));
+    // The derivative of friction may be infinite at rest: times zero it would be no number, where the mass
+    // matrix alone is asked for.
+    statements.extend(weighted_hessian(graph, of_forces).into_iter().map(|statement| {
+        let value = graph.where_finite(statement.value);
+        Statement { value, ..statement }
+    }));
+    statements
 }
 
 fn applied(graph: &mut Graph, force: &Force) -> Routine {

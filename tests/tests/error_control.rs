@@ -16,6 +16,7 @@ mod grazes;
 mod problems;
 mod rough;
 mod seams;
+mod sums;
 
 const KEPLER: Kepler = Kepler { mu: 1.0 };
 const TOLERANCES: [f64; 9] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];

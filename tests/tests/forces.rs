@@ -5,3 +5,4 @@ use dvi_tests::Outcome;
 mod declarations;
 mod dissipation;
 mod equations;
+mod rest;

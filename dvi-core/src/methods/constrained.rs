@@ -370,7 +370,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> VariableStep<S, T> for Constrained<M> {}
+impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> VariableStep<S, T> for Constrained<M> {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}
 
 /// Refuses options of the steps of a method itself, if they are not those that it has by default.
 pub(super) fn without_effect_inside(

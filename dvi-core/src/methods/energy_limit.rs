@@ -145,6 +145,8 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
 }
 
 impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {
+    type SuitedToAnyStep<X> = M::SuitedToAnyStep<X>;
+
     fn estimates_local_error(&self) -> bool {
         self.method.estimates_local_error()
     }

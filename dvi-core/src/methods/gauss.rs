@@ -225,6 +225,8 @@ where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
     E: StageEvaluation<STAGES, S, T>,
 {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+
     fn estimates_local_error(&self) -> bool {
         true
     }

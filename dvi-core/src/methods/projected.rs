@@ -208,7 +208,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
     }
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Projected {}
+impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Projected {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}
 
 /// The equations of a step from `q` at `t`:
 ///

@@ -196,4 +196,6 @@ impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> Method<S, T> for Rattle 
     }
 }
 
-impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> VariableStep<S, T> for Rattle {}
+impl<S: HolonomicLagrangian<T> + Separable<T>, T: Real> VariableStep<S, T> for Rattle {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}

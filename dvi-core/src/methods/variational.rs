@@ -312,6 +312,8 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
 }
 
 impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+
     fn has_discrete_energy(&self) -> bool {
         F::UNFITTED
     }

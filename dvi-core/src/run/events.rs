@@ -71,7 +71,8 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 /// seen to cross zero in between if g turns once on the way, and with [`Gauss`](crate::methods::Gauss) of six
 /// stages and more if it turns once between two of these; what turns more often may pass unseen, and what is
 /// flat for many steps and dips in a part of one. A condition that jumps across zero,
-/// as a velocity does at an impact, is an event where it jumps. Events within a step that fails are not
+/// as a velocity does at an impact, is an event behind its jump, and one that comes to zero and stays there
+/// is an event where it comes. Events within a step that fails are not
 /// found, those before it are. Where events follow each other ever faster, as those of a ball that comes to
 /// rest, the run ends with [`StepFailure::Hops`].
 ///

@@ -13,8 +13,8 @@ use crate::run::kept::Kept;
 use crate::run::{Between, Run, Stepper, WithMethod};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
-use crate::system::StateOf;
 use crate::system::start::{consistent, evaluate, flatten, named, validate_step, velocities};
+use crate::system::{Same, StateOf};
 use crate::{DegenerateLagrangian, Held, Lagrangian, Real, Space, System, Vector};
 
 /// A run of a method on a system with a fixed step.
@@ -223,13 +223,14 @@ impl<H: Held<System = S>, S: DegenerateLagrangian<T>, T: Real> Integrator<H, Sig
     ///
     /// # Errors
     /// As [`new`](Self::new).
+    #[allow(clippy::type_complexity)]
     pub fn from_two_points(
         system: H,
         method: Sigma<T>,
         h: T,
         first: S::State<T>,
         second: S::State<T>,
-    ) -> Result<Self, StartError> {
+    ) -> Result<Integrator<H, <S::Suited<Sigma<T>> as Same<Sigma<T>>>::As, T>, StartError> {
         let (held, t) = (system.held(), T::lift(0.0));
         validate(held, t, h)?;
         let ([q0, _], [q1, _]) = (flatten(held, &first)?, flatten(held, &second)?);
@@ -242,7 +243,7 @@ impl<H: Held<System = S>, S: DegenerateLagrangian<T>, T: Real> Integrator<H, Sig
             begun.map_err(|error| named(held, [&q0, &rest], t, error))
         };
         let (memory, kept) = (begin()?, Kept::if_looked_at(&q0, begin)?);
-        Ok(Self { system, stepper: Stepper::new(method, memory, q0), clock: Clock::new(t, h), kept })
+        Ok(Integrator { system, stepper: Stepper::new(method, memory, q0), clock: Clock::new(t, h), kept })
     }
 }
 

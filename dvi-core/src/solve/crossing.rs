@@ -57,11 +57,13 @@ pub(crate) fn dip<T: Real, E>(
     Ok(None)
 }
 
-/// A zero of a function, and its slope there.
+/// A zero of a function, or a place on one side of it, and its slope there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Zero<T> {
     pub(crate) place: T,
     pub(crate) slope: T,
+    /// The nearest place that is known on the other side.
+    pub(crate) across: T,
 }
 
 /// The zero of a function between two places, given with its values there, one of which is negative and one
@@ -102,7 +104,7 @@ pub(crate) fn zero<T: Real, E>(
         }
         b = [place, value];
     }
-    Ok(Zero { place: b[0], slope })
+    Ok(Zero { place: b[0], slope, across: a[0] })
 }
 
 /// The cubic polynomial on [0, 1] with given values and slopes at both ends, a + bτ + cτ² + dτ³.

@@ -8,9 +8,9 @@ pub(crate) const TOLERANCE: f64 = 4096.0;
 
 /// A system with rotations or unit vectors, whatever numbers it is computed in.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no rotations and no unit vectors",
-    label = "none of its coordinates is declared as `R: SO3` or `s: S2`",
-    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`"
+    message = "`{Self}` is not a regular system with rotations or unit vectors",
+    label = "its Lagrangian is degenerate, or none of its coordinates is declared as `R: SO3` or `s: S2`",
+    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`"
 )]
 pub trait ManifoldSystem: System {
     /// The space of tangent vectors.
@@ -51,9 +51,9 @@ pub trait ManifoldSystem: System {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no rotations and no unit vectors in `{T}`",
-    label = "none of its coordinates is declared as `R: SO3` or `s: S2`, or a parameter is no number",
-    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`"
+    message = "`{Self}` is not a regular system with rotations or unit vectors in `{T}`",
+    label = "its Lagrangian is degenerate, none of its coordinates is declared as `R: SO3` or `s: S2`, or a parameter is no number",
+    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`"
 )]
 pub trait ManifoldLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ManifoldSystem + System<Kind = Manifold>

@@ -106,8 +106,8 @@ fn coordinate<S: System>(system: &S, place: usize) -> Option<Name> {
 ///
 /// # Errors
 /// [`StartError::Outside`] where that is because a function that holds data is not known; else
-/// [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, ∂L/∂q, which is
-/// −∇H for one, and the energy that is not.
+/// [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, the applied force,
+/// ∂L/∂q, which is −∇H for one, and the energy that is not.
 pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
@@ -117,6 +117,9 @@ pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     finite_derivatives(system, q, v, t)
         .map_err(|error| system.outside(q, v, t).map_or(error, StartError::Outside))
 }
+
+/// What is not a number of friction such as R = μ|v| at rest.
+const APPLIED: &str = "the applied force (`force`, and −∂R/∂v of `dissipation`)";
 
 fn finite_derivatives<S: Lagrangian<T>, T: Real>(
     system: &S,
@@ -135,6 +138,10 @@ fn finite_derivatives<S: Lagrangian<T>, T: Real>(
     for (quantity, values) in [(momentum, &l_v), (force, &l_q)] {
         if let Some(place) = values.iter().position(|x| !x.is_finite()) {
             let (value, coordinate) = (reported(values[place]), coordinate(system, place));
+            let mut applied: Vector<S, T> = system.space().vector();
+            system.applied_force(q, v, t, &mut applied);
+            let is_applied = quantity == force && !applied[place].is_finite();
+            let quantity = if is_applied { APPLIED } else { quantity };
             return Err(StartError::Undefined { quantity, coordinate, value });
         }
     }

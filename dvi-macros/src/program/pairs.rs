@@ -52,9 +52,8 @@ struct Rest {
 impl PairPrograms {
     fn new(graph: &mut Graph, sum: &PairSum, rest: &Rest, slope: Expr, force: &Force) -> Self {
         let gradient = gradient(graph, rest.lagrangian, force);
-        let mut entries = graph.hessian(rest.lagrangian);
-        entries.extend(force_derivatives(graph, force));
-        let linearize = linearize(graph, &gradient, &entries);
+        let [entries, by_forces] = [graph.hessian(rest.lagrangian), force_derivatives(graph, force)];
+        let linearize = linearize(graph, &gradient, [&entries, &by_forces]);
         let together = together(graph, sum, rest.energy);
         Self {
             kernel: Routine::new(graph, result(sum.kernel)),

@@ -6,7 +6,7 @@
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::functions::Property;
+use super::functions::{Property, Unary};
 use super::graph::{Expr, Fold, Graph, Id, Node, Relation};
 use super::index::Atom;
 
@@ -21,6 +21,17 @@ impl Graph {
             return value;
         }
         self.choose(asked, Relation::HasMore, Expr::ZERO, value, Expr::ZERO)
+    }
+
+    /// `value` where it is finite, else zero.
+    pub(crate) fn where_finite(&mut self, value: Expr) -> Expr {
+        let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Velocity(_) | Node::Time);
+        if !self.has_domain(value.node) || !self.depends(value.node, varies) {
+            return value;
+        }
+        let size = self.unary(Unary::Abs, value);
+        let largest = Expr::number(f64::from(f32::MAX));
+        self.choose(largest, Relation::HasMore, size, value, Expr::ZERO)
     }
 
     /// How often `whole` asks for `part`; 1 where it always does, whatever the number.

@@ -69,7 +69,7 @@ pub(crate) enum Relation {
     LessOrEqual,
     Greater,
     GreaterOrEqual,
-    /// Greater, of a number of terms; the compiler makes it, so that there is no other branch to check.
+    /// Greater, as of a number of terms; the compiler makes it, so that there is no other branch to check.
     HasMore,
 }
 

@@ -16,8 +16,16 @@ pub struct Bead;
 )]
 pub struct Rod;
 
+#[degenerate_lagrangian(coordinates(s: S2), one_form = area(s), hamiltonian = s[2])]
+pub struct Spin;
+
+#[lagrangian(coordinates(s: S2), lagrangian = dot(s).norm_squared() / 2.0 - s[2])]
+pub struct Pendulum;
+
 const VORTEX: VortexState = VortexState { x: 1.0, y: 0.0 };
 const BEAD: BeadState = BeadState { x: 1.0, dot_x: 0.0 };
+const SPIN: SpinState = SpinState { s: [0.0, 0.0, 1.0] };
+const PENDULUM: PendulumState = PendulumState { s: [0.0, 0.0, 1.0], dot_s: [0.0; 3] };
 const ROD: RodState = RodState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -100,6 +108,50 @@ fn a_control_of_another_kind() -> Outcome {
     let mut run = ControlledIntegrator::new(&Vortex, Gauss::<2>::new(), control, VORTEX)?;
     run.take_steps(100)?;
     println!("{:?} {} {}", run.state(), run.energy(), run.control_memory().defect());
+    Ok(())
+}
+
+fn two_points() -> Outcome {
+    let mut run = Integrator::from_two_points(&Bead, Sigma::midpoint(), 0.1, BEAD, BEAD)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn composed_of_one_length() -> Outcome {
+    let mut run = Integrator::new(&Vortex, Composition::yoshida(Sigma::midpoint()), 0.1, VORTEX)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn controlled_of_one_length() -> Outcome {
+    let control = ErrorControl::new(1e-9, 0.1);
+    let mut run = ControlledIntegrator::new(&Vortex, Sigma::midpoint(), control, VORTEX)?;
+    run.advance_to(10.0)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn resumed(checkpoint: &Checkpoint) -> Outcome {
+    let control = ErrorControl::new(1e-9, 0.1);
+    let mut run = ControlledIntegrator::resume(&Bead, Newmark::new(0.25), control, checkpoint)?;
+    run.advance_to(10.0)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn a_spin_is_degenerate() -> Outcome {
+    let mut run = Integrator::new(&Spin, Geodesic::midpoint(), 0.1, SPIN)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn unit_vectors() -> Outcome {
+    let mut run = Integrator::new(&Pendulum, Sigma::midpoint(), 0.1, PENDULUM)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
     Ok(())
 }
 

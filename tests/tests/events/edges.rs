@@ -193,6 +193,45 @@ fn an_event_may_be_an_impact() -> Outcome {
 }
 
 /// What is asked for up to a time is not after it, and comes later.
+/// A run that is set to the state of an event goes on from there as if nothing had been set.
+#[test]
+fn an_event_is_left_behind_where_the_same_state_is_set() -> Outcome {
+    for direction in [Direction::Rising, Direction::Falling, Direction::Either] {
+        let [mut run, mut untouched] = [
+            Integrator::new(&Planar, Gauss::<4>::new(), 0.1, PLANAR)?,
+            Integrator::new(&Planar, Gauss::<4>::new(), 0.1, PLANAR)?,
+        ];
+        let jumps = |_: f64, state: &PlanarState| [state.x.signum() - 0.5, state.dot_x];
+        let mut events = run.events([direction; 2], jumps)?;
+        let mut others = untouched.events([direction; 2], jumps)?;
+        while let Some(Event { index, time, state }) = others.next_until(20.0)? {
+            let event = events.next_until(20.0)?;
+            let Some(event) = event.filter(|event| event.index == index) else { panic!("{index} {time}") };
+            assert!(abs_diff_eq!(event.time, time, epsilon = 1e-8), "{event:?} {time}");
+            assert!(index == 1 || event.state.x.signum() == state.x.signum(), "{event:?}");
+            events.set_state(event.time, event.state)?;
+        }
+        assert!(events.next_until(20.0)?.is_none());
+    }
+    Ok(())
+}
+
+/// A condition that comes to zero and stays there is an event where it comes, and is none where it leaves.
+#[test]
+fn a_condition_may_stay_at_zero() -> Outcome {
+    for x in [-1.03, -0.9, -0.5] {
+        let mut run = free(x, 0.1)?;
+        let mut events = run.events([Direction::Either], |_, state| [state.x.min(0.0)])?;
+        let Some(Event { time, .. }) = events.next_until(2.0)? else { panic!("none") };
+        assert!(abs_diff_eq!(time, -x, epsilon = 1e-14), "{time}");
+        assert!(events.next_until(2.0)?.is_none());
+        let mut run = free(x, 0.1)?;
+        let mut leaves = run.events([Direction::Either], |_, state| [state.x.max(0.0)])?;
+        assert!(leaves.next_until(2.0)?.is_none());
+    }
+    Ok(())
+}
+
 #[test]
 fn events_after_the_end_wait() -> Outcome {
     let mut run = free(-0.3, 0.4)?;

@@ -163,7 +163,9 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
     }
 }
 
-impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<STAGES> {}
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<STAGES> {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}
 
 /// The equations of a step from `q` at `t`, and the matrix ∂rᵢ/∂Wₖ, in which a node of the sum is a stage.
 struct Step<'a, const STAGES: usize, S: System, T: Real> {

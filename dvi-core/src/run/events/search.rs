@@ -1,12 +1,13 @@
 //! The search for events in a step: by the signs of a condition at its ends, and by its slopes there.
 
 use super::conditions::Conditions;
+use super::watch::are_one;
 use crate::error::StepFailure;
 use crate::run::Run;
 use crate::run::dense::{Dense, StateOf};
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::reported;
-use crate::solve::crossing::{Sample, dip, zero};
+use crate::scalar::norm::{larger, reported};
+use crate::solve::crossing::{Sample, Zero, dip, zero};
 use crate::{Real, Scalar};
 
 /// The part of a step between places at which a condition is looked at for its slope.
@@ -111,7 +112,10 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         if !self.direction.crosses(ends[0][1], ends[1][1]) {
             return Ok(None);
         }
-        let mut place = zero(ends, |part| self.look(part))?.place;
+        let found = self.zero(ends)?;
+        // Behind a jump: a run that begins there does not meet it again.
+        let is_jump = found.across > found.place && are_one(found.place, found.across);
+        let mut place = if is_jump { found.across } else { found.place };
         if carries_derivatives::<R::Scalar>() {
             // That values have converged says nothing of the derivatives.
             for _ in 0..POLISHED {
@@ -120,6 +124,20 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
             }
         }
         Ok(Some(place))
+    }
+
+    /// A zero of the condition between two parts of the step: the first one, where it has come to zero and
+    /// stays there.
+    fn zero(&mut self, [[from, a], [to, b]]: [[R::Scalar; 2]; 2]) -> Result<Zero<R::Scalar>, StepFailure> {
+        let [nothing, chord] = [0.0, CHORD].map(R::Scalar::lift);
+        let before = larger(from, to - chord);
+        if b != nothing || before == from || self.look(before)? != nothing {
+            return zero([[from, a], [to, b]], |part| self.look(part));
+        }
+        zero([[from, a], [before, -a]], |part| {
+            let value = self.look(part)?;
+            Ok(if value == nothing { -a } else { value })
+        })
     }
 
     /// The distance of the condition from zero at a part of the step, and its slope: that of a parabola

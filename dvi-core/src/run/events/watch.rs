@@ -388,7 +388,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
 }
 
 /// Whether a part of a step is another, which is no larger, but for rounding.
-fn are_one<T: Real>(least: T, part: T) -> bool {
+pub(super) fn are_one<T: Real>(least: T, part: T) -> bool {
     part <= least + T::lift(TOGETHER) * T::default_epsilon()
 }
 

@@ -8,7 +8,7 @@ use super::{Controls, ErrorControl, Reversible, StepControl, reversible};
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, Clock, Suits, VariableStep};
+use crate::methods::{Carries, Clock, SuitsAnyStep, VariableStep};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
 use crate::run::{Between, Run, Stepper, WithMethod};
@@ -67,7 +67,7 @@ where
     /// or of the control is out of range, or their starting values cannot be computed.
     pub fn new(
         system: H,
-        method: impl Suits<H::System, T, M>,
+        method: impl SuitsAnyStep<H::System, T, M>,
         control: impl Controls<H::System, T, C>,
         start: StateOf<H, T>,
     ) -> Result<Self, StartError> {
@@ -80,7 +80,7 @@ where
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
     pub fn new_at(
         system: H,
-        method: impl Suits<H::System, T, M>,
+        method: impl SuitsAnyStep<H::System, T, M>,
         control: impl Controls<H::System, T, C>,
         t: T,
         start: StateOf<H, T>,
@@ -111,7 +111,7 @@ where
     #[cfg(feature = "alloc")]
     pub fn resume(
         system: H,
-        method: impl Suits<H::System, T, M>,
+        method: impl SuitsAnyStep<H::System, T, M>,
         control: impl Controls<H::System, T, C>,
         checkpoint: &Checkpoint<T>,
     ) -> Result<Self, StartError> {

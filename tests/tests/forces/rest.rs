@@ -1,0 +1,99 @@
+//! Friction whose derivative is infinite at rest, in runs that begin there.
+
+use dvi_core::prelude::*;
+
+use super::Outcome;
+
+/// A mass that depends on the position, and R = |v|^(3/2): ∂F/∂v is infinite at rest.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = (1.0 + x * x) * dot(x).powi(2) / 2.0 - x,
+    dissipation = dot(x).abs().powf(1.5),
+)]
+struct Bead;
+
+/// The same force, and one more whose derivative at rest is 0·∞ as it is written.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = (1.0 + x * x) * dot(x).powi(2) / 2.0 - x,
+    force = [-1.5 * dot(x).abs().sqrt() * dot(x).signum() - dot(x).abs().sqrt() * dot(x)],
+)]
+struct Dragged;
+
+/// A rod around the origin.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - y,
+    constraint = x * x + y * y - 1.0,
+    dissipation = (dot(x).powi(2) + dot(y).powi(2)).powf(0.75),
+)]
+struct Rod;
+
+/// x(1) of x'' = a(x, x') from `x`, at rest, by the classical method of Runge and Kutta in 10⁵ steps.
+fn reference(x: f64, a: impl Fn(f64, f64) -> f64) -> f64 {
+    let (mut x, mut v, h) = (x, 0.0, 1e-5);
+    for _ in 0..100_000 {
+        let k1 = (v, a(x, v));
+        let k2 = (v + h / 2.0 * k1.1, a(x + h / 2.0 * k1.0, v + h / 2.0 * k1.1));
+        let k3 = (v + h / 2.0 * k2.1, a(x + h / 2.0 * k2.0, v + h / 2.0 * k2.1));
+        let k4 = (v + h * k3.1, a(x + h * k3.0, v + h * k3.1));
+        x += h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0);
+        v += h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1);
+    }
+    x
+}
+
+fn friction(v: f64) -> f64 {
+    -1.5 * v.abs().sqrt() * v.signum()
+}
+
+#[test]
+fn a_run_with_a_varying_mass_begins_at_rest() -> Outcome {
+    let bead = reference(1.0, |x, v| (friction(v) - 1.0 - x * v * v) / (1.0 + x * x));
+    let drag = |v: f64| friction(v) - v.abs().sqrt() * v;
+    let dragged = reference(1.0, |x, v| (drag(v) - 1.0 - x * v * v) / (1.0 + x * x));
+    macro_rules! check {
+        ($($method:expr),*) => {$({
+            let start = BeadState { x: 1.0, dot_x: 0.0 };
+            let mut run = Integrator::new(&Bead, $method, 1e-3, start)?;
+            run.take_steps(1000)?;
+            assert!((run.state().x - bead).abs() < 1e-6, "{:?} {bead}", run.state());
+            let start = DraggedState { x: 1.0, dot_x: 0.0 };
+            let mut run = Integrator::new(&Dragged, $method, 1e-3, start)?;
+            run.take_steps(1000)?;
+            assert!((run.state().x - dragged).abs() < 1e-6, "{:?} {dragged}", run.state());
+        })*};
+    }
+    let newton = Gauss { solver: Solver::Newton, ..Gauss::<2>::new() };
+    check!(
+        Variational::midpoint(),
+        Variational::trapezoid(),
+        Gauss::<2>::new(),
+        Galerkin::<3>::new(),
+        newton
+    );
+    Ok(())
+}
+
+#[test]
+fn a_run_with_constraints_begins_at_rest() -> Outcome {
+    let angle = reference(0.0, |angle, v| friction(v) - angle.cos());
+    let start = RodState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
+    let mut run = Integrator::new(&Rod, Constrained::new(Variational::midpoint()), 1e-3, start)?;
+    run.take_steps(1000)?;
+    assert!((run.state().y - angle.sin()).abs() < 1e-6, "{:?} {angle}", run.state());
+    Ok(())
+}
+
+/// Coulomb friction: the force has no value at rest.
+#[lagrangian(coordinates(r[2]), lagrangian = dot(r).norm_squared() / 2.0 - r[1], dissipation = dot(r).norm())]
+struct Block;
+
+#[test]
+fn a_force_that_is_not_defined_at_rest_is_named() {
+    let start = BlockState { r: [1.0, 0.0], dot_r: [0.0; 2] };
+    let message = Integrator::new(&Block, Variational::midpoint(), 0.1, start).err().map(|e| e.to_string());
+    let expected =
+        "the applied force (`force`, and −∂R/∂v of `dissipation`) along `r[0]` is NaN at the initial state";
+    assert!(message.as_ref().is_some_and(|message| message.starts_with(expected)), "{message:?}");
+}
