@@ -18,7 +18,7 @@ use crate::error::{IndexError, LengthError, OutsideError};
 use crate::field::Expansion;
 use crate::scalar::norm::reported;
 use crate::scalar::spinor;
-use crate::{Real, Scalar};
+use crate::{Real, Scalar, System};
 
 /// The Euclidean remainder of an index that rarely leaves 0..modulus by more than one turn.
 #[inline]
@@ -52,6 +52,26 @@ pub fn members_before(first: i64, step: i64, rows: usize) -> usize {
     };
     let count = 0.max(end - begin);
     (count * first + step * (count * (begin + end - 1) / 2)) as usize
+}
+
+/// As many numbers as no memory holds more of.
+const MOST_COORDINATES: usize = isize::MAX as usize / size_of::<f64>();
+
+/// Checks that there may be as many coordinates as the sizes of `system` say.
+///
+/// # Errors
+/// [`IndexError`] with the last index of the first array that memory ends before, as far as it is an integer.
+pub fn check_sizes<S: System>(system: &S) -> Result<(), IndexError> {
+    let mut left = MOST_COORDINATES;
+    for (block, declared) in S::REPORT.coordinates.iter().enumerate() {
+        let len = system.block_len(block);
+        left = left.checked_sub(len).ok_or_else(|| IndexError {
+            array: declared.name,
+            index: i64::try_from(len - 1).unwrap_or(i64::MAX),
+            len: left,
+        })?;
+    }
+    Ok(())
 }
 
 /// Checks one index.

@@ -303,8 +303,8 @@ fn configuration(
     let (name, allow) = (&emitter.model.item.ident, allow());
     let (impl_generics, type_generics, where_clause) = emitter.model.item.generics.split_for_impl();
     let State { space, space_value, type_in_trait, .. } = state;
-    let lengths =
-        (0..emitter.model.blocks.len()).map(|block| emitter.index(&emitter.model.block_size(block)));
+    let lengths = (0..emitter.model.blocks.len())
+        .map(|block| emitter.model.size_tokens(&emitter.model.block_size(block)));
     let blocks = 0..emitter.model.blocks.len();
     let time_transformed = emitter.model.extended.is_some();
     let forced = programs.forces.is_some();

@@ -24,6 +24,7 @@ mod parts;
 mod random;
 mod rate;
 mod read;
+mod rotations;
 mod rust;
 mod shrink;
 mod spinors;

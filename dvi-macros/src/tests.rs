@@ -357,6 +357,7 @@ fn check_of_indices() {
         "check",
         &expect![[r#"
             fn check() {
+                __private::check_sizes(self)?;
                 __private::check_indices(
                     "mass",
                     (0i128),

@@ -9,3 +9,4 @@ mod ends;
 mod motion;
 mod reference;
 mod structure;
+mod tangent;

@@ -1,10 +1,11 @@
 //! Sizes that are const generics, from none to a thousand: what is right at each of them, on the stack of a
-//! small thread.
+//! small thread. And sizes of a run that no memory holds.
 
 use approx::abs_diff_eq;
 use std::error::Error;
 use std::thread;
 
+use dvi_core::IndexError;
 use dvi_core::diagnostics::{LyapunovExponent, TangentMap};
 use dvi_core::ensemble::{Ensemble, Outcome};
 use dvi_core::methods::{Composition, EnergyLimit, Method};
@@ -356,4 +357,40 @@ fn vortices_of_every_number_fit_on_a_small_stack() -> Checked {
     turns::<5>(Sigma::midpoint())?;
     turns::<60>(Sigma::midpoint())?;
     turns::<60>(Sigma::leapfrog())
+}
+
+/// A square lattice, and two waves for each number.
+#[lagrangian(
+    coordinates(q[n * n]),
+    lagrangian = sum(0..n, |i| sum(0..n, |j| dot(q[n * i + j]).powi(2) - q[n * i + j].powi(2))) / 2.0,
+)]
+struct Lattice {
+    n: usize,
+}
+
+#[degenerate_lagrangian(
+    coordinates(q[2 * n], p[2 * n]),
+    one_form = sum(0..2 * n, |j| p[j] * d(q[j])),
+    hamiltonian = sum(0..2 * n, |j| p[j] * p[j] + q[j] * q[j]) / 2.0,
+)]
+struct TwoWaves {
+    n: usize,
+}
+
+/// No state is as long as these say, and no size wraps around to that of one.
+#[test]
+fn sizes_beyond_all_memory_are_errors() {
+    let q = vec![0.0];
+    for n in [1 << 32, usize::MAX] {
+        let start = LatticeState { q: q.clone(), dot_q: q.clone() };
+        let error = Integrator::new(Lattice { n }, Variational::midpoint(), 0.1, start).err();
+        assert!(matches!(error, Some(StartError::Index(IndexError { array: "q", .. }))), "{n}: {error:?}");
+    }
+    // One array is in memory, two are not.
+    for (n, ends) in [(1 << 63, "q"), (usize::MAX >> 5, "p")] {
+        let start = TwoWavesState { q: q.clone(), p: q.clone() };
+        let error = Integrator::new(TwoWaves { n }, Sigma::midpoint(), 0.1, start).err();
+        let Some(StartError::Index(IndexError { array, .. })) = error else { panic!("{n}: {error:?}") };
+        assert_eq!(array, ends, "{n}");
+    }
 }

@@ -1,4 +1,4 @@
-//! The check of all indices against the arrays that they go to.
+//! The check of all sizes, and of all indices against the arrays that they go to.
 //!
 //! Sizes that only the run knows can disagree with each other: a parameter array shorter than the
 //! coordinates, a neighbour beyond the last one. The generated check walks the loops of the formulas
@@ -10,6 +10,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::ext::IdentExt as _;
 
+use super::state::on_stack;
 use crate::emit::Emitter;
 use crate::program::Programs;
 use crate::routine::Routine;
@@ -52,8 +53,11 @@ pub(super) fn check(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     for statement in routines.iter().flat_map(|routine| &routine.statements) {
         walk.node(&Place { loops: statement.loops.clone(), names: Vec::new() }, statement.value.node);
     }
-    let checks = walk.tokens;
-    quote!(#checks ::core::result::Result::Ok(()))
+    let (krate, checks) = (emitter.krate(), walk.tokens);
+    // Sizes that are literals, and const generics by themselves, are those of types.
+    let is_checked = (0..emitter.model.blocks.len()).any(|block| !on_stack(emitter, block));
+    let sizes = is_checked.then(|| quote!(#krate::__private::check_sizes(self)?;));
+    quote!(#sizes #checks ::core::result::Result::Ok(()))
 }
 
 impl Place {

@@ -269,7 +269,7 @@ fn constants(emitter: &Emitter<'_>) -> Vec<Ident> {
     names.filter(used).collect()
 }
 
-fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
+pub(super) fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
     let size = emitter.model.block_size(block);
     size.as_literal().is_some() || (emitter.model.is_constant(&size) && is_name(&size))
 }

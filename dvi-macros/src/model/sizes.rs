@@ -157,14 +157,20 @@ impl Model {
         })
     }
 
-    /// A sum of multiples of sizes as an expression of type `usize`; no coefficient is negative.
-    fn size_tokens(&self, size: &Index) -> TokenStream {
+    /// A sum of multiples of sizes as an expression of type `usize`, the largest one beyond all; no
+    /// coefficient is negative.
+    pub(crate) fn size_tokens(&self, size: &Index) -> TokenStream {
+        let term = |(atom, coefficient): &(Atom, i64)| match (self.atom_tokens(atom), *coefficient) {
+            (tokens, 1) => tokens,
+            (tokens, factor) => {
+                let factor = factor.unsigned_abs() as usize;
+                quote!(#tokens.saturating_mul(#factor))
+            }
+        };
         let constant = size.constant.unsigned_abs() as usize;
-        let terms = size.terms.iter().map(|(atom, coefficient)| {
-            let (factor, tokens) = (coefficient.unsigned_abs() as usize, self.atom_tokens(atom));
-            quote!(#factor * #tokens)
-        });
-        quote!(#constant #(+ #terms)*)
+        let constant = (constant > 0 || size.terms.is_empty()).then(|| quote!(#constant));
+        let terms = size.terms.iter().map(term).chain(constant);
+        terms.reduce(|before, term| quote!(#before.saturating_add(#term))).unwrap_or_default()
     }
 
     fn atom_tokens(&self, atom: &Atom) -> TokenStream {
@@ -172,7 +178,7 @@ impl Model {
             Atom::Size(Size(known)) => self.sizes[*known as usize].tokens.clone(),
             Atom::Product(factors) => {
                 let factors = factors.iter().map(|factor| self.atom_tokens(factor));
-                factors.reduce(|before, factor| quote!(#before * #factor)).unwrap_or_default()
+                factors.reduce(|before, factor| quote!(#before.saturating_mul(#factor))).unwrap_or_default()
             }
             Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) => internal("a size depends on an index"),
         }

@@ -6,7 +6,7 @@ use super::random::Random;
 use super::read::Reader;
 use super::summary::describe;
 use super::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
-use crate::syntax::Constrained;
+use crate::syntax::{Constrained, Factor};
 
 const CONJUGATE: &str = "u * d(w) + sum(0..N, |j| x[j] * d(y[j]))";
 
@@ -98,7 +98,7 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         field("s", Container::Scalar, vec![], vec![2.5]),
         field("g", Container::Vector, vec![0], vec![1.0, 2.0, 4.0]),
     ];
-    let block = |name, size| Block { name, size, axis: None };
+    let block = |name, size| Block { name, size, axis: None, factor: Factor::Line };
     let mut blocks = vec![block("u", None), block("w", None), block("x", Some(0)), block("y", Some(0))];
     if matches!(dynamics, Dynamics::Regular(_)) {
         blocks.retain(|block| ["u", "x"].contains(&block.name));

@@ -217,6 +217,7 @@ impl<'a> Oracle<'a> {
             }
             Formula::Vector(..)
             | Formula::VectorVelocity(..)
+            | Formula::Column(..)
             | Formula::VectorParameter(..)
             | Formula::VectorName(_)
             | Formula::List(_)

@@ -10,7 +10,7 @@
 
 use super::formula::{Atom, Formula, Index, Loops};
 use super::system::{Block, Dynamics, Gauge, Size, SizeKind, System};
-use crate::syntax::Constrained;
+use crate::syntax::{Constrained, Factor};
 
 /// The sums that a formula may still hold.
 const SUMS: usize = 2;
@@ -84,7 +84,7 @@ fn over_all(term: Formula) -> Formula {
 
 /// A formula as the Hamiltonian of x, y and u, w.
 pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
-    let block = |name, size| Block { name, size, axis: None };
+    let block = |name, size| Block { name, size, axis: None, factor: Factor::Line };
     let entry = || Some(Index::bound(0));
     let blocks = vec![block("x", Some(0)), block("u", None), block("y", Some(0)), block("w", None)];
     let one_form = over_all(Formula::Coordinate(0, entry()).times(Formula::Velocity(2, entry())))
@@ -114,7 +114,7 @@ pub(super) fn as_gauge(number: usize, formula: Formula) -> System {
 
 /// A formula as a kinetic energy: of the velocities of x, and of u or its velocity.
 pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
-    let block = |name, size| Block { name, size, axis: None };
+    let block = |name, size| Block { name, size, axis: None, factor: Factor::Line };
     let moving = number.is_multiple_of(3);
     let squares = over_all(Formula::Velocity(0, Some(Index::bound(0))).power(2))
         .plus(Formula::Velocity(1, None).power(2));

@@ -67,6 +67,8 @@ pub(super) enum Formula {
     /// the first block.
     Vector(usize, Option<Index>),
     VectorVelocity(usize, Option<Index>),
+    /// A column of a rotation.
+    Column(usize, Option<Index>, usize),
     /// A field of the struct and its indices.
     Parameter(usize, Vec<Index>),
     /// The same with an index less: its last ones are those of components.

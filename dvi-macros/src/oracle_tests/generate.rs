@@ -54,6 +54,10 @@ pub(super) fn system(random: &mut Random) -> System {
         let momentum = generator.value(&Scope::outside(), 3);
         generator.system.momenta.push(momentum);
     }
+    if generator.system.is_on_manifold() {
+        // Such systems have neither constraints nor forces.
+        return generator.system;
+    }
     if regular && generator.random.chance(30) {
         generator.system.constrained = match generator.random.below(3) {
             0 => Constrained::Velocities,

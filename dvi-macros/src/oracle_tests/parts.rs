@@ -13,6 +13,7 @@ impl Formula {
             | Self::Velocity(..)
             | Self::Vector(..)
             | Self::VectorVelocity(..)
+            | Self::Column(..)
             | Self::Parameter(..)
             | Self::VectorParameter(..)
             | Self::Count(_)
@@ -49,6 +50,7 @@ impl Formula {
             | Self::Velocity(..)
             | Self::Vector(..)
             | Self::VectorVelocity(..)
+            | Self::Column(..)
             | Self::Parameter(..)
             | Self::VectorParameter(..)
             | Self::Count(_)
@@ -84,6 +86,7 @@ impl Formula {
             | Self::Velocity(_, Some(index))
             | Self::Vector(_, Some(index))
             | Self::VectorVelocity(_, Some(index))
+            | Self::Column(_, Some(index), _)
             | Self::Count(index) => {
                 vec![index]
             }
@@ -115,6 +118,7 @@ impl Formula {
         match self {
             Self::Vector(..)
             | Self::VectorVelocity(..)
+            | Self::Column(..)
             | Self::VectorParameter(..)
             | Self::VectorName(_)
             | Self::List(_)

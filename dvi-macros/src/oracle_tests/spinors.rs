@@ -6,8 +6,9 @@
 use super::evaluate::{Oracle, Outside};
 use super::formula::{Formula, Index};
 use super::jet::Jet;
-use super::system::System;
+use super::system::{Block, System};
 use super::write::Writer;
+use crate::syntax::Factor;
 
 /// The number of coordinates of a spinor; the generator makes no other vectors of so many.
 pub(super) const SPINOR: usize = 4;
@@ -36,21 +37,26 @@ impl System {
         (0..self.blocks.len()).any(|block| self.is_spinor(block))
     }
 
-    /// What is declared of the vectors of a coordinate.
-    pub(super) fn vectors_text(&self, first: usize) -> String {
-        match self.blocks[first].axis {
-            Some([_, SPINOR]) => ": S2".to_string(),
-            Some([_, of]) => format!("[{of}]"),
-            None => String::new(),
+    /// What is declared of a coordinate beside its name.
+    pub(super) fn kind_text(&self, first: usize) -> String {
+        let Block { size, axis, factor, .. } = self.blocks[first];
+        let size = size.filter(|_| !self.is_single_factor(first));
+        let size = size.map_or_else(String::new, |size| format!("[{}]", self.size_text(size)));
+        match (factor, axis) {
+            (Factor::Rotation, _) => size + ": SO3",
+            (Factor::Sphere, _) => size + ": S2",
+            (Factor::Line, Some([_, of])) => format!("{size}[{of}]"),
+            (Factor::Line, None) => size,
         }
     }
 }
 
 impl Writer<'_> {
     pub(super) fn rate(&self, block: usize, index: Option<&Index>) -> String {
-        match self.system.is_spinor(block) {
-            true => format!("area({})", self.whole(block, index)),
-            false => format!("{}({})", self.velocity, self.place(block, index)),
+        match (self.system.is_spinor(block), self.system.is_rotation(block)) {
+            (true, _) => format!("area({})", self.whole(block, index)),
+            (_, true) => self.angular_velocity(block, index),
+            _ => format!("{}({})", self.velocity, self.place(block, index)),
         }
     }
 }

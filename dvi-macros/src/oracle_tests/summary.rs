@@ -36,6 +36,11 @@ impl Summary {
                 if system.has_spinors() {
                     self.count("agrees, with unit vectors");
                 }
+                for (word, what) in [(": SO3", "rotations"), (": S2", "unit vectors")] {
+                    if system.is_on_manifold() && system.attribute().contains(word) {
+                        self.count(&format!("agrees, with {what} that have velocities"));
+                    }
+                }
                 if system.attribute().contains("let = {") {
                     self.count("agrees, with names that formulas share");
                 }

@@ -1,7 +1,7 @@
 //! A system under test: its declarations, its formulas, and the numbers that its struct holds.
 
 use super::formula::{Formula, Index};
-use crate::syntax::Constrained;
+use crate::syntax::{Constrained, Factor};
 
 /// How the size of an array is written, and what it is in the test.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +59,7 @@ pub(super) struct Block {
     pub(super) size: Option<usize>,
     /// The component that it is, and how many there are, if it is one of vectors.
     pub(super) axis: Option<[usize; 2]>,
+    pub(super) factor: Factor,
 }
 
 /// What the attribute declares.
@@ -167,7 +168,12 @@ impl System {
     }
 
     pub(super) fn with_time_transform(mut self, rate: Formula) -> Self {
-        self.blocks.extend(EXTENDED.map(|name| Block { name, size: None, axis: None }));
+        self.blocks.extend(EXTENDED.map(|name| Block {
+            name,
+            size: None,
+            axis: None,
+            factor: Factor::Line,
+        }));
         Self { time_transform: Some(rate), ..self }
     }
 

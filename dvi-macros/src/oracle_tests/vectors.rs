@@ -4,6 +4,7 @@ use super::evaluate::{Oracle, Outside};
 use super::formula::{Formula, Index};
 use super::functions::UNARY;
 use super::jet::Jet;
+use super::rotations::{COMPONENTS, ENTRIES};
 
 fn sum_of_products(a: &[Jet], b: &[Jet]) -> Jet {
     a.iter().zip(b).fold(Jet::constant(0.0), |sum, (a, b)| sum.plus(&a.times(b)))
@@ -52,14 +53,16 @@ impl Oracle<'_> {
                 self.unit_vector(*block, index.as_ref())?
             }
             Formula::Vector(block, index) => {
-                let places = self.places(*block, index.as_ref())?;
-                places
-                    .into_iter()
-                    .map(|place| Jet::variable(self.point.q[place], place, self.variables()))
-                    .collect()
+                let places = self.places(*block, index.as_ref(), 0..self.numbers(*block))?;
+                self.at(places)
+            }
+            Formula::Column(block, index, column) => {
+                let places = self.places(*block, index.as_ref(), (*column..ENTRIES).step_by(COMPONENTS))?;
+                self.at(places)
             }
             Formula::VectorVelocity(block, index) => {
-                let (places, n) = (self.places(*block, index.as_ref())?, self.point.q.len());
+                let numbers = 0..self.numbers(*block).min(COMPONENTS);
+                let (places, n) = (self.places(*block, index.as_ref(), numbers)?, self.point.q.len());
                 let velocity = |place| Jet::variable(self.point.v[place], n + place, self.variables());
                 places.into_iter().map(velocity).collect()
             }
@@ -127,17 +130,30 @@ impl Oracle<'_> {
         })
     }
 
-    /// The places of the components of a vector among the coordinates.
-    fn places(&self, first: usize, index: Option<&Index>) -> Result<Vec<usize>, Outside> {
+    /// The coordinates at these places.
+    fn at(&self, places: Vec<usize>) -> Vec<Jet> {
+        let variable = |place| Jet::variable(self.point.q[place], place, self.variables());
+        places.into_iter().map(variable).collect()
+    }
+
+    /// The number of coordinates of a vector or a rotation.
+    fn numbers(&self, first: usize) -> usize {
+        match self.system.axes(first) {
+            1 => self.system.block_length(first),
+            axes => axes,
+        }
+    }
+
+    /// The places of coordinates of a vector or a rotation among all, by their numbers in it.
+    fn places(
+        &self,
+        first: usize,
+        index: Option<&Index>,
+        numbers: impl Iterator<Item = usize>,
+    ) -> Result<Vec<usize>, Outside> {
         match index {
-            Some(_) => {
-                let blocks = first..first + self.system.axes(first);
-                blocks.map(|block| self.coordinate(block, index)).collect()
-            }
-            None => {
-                let offset = self.system.offset(first);
-                Ok((offset..offset + self.system.block_length(first)).collect())
-            }
+            Some(_) => numbers.map(|number| self.coordinate(first + number, index)).collect(),
+            None => Ok(numbers.map(|number| self.system.offset(first) + number).collect()),
         }
     }
 }

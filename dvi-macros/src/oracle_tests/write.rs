@@ -30,17 +30,14 @@ pub(super) struct Writer<'a> {
     /// `d` or `dot`.
     pub(super) velocity: &'static str,
     definitions: &'a Definitions,
-    spelling: Spelling,
+    pub(super) spelling: Spelling,
 }
 
 impl System {
     /// The arguments of the attribute.
     pub(super) fn attribute(&self) -> String {
-        let blocks = self.coordinates().into_iter().map(|first| {
-            let block = &self.blocks[first];
-            let size = block.size.map_or_else(String::new, |size| format!("[{}]", self.size_text(size)));
-            format!("{}{size}{}", block.name, self.vectors_text(first))
-        });
+        let blocks = self.coordinates().into_iter();
+        let blocks = blocks.map(|first| format!("{}{}", self.blocks[first].name, self.kind_text(first)));
         let mut text = format!("coordinates({})", blocks.collect::<Vec<_>>().join(", "));
         let definitions = Definitions::default();
         let writer = |velocity| Writer::new(self, velocity, &definitions);
@@ -214,7 +211,10 @@ impl<'a> Writer<'a> {
             Formula::Name(name) | Formula::VectorName(name) => postfix(format!("a{name}")),
             Formula::Vector(block, index) => postfix(self.whole(*block, index.as_ref())),
             Formula::VectorVelocity(block, index) => {
-                postfix(format!("{}({})", self.velocity, self.whole(*block, index.as_ref())))
+                postfix(format!("{}({})", self.word(*block), self.whole(*block, index.as_ref())))
+            }
+            Formula::Column(block, index, number) => {
+                postfix(format!("{}.column({number})", self.whole(*block, index.as_ref())))
             }
             Formula::List(components) => {
                 let components: Vec<String> =
@@ -318,7 +318,9 @@ impl<'a> Writer<'a> {
                 Some(format!("{{ let entry = |place| {name}[place]; entry({index}) }}"))
             }
             Formula::Coordinate(block, Some(index))
-                if self.system.axes(*block) == 1 && self.spelling.is_rare() =>
+                if self.system.axes(*block) == 1
+                    && !self.system.is_rotation(*block)
+                    && self.spelling.is_rare() =>
             {
                 let (name, index) = (self.system.blocks[*block].name, self.index(index));
                 Some(format!("{{ let entry = |place| {name}[place]; entry({index}) }}"))
@@ -355,6 +357,9 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn place(&self, block: usize, index: Option<&Index>) -> String {
+        if self.system.is_rotation(block) {
+            return self.entry(block, index);
+        }
         let component = self.system.blocks[block].axis.map(|[number, _]| format!("[{number}]"));
         format!("{}{}", self.whole(block, index), component.unwrap_or_default())
     }

@@ -6,10 +6,12 @@
 
 use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 use std::hash::{Hash, Hasher};
+use std::rc::Rc;
 
 use super::functions::Unary;
 use super::index::{Atom, Free, Index, Range};
 use super::partial::Partial;
+use super::polynomial::Polynomial;
 use super::variables::Variables;
 use crate::internal::internal;
 use crate::work::step;
@@ -134,6 +136,8 @@ pub(crate) struct Graph {
     /// Sums that derivatives made and that stand in no formula as written.
     pub(super) unsigned_sums: HashSet<Id>,
     pub(super) derivatives: HashMap<(Id, Id), Expr>,
+    /// Nodes multiplied out, strictly and loosely, or nothing for those that are too long.
+    pub(super) multiplied_out: HashMap<(Id, bool), Option<Rc<Polynomial>>>,
     /// The number of coordinates in each block of the declaration.
     pub(super) block_sizes: Vec<Index>,
 }
@@ -222,6 +226,7 @@ impl Graph {
             numbers: HashMap::default(),
             unsigned_sums: HashSet::default(),
             derivatives: HashMap::default(),
+            multiplied_out: HashMap::default(),
             block_sizes,
         };
         graph.intern(Node::One);

@@ -5,10 +5,12 @@
 //! cancels. What vanishes in this form is zero wherever it is a number; the converse does not hold.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::functions::Unary;
 use super::graph::{Binary, Expr, Fold, Graph, Id, Node};
 use super::index::Atom;
+use crate::work::step;
 
 /// More terms than these are not multiplied out.
 const MOST_TERMS: usize = 64;
@@ -21,7 +23,7 @@ type Monomial = Vec<(Id, i32)>;
 
 /// Each term with its coefficient and the sum of the absolute values that were added to it.
 #[derive(Clone, Debug, Default)]
-struct Polynomial(BTreeMap<Monomial, [f64; 2]>);
+pub(super) struct Polynomial(BTreeMap<Monomial, [f64; 2]>);
 
 impl Polynomial {
     fn term(coefficient: f64, monomial: Monomial) -> Self {
@@ -106,7 +108,18 @@ impl Graph {
         Some(sum)
     }
 
-    fn polynomial_of(&mut self, id: Id, loose: bool) -> Option<Polynomial> {
+    /// A node is multiplied out once, wherever it stands.
+    fn polynomial_of(&mut self, id: Id, loose: bool) -> Option<Rc<Polynomial>> {
+        if let Some(known) = self.multiplied_out.get(&(id, loose)) {
+            return known.clone();
+        }
+        let polynomial = self.new_polynomial_of(id, loose).map(Rc::new);
+        self.multiplied_out.insert((id, loose), polynomial.clone());
+        polynomial
+    }
+
+    fn new_polynomial_of(&mut self, id: Id, loose: bool) -> Option<Polynomial> {
+        step();
         match self.node(id).clone() {
             Node::Sum(terms) => self.polynomial_of_sum(&terms, loose),
             Node::One | Node::Product(_) | Node::Reciprocal(_) => self.polynomial_of_product(id, loose),
@@ -168,7 +181,7 @@ impl Graph {
 
     fn polynomial_of_power(&mut self, base: Id, exponent: i32, loose: bool) -> Option<Polynomial> {
         let base = self.polynomial_of(base, loose)?;
-        (1..exponent).try_fold(base.clone(), |power, _| power.times(&base))
+        (1..exponent).try_fold((*base).clone(), |power, _| power.times(&base))
     }
 
     /// A derivative of `atan2` as the quotient that it is; loosely also tanh as sinh/cosh, and a power with

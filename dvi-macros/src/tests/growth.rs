@@ -1,8 +1,9 @@
 //! How the work of the compiler grows with the size of a system: with the number of its terms.
 
+use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::expand::lagrangian;
+use crate::expand::{degenerate_lagrangian, lagrangian};
 use crate::work::steps_of;
 
 /// A sum, cut into `let`s of 50 terms, each with its kinetic energy beside it.
@@ -18,10 +19,14 @@ fn system(coordinates: &[String], terms: &[String]) -> u64 {
         }
     }
     let formula = format!("{{ {text} {} }}", total.join(" + "));
-    let attribute = format!("coordinates({}), lagrangian = {formula}", coordinates.join(", "));
+    steps(lagrangian, &format!("coordinates({}), lagrangian = {formula}", coordinates.join(", ")))
+}
+
+/// The steps of an expansion.
+fn steps(expand: fn(TokenStream, TokenStream) -> TokenStream, attribute: &str) -> u64 {
     let attribute = attribute.parse().expect("it is Rust");
     steps_of(|| {
-        let expansion = lagrangian(
+        let expansion = expand(
             attribute,
             quote!(
                 struct System;
@@ -68,6 +73,16 @@ fn pairs(count: usize) -> u64 {
     system(&names, &terms.collect::<Vec<_>>())
 }
 
+/// A gauge of quotients, each of which has the one before above and below.
+fn quotients(count: usize) -> u64 {
+    let next = |number: usize| format!("let a{} = (x + a{number}) / (y + a{number});\n", number + 1);
+    let chain: String = (0..count).map(next).collect();
+    let attribute = format!(
+        "coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = {{ let a0 = 2.0 + y * y; {chain} a{count} }}"
+    );
+    steps(degenerate_lagrangian, &attribute)
+}
+
 /// Twice as many terms are little more than twice the work.
 fn grows_with_the_terms(name: &str, work: impl Fn(usize) -> u64, sizes: [usize; 3]) {
     let steps = sizes.map(&work);
@@ -94,4 +109,9 @@ fn neighbours_without_end() {
 #[test]
 fn pairs_without_end() {
     grows_with_the_terms("pairs", pairs, [250, 500, 1000]);
+}
+
+#[test]
+fn quotients_of_quotients_without_end() {
+    grows_with_the_terms("quotients of quotients", quotients, [8, 16, 32]);
 }

@@ -324,6 +324,7 @@ fn the_rods_of_a_chain_are_checked() {
         "check",
         &expect![[r#"
             fn check() {
+                __private::check_sizes(self)?;
                 __private::check_indices(
                     "x",
                     (0i128),

@@ -2,9 +2,10 @@
 
 use crate::oracle_tests::formula::Formula;
 use crate::oracle_tests::random::Random;
+use crate::oracle_tests::rotations::{COMPONENTS, ENTRIES};
 use crate::oracle_tests::spinors::SPINOR;
 use crate::oracle_tests::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
-use crate::syntax::Constrained;
+use crate::syntax::{Constrained, Factor};
 
 /// How sizes are written.
 #[derive(Clone, Copy, PartialEq)]
@@ -24,9 +25,14 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
         sizes.push(Size { kind: SizeKind::Literal, value: width as i64 });
     }
     let fields = fields(random, &sizes, width);
+    let of = sizes.len() - 1;
     let blocks = match width {
         0 => blocks(random, regular, &sizes),
-        width => vectors(random, regular, width, sizes.len() - 1),
+        3 if regular && random.chance(60) => {
+            sizes.push(Size { kind: SizeKind::Literal, value: ENTRIES as i64 });
+            on_manifolds(random, [of, of + 1])
+        }
+        width => vectors(random, regular, width, of),
     };
     let dynamics = Dynamics::Regular(Formula::Time);
     let (gauge, time_transform) = (Gauge::None, None);
@@ -123,11 +129,14 @@ fn fields(random: &mut Random, sizes: &[Size], width: usize) -> Vec<Field> {
 
 /// Coordinates with vectors among them; `of` is the size with their number of components.
 fn vectors(random: &mut Random, regular: bool, width: usize, of: usize) -> Vec<Block> {
-    let block = |name, size, axis| Block { name, size, axis };
+    let block = |name, size, axis| Block { name, size, axis, factor: Factor::Line };
     let array = |name, size| (0..width).map(move |axis| block(name, Some(size), Some([axis, width])));
     let whole = |name| block(name, Some(of), None);
     let singles = [block("u", None, None), block("w", None, None)];
-    let spinors = |name, size| (0..SPINOR).map(move |axis| block(name, size, Some([axis, SPINOR])));
+    let spinors = |name, size| {
+        let spinor = move |axis| Block { name, size, axis: Some([axis, SPINOR]), factor: Factor::Sphere };
+        (0..SPINOR).map(spinor)
+    };
     if !regular && width == SPINOR - 1 && random.chance(50) {
         return match random.below(3) {
             0 => singles.into_iter().chain(spinors("z", Some(0))).collect(),
@@ -150,8 +159,30 @@ fn vectors(random: &mut Random, regular: bool, width: usize, of: usize) -> Vec<B
     }
 }
 
+/// Rotations and unit vectors, with others beside them; the sizes are those of one unit vector and of one
+/// rotation.
+fn on_manifolds(random: &mut Random, [of_vector, of_rotation]: [usize; 2]) -> Vec<Block> {
+    let array = |name, size, factor, of| {
+        (0..of).map(move |axis| Block { name, size: Some(size), axis: Some([axis, of]), factor })
+    };
+    let single = |name, size, factor| Block { name, size, axis: None, factor };
+    let rotation = || single("R", Some(of_rotation), Factor::Rotation);
+    let vector = || single("z", Some(of_vector), Factor::Sphere);
+    let rotations = |size| array("R", size, Factor::Rotation, ENTRIES);
+    let vectors = |size| array("z", size, Factor::Sphere, COMPONENTS);
+    let number = || single("u", None, Factor::Line);
+    match random.below(6) {
+        0 => vec![rotation(), vector()],
+        1 => [number(), vector()].into_iter().chain(rotations(1)).collect(),
+        2 => [rotation()].into_iter().chain(vectors(0)).chain([number()]).collect(),
+        3 => rotations(0).chain(vectors(1)).collect(),
+        4 => vectors(0).collect(),
+        _ => array("r", 0, Factor::Line, COMPONENTS).chain(rotations(1)).chain([vector()]).collect(),
+    }
+}
+
 fn blocks(random: &mut Random, regular: bool, sizes: &[Size]) -> Vec<Block> {
-    let block = |name, size| Block { name, size, axis: None };
+    let block = |name, size| Block { name, size, axis: None, factor: Factor::Line };
     let square = sizes.iter().position(|size| matches!(size.kind, SizeKind::Product(..)));
     if square.is_some() && random.chance(60) {
         return vec![block("x", square), block("y", square)];

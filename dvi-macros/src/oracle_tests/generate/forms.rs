@@ -140,12 +140,15 @@ impl Generator<'_> {
     /// That of all components of a coordinate, one by one or of the vector.
     fn kinetic_along(&mut self, first: usize) -> Vec<Formula> {
         let axes = self.system.axes(first);
-        if axes == 1 || self.random.chance(30) {
-            return (first..first + axes).map(|block| self.kinetic_of(block)).collect();
+        let is_single_rotation = self.system.is_rotation(first) && axes == 1;
+        if !is_single_rotation && (axes == 1 || self.random.chance(30)) {
+            let blocks = (first..first + axes).filter(|block| self.system.has_velocity(*block));
+            return blocks.collect::<Vec<_>>().into_iter().map(|block| self.kinetic_of(block)).collect();
         }
-        let velocity = Formula::VectorVelocity(first, Some(Index::bound(0)));
+        let size = self.system.blocks[first].size.filter(|_| !is_single_rotation);
+        let velocity = Formula::VectorVelocity(first, size.map(|_| Index::bound(0)));
         let square = Formula::NormSquared(Box::new(velocity)).over(Formula::Number("2.0"));
-        vec![self.over(self.system.blocks[first].size, square)]
+        vec![self.over(size, square)]
     }
 
     /// A function with velocities in it.

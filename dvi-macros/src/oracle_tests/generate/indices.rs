@@ -84,7 +84,8 @@ impl Scope {
             Formula::Coordinate(block, index)
             | Formula::Velocity(block, index)
             | Formula::Vector(block, index)
-            | Formula::VectorVelocity(block, index) => system.blocks[*block]
+            | Formula::VectorVelocity(block, index)
+            | Formula::Column(block, index, _) => system.blocks[*block]
                 .size
                 .zip(index.as_ref())
                 .is_none_or(|(size, index)| admits(index, size)),
@@ -169,6 +170,14 @@ impl Generator<'_> {
             }
         }
         Index::literal(0)
+    }
+
+    /// An index of a number in a block; that of an entry of a rotation is a literal.
+    pub(super) fn index_of(&mut self, scope: &Scope, block: usize, entries: usize) -> Option<Index> {
+        if self.system.is_rotation(block) && self.system.is_single_factor(block) {
+            return Some(Index::literal(self.random.below(entries) as i64));
+        }
+        self.system.blocks[block].size.map(|size| self.index(scope, size))
     }
 
     fn any_index(&mut self, scope: &Scope, size: usize) -> Index {

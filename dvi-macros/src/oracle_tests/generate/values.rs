@@ -4,6 +4,7 @@ use super::indices::Scope;
 use super::{Generator, Velocities};
 use crate::oracle_tests::formula::{Condition, Formula, Loops, Relation};
 use crate::oracle_tests::functions::{BinaryFunction, OWN, SCALAR_FIELDS, UNARY, UnaryFunction};
+use crate::oracle_tests::rotations::{COMPONENTS, ENTRIES};
 use crate::oracle_tests::spinors::SPINOR;
 
 const NUMBERS: [&str; 9] = ["2.0", "0.5", "3", "1.5", "0.25", "1", "4.0", "0.1", "2"];
@@ -163,16 +164,16 @@ impl Generator<'_> {
             // Of four coordinates there are three components.
             block -= 1;
         }
-        let index = self.system.blocks[block].size.map(|size| self.index(scope, size));
+        let index = self.index_of(scope, block, ENTRIES);
         Formula::Coordinate(block, index)
     }
 
     pub(super) fn velocity(&mut self, scope: &Scope) -> Formula {
         // Areas have constant factors, and are among what makes Ω regular.
-        let numbers: Vec<usize> =
-            (0..self.system.blocks.len()).filter(|block| !self.system.is_spinor(*block)).collect();
-        let block = *self.random.pick(&numbers);
-        let index = self.system.blocks[block].size.map(|size| self.index(scope, size));
+        let moving: Vec<usize> =
+            (0..self.system.blocks.len()).filter(|block| self.system.has_velocity(*block)).collect();
+        let block = *self.random.pick(&moving);
+        let index = self.index_of(scope, block, COMPONENTS);
         Formula::Velocity(block, index)
     }
 

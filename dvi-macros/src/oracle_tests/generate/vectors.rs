@@ -3,6 +3,7 @@
 use super::indices::Scope;
 use super::{Generator, Velocities};
 use crate::oracle_tests::formula::{Formula, Index};
+use crate::oracle_tests::rotations::COMPONENTS;
 use crate::oracle_tests::system::{Container, System};
 
 impl Generator<'_> {
@@ -84,9 +85,14 @@ impl Generator<'_> {
         leaf.unwrap_or_else(|| Formula::List((0..self.system.width).map(|_| self.value(scope, 0)).collect()))
     }
 
-    /// All of a coordinate.
+    /// All of a coordinate, or a column of it.
     fn vector_coordinate(&mut self, scope: &Scope) -> Option<Formula> {
-        self.vector_of(scope, Formula::Vector, |_, _| true)
+        Some(match self.vector_of(scope, Formula::Vector, |_, _| true)? {
+            Formula::Vector(first, index) if self.system.is_rotation(first) => {
+                Formula::Column(first, index, self.random.below(COMPONENTS))
+            }
+            vector => vector,
+        })
     }
 
     /// Its velocity, which no unit vector has.
@@ -102,7 +108,10 @@ impl Generator<'_> {
     ) -> Option<Formula> {
         let coordinates = self.system.coordinates().into_iter();
         let vectors: Vec<usize> = coordinates
-            .filter(|first| self.system.axes(*first) > 1 || self.system.is_whole(*first))
+            .filter(|first| {
+                let is_single = self.system.is_whole(*first) || self.system.is_single_factor(*first);
+                is_single || self.system.axes(*first) > 1
+            })
             .filter(|first| counts(&self.system, *first))
             .collect();
         if vectors.is_empty() {

@@ -83,6 +83,8 @@ pub(super) fn integer_method(
         "wrapping_sub" => (value - other - least).rem_euclid(turn) + least,
         "wrapping_add" => (value + other - least).rem_euclid(turn) + least,
         "saturating_sub" => (value - other).max(least),
+        "saturating_add" => (value + other).min(least + turn - 1),
+        "saturating_mul" => (value * other).min(least + turn - 1),
         "max" => value.max(other),
         "min" => value.min(other),
         "rem_euclid" => value.checked_rem_euclid(other).ok_or_else(|| panicked("a remainder by zero"))?,

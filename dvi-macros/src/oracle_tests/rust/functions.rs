@@ -17,6 +17,7 @@ pub(super) enum Callee {
     Remainder,
     /// `__private::members_before`
     MembersBefore,
+    CheckSizes,
     CheckIndex,
     CheckIndices,
     /// `__private::whole`
@@ -92,6 +93,7 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "__private", "wrap"] => Callee::Wrap,
         [.., "__private", "remainder"] => Callee::Remainder,
         [.., "__private", "members_before"] => Callee::MembersBefore,
+        [.., "__private", "check_sizes"] => Callee::CheckSizes,
         [.., "__private", "check_index"] => Callee::CheckIndex,
         [.., "__private", "check_indices"] => Callee::CheckIndices,
         [.., "__private", "whole"] => Callee::Whole,

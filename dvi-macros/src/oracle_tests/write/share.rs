@@ -65,6 +65,7 @@ impl Formula {
             | Self::Velocity(_, Some(index))
             | Self::Vector(_, Some(index))
             | Self::VectorVelocity(_, Some(index))
+            | Self::Column(_, Some(index), _)
             | Self::Count(index) => {
                 vec![index]
             }

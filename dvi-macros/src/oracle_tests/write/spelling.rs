@@ -4,14 +4,14 @@ use std::cell::Cell;
 
 /// Where the language has two spellings, sometimes the other one is taken: the same ones for the same
 /// system.
-pub(super) struct Spelling(Cell<u32>);
+pub(in crate::oracle_tests) struct Spelling(Cell<u32>);
 
 impl Spelling {
     pub(super) fn new(seed: u32) -> Self {
         Self(Cell::new(seed))
     }
 
-    pub(super) fn is_other(&self) -> bool {
+    pub(in crate::oracle_tests) fn is_other(&self) -> bool {
         let next = self.0.get().wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         self.0.set(next);
         next >> 30 == 0
