@@ -6,8 +6,9 @@ use quote::ToTokens;
 use syn::parse::ParseStream;
 use syn::{BinOp, Expr, Lit, Token};
 
+use super::cut::{expression, read_by, value_of};
 use super::rotation::unwrapped;
-use super::{Attribute, Kind, Value, expression, form_of, read_by, value_of};
+use super::{Attribute, Kind, Value, form_of};
 use crate::errors::{Errors, text};
 
 /// What the constraints of a system are functions of; the word of the argument says it.

@@ -9,7 +9,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Expr, Path, Token, Type};
 
-use super::expression;
+use super::cut::expression;
 use crate::errors::text;
 
 /// `x`, `x[n]`, `r[n][3]`, `R: SO3`, `s: S2` or `s[n]: S2`.

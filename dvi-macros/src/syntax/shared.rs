@@ -3,7 +3,8 @@
 use proc_macro2::{Ident, TokenStream};
 use syn::{Expr, Local, Stmt};
 
-use super::{Attribute, form_of, value_of};
+use super::cut::value_of;
+use super::{Attribute, form_of};
 use crate::errors::{Errors, text};
 
 /// The word that declares them.

@@ -239,7 +239,7 @@ mod tests {
             tokens.extend(quote!(#number * x));
             expected += if minus { -n } else { n };
         }
-        let parse = |input: syn::parse::ParseStream<'_>| super::super::expression(input);
+        let parse = |input: syn::parse::ParseStream<'_>| super::super::cut::expression(input);
         let sum = parse.parse2(sums(quote!({ let a = #tokens; a }))).expect("a block");
         let Expr::Block(block) = sum else { panic!("a block") };
         let Some(syn::Stmt::Local(local)) = block.block.stmts.first() else { panic!("a binding") };
