@@ -73,6 +73,13 @@ mod velocities_of_functions {
 
     #[lagrangian(coordinates(a), lagrangian = dot(a.sin()).powi(2) / 2.0)]
     struct S;
+
+    #[lagrangian(
+        coordinates(x[N]),
+        lagrangian = sum(0..N, |i| dot(next(i)).powi(2) + dot([x[i], x[0]])[0]),
+        let = { let next = |i| x[(i + 1) % N]; },
+    )]
+    struct OfCalls<const N: usize>;
 }
 
 fn main() {}
