@@ -68,6 +68,13 @@ mod constraints_that_are_not_affine {
     }
 }
 
+mod three_indices {
+    use super::*;
+
+    #[lagrangian(coordinates(q[N][M][K]), lagrangian = dot(q[0][0][0]).powi(2) / 2.0)]
+    struct S<const N: usize, const M: usize, const K: usize>;
+}
+
 mod velocities_of_functions {
     use super::*;
 
