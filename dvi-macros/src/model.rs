@@ -19,6 +19,7 @@ mod parameters;
 mod shape;
 mod sizes;
 mod vectors;
+mod written_out;
 
 pub(crate) use grids::Grid;
 pub(crate) use parameters::ParameterName;
