@@ -36,6 +36,9 @@ impl Summary {
                 if system.has_spinors() {
                     self.count("agrees, with unit vectors");
                 }
+                if system.has_grids() {
+                    self.count("agrees, with two indices");
+                }
                 if system.attribute().contains("let = {") {
                     self.count("agrees, with names that formulas share");
                 }
