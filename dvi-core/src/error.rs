@@ -25,10 +25,12 @@ said!(LengthError, IndexError, OutsideError, StartError, CheckpointError);
 
 /// An array of a state does not have the length that its system declares.
 #[derive(Clone, Copy, PartialEq, Eq, Error)]
-#[error("`{array}` has length {found}, but the system declares {expected}")]
+#[error("`{array}{}` has length {found}, but the system declares {expected}", InArray(.row))]
 pub struct LengthError {
     /// The array.
     pub array: &'static str,
+    /// The first index, if it is a row of an array with two indices.
+    pub row: Option<usize>,
     /// The declared length.
     pub expected: usize,
     /// The length that was given.
@@ -39,7 +41,7 @@ pub struct LengthError {
 #[derive(Clone, Copy, PartialEq, Eq, Error)]
 #[error("the formulas use index {index} of `{array}`, which has length {len}")]
 pub struct IndexError {
-    /// The array, a coordinate or a parameter.
+    /// The array, a coordinate or a parameter; `q[i]` for the second index of coordinates with two.
     pub array: &'static str,
     /// The index, negative if a formula steps below zero.
     pub index: i64,

@@ -62,14 +62,16 @@ impl fmt::Display for Axis {
     }
 }
 
-/// The name of an entry of a state: `x`, `x[3]`, `r[3].x`, `dot_x[3]`, `omega_R[2]`.
+/// The name of an entry of a state: `x`, `x[3]`, `q[2][3]`, `r[3].x`, `dot_x[3]`, `omega_R[2]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
     /// The name of the block of coordinates.
     pub block: &'static str,
     /// Whether it is the velocity.
     pub is_velocity: bool,
-    /// The index in an array of coordinates.
+    /// The first index, of coordinates with two.
+    pub row: Option<usize>,
+    /// The index in an array of coordinates, or in a row.
     pub index: Option<usize>,
     /// The component, of vectors.
     pub axis: Option<Axis>,
@@ -85,6 +87,7 @@ impl fmt::Display for Name {
             (true, Factor::Rotation) => "omega_",
         };
         write!(f, "{prefix}{}", self.block)?;
+        InArray(&self.row).fmt(f)?;
         InArray(&self.index).fmt(f)?;
         self.axis.map_or(Ok(()), |axis| write!(f, "{axis}"))
     }

@@ -139,11 +139,35 @@ pub fn write_block<T: Copy>(
     at: &mut usize,
     flat: &mut [T],
 ) -> Result<(), LengthError> {
-    let error = LengthError { array, expected, found: block.len() };
+    let error = LengthError { array, row: None, expected, found: block.len() };
     let place = flat.get_mut(*at..*at + block.len()).filter(|_| block.len() == expected).ok_or(error)?;
     place.copy_from_slice(block);
     *at += expected;
     Ok(())
+}
+
+/// Copies the rows of an array with two indices to their places in a flat slice, one after the other: of so
+/// many entries, so many in each.
+///
+/// # Errors
+/// [`LengthError`] if there are not as many rows as declared, or not as many entries in one.
+pub fn write_rows<T: Copy, R: AsRef<[T]>>(
+    array: &'static str,
+    rows: &[R],
+    [all, length]: [usize; 2],
+    at: &mut usize,
+    flat: &mut [T],
+) -> Result<(), LengthError> {
+    // Of empty rows nobody knows how many there are to be.
+    let (expected, found) = (all.checked_div(length).unwrap_or(rows.len()), rows.len());
+    if expected != found {
+        return Err(LengthError { array, row: None, expected, found });
+    }
+    let write = |(row, entries): (usize, &R)| {
+        let written = write_block(array, entries.as_ref(), length, at, flat);
+        written.map_err(|error| LengthError { row: Some(row), ..error })
+    };
+    rows.iter().enumerate().try_for_each(write)
 }
 
 /// Copies vectors of a state to their places in a flat slice, which has all first components before all
@@ -158,7 +182,7 @@ pub fn write_vectors<T: Copy, const D: usize>(
     at: &mut usize,
     flat: &mut [T],
 ) -> Result<(), LengthError> {
-    let error = LengthError { array, expected, found: vectors.len() };
+    let error = LengthError { array, row: None, expected, found: vectors.len() };
     let end = *at + D * expected;
     let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
     for (i, vector) in vectors.iter().enumerate() {
@@ -193,7 +217,7 @@ pub fn write_spinors<T: Scalar>(
     at: &mut usize,
     flat: &mut [T],
 ) -> Result<(), LengthError> {
-    let error = LengthError { array, expected, found: vectors.len() };
+    let error = LengthError { array, row: None, expected, found: vectors.len() };
     let end = *at + spinor::COORDINATES * expected;
     let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
     for (i, &vector) in vectors.iter().enumerate() {

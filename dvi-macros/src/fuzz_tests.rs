@@ -12,7 +12,7 @@ mod systems;
 use systems::systems;
 
 /// The number of [`systems`].
-const SYSTEMS: usize = 9;
+const SYSTEMS: usize = 10;
 
 fn any_kind() -> impl Strategy<Value = Kind> {
     prop::sample::select(vec![Kind::Degenerate, Kind::Regular])

@@ -303,9 +303,13 @@ fn configuration(
     let (name, allow) = (&emitter.model.item.ident, allow());
     let (impl_generics, type_generics, where_clause) = emitter.model.item.generics.split_for_impl();
     let State { space, space_value, type_in_trait, .. } = state;
-    let lengths = (0..emitter.model.blocks.len())
-        .map(|block| emitter.model.size_tokens(&emitter.model.block_size(block)));
-    let blocks = 0..emitter.model.blocks.len();
+    let model = emitter.model;
+    let sizes = (0..model.blocks.len()).map(|block| (block, model.block_size(block)));
+    let rows = model.blocks.iter().enumerate();
+    let rows =
+        rows.filter_map(|(block, one)| Some((model.number_of_rows(block), one.row_length()?.clone())));
+    let (blocks, lengths): (Vec<usize>, Vec<TokenStream>) =
+        sizes.chain(rows).map(|(number, length)| (number, model.size_tokens(&length))).unzip();
     let time_transformed = emitter.model.extended.is_some();
     let forced = programs.forces.is_some();
     let autonomous = !programs.depends_on_time(emitter.graph);

@@ -9,15 +9,19 @@ use syn::ext::IdentExt as _;
 use syn::{Ident, ItemStruct, Path, Type};
 
 use crate::errors::Errors;
-use crate::symbolic::{Index, Names};
+use crate::symbolic::Index;
 use crate::syntax::{Attribute, Declaration, Factor, Function, Kind, Named, ScalarFieldPath};
 use crate::words::{self, reserved};
 
+mod grids;
+mod names;
 mod parameters;
 mod shape;
 mod sizes;
 mod vectors;
+mod written_out;
 
+pub(crate) use grids::Grid;
 pub(crate) use parameters::ParameterName;
 use parameters::fields;
 pub(crate) use shape::Shape;
@@ -31,6 +35,8 @@ pub(crate) struct Block {
     /// The size of an array, with its text; of a rotation or a unit vector without an index, the number of
     /// its entries.
     pub(crate) array: Option<(Index, String)>,
+    /// The two sizes, if it takes two indices.
+    pub(crate) grid: Option<Grid>,
     /// Which component the coordinates are, if they are those of vectors.
     pub(crate) axis: Option<Axis>,
     pub(crate) factor: Factor,
@@ -187,6 +193,7 @@ impl Model {
             self.blocks.push(Block {
                 name: Ident::new(name, word.span()),
                 array: None,
+                grid: None,
                 axis: None,
                 factor: Factor::Line,
             });
@@ -220,7 +227,8 @@ impl Model {
                 format!("coordinate `{name}` has the name of a field of the struct; rename one of them"),
             );
         }
-        let axes = components.as_ref().and_then(|components| {
+        let row_length = grids::row_length(components.as_ref());
+        let axes = components.as_ref().filter(|_| row_length.is_none()).and_then(|components| {
             let count = errors.taken(vectors::components(name, components));
             self.lost_coordinates |= count.is_none();
             // What is said of its uses is that of vectors.
@@ -231,19 +239,22 @@ impl Model {
         let is_spinor = factor == Factor::Sphere && self.kind == Kind::Degenerate;
         let axes = if is_spinor { Some(SPINOR) } else { axes.or(size.as_ref().and(factor.coordinates())) };
         let count = axes.unwrap_or(1);
-        let array = size.as_ref().map(|size| {
-            let index = self.declared_size(name, size, count as i64).unwrap_or_else(|message| {
-                let kind = format!("size {}", size.to_token_stream());
-                errors.push_once(&kind, size, message);
-                self.lost_coordinates = true;
-                Index::literal(1)
-            });
-            (index, size.to_token_stream().to_string().replace("r#", "").replace(' ', ""))
-        });
+        let grid =
+            size.as_ref().zip(row_length).map(|(rows, length)| self.grid(name, [rows, length], errors));
+        let array = match &grid {
+            Some(grid) => Some(grid.entries()),
+            None => size.as_ref().map(|size| self.read_size(name, size, count as i64, errors)),
+        };
         let alone = || factor.coordinates().map(|count| (Index::literal(count as i64), count.to_string()));
         let array = if is_spinor { array } else { array.or_else(alone) };
         let axis = |number| axes.map(|of| Axis { number, of });
-        let block = |number| Block { name: name.clone(), array: array.clone(), axis: axis(number), factor };
+        let block = |number| Block {
+            name: name.clone(),
+            array: array.clone(),
+            grid: grid.clone(),
+            axis: axis(number),
+            factor,
+        };
         self.blocks.extend((0..count).map(block));
     }
 
@@ -330,47 +341,6 @@ impl Model {
             crate::symbolic::Atom::Size(size) => self.sizes[size.0 as usize].constant,
             _ => false,
         })
-    }
-}
-
-impl Names for Model {
-    fn coordinate(&self, block: u32) -> (String, bool) {
-        let block = &self.blocks[block as usize];
-        let name = if block.is_spinor() { block.spinor() } else { block.name.to_string() };
-        (name, block.array.is_some())
-    }
-    fn component(&self, block: u32) -> Option<usize> {
-        self.blocks[block as usize].axis.map(|axis| axis.number)
-    }
-    fn is_rotation(&self, block: u32) -> bool {
-        self.blocks[block as usize].factor == Factor::Rotation
-    }
-    fn velocity(&self) -> &'static str {
-        match self.kind {
-            Kind::Degenerate => "d",
-            Kind::Regular => "dot",
-        }
-    }
-    fn parameter(&self, field: u32) -> &str {
-        &self.parameters[field as usize].text
-    }
-    fn size(&self, size: u32) -> &str {
-        &self.sizes[size as usize].text
-    }
-    fn function(&self, function: u32) -> String {
-        self.functions[function as usize].name.to_string()
-    }
-    fn scalar_field(&self, field: u32) -> &str {
-        &self.scalar_fields[field as usize].text
-    }
-    fn is_taken(&self, name: &str) -> bool {
-        let parts =
-            |text: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == name);
-        self.blocks.iter().any(|block| block.name == name)
-            || self.parameters.iter().any(|parameter| parts(&parameter.text))
-            || self.sizes.iter().any(|size| parts(&size.text))
-            || self.functions.iter().any(|function| function.name == name)
-            || self.declared_scalar_fields.iter().any(|field| field.name == name)
     }
 }
 

@@ -265,7 +265,7 @@ impl Check<'_> {
 
     fn named(&self, directions: Directions<'_>, is_matrix: bool) -> String {
         let name = |support: Support<'_>| match support {
-            Support::Entry(block, index) => self.system.model.blocks[block].entry(&index.to_string()),
+            Support::Entry(block, index) => self.system.model.blocks[block].at(index),
             Support::Constraint(number, member) => format!("constraint {number}, member {member}"),
             Support::All | Support::Blocks(_) | Support::Half(_) | Support::OtherHalf(_) => String::new(),
         };

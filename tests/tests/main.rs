@@ -28,6 +28,7 @@ mod galerkin;
 mod gauges;
 mod gauss_guesses;
 mod gauss_newton;
+mod grids;
 mod impacts;
 mod imports;
 mod lanes;

@@ -1,5 +1,6 @@
 //! Vectors beside the same in components: the same numbers, under other names.
 
+use approx::assert_abs_diff_eq;
 use dvi_core::ensemble::Table;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
@@ -137,5 +138,51 @@ fn the_number_of_bodies_may_be_known_late() -> Outcome {
     let short = InFieldState { r: state.r[1..].to_vec(), ..state };
     let error = Integrator::new(&system, Variational::midpoint(), 0.01, short).map(|_| ());
     assert!(error.is_err_and(|error| error.to_string().contains("`r`")));
+    Ok(())
+}
+
+/// Bodies in a field, axis by axis.
+#[lagrangian(
+    coordinates(r[n][3]),
+    lagrangian = sum(0..n, |i| sum(0..3, |k| m[k] / 2.0 * dot(r[i][k]).powi(2) + b[k] * dot(r[i])[k])
+        - product(0..=2, |k| 1.0 + r[i][k].powi(2)) - sum(0..3, |k| sum(0..3, |l| h[k][l] * r[i][k] * r[i][l]))),
+)]
+struct AxisByAxis {
+    n: usize,
+    m: [f64; 3],
+    b: [f64; 3],
+    h: [[f64; 3]; 3],
+}
+
+/// The same with its terms written out.
+#[lagrangian(
+    coordinates(r[n][3]),
+    lagrangian = sum(0..n, |i| m[0] / 2.0 * dot(r[i][0]).powi(2) + b[0] * dot(r[i])[0]
+        + (m[1] / 2.0 * dot(r[i][1]).powi(2) + b[1] * dot(r[i])[1])
+        + (m[2] / 2.0 * dot(r[i][2]).powi(2) + b[2] * dot(r[i])[2])
+        - (1.0 + r[i][0].powi(2)) * (1.0 + r[i][1].powi(2)) * (1.0 + r[i][2].powi(2))
+        - ([h[0][0], h[0][1], h[0][2]].dot(r[i]) * r[i][0] + [h[1][0], h[1][1], h[1][2]].dot(r[i]) * r[i][1]
+            + [h[2][0], h[2][1], h[2][2]].dot(r[i]) * r[i][2])),
+)]
+struct TermByTerm {
+    n: usize,
+    m: [f64; 3],
+    b: [f64; 3],
+    h: [[f64; 3]; 3],
+}
+
+#[test]
+fn sums_run_over_components() -> Outcome {
+    let (m, b, h) =
+        ([1.0, 2.0, 0.5], [0.3, -0.2, 0.1], [[1.0, 0.2, 0.1], [0.2, 2.0, -0.3], [0.1, -0.3, 0.7]]);
+    let (r, dot_r) = (vec![[0.1, 0.4, -0.3], [0.7, 0.2, 0.5]], vec![[0.2, 0.0, 0.5], [-0.1, 0.3, 0.4]]);
+    let start = AxisByAxisState { r: r.clone(), dot_r: dot_r.clone() };
+    let mut run = Integrator::new(AxisByAxis { n: 2, m, b, h }, Gauss::<2>::new(), 0.05, start)?;
+    let start = TermByTermState { r, dot_r };
+    let mut other = Integrator::new(TermByTerm { n: 2, m, b, h }, Gauss::<2>::new(), 0.05, start)?;
+    run.take_steps(200)?;
+    other.take_steps(200)?;
+    assert_abs_diff_eq!(run.q(), other.q(), epsilon = 1e-11);
+    assert_abs_diff_eq!(&*run.v(), &*other.v(), epsilon = 1e-11);
     Ok(())
 }

@@ -91,6 +91,40 @@ impl RunTime {
         vectors.extend((0..len).map(spinor::read(len, at, flat)));
     }
 
+    /// Reads the rows of an array with two indices: of so many entries, so many in each.
+    #[doc(hidden)]
+    pub fn read_rows<T, R>(
+        [all, length]: [usize; 2],
+        at: &mut usize,
+        flat: &[T],
+        read: impl Fn(usize, &mut usize, &[T]) -> R,
+    ) -> Vec<R> {
+        let rows = all.checked_div(length).unwrap_or(0);
+        (0..rows).map(|_| read(length, at, flat)).collect()
+    }
+
+    /// The same, into the storage of such rows.
+    #[doc(hidden)]
+    pub fn refill_rows<T: Copy, R: AsMut<[T]>>(
+        lengths: [usize; 2],
+        at: &mut usize,
+        flat: &[T],
+        read: impl Fn(usize, &mut usize, &[T]) -> R,
+        rows: &mut Vec<R>,
+    ) {
+        let [all, length] = lengths;
+        let fits = length * rows.len() == all && rows.iter_mut().all(|row| row.as_mut().len() == length);
+        if !fits {
+            *rows = Self::read_rows(lengths, at, flat, read);
+            return;
+        }
+        for row in rows {
+            let start = *at;
+            *at += length;
+            row.as_mut().copy_from_slice(&flat[start..*at]);
+        }
+    }
+
     /// The same as [`read_block`](Self::read_block), into the storage of such a block.
     #[doc(hidden)]
     pub fn refill_block<T: Scalar>(len: usize, at: &mut usize, flat: &[T], block: &mut Vec<T>) {

@@ -61,10 +61,13 @@ impl<S: System> Iterator for Entries<'_, S> {
             if index < components * count {
                 self.index += 1;
                 let (entry, number) = (index / components, index % components);
-                let index_in_array = (!size.is_empty()).then_some(entry);
+                let index = (!size.is_empty()).then_some(entry);
+                let length = system.block_len(S::REPORT.coordinates.len() + block);
+                let row = index.and_then(|index| index.checked_div(length));
+                let index = index.map(|index| index.checked_rem(length).unwrap_or(index));
                 let axis = axis.map(|_| Axis { number: number as u8, of: components as u8 });
                 return Some((
-                    Name { block: name, is_velocity, index: index_in_array, axis, factor },
+                    Name { block: name, is_velocity, row, index, axis, factor },
                     first + number * coordinates + entry,
                 ));
             }

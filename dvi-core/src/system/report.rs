@@ -5,12 +5,13 @@ use core::fmt;
 use super::Factor;
 use crate::name::Axis;
 
-/// A block of coordinates: `x`, or `x[n]`, or those of `r[n][3]` or `s[n]: S2` along one axis.
+/// A block of coordinates: `x`, or `x[n]`, or `q[n][m]`, or those of `r[n][3]` or `s[n]: S2` along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CoordinateBlock {
     /// The name.
     pub name: &'static str,
-    /// The size as written in the attribute; empty for a single coordinate.
+    /// The size as written in the attribute, without the outer brackets: `n`, or `n][m`; empty for a single
+    /// coordinate.
     pub size: &'static str,
     /// The component, of vectors: their blocks follow each other, and have one name.
     pub axis: Option<Axis>,

@@ -67,7 +67,7 @@ impl Spinor {
 
     fn name(self) -> Name {
         let Self { name, index, .. } = self;
-        Name { block: name, is_velocity: false, index, axis: None, factor: Factor::Sphere }
+        Name { block: name, is_velocity: false, row: None, index, axis: None, factor: Factor::Sphere }
     }
 }
 

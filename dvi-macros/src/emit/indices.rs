@@ -98,6 +98,10 @@ impl Emitter<'_> {
                 let product = product(factors.iter().map(|factor| self.atom(factor)));
                 quote!((#product))
             }
+            Atom::Row(row, length) => {
+                let [row, length] = [row, length].map(|index| self.index(index));
+                quote!((#length) * (#row))
+            }
         }
     }
 
@@ -137,6 +141,7 @@ impl Emitter<'_> {
                 quote!((#value as #kind))
             }
             Atom::Product(factors) => product(factors.iter().map(|factor| self.integer_atom(factor, kind))),
+            Atom::Row(..) => internal("a place in a row is checked by its two indices"),
         }
     }
 

@@ -50,6 +50,21 @@ fn regular_systems() -> Vec<(TokenStream, TokenStream)> {
         ),
         (
             quote! {
+                coordinates(q[N][m], p[2][N]),
+                lagrangian = sum(0..N, |i| sum(0..m, |j| dot(q[i][j]).powi(2) - k[i][j] * q[(i + 1) % N][m - 1 - j].powi(4)))
+                    + sum(0..2, |i| sum(0..N, |j| dot(p[i][j]).powi(2) / 2.0 + p[1 - i][j] * q[j][0])),
+                force(q) = |i, j| k[i][j] - dot(q[i][j]),
+                constraint(i in 0..N, j in 1..m) = q[i][j] - q[i][j - 1],
+            },
+            quote!(
+                struct System<const N: usize> {
+                    m: usize,
+                    k: Vec<Vec<f64>>,
+                }
+            ),
+        ),
+        (
+            quote! {
                 coordinates(x, y[gamma.len()]),
                 lagrangian = { let v = dot(x); v * v / 2.0 - f(x) }
                     + sum(0..gamma.len(), |j| if dot(y[j]) > 0.0 { dot(y[j]).powf(2.5) } else { f(dot(y[j])) }),

@@ -85,13 +85,14 @@ impl Walk<'_> {
         match self.emitter.graph.node(id) {
             Node::Coordinate(c) | Node::Velocity(c) => {
                 let block = &model.blocks[c.block as usize];
-                if block.array.is_some() {
-                    let size = model.block_size(c.block as usize);
-                    let index = place.index(&c.index);
+                let name = block.name.unraw();
+                let names = [name.to_string(), format!("{name}[i]")];
+                for ((index, size), name) in block.indices(&c.index).iter().zip(block.sizes()).zip(names) {
+                    let index = place.index(index);
                     if !self.emitter.stays_inside(&index, &size, &place.loops) {
                         let length = self.emitter.index(&size);
                         let length = Length { tokens: length, free: Free::default() };
-                        self.access(place, block.name.unraw().to_string(), &length, &index);
+                        self.access(place, name, &length, &index);
                     }
                 }
             }

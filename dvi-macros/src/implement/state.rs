@@ -6,9 +6,15 @@ use syn::ext::IdentExt as _;
 use syn::{GenericParam, Ident};
 
 use crate::emit::{Emitter, local};
-use crate::model::{Axis, Block, Model};
+use crate::model::{Block, Grid, Model};
 use crate::symbolic::{Atom, Count, Index};
 use crate::syntax::Factor;
+
+mod rows;
+mod types;
+
+pub(super) use types::on_stack;
+use types::{field_type, fixed, is_name};
 
 pub(crate) struct State {
     /// The struct and its implementations.
@@ -84,11 +90,6 @@ fn dimension(emitter: &Emitter<'_>, sizes: &[Count]) -> TokenStream {
         dimension = quote!(#dimension + #size);
     }
     dimension
-}
-
-/// Stable Rust takes a const parameter as it is as an argument, but no expression of it.
-fn is_name(size: &Index) -> bool {
-    size.constant == 0 && matches!(size.terms.as_slice(), [(Atom::Size(_), 1)])
 }
 
 pub(crate) fn state(emitter: &Emitter<'_>) -> State {
@@ -188,7 +189,12 @@ impl Names {
 /// The fields with their documentation: all coordinates, then all velocities if there are any.
 fn fields(model: &Model) -> Vec<(Ident, String)> {
     let described = |block: &Block, what: &str| match (&block.array, block.name.unraw(), block.axis) {
-        (Some((_, size)), name, None) => format!("{what}s `{name}[0]` to `{name}[{size} - 1]`."),
+        (Some((_, size)), name, None) => match &block.grid {
+            Some(Grid { texts: [n, m], .. }) => {
+                format!("{what}s `{name}[0][0]` to `{name}[{n} - 1][{m} - 1]`.")
+            }
+            None => format!("{what}s `{name}[0]` to `{name}[{size} - 1]`."),
+        },
         (Some((_, size)), name, Some(axis)) => {
             format!("{what}s `{name}[0]` to `{name}[{size} - 1]`, vectors with {} components.", axis.of)
         }
@@ -255,8 +261,8 @@ fn conversions(
 fn constants(emitter: &Emitter<'_>) -> Vec<Ident> {
     let model = emitter.model;
     let used = |name: &Ident| {
-        (0..model.blocks.len()).filter(|block| on_stack(emitter, *block)).any(|block| {
-            model.block_size(block).terms.iter().any(|(atom, _)| match atom {
+        (0..model.blocks.len()).flat_map(|block| fixed(emitter, block)).any(|size| {
+            size.terms.iter().any(|(atom, _)| match atom {
                 Atom::Size(size) => *name == model.sizes[size.0 as usize].text,
                 _ => false,
             })
@@ -267,32 +273,6 @@ fn constants(emitter: &Emitter<'_>) -> Vec<Ident> {
         _ => None,
     });
     names.filter(used).collect()
-}
-
-pub(super) fn on_stack(emitter: &Emitter<'_>, block: usize) -> bool {
-    let size = emitter.model.block_size(block);
-    size.as_literal().is_some() || (emitter.model.is_constant(&size) && is_name(&size))
-}
-
-fn field_type(emitter: &Emitter<'_>, block: usize, is_velocity: bool) -> TokenStream {
-    let krate = emitter.krate();
-    let declared = &emitter.model.blocks[block];
-    let Block { axis, factor, array, .. } = declared;
-    let is_angular = is_velocity && *factor == Factor::Rotation;
-    let entry = match axis {
-        Some(_) if is_angular || declared.is_spinor() => quote!([__T; 3usize]),
-        Some(Axis { of, .. }) => quote!([__T; #of]),
-        None => quote!(__T),
-    };
-    match array {
-        None => entry,
-        Some(_) if is_angular && axis.is_none() => quote!([__T; 3usize]),
-        Some((size, _)) if on_stack(emitter, block) => {
-            let size = emitter.index(size);
-            quote!([#entry; #size])
-        }
-        Some(_) => quote!(#krate::space::Vec<#entry>),
-    }
 }
 
 /// A local name: that of the field may be the name of a constant, which is no place to bind to.
@@ -310,7 +290,7 @@ struct Transfers {
 }
 
 fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> Transfers {
-    let (coordinates, krate) = (emitter.model.coordinates(), emitter.krate());
+    let coordinates = emitter.model.coordinates();
     let count = coordinates.len().max(1);
     let Transfers { mut write, mut read, mut refill } = Transfers::default();
     for (half, (names, flat)) in fields.chunks(count).zip([quote!(__q), quote!(__v)]).enumerate() {
@@ -318,22 +298,39 @@ fn transfers(emitter: &Emitter<'_>, fields: &[Ident]) -> Transfers {
         read.extend(quote!(let mut __at = 0usize;));
         refill.extend(quote!(let mut __at = 0usize;));
         for (number, (field, blocks)) in names.iter().zip(&coordinates).enumerate() {
-            let block = blocks.start;
-            let (written, value) = transfer(emitter, block, half == 1, field, &flat);
-            let name = value_name(half * count + number);
-            write.extend(written);
-            refill.extend(if on_stack(emitter, block) {
-                quote!(self.#field = #value;)
-            } else {
-                let declared = &emitter.model.blocks[block];
-                let refill = format_ident!("refill_{}", entries(declared, "block"));
-                let is_angular = half == 1 && declared.factor == Factor::Rotation;
-                let unused = is_angular.then(|| angular_rest(block, true));
-                quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field); #unused)
-            });
+            let (block, name) = (blocks.start, value_name(half * count + number));
+            let one = match &emitter.model.blocks[block].grid {
+                Some(_) => rows::transfer(emitter, block, field, &flat),
+                None => transfer(emitter, block, half == 1, field, &flat),
+            };
+            let value = one.read;
+            write.extend(one.write);
             read.extend(quote!(let #name = #value;));
+            refill.extend(one.refill);
         }
     }
+    Transfers { write, read, refill }
+}
+
+/// The statements that write a field at `__at`, the expression that reads it there, and the statements that
+/// fill it again.
+fn transfer(
+    emitter: &Emitter<'_>,
+    block: usize,
+    is_velocity: bool,
+    field: &Ident,
+    flat: &TokenStream,
+) -> Transfers {
+    let (write, read) = there_and_back(emitter, block, is_velocity, field, flat);
+    let refill = if on_stack(emitter, block) {
+        quote!(self.#field = #read;)
+    } else {
+        let (krate, declared) = (emitter.krate(), &emitter.model.blocks[block]);
+        let refill = format_ident!("refill_{}", entries(declared, "block"));
+        let is_angular = is_velocity && declared.factor == Factor::Rotation;
+        let unused = is_angular.then(|| angular_rest(block, true));
+        quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field); #unused)
+    };
     Transfers { write, read, refill }
 }
 
@@ -343,7 +340,7 @@ fn angular_rest(block: usize, is_array: bool) -> TokenStream {
 }
 
 /// The statements that write a field at `__at`, and the expression that reads it there.
-fn transfer(
+fn there_and_back(
     emitter: &Emitter<'_>,
     block: usize,
     is_velocity: bool,

@@ -12,11 +12,11 @@ use crate::syntax::Force;
 use crate::words::AREA;
 
 /// A component of a covector: its value at the entry `index` of a block, in the loop over that block if it
-/// is an array.
+/// is an array, or in both where it has two indices.
 struct Component {
     block: usize,
     index: Index,
-    over: Option<Loop>,
+    over: Vec<Loop>,
     value: Expr,
 }
 
@@ -37,10 +37,11 @@ impl Lowering<'_> {
     fn term(&mut self, component: Component) -> Expr {
         let velocity = self.graph.intern(Node::Velocity(component.coordinate())).into();
         let term = self.graph.multiply(component.value, velocity);
-        match component.over {
-            Some(over) => self.graph.fold(Fold::Sum, Atom::Open(over.depth), over.range, term),
-            None => term,
-        }
+        component
+            .over
+            .into_iter()
+            .rev()
+            .fold(term, |term, over| self.graph.fold(Fold::Sum, Atom::Open(over.depth), over.range, term))
     }
 
     /// The components of a force that do not vanish, each at the coordinate that it acts on.
@@ -59,7 +60,7 @@ impl Lowering<'_> {
         let acting = parts.into_iter().flatten().filter(|part| !part.value.is_zero());
         let contribution = |part: Component| Contribution {
             target: self.graph.intern(Node::Coordinate(part.coordinate())),
-            loops: part.over.into_iter().collect(),
+            loops: part.over,
             value: part.value,
         };
         Some(acting.map(contribution).collect())
@@ -133,8 +134,9 @@ impl Lowering<'_> {
     /// The components along a coordinate: one, or those of a vector.
     fn along(&mut self, blocks: Blocks<usize>, component: &Syntax, role: Role) -> Option<Vec<Component>> {
         let first = blocks.start;
-        let Block { name, array, axis, .. } = &self.model.blocks[first];
-        let (name, axis, whole) = (name.to_string(), *axis, self.model.whole(first));
+        let Block { name, array, axis, grid, .. } = &self.model.blocks[first];
+        let (name, axis, is_grid) = (name.to_string(), *axis, grid.is_some());
+        let whole = self.model.whole(first);
         if self.model.blocks[first].is_spinor() {
             let message = match role {
                 Role::Force => format!("no force acts on the unit vector `{name}`: forces are on numbers"),
@@ -154,31 +156,41 @@ impl Lowering<'_> {
             }
             (None, _) => {
                 let value = self.formula(component, role)?;
-                Some(vec![Component { block: first, index: Index::literal(0), over: None, value }])
+                Some(vec![Component { block: first, index: Index::literal(0), over: Vec::new(), value }])
             }
-            (Some((size, _)), Syntax::Closure(closure)) => {
+            (Some(_), Syntax::Closure(closure)) => {
                 self.begin(component, role);
-                let [index] = self.closure_indices::<1>(closure)?;
-                let over = Loop { depth: 0, range: Range::up_to(size) };
-                let value = self.inside(&[(index, Index::open(0), &over)], &closure.body)?;
+                let names = match is_grid {
+                    true => self.closure_indices::<2>(closure)?.to_vec(),
+                    false => self.closure_indices::<1>(closure)?.to_vec(),
+                };
+                let over = |(size, depth)| Loop { depth, range: Range::up_to(size) };
+                let over: Vec<Loop> =
+                    self.model.blocks[first].sizes().into_iter().zip(0..).map(over).collect();
+                let indices: Vec<Index> = over.iter().map(|over| Index::open(over.depth)).collect();
+                let index = self.model.blocks[first].place(&indices);
+                let bound: Vec<_> = names
+                    .into_iter()
+                    .zip(indices)
+                    .zip(&over)
+                    .map(|((name, form), over)| (name, form, over))
+                    .collect();
+                let value = self.inside(&bound, &closure.body)?;
                 let values = match axis {
                     Some(axis) => {
                         self.vector_of(&closure.body, axis.of, [&format!("{name}[i]"), ""], value)?
                     }
                     None => vec![self.number_of(&closure.body, role, value)?],
                 };
-                let part = |(block, value)| Component {
-                    block,
-                    index: Index::open(0),
-                    over: Some(over.clone()),
-                    value,
-                };
+                let part =
+                    |(block, value)| Component { block, index: index.clone(), over: over.clone(), value };
                 Some(blocks.zip(values).map(part).collect())
             }
             (Some(_), _) => {
                 let Some(size) = whole else {
+                    let (of, entry) = if is_grid { ("|i, j|", "i, j") } else { ("|i|", "i") };
                     let message =
-                        format!("`{name}` is an array: write its component as `|i| …`, for entry i");
+                        format!("`{name}` is an array: write its component as `{of} …`, for entry {entry}");
                     self.errors.push(component, message);
                     return None;
                 };
@@ -190,7 +202,7 @@ impl Lowering<'_> {
                 let part = |(value, entry)| Component {
                     block: first,
                     index: Index::literal(entry),
-                    over: None,
+                    over: Vec::new(),
                     value,
                 };
                 Some(values.map(part).collect())

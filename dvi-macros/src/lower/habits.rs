@@ -341,7 +341,11 @@ impl Lowering<'_> {
                 || others.iter().any(|other| other == name)
                 || undotted(name).is_some_and(|name| *of == name)
         })?;
-        let entry = if block.array.is_some() { "[j]" } else { "" };
+        let entry = match &block.grid {
+            Some(_) => block.letters(),
+            None if block.array.is_some() => "[j]",
+            None => "",
+        };
         if block.factor == Factor::Rotation {
             let name = block.axis.map_or_else(|| block.name.to_string(), |_| format!("{}[j]", block.name));
             return Some(format!("the angular velocity of `{name}` is written `omega({name})[k]`"));

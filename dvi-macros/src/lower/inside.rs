@@ -13,14 +13,22 @@ use crate::symbolic::{Atom, Index, Loop, Size};
 impl Lowering<'_> {
     /// The index of an entry of an array of one of these lengths, if any is known.
     pub(super) fn tied(&mut self, index: Index, lengths: &[Index]) -> Index {
+        if self.is_inside(&index, lengths) { index } else { self.tied_to_loops(index) }
+    }
+
+    /// Whether an index is certain to be inside of an array of one of these lengths.
+    pub(super) fn is_inside(&self, index: &Index, lengths: &[Index]) -> bool {
         let around = self.loops_around();
-        let is_inside = |length: &Index| {
-            let rest = length.plus(&Index::literal(1), -1).plus(&index, -1);
+        let is_below = |length: &Index| {
+            let rest = length.plus(&Index::literal(1), -1).plus(index, -1);
             self.is_natural(&rest, &around)
         };
-        if self.is_natural(&index, &around) && lengths.iter().any(is_inside) {
-            return index;
-        }
+        self.is_natural(index, &around) && lengths.iter().any(is_below)
+    }
+
+    /// The index, or the place, of what may not be there.
+    pub(super) fn tied_to_loops(&mut self, index: Index) -> Index {
+        let around = self.loops_around();
         let needed = reach::needed(&around, &index);
         let loose =
             around.iter().filter(|over| needed & (1 << over.depth) == 0 && !self.surely_runs(over, &around));
@@ -51,9 +59,9 @@ impl Lowering<'_> {
         }
         let least = form.terms.iter().try_fold(form.constant, |sum, (atom, coefficient)| match atom {
             Atom::Size(size) if *coefficient > 0 => Some(sum + coefficient * least_size(*size, around)),
-            Atom::Remainder(..) | Atom::Product(_) if *coefficient > 0 => Some(sum),
+            Atom::Remainder(..) | Atom::Product(_) | Atom::Row(..) if *coefficient > 0 => Some(sum),
             Atom::Remainder(_, modulus) => Some(sum + coefficient * (modulus.as_literal()? - 1)),
-            Atom::Size(_) | Atom::Open(_) | Atom::Product(_) => None,
+            Atom::Size(_) | Atom::Open(_) | Atom::Product(_) | Atom::Row(..) => None,
             Atom::Bound(_) => internal("an index of a closed sum in the text of a formula"),
         });
         least.is_some_and(|least| least >= 0)

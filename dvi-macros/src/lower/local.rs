@@ -13,7 +13,7 @@ use syn::visit::{self, Visit};
 use syn::{Expr as Syntax, ExprCall, ExprClosure, Pat, Stmt};
 
 use super::{Binding, Lowering, Role, Value, Written, bound_name};
-use crate::errors::here;
+use crate::errors::{Errors, here};
 use crate::symbolic::Unary;
 use crate::syntax::closure;
 use crate::words::SUMS;
@@ -50,6 +50,19 @@ pub(super) struct Calls {
 impl Calls {
     pub(super) fn hide(&self, position: usize) -> bool {
         self.open.iter().any(|(_, hidden)| hidden.contains(&position))
+    }
+
+    /// Counts a call of a function, or a term of a sum over components, and reports those that are too many.
+    pub(super) fn counted(&mut self, call: &ExprCall, errors: &mut Errors) -> Option<()> {
+        self.count += 1;
+        if self.count > MOST_CALLS {
+            let message = format!(
+                "the functions of these formulas are called more than {MOST_CALLS} times, terms of sums over components included"
+            );
+            errors.push_once("calls", call, message);
+            return None;
+        }
+        Some(())
     }
 
     /// Whether a function of this name is being called.
@@ -106,12 +119,7 @@ impl Lowering<'_> {
             self.errors.push(&call.func, format!("`{name}` takes {takes}; {}", here(call.args.len())));
             return None;
         }
-        self.calls.count += 1;
-        if self.calls.count > MOST_CALLS {
-            let message = format!("the functions of these formulas are called more than {MOST_CALLS} times");
-            self.errors.push_once("calls", call, message);
-            return None;
-        }
+        self.calls.counted(call, self.errors)?;
         let (outside, mut arguments) = (self.scope.len(), Vec::new());
         for ((parameter, used), argument) in local.parameters.iter().zip(&call.args) {
             let binding = if used.index || (!used.number && self.is_index(argument)) {

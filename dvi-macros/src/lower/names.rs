@@ -6,7 +6,8 @@ use syn::{Expr as Syntax, ExprField, Path};
 
 use super::habits::as_receiver;
 use super::{Binding, Lowering, Value};
-use crate::model::{Axis, Block, Shape, are_components};
+use crate::errors::here;
+use crate::model::{Axis, Block, Grid, Shape, are_components};
 use crate::symbolic::{Coordinate, Expr, Index, Node};
 use crate::words;
 
@@ -50,7 +51,9 @@ impl Lowering<'_> {
             }
             if array.is_some() {
                 let entries = if axis.is_some() { "vectors" } else { "coordinates" };
-                self.errors.push(path, format!("`{name}` is an array of {entries}: write `{name}[i]`"));
+                let written = self.model.blocks[block].letters();
+                let message = format!("`{name}` is an array of {entries}: write `{name}{written}`");
+                self.errors.push(path, message);
                 return None;
             }
             if self.model.extended.is_some_and(|extended| extended.energy == block) {
@@ -312,20 +315,53 @@ impl Lowering<'_> {
             self.errors.push(syntax, format!("`{name}` is a single coordinate: it takes no index"));
             return None;
         }
-        let [index] = indices else {
-            self.errors.push(syntax, format!("`{name}` takes one index"));
-            return None;
+        let index = match (indices, self.model.blocks[block].grid.clone()) {
+            ([index], None) => self.coordinate_index(block, index)?,
+            ([row, column], Some(Grid { sizes: [rows, length], .. })) => {
+                let row = self.index_below(row, &name, &rows);
+                let column = self.index_below(column, &format!("{name}[i]"), &length);
+                let (row, column) = (row?, column?);
+                let is_inside = self.is_inside(&row, &[rows]) && self.is_inside(&column, &[length]);
+                let place = self.model.blocks[block].place(&[row, column]);
+                if is_inside { place } else { self.tied_to_loops(place) }
+            }
+            (_, grid) => {
+                self.number_of_indices(syntax, &name, grid.is_some(), indices.len());
+                return None;
+            }
         };
-        let index = self.coordinate_index(block, index)?;
         Some(self.coordinate_node(block, index))
     }
 
+    /// Reports another number of indices than that of an array of numbers.
+    fn number_of_indices(&mut self, at: &Syntax, name: &str, is_grid: bool, found: usize) {
+        // What was declared may be another array.
+        if self.model.lost_coordinates {
+            return;
+        }
+        let message = match (is_grid, found) {
+            (false, _) => format!("`{name}` takes one index"),
+            (true, 1) => format!(
+                "`{name}` takes two indices: write `{name}[i][j]`; rows that are vectors have a literal for their length, as \
+                 `{name}[n][3]`"
+            ),
+            (true, _) => format!("`{name}` takes two indices; {}", here(found)),
+        };
+        self.errors.push(at, message);
+    }
+
     pub(super) fn coordinate_index(&mut self, block: usize, syntax: &Syntax) -> Option<Index> {
-        let index = self.index(syntax)?;
-        let size = self.model.block_size(block);
-        let literal = size.as_literal().filter(|_| !self.model.lost_coordinates);
-        self.check_range(syntax, &index, literal, &self.model.blocks[block].name.to_string())?;
+        let (size, name) = (self.model.block_size(block), self.model.blocks[block].name.to_string());
+        let index = self.index_below(syntax, &name, &size)?;
         Some(self.tied(index, &[size]))
+    }
+
+    /// An index of an array of coordinates of this size.
+    fn index_below(&mut self, syntax: &Syntax, name: &str, size: &Index) -> Option<Index> {
+        let index = self.index(syntax)?;
+        let literal = size.as_literal().filter(|_| !self.model.lost_coordinates);
+        self.check_range(syntax, &index, literal, name)?;
+        Some(index)
     }
 
     /// An entry of a parameter.
@@ -336,26 +372,6 @@ impl Lowering<'_> {
         });
         let indices = indices.collect();
         self.parameter_node(field, indices)
-    }
-
-    /// Reports an index that is known to leave 0..length, or to be negative.
-    fn check_range(&mut self, at: &Syntax, index: &Index, length: Option<i64>, name: &str) -> Option<()> {
-        let Some((least, largest)) = self.reach(index) else { return Some(()) };
-        let length = length.unwrap_or(i64::MAX);
-        let outside = if least < 0 { least } else { largest };
-        if (0..length).contains(&outside) {
-            return Some(());
-        }
-        let reached = match index.as_literal() {
-            Some(_) => format!("index {outside} is out of range"),
-            None => format!("this index reaches {outside}"),
-        };
-        let range = match length {
-            i64::MAX => format!("the first entry of `{name}` is number 0"),
-            _ => format!("the entries of `{name}` are numbered 0 to {}", length - 1),
-        };
-        self.errors.push(at, format!("{reached}: {range}"));
-        None
     }
 }
 

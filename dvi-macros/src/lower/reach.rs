@@ -5,6 +5,8 @@
 //! range the ends are walked, where an affine index is largest and smallest. What is not found here, or
 //! depends on a size that only the run knows, is left to the check before the first step.
 
+use syn::Expr as Syntax;
+
 use super::{Binding, Lowering};
 use crate::internal::internal;
 use crate::symbolic::{Atom, Index, Loop};
@@ -42,6 +44,32 @@ impl Lowering<'_> {
         let mut walk = Walk { loops: loops(&around, index), index, reached: None, left: PASSES };
         walk.passes(0, &mut Vec::new())?;
         walk.reached
+    }
+
+    /// Reports an index that is known to leave 0..length, or to be negative.
+    pub(super) fn check_range(
+        &mut self,
+        at: &Syntax,
+        index: &Index,
+        length: Option<i64>,
+        name: &str,
+    ) -> Option<()> {
+        let Some((least, largest)) = self.reach(index) else { return Some(()) };
+        let length = length.unwrap_or(i64::MAX);
+        let outside = if least < 0 { least } else { largest };
+        if (0..length).contains(&outside) {
+            return Some(());
+        }
+        let reached = match index.as_literal() {
+            Some(_) => format!("index {outside} is out of range"),
+            None => format!("this index reaches {outside}"),
+        };
+        let range = match length {
+            i64::MAX => format!("the first entry of `{name}` is number 0"),
+            _ => format!("the entries of `{name}` are numbered 0 to {}", length - 1),
+        };
+        self.errors.push(at, format!("{reached}: {range}"));
+        None
     }
 
     /// The loops around the place that is read, from the outermost.
@@ -116,6 +144,7 @@ fn value(atom: &Atom, values: &[(u32, i64)]) -> Option<i64> {
         Atom::Remainder(of, modulus) => {
             evaluated(of, values)?.checked_rem_euclid(evaluated(modulus, values)?)
         }
+        Atom::Row(row, length) => evaluated(row, values)?.checked_mul(evaluated(length, values)?),
         // One of its factors is a size.
         Atom::Size(_) | Atom::Product(_) => None,
     }

@@ -32,6 +32,9 @@ impl Lowering<'_> {
         if !pairs {
             let indices = self.closure_indices::<1>(closure);
             let ((lower, upper), [index]) = (bounds?, indices?);
+            if let Some(values) = self.model.written_out(range, closure) {
+                return self.written_out(name, call, (index, values), &closure.body);
+            }
             let (form, only) = natural(depth, &lower, &upper);
             let body = self.inside(&[(index, form, &only)], &closure.body)?;
             let (fold, body) = match name {
@@ -58,6 +61,36 @@ impl Lowering<'_> {
         let last = bounds.1.plus(&Index::literal(1), -1);
         self.ties = ties;
         self.pairs(bounds, &last, names, &closure.body)
+    }
+
+    /// A sum or product term by term.
+    fn written_out(
+        &mut self,
+        name: &str,
+        call: &ExprCall,
+        (index, values): (String, std::ops::Range<i64>),
+        body: &Syntax,
+    ) -> Option<Value> {
+        let mut terms = Vec::new();
+        for value in values {
+            self.calls.counted(call, self.errors)?;
+            let binding = Binding::Index { form: Index::literal(value), over: None };
+            self.scope.push((index.clone(), binding));
+            let term = self.value(body);
+            self.scope.pop();
+            terms.push(term?);
+        }
+        let whole = terms.into_iter().map(Some).reduce(|before, term| {
+            before?.zip(term?, |before, term| {
+                Some(if name == "product" {
+                    self.graph.multiply(before, term)
+                } else {
+                    self.graph.add(before, term)
+                })
+            })
+        })??;
+        let whole = if name == "product" { self.number(body, whole)?.into() } else { whole };
+        whole.map(|value| self.admitted(call, value))
     }
 
     /// The sum over j < k in a range, with j below `last` only.

@@ -56,15 +56,24 @@ impl Lowering<'_> {
             self.errors.push(&call.args[0], message);
             return None;
         }
-        self.value(&call.args[0])?.map(|coordinate| self.velocity_of(name, call, coordinate))
+        let value = self.value(&call.args[0])?;
+        if place.is_none() {
+            self.no_coordinate(name, call);
+            return None;
+        }
+        value.map(|coordinate| self.velocity_of(name, call, coordinate))
+    }
+
+    fn no_coordinate(&mut self, name: &str, call: &ExprCall) {
+        let message = format!("`{name}` takes a coordinate, as in `{name}(x)` or `{name}(x[j])`");
+        self.errors.push(&call.args[0], message);
     }
 
     fn velocity_of(&mut self, name: &str, call: &ExprCall, coordinate: Expr) -> Option<Expr> {
         let (true, Node::Coordinate(coordinate)) =
             (coordinate.scale == 1.0, self.graph.node(coordinate.node).clone())
         else {
-            let message = format!("`{name}` takes a coordinate, as in `{name}(x)` or `{name}(x[j])`");
-            self.errors.push(&call.args[0], message);
+            self.no_coordinate(name, call);
             return None;
         };
         if self.model.extended.is_some_and(|extended| extended.time == coordinate.block as usize) {

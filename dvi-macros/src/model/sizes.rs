@@ -6,7 +6,7 @@ use syn::{BinOp, Expr, ExprLit, GenericParam, Ident, Lit, Member, Type};
 
 use super::shape::{Shape, shape};
 use super::{Model, ParameterName, SizeName};
-use crate::errors::text;
+use crate::errors::{Errors, text};
 use crate::internal::internal;
 use crate::symbolic::{Atom, Index, Size};
 
@@ -14,8 +14,25 @@ use crate::symbolic::{Atom, Index, Size};
 const LARGEST: i64 = 1 << 20;
 
 impl Model {
+    /// The size of an array of coordinates with its text; 1 where it is none, which is reported.
+    pub(super) fn read_size(
+        &mut self,
+        name: &Ident,
+        size: &Expr,
+        axes: i64,
+        errors: &mut Errors,
+    ) -> (Index, String) {
+        let index = self.declared_size(name, size, axes).unwrap_or_else(|message| {
+            let kind = format!("size {}", size.to_token_stream());
+            errors.push_once(&kind, size, message);
+            self.lost_coordinates = true;
+            Index::literal(1)
+        });
+        (index, size.to_token_stream().to_string().replace("r#", "").replace(' ', ""))
+    }
+
     /// The size of an array of coordinates, of which each entry counts as `axes`, or what is wrong with it.
-    pub(super) fn declared_size(&mut self, name: &Ident, size: &Expr, axes: i64) -> Result<Index, String> {
+    fn declared_size(&mut self, name: &Ident, size: &Expr, axes: i64) -> Result<Index, String> {
         let index = self.size_form(size).map_err(|found| match found {
             Some(name) => {
                 let system = &self.item.ident;
@@ -180,7 +197,9 @@ impl Model {
                 let factors = factors.iter().map(|factor| self.atom_tokens(factor));
                 factors.reduce(|before, factor| quote!(#before.saturating_mul(#factor))).unwrap_or_default()
             }
-            Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) => internal("a size depends on an index"),
+            Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) | Atom::Row(..) => {
+                internal("a size depends on an index")
+            }
         }
     }
 

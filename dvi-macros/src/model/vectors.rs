@@ -39,6 +39,18 @@ impl Block {
         }
     }
 
+    /// The entry of this number in the block.
+    pub(crate) fn at(&self, number: i64) -> String {
+        match self.row_length() {
+            Some(length) => {
+                let indices = Index::literal(number).row_and_column(length);
+                let indices = indices.map(|index| index.as_literal().map(|index| format!("[{index}]")));
+                format!("{}{}", self.name.unraw(), indices.into_iter().flatten().collect::<String>())
+            }
+            None => self.entry(&number.to_string()),
+        }
+    }
+
     /// What the spinor of a unit vector is called in reports.
     pub(crate) fn spinor(&self) -> String {
         format!("z_{}", self.name.unraw())
@@ -137,21 +149,20 @@ pub(crate) fn are_components(length: i64, entry: &Shape) -> bool {
     COMPONENTS.contains(&length) && !matches!(entry, Shape::Array(..) | Shape::Other)
 }
 
+/// The value of a literal.
+pub(super) fn literal(size: &Expr) -> Option<i64> {
+    match size {
+        Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => value.base10_parse().ok(),
+        Expr::Paren(inner) => literal(&inner.expr),
+        _ => None,
+    }
+}
+
 /// The number of components in `r[n][3]`.
 pub(super) fn components(name: &Ident, declared: &Expr) -> syn::Result<usize> {
-    let literal = match declared {
-        Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => value.base10_parse::<i64>().ok(),
-        _ => None,
-    };
-    let message = match literal {
+    let message = match literal(declared) {
         Some(count) if COMPONENTS.contains(&count) => return Ok(count as usize),
-        Some(1) => format!("a vector has two components or more: an array of numbers is `{name}[n]`"),
-        _ => format!(
-            "the number of components of a vector is a literal from {} to {}: write `{name}[n][3]` for n vectors in space, and \
-             `{name}[n * m]` for numbers with two indices, of which `{name}[m * i + j]` is one",
-            COMPONENTS.start(),
-            COMPONENTS.end()
-        ),
+        _ => format!("a vector has two components or more: an array of numbers is `{name}[n]`"),
     };
     Err(syn::Error::new_spanned(declared, message))
 }

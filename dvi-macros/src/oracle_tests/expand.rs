@@ -8,6 +8,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use super::functions::{OWN, SCALAR_FIELDS, ScalarField, own, own_third, scalar_field_derivative};
 use super::rust::{Environment, Expansion, Nested};
 use super::system::{Field, SizeKind, System};
+use super::write::ONE;
 use crate::expand::{degenerate_lagrangian, lagrangian};
 
 /// The expansion of a system, or the messages with which it is refused.
@@ -83,6 +84,7 @@ pub(super) fn refusal(message: &str) -> Option<&'static str> {
 pub(super) fn environment(system: &System) -> Environment {
     let mut fields: HashMap<String, Rc<Nested>> =
         system.fields.iter().map(|field| (field.name.to_string(), nested(system, field))).collect();
+    fields.extend(system.has_grids().then(|| (ONE.to_string(), Rc::new(Nested::Count(1)))));
     let mut constants = HashMap::new();
     for size in &system.sizes {
         match size.kind {

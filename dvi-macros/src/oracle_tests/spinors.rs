@@ -7,7 +7,7 @@ use super::evaluate::{Oracle, Outside};
 use super::formula::{Formula, Index};
 use super::jet::Jet;
 use super::system::{Block, System};
-use super::write::Writer;
+use super::write::{ONE, Writer};
 use crate::syntax::Factor;
 
 /// The number of coordinates of a spinor; the generator makes no other vectors of so many.
@@ -41,7 +41,7 @@ impl System {
     pub(super) fn kind_text(&self, first: usize) -> String {
         let Block { size, axis, factor, .. } = self.blocks[first];
         let size = size.filter(|_| !self.is_single_factor(first));
-        let size = size.map_or_else(String::new, |size| format!("[{}]", self.size_text(size)));
+        let size = size.map_or_else(String::new, |size| self.bracketed(first, &self.size_text(size), ONE));
         match (factor, axis) {
             (Factor::Rotation, _) => size + ": SO3",
             (Factor::Sphere, _) => size + ": S2",

@@ -41,6 +41,9 @@ impl Summary {
                         self.count(&format!("agrees, with {what} that have velocities"));
                     }
                 }
+                if system.has_grids() {
+                    self.count("agrees, with two indices");
+                }
                 if system.attribute().contains("let = {") {
                     self.count("agrees, with names that formulas share");
                 }

@@ -7,8 +7,10 @@ use super::functions::{BinaryFunction, OWN, SCALAR_FIELDS};
 use super::system::{Constraint, Container, Dynamics, Field, Gauge, SizeKind, System};
 use spelling::{Spelling, is_in_brackets};
 
+mod grids;
 mod share;
 
+pub(super) use grids::ONE;
 use share::Definitions;
 
 const INDICES: [&str; 10] = ["i", "j", "k", "l", "o", "i5", "i6", "i7", "i8", "i9"];
@@ -96,7 +98,7 @@ impl System {
     /// What stands in front of a component along a coordinate: the index of its entry, if it has one.
     fn indexed(&self, first: usize, component: &Formula) -> &'static str {
         let is_whole = self.axes(first) == 1 && component.is_vector();
-        if self.blocks[first].size.is_some() && !is_whole { "|i| " } else { "" }
+        if self.blocks[first].size.is_some() && !is_whole { self.bars(first) } else { "" }
     }
 
     /// Constraints that follow each other without an index are a list.
@@ -140,7 +142,8 @@ impl System {
         let data = SCALAR_FIELDS.iter().enumerate();
         let data = data.filter(|(number, field)| field.path.is_none() && self.evaluates(*number));
         let data = data.map(|(_, field)| format!("{}: Data", field.name));
-        let fields: Vec<String> = fields.chain(counts).chain(data).collect();
+        let one = self.has_grids().then(|| format!("{ONE}: usize"));
+        let fields: Vec<String> = fields.chain(counts).chain(data).chain(one).collect();
         format!("struct System{generics} {{ {} }}", fields.join(", "))
     }
 
@@ -323,7 +326,8 @@ impl<'a> Writer<'a> {
                     && self.spelling.is_rare() =>
             {
                 let (name, index) = (self.system.blocks[*block].name, self.index(index));
-                Some(format!("{{ let entry = |place| {name}[place]; entry({index}) }}"))
+                let place = self.system.bracketed(*block, "place", "0");
+                Some(format!("{{ let entry = |place| {name}{place}; entry({index}) }}"))
             }
             _ => None,
         }
@@ -354,20 +358,6 @@ impl<'a> Writer<'a> {
             Condition::Or(a, b) => format!("({}) || ({})", self.condition(a), self.condition(b)),
             Condition::Not(of) => format!("!({})", self.condition(of)),
         }
-    }
-
-    pub(super) fn place(&self, block: usize, index: Option<&Index>) -> String {
-        if self.system.is_rotation(block) {
-            return self.entry(block, index);
-        }
-        let component = self.system.blocks[block].axis.map(|[number, _]| format!("[{number}]"));
-        format!("{}{}", self.whole(block, index), component.unwrap_or_default())
-    }
-
-    /// Without the index of a component.
-    pub(super) fn whole(&self, block: usize, index: Option<&Index>) -> String {
-        let name = self.system.blocks[block].name;
-        index.map_or_else(|| name.into(), |index| format!("{name}[{}]", self.index(index)))
     }
 
     fn index(&self, index: &Index) -> String {

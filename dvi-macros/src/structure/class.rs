@@ -143,7 +143,7 @@ impl Class {
                 Components::Block(_) => {}
                 Components::Entries(entries) => {
                     let these = entries.iter().enumerate().filter(|(_, entry)| **entry == with);
-                    names.extend(these.map(|(index, _)| format!("`{}`", block.entry(&index.to_string()))));
+                    names.extend(these.map(|(index, _)| format!("`{}`", block.at(index as i64))));
                 }
             }
         }
@@ -194,6 +194,7 @@ fn value(index: &Index, open: &[(u32, i64)]) -> Option<i64> {
         let value = match atom {
             Atom::Open(depth) => open.iter().find(|(known, _)| known == depth)?.1,
             Atom::Remainder(of, modulus) => value(of, open)?.checked_rem_euclid(value(modulus, open)?)?,
+            Atom::Row(row, length) => value(row, open)?.checked_mul(value(length, open)?)?,
             // One of its factors is a size.
             Atom::Bound(_) | Atom::Size(_) | Atom::Product(_) => return None,
         };

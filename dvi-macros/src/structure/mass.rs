@@ -6,7 +6,7 @@ use super::has_matching;
 use super::singular::{is_numerically_singular, skipped};
 use crate::errors::{Errors, listed};
 use crate::formulas::{RegularFormulas, Variable, variable};
-use crate::model::{Block, Model};
+use crate::model::{Block, Grid, Model};
 use crate::symbolic::{
     Binary, Contribution, Coordinate, Expr, Graph, Id, Index, Loop, Node, SecondContribution, Unary,
 };
@@ -105,7 +105,7 @@ impl MassMatrix {
         for (block, mentioned) in &self.massless {
             let at = &model.blocks[*block].name;
             let velocity = match model.blocks[*block].axis {
-                Some(_) => velocity(&model.blocks[*block], "i"),
+                Some(_) => velocity(&model.blocks[*block], None),
                 None => format!("the velocity of `{at}`"),
             };
             let relation = match (mentioned, self.quadratic) {
@@ -128,7 +128,7 @@ impl MassMatrix {
         }
         for (block, index) in &self.skipped {
             let name = &model.blocks[*block].name;
-            let velocity = velocity(&model.blocks[*block], &index.to_string());
+            let velocity = velocity(&model.blocks[*block], Some(*index));
             let message = format!(
                 "{velocity} has no kinetic energy, so the mass matrix ∂²L/∂v∂v is singular; \
                  all entries have one with `{}`",
@@ -237,11 +237,15 @@ impl MassMatrix {
     }
 }
 
-/// The velocity at an index of an array.
-fn velocity(block: &Block, index: &str) -> String {
+/// The velocity at a place in an array, or at any.
+fn velocity(block: &Block, place: Option<i64>) -> String {
     let Block { name, factor, axis, .. } = block;
+    let index = place.map_or_else(|| "i".to_string(), |place| place.to_string());
     match (factor, axis) {
-        (Factor::Line | Factor::Sphere, _) => format!("the velocity of `{}`", block.entry(index)),
+        (Factor::Line | Factor::Sphere, _) => {
+            let entry = place.map_or_else(|| block.entry(&index), |place| block.at(place));
+            format!("the velocity of `{entry}`")
+        }
         (Factor::Rotation, Some(axis)) => {
             format!("the angular velocity `omega({name}[{index}])[{}]`", axis.number)
         }
@@ -251,7 +255,10 @@ fn velocity(block: &Block, index: &str) -> String {
 
 /// `dot(x).powi(2) / 2.0`
 fn kinetic_energy(model: &Model, block: usize) -> String {
-    let Block { name, array, factor, axis } = &model.blocks[block];
+    let Block { name, array, grid, factor, axis } = &model.blocks[block];
+    if let Some(Grid { texts: [n, m], .. }) = grid {
+        return format!("sum(0..{n}, |i| sum(0..{m}, |j| dot({name}[i][j]).powi(2) / 2.0))");
+    }
     match array {
         Some((_, size)) if *factor == Factor::Rotation && axis.is_some() => {
             format!("sum(0..{size}, |j| omega({name}[j]).norm_squared() / 2.0)")

@@ -90,10 +90,13 @@ fn conjugates(
 fn covers(model: &Model, row: usize, column: usize, entry: &FormEntry) -> bool {
     match (entry.loops.as_slice(), &model.blocks[row].array, &model.blocks[column].array) {
         ([], None, None) => true,
-        ([only], Some((size, _)), Some((other, _))) => {
-            size == other
-                && only.range == Range::up_to(size.clone())
-                && entry.row.index == Index::open(only.depth)
+        (loops, Some(_), Some(_)) => {
+            let [sizes, others] = [row, column].map(|block| model.blocks[block].sizes());
+            let ranges: Vec<Range> = sizes.iter().cloned().map(Range::up_to).collect();
+            let indices: Vec<Index> = loops.iter().map(|over| Index::open(over.depth)).collect();
+            sizes == others
+                && loops.iter().map(|over| &over.range).eq(&ranges)
+                && entry.row.index == model.blocks[row].place(&indices)
         }
         _ => false,
     }

@@ -8,7 +8,8 @@
 //! expression is [`Atom::Open`] with the depth of that loop, and depths rise strictly on the way
 //! inwards. A sum becomes a loop, and a loop a sum, by replacing one name with the other.
 //!
-//! A size times an index is an atom of its own, so that places in a square are affine, too.
+//! A size times an index is an atom of its own, so that places in a square are affine, too. The first index
+//! of an array with two is another one, so that both can be told from the place.
 //!
 //! Indices are mathematical integers; `%` is the Euclidean remainder. No index is negative: a sum
 //! whose range may begin below zero is shifted when it is made.
@@ -29,6 +30,8 @@ pub(crate) enum Atom {
     Remainder(Box<Index>, Box<Index>),
     /// Of two factors at least, in order, none of which is a product.
     Product(Vec<Self>),
+    /// The place where a row of an array with two indices begins: its number, and the length of the rows.
+    Row(Box<Index>, Box<Index>),
 }
 
 /// constant + Σ coefficient·atom, atoms in order, no zero coefficient.
@@ -163,12 +166,41 @@ impl Index {
         }
     }
 
+    /// The place of an entry of an array with two indices, whose rows of this length follow each other.
+    pub(crate) fn in_row(row: &Self, column: &Self, length: &Self) -> Self {
+        match (row.as_literal(), column.as_literal(), length.as_literal()) {
+            (Some(row), Some(column), Some(length)) => {
+                Self::literal(whole(row.checked_mul(length))).plus(&Self::literal(column), 1)
+            }
+            (Some(0), ..) => column.clone(),
+            _ => Self::atom(Atom::Row(Box::new(row.clone()), Box::new(length.clone()))).plus(column, 1),
+        }
+    }
+
+    /// The two indices of such a place.
+    pub(crate) fn row_and_column(&self, length: &Self) -> [Self; 2] {
+        if let (Some(place), Some(length)) = (self.as_literal(), length.as_literal()) {
+            return [place.div_euclid(length), place.rem_euclid(length)].map(Self::literal);
+        }
+        let row = self.terms.iter().find_map(|(atom, _)| match atom {
+            Atom::Row(row, _) => Some((atom.clone(), (**row).clone())),
+            Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) | Atom::Remainder(..) | Atom::Product(_) => None,
+        });
+        let (row, column) = match row {
+            Some((atom, row)) => (row, self.plus(&Self::atom(atom), -1)),
+            None => (Self::default(), self.clone()),
+        };
+        // Where there is no pass of a loop, neither index is read.
+        let ties = self.terms.iter().filter(|(atom, _)| atom.is_tie()).cloned().collect();
+        [row.plus(&Self { constant: 0, terms: ties }, 1), column]
+    }
+
     pub(crate) fn free(&self) -> Free {
         let of = |atom: &Atom| match atom {
             Atom::Open(depth) => Free { open: 1 << depth, bound: 0 },
             Atom::Bound(height) => Free { open: 0, bound: 1 << height },
             Atom::Size(_) => Free::default(),
-            Atom::Remainder(value, modulus) => value.free().and(modulus.free()),
+            Atom::Remainder(value, other) | Atom::Row(value, other) => value.free().and(other.free()),
             Atom::Product(factors) => factors
                 .iter()
                 .fold(Free::default(), |free, factor| free.and(Self::atom(factor.clone()).free())),
@@ -185,9 +217,7 @@ impl Index {
 
     /// The terms that have a value: not those that are there to depend on a loop.
     pub(crate) fn counted_terms(&self) -> impl Iterator<Item = &(Atom, i64)> {
-        let is_zero =
-            |atom: &Atom| matches!(atom, Atom::Remainder(_, modulus) if modulus.as_literal() == Some(1));
-        self.terms.iter().filter(move |(atom, _)| !is_zero(atom))
+        self.terms.iter().filter(|(atom, _)| !atom.is_tie())
     }
 
     /// Whether this index goes on by one with that of the loop at `depth`.
@@ -231,7 +261,7 @@ impl Atom {
     fn factors(&self) -> &[Self] {
         match self {
             Self::Product(factors) => factors,
-            Self::Open(_) | Self::Bound(_) | Self::Size(_) | Self::Remainder(..) => {
+            Self::Open(_) | Self::Bound(_) | Self::Size(_) | Self::Remainder(..) | Self::Row(..) => {
                 std::slice::from_ref(self)
             }
         }
@@ -243,11 +273,19 @@ impl Atom {
             Self::Remainder(value, modulus) => {
                 Self::Remainder(Box::new(value.renamed(renaming)), Box::new(modulus.renamed(renaming)))
             }
+            Self::Row(row, length) => {
+                Self::Row(Box::new(row.renamed(renaming)), Box::new(length.renamed(renaming)))
+            }
             Self::Product(factors) => {
                 Self::product(factors.iter().map(|factor| factor.renamed(renaming)).collect())
             }
             Self::Open(_) | Self::Bound(_) | Self::Size(_) => self.clone(),
         }
+    }
+
+    /// Whether it is zero, and there to depend on a loop.
+    fn is_tie(&self) -> bool {
+        matches!(self, Self::Remainder(_, modulus) if modulus.as_literal() == Some(1))
     }
 
     /// Whether it is a size, or a product of sizes.
@@ -303,7 +341,12 @@ impl Range {
         let length = self.upper.plus(&self.lower, -1);
         let least = length.terms.iter().try_fold(length.constant, |sum, (atom, coefficient)| match atom {
             size if size.is_size() && *coefficient > 0 => sum.checked_add(*coefficient),
-            Atom::Size(_) | Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) | Atom::Product(_) => None,
+            Atom::Size(_)
+            | Atom::Open(_)
+            | Atom::Bound(_)
+            | Atom::Remainder(..)
+            | Atom::Product(_)
+            | Atom::Row(..) => None,
         });
         self.left_out().next().is_none() && least.is_some_and(|least| least > 0)
     }

@@ -13,6 +13,8 @@ use letters::{Letters, Notation, letter};
 pub(crate) trait Names {
     /// The name, and whether it takes an index.
     fn coordinate(&self, block: u32) -> (String, bool);
+    /// The length of its rows, if it takes two indices.
+    fn row_length(&self, block: u32) -> Option<Index>;
     /// The component of vectors that its entries are.
     fn component(&self, block: u32) -> Option<usize>;
     /// Whether its entries are those of a rotation matrix, row by row, and its velocities an angular

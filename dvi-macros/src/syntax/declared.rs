@@ -12,12 +12,12 @@ use syn::{Expr, Path, Token, Type};
 use super::cut::expression;
 use crate::errors::text;
 
-/// `x`, `x[n]`, `r[n][3]`, `R: SO3`, `s: S2` or `s[n]: S2`.
+/// `x`, `x[n]`, `r[n][3]`, `q[n][m]`, `R: SO3`, `s: S2` or `s[n]: S2`.
 #[derive(Debug)]
 pub(crate) struct Declaration {
     pub(crate) name: Ident,
     pub(crate) size: Option<Expr>,
-    /// The number of components, if the entries are vectors.
+    /// The number of components, if the entries are vectors, or the second size.
     pub(crate) components: Option<Expr>,
     pub(crate) factor: Factor,
 }
@@ -174,11 +174,15 @@ impl Parse for Declaration {
         };
         let size = bracketed(input, || format!("`{name}[]` has no size: write `{name}[n]`"))?;
         let components = match size {
-            Some(_) => bracketed(input, || format!("these vectors have no size: write `{name}[n][3]`"))?,
+            Some(_) => bracketed(input, || {
+                format!("the second size is missing: write `{name}[n][3]` for n vectors, or `{name}[n][m]`")
+            })?,
             None => None,
         };
         if input.peek(syn::token::Bracket) {
-            let message = format!("a coordinate has two sizes at most: write `{name}[n][3]` for n vectors");
+            let message = format!(
+                "a coordinate has two sizes at most: write `{name}[n][m]`, or `{name}[n][3]` for n vectors"
+            );
             return Err(input.error(message));
         }
         let mut declared = Self { name, size, components, factor: Factor::Line };
@@ -187,7 +191,7 @@ impl Parse for Declaration {
         }
         if !input.is_empty() {
             return Err(input.error(
-                "a coordinate is declared as `x`, `x[n]`, `r[n][3]`, `R: SO3`, `s: S2` or `s[n]: S2`, and followed by `,`",
+                "a coordinate is declared as `x`, `x[n]`, `r[n][3]`, `q[n][m]`, `R: SO3`, `s: S2` or `s[n]: S2`, and followed by `,`",
             ));
         }
         Ok(declared)

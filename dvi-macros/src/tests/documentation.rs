@@ -449,3 +449,33 @@ fn vectors_are_bold_and_their_products_signs() {
         "#]],
     );
 }
+
+#[test]
+fn numbers_with_two_indices_have_both() {
+    check(
+        degenerate_lagrangian(
+            quote! {
+                coordinates(p[N][m], q[N][m]),
+                one_form = [|i, j| 0.0, |i, j| p[i][j]],
+                hamiltonian = sum(0..N, |i| sum(0..m, |j| p[i][j].powi(2) / 2.0 - q[(i + 1) % N][j].cos())),
+                force(q) = |a, b| -p[a][b],
+            },
+            quote! { struct Rotors<const N: usize> { m: usize } },
+        ),
+        &expect![[r#"
+
+            # Dynamics
+
+            L(q, v, t) = α(q, t)·v − H(q, t), as it is declared:
+
+            ```math
+            \begin{aligned}
+            \alpha_{p_{i,j}} &= 0 \\
+            \alpha_{q_{i,j}} &= p_{i,j} \\
+            H &= \sum_{i = 0}^{N - 1} \sum_{j = 0}^{m - 1} \left(\frac{{p_{i,j}}^{2}}{2} - \cos q_{\left(i + 1\right) \bmod N,j}\right) \\
+            F_{q_{a,b}} &= -p_{a,b}
+            \end{aligned}
+            ```
+        "#]],
+    );
+}

@@ -54,16 +54,13 @@ fn components(
     blocks.map(|(block, formula)| component(of, &block.name.to_string(), formula, typesetter)).collect()
 }
 
-/// The component along a coordinate, or `|i| …` along those of an array.
+/// The component along a coordinate, or `|i| …` or `|i, j| …` along those of an array.
 fn component(of: &str, coordinate: &str, formula: &Expr, typesetter: &mut Typesetter) -> Equation {
     match formula {
         Expr::Closure(closure) => {
-            let index = closure
-                .inputs
-                .first()
-                .and_then(super::bound)
-                .map_or_else(String::new, |index| typesetter.symbol(&index));
-            let entry = typesetter.placed(coordinate, None, &[index]);
+            let bound = closure.inputs.iter().filter_map(super::bound);
+            let indices: Vec<String> = bound.map(|index| typesetter.symbol(&index)).collect();
+            let entry = typesetter.placed(coordinate, None, &indices);
             typesetter.equation(format!("{of}_{{{entry}}}"), &closure.body)
         }
         formula => {

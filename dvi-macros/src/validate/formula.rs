@@ -13,6 +13,7 @@ use super::point::{Branches, Directions, Point, Variable};
 use super::system::System;
 use crate::internal::internal;
 use crate::model::{Extended, Model};
+use crate::symbolic::Index;
 use crate::work::step;
 
 mod calls;
@@ -366,7 +367,11 @@ impl<'a> Evaluation<'a> {
     }
 
     fn block_size(&self, block: usize) -> i64 {
-        match self.point.length(&self.model.block_size(block)) {
+        self.length(&self.model.block_size(block))
+    }
+
+    fn length(&self, size: &Index) -> i64 {
+        match self.point.length(size) {
             Some(size) => size,
             None => internal("a size without a value"),
         }

@@ -250,6 +250,7 @@ impl Run<'_> {
                 self.index(value).checked_rem_euclid(self.index(modulus)).unwrap_or(-1)
             }
             Atom::Product(factors) => factors.iter().map(|factor| self.atom(factor)).product(),
+            Atom::Row(row, length) => self.index(row) * self.index(length),
         }
     }
 }

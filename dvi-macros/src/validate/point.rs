@@ -171,7 +171,7 @@ impl Point {
         match atom {
             Atom::Size(size) => self.size(size.0 as usize),
             Atom::Product(factors) => factors.iter().map(|factor| self.atom(factor)).product(),
-            Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) => None,
+            Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) | Atom::Row(..) => None,
         }
     }
 

@@ -39,8 +39,8 @@ mod unit_vectors {
     #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| d(s[i]).norm_squared()))]
     struct X;
 
-    #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| sum(0..3, |k| dot(s[i][k]).powi(2))))]
-    struct Y;
+    #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| sum(0..N, |k| dot(s[i][k]).powi(2))))]
+    struct Y<const N: usize>;
 
     #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| dot(s[i]).norm_squared() - dot_s[i][0]))]
     struct Z;

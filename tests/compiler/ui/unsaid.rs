@@ -68,11 +68,25 @@ mod constraints_that_are_not_affine {
     }
 }
 
+mod three_indices {
+    use super::*;
+
+    #[lagrangian(coordinates(q[N][M][K]), lagrangian = dot(q[0][0][0]).powi(2) / 2.0)]
+    struct S<const N: usize, const M: usize, const K: usize>;
+}
+
 mod velocities_of_functions {
     use super::*;
 
     #[lagrangian(coordinates(a), lagrangian = dot(a.sin()).powi(2) / 2.0)]
     struct S;
+
+    #[lagrangian(
+        coordinates(x[N]),
+        lagrangian = sum(0..N, |i| dot(next(i)).powi(2) + dot([x[i], x[0]])[0]),
+        let = { let next = |i| x[(i + 1) % N]; },
+    )]
+    struct OfCalls<const N: usize>;
 }
 
 fn main() {}

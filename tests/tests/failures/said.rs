@@ -94,7 +94,7 @@ fn errors_of_a_start_are_their_sentences() {
     let error = error.expect("a state that is no number");
     assert_eq!(format!("{error:?}"), "y = NaN in the state");
     are_one(&error);
-    are_one(&LengthError { array: "x", expected: 3, found: 2 });
+    are_one(&LengthError { array: "x", row: None, expected: 3, found: 2 });
     are_one(&IndexError { array: "x", index: 3, len: 2 });
     are_one(&CheckpointError::Short);
 }

@@ -158,7 +158,7 @@ fn a_state_of_the_wrong_length_is_refused() {
     for (x, y, array, found) in [(2, 3, "x", 2), (3, 4, "y", 4)] {
         let start = ManyVorticesState { x: vec![0.5; x], y: vec![0.5; y] };
         let error = Integrator::new(&system, Sigma::midpoint(), 0.1, start).err();
-        assert_eq!(error, Some(StartError::Length(LengthError { array, expected: 3, found })));
+        assert_eq!(error, Some(StartError::Length(LengthError { array, row: None, expected: 3, found })));
     }
 }
 

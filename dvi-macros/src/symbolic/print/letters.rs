@@ -86,10 +86,13 @@ impl Letters<'_> {
             Atom::Product(factors) => {
                 let factors = factors.iter().rev().map(|factor| match factor {
                     Atom::Remainder(..) => format!("({})", self.atom(factor)),
-                    Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) | Atom::Product(_) => self.atom(factor),
+                    Atom::Open(_) | Atom::Bound(_) | Atom::Size(_) | Atom::Product(_) | Atom::Row(..) => {
+                        self.atom(factor)
+                    }
                 });
                 factors.collect::<Vec<_>>().join(self.times())
             }
+            Atom::Row(..) => internal("a place in a row is written with its two indices"),
         }
     }
 
@@ -135,7 +138,13 @@ impl Letters<'_> {
         }
         let (name, is_array) = self.names.coordinate(*block);
         let name = self.name(&name);
-        let index = if is_array { format!("[{}]", self.index(index)) } else { String::new() };
+        let index = match self.names.row_length(*block) {
+            Some(length) => {
+                index.row_and_column(&length).map(|index| format!("[{}]", self.index(&index))).concat()
+            }
+            None if is_array => format!("[{}]", self.index(index)),
+            None => String::new(),
+        };
         let component = self.names.component(*block);
         let component = component.map_or_else(String::new, |component| format!("[{component}]"));
         format!("{name}{index}{component}")

@@ -41,6 +41,7 @@ impl Point {
                 self.index(value, bindings).rem_euclid(self.index(modulus, bindings))
             }
             Atom::Product(factors) => factors.iter().map(|factor| self.atom(factor, bindings)).product(),
+            Atom::Row(row, length) => self.index(row, bindings) * self.index(length, bindings),
         }
     }
 

@@ -118,7 +118,9 @@ impl Evaluation<'_> {
             _ => Quantity::Empty(Jet::empty_sum()),
         };
         let plus = |a: &Jet, b: &Jet| a.clone().plus(b);
-        for first in self.point.visited(lower, upper) {
+        let written_out = self.model.written_out(&call.args[0], closure);
+        let firsts = written_out.map_or_else(|| self.point.visited(lower, upper), |values| values.collect());
+        for first in firsts {
             let seconds = match name {
                 "sum" | "product" => {
                     let term = self.closure(closure, &[first])?;

@@ -63,8 +63,18 @@ impl Evaluation<'_> {
             });
         };
         let mut entries = Vec::new();
-        for index in self.point.visited(0, self.block_size(first)) {
-            match self.closure(closure, &[index])? {
+        let mut passes = vec![Vec::new()];
+        for size in self.model.blocks[first].sizes() {
+            let visited = self.point.visited(0, self.length(&size));
+            let further = |pass: &Vec<i64>, index: i64| pass.iter().copied().chain([index]).collect();
+            passes = passes
+                .iter()
+                .flat_map(|pass| visited.iter().map(move |index| further(pass, *index)))
+                .collect();
+        }
+        for indices in passes {
+            let index = self.flat(first, &indices)?;
+            match self.closure(closure, &indices)? {
                 Quantity::Vector(components) => {
                     entries
                         .extend(blocks.clone().zip(components).map(|(block, value)| (block, index, value)));

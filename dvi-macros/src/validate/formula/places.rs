@@ -7,6 +7,7 @@ use syn::Expr;
 use super::super::jet::Jet;
 use super::super::point::Variable;
 use super::{Evaluation, NoValue, Quantity, Value, place_text, unknown};
+use crate::internal::internal;
 use crate::model::Shape;
 
 impl Evaluation<'_> {
@@ -55,7 +56,7 @@ impl Evaluation<'_> {
                 }
                 None => Ok(Quantity::Number(entry(block, 0)?)),
             },
-            (1, [index]) => Ok(Quantity::Number(entry(block, *index)?)),
+            (1, _) => Ok(Quantity::Number(entry(block, self.flat(block, indices)?)?)),
             (2.., [index]) => {
                 let entries = components.map(|block| entry(block, *index));
                 Ok(Quantity::Vector(entries.collect::<Result<_, _>>()?))
@@ -69,6 +70,18 @@ impl Evaluation<'_> {
                 Ok(Quantity::Number(entry(block, *index)?))
             }
             _ => unknown(syntax),
+        }
+    }
+
+    /// The place of an entry in its block: the index, or of two the first times the length of the rows plus
+    /// the second, which stays below that length.
+    pub(super) fn flat(&self, block: usize, indices: &[i64]) -> Value<i64> {
+        let length = self.model.blocks[block].row_length().map(|length| self.length(length));
+        match (indices, length) {
+            ([index], None) => Ok(*index),
+            ([row, column], Some(length)) if (0..length).contains(column) => Ok(row * length + column),
+            ([_, _], Some(_)) => Err(NoValue::OutOfRange),
+            _ => internal("another number of indices"),
         }
     }
 

@@ -1,0 +1,67 @@
+//! Sums over the components of a vector, `sum(0..3, |k| r[i][k])`: each component has a block of its own, so
+//! that such a sum is written out term by term.
+
+use std::ops::Range;
+
+use syn::visit::{self, Visit};
+use syn::{Expr, ExprClosure, ExprIndex, ExprPath, Ident, Pat, RangeLimits};
+
+use super::Model;
+use super::vectors::{COMPONENTS, literal};
+
+impl Model {
+    /// The values of the index of a sum that numbers components in its body, where its range is literal.
+    pub(crate) fn written_out(&self, range: &Expr, closure: &ExprClosure) -> Option<Range<i64>> {
+        let (Expr::Range(range), Some(Pat::Ident(index))) = (range, closure.inputs.first()) else {
+            return None;
+        };
+        let first = range.start.as_ref().map_or(Some(0), |start| literal(start))?;
+        let last = literal(range.end.as_ref()?)?;
+        let past = last.saturating_add(i64::from(matches!(range.limits, RangeLimits::Closed(_))));
+        let is_short = past.saturating_sub(first) <= *COMPONENTS.end();
+        let mut search = Search { model: self, index: &index.ident, is_component: false, found: false };
+        search.visit_expr(&closure.body);
+        (search.found && is_short).then_some(first..past)
+    }
+
+    /// Which index is that of a component behind a name or another expression, counted from 0.
+    fn component_behind(&self, base: &Expr) -> Option<usize> {
+        let name = match base {
+            Expr::Path(path) => path.path.get_ident()?,
+            Expr::Field(_) => return None,
+            _ => return Some(0),
+        };
+        if let Some(block) = self.blocks.iter().find(|block| block.name == *name) {
+            return block.axis.map(|_| block.sizes().len());
+        }
+        let is_parameter = self.parameters.iter().any(|parameter| *name == parameter.text);
+        (!is_parameter).then_some(0)
+    }
+}
+
+/// Looks for an index where components are numbered.
+struct Search<'a> {
+    model: &'a Model,
+    index: &'a Ident,
+    is_component: bool,
+    found: bool,
+}
+
+impl<'ast> Visit<'ast> for Search<'_> {
+    fn visit_expr_index(&mut self, place: &'ast ExprIndex) {
+        let (mut base, mut before) = (&*place.expr, 0);
+        while let Expr::Index(inner) = base {
+            (base, before) = (&inner.expr, before + 1);
+        }
+        self.visit_expr(&place.expr);
+        let around = self.is_component;
+        self.is_component = self.model.component_behind(base) == Some(before);
+        self.visit_expr(&place.index);
+        self.is_component = around;
+    }
+
+    fn visit_expr_path(&mut self, path: &'ast ExprPath) {
+        self.found |= self.is_component && path.path.is_ident(self.index);
+        visit::visit_expr_path(self, path);
+    }
+}
