@@ -152,10 +152,11 @@ pub trait System: Held<System = Self> {
     /// The size of coordinate block `block`: 1 for a single coordinate, n for `x[n]`, and for each component
     /// of `r[n][3]`.
     fn block_len(&self, block: usize) -> usize;
-    /// Walks every index that the formulas use and checks it against the arrays that it goes to.
+    /// Walks every index that the formulas use and checks it against the arrays that it goes to; before that, that
+    /// memory can hold as many coordinates as the sizes say.
     ///
     /// # Errors
-    /// [`IndexError`] names the first array that is too short, and the index.
+    /// [`IndexError`] names the first array that is too short, or that memory ends before, and the index.
     fn check(&self) -> Result<(), IndexError>;
 
     /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …, of vectors `r[0].x`, `r[0].y`,
