@@ -155,10 +155,11 @@ pub trait System: Held<System = Self> {
     /// of `r[n][3]`. The size of a block `q[n][m]` is n·m; the length of its rows, m, has the number of blocks
     /// in all plus that of the block. Of a block without rows that is 0.
     fn block_len(&self, block: usize) -> usize;
-    /// Walks every index that the formulas use and checks it against the arrays that it goes to.
+    /// Walks every index that the formulas use and checks it against the arrays that it goes to; before that, that
+    /// memory can hold as many coordinates as the sizes say.
     ///
     /// # Errors
-    /// [`IndexError`] names the first array that is too short, and the index.
+    /// [`IndexError`] names the first array that is too short, or that memory ends before, and the index.
     fn check(&self) -> Result<(), IndexError>;
 
     /// The names of the entries of a state, `x[0]`, `x[1]`, …, `dot_x[0]`, …, of vectors `r[0].x`, `r[0].y`,

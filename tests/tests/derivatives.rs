@@ -14,6 +14,7 @@ mod self_check;
 mod shapes;
 mod structure;
 mod sums;
+mod tangent;
 
 use dvi_tests::systems::{LotkaVolterra, PointVortices};
 use dvi_tests::zoo::functions::{Branches, Driven, EveryFunction, OwnFunction};

@@ -9,4 +9,3 @@ mod ends;
 mod motion;
 mod reference;
 mod structure;
-mod tangent;

@@ -2,6 +2,9 @@
 //! formula written in components, against what gradient and second derivatives of the generated functions
 //! make of the curve.
 
+// Rotations are called R.
+#![allow(non_snake_case)]
+
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
 use dvi_core::{Lagrangian, Space, System, Weights};
