@@ -432,7 +432,8 @@ impl fmt::Display for Of<'_> {
                 )
             }
             StepFailure::Singular { matrix, column, pivot } => {
-                write!(f, "{matrix} is singular: its pivot for ")?;
+                let what = if pivot.is_finite() { "singular" } else { "not finite" };
+                write!(f, "{matrix} is {what}: its pivot for ")?;
                 named(f, column)?;
                 write!(f, " is {pivot:e}")
             }

@@ -59,7 +59,14 @@ pub(crate) fn reciprocal<T: Real>(pivot: T, column: usize) -> Result<T, StepFail
     if reciprocal.is_finite() { Ok(reciprocal) } else { Err(singular(pivot, column)) }
 }
 
-/// The error of a pivot that is no use.
+/// Whether a pivot of this size is of use: more than `least`, which rounding errors of others may make of
+/// it. Not a number is none, and an infinite one would make all corrections zero.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn is_pivot<T: Real>(size: T, least: T) -> bool {
+    size > least && size < T::lift(f64::INFINITY)
+}
+
+/// The error of a pivot that is of no use.
 #[cold]
 pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
     let matrix = StepFailure::DISCRETE_LAGRANGIAN;

@@ -14,7 +14,7 @@
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
 
 use crate::error::StepFailure;
-use crate::scalar::norm::{finite, larger, singular};
+use crate::scalar::norm::{finite, is_pivot, larger, singular};
 use crate::space::linear::set_scales;
 use crate::space::{lines, lines_mut};
 use crate::{Real, Scalar};
@@ -48,9 +48,7 @@ pub(crate) fn factor_in_any_units<T: Real>(
         let pivot = Scalar::abs(matrix[row * n + k]);
         let terms = (0..k).map(|j| Scalar::abs(matrix[row * n + j] * matrix[j * n + k]));
         let subtracted = terms.fold(T::lift(LEAST), |sum, term| sum + term);
-        // A pivot that is not a number is no use either.
-        let is_usable = pivot > rounding * subtracted;
-        if is_usable { Ok(row) } else { Err(singular(pivot, k)) }
+        if is_pivot(pivot, rounding * subtracted) { Ok(row) } else { Err(singular(pivot, k)) }
     })
 }
 
@@ -70,8 +68,7 @@ pub(crate) fn factor_with_care<T: Real>(
 ) -> Result<(), StepFailure> {
     factor_by(matrix, permutation, &mut [], |matrix, scales, [n, k], rounding| {
         let (row, pivot) = largest_below(matrix, scales, [n, k]);
-        let is_usable = pivot > rounding * T::lift(LEAST);
-        if is_usable { Ok(row) } else { Err(singular(pivot, k)) }
+        if is_pivot(pivot, rounding * T::lift(LEAST)) { Ok(row) } else { Err(singular(pivot, k)) }
     })?;
     let (n, [x, y]) = (permutation.len(), work);
     let rounding = T::default_epsilon() * T::lift(n as f64);
@@ -91,8 +88,7 @@ pub(crate) fn factor_with_care<T: Real>(
             change += (left_size + Scalar::abs(left)) * (right_size + Scalar::abs(right));
         }
         let pivot = Scalar::abs(matrix[k * n + k]);
-        let is_usable = pivot > rounding * change;
-        if !is_usable {
+        if !is_pivot(pivot, rounding * change) {
             return Err(singular(pivot, k));
         }
     }
@@ -165,9 +161,7 @@ fn pivot_row<T: Real>(
 ) -> Result<usize, StepFailure> {
     let (row, pivot) = largest_below(matrix, scales, [n, k]);
     let above = (0..k).fold(T::lift(LEAST), |m, i| larger(m, scaled(matrix[i * n + k], i, scales)));
-    // A pivot that is not a number is no use either.
-    let usable = pivot > rounding * above;
-    if usable { Ok(row) } else { Err(singular(pivot, k)) }
+    if is_pivot(pivot, rounding * above) { Ok(row) } else { Err(singular(pivot, k)) }
 }
 
 /// Overwrites `x` with the solution of A y = x, A as left behind by [`factor`].

@@ -6,7 +6,7 @@
 
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
-use crate::scalar::norm::{larger, singular};
+use crate::scalar::norm::{is_pivot, larger, singular};
 use crate::{Real, Scalar};
 
 /// The signs of the eigenvalues of a symmetric matrix that is not singular.
@@ -70,9 +70,7 @@ pub(crate) fn inertia<T: Real>(matrix: &mut [T], removed: &mut [T]) -> Result<In
         let block = eigenvalues(matrix, n, k, rows);
         let subtracted = (k..k + rows).fold(zero, |largest, i| larger(largest, removed[i]));
         for &pivot in &block[..rows] {
-            // A pivot that is not a number is no use either.
-            let usable = Scalar::abs(pivot) > rounding * subtracted && pivot.is_finite();
-            if !usable {
+            if !is_pivot(Scalar::abs(pivot), rounding * subtracted) {
                 return Err(singular(pivot, k).of(StepFailure::MASS));
             }
             found.count(pivot);

@@ -87,6 +87,35 @@ fn a_singular_matrix_has_its_name_and_that_of_a_coordinate() -> Result<(), Box<d
     Ok(())
 }
 
+/// Bodies with a neighbour each, of which the second derivative of the potential of the last is infinite
+/// where they begin.
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 + x[i] - (x[i] - x[(i + 1) % n]).powi(2) / 4.0)
+        - x[n - 1].abs().powf(1.5),
+)]
+struct Cusp {
+    n: usize,
+}
+
+#[test]
+fn a_matrix_that_is_infinite_ends_a_step_of_newton() -> Result<(), Box<dyn Error>> {
+    // Of no coupling at all, of two equations, dense, and in a band.
+    for n in [1, 2, 5, 60] {
+        let method = Variational { solver: Solver::Newton, ..Variational::midpoint() };
+        let start = || CuspState { x: vec![0.0; n], dot_x: vec![0.0; n] };
+        let said = first_failure(Cusp { n }, method, 0.01, start())?;
+        let matrix = "the matrix D₁D₂L_d of the discrete Lagrangian is not finite: its pivot for ";
+        let expected = format!("{matrix}`x[{}]` is inf", n - 1);
+        assert!(said == expected || said.contains("became NaN"), "n = {n}: {said}");
+        // The fixed point asks for no matrix.
+        let mut run = Integrator::new(Cusp { n }, Variational::midpoint(), 0.01, start())?;
+        run.take_steps(10)?;
+        assert!(run.state().x[n - 1] > 0.0);
+    }
+    Ok(())
+}
+
 #[test]
 fn errors_of_a_start_are_their_sentences() {
     let start = DrivenState { y: f64::NAN, dot_y: 0.0, x: [0.0; 4], dot_x: [0.0; 4] };

@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use super::exchanges::Exchanges;
 use super::ordering::Order;
 use crate::error::StepFailure;
-use crate::scalar::norm::singular;
+use crate::scalar::norm::{is_pivot, singular};
 use crate::space::elimination::LEAST;
 use crate::space::lines_mut;
 use crate::{Real, Scalar};
@@ -118,9 +118,7 @@ impl<T: Real> Banded<T> {
                     place = j;
                 }
             }
-            // A pivot that is not a number is no use either.
-            let usable = pivot > rounding * subtracted;
-            if !usable {
+            if !is_pivot(pivot, rounding * subtracted) {
                 return Err(singular(pivot, self.coordinate[k] as usize));
             }
             self.pivots[k] = row as u32;

@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 use super::exchanges::Exchanges;
 use super::fronts::{Front, Fronts};
 use crate::error::StepFailure;
-use crate::scalar::norm::{larger, singular};
+use crate::scalar::norm::{is_pivot, larger, singular};
 use crate::space::elimination::LEAST;
 use crate::{Real, Scalar};
 
@@ -239,9 +239,8 @@ impl<T: Real> Work<T> {
                     (row, pivot) = (other, size(other));
                 }
             }
-            // A pivot that is not a number is no use either.
-            let is_usable = pivot > rounding * self.largest[column as usize]
-                || pivot > rounding * subtracted(table, width, row, k);
+            let is_usable = is_pivot(pivot, rounding * self.largest[column as usize])
+                || is_pivot(pivot, rounding * subtracted(table, width, row, k));
             if !is_usable {
                 return Err(singular(pivot, column as usize));
             }
