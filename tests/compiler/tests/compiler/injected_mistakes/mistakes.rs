@@ -113,7 +113,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     // what is there, on another block, and a step that is taken for explicit.
     mistake(
         "program.rs",
-        "entries.extend(«force_derivatives(graph, force)»);",
+        "let by_forces = «force_derivatives(graph, force)»;",
         "{ force_derivatives(graph, force); Vec::new() }",
     ),
     mistake(
