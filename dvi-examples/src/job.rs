@@ -30,10 +30,8 @@ impl Length {
     }
 }
 
-/// The surroundings of one experiment.
 #[derive(Debug)]
 pub struct Job<'a> {
-    /// The name of the experiment.
     pub name: &'static str,
     pub folder: &'a Path,
     pub length: Length,

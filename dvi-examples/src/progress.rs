@@ -15,10 +15,8 @@ const TICK: Duration = Duration::from_millis(200);
 const INTERVAL: Duration = Duration::from_secs(10);
 /// What was done longer ago than this, in seconds, tells little of how fast the rest will be.
 const MEMORY: f64 = 60.0;
-/// Steps of the bar.
 const TOTAL: f64 = 1e6;
 
-/// The progress of all experiments of a run.
 #[derive(Debug)]
 pub struct Progress {
     /// Hidden where there is no terminal.
@@ -76,7 +74,6 @@ impl Progress {
         self.all.finish_and_clear();
     }
 
-    /// The part of the work that is done.
     fn fraction(&self) -> f64 {
         let all: f64 = self.items.iter().map(|(of, _)| of.share).sum();
         self.items.iter().map(|(of, counter)| of.share * part(counter)).sum::<f64>() / all

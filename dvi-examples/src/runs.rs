@@ -24,7 +24,6 @@ pub fn place<R: Run<Scalar = f64>>(run: &R) -> [f64; 2] {
     [run.q()[0], run.q()[1]]
 }
 
-/// A run of any method.
 pub type AnyRun<'a, S> = Box<dyn Run<System = S, Scalar = f64> + 'a>;
 
 /// A motion that several methods compute: its system, and where it begins.
@@ -38,12 +37,10 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
         Self { system, start: start.into() }
     }
 
-    /// A run with steps of length `h`.
     pub fn run(&self, method: impl Method<S, f64> + 'a, h: f64) -> Result<AnyRun<'a, S>> {
         Ok(Box::new(Integrator::new(self.system, method, h, self.start.clone())?))
     }
 
-    /// The state after time `end`.
     pub fn up_to(&self, method: impl Method<S, f64> + 'a, h: f64, end: f64) -> Result<S::State<f64>> {
         let mut run = self.run(method, h)?;
         run.take_steps((end / h).round() as u64)?;
@@ -99,7 +96,6 @@ impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Convergence<'a, S, E> {
         self.counts.iter().map(error).collect()
     }
 
-    /// The order that they show of a method.
     pub fn order(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Option<f64>> {
         Ok(order(self.of(method)?))
     }
@@ -178,7 +174,6 @@ pub fn omega<S: DegenerateLagrangian>(system: &S, place: [f64; 2]) -> f64 {
     entries[1]
 }
 
-/// Points from their coordinates.
 pub fn points(x: &[f64], y: &[f64]) -> Points {
     x.iter().zip(y).map(|(&x, &y)| [x, y]).collect()
 }

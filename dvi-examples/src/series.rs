@@ -21,12 +21,10 @@ impl Span {
         Self { end: steps as f64 * h, early: early as f64 * h, intervals: 400 }
     }
 
-    /// How many steps of length `h` it has.
     pub fn steps(self, h: f64) -> u64 {
         (self.end / h).round() as u64
     }
 
-    /// Of several quantities.
     pub fn envelopes<const N: usize>(self) -> [Envelope; N] {
         std::array::from_fn(|_| Envelope::new(self.end, self.intervals, self.early))
     }

@@ -33,10 +33,10 @@ impl Errors {
         // On the equations without constraints.
         let by_rk4 = |named, disc: &'static RollingDisc| {
             growth(job, named, disc, [H, end], |begin| {
-                let mut y = begin.reduced();
+                let mut run = Accelerations::new(disc, H, &begin)?;
                 Ok(move || {
-                    y = rk4(&y, H, |y| disc.reduced(y));
-                    Ok(disc.energy_of(&y)?)
+                    run.step()?;
+                    Ok(run.energy()?)
                 })
             })
         };
@@ -109,7 +109,7 @@ fn growth<F: FnMut() -> Result<f64>>(
     let mut points: Vec<[f64; 2]> = times.map(|t| [t, 0.0]).collect();
     for k in 0..STARTS {
         let begin = disc.rolling(PLACE, 0.3 + k as f64 * TAU / STARTS as f64, RATES);
-        let (first, mut step) = (disc.energy_of(&begin.reduced())?, begun(begin)?);
+        let (first, mut step) = (disc.energy_at(&begin)?, begun(begin)?);
         let (mut largest, mut steps, mut next) = (0.0, 0_u64, 0);
         job.repeat((end / h).round() as u64, || {
             largest = larger(largest, (step()? - first).abs());

@@ -12,7 +12,6 @@ struct Motion {
     /// Times at which one of vortices 1 and 2 overtakes the other.
     overtakings: Vec<f64>,
     extent: f64,
-    /// The largest deviation from mirror symmetry about y = 0.
     asymmetry: f64,
     failure: Option<StepError>,
 }

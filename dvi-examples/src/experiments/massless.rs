@@ -9,7 +9,6 @@ use crate::vocabulary::*;
 const ALONG_X: MasslessAlongX = MasslessAlongX {};
 const SYMMETRIC: MasslessSymmetric = MasslessSymmetric {};
 const START: (f64, f64) = (1.0, 1.0);
-/// The step of the long runs.
 const H: f64 = 0.5;
 /// The steps at which the parasitic mode is measured, and until when at most.
 const STEPS: [f64; 3] = [0.5, 0.25, 0.125];

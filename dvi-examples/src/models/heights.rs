@@ -71,7 +71,6 @@ pub trait OnManifold<const D: usize>: ManifoldLagrangian + Copy {
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct SphericalPendulum {
-    /// g
     pub gravity: f64,
 }
 
@@ -84,7 +83,6 @@ pub struct SphericalPendulum {
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedPendulum {
-    /// g
     pub gravity: f64,
 }
 

@@ -12,9 +12,7 @@ use dvi_core::prelude::*;
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct EllipseBilliard {
-    /// Half of the long axis.
     pub a: f64,
-    /// Half of the short axis.
     pub b: f64,
 }
 

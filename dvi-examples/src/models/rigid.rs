@@ -37,7 +37,6 @@ pub struct Top {
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct RigidBody {
-    /// The moments of inertia.
     pub inertia: [f64; 3],
 }
 
@@ -96,12 +95,10 @@ impl RigidBody {
         RigidBodyState { R: rotations::exp([0.0; 3]), omega_R: omega }
     }
 
-    /// The angular momentum in the body.
     pub fn momentum_at(&self, state: &RigidBodyState) -> [f64; 3] {
         [0, 1, 2].map(|k| self.inertia[k] * state.omega_R[k])
     }
 
-    /// ω̇.
     pub fn acceleration(&self, omega: [f64; 3]) -> [f64; 3] {
         euler(self.inertia, omega, [0.0; 3])
     }
@@ -139,7 +136,6 @@ fn vertical(rotation: &[f64; 9]) -> [f64; 3] {
     [rotation[6], rotation[7], rotation[8]]
 }
 
-/// a × b
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

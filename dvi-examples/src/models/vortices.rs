@@ -24,17 +24,13 @@ pub struct PointVortices<const N: usize> {
     pub gamma: [f64; N],
 }
 
-/// Four vortices.
 pub type FourVortices = PointVortices<4>;
-/// The state of four vortices.
 pub type FourPoints = PointVorticesState<4>;
 
 /// A system with its initial state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// The vortices.
     pub vortices: FourVortices,
-    /// Where they are at t = 0.
     pub start: FourPoints,
 }
 
@@ -77,7 +73,6 @@ pub fn chaotic() -> Case {
 )]
 #[derive(Clone, Debug)]
 pub struct SphereVortices<const N: usize> {
-    /// The circulations Γ.
     pub gamma: [f64; N],
 }
 
@@ -108,7 +103,6 @@ impl<const N: usize> SphereVortices<N> {
 )]
 #[derive(Clone, Debug)]
 pub struct VortexVectors<const N: usize> {
-    /// The circulations Γ.
     pub gamma: [f64; N],
 }
 
@@ -133,9 +127,7 @@ impl<const N: usize> VortexVectors<N> {
 )]
 #[derive(Clone, Debug, PartialEq)]
 pub struct VortexBlobs {
-    /// The circulations Γ.
     pub gamma: Vec<f64>,
-    /// The radius of the cores.
     pub core: f64,
 }
 
@@ -144,16 +136,13 @@ pub struct VortexBlobs {
 pub struct ShearLayer {
     /// Rows of blobs, one above the other.
     pub rows: usize,
-    /// The amplitude of the waves.
     pub amplitude: f64,
 }
 
 impl ShearLayer {
     /// Its length, in waves.
     pub const LENGTH: f64 = 8.0;
-    /// Its thickness.
     pub const THICKNESS: f64 = 0.12;
-    /// The radius of a core.
     pub const CORE: f64 = 0.02;
 
     /// The number of blobs: they are a little more apart along the layer than across.
@@ -181,7 +170,6 @@ impl ShearLayer {
         })
     }
 
-    /// Their places with waves.
     pub fn state(self) -> VortexBlobsState {
         let wave = |x: f64| self.amplitude * (TAU * x).sin();
         let (x, y) = self.rest().map(|[x, y]| (x, y + wave(x))).unzip();
