@@ -103,11 +103,6 @@ pub fn order_of<T>(
     Ok(order(cases.into_iter().map(error).collect::<Result<Vec<_>>>()?))
 }
 
-/// One if something is so, and zero if not, for checks.
-pub fn indicator(is_so: bool) -> f64 {
-    f64::from(u8::from(is_so))
-}
-
 /// A circle as a closed line.
 pub fn circle([x, y]: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
     let angles = (0..=200).map(|k| std::f64::consts::TAU * f64::from(k) / 200.0);

@@ -1,13 +1,6 @@
 //! What is read of runs, and runs that several experiments take.
 
-use anyhow::Result;
-use dvi_core::Space as _;
-use dvi_core::discrete::{Trapezoid, Unfitted};
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
-
-use crate::figure::{Colour, Points, SEQUENCE};
-use crate::numbers::{apart, dot, each, indicator, larger, order};
+use crate::vocabulary::*;
 
 /// What `of` reads of a run, at its start and after each of so many steps.
 pub fn course<R: Run, T>(run: &mut R, steps: u64, mut of: impl FnMut(&R) -> T) -> Result<Vec<T>, StepError> {
@@ -121,7 +114,7 @@ pub fn momenta<const N: usize>(run: &impl Run<Scalar = f64>) -> [f64; N] {
 pub fn is_lost(run: &mut impl Run<Scalar = f64>, steps: u64, factor: f64) -> f64 {
     let begin = run.energy();
     let grown = |energy: f64| energy.is_nan() || energy > factor * begin;
-    indicator((0..steps).any(|_| run.advance().is_err() || grown(run.energy())))
+    f64::from((0..steps).any(|_| run.advance().is_err() || grown(run.energy())))
 }
 
 /// A time, a colour, and the shape then.

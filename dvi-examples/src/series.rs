@@ -1,11 +1,6 @@
 //! Series: what runs should keep, over time, with the panels and the tables of that.
 
-use anyhow::Result;
-use dvi_core::error::StepError;
-
-use crate::envelope::Envelope;
-use crate::figure::{Axis, Line, Panel, Points, Stroke};
-use crate::output::Table;
+use crate::vocabulary::*;
 
 /// How long a run is, when its beginning ends, and in how many intervals it is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -94,12 +89,15 @@ pub fn magnitude_table<'a, const N: usize>(
 ) -> Result<Table> {
     let quantities = columns.split(',').skip(2).count().min(N);
     let curves = all.into_iter().map(|Series { name, kept, .. }| {
-        let others: Vec<_> = kept[1..quantities].iter().map(Envelope::magnitude).collect();
-        let rows = kept[0].magnitude().into_iter().enumerate();
-        let row = move |(k, first): (usize, [f64; 2])| {
-            first.into_iter().chain(others.iter().map(|of| of[k][1])).collect::<Vec<_>>()
-        };
-        ([name], [], rows.map(row))
+        let all: Vec<_> = kept[..quantities].iter().map(Envelope::magnitude).collect();
+        let rows = 0..all[0].len();
+        (
+            [name],
+            [],
+            rows.map(move |k| {
+                all[0][k].into_iter().chain(all[1..].iter().map(|of| of[k][1])).collect::<Vec<_>>()
+            }),
+        )
     });
     curve_table(columns, curves)
 }

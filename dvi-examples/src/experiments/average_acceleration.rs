@@ -44,8 +44,8 @@ impl AverageAcceleration {
     }
 
     pub fn integrals(&self) -> [f64; 2] {
-        let ([x, y], [u, w], r2) = (self.q, self.v, dot(self.q, self.q));
-        [0.5 * dot(self.v, self.v) + r2 * (r2 - 1.0).powi(2), x * w - y * u]
+        let Self { system, q, v, .. } = self;
+        [system.energy(q, v, 0.0), system.momentum(0, q, v, 0.0)]
     }
 }
 

@@ -93,7 +93,6 @@ fn order_of_places(sleigh: &Sleigh) -> Result<Claim> {
         .near("sleigh: order when it has turned", sleigh.order(), [2.0, 0.05]))
 }
 
-/// The places of a disc up to a time, in the plane.
 fn places(disc: &RollingDisc, end: f64) -> Result<Points> {
     let mut run = Problem::new(disc, begin(disc)).run(midpoint(), H)?;
     Ok(course(&mut run, (end / H).round() as u64, place)?)

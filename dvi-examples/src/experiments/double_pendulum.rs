@@ -39,7 +39,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 fn figure(all: &[Series<1>; 3], end: f64) -> Figure {
     let [x, y] = ["*x*   [m]", "*y*   [m]"].map(|label| (label, [-2.1, 2.1]));
-    let path: Points = all[1].path.iter().map(|q| SYSTEM.lower_mass(q)).collect();
+    let lower = |[a, b]: [f64; 2]| [a.sin() + b.sin(), -a.cos() - b.cos()].map(|x| SYSTEM.length * x);
+    let path: Points = all[1].path.iter().copied().map(lower).collect();
     let part = path.len().div_ceil(SEQUENCE.len()).max(1);
     let parts = SEQUENCE.into_iter().enumerate();
     let path = Panel::window("Path of the lower mass", x, y).each(parts, |panel, (i, colour)| {

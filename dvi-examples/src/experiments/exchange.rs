@@ -58,7 +58,6 @@ pub fn speeds(job: &Job<'_>) -> Result<Claim> {
 pub struct Exchange(pub Vec<[f64; 3]>);
 
 impl Exchange {
-    /// Of the motion, by Gauss's method of order 8.
     pub fn motion(centre: f64) -> Result<Self> {
         Self::new(Gauss::<4>::new(), centre, 0.1 / OMEGA, 220)
     }

@@ -83,12 +83,8 @@ impl Mode {
 }
 
 impl Beam {
-    fn place(&self, i: usize) -> f64 {
-        (i + 1) as f64 / self.n as f64
-    }
-
     fn moving(&self, at: impl Fn(f64) -> [f64; 2]) -> [Vec<f64>; 2] {
-        [0, 1].map(|k| (0..self.n).map(|i| at(self.place(i))[k]).collect())
+        [0, 1].map(|k| (1..=self.n).map(|i| at(i as f64 / self.n as f64)[k]).collect())
     }
 
     /// Straight, with velocities that are those of a mode.

@@ -105,10 +105,3 @@ pub struct DoublePendulum {
     pub length: f64,
     pub g: f64,
 }
-
-impl DoublePendulum {
-    /// Where the lower mass is, x to the right and y upwards from the support.
-    pub fn lower_mass(&self, &[a, b]: &[f64; 2]) -> [f64; 2] {
-        [self.length * (a.sin() + b.sin()), -self.length * (a.cos() + b.cos())]
-    }
-}

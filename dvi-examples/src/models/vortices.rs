@@ -156,23 +156,19 @@ impl ShearLayer {
         VortexBlobs { gamma: vec![Self::LENGTH / n as f64; n], core: Self::CORE }
     }
 
-    /// Their places in the layer without waves.
-    pub fn rest(self) -> impl Iterator<Item = [f64; 2]> {
-        let Self { rows, .. } = self;
+    /// Their places with waves.
+    pub fn state(self) -> VortexBlobsState {
+        let Self { rows, amplitude } = self;
         let columns = self.blobs() / rows;
-        (0..columns * rows).map(move |blob| {
+        let place = |blob: usize| {
             let (column, row) = (blob / rows, blob % rows);
             // Every other row is shifted.
             let shift = if row % 2 == 0 { 0.25 } else { 0.75 };
-            let along = (column as f64 + shift) / columns as f64 - 0.5;
+            let x = Self::LENGTH * ((column as f64 + shift) / columns as f64 - 0.5);
             let across = (row as f64 + 0.5) / rows as f64 - 0.5;
-            [Self::LENGTH * along, Self::THICKNESS * across]
-        })
-    }
-
-    pub fn state(self) -> VortexBlobsState {
-        let wave = |x: f64| self.amplitude * (TAU * x).sin();
-        let (x, y) = self.rest().map(|[x, y]| (x, y + wave(x))).unzip();
+            (x, Self::THICKNESS * across + amplitude * (TAU * x).sin())
+        };
+        let (x, y) = (0..columns * rows).map(place).unzip();
         VortexBlobsState { x, y }
     }
 }
