@@ -61,7 +61,8 @@ impl Progress {
                 left if left < 1e5 => format!("{:#} left", HumanDuration(Duration::from_secs_f64(left))),
                 _ => "…".to_owned(),
             };
-            let running = self.items.iter().filter(|(_, counter)| is_running(counter));
+            let begun = self.items.iter().filter(|(_, counter)| counter.length() > Some(0));
+            let running = begun.filter(|(_, counter)| !counter.is_finished());
             let running = running.map(|(of, counter)| format!("{} {:.0} %", of.name, 100.0 * part(counter)));
             let message = format!("{left}: {}", running.collect::<Vec<_>>().join(", "));
             if self.all.is_hidden() && spoken.elapsed() >= INTERVAL {
@@ -99,10 +100,6 @@ impl Speed {
         self.last = [seconds, done];
         (1.0 - done) * self.seconds / self.done.max(f64::MIN_POSITIVE)
     }
-}
-
-fn is_running(counter: &ProgressBar) -> bool {
-    counter.length() > Some(0) && !counter.is_finished()
 }
 
 /// The part of its work that an experiment has done; those that take a few seconds do not count.

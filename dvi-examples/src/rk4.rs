@@ -12,7 +12,7 @@ pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; 
 }
 
 /// The same with slopes that may fail.
-fn try_rk4<Y, E>(y: &Y, h: f64, f: impl Fn(&Y) -> Result<Y, E>) -> Result<Y, E>
+pub fn try_rk4<Y, E>(y: &Y, h: f64, f: impl Fn(&Y) -> Result<Y, E>) -> Result<Y, E>
 where
     Y: Clone + AsRef<[f64]> + AsMut<[f64]>,
 {

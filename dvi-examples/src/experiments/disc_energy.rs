@@ -30,13 +30,16 @@ impl Errors {
                 })
             })
         };
-        // On the equations without constraints.
+        // On the numbers that the constraints leave free.
         let by_rk4 = |named, disc: &'static RollingDisc| {
             growth(job, named, disc, [H, end], |begin| {
-                let mut run = Accelerations::new(disc, H, &begin)?;
+                let state =
+                    |&[x, y, phi, theta, turning]: &[f64; 5]| disc.rolling([x, y], phi, [theta, turning]);
+                let free = |of: RollingDiscState| [of.x, of.y, of.phi, of.dot_theta, of.dot_phi];
+                let mut now = free(begin);
                 Ok(move || {
-                    run.step()?;
-                    Ok(run.energy()?)
+                    now = try_rk4(&now, H, |now| disc.vector_field(&state(now)).map(free))?;
+                    Ok(disc.energy_at(&state(&now))?)
                 })
             })
         };
