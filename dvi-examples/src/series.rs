@@ -89,15 +89,11 @@ pub fn magnitude_table<'a, const N: usize>(
 ) -> Result<Table> {
     let quantities = columns.split(',').skip(2).count().min(N);
     let curves = all.into_iter().map(|Series { name, kept, .. }| {
-        let all: Vec<_> = kept[..quantities].iter().map(Envelope::magnitude).collect();
-        let rows = 0..all[0].len();
-        (
-            [name],
-            [],
-            rows.map(move |k| {
-                all[0][k].into_iter().chain(all[1..].iter().map(|of| of[k][1])).collect::<Vec<_>>()
-            }),
-        )
+        let others: Vec<_> = kept[1..quantities].iter().map(Envelope::magnitude).collect();
+        let row = move |(k, [t, first]): (usize, [f64; 2])| {
+            [t, first].into_iter().chain(others.iter().map(|of| of[k][1])).collect::<Vec<_>>()
+        };
+        ([name], [], kept[0].magnitude().into_iter().enumerate().map(row))
     });
     curve_table(columns, curves)
 }
