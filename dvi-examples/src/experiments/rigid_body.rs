@@ -27,7 +27,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (wave, start) = (Wave::new(&BODY, OMEGA), begin());
     let before = BODY.momentum_at(&start);
     let first = rotations::apply(&start.R, before);
-    let energy = |state: &RigidBodyState| BODY.energy(&state.R, &state.omega_R, 0.0);
+    let energy = |state: &RigidBodyState| BODY.energy(&state.R, &velocities(state.omega_R), 0.0);
     // E − E(0), |M − M(0)|/|M| in space, max |RᵀR − 1|, and the relative change of |M| in the body.
     let kept = |state: &RigidBodyState| {
         let now = BODY.momentum_at(state);

@@ -31,7 +31,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let long = Long { job, steps: job.choose(10_000_000, 6_000), every: EVERY, h: H };
     job.expect(2 * long.steps / EVERY);
     let before = TOP.heights(&begin());
-    let energy = |state: &TopState| TOP.energy(&state.R, &state.omega_R, 0.0);
+    let energy = |state: &TopState| TOP.energy(&state.R, &velocities(state.omega_R), 0.0);
     // E − E(0), max |RᵀR − 1|, and the angular momenta about the axis and about the vertical, relative.
     let kept = |state: &TopState| {
         let now = TOP.heights(state);

@@ -53,8 +53,9 @@ impl Top {
     /// What the height of the axis depends on.
     pub fn heights(&self, state: &TopState) -> Heights {
         let Self { across, along, weight } = *self;
-        let [spin, vertical] = [0, 1].map(|k| self.momentum(k, &state.R, &state.omega_R, 0.0));
-        let energy = self.energy(&state.R, &state.omega_R, 0.0) - spin * spin / (2.0 * along);
+        let velocities = velocities(state.omega_R);
+        let [spin, vertical] = [0, 1].map(|k| self.momentum(k, &state.R, &velocities, 0.0));
+        let energy = self.energy(&state.R, &velocities, 0.0) - spin * spin / (2.0 * along);
         Heights { across, weight, energy, spin, vertical }
     }
 
@@ -111,6 +112,11 @@ impl OnManifold<12> for RigidBody {
     fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
         turning(y, |_, omega| self.acceleration(omega))
     }
+}
+
+/// A rotation has as many velocities as entries, of which the first three are ω.
+pub fn velocities([x, y, z]: [f64; 3]) -> [f64; 9] {
+    [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
 }
 
 /// The direction of the third axis of space in the body.
