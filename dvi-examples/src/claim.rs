@@ -50,9 +50,7 @@ pub struct Check {
 pub struct Claim {
     /// Where the paper says it.
     pub place: String,
-    /// What it says.
     pub says: String,
-    /// The checks of what is printed.
     pub printed: Vec<Check>,
     /// What holds if that does not, with its own checks.
     pub instead: Option<(String, Vec<Check>)>,
@@ -100,17 +98,14 @@ impl Claim {
         self.instead.as_mut().map_or(&mut self.printed, |(_, checks)| checks)
     }
 
-    /// The check that a number is at most `high`.
     pub fn at_most(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, high: f64) -> Self {
         self.check(quantity, value, Bound::AtMost(high))
     }
 
-    /// The check that a number is at least `low`.
     pub fn at_least(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, low: f64) -> Self {
         self.check(quantity, value, Bound::AtLeast(low))
     }
 
-    /// The check that a number is between two others.
     pub fn within(self, quantity: impl Into<String>, value: impl Into<Option<f64>>, ends: [f64; 2]) -> Self {
         self.check(quantity, value, Bound::Within(ends[0], ends[1]))
     }
@@ -148,7 +143,6 @@ impl Claim {
         }
     }
 
-    /// Whether a paper says it.
     pub fn is_printed(&self) -> bool {
         self.place != BEYOND
     }
@@ -170,7 +164,6 @@ impl Check {
         Self { quantity: quantity.into(), value: value.into(), bound }
     }
 
-    /// One of [`VERDICTS`].
     pub fn verdict(&self) -> &'static str {
         match self.value {
             None => "not measured",

@@ -97,7 +97,6 @@ impl Envelope {
         }
     }
 
-    /// The largest difference of two values.
     pub fn width(&self) -> f64 {
         let [low, high] = self.range();
         high - low

@@ -2,16 +2,12 @@
 
 use std::path::Path;
 
-use anyhow::Result;
-use dvi_core::prelude::*;
 use indicatif::ProgressBar;
 
 use crate::experiments::title;
-use crate::figure::Figure;
 use crate::motions;
-use crate::output::{Table, write_whole};
-use crate::runs::place;
-use crate::series::{Named, Series, Span, note};
+use crate::output::write_whole;
+use crate::vocabulary::*;
 
 /// Full length as in the papers, or seconds instead of minutes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -30,10 +26,8 @@ impl Length {
     }
 }
 
-/// The surroundings of one experiment.
 #[derive(Debug)]
 pub struct Job<'a> {
-    /// The name of the experiment.
     pub name: &'static str,
     pub folder: &'a Path,
     pub length: Length,

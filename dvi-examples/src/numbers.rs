@@ -14,12 +14,15 @@ pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, larger)
 }
 
-/// The smallest of some numbers.
+/// The largest that `of` reads of all.
+pub fn most<T>(all: &[T], of: impl Fn(&T) -> f64) -> f64 {
+    largest(all.iter().map(of))
+}
+
 pub fn least(values: impl IntoIterator<Item = f64>) -> f64 {
     -values.into_iter().map(|value| -value).fold(f64::NEG_INFINITY, larger)
 }
 
-/// The mean of some numbers.
 pub fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = values.len() as f64;
     values.sum::<f64>() / count
@@ -30,7 +33,6 @@ pub fn apart<'a>(one: impl IntoIterator<Item = &'a f64>, other: impl IntoIterato
     largest(one.into_iter().zip(other).map(|(a, b)| (a - b).abs()))
 }
 
-/// The distance of two points of the plane.
 pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
@@ -40,12 +42,10 @@ pub fn farthest(one: &[[f64; 2]], other: &[[f64; 2]]) -> f64 {
     largest(one.iter().zip(other).map(|(&a, &b)| distance(a, b)))
 }
 
-/// The product of two vectors.
 pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
     a.into_iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The difference of two vectors.
 pub fn difference<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
     std::array::from_fn(|i| a[i] - b[i])
 }
@@ -55,7 +55,6 @@ pub fn moved<const N: usize>(from: [f64; N], by: f64, along: [f64; N]) -> [f64; 
     std::array::from_fn(|i| from[i] + by * along[i])
 }
 
-/// The length of a vector.
 pub fn length<const N: usize>(v: [f64; N]) -> f64 {
     dot(v, v).sqrt()
 }
@@ -102,11 +101,6 @@ pub fn order_of<T>(
     error: impl FnMut(T) -> Result<(f64, f64)>,
 ) -> Result<Option<f64>> {
     Ok(order(cases.into_iter().map(error).collect::<Result<Vec<_>>>()?))
-}
-
-/// One if something is so, and zero if not, for checks.
-pub fn indicator(is_so: bool) -> f64 {
-    f64::from(u8::from(is_so))
 }
 
 /// A circle as a closed line.

@@ -35,12 +35,10 @@ pub fn digits(value: f64, plain: Range<f64>) -> String {
     if is_plain { value.to_string() } else { format!("{value:e}") }
 }
 
-/// A number as tables have it.
 pub fn number(value: f64) -> String {
     digits(value, 1e-4..1e15)
 }
 
-/// A table with named columns.
 #[derive(Debug)]
 pub struct Table(csv::Writer<Vec<u8>>);
 
@@ -65,7 +63,6 @@ impl Table {
         Ok(Self(table))
     }
 
-    /// Writes `name.csv` into the folder.
     pub fn save(self, folder: &Path, name: &str) -> Result<()> {
         let bytes = self.0.into_inner().context("a table could not be completed")?;
         write_whole(&folder.join(format!("{name}.csv")), &bytes)

@@ -43,7 +43,6 @@ impl Page<'_> {
     }
 }
 
-/// What the page shows of an experiment.
 struct Card<'a> {
     experiment: &'a Experiment,
     part: &'a Part,

@@ -15,10 +15,8 @@ const TICK: Duration = Duration::from_millis(200);
 const INTERVAL: Duration = Duration::from_secs(10);
 /// What was done longer ago than this, in seconds, tells little of how fast the rest will be.
 const MEMORY: f64 = 60.0;
-/// Steps of the bar.
 const TOTAL: f64 = 1e6;
 
-/// The progress of all experiments of a run.
 #[derive(Debug)]
 pub struct Progress {
     /// Hidden where there is no terminal.
@@ -63,7 +61,8 @@ impl Progress {
                 left if left < 1e5 => format!("{:#} left", HumanDuration(Duration::from_secs_f64(left))),
                 _ => "…".to_owned(),
             };
-            let running = self.items.iter().filter(|(_, counter)| is_running(counter));
+            let begun = self.items.iter().filter(|(_, counter)| counter.length() > Some(0));
+            let running = begun.filter(|(_, counter)| !counter.is_finished());
             let running = running.map(|(of, counter)| format!("{} {:.0} %", of.name, 100.0 * part(counter)));
             let message = format!("{left}: {}", running.collect::<Vec<_>>().join(", "));
             if self.all.is_hidden() && spoken.elapsed() >= INTERVAL {
@@ -76,7 +75,6 @@ impl Progress {
         self.all.finish_and_clear();
     }
 
-    /// The part of the work that is done.
     fn fraction(&self) -> f64 {
         let all: f64 = self.items.iter().map(|(of, _)| of.share).sum();
         self.items.iter().map(|(of, counter)| of.share * part(counter)).sum::<f64>() / all
@@ -102,10 +100,6 @@ impl Speed {
         self.last = [seconds, done];
         (1.0 - done) * self.seconds / self.done.max(f64::MIN_POSITIVE)
     }
-}
-
-fn is_running(counter: &ProgressBar) -> bool {
-    counter.length() > Some(0) && !counter.is_finished()
 }
 
 /// The part of its work that an experiment has done; those that take a few seconds do not count.

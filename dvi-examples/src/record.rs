@@ -15,7 +15,6 @@ use crate::gallery::Outcome;
 use crate::job::Length;
 use crate::output::{number, write_whole};
 
-/// The name of the table.
 const NAME: &str = "summary.csv";
 
 /// One experiment, as it was run last.
@@ -135,7 +134,6 @@ fn rows(part: &Part) -> Vec<Row> {
     rows
 }
 
-/// Writes the table of the parts into the folder.
 pub fn save(folder: &Path, parts: &[Part]) -> Result<()> {
     let mut table = csv::Writer::from_writer(Vec::new());
     parts.iter().flat_map(rows).try_for_each(|row| table.serialize(row))?;

@@ -2,6 +2,8 @@
 
 use std::convert::Infallible;
 
+use dvi_core::mechanics::Rates;
+
 use crate::vocabulary::*;
 
 pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
@@ -10,7 +12,7 @@ pub fn rk4<const N: usize>(y: &[f64; N], h: f64, f: impl Fn(&[f64; N]) -> [f64; 
 }
 
 /// The same with slopes that may fail.
-fn try_rk4<Y, E>(y: &Y, h: f64, f: impl Fn(&Y) -> Result<Y, E>) -> Result<Y, E>
+pub fn try_rk4<Y, E>(y: &Y, h: f64, f: impl Fn(&Y) -> Result<Y, E>) -> Result<Y, E>
 where
     Y: Clone + AsRef<[f64]> + AsMut<[f64]>,
 {
@@ -43,11 +45,10 @@ pub fn rk4_to<const N: usize>(y: [f64; N], end: f64, h: f64, f: impl Fn(&[f64; N
 pub struct Accelerations<'a, S> {
     system: &'a S,
     h: f64,
-    /// Coordinates and velocities.
     y: Vec<f64>,
 }
 
-impl<'a, S: HolonomicLagrangian + AtState> Accelerations<'a, S> {
+impl<'a, S: AtState + System<Kind: Rates<S, f64>>> Accelerations<'a, S> {
     pub fn new(system: &'a S, h: f64, start: &S::State<f64>) -> Result<Self> {
         Ok(Self { system, h, y: system.values(start)?.collect() })
     }

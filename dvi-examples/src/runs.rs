@@ -1,13 +1,6 @@
 //! What is read of runs, and runs that several experiments take.
 
-use anyhow::Result;
-use dvi_core::Space as _;
-use dvi_core::discrete::{Trapezoid, Unfitted};
-use dvi_core::methods::Method;
-use dvi_core::prelude::*;
-
-use crate::figure::{Colour, Points, SEQUENCE};
-use crate::numbers::{apart, dot, each, indicator, larger, order};
+use crate::vocabulary::*;
 
 /// What `of` reads of a run, at its start and after each of so many steps.
 pub fn course<R: Run, T>(run: &mut R, steps: u64, mut of: impl FnMut(&R) -> T) -> Result<Vec<T>, StepError> {
@@ -24,7 +17,6 @@ pub fn place<R: Run<Scalar = f64>>(run: &R) -> [f64; 2] {
     [run.q()[0], run.q()[1]]
 }
 
-/// A run of any method.
 pub type AnyRun<'a, S> = Box<dyn Run<System = S, Scalar = f64> + 'a>;
 
 /// A motion that several methods compute: its system, and where it begins.
@@ -38,12 +30,10 @@ impl<'a, S: Lagrangian> Problem<'a, S> {
         Self { system, start: start.into() }
     }
 
-    /// A run with steps of length `h`.
     pub fn run(&self, method: impl Method<S, f64> + 'a, h: f64) -> Result<AnyRun<'a, S>> {
         Ok(Box::new(Integrator::new(self.system, method, h, self.start.clone())?))
     }
 
-    /// The state after time `end`.
     pub fn up_to(&self, method: impl Method<S, f64> + 'a, h: f64, end: f64) -> Result<S::State<f64>> {
         let mut run = self.run(method, h)?;
         run.take_steps((end / h).round() as u64)?;
@@ -99,7 +89,6 @@ impl<'a, S: Lagrangian, E: Fn(&[f64]) -> f64> Convergence<'a, S, E> {
         self.counts.iter().map(error).collect()
     }
 
-    /// The order that they show of a method.
     pub fn order(&self, method: impl Method<S, f64> + Clone + 'a) -> Result<Option<f64>> {
         Ok(order(self.of(method)?))
     }
@@ -125,7 +114,7 @@ pub fn momenta<const N: usize>(run: &impl Run<Scalar = f64>) -> [f64; N] {
 pub fn is_lost(run: &mut impl Run<Scalar = f64>, steps: u64, factor: f64) -> f64 {
     let begin = run.energy();
     let grown = |energy: f64| energy.is_nan() || energy > factor * begin;
-    indicator((0..steps).any(|_| run.advance().is_err() || grown(run.energy())))
+    f64::from((0..steps).any(|_| run.advance().is_err() || grown(run.energy())))
 }
 
 /// A time, a colour, and the shape then.
@@ -178,7 +167,6 @@ pub fn omega<S: DegenerateLagrangian>(system: &S, place: [f64; 2]) -> f64 {
     entries[1]
 }
 
-/// Points from their coordinates.
 pub fn points(x: &[f64], y: &[f64]) -> Points {
     x.iter().zip(y).map(|(&x, &y)| [x, y]).collect()
 }

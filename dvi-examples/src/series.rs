@@ -1,11 +1,6 @@
 //! Series: what runs should keep, over time, with the panels and the tables of that.
 
-use anyhow::Result;
-use dvi_core::error::StepError;
-
-use crate::envelope::Envelope;
-use crate::figure::{Axis, Line, Panel, Points, Stroke};
-use crate::output::Table;
+use crate::vocabulary::*;
 
 /// How long a run is, when its beginning ends, and in how many intervals it is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -21,12 +16,10 @@ impl Span {
         Self { end: steps as f64 * h, early: early as f64 * h, intervals: 400 }
     }
 
-    /// How many steps of length `h` it has.
     pub fn steps(self, h: f64) -> u64 {
         (self.end / h).round() as u64
     }
 
-    /// Of several quantities.
     pub fn envelopes<const N: usize>(self) -> [Envelope; N] {
         std::array::from_fn(|_| Envelope::new(self.end, self.intervals, self.early))
     }
@@ -97,11 +90,10 @@ pub fn magnitude_table<'a, const N: usize>(
     let quantities = columns.split(',').skip(2).count().min(N);
     let curves = all.into_iter().map(|Series { name, kept, .. }| {
         let others: Vec<_> = kept[1..quantities].iter().map(Envelope::magnitude).collect();
-        let rows = kept[0].magnitude().into_iter().enumerate();
-        let row = move |(k, first): (usize, [f64; 2])| {
-            first.into_iter().chain(others.iter().map(|of| of[k][1])).collect::<Vec<_>>()
+        let row = move |(k, [t, first]): (usize, [f64; 2])| {
+            [t, first].into_iter().chain(others.iter().map(|of| of[k][1])).collect::<Vec<_>>()
         };
-        ([name], [], rows.map(row))
+        ([name], [], kept[0].magnitude().into_iter().enumerate().map(row))
     });
     curve_table(columns, curves)
 }

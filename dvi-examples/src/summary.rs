@@ -17,7 +17,6 @@ struct Summary<'a> {
     parts: &'a [Part],
 }
 
-/// The summary of these parts as Markdown.
 pub fn markdown(parts: &[Part]) -> Result<String> {
     Summary { parts }.render().context("the summary cannot be written")
 }
@@ -47,7 +46,6 @@ pub fn tally<'a>(parts: impl IntoIterator<Item = &'a Part>) -> String {
     )
 }
 
-/// How often there is which verdict.
 fn counted(verdicts: Vec<&str>) -> String {
     let count = |word| verdicts.iter().filter(|&&verdict| verdict == word).count();
     let counts = VERDICTS.into_iter().map(|word| (word, count(word))).filter(|(_, count)| *count > 0);

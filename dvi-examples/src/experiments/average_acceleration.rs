@@ -43,10 +43,9 @@ impl AverageAcceleration {
         RadialFrictionState { x, y, dot_x, dot_y }
     }
 
-    /// The energy and the angular momentum.
     pub fn integrals(&self) -> [f64; 2] {
-        let ([x, y], [u, w], r2) = (self.q, self.v, dot(self.q, self.q));
-        [0.5 * dot(self.v, self.v) + r2 * (r2 - 1.0).powi(2), x * w - y * u]
+        let Self { system, q, v, .. } = self;
+        [system.energy(q, v, 0.0), system.momentum(0, q, v, 0.0)]
     }
 }
 
@@ -67,7 +66,6 @@ pub fn is_midpoint(job: &Job<'_>, case: Case) -> Result<Claim> {
     Ok(beyond(text).at_most("largest difference of a coordinate or a velocity", most, 1e-10))
 }
 
-/// −γ v − ∇V(q)
 fn acceleration(system: &RadialFriction, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|i: usize| -system.slope(&q) * q[i] - system.gamma * v[i])
 }

@@ -130,10 +130,6 @@ impl Orbit {
     }
 }
 
-fn most(orbits: &[Orbit], of: impl Fn(&Orbit) -> f64) -> f64 {
-    largest(orbits.iter().map(of))
-}
-
 /// How far a particle in the square is from its start after twelve impacts and as many back.
 fn there_and_back() -> Result<f64> {
     let start = RoundedSquareBilliardState { x: 0.3, y: 0.1, dot_x: 0.8, dot_y: 0.6 };

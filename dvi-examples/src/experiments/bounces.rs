@@ -91,18 +91,17 @@ fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
     let begin: f64 = energy(y)?;
     let after = |y: &[f64; 4], h: f64| {
         rk4(y, h, |&[x, y, u, w]| {
-            let [f, g] = FLOOR.acceleration([x, y]);
-            [u, w, f, g]
+            [u, w, -0.3 * x - 0.4 * x.powi(3) - 0.3 * x * y * y, -1.0 - 0.3 * x * x * y]
         })
     };
-    let gap = |[x, y, ..]: [f64; 4]| Bouncer::above([x, y], FLOOR.a).0;
+    let gap = |[x, y, ..]: [f64; 4]| y - FLOOR.a * x.cos();
     let series = job.watch(("RK4", solid(VERMILLION).width(1.2)), span, (RK4_STEP, 1), || {
         let mut left = RK4_STEP;
         while gap(after(&y, left)) < 0.0 {
             let open = bisected([0.0, left], |h| gap(after(&y, h)) >= 0.0);
             left -= open;
             let [x, height, u, w] = after(&y, open);
-            let (_, normal) = Bouncer::above([x, height], FLOOR.a);
+            let normal = [FLOOR.a * x.sin(), 1.0];
             let change = 2.0 * dot([u, w], normal) / dot(normal, normal);
             y = [x, height, u - change * normal[0], w - change * normal[1]];
             bounces += 1;

@@ -24,7 +24,6 @@ impl Scheme {
     }
 }
 
-/// VI2 and RK4, each with three steps.
 pub const fn runs([small, middle, large]: [f64; 3]) -> [(Scheme, f64); 6] {
     let (vi2, rk4) = (Scheme::Vi2, Scheme::Rk4);
     [(vi2, small), (vi2, middle), (vi2, large), (rk4, small), (rk4, middle), (rk4, large)]
@@ -76,7 +75,6 @@ pub fn cost(runs: &[(Scheme, f64)], end: f64) -> u64 {
     runs.iter().map(|(_, h)| (end / h) as u64).sum()
 }
 
-/// A motion of four vortices up to a time.
 #[derive(Clone, Copy)]
 pub struct Motion<'a> {
     pub job: &'a Job<'a>,
@@ -84,11 +82,9 @@ pub struct Motion<'a> {
     pub end: f64,
 }
 
-/// The steps that [`Motion::lyapunov_exponent`] takes.
 pub const LYAPUNOV_STEPS: u64 = 100_000;
 
 impl Motion<'_> {
-    /// The sections by several schemes and steps.
     pub fn compare<const N: usize>(self, runs: [(Scheme, f64); N]) -> Result<[Crossings; N]> {
         side_by_side(runs, |run| self.crossings(run, LABELS[0]))
     }
@@ -159,14 +155,8 @@ where
     const DISPLACEMENT: f64 = 1e-10;
     let mut displaced = start;
     displaced.x[0] += DISPLACEMENT;
-    let [one, other] = each([start, displaced], |start| {
-        let mut run = Integrator::new(vortices, method, h, start)?;
-        while run.time() < 2000.0 {
-            run.advance()?;
-        }
-        Ok(run.q().to_vec())
-    })?;
-    Ok(apart(&one, &other) / DISPLACEMENT)
+    let end = |start| Problem::new(vortices, start).up_to(method, h, 2000.0);
+    Ok(Problem::new(vortices, start).apart(&end(start)?, &end(displaced)?)? / DISPLACEMENT)
 }
 
 #[cfg(test)]

@@ -73,10 +73,10 @@ fn free(job: &Job<'_>) -> Result<Claim> {
 
 fn order_of_places(sleigh: &Sleigh) -> Result<Claim> {
     // With a magnet, by RK4.
-    let [fine, double] = [0.00125, 0.0025].map(|h| {
-        let [x, y, ..] = rk4_to(begin(&MAGNET).reduced(), 8.0, h, |y| MAGNET.reduced(y));
-        [x, y]
-    });
+    let [fine, double] = each([0.00125, 0.0025], |h| {
+        let end = Accelerations::new(&MAGNET, h, &begin(&MAGNET))?.up_to(8.0)?;
+        Ok([end.x, end.y])
+    })?;
     // The same steps as those of the sleigh.
     let counts = STEPS.map(|h| (8.0 / h).round() as u64);
     let [free, magnet] = [(&FREE, on_circle(8.0)), (&MAGNET, fine)].map(|(disc, place)| {
@@ -93,7 +93,6 @@ fn order_of_places(sleigh: &Sleigh) -> Result<Claim> {
         .near("sleigh: order when it has turned", sleigh.order(), [2.0, 0.05]))
 }
 
-/// The places of a disc up to a time, in the plane.
 fn places(disc: &RollingDisc, end: f64) -> Result<Points> {
     let mut run = Problem::new(disc, begin(disc)).run(midpoint(), H)?;
     Ok(course(&mut run, (end / H).round() as u64, place)?)

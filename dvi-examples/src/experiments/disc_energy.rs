@@ -30,13 +30,16 @@ impl Errors {
                 })
             })
         };
-        // On the equations without constraints.
+        // On the numbers that the constraints leave free.
         let by_rk4 = |named, disc: &'static RollingDisc| {
             growth(job, named, disc, [H, end], |begin| {
-                let mut y = begin.reduced();
+                let state =
+                    |&[x, y, phi, theta, turning]: &[f64; 5]| disc.rolling([x, y], phi, [theta, turning]);
+                let free = |of: RollingDiscState| [of.x, of.y, of.phi, of.dot_theta, of.dot_phi];
+                let mut now = free(begin);
                 Ok(move || {
-                    y = rk4(&y, H, |y| disc.reduced(y));
-                    Ok(disc.energy_of(&y)?)
+                    now = try_rk4(&now, H, |now| disc.vector_field(&state(now)).map(free))?;
+                    Ok(disc.energy_at(&state(&now))?)
                 })
             })
         };
@@ -109,7 +112,7 @@ fn growth<F: FnMut() -> Result<f64>>(
     let mut points: Vec<[f64; 2]> = times.map(|t| [t, 0.0]).collect();
     for k in 0..STARTS {
         let begin = disc.rolling(PLACE, 0.3 + k as f64 * TAU / STARTS as f64, RATES);
-        let (first, mut step) = (disc.energy_of(&begin.reduced())?, begun(begin)?);
+        let (first, mut step) = (disc.energy_at(&begin)?, begun(begin)?);
         let (mut largest, mut steps, mut next) = (0.0, 0_u64, 0);
         job.repeat((end / h).round() as u64, || {
             largest = larger(largest, (step()? - first).abs());

@@ -1,13 +1,14 @@
 //! The double pendulum: chaos, with a mass matrix that depends on the angles.
 //!
 //! The variational step is implicit here, p0 = −D₁L_d(q0, q1), and the compiler has differentiated what it
-//! needs. Beside it stands the classical Runge–Kutta method on equations of motion written by hand.
+//! needs. Beside it stands the classical Runge–Kutta method on Hamilton's equations.
 
 use crate::vocabulary::*;
 
 const SYSTEM: DoublePendulum = DoublePendulum { length: 1.0, g: 9.81 };
-/// Both rods horizontal, at rest: (a, b, a', b').
-const START: [f64; 4] = [FRAC_PI_2, FRAC_PI_2, 0.0, 0.0];
+/// Both rods horizontal, at rest.
+const START: DoublePendulumState =
+    DoublePendulumState { a: FRAC_PI_2, b: FRAC_PI_2, dot_a: 0.0, dot_b: 0.0 };
 const H: f64 = 0.01;
 const SHOWN: f64 = 12.0;
 const EARLY: f64 = 100.0;
@@ -17,18 +18,13 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = (end / H).round() as u64;
     job.expect(3 * steps);
     let (span, places) = (Span { early: EARLY, ..Span::of(steps, H, 0) }, (SHOWN / H) as usize);
-    let (pendulum, mut y) = (Problem::new(&SYSTEM, SYSTEM.state_of(START)), START);
-    let begin: f64 = SYSTEM.energy_at(&SYSTEM.state_of(START))?;
-    let (midpoint, simpson) =
-        (("variational, midpoint", solid(GREEN)), ("variational, Simpson", solid(BLUE)));
-    let all = [
-        job.energy(midpoint, pendulum.run(Variational::midpoint(), H)?, span, places).whole()?,
-        job.energy(simpson, pendulum.run(Variational::simpson(), H)?, span, places).whole()?,
-        job.watch(("RK4, by hand", dashed(VERMILLION)), span, (H, 1), || {
-            y = rk4(&y, H, |y| SYSTEM.motion(y));
-            SYSTEM.energy_at(&SYSTEM.state_of(y)).map(|energy| [energy - begin])
-        })?,
+    let pendulum = Problem::new(&SYSTEM, START);
+    let runs = [
+        (("variational, midpoint", solid(GREEN)), pendulum.run(Variational::midpoint(), H)?),
+        (("variational, Simpson", solid(BLUE)), pendulum.run(Variational::simpson(), H)?),
+        (("RK4", dashed(VERMILLION)), pendulum.run(RungeKutta::classical(), H)?),
     ];
+    let all = each(runs, |(named, run)| job.energy(named, run, span, places).whole())?;
     job.publish(figure(&all, end), range_table("method,t", &[""], &all))?;
     let [midpoint, simpson, rk4] = all.each_ref().map(|series| &series.kept[0]);
     let growth = rk4.last.abs() / rk4.largest_early;
@@ -43,7 +39,8 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
 
 fn figure(all: &[Series<1>; 3], end: f64) -> Figure {
     let [x, y] = ["*x*   [m]", "*y*   [m]"].map(|label| (label, [-2.1, 2.1]));
-    let path: Points = all[1].path.iter().map(|q| SYSTEM.lower_mass(q)).collect();
+    let lower = |[a, b]: [f64; 2]| [a.sin() + b.sin(), -a.cos() - b.cos()].map(|x| SYSTEM.length * x);
+    let path: Points = all[1].path.iter().copied().map(lower).collect();
     let part = path.len().div_ceil(SEQUENCE.len()).max(1);
     let parts = SEQUENCE.into_iter().enumerate();
     let path = Panel::window("Path of the lower mass", x, y).each(parts, |panel, (i, colour)| {

@@ -95,10 +95,6 @@ impl<S: RegularLagrangian<f64>> Motion<'_, S> {
     }
 }
 
-pub fn most(runs: &[Steps; 4], value: impl Fn(&Steps) -> f64) -> f64 {
-    largest(runs.iter().map(value))
-}
-
 pub fn order_in_length(runs: &[Steps; 4], value: impl Fn(&Steps) -> f64) -> Option<f64> {
     order(runs.iter().map(|steps| (steps.length, value(steps))))
 }

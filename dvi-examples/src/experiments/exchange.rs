@@ -18,7 +18,6 @@ pub const BETAS: [(f64, &str, Colour); 4] = [
     (1.0 / 6.0, "β = 1/6", AMBER),
     (0.25, "β = 1/4", PURPLE),
 ];
-/// The step, with hω = 1.
 pub const H: f64 = 1.0 / OMEGA;
 /// Where the centre of the first pair begins; all but the first are for means.
 pub const CENTRES: [f64; 8] = [1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3];
@@ -59,7 +58,6 @@ pub fn speeds(job: &Job<'_>) -> Result<Claim> {
 pub struct Exchange(pub Vec<[f64; 3]>);
 
 impl Exchange {
-    /// Of the motion, by Gauss's method of order 8.
     pub fn motion(centre: f64) -> Result<Self> {
         Self::new(Gauss::<4>::new(), centre, 0.1 / OMEGA, 220)
     }

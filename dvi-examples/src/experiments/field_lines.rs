@@ -63,7 +63,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ])
 }
 
-/// Where the lines of the two plots begin.
 fn starts() -> [Vec<Place>; 2] {
     let around = |y: f64, offsets: &[f64]| -> Vec<Place> {
         let x = if y > 0.0 { 0.0 } else { PI };

@@ -18,9 +18,7 @@ pub fn begin() -> RigidBodyState {
 /// ω₂ = Ω sn(λt + K), which is Ω at t = 0 (Landau & Lifshitz 1976, section 37).
 #[derive(Clone, Copy)]
 pub struct Wave {
-    /// Ω
     amplitude: f64,
-    /// λ
     rate: f64,
     functions: Elliptic,
 }
@@ -52,7 +50,6 @@ impl Wave {
         4.0 * self.functions.quarter() / self.rate
     }
 
-    /// ω₂ at time t.
     pub fn at(&self, t: f64) -> f64 {
         self.amplitude * self.functions.sn(self.rate * t + self.functions.quarter())
     }
@@ -61,7 +58,6 @@ impl Wave {
 /// The flips between the steps of a run with steps of one length.
 pub struct Flips {
     pub h: f64,
-    /// The mean time of two flips.
     pub period: f64,
     /// How often ω₂ changes its sign.
     pub count: u32,

@@ -57,7 +57,6 @@ impl Long<'_> {
         Ok([by_rk4, self.watch((name, solid(BLUE)), along, &of)?])
     }
 
-    /// The checks that the energy error of a run is no larger than predicted, and has no trend.
     pub fn flat_energy(self, claim: Claim, run: &str, energy: &Envelope, predicted: f64) -> Claim {
         let trend = format!("{run}: max|ΔE|, last tenth of the time over the first");
         let claim = claim.at_most(format!("{run}: max|ΔE|"), energy.largest, 1.02 * predicted);
@@ -83,24 +82,6 @@ pub fn between_heights(panel: Panel, heights: &Heights) -> Panel {
     panel.each(radii, |panel, radius| panel.line(circle([0.0; 2], radius), dashed(SLATE).width(1.0)))
 }
 
-/// That integrals by hand, the energy first, are those of the declaration up to these bounds, and that the
-/// motion by hand keeps them.
-#[cfg(test)]
-pub fn assert_integrals<const D: usize, const N: usize, S: OnManifold<D>>(
-    (system, start): (S, S::State<f64>),
-    of: impl Fn(&S::State<f64>) -> [f64; N],
-    bounds: [f64; N],
-) {
-    let run = Integrator::new(&system, Geodesic::trapezoid(), 0.05, start.clone()).expect("a run");
-    let declared = |k: usize| if k == 0 { Some(run.energy()) } else { run.momentum(k - 1) };
-    let later = of(&system.state_of(reference(system, &start, [2.0, 1e-3])));
-    for (k, by_hand) in of(&start).into_iter().enumerate() {
-        let declared = declared(k).expect("it is declared");
-        assert!((by_hand - declared).abs() <= bounds[k], "{k}: {by_hand} and {declared}");
-        assert!((by_hand - later[k]).abs() < 1e-11, "{k}: {by_hand} and later {}", later[k]);
-    }
-}
-
 /// The entries of a state after time `end`, by RK4 with short steps.
 pub fn reference<const D: usize, S: OnManifold<D>>(
     system: S,
@@ -110,7 +91,6 @@ pub fn reference<const D: usize, S: OnManifold<D>>(
     rk4_to(system.entries(start), end, h, |y| system.motion(y))
 }
 
-/// The claim that R and ω of a body are of second order, and of fourth by a composition.
 pub fn order_claim<S: OnManifold<12>>(
     body: &str,
     (system, start): (S, S::State<f64>),
@@ -157,7 +137,6 @@ impl Shadow {
     }
 }
 
-/// The claim that the energy error is as predicted, of runs with several steps, the longest first.
 pub fn shadow_claim(method: &str, runs: &[Shadow]) -> Claim {
     let order = |error: fn(&Shadow) -> f64| order(runs.iter().map(|run| (run.h, error(run))));
     let ratio = runs.last().map(|run| run.largest / run.predicted);

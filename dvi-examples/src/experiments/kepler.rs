@@ -61,12 +61,10 @@ pub fn compare(job: &Job<'_>, run: &mut impl KeplerRun, orbit: Orbit, periods: u
     Ok(Course { position, ..course })
 }
 
-/// A run with `steps` steps of the same length per period.
 pub fn fixed(method: impl Method<Kepler, f64>, orbit: Orbit, steps: f64) -> Result<impl KeplerRun> {
     Ok(Integrator::new(Kepler {}, method, TAU / steps, orbit.pericentre())?)
 }
 
-/// A run with steps by (23), as printed.
 pub fn osculating(method: impl KeplerMethod, orbit: Orbit, tolerance: f64) -> Result<impl KeplerRun> {
     let control = Osculating { tolerance, first_step: 1e-4, centre: CentreSpeed::AsPrinted };
     Ok(ControlledIntegrator::new(Kepler {}, method, control, orbit.pericentre())?)

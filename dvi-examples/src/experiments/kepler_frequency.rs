@@ -50,7 +50,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ])
 }
 
-/// Equation (19) on an orbit of semi-major axis 1.
 fn formula(r: f64) -> f64 {
     (1.0 - ORBIT.e * ORBIT.e).sqrt() / (r * r * (2.0 - r))
 }

@@ -50,15 +50,12 @@ fn extremes(all: &[f64]) -> [Option<f64>; 2] {
     [least(all.iter().copied()), largest(all.iter().copied())].map(|r| (!all.is_empty()).then_some(r))
 }
 
-fn above(ratios: &[f64]) -> usize {
-    ratios.iter().filter(|&&ratio| ratio > THIRD).count()
-}
-
 fn claims(all: &[Comparison]) -> Vec<Claim> {
     let of = |steps, e, simpson| extremes(&ratios(all, steps, e, simpson));
     let at_high = ratios(all, Controlled, HIGH, false);
     let ([low, high], two) = (extremes(&at_high), "against midpoint and trapezoid");
-    let share = low.map(|_| above(&at_high) as f64 / at_high.len() as f64);
+    let above = at_high.iter().filter(|&&ratio| ratio > THIRD).count();
+    let share = low.map(|_| above as f64 / at_high.len() as f64);
     vec![
         says("section 5", "at e = 0.95, close to one third of the steps of a method of the same order")
             .at_least(format!("(23) as printed, {two}: smallest ratio"), low, 0.25)

@@ -43,7 +43,6 @@ const CONTENDERS: [(&str, Stroke, &[f64]); 13] = [
 /// An orbit for so many periods.
 type Case<'a> = (&'a Job<'a>, Orbit, u64);
 
-/// A run of a method with one accuracy.
 fn course(contender: usize, case: Case<'_>, knob: f64) -> Result<Course> {
     let ((job, orbit, periods), verlet, simpson) = (case, Variational::trapezoid(), Variational::simpson());
     let fitted = Variational::new(Quadrature::lobatto(4)?).phase_fitted(Radial(Reading::Variational));

@@ -12,7 +12,6 @@ struct Motion {
     /// Times at which one of vortices 1 and 2 overtakes the other.
     overtakings: Vec<f64>,
     extent: f64,
-    /// The largest deviation from mirror symmetry about y = 0.
     asymmetry: f64,
     failure: Option<StepError>,
 }
@@ -36,7 +35,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
         motion.failure.map(|error| format!("{name} at h = 2 ended early: {error}."))
     };
     let notes = [note].into_iter().chain([("VE2", &ve2), ("RK2", &rk2)].into_iter().filter_map(ended));
-    let infinite = job.only_full(indicator(!rk2.extent.is_finite()));
+    let infinite = job.only_full(f64::from(!rk2.extent.is_finite()));
     let claims = vec![
         says("Fig. 3", "the two pairs leapfrog past each other")
             .at_most("longest time between overtakings, VE2 at h = 2", ve2.longest_interval(), 36.0)

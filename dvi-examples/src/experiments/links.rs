@@ -12,7 +12,6 @@ const LINKS: usize = 50;
 const ANGLE: f64 = 0.5;
 const PENDULUM: Links = Links { n: LINKS };
 const H: f64 = 0.01;
-/// The numbers of links that iterations are counted with.
 const COUNTED: [usize; 3] = [25, 50, 100];
 
 /// E − E(0), the largest relative deviation of the length of a rod, and the largest difference of the

@@ -9,7 +9,6 @@ use crate::vocabulary::*;
 const ALONG_X: MasslessAlongX = MasslessAlongX {};
 const SYMMETRIC: MasslessSymmetric = MasslessSymmetric {};
 const START: (f64, f64) = (1.0, 1.0);
-/// The step of the long runs.
 const H: f64 = 0.5;
 /// The steps at which the parasitic mode is measured, and until when at most.
 const STEPS: [f64; 3] = [0.5, 0.25, 0.125];
@@ -22,14 +21,10 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let steps = job.choose(1_000_000, 20_000);
     let span = Span { intervals: 100, ..Span::of(steps, H, 2000) };
     let (along_x, symmetric) = (Problem::new(&ALONG_X, START), Problem::new(&SYMMETRIC, START));
+    let projected = symmetric.run(Projected::symmetric(), H)?;
     let all = [
         job.energy(("along *x*, one step", solid(BLUE)), along_x.run(OneStep::midpoint(), H)?, span, 200),
-        job.energy(
-            ("symmetric, projected", solid(GREEN)),
-            symmetric.run(Projected::symmetric(), H)?,
-            span,
-            200,
-        ),
+        job.energy(("symmetric, projected", solid(GREEN)), projected, span, 200),
         job.energy(("RK4", dashed(SLATE)), symmetric.run(RungeKutta::classical(), H)?, span, 200),
     ];
     let all = each(all, Series::whole)?;

@@ -15,7 +15,6 @@ pub const RIGID: RigidMolecules = RigidMolecules { n: MOLECULES, beta: BETA };
 /// The molecules with springs, of a stiffness that is large and of one that is larger.
 pub const SOFT: SpringMolecules = SpringMolecules { n: MOLECULES, beta: BETA, k: 1e4 };
 pub const STIFF: SpringMolecules = SpringMolecules { k: 1e5, ..SOFT };
-/// The step with rods, and the one with soft springs.
 const H: f64 = 0.05;
 pub const H_SPRINGS: f64 = 0.01;
 /// E/E(0) − 1, the largest deviation of the length of a side, the largest velocity along one, and the

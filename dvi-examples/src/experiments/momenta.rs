@@ -80,8 +80,7 @@ fn one_step<M: Method<FourVortices, f64> + Copy>(case: &Case, method: M) -> Resu
     const DISPLACEMENT: f64 = 1e-3;
     let flat = |run: &[f64]| -> [f64; 8] { std::array::from_fn(|i| run[i]) };
     let stepped = |q: [f64; 8]| -> Result<[f64; 8]> {
-        let [x, y] = [0, 4].map(|first| std::array::from_fn(|i| q[first + i]));
-        let mut run = Integrator::new(vortices, method, H, FourPoints { x, y })?;
+        let mut run = Integrator::new(vortices, method, H, vortices.state_of(q))?;
         run.advance()?;
         Ok(flat(run.q()))
     };

@@ -87,7 +87,6 @@ impl Motion {
         self.points.iter().find(|point| point[column] > level).copied()
     }
 
-    /// The exponential rate of growth between two amplitudes.
     fn rate(&self) -> Option<f64> {
         let [t0, a0, _] = self.first_above(1, 1e-4)?;
         let [t1, a1, _] = self.first_above(1, 1e-2)?;

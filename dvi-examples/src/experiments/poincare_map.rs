@@ -8,10 +8,8 @@ use crate::vocabulary::*;
 pub const STEPS: u64 = 24;
 const POINTS: usize = 256;
 
-/// A point of the plane in which the lines are seen.
 pub type Place = [f64; 2];
 
-/// A field whose lines are seen in a plane.
 pub trait Field: ProperlyDegenerate<State<f64>: From<(f64, f64)>> {}
 
 impl<F: ProperlyDegenerate<State<f64>: From<(f64, f64)>>> Field for F {}
@@ -23,7 +21,6 @@ pub fn turned<F: Field>(field: &F, method: impl Method<F, f64>, steps: u64, [x, 
     Ok(place(&run))
 }
 
-/// What the one-step midpoint scheme and RK4 change of the flux.
 pub fn flux_changes(field: &impl Field, place: Place, radius: f64) -> Result<[f64; 2]> {
     let midpoint = flux_change(field, OneStep::midpoint(), place, radius)?;
     Ok([midpoint, flux_change(field, RungeKutta::classical(), place, radius)?])

@@ -14,36 +14,25 @@ pub struct Rival {
     pub off_orbit: f64,
 }
 
-/// Physical time, summed with compensation.
-#[derive(Clone, Copy, Default)]
-struct Clock {
-    sum: f64,
-    rest: f64,
-}
-
-impl Clock {
-    fn advance(&mut self, dt: f64) {
-        let wanted = dt + self.rest;
-        let sum = self.sum + wanted;
-        self.rest = wanted - (sum - self.sum);
-        self.sum = sum;
-    }
-}
-
-/// Takes so many steps for each of the periods; each returns the time, the position and the energy.
+/// Takes so many steps for each of the periods; each returns the physical time that it takes, the position
+/// and the energy.
 fn by_period(
     job: &Job<'_>,
     Orbit { e }: Orbit,
     steps: u32,
     periods: u64,
-    mut step: impl FnMut() -> (Clock, [f64; 2], f64),
+    mut step: impl FnMut() -> (f64, [f64; 2], f64),
 ) -> Result<Rival> {
-    let (mut course, mut off_orbit) = (Course::default(), 0.0);
+    let (mut course, mut off_orbit, mut time, mut rest) = (Course::default(), 0.0, 0.0, 0.0);
     job.repeat(periods, || {
         for _ in 0..steps {
-            let (clock, [x, y], energy) = step();
+            let (dt, [x, y], energy) = step();
+            // A sum with compensation.
+            let (before, wanted) = (time, dt + rest);
+            time += wanted;
+            rest = wanted - (time - before);
             course.energy = larger(course.energy, (energy + 0.5).abs());
-            course.position = larger(course.position, Orbit { e }.error(clock.sum, &[x, y]));
+            course.position = larger(course.position, Orbit { e }.error(time, &[x, y]));
             off_orbit = larger(off_orbit, (x.hypot(y) + e * x - (1.0 - e * e)).abs());
         }
         anyhow::Ok(())
@@ -58,18 +47,15 @@ pub fn logarithmic_hamiltonian(job: &Job<'_>, orbit: Orbit, steps: u32, periods:
     let start = orbit.pericentre();
     let (mut q, mut p) = ([start.x, start.y], [start.dot_x, start.dot_y]);
     let (binding, ds) = (0.5, TAU / f64::from(steps));
-    let mut clock = Clock::default();
     // ds = dt/r advances by 2π each period, as the eccentric anomaly does.
     by_period(job, orbit, steps, periods, || {
-        let mut drift = |q: [f64; 2], p: [f64; 2]| {
-            let dt = 0.5 * ds / (0.5 * dot(p, p) + binding);
-            clock.advance(dt);
-            moved(q, dt, p)
-        };
-        q = drift(q, p);
+        let half = |p: [f64; 2]| 0.5 * ds / (0.5 * dot(p, p) + binding);
+        let first = half(p);
+        q = moved(q, first, p);
         p = moved(p, -ds / dot(q, q), q);
-        q = drift(q, p);
-        (clock, q, 0.5 * dot(p, p) - 1.0 / q[0].hypot(q[1]))
+        let second = half(p);
+        q = moved(q, second, p);
+        (first + second, q, 0.5 * dot(p, p) - 1.0 / q[0].hypot(q[1]))
     })
 }
 
@@ -86,21 +72,18 @@ pub fn levi_civita(job: &Job<'_>, orbit: Orbit, steps: u32, periods: u64) -> Res
     let mut run = Integrator::new(&LeviCivita {}, method.phase_fitted(Constant(OMEGA)), h, start)?;
     run.advance()?;
     let [mut u, mut next]: [[f64; 2]; 2] = [start.u, [run.q()[0], run.q()[1]]];
-    let mut clock = Clock::default();
     let (sin, cos) = (OMEGA * h).sin_cos();
     let half = (2.0 * OMEGA * h).sin() / (4.0 * OMEGA);
     let square = |x: [f64; 2]| dot(x, x);
     let velocity = |u: [f64; 2], next: [f64; 2]| [0, 1].map(|i| OMEGA * (next[i] - cos * u[i]) / sin);
     let mut du = velocity(u, next);
     by_period(job, orbit, steps, periods, || {
-        clock.advance(
-            square(u) * (0.5 * h + half)
-                + square(du) / (OMEGA * OMEGA) * (0.5 * h - half)
-                + dot(u, du) * (sin / OMEGA).powi(2),
-        );
+        let dt = square(u) * (0.5 * h + half)
+            + square(du) / (OMEGA * OMEGA) * (0.5 * h - half)
+            + dot(u, du) * (sin / OMEGA).powi(2);
         // The recursion runs in both directions alike, rounding included.
         (u, next) = (next, [0, 1].map(|i| 2.0 * cos * next[i] - u[i]));
         du = velocity(u, next);
-        (clock, [u[0] * u[0] - u[1] * u[1], 2.0 * u[0] * u[1]], (2.0 * square(du) - 1.0) / square(u))
+        (dt, [u[0] * u[0] - u[1] * u[1], 2.0 * u[0] * u[1]], (2.0 * square(du) - 1.0) / square(u))
     })
 }

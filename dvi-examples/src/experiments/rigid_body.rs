@@ -11,7 +11,6 @@ use crate::vocabulary::*;
 const H: f64 = 0.05;
 /// The steps with which flips are timed and the order is measured, the longest first.
 const STEPS: [f64; 3] = [0.1, 0.05, 0.025];
-/// How long ω₂ is drawn.
 const DRAWN: f64 = 80.0;
 /// Angular velocities of the curves that are drawn, around the first axis and around the third.
 #[rustfmt::skip]
@@ -28,6 +27,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let (wave, start) = (Wave::new(&BODY, OMEGA), begin());
     let before = BODY.momentum_at(&start);
     let first = rotations::apply(&start.R, before);
+    let energy = |state: &RigidBodyState| BODY.energy(&state.R, &velocities(state.omega_R), 0.0);
     // E − E(0), |M − M(0)|/|M| in space, max |RᵀR − 1|, and the relative change of |M| in the body.
     let kept = |state: &RigidBodyState| {
         let now = BODY.momentum_at(state);
@@ -81,10 +81,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .near("RK4: max|ΔE|, last tenth of the time over the first", of_energy_trend, [10.0, 1.0]),
         order_claim("a free body", (BODY, start), STEPS, [4.0, 2e-3])?,
     ])
-}
-
-fn energy(state: &RigidBodyState) -> f64 {
-    BODY.momentum_at(state).into_iter().zip(state.omega_R).map(|(m, omega)| 0.5 * m * omega).sum()
 }
 
 fn states(omega: [f64; 3], h: f64, end: f64) -> Result<Vec<RigidBodyState>> {

@@ -19,10 +19,8 @@ const AMPLITUDE: f64 = 0.01;
 /// Bodies whose forces are compared with sums over all others.
 const COMPARED: usize = 200;
 
-/// What was measured while the layer rolls up.
 struct RollUp {
     layer: ShearLayer,
-    /// Places of the blobs at the times that the figure shows.
     snapshots: Vec<VortexBlobsState>,
     /// Relative changes of H, ΣΓx and ΣΓy over the sum of |Γ| times the length, and of ΣΓ|z|².
     kept: [Envelope; 3],

@@ -20,11 +20,11 @@ pub fn midpoint() -> Constrained<Variational<Unfitted, Midpoint>> {
     Constrained::new(Variational::midpoint())
 }
 
-/// Time, state and energy from step to step, for each of [`STEPS`]; and the place, θ, the speed along the
-/// blade and ω of the motion at multiples of [`FINE`], by RK4.
+/// Time, state and energy from step to step, for each of [`STEPS`]; and the motion at multiples of [`FINE`],
+/// by RK4.
 pub struct Sleigh {
     runs: [Vec<(f64, ChaplyginSleighState, f64)>; 4],
-    motion: Vec<[f64; 5]>,
+    motion: Vec<ChaplyginSleighState>,
 }
 
 fn steps(t: f64, h: f64) -> usize {
@@ -42,15 +42,17 @@ impl Sleigh {
             let all = |run: &AnyRun<'_, _>| (run.time(), run.state(), run.energy());
             Ok(course(&mut run, steps(STRAIGHT, h) as u64, all)?)
         })?;
-        let start = [START.x, START.y, START.theta, START.dot_x, START.dot_theta];
-        let next = |y: &[f64; 5]| Some(rk4(y, FINE, |y| SLEIGH.reduced(y)));
-        let motion = std::iter::successors(Some(start), next).take(steps(DRAWN, FINE) + 1).collect();
+        let (mut fine, mut motion) = (Accelerations::new(&SLEIGH, FINE, &START)?, vec![START]);
+        for _ in 0..steps(DRAWN, FINE) {
+            fine.step()?;
+            motion.push(fine.state());
+        }
         Ok(Self { runs, motion })
     }
 
     /// The order of its place when it has turned.
     pub fn order(&self) -> Option<f64> {
-        let [x, y, ..] = self.motion[steps(TURNED, FINE)];
+        let ChaplyginSleighState { x, y, .. } = self.motion[steps(TURNED, FINE)];
         order(STEPS.into_iter().zip(&self.runs).map(|(h, run)| {
             let (_, ChaplyginSleighState { x: at, y: up, .. }, _) = run[steps(TURNED, h)];
             (h, distance([at, up], [x, y]))
@@ -68,7 +70,8 @@ impl Sleigh {
         let late = largest(whole[steps(TURNED, H)..].iter().map(|(.., e)| (e / turned - 1.0).abs()));
         let rate = SLEIGH.a * after.dot_x.hypot(after.dot_y) / (SLEIGH.inertia + SLEIGH.a.powi(2));
         let decay = (before.dot_theta / after.dot_theta).abs().ln() / ((STRAIGHT - TURNED) * rate);
-        let turns = whole[steps(DRAWN, H)].1.dot_theta.abs() / self.motion[steps(DRAWN, FINE)][4].abs();
+        let turns =
+            whole[steps(DRAWN, H)].1.dot_theta.abs() / self.motion[steps(DRAWN, FINE)].dot_theta.abs();
         let changes = self.runs.each_ref().map(|run| (run[run.len() - 1].2 / run[0].2 - 1.0).abs());
         beyond(format!(
             "the sleigh ends straight ahead, h = {H}: its energy changes while it turns, by a term of the \
@@ -83,14 +86,15 @@ impl Sleigh {
 
     pub fn panels(&self) -> [Panel; 2] {
         let grey = solid(SLATE).width(1.2);
-        let path = self.motion.iter().take((7.0 / FINE) as usize).map(|y| [y[0], y[1]]);
+        let path = self.motion.iter().take((7.0 / FINE) as usize).map(|state| [state.x, state.y]);
         let places = self.runs[0].iter().take((7.0 / H) as usize).map(|(_, state, _)| [state.x, state.y]);
         let slid = Panel::plane("Sleigh", "*x*", "*y*")
             .lines([("motion", grey, path.collect())])
             .dots(places.collect(), 2.0, PURPLE)
             .labelled("steps")
             .legend_at(Corner::BottomRight);
-        let turning = self.motion.iter().zip(0..).map(|(y, k)| [f64::from(k) * FINE, y[4].abs()]);
+        let turning =
+            self.motion.iter().zip(0..).map(|(state, k)| [f64::from(k) * FINE, state.dot_theta.abs()]);
         let rates = self.runs[0][..=steps(DRAWN, H)].iter().map(|(t, state, _)| [*t, state.dot_theta.abs()]);
         let (time, rate) = (Axis::linear("time *t*"), Axis::logarithmic("|*ω*|"));
         let turning = Panel::new("Rate of rotation of the sleigh", time, rate)

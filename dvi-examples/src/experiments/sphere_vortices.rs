@@ -93,11 +93,8 @@ fn precession() -> Result<Claim> {
         .near("Gauss of order 4: order of the angle at t = 400", angles.order(gauss)?, [4.0, 0.2]))
 }
 
-/// `v` turned around an axis by an angle (Rodrigues).
 fn turned(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
-    let k = axis.map(|x| x / length(axis));
-    let ((sin, cos), across) = (angle.sin_cos(), cross(k, v));
-    std::array::from_fn(|i| v[i] * cos + across[i] * sin + k[i] * dot(k, v) * (1.0 - cos))
+    rotations::apply(&rotations::exp(axis.map(|x| angle * x / length(axis))), v)
 }
 
 /// The largest distance of a vortex from its place at the start, turned.

@@ -153,19 +153,3 @@ fn figure(all: &[Series<3>; 3], long: Long<'_>) -> Result<Figure> {
         .row(400.0, [path].into_iter().chain(energy).collect())
         .row(300.0, long.panels(all, &others)))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn integrals_by_hand_are_those_of_the_declarations_and_are_kept() {
-        let of = |state: &SphericalPendulumState| {
-            let heights = PENDULUM.heights(state);
-            [heights.energy, heights.vertical]
-        };
-        assert_integrals((PENDULUM, begin()), of, [1e-15; 2]);
-        let run = chords().run(Rattle::default(), H).expect("a run");
-        assert!(apart(&of(&begin()), &[run.energy(), run.momentum(0).expect("one")]) < 1e-15);
-    }
-}

@@ -10,7 +10,6 @@
 use super::exchange::*;
 use crate::vocabulary::*;
 
-/// A long step, with hω = 5.
 const LONG: f64 = 5.0 / OMEGA;
 
 /// E − E(0) and I − I(0), where I is the sum of the energies of the stiff springs with the stiffness of the

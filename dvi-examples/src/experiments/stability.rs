@@ -29,15 +29,17 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     let damped = damped.map(|(sigma, lambda)| Damped::new(sigma, lambda)).collect::<Result<Vec<_>>>()?;
     let right = Damped::new(0.5, [0.01, 1.0])?.factor;
     let limits = measured.iter().map(|&[sigma, at]| (["limit"], [sigma, 0.0, at, at, formula(sigma)]));
-    let growths = damped
-        .iter()
-        .map(|run| (["growth per step"], [run.sigma, run.lambda[0], run.lambda[1], run.factor, run.root()]));
+    let growths = damped.iter().map(|run| {
+        (
+            ["growth per step"],
+            [run.sigma, run.lambda[0], run.lambda[1], run.factor, root(run.sigma, run.lambda)],
+        )
+    });
     let columns = "quantity,sigma,lambda_h_real,lambda_h_imaginary,measured,formula";
     job.publish(figure(&measured, &damped), Table::of(columns, limits.chain(growths)))?;
 
     let (half, others): (Vec<_>, Vec<_>) = damped.iter().partition(|run| run.sigma == 0.5);
-    let away = others.iter().map(|run| (run.factor - run.root()).abs());
-    let quarter = Damped { sigma: 0.25, lambda: DAMPED[0], ..Damped::default() };
+    let away = others.iter().map(|run| (run.factor - root(run.sigma, run.lambda)).abs());
     let from_formula = "largest relative deviation of the limit from the formula, 18 values of σ";
     let smallest = "smallest growth per step of 18 values of σ ≠ ½, five λ with negative real part";
     let bounded = "largest |z|, five λ with negative real part, both modes of size one";
@@ -46,7 +48,7 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
             .at_most(from_formula, deviation(&measured), job.choose(1e-4, 1e-3))
             .at_least(smallest, least(others.iter().map(|run| run.factor)), 1.0 + 1e-6)
             .at_most("largest deviation of that growth from the root of the recursion", largest(away), 1e-3)
-            .at_least("the root for σ = ¼, λh = −1 + i", quarter.root(), 1.3),
+            .at_least("the root for σ = ¼, λh = −1 + i", root(0.25, DAMPED[0]), 1.3),
         says("section 4.1", "for σ = ½ the region of stability is the closed left half plane")
             .at_most("growth of max|z| from step N to step 2N, λh = 1000i", twice / once, 1.001)
             .at_most(bounded, largest(half.iter().map(|run| run.largest)), 4.0)
@@ -54,7 +56,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ])
 }
 
-/// The largest relative deviation of the limits from 1/|1 − 2σ|.
 fn deviation(measured: &[[f64; 2]]) -> f64 {
     largest(measured.iter().map(|[sigma, limit]| (limit * (1.0 - 2.0 * sigma).abs() - 1.0).abs()))
 }
@@ -91,7 +92,6 @@ fn largest_amplitude(sigma: f64, omega: f64, steps: u64) -> Result<f64> {
 }
 
 /// A run with h = 1 and a λ off the imaginary axis.
-#[derive(Default)]
 struct Damped {
     sigma: f64,
     lambda: [f64; 2],
@@ -117,21 +117,20 @@ impl Damped {
         let factor = (sizes[last] / sizes[middle]).powf(1.0 / (last - middle).max(1) as f64);
         Ok(Self { sigma, lambda, factor, largest: largest(sizes) })
     }
+}
 
-    /// The larger modulus of the roots of (1 − bλ)ρ² − 2(1 − b)λρ − (1 + bλ) = 0, b = 2σ(1 − σ), h = 1:
-    /// scheme (14) on z' = λz.
-    fn root(&self) -> f64 {
-        let (b, [x, y]) = (2.0 * self.sigma * (1.0 - self.sigma), self.lambda);
-        let square = |[x, y]: [f64; 2]| [x * x - y * y, x * y + y * x];
-        // ρ = (m ± √(m² + 1 − b²λ²))/(1 − bλ) with m = (1 − b)λ.
-        let m = [(1.0 - b) * x, (1.0 - b) * y];
-        let (mm, ll) = (square(m), square([x, y]));
-        let under = [mm[0] + 1.0 - b * b * ll[0], mm[1] - b * b * ll[1]];
-        let (r, angle) = (under[0].hypot(under[1]).sqrt(), 0.5 * under[1].atan2(under[0]));
-        let s = [r * angle.cos(), r * angle.sin()];
-        larger((m[0] + s[0]).hypot(m[1] + s[1]), (m[0] - s[0]).hypot(m[1] - s[1]))
-            / (1.0 - b * x).hypot(-b * y)
-    }
+/// The larger modulus of the roots of (1 − bλ)ρ² − 2(1 − b)λρ − (1 + bλ) = 0, b = 2σ(1 − σ), h = 1:
+/// scheme (14) on z' = λz.
+fn root(sigma: f64, [x, y]: [f64; 2]) -> f64 {
+    let b = 2.0 * sigma * (1.0 - sigma);
+    let square = |[x, y]: [f64; 2]| [x * x - y * y, x * y + y * x];
+    // ρ = (m ± √(m² + 1 − b²λ²))/(1 − bλ) with m = (1 − b)λ.
+    let m = [(1.0 - b) * x, (1.0 - b) * y];
+    let (mm, ll) = (square(m), square([x, y]));
+    let under = [mm[0] + 1.0 - b * b * ll[0], mm[1] - b * b * ll[1]];
+    let (r, angle) = (under[0].hypot(under[1]).sqrt(), 0.5 * under[1].atan2(under[0]));
+    let s = [r * angle.cos(), r * angle.sin()];
+    larger((m[0] + s[0]).hypot(m[1] + s[1]), (m[0] - s[0]).hypot(m[1] - s[1])) / (1.0 - b * x).hypot(-b * y)
 }
 
 fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
@@ -148,10 +147,13 @@ fn figure(measured: &[[f64; 2]], damped: &[Damped]) -> Figure {
         .note([0.5, 0.75], Anchor::Middle, BLUE, "stable")
         .note([0.1, 20.0], Anchor::Middle, SLATE, "unstable");
     let first = damped.iter().filter(|run| run.lambda == DAMPED[0]);
-    let root = |sigma| Damped { sigma, lambda: DAMPED[0], ..Damped::default() }.root();
     let growth = Panel::linear("λ*h* = −1 + i: growth of |*z*| in a step", sigma, ("factor", [0.8, 3.8]))
         .guide([[0.0, 1.0], [1.0, 1.0]], "neither growth nor decay")
-        .lines([("larger root of the recursion", solid(BLUE), sigmas().map(|s| [s, root(s)]).collect())])
+        .lines([(
+            "larger root of the recursion",
+            solid(BLUE),
+            sigmas().map(|s| [s, root(s, DAMPED[0])]).collect(),
+        )])
         .discs(first.map(|run| [run.sigma, run.factor]).collect(), VERMILLION, Fill::Hollow)
         .labelled("measured");
     let accuracy = at_most(deviation(measured));

@@ -8,7 +8,6 @@ use crate::vocabulary::*;
 
 const H: f64 = 2.0;
 const PAPER: f64 = 2e5;
-/// How far vortex 1 is displaced.
 const DISPLACEMENT: [f64; 2] = [0.05, 0.035];
 /// An energy error that says that the motion is lost, some fifteen times that of the paper's run.
 const LOST: f64 = 0.05;

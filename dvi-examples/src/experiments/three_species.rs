@@ -47,7 +47,6 @@ pub fn run(job: &Job<'_>) -> Result<Outcome> {
     ])
 }
 
-/// x + y + z and xyz.
 fn invariants(species: &Species) -> [f64; 2] {
     [species.iter().sum(), species.iter().product()]
 }

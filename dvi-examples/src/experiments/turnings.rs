@@ -63,7 +63,6 @@ fn turnings(h: f64, samples: &[Sample]) -> [Points; 2] {
     found
 }
 
-/// The claim that `what` turns at the roots, by runs with three steps, each half of the one before.
 pub fn turning_claim(what: &str, [coarse, middle, fine]: [&[Extreme; 2]; 3]) -> Claim {
     let [[low, high], [_, Extreme { h: half, .. }], [_, Extreme { h, .. }]] = [coarse, middle, fine];
     let square = low.h * low.h;

@@ -10,7 +10,6 @@ use super::svg::{Stroke, Svg, number};
 
 #[derive(Clone, Debug)]
 pub(super) enum Mark {
-    /// Points joined in their order.
     Line(Vec<[f64; 2]>, Stroke),
     /// The area between `low` and `high`, as [x, low, high].
     Band(Vec<[f64; 3]>, Colour),

@@ -5,7 +5,6 @@ use super::mark::{Fill, Frame, Mark};
 use super::palette::{Colour, GRID, PAPER, SLATE};
 use super::svg::{Anchor, Stroke, Svg, dashed, number, solid};
 
-/// A corner of a panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Corner {
     TopLeft,
@@ -16,7 +15,6 @@ pub enum Corner {
     Beside,
 }
 
-/// Points in their order.
 pub type Points = Vec<[f64; 2]>;
 
 /// The name of a line, how it is drawn, and its points.
@@ -59,17 +57,14 @@ impl Panel {
         Self { title: title.into(), x, y, weight: 1.0, ..Self::default() }
     }
 
-    /// Linear axes.
     pub fn linear(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
         Self::new(title, Axis::linear(x.0).within(x.1), Axis::linear(y.0).within(y.1))
     }
 
-    /// A logarithmic y axis.
     pub fn semilog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
         Self::new(title, Axis::linear(x.0).within(x.1), Axis::logarithmic(y.0).within(y.1))
     }
 
-    /// Logarithmic axes.
     pub fn loglog(title: impl Into<String>, x: Ranged<'_>, y: Ranged<'_>) -> Self {
         Self::new(title, Axis::logarithmic(x.0).within(x.1), Axis::logarithmic(y.0).within(y.1))
     }
@@ -89,7 +84,6 @@ impl Panel {
         self.with(Mark::Line(points, stroke))
     }
 
-    /// Lines with their names in the legend.
     pub fn lines<N: Into<String>>(self, lines: impl IntoIterator<Item = Line<N>>) -> Self {
         self.each(lines, |panel, (name, stroke, points)| panel.line(points, stroke).labelled(name))
     }
@@ -132,7 +126,6 @@ impl Panel {
         self.with(Mark::Band(edges, colour))
     }
 
-    /// Small dots.
     pub fn dots(self, points: Points, radius: f64, colour: Colour) -> Self {
         self.with(Mark::Dots(points, vec![solid(colour).width(2.0 * radius).opacity(0.8)]))
     }
@@ -160,7 +153,6 @@ impl Panel {
         self
     }
 
-    /// Writes into a corner of the panel.
     pub fn caption(mut self, corner: Corner, text: impl Into<String>) -> Self {
         self.captions.push((corner, text.into()));
         self

@@ -28,16 +28,13 @@ pub struct Stroke {
     colour: Colour,
     width: f64,
     opacity: f64,
-    /// More attributes.
     more: &'static str,
 }
 
-/// A line of that colour.
 pub const fn solid(colour: Colour) -> Stroke {
     Stroke { colour, width: 1.8, opacity: 1.0, more: "" }
 }
 
-/// A dashed line of that colour.
 pub const fn dashed(colour: Colour) -> Stroke {
     Stroke { more: " stroke-dasharray=\"7 5\"", ..solid(colour) }
 }

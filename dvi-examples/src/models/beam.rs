@@ -25,7 +25,6 @@ use super::joined;
 )]
 #[derive(Clone, Debug)]
 pub struct Beam {
-    /// How many elements there are.
     pub n: usize,
 }
 
@@ -46,7 +45,6 @@ pub struct Beam {
 )]
 #[derive(Clone, Debug)]
 pub struct Rod {
-    /// How many segments there are.
     pub n: usize,
     /// The force that doubles the length of a segment.
     pub stretching: f64,
@@ -56,7 +54,6 @@ pub struct Rod {
 /// cos β cosh β = −1.
 #[derive(Clone, Copy, Debug)]
 pub struct Mode {
-    /// β
     pub beta: f64,
 }
 
@@ -72,7 +69,6 @@ impl Mode {
         Self { beta }
     }
 
-    /// The angular frequency.
     pub fn frequency(&self) -> f64 {
         self.beta * self.beta
     }
@@ -87,13 +83,8 @@ impl Mode {
 }
 
 impl Beam {
-    /// Where node i is.
-    fn place(&self, i: usize) -> f64 {
-        (i + 1) as f64 / self.n as f64
-    }
-
     fn moving(&self, at: impl Fn(f64) -> [f64; 2]) -> [Vec<f64>; 2] {
-        [0, 1].map(|k| (0..self.n).map(|i| at(self.place(i))[k]).collect())
+        [0, 1].map(|k| (1..=self.n).map(|i| at(i as f64 / self.n as f64)[k]).collect())
     }
 
     /// Straight, with velocities that are those of a mode.

@@ -18,12 +18,10 @@ use super::joined;
 )]
 #[derive(Clone, Debug)]
 pub struct Links {
-    /// How many links there are.
     pub n: usize,
 }
 
 impl Links {
-    /// The length of a rod.
     pub fn rod(&self) -> f64 {
         1.0 / self.n as f64
     }
@@ -47,9 +45,7 @@ impl Links {
 )]
 #[derive(Clone, Debug)]
 pub struct SpringChain {
-    /// m, the number of stiff springs.
     pub m: usize,
-    /// ω
     pub omega: f64,
 }
 
@@ -97,9 +93,7 @@ impl SpringChain {
 )]
 #[derive(Clone, Debug)]
 pub struct RigidMolecules {
-    /// How many molecules there are.
     pub n: usize,
-    /// β
     pub beta: f64,
 }
 
@@ -121,9 +115,7 @@ pub struct RigidMolecules {
 )]
 #[derive(Clone, Debug)]
 pub struct SpringMolecules {
-    /// How many molecules there are.
     pub n: usize,
-    /// β
     pub beta: f64,
     /// The force of a spring over the change of its length.
     pub k: f64,

@@ -20,13 +20,11 @@ use dvi_core::prelude::*;
 )]
 #[derive(Clone, Debug)]
 pub struct RollingDisc {
-    /// R
     pub radius: f64,
     /// k, along x and along y.
     pub stiffness: [f64; 2],
     /// B at the origin.
     pub field: [f64; 2],
-    /// g
     pub gradient: f64,
 }
 
@@ -43,7 +41,6 @@ pub struct RollingDisc {
 pub struct ChaplyginSleigh {
     /// The moment of inertia about the centre of mass.
     pub inertia: f64,
-    /// a
     pub a: f64,
 }
 
@@ -53,69 +50,5 @@ impl RollingDisc {
         let speed = self.radius * dot_theta;
         let (dot_x, dot_y) = (speed * phi.cos(), speed * phi.sin());
         RollingDiscState { x, y, theta: 0.0, phi, dot_x, dot_y, dot_theta, dot_phi }
-    }
-
-    /// The rates of (x, y, θ, φ, θ', φ') in the motion, with the constraints eliminated:
-    /// (3/2)R²θ″ = −R(cos φ ∂V/∂x + sin φ ∂V/∂y) and ¼R²φ″ = −∂V/∂φ.
-    pub fn reduced(&self, &[x, y, _, phi, dot_theta, dot_phi]: &[f64; 6]) -> [f64; 6] {
-        let (sin, cos) = phi.sin_cos();
-        let along_x = self.stiffness[0] * x - self.gradient * sin;
-        let along_y = self.stiffness[1] * y - self.gradient * cos;
-        let torque = (self.field[1] + self.gradient * x) * cos - (self.field[0] + self.gradient * y) * sin;
-        let speed = self.radius * dot_theta;
-        [
-            speed * cos,
-            speed * sin,
-            dot_theta,
-            dot_phi,
-            -(cos * along_x + sin * along_y) / (1.5 * self.radius),
-            4.0 * torque / self.radius.powi(2),
-        ]
-    }
-
-    /// The energy of (x, y, θ, φ, θ', φ').
-    pub fn energy_of(&self, &[x, y, _, phi, dot_theta, dot_phi]: &[f64; 6]) -> Result<f64, StartError> {
-        self.energy_at(&self.rolling([x, y], phi, [dot_theta, dot_phi]))
-    }
-}
-
-impl RollingDiscState {
-    /// (x, y, θ, φ, θ', φ')
-    pub fn reduced(&self) -> [f64; 6] {
-        [self.x, self.y, self.theta, self.phi, self.dot_theta, self.dot_phi]
-    }
-}
-
-impl ChaplyginSleigh {
-    /// The rates of (x, y, θ, v, ω) in the motion, with the constraint eliminated: v' = aω² and (I + a²)ω' =
-    /// −avω.
-    pub fn reduced(&self, &[_, _, theta, v, omega]: &[f64; 5]) -> [f64; 5] {
-        let rate = -self.a * v * omega / (self.inertia + self.a * self.a);
-        [v * theta.cos(), v * theta.sin(), omega, self.a * omega * omega, rate]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const DISC: RollingDisc =
-        RollingDisc { radius: 0.7, stiffness: [1.0, 1.7], field: [0.3, 0.1], gradient: 0.3 };
-
-    #[test]
-    fn the_equations_by_hand_are_those_of_the_constraints() {
-        let state = DISC.rolling([0.4, -0.3], 1.1, [0.9, -0.6]);
-        let rates = DISC.vector_field(&state).expect("rates");
-        let by_hand = DISC.reduced(&state.reduced());
-        for (a, b) in by_hand.into_iter().zip(rates.reduced()) {
-            assert!((a - b).abs() < 1e-14, "{by_hand:?} {rates:?}");
-        }
-        let (sleigh, theta, v, omega) = (ChaplyginSleigh { inertia: 1.0, a: 0.5 }, 0.8_f64, -1.2, 0.7);
-        let (dot_x, dot_y) = (v * theta.cos(), v * theta.sin());
-        let state = ChaplyginSleighState { x: 0.0, y: 0.0, theta, dot_x, dot_y, dot_theta: omega };
-        let rates = sleigh.vector_field(&state).expect("rates");
-        let by_hand = sleigh.reduced(&[0.0, 0.0, theta, v, omega]);
-        let along = rates.dot_x * theta.cos() + rates.dot_y * theta.sin();
-        assert!((along - by_hand[3]).abs() < 1e-14 && (rates.dot_theta - by_hand[4]).abs() < 1e-14);
     }
 }

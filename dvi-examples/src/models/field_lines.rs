@@ -21,13 +21,9 @@ use super::bisected;
 )]
 #[derive(Clone, Debug)]
 pub struct Abc {
-    /// The amplitude of what depends on z.
     pub a: f64,
-    /// The amplitude of what depends on x.
     pub b: f64,
-    /// The amplitude of what depends on y.
     pub c: f64,
-    /// The uniform field along z.
     pub uniform: f64,
 }
 

@@ -71,7 +71,6 @@ pub trait OnManifold<const D: usize>: ManifoldLagrangian + Copy {
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct SphericalPendulum {
-    /// g
     pub gravity: f64,
 }
 
@@ -84,7 +83,6 @@ pub struct SphericalPendulum {
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedPendulum {
-    /// g
     pub gravity: f64,
 }
 
@@ -101,13 +99,8 @@ impl SphericalPendulum {
 
     /// What the height depends on.
     pub fn heights(&self, SphericalPendulumState { s, dot_s }: &SphericalPendulumState) -> Heights {
-        Heights {
-            across: 1.0,
-            weight: self.gravity,
-            energy: squared(dot_s) / 2.0 + self.gravity * s[2],
-            spin: 0.0,
-            vertical: s[0] * dot_s[1] - s[1] * dot_s[0],
-        }
+        let (energy, vertical) = (self.energy(s, dot_s, 0.0), self.momentum(0, s, dot_s, 0.0));
+        Heights { across: 1.0, weight: self.gravity, energy, spin: 0.0, vertical }
     }
 
     /// g in E − h²g, which steps of length h by `Geodesic::trapezoid` keep up to terms of the order h⁴:

@@ -12,9 +12,7 @@ use dvi_core::prelude::*;
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct EllipseBilliard {
-    /// Half of the long axis.
     pub a: f64,
-    /// Half of the short axis.
     pub b: f64,
 }
 
@@ -39,16 +37,4 @@ pub struct RoundedSquareBilliard;
 pub struct Bouncer {
     /// The height of the hill.
     pub a: f64,
-}
-
-impl Bouncer {
-    /// The acceleration between impacts.
-    pub fn acceleration(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [-0.3 * x - 0.4 * x.powi(3) - 0.3 * x * y * y, -1.0 - 0.3 * x * x * y]
-    }
-
-    /// The height above the floor, and the direction away from it.
-    pub fn above([x, y]: [f64; 2], a: f64) -> (f64, [f64; 2]) {
-        (y - a * x.cos(), [a * x.sin(), 1.0])
-    }
 }

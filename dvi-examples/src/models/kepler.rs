@@ -132,15 +132,12 @@ fn within_half_an_orbit(t: f64) -> f64 {
 )]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies<const N: usize> {
-    /// Newton's constant.
     pub g: f64,
-    /// Masses.
     pub mass: [f64; N],
 }
 
 /// The sun, Jupiter, Saturn, Uranus, Neptune and Pluto.
 pub type OuterSolarSystem = Bodies<6>;
-/// A state of these.
 pub type OuterPlanets = BodiesState<6>;
 
 /// The outer solar system in astronomical units, days and masses of the sun, on September 5, 1994, at 0h00.

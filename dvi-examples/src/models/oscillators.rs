@@ -11,7 +11,6 @@ use dvi_core::prelude::*;
 )]
 #[derive(Clone, Debug)]
 pub struct Rotation {
-    /// The frequency ω.
     pub omega: f64,
 }
 
@@ -24,9 +23,7 @@ pub struct Rotation {
 )]
 #[derive(Clone, Debug)]
 pub struct Linear {
-    /// The real part of λ.
     pub real: f64,
-    /// The imaginary part of λ.
     pub imaginary: f64,
 }
 
@@ -34,7 +31,6 @@ pub struct Linear {
 #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - k * x * x) / 2.0)]
 #[derive(Clone, Debug)]
 pub struct Spring {
-    /// Stiffness over mass.
     pub k: f64,
 }
 
@@ -107,38 +103,5 @@ impl RadialFriction {
 pub struct DoublePendulum {
     /// The length of either rod.
     pub length: f64,
-    /// Gravity.
     pub g: f64,
-}
-
-impl DoublePendulum {
-    /// Where the lower mass is, x to the right and y upwards from the support.
-    pub fn lower_mass(&self, &[a, b]: &[f64; 2]) -> [f64; 2] {
-        [self.length * (a.sin() + b.sin()), -self.length * (a.cos() + b.cos())]
-    }
-
-    /// The rates of (a, b, a', b') in the motion, solved from 2a'' + b'' cos δ + b'² sin δ + 2(g/l) sin a =
-    /// 0 and b'' + a'' cos δ − a'² sin δ + (g/l) sin b = 0, δ = a − b.
-    pub fn motion(&self, &[a, b, da, db]: &[f64; 4]) -> [f64; 4] {
-        let (sin, cos) = (a - b).sin_cos();
-        let gravity = self.g / self.length;
-        let first = -db * db * sin - 2.0 * gravity * a.sin();
-        let second = da * da * sin - gravity * b.sin();
-        let determinant = 2.0 - cos * cos;
-        [da, db, (first - cos * second) / determinant, (2.0 * second - cos * first) / determinant]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_equations_by_hand_are_those_of_the_lagrangian() {
-        let system = DoublePendulum { length: 1.0, g: 9.81 };
-        let state = DoublePendulumState { a: 0.3, b: -1.1, dot_a: 2.0, dot_b: -0.7 };
-        let [.., a, b] = system.motion(&[state.a, state.b, state.dot_a, state.dot_b]);
-        let rates = system.vector_field(&state).expect("rates");
-        assert!((rates.dot_a - a).abs() < 1e-13 && (rates.dot_b - b).abs() < 1e-13, "{rates:?}");
-    }
 }

@@ -52,6 +52,5 @@ pub struct ThreeSpecies {}
 )]
 #[derive(Clone, Debug)]
 pub struct ThreeSpeciesReduced {
-    /// The conserved product xyz.
     pub product: f64,
 }

@@ -37,7 +37,6 @@ pub struct Top {
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct RigidBody {
-    /// The moments of inertia.
     pub inertia: [f64; 3],
 }
 
@@ -54,20 +53,10 @@ impl Top {
     /// What the height of the axis depends on.
     pub fn heights(&self, state: &TopState) -> Heights {
         let Self { across, along, weight } = *self;
-        let ([x, y, u], [a, b, c]) = (vertical(&state.R), state.omega_R);
-        Heights {
-            across,
-            weight,
-            energy: across * (a * a + b * b) / 2.0 + weight * u,
-            spin: along * c,
-            vertical: across * (x * a + y * b) + along * u * c,
-        }
-    }
-
-    /// The height of the axis, and its rate.
-    pub fn height(state: &TopState) -> [f64; 2] {
-        let ([x, y, u], [a, b, _]) = (vertical(&state.R), state.omega_R);
-        [u, x * b - y * a]
+        let velocities = velocities(state.omega_R);
+        let [spin, vertical] = [0, 1].map(|k| self.momentum(k, &state.R, &velocities, 0.0));
+        let energy = self.energy(&state.R, &velocities, 0.0) - spin * spin / (2.0 * along);
+        Heights { across, weight, energy, spin, vertical }
     }
 
     /// g in E − h²g, which steps of length h by `Geodesic::trapezoid` keep up to terms of the order h⁴.
@@ -96,12 +85,10 @@ impl RigidBody {
         RigidBodyState { R: rotations::exp([0.0; 3]), omega_R: omega }
     }
 
-    /// The angular momentum in the body.
     pub fn momentum_at(&self, state: &RigidBodyState) -> [f64; 3] {
         [0, 1, 2].map(|k| self.inertia[k] * state.omega_R[k])
     }
 
-    /// ω̇.
     pub fn acceleration(&self, omega: [f64; 3]) -> [f64; 3] {
         euler(self.inertia, omega, [0.0; 3])
     }
@@ -113,25 +100,23 @@ impl RigidBody {
     }
 }
 
-/// R row by row, and ω.
+/// R row by row, and ω: Ṙ = R ω̂ and 𝕀ω̇ = 𝕀ω × ω + torque.
 impl OnManifold<12> for Top {
-    /// Ṙ = R ω̂ and 𝕀ω̇ = 𝕀ω × ω + torque.
     fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
-        let (rotation, omega) = split(y);
-        turning(&rotation, omega, self.acceleration(vertical(&rotation), omega))
+        turning(y, |above, omega| self.acceleration(above, omega))
     }
 }
 
 /// R row by row, and ω.
 impl OnManifold<12> for RigidBody {
     fn motion(&self, y: &[f64; 12]) -> [f64; 12] {
-        let (rotation, omega) = split(y);
-        turning(&rotation, omega, self.acceleration(omega))
+        turning(y, |_, omega| self.acceleration(omega))
     }
 }
 
-fn split(y: &[f64; 12]) -> ([f64; 9], [f64; 3]) {
-    (std::array::from_fn(|i| y[i]), std::array::from_fn(|i| y[9 + i]))
+/// A rotation has as many velocities as entries, of which the first three are ω.
+pub fn velocities([x, y, z]: [f64; 3]) -> [f64; 9] {
+    [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
 }
 
 /// The direction of the third axis of space in the body.
@@ -139,8 +124,7 @@ fn vertical(rotation: &[f64; 9]) -> [f64; 3] {
     [rotation[6], rotation[7], rotation[8]]
 }
 
-/// a × b
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
@@ -155,9 +139,11 @@ fn accelerated(inertia: [f64; 3], acceleration: [f64; 3]) -> f64 {
     inertia.into_iter().zip(acceleration).map(|(moment, rate)| moment * rate * rate).sum()
 }
 
-/// The rates of R, row by row, and of ω: the rows of R ω̂ are those of R times ω.
-fn turning(rotation: &[f64; 9], omega: [f64; 3], d: [f64; 3]) -> [f64; 12] {
-    let row = |i: usize| [rotation[i], rotation[i + 1], rotation[i + 2]];
-    let [a, b, c] = [0, 3, 6].map(|i| cross(row(i), omega));
+/// The rates of R, row by row, and of ω, by the direction of the vertical in the body: the rows of R ω̂ are
+/// those of R times ω.
+fn turning(y: &[f64; 12], acceleration: impl Fn([f64; 3], [f64; 3]) -> [f64; 3]) -> [f64; 12] {
+    let [x, y, above, omega] = [0, 3, 6, 9].map(|i: usize| [y[i], y[i + 1], y[i + 2]]);
+    let [a, b, c] = [x, y, above].map(|row| cross(row, omega));
+    let d = acceleration(above, omega);
     [a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]]
 }

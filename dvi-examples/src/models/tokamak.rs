@@ -49,9 +49,7 @@ pub struct TokamakInClass {
 )]
 #[derive(Clone, Debug)]
 pub struct TokamakOutOfClass {
-    /// The safety factor: turns around the torus for one around its section.
     pub q: f64,
-    /// The magnetic moment.
     pub mu: f64,
 }
 
@@ -68,24 +66,17 @@ pub struct TokamakOutOfClass {
 )]
 #[derive(Clone, Debug)]
 pub struct TabulatedTokamak<F> {
-    /// The covariant components of the vector potential.
     pub a_theta: F,
-    /// The other of them.
     pub a_phi: F,
-    /// Those of the direction of the field.
     pub b_theta: F,
-    /// The other of them.
     pub b_phi: F,
-    /// The strength of the field.
     pub strength: F,
-    /// The magnetic moment.
     pub mu: f64,
 }
 
 /// The part of the section that the table covers, from r = 0.06 to 0.3.
 const SECTION: [f64; 2] = [0.06, 0.3];
 
-/// A function of the section.
 pub type Sampled<'a> = &'a dyn Fn([f64; 2]) -> f64;
 
 impl<F: ScalarField<2>> TabulatedTokamak<F> {

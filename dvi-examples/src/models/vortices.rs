@@ -24,17 +24,13 @@ pub struct PointVortices<const N: usize> {
     pub gamma: [f64; N],
 }
 
-/// Four vortices.
 pub type FourVortices = PointVortices<4>;
-/// The state of four vortices.
 pub type FourPoints = PointVorticesState<4>;
 
 /// A system with its initial state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// The vortices.
     pub vortices: FourVortices,
-    /// Where they are at t = 0.
     pub start: FourPoints,
 }
 
@@ -77,7 +73,6 @@ pub fn chaotic() -> Case {
 )]
 #[derive(Clone, Debug)]
 pub struct SphereVortices<const N: usize> {
-    /// The circulations Γ.
     pub gamma: [f64; N],
 }
 
@@ -108,7 +103,6 @@ impl<const N: usize> SphereVortices<N> {
 )]
 #[derive(Clone, Debug)]
 pub struct VortexVectors<const N: usize> {
-    /// The circulations Γ.
     pub gamma: [f64; N],
 }
 
@@ -133,9 +127,7 @@ impl<const N: usize> VortexVectors<N> {
 )]
 #[derive(Clone, Debug, PartialEq)]
 pub struct VortexBlobs {
-    /// The circulations Γ.
     pub gamma: Vec<f64>,
-    /// The radius of the cores.
     pub core: f64,
 }
 
@@ -144,16 +136,13 @@ pub struct VortexBlobs {
 pub struct ShearLayer {
     /// Rows of blobs, one above the other.
     pub rows: usize,
-    /// The amplitude of the waves.
     pub amplitude: f64,
 }
 
 impl ShearLayer {
     /// Its length, in waves.
     pub const LENGTH: f64 = 8.0;
-    /// Its thickness.
     pub const THICKNESS: f64 = 0.12;
-    /// The radius of a core.
     pub const CORE: f64 = 0.02;
 
     /// The number of blobs: they are a little more apart along the layer than across.
@@ -167,24 +156,19 @@ impl ShearLayer {
         VortexBlobs { gamma: vec![Self::LENGTH / n as f64; n], core: Self::CORE }
     }
 
-    /// Their places in the layer without waves.
-    pub fn rest(self) -> impl Iterator<Item = [f64; 2]> {
-        let Self { rows, .. } = self;
+    /// Their places with waves.
+    pub fn state(self) -> VortexBlobsState {
+        let Self { rows, amplitude } = self;
         let columns = self.blobs() / rows;
-        (0..columns * rows).map(move |blob| {
+        let place = |blob: usize| {
             let (column, row) = (blob / rows, blob % rows);
             // Every other row is shifted.
             let shift = if row % 2 == 0 { 0.25 } else { 0.75 };
-            let along = (column as f64 + shift) / columns as f64 - 0.5;
+            let x = Self::LENGTH * ((column as f64 + shift) / columns as f64 - 0.5);
             let across = (row as f64 + 0.5) / rows as f64 - 0.5;
-            [Self::LENGTH * along, Self::THICKNESS * across]
-        })
-    }
-
-    /// Their places with waves.
-    pub fn state(self) -> VortexBlobsState {
-        let wave = |x: f64| self.amplitude * (TAU * x).sin();
-        let (x, y) = self.rest().map(|[x, y]| (x, y + wave(x))).unzip();
+            (x, Self::THICKNESS * across + amplitude * (TAU * x).sin())
+        };
+        let (x, y) = (0..columns * rows).map(place).unzip();
         VortexBlobsState { x, y }
     }
 }
