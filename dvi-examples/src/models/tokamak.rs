@@ -49,7 +49,9 @@ pub struct TokamakInClass {
 )]
 #[derive(Clone, Debug)]
 pub struct TokamakOutOfClass {
+    /// The safety factor: turns around the torus for one around its section.
     pub q: f64,
+    /// The magnetic moment.
     pub mu: f64,
 }
 
