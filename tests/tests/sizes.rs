@@ -328,10 +328,14 @@ fn polygon<const N: usize>(angle: f64) -> VorticesState<N> {
 
 fn turns<const N: usize>(method: Sigma) -> Checked {
     on_a_small_stack(move || {
-        let (system, h) = (Vortices::<N> { gamma: [1.0; N] }, 1e-4);
+        let (system, h) = (Vortices::<N> { gamma: [1.0; N] }, 6e-3 / N as f64);
         let mut run = Integrator::new(&system, method, h, polygon(0.0))?;
-        let mut exponent = LyapunovExponent::new(&run);
-        exponent.advance(&mut run)?;
+        // A tangent map takes a matrix of all coordinates.
+        if N <= 60 {
+            LyapunovExponent::new(&run).advance(&mut run)?;
+        } else {
+            run.take_steps(1)?;
+        }
         run.take_steps(3)?;
         let exact = polygon::<N>(4.0 * h * (N as f64 - 1.0) / (4.0 * core::f64::consts::PI));
         let found = run.state();
@@ -355,7 +359,10 @@ fn turns<const N: usize>(method: Sigma) -> Checked {
 fn vortices_of_every_number_fit_on_a_small_stack() -> Checked {
     turns::<4>(Sigma::midpoint())?;
     turns::<5>(Sigma::midpoint())?;
+    turns::<10>(Sigma::midpoint())?;
     turns::<60>(Sigma::midpoint())?;
+    turns::<200>(Sigma::midpoint())?;
+    turns::<1000>(Sigma::midpoint())?;
     turns::<60>(Sigma::leapfrog())
 }
 
