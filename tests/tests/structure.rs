@@ -355,3 +355,49 @@ fn reports_say_what_the_mass_matrix_is_like() {
         assert!(report.structure.contains(&sentence), "{}: {:?}", report.system, report.structure);
     }
 }
+
+/// Pendulums that do not touch, with α and H apart.
+#[degenerate_lagrangian(
+    coordinates(x[n], p[n]),
+    one_form = sum(0..n, |i| p[i] * d(x[i])),
+    hamiltonian = sum(0..n, |i| p[i].powi(2) / 2.0 - x[i].cos()),
+)]
+struct Apart {
+    n: usize,
+}
+
+#[degenerate_lagrangian(
+    coordinates(x[n], p[n]),
+    lagrangian = sum(0..n, |i| p[i] * dot(x[i]) - p[i].powi(2) / 2.0 + x[i].cos()),
+)]
+struct InOneSum {
+    n: usize,
+}
+
+#[degenerate_lagrangian(
+    coordinates(x[n], p[n]),
+    lagrangian = scale * sum(0..n, |i| scale * (p[i] * dot(x[i]) - p[i].powi(2) / 2.0 + x[i].cos())),
+)]
+struct Scaled {
+    n: usize,
+    scale: f64,
+}
+
+#[test]
+fn a_lagrangian_in_one_sum_has_the_form_that_it_has_in_two() -> Outcome {
+    fn check<S: DegenerateLagrangian>(system: &S, state: S::State<f64>) -> Outcome<Vec<f64>> {
+        const { assert!(S::AFFINE && S::CANONICAL) };
+        let alpha = S::REPORT.formulas.iter().find(|formula| formula.name == "α").ok_or("no α")?;
+        assert!(!alpha.text.contains("cos"), "{}", alpha.text);
+        let method = Sigma { summation: Summation::Compensated, ..Sigma::midpoint() };
+        let mut run = Integrator::new(system, method, 0.1, state)?;
+        run.take_steps(100)?;
+        Ok(run.q().to_vec())
+    }
+    let (x, p) = (vec![0.5, 0.1, 0.2], vec![0.3; 3]);
+    let in_two = check(&Apart { n: 3 }, ApartState { x: x.clone(), p: p.clone() })?;
+    let in_one = check(&InOneSum { n: 3 }, InOneSumState { x: x.clone(), p: p.clone() })?;
+    let scaled = check(&Scaled { n: 3, scale: 0.7 }, ScaledState { x, p })?;
+    assert!(apart(&in_two, &in_one) < 1e-13 && apart(&in_two, &scaled) < 1e-13);
+    Ok(())
+}

@@ -8,7 +8,7 @@ use crate::internal::internal;
 use crate::lower::{Lowering, Role};
 use crate::model::Extended;
 use crate::structure::gauge::{self, Effort, Search};
-use crate::symbolic::{Coordinate, Expr, Graph, Index, Node};
+use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Id, Index, Node};
 use crate::syntax::{self, Attribute, Gauge, Named};
 
 impl Stages {
@@ -316,7 +316,24 @@ fn split_parts(graph: &mut Graph, value: Expr) -> (Expr, Expr) {
             graph.sum(&parts).scaled(value.scale)
         }
         _ if rest.is_zero() => value,
+        Node::Reduce { fold: Fold::Sum, height, range, body } => {
+            let (_, body) = split_parts(graph, body);
+            graph.fold(Fold::Sum, Atom::Bound(height), range, body).scaled(value.scale)
+        }
+        Node::Product(factors) if let [(affine, 1)] = moving(graph, &factors)[..] => {
+            let others = factors.iter().filter(|(factor, _)| *factor != affine);
+            let mut parts: Vec<Expr> =
+                others.map(|&(factor, exponent)| graph.power(factor.into(), exponent)).collect();
+            parts.push(split_parts(graph, affine.into()).1);
+            graph.product(&parts).scaled(value.scale)
+        }
         _ => graph.subtract(value, rest),
     };
     (rest, linear)
+}
+
+/// The factors of a product that depend on velocities.
+fn moving(graph: &Graph, factors: &[(Id, u32)]) -> Vec<(Id, u32)> {
+    let moves = |node: &Node| matches!(node, Node::Velocity(_));
+    factors.iter().copied().filter(|(factor, _)| graph.depends(*factor, moves)).collect()
 }

@@ -1,7 +1,7 @@
 //! Events that steps may miss or count twice, and how a search for events, or for a state at a time, ends.
 
 use approx::abs_diff_eq;
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use dvi_tests::{Outcome, bits};
@@ -192,7 +192,6 @@ fn an_event_may_be_an_impact() -> Outcome {
     Ok(())
 }
 
-/// What is asked for up to a time is not after it, and comes later.
 /// A run that is set to the state of an event goes on from there as if nothing had been set.
 #[test]
 fn an_event_is_left_behind_where_the_same_state_is_set() -> Outcome {
@@ -232,6 +231,25 @@ fn a_condition_may_stay_at_zero() -> Outcome {
     Ok(())
 }
 
+/// Of an oscillator cos t, a condition that is zero in a band about the middle comes there from above and
+/// from below, once each in a period.
+#[test]
+fn a_condition_with_a_band_of_zeros_comes_there_once() -> Outcome {
+    let band = |x: f64| if x > 0.5 { x - 0.5 } else { (x + 0.5).min(0.0) };
+    for power in [1, 2, 3] {
+        let mut run = Integrator::new(&Planar, Gauss::<4>::new(), 0.1, PLANAR)?;
+        let mut events = run.events([Direction::Either], |_, state| [band(state.x).powi(power)])?;
+        for turn in [1.0, 4.0, 7.0, 10.0] {
+            let Some(Event { time, state, .. }) = events.next_until(12.0)? else { panic!("none at {turn}") };
+            assert!(abs_diff_eq!(time, turn * FRAC_PI_3, epsilon = 1e-11), "{power}, {turn}: {time}");
+            events.set_state(time, state)?;
+        }
+        assert!(events.next_until(12.0)?.is_none());
+    }
+    Ok(())
+}
+
+/// What is asked for up to a time is not after it, and comes later.
 #[test]
 fn events_after_the_end_wait() -> Outcome {
     let mut run = free(-0.3, 0.4)?;

@@ -129,14 +129,15 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
     /// A zero of the condition between two parts of the step: the first one, where it has come to zero and
     /// stays there.
     fn zero(&mut self, [[from, a], [to, b]]: [[R::Scalar; 2]; 2]) -> Result<Zero<R::Scalar>, StepFailure> {
-        let [nothing, chord] = [0.0, CHORD].map(R::Scalar::lift);
+        let [nothing, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
         let before = larger(from, to - chord);
         if b != nothing || before == from || self.look(before)? != nothing {
             return zero([[from, a], [to, b]], |part| self.look(part));
         }
-        zero([[from, a], [before, -a]], |part| {
-            let value = self.look(part)?;
-            Ok(if value == nothing { -a } else { value })
+        // By signs: to where values end in a corner no secant leads.
+        let sign = if a < nothing { -one } else { one };
+        zero([[from, sign], [before, -sign]], |part| {
+            Ok(if self.look(part)? * sign > nothing { sign } else { -sign })
         })
     }
 
