@@ -153,13 +153,16 @@ impl Lowering<'_> {
     ) -> Option<[String; COUNT]> {
         let mut names = Vec::new();
         for input in &closure.inputs {
-            match bound_name(input) {
-                Some(name) => names.push(name),
-                None => {
-                    self.errors.push(input, "an index is a name: write `|j| …`");
-                    return None;
+            let message = match bound_name(input) {
+                Some(name) if name != "_" && names.contains(&name) => "two indices have this name",
+                Some(name) => {
+                    names.push(name);
+                    continue;
                 }
-            }
+                None => "an index is a name: write `|j| …`",
+            };
+            self.errors.push(input, message);
+            return None;
         }
         let found = names.len();
         let names = <[String; COUNT]>::try_from(names).ok();

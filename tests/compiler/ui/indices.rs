@@ -423,4 +423,17 @@ mod cast_to_an_integer {
     }
 }
 
+mod two_indices_with_one_name {
+    use super::*;
+    #[lagrangian(
+        coordinates(q[n][n]),
+        lagrangian = sum(0..n, |i| sum(0..n, |j| dot(q[i][j]).powi(2))) / 2.0
+            - sum_pairs(0..n, |i, i| q[i][0] * q[0][i]),
+        force(q) = |j, j| -q[j][j],
+    )]
+    pub struct System {
+        pub n: usize,
+    }
+}
+
 fn main() {}
