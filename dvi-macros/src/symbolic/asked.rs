@@ -30,7 +30,7 @@ impl Graph {
             return value;
         }
         let size = self.unary(Unary::Abs, value);
-        let largest = Expr::number(f64::from(f32::MAX));
+        let largest = Expr::number(f64::MAX);
         self.choose(largest, Relation::HasMore, size, value, Expr::ZERO)
     }
 
