@@ -320,13 +320,16 @@ fn split_parts(graph: &mut Graph, value: Expr) -> (Expr, Expr) {
             let (_, body) = split_parts(graph, body);
             graph.fold(Fold::Sum, Atom::Bound(height), range, body).scaled(value.scale)
         }
-        Node::Product(factors) if let [(affine, 1)] = moving(graph, &factors)[..] => {
-            let others = factors.iter().filter(|(factor, _)| *factor != affine);
-            let mut parts: Vec<Expr> =
-                others.map(|&(factor, exponent)| graph.power(factor.into(), exponent)).collect();
-            parts.push(split_parts(graph, affine.into()).1);
-            graph.product(&parts).scaled(value.scale)
-        }
+        Node::Product(factors) => match moving(graph, &factors)[..] {
+            [(affine, 1)] => {
+                let others = factors.iter().filter(|(factor, _)| *factor != affine);
+                let mut parts: Vec<Expr> =
+                    others.map(|&(factor, exponent)| graph.power(factor.into(), exponent)).collect();
+                parts.push(split_parts(graph, affine.into()).1);
+                graph.product(&parts).scaled(value.scale)
+            }
+            _ => graph.subtract(value, rest),
+        },
         _ => graph.subtract(value, rest),
     };
     (rest, linear)
