@@ -60,7 +60,8 @@ const MOST_COORDINATES: usize = isize::MAX as usize / size_of::<f64>();
 /// Checks that there may be as many coordinates as the sizes of `system` say.
 ///
 /// # Errors
-/// [`IndexError`] with the last index of the first array that memory ends before, as far as it is an integer.
+/// [`IndexError`] with the last index of the first array that memory ends before, as far as that is an
+/// integer.
 pub fn check_sizes<S: System>(system: &S) -> Result<(), IndexError> {
     let mut left = MOST_COORDINATES;
     for (block, declared) in S::REPORT.coordinates.iter().enumerate() {

@@ -152,11 +152,11 @@ pub trait System: Held<System = Self> {
     /// The configuration space of this system.
     fn space(&self) -> Self::Space;
     /// The size of coordinate block `block`: 1 for a single coordinate, n for `x[n]`, and for each component
-    /// of `r[n][3]`. The size of a block `q[n][m]` is n·m; the length of its rows, m, has the number of blocks
-    /// in all plus that of the block. Of a block without rows that is 0.
+    /// of `r[n][3]`. The size of a block `q[n][m]` is n·m; the length of its rows, m, has the number of
+    /// blocks in all plus that of the block. Of a block without rows that is 0.
     fn block_len(&self, block: usize) -> usize;
-    /// Walks every index that the formulas use and checks it against the arrays that it goes to; before that, that
-    /// memory can hold as many coordinates as the sizes say.
+    /// Walks every index that the formulas use and checks it against the arrays that it goes to; before
+    /// that, that memory can hold as many coordinates as the sizes say.
     ///
     /// # Errors
     /// [`IndexError`] names the first array that is too short, or that memory ends before, and the index.

@@ -46,7 +46,7 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
-/// Runs the experiments, from the shortest on, and hands what each has left to `keep` as soon as it has ended.
+/// Runs the experiments, and hands what each has left to `keep` once it has ended.
 pub fn run(
     experiments: &[Experiment],
     folder: &Path,

@@ -43,7 +43,7 @@ pub fn number(value: f64) -> String {
 pub struct Table(csv::Writer<Vec<u8>>);
 
 impl Table {
-    /// A table of columns with these names, and of rows that have texts first, from which the marks of italics
+    /// A table of columns with these names, and of rows that have texts first, from which marks of italics
     /// are taken out, and then numbers, some of which may be missing.
     ///
     /// # Errors

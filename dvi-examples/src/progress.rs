@@ -1,5 +1,5 @@
-//! How far the experiments are: a bar on a terminal, plain lines in regular intervals elsewhere, with the time
-//! left and what runs. An experiment that has ended leaves a line.
+//! How far the experiments are: a bar on a terminal, plain lines in regular intervals elsewhere, and the
+//! time left and what runs. An experiment that has ended leaves a line.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};

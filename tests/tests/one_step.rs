@@ -177,7 +177,8 @@ fn reports_say_where_the_ends_cannot_be_used() {
     assert!(can.contains("σ = 0 and σ = 1 are explicit"), "{can}");
 }
 
-/// What is left of the equations where they hold to rounding errors, of angles of a million here, is no kick.
+/// What is left of the equations where they hold to rounding errors, of angles of a million here, is no
+/// kick.
 #[test]
 fn momenta_are_kept_however_large_the_angles_are() -> Outcome {
     let system = TokamakInClass { q: 2.0, mu: 6e-5 };

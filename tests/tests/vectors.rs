@@ -145,7 +145,8 @@ fn the_number_of_bodies_may_be_known_late() -> Outcome {
 #[lagrangian(
     coordinates(r[n][3]),
     lagrangian = sum(0..n, |i| sum(0..3, |k| m[k] / 2.0 * dot(r[i][k]).powi(2) + b[k] * dot(r[i])[k])
-        - product(0..=2, |k| 1.0 + r[i][k].powi(2)) - sum(0..3, |k| sum(0..3, |l| h[k][l] * r[i][k] * r[i][l]))),
+        - product(0..=2, |k| 1.0 + r[i][k].powi(2))
+        - sum(0..3, |k| sum(0..3, |l| h[k][l] * r[i][k] * r[i][l]))),
 )]
 struct AxisByAxis {
     n: usize,

@@ -68,7 +68,8 @@ pub trait Constraints<S: System, T: Real>: Kind {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no constraints",
     label = "its attribute has neither `constraint` nor `nonholonomic`, or a parameter is no number",
-    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`"
+    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`, \
+        and degenerate ones by `Sigma` or `OneStep`"
 )]
 pub trait ConstrainedLagrangian<T: Real = f64>:
     NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind: Constraints<Self, T>> + Sized

@@ -14,8 +14,10 @@ use crate::{Lagrangian, Real, Vector};
 #[diagnostic::on_unimplemented(
     message = "the steps of `{Self}` are all of one length",
     label = "a composition takes steps of different lengths",
-    note = "degenerate systems are stepped in any length by `OneStep`, `Projected`, `Gauss` and `RungeKutta`",
-    note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, `Rattle` and `Geodesic`"
+    note = "degenerate systems are stepped in any length by `OneStep`, `Projected`, `Gauss` and \
+        `RungeKutta`",
+    note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, \
+        `Rattle` and `Geodesic`"
 )]
 pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
     /// As [`Method::Suited`].
@@ -61,8 +63,10 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
 #[diagnostic::on_unimplemented(
     message = "the steps of `{Self}` are all of one length",
     label = "a step control takes steps of different lengths",
-    note = "degenerate systems are stepped in any length by `OneStep`, `Projected`, `Gauss` and `RungeKutta`",
-    note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, `Rattle` and `Geodesic`"
+    note = "degenerate systems are stepped in any length by `OneStep`, `Projected`, `Gauss` and \
+        `RungeKutta`",
+    note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, \
+        `Rattle` and `Geodesic`"
 )]
 pub trait SuitsAnyStep<S: Lagrangian<T>, T: Real, M> {
     /// The method as it is.

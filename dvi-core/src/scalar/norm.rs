@@ -61,7 +61,7 @@ pub(crate) fn reciprocal<T: Real>(pivot: T, column: usize) -> Result<T, StepFail
 
 /// Whether a pivot of this size is of use: more than `least`, which rounding errors of others may make of
 /// it. Not a number is none, and an infinite one would make all corrections zero.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn is_pivot<T: Real>(size: T, least: T) -> bool {
     size > least && size < T::lift(f64::INFINITY)
 }

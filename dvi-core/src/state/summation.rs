@@ -83,8 +83,8 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
         x.copy_from_slice(sum);
     }
 
-    /// Moves `x` by an increment in two parts, of which the second is below the rounding of the first, if the
-    /// sum is finite.
+    /// Moves `x` by an increment in two parts, of which the second is below the rounding of the first, if
+    /// the sum is finite.
     #[inline(never)]
     pub(crate) fn move_by(
         &mut self,

@@ -7,7 +7,8 @@ use crate::system::System;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no constraints and no impacts",
     label = "its attribute has none of `constraint`, `nonholonomic` and `impact`",
-    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`"
+    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`, and \
+        degenerate ones by `Sigma` or `OneStep`"
 )]
 pub trait ConstrainedSystem: System {
     /// The space of the Lagrange multipliers λ: one for each constraint, or for each surface of impacts.

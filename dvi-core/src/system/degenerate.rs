@@ -22,8 +22,10 @@ use crate::{Real, Scalar};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a degenerate system, and this is for systems with `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
-    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`",
-    note = "those with constraints by `Constrained`, with impacts by `Impacts`, with rotations or unit vectors by `Geodesic`"
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, \
+        `Gauss` or `RungeKutta`",
+    note = "those with constraints by `Constrained`, with impacts by `Impacts`, with rotations or unit \
+        vectors by `Geodesic`"
 )]
 pub trait DegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degenerate> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
@@ -147,10 +149,13 @@ pub trait TimeTransformed<T: Scalar = f64>: Lagrangian<T> + System<Kind = Degene
 /// The attribute implements it where the formula of α shows that. The class is a property of the formula: α
 /// and α + dF have the same motion, and one may be in the class and the other not.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a degenerate system, and one-step schemes are for systems with `#[degenerate_lagrangian]`",
+    message = "`{Self}` is not a degenerate system, and one-step schemes are for systems with \
+        `#[degenerate_lagrangian]`",
     label = "its Lagrangian is regular, a parameter is no number, or it has no attribute",
-    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, `Gauss` or `RungeKutta`",
-    note = "those with constraints by `Constrained`, with impacts by `Impacts`, with rotations or unit vectors by `Geodesic`"
+    note = "regular systems, with `#[lagrangian]`, are stepped by `Variational`, `Galerkin`, `Newmark`, \
+        `Gauss` or `RungeKutta`",
+    note = "those with constraints by `Constrained`, with impacts by `Impacts`, with rotations or unit \
+        vectors by `Geodesic`"
 )]
 pub trait ProperlyDegenerate<T: Scalar = f64>: DegenerateLagrangian<T> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).

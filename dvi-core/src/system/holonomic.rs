@@ -36,7 +36,8 @@ use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, Same,
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no constraints of positions in `{T}`",
     label = "its attribute has no `constraint`, or a parameter is no number",
-    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`",
+    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`, \
+        and degenerate ones by `Sigma` or `OneStep`",
     note = "systems with `nonholonomic = …` are stepped by `Constrained` around `Variational`"
 )]
 pub trait HolonomicLagrangian<T: Scalar = f64>:

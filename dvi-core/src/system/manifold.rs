@@ -10,7 +10,8 @@ pub(crate) const TOLERANCE: f64 = 4096.0;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system with rotations or unit vectors",
     label = "its Lagrangian is degenerate, or none of its coordinates is declared as `R: SO3` or `s: S2`",
-    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`"
+    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`, and \
+        degenerate ones by `Sigma` or `OneStep`"
 )]
 pub trait ManifoldSystem: System {
     /// The space of tangent vectors.
@@ -52,8 +53,10 @@ pub trait ManifoldSystem: System {
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system with rotations or unit vectors in `{T}`",
-    label = "its Lagrangian is degenerate, none of its coordinates is declared as `R: SO3` or `s: S2`, or a parameter is no number",
-    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`"
+    label = "its Lagrangian is degenerate, none of its coordinates is declared as `R: SO3` or `s: S2`, \
+        or a parameter is no number",
+    note = "regular systems without these are stepped by `Variational`, `Galerkin` or `Newmark`, and \
+        degenerate ones by `Sigma` or `OneStep`"
 )]
 pub trait ManifoldLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ManifoldSystem + System<Kind = Manifold>

@@ -19,7 +19,8 @@ use crate::system::{ConstrainedSystem, NondegenerateLagrangian, Nonholonomic, Sy
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no nonholonomic constraints in `{T}`",
     label = "its attribute has no `nonholonomic`, or a parameter is no number",
-    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`"
+    note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`, \
+        and degenerate ones by `Sigma` or `OneStep`"
 )]
 pub trait NonholonomicLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind = Nonholonomic>

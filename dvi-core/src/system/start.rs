@@ -106,8 +106,8 @@ fn coordinate<S: System>(system: &S, place: usize) -> Option<Name> {
 ///
 /// # Errors
 /// [`StartError::Outside`] where that is because a function that holds data is not known; else
-/// [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, the applied force,
-/// ∂L/∂q, which is −∇H for one, and the energy that is not.
+/// [`StartError::Undefined`] names the first of ∂L/∂v, which is α for a degenerate system, the applied
+/// force, ∂L/∂q, which is −∇H for one, and the energy that is not.
 pub(crate) fn evaluate<S: Lagrangian<T>, T: Real>(
     system: &S,
     q: &[T],

@@ -35,7 +35,8 @@ use crate::system::{ConstrainedSystem, NondegenerateLagrangian, Same, System, Un
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no impacts in `{T}`",
     label = "its attribute has no `impact`, or a parameter is no number",
-    note = "regular systems without impacts are stepped by `Variational`, `Galerkin` or `Newmark`, and degenerate ones by `Sigma` or `OneStep`"
+    note = "regular systems without impacts are stepped by `Variational`, `Galerkin` or `Newmark`, and \
+        degenerate ones by `Sigma` or `OneStep`"
 )]
 pub trait UnilateralLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind = Unilateral>

@@ -57,7 +57,8 @@ impl Calls {
         self.count += 1;
         if self.count > MOST_CALLS {
             let message = format!(
-                "the functions of these formulas are called more than {MOST_CALLS} times, terms of sums over components included"
+                "the functions of these formulas are called more than {MOST_CALLS} times, terms of sums \
+                 over components included"
             );
             errors.push_once("calls", call, message);
             return None;

@@ -342,7 +342,8 @@ impl Lowering<'_> {
         let message = match (is_grid, found) {
             (false, _) => format!("`{name}` takes one index"),
             (true, 1) => format!(
-                "`{name}` takes two indices: write `{name}[i][j]`; rows that are vectors have a literal for their length, as \
+                "`{name}` takes two indices: write `{name}[i][j]`; rows that are vectors have a literal for \
+                 their length, as \
                  `{name}[n][3]`"
             ),
             (true, _) => format!("`{name}` takes two indices; {}", here(found)),

@@ -214,7 +214,8 @@ impl Lowering<'_> {
             // What was declared may be no vector.
             if !self.model.lost_coordinates {
                 let message = format!(
-                    "a component has a literal for its index, as in `{name}[0]`, or that of a sum over literals, as in \
+                    "a component has a literal for its index, as in `{name}[0]`, or that of a sum over \
+                 literals, as in \
                      `sum(0..{count}, |k| {name}[k])`"
                 );
                 self.errors.push(index, message);

@@ -1,8 +1,8 @@
 //! Rotations and unit vectors of regular systems, in the oracle: all of their entries are coordinates.
 //!
 //! A rotation is nine numbers, row by row, as the blocks of an array of vectors or as one block. Its angular
-//! velocity has the first three of their places. Derivatives are those of the formulas, as if all entries were
-//! independent.
+//! velocity has the first three of their places. Derivatives are those of the formulas, as if all entries
+//! were independent.
 
 use super::formula::Index;
 use super::system::System;

@@ -71,7 +71,8 @@ pub(crate) enum Relation {
     LessOrEqual,
     Greater,
     GreaterOrEqual,
-    /// Greater, as of a number of terms; the compiler makes it, so that there is no other branch to check.
+    /// Greater, in a branch that the compiler makes: of a number of terms that is not zero, or of a value
+    /// that is finite. The other is zero, and no seam lies between them.
     HasMore,
 }
 

@@ -191,7 +191,8 @@ impl Parse for Declaration {
         }
         if !input.is_empty() {
             return Err(input.error(
-                "a coordinate is declared as `x`, `x[n]`, `r[n][3]`, `q[n][m]`, `R: SO3`, `s: S2` or `s[n]: S2`, and followed by `,`",
+                "a coordinate is declared as `x`, `x[n]`, `r[n][3]`, `q[n][m]`, `R: SO3`, `s: S2` or \
+                 `s[n]: S2`, and followed by `,`",
             ));
         }
         Ok(declared)

@@ -77,7 +77,8 @@ impl Measured<'_> {
             panel = panel.line(points.clone(), stroke).labelled(method).dots(points, 2.4, stroke.colour());
         }
         let Problem { title, name, .. } = self.problem;
-        let subtitle = "Medians of interleaved runs; the energy is looked at after each step of a run that is not timed";
+        let subtitle = "Medians of interleaved runs; the energy is looked at after each step of a run that \
+                        is not timed";
         let figure = Figure::of(subtitle).titled(&format!("Accuracy against cost: {title}"));
         figure.row(620.0, vec![panel]).save(folder, &format!("accuracy-{name}"))
     }

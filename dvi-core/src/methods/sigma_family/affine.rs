@@ -146,9 +146,9 @@ where
     const IS_LONG: bool = !COMPENSATED && !<S::Space as Space>::ON_STACK;
 
     /// Sets s to that of the number next to q_σ, and `left_out` to what it lacks since the node of its
-    /// gradient is that number. Near the middle of two numbers either of them has an s that leads back to it,
-    /// and which of them an iteration finds depends on the side that it comes from, the same in all steps.
-    /// How many gradients that takes: two in some of 50 steps, and else one.
+    /// gradient is that number. Near the middle of two numbers either of them has an s that leads back to
+    /// it, and which of them an iteration finds depends on the side that it comes from, the same in all
+    /// steps. Returns how many gradients that takes: three where the iteration has found the other, or one.
     fn refine(&mut self, left_out: &mut [T]) -> u64 {
         self.set_left_out(left_out);
         let Self { step, inverse, q, part, increment: s, trial, weights: node, point, gradient, .. } = self;

@@ -65,9 +65,10 @@ const STRETCH: f64 = 1.01;
 /// jump or a kink in a term of a sum or in a function of your own, or the knot of a spline, makes steps short
 /// where the motion meets it, and the error falls with the tolerance there too: on four motions with seams
 /// within sums, at 10⁻⁶ to 10⁻¹², it was within the same bounds as that of the twelve
-/// (`tests/tests/error_control/sums.rs`). What comes and goes between two of these points is not seen. A step is at most twice as long as the one before; but on a body at rest
-/// or in free motion steps become longer without end: a pulse that such a function gives there needs its
-/// times among the [`breaks`](Self::breaks), or a [`longest_step`](Self::longest_step).
+/// (`tests/tests/error_control/sums.rs`). What comes and goes between two of these points is not seen. A
+/// step is at most twice as long as the one before; but on a body at rest or in free motion steps become
+/// longer without end: a pulse that such a function gives there needs its times among the
+/// [`breaks`](Self::breaks), or a [`longest_step`](Self::longest_step).
 ///
 /// ```
 /// use core::f64::consts::TAU;

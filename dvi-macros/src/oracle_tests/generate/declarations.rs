@@ -129,6 +129,7 @@ fn fields(random: &mut Random, sizes: &[Size], width: usize) -> Vec<Field> {
 
 /// Coordinates with vectors among them; `of` is the size with their number of components.
 fn vectors(random: &mut Random, regular: bool, width: usize, of: usize) -> Vec<Block> {
+    assert_ne!(width, SPINOR, "a block of so many components is a spinor");
     let block = |name, size, axis| Block { name, size, axis, factor: Factor::Line };
     let array = |name, size| (0..width).map(move |axis| block(name, Some(size), Some([axis, width])));
     let whole = |name| block(name, Some(of), None);
