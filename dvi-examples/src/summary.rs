@@ -7,7 +7,6 @@ use anyhow::{Context as _, Result};
 use askama::Template as _;
 
 use crate::claim::{Check, Claim, VERDICTS};
-use crate::experiments::title;
 use crate::job::Length;
 use crate::record::Part;
 
@@ -15,10 +14,14 @@ use crate::record::Part;
 #[template(path = "summary.md")]
 struct Summary<'a> {
     parts: &'a [Part],
+    title: Title,
 }
 
-pub fn markdown(parts: &[Part]) -> Result<String> {
-    Summary { parts }.render().context("the summary cannot be written")
+/// The sentence on what an experiment shows, by its name.
+pub type Title = fn(&str) -> &'static str;
+
+pub fn markdown(parts: &[Part], title: Title) -> Result<String> {
+    Summary { parts, title }.render().context("the summary cannot be written")
 }
 
 impl Summary<'_> {
@@ -72,9 +75,10 @@ mod tests {
 
     #[test]
     fn a_summary_tells_verdicts_and_numbers_of_parts_of_both_forms() -> Result<()> {
-        let page = markdown(&[Length::Short, Length::Full].map(part))?;
+        let page = markdown(&[Length::Short, Length::Full].map(part), |_| "A title")?;
         for wanted in [
             "The full form, experiments: 1. ",
+            "## sample: A title\n",
             "The short form, experiments: 1. Claims of the papers: reproduced 1, fails 1; claims beyond \
              them: holds 1, undecided 1; regression checks: passes 1.",
             "The short form, today.\n",

@@ -145,6 +145,13 @@ fn the_main_job_is_that_of_the_papers() {
     assert!(names.contains("fig5-chaotic.svg") && !names.contains("friction.svg"), "{names:?}");
     let place = |name: &str| messages.find(&format!("\n{name} ")).expect("it ended");
     assert!(place("order") < place("kepler-long"), "{messages}");
+    let printed = |table: &str| {
+        let claims = verdicts(table).into_keys().filter(|[_, place, _]| place != "beyond the paper");
+        claims.collect::<BTreeSet<_>>()
+    };
+    let table = fs::read_to_string(folder.path().join("summary.csv")).expect("readable");
+    let (claims, all) = (printed(&table), printed(include_str!("../../full-run.csv")));
+    assert!(claims == all && claims.len() >= 30, "{} of {}", claims.len(), all.len());
 }
 
 #[test]
