@@ -29,7 +29,8 @@ pub use states_at::StatesAt;
 /// costs little: it is kept before each step while states are asked for, and else once in up to 64 steps,
 /// which are then taken again.
 ///
-/// What can be read of the run is read here too, by `Deref`. `R` is a run, or borrows one by `&mut`.
+/// What can be read of the run is read here too, by `Deref`. `R` is a run, or borrows one by `&mut`, as
+/// [`Run::dense`] does. A run by itself keeps no point but the present one.
 ///
 /// ```
 /// use dvi_core::prelude::*;
@@ -38,11 +39,12 @@ pub use states_at::StatesAt;
 /// struct Oscillator;
 ///
 /// let start = OscillatorState { x: 1.0, dot_x: 0.0 };
-/// let mut run = Integrator::new(&Oscillator, Gauss::<3>::new(), 0.1, start)?;
-/// let mut dense = run.dense()?;
-/// dense.advance_to(0.75)?;
-/// assert_eq!(dense.steps(), 8);
-/// assert!((dense.state_at(0.75)?.x - 0.75_f64.cos()).abs() < 1e-9);
+/// let mut run = Dense::new(Integrator::new(&Oscillator, Gauss::<3>::new(), 0.1, start)?)?;
+/// run.advance_to(0.75)?;
+/// assert_eq!(run.steps(), 8);
+/// for t in [0.75, 0.72, 0.8] {
+///     assert!((run.state_at(t)?.x - t.cos()).abs() < 1e-9);
+/// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Dense<R: Run> {
