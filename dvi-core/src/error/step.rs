@@ -384,10 +384,6 @@ pub struct StepError {
 const _: () = assert!(size_of::<StepFailure>() <= 40);
 
 impl StepFailure {
-    /// A matrix is asked for that is not made for systems of this class.
-    pub(crate) const NO_MATRIX: Self =
-        Self::Singular { matrix: Self::DISCRETE_LAGRANGIAN, column: 0, pivot: f64::NAN };
-
     pub(crate) const DISCRETE_LAGRANGIAN: &'static str = "the matrix D₁D₂L_d of the discrete Lagrangian";
     pub(crate) const MASS: &'static str = "the mass matrix";
     pub(crate) const OMEGA: &'static str = "Ω = −dα";
