@@ -345,7 +345,7 @@ pub enum StepFailure {
     /// that is too long.
     #[error("{}", Of(self, None))]
     NotFinite {
-        /// The flat index of the coordinate; a [`StepError`] has its name.
+        /// The flat index of the coordinate; a [`StepError`](crate::error::StepError) has its name.
         coordinate: usize,
         /// Its value.
         value: f64,
