@@ -11,8 +11,8 @@ use crate::space::linear::{scale, set_scales};
 use crate::space::sink::{Places, Sink};
 use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
 
-/// M and M⁻¹. Where M is not constant, the unit matrix stands here, which is right for a fixed point alone: one
-/// that converges has the same limit with any matrix.
+/// M and M⁻¹. Where M is not constant, the unit matrix stands here, which is right for a fixed point alone:
+/// one that converges has the same limit with any matrix.
 #[derive(Debug)]
 pub(crate) struct Mass<S: System, T: Real> {
     /// The diagonal of M, and one over it; no numbers if M is not diagonal.

@@ -1,5 +1,5 @@
-//! The bodies of generated functions: each cuts its flat slices into one slice per coordinate block, and runs
-//! what [`Emitter`] writes:
+//! The bodies of generated functions: each cuts its flat slices into one slice per coordinate block, and
+//! runs what [`Emitter`] writes:
 //! ```text
 //! fn hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
 //!     let (__q0, __rest) = __q.split_at(N);

@@ -4,8 +4,8 @@ use super::{Course, Judge, LARGE, MOST_IN_VAIN, Verdict};
 use crate::Real;
 
 /// The judge that gives up where an iterate is to be put to the test, or its sizes are to be taken again:
-/// what it takes to do that costs a short step a tenth of its instructions. A [`Convergence`](super::Convergence) judges the
-/// step again then.
+/// what it takes to do that costs a short step a tenth of its instructions. A
+/// [`Convergence`](super::Convergence) judges the step again then.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quick<T>(Course<T>);
 
