@@ -1,12 +1,14 @@
 //! Failures as values: small, `Copy`, with the numbers in them.
 
+mod failure;
 mod step;
 
 use thiserror::Error;
 
 use crate::name::{Along, Argument, InArray, Name};
 
-pub use step::{StepError, StepFailure};
+pub use failure::StepFailure;
+pub use step::StepError;
 
 /// Errors whose `Debug` is their sentence, which is what `main` prints of an error that it returns, and
 /// `expect` too.

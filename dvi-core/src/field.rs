@@ -27,11 +27,15 @@ mod basis;
 mod interpolation;
 #[cfg(feature = "alloc")]
 mod spline;
+#[cfg(feature = "alloc")]
+mod table;
 
 #[cfg(feature = "alloc")]
 pub use axis::{Axis, AxisError};
 #[cfg(feature = "alloc")]
-pub use spline::{Spline, SplineError};
+pub use spline::Spline;
+#[cfg(feature = "alloc")]
+pub use table::SplineError;
 
 use crate::Scalar;
 

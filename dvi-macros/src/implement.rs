@@ -1,25 +1,13 @@
-//! The trait implementations, from the programs of a system.
-//!
-//! Each generated function cuts its flat slices into one slice per coordinate block, and runs the
-//! body that [`Emitter`] writes:
-//! ```text
-//! fn hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
-//!     let (__q0, __rest) = __q.split_at(N);
-//!     let (__q1, __rest) = __rest.split_at(N);
-//!     __vector.fill(__T::lift(-0.0));
-//!     …
-//! }
-//! ```
+//! The trait implementations, from the programs of a system: those that the systems of both attributes have.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote, quote_spanned};
+use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{Generics, Ident, Path, parse_quote};
 
 use crate::emit::inlining::ForceInline;
-use crate::emit::{Emitter, local, output_block, own_function, scalar_field};
+use crate::emit::{Emitter, own_function, scalar_field};
 use crate::program::Programs;
-use crate::routine::Routine;
 use crate::statement::Output;
 use crate::symbolic::Node;
 use crate::syntax::{Constrained, Kind};
@@ -33,6 +21,7 @@ mod manifold;
 mod packable;
 mod pairs;
 mod regular;
+mod slices;
 mod state;
 
 pub(crate) use degenerate::degenerate;
@@ -42,86 +31,6 @@ pub(crate) use state::{Names, State, state};
 
 /// A function of this many instructions at most is inlined wherever it is called.
 const SHORT: usize = 128;
-
-/// Which inputs a statement list reads.
-struct Inputs {
-    q: bool,
-    v: bool,
-}
-
-impl Emitter<'_> {
-    fn inputs(&self, routine: &Routine) -> Inputs {
-        let mut inputs = Inputs { q: false, v: false };
-        for id in self.graph.reachable(routine.statements.iter().map(|statement| statement.value.node)) {
-            match self.graph.node(id) {
-                Node::Coordinate(_) => inputs.q = true,
-                Node::Velocity(_) => inputs.v = true,
-                _ => {}
-            }
-        }
-        inputs
-    }
-
-    /// One slice for each block of coordinates.
-    fn split(&self, array: &str, block_name: impl Fn(u32) -> String, method: &str) -> TokenStream {
-        let parts = (0..self.model.blocks.len()).map(|block| {
-            let name = block_name(block as u32);
-            (local(name.trim_start_matches('_')), self.index(&self.model.block_size(block)))
-        });
-        split(&format_ident!("__{array}"), parts, method)
-    }
-
-    fn read(&self, routine: &Routine) -> TokenStream {
-        let inputs = self.inputs(routine);
-        let q = inputs.q.then(|| self.split("q", |block| format!("q{block}"), "split_at"));
-        let v = inputs.v.then(|| self.split("v", |block| format!("v{block}"), "split_at"));
-        quote!(#q #v)
-    }
-
-    fn output(&self, array: &str, output: Output) -> TokenStream {
-        let krate = self.krate();
-        let split = self.split(array, |block| output_block(output, block), "split_at_mut");
-        let array = format_ident!("__{array}");
-        quote!(#array.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
-    }
-
-    /// The number of the first coordinate of each block.
-    fn offsets(&self) -> TokenStream {
-        let mut offset = crate::symbolic::Index::default();
-        let mut tokens = TokenStream::new();
-        for block in 0..self.model.blocks.len() {
-            let (name, value) = (local(format_args!("offset{block}")), self.index(&offset));
-            tokens.extend(quote!(let #name: ::core::primitive::usize = #value;));
-            offset = offset.plus(&self.model.block_size(block), 1);
-        }
-        tokens
-    }
-
-    /// The body of a function that returns a value.
-    fn value(&self, routine: &Routine) -> TokenStream {
-        let (read, body) = (self.read(routine), self.body(routine));
-        quote!(#read #body)
-    }
-
-    /// The body of a function that sets one vector.
-    fn vector(&self, routine: &Routine) -> TokenStream {
-        let (read, output) = (self.read(routine), self.output("vector", Output::Vector));
-        let body = self.body(routine);
-        quote!(#read #output #body)
-    }
-}
-
-/// `let (__q0, __rest) = __q.split_at(n0); …`
-fn split(array: &Ident, parts: impl Iterator<Item = (Ident, TokenStream)>, method: &str) -> TokenStream {
-    let (method, rest) = (format_ident!("{method}"), local("rest"));
-    let mut from = array;
-    let mut tokens = TokenStream::new();
-    for (name, size) in parts {
-        tokens.extend(quote!(let (#name, #rest) = #from.#method(#size);));
-        from = &rest;
-    }
-    quote!(#tokens let _ = #rest;)
-}
 
 /// The item as written with its documentation continued, its state, and its implementations: the one
 /// that all systems have, where `energy` is the body of that function, and `special`.

@@ -1,9 +1,13 @@
 //! Steps on holonomic constraints.
 
 mod equations;
+mod failing;
 mod light;
 mod orders;
 mod redundant;
 mod starts;
 
 use dvi_tests::Outcome;
+use dvi_tests::zoo::constrained::Pendulum;
+
+const PENDULUM: Pendulum = Pendulum { m: 1.0, g: 1.0, length: 1.0 };

@@ -11,7 +11,8 @@ use crate::space::linear::{scale, set_scales};
 use crate::space::sink::{Places, Sink};
 use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
 
-/// M and M⁻¹.
+/// M and M⁻¹. Where M is not constant, the unit matrix stands here, which is right for a fixed point alone:
+/// one that converges has the same limit with any matrix.
 #[derive(Debug)]
 pub(crate) struct Mass<S: System, T: Real> {
     /// The diagonal of M, and one over it; no numbers if M is not diagonal.
@@ -32,15 +33,19 @@ struct Coupled<S: System, T: Real> {
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
-    /// Of a `system` with a constant M, which does not depend on the point (`q`, `t`) at which it is
-    /// evaluated.
+    /// Of a `system`; a constant M does not depend on the point (`q`, `t`) at which it is evaluated.
     ///
     /// # Errors
     /// [`StepFailure::Singular`].
     pub(crate) fn new(system: &S, q: &[T], t: T) -> Result<Self, StepFailure> {
+        const { assert!(S::UNIFORM_MASS || !(S::CONSTANT_MASS || S::SEPARABLE)) };
         let space = system.space();
         let [mut v, mut l_q, mut l_v, mut masses]: [Vector<S, T>; 4] = space.vectors();
         let zero = T::lift(0.0);
+        if !S::UNIFORM_MASS {
+            v.fill(T::lift(1.0));
+            return Ok(Self { masses: v.clone(), reciprocals: v, coupled: None });
+        }
         if S::DIAGONAL_MASS {
             if S::CONSTANT_MASS {
                 v.fill(T::lift(1.0));
@@ -85,10 +90,10 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors, scales }) })
     }
 
-    /// 1/m of each coordinate, if M is diagonal.
+    /// 1/m of each coordinate, if M is constant and diagonal.
     #[inline]
     pub(crate) fn reciprocals(&self) -> Option<&[T]> {
-        S::DIAGONAL_MASS.then_some(&*self.reciprocals)
+        (S::UNIFORM_MASS && S::DIAGONAL_MASS).then_some(&*self.reciprocals)
     }
 
     /// x·M x, if M is diagonal and positive.

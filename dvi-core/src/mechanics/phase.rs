@@ -1,15 +1,11 @@
 //! Where a run on T*Q is, and what its next step is guessed from: all that a checkpoint needs besides the
 //! coordinates.
 
-#[cfg(feature = "alloc")]
-use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::memory::{Memory, lasting};
-#[cfg(feature = "alloc")]
-use crate::memory::{Reader, Record};
 use crate::scalar::norm;
 use crate::state::history::History;
 use crate::state::rates::is_similar;
@@ -76,12 +72,13 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
 
     /// Sets `increment` to the guess of Δ for a step of length `h`: extrapolated from the steps before if
     /// they had about this length; else that of a free motion with `momentum`, where the mass matrix is
-    /// known.
+    /// constant.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn guess(&self, mass: Option<&Mass<S, T>>, momentum: &[T], h: T, increment: &mut [T]) {
-        match mass {
-            Some(mass) if !self.extrapolates_to(h) => mass.solve(momentum, increment),
-            _ => self.history.extrapolate(increment),
+    pub(crate) fn guess(&self, mass: &Mass<S, T>, momentum: &[T], h: T, increment: &mut [T]) {
+        if S::CONSTANT_MASS && !self.extrapolates_to(h) {
+            mass.solve(momentum, increment);
+        } else {
+            self.history.extrapolate(increment);
         }
         for delta in increment {
             *delta *= h;
@@ -186,11 +183,11 @@ impl<S: System, T: Real> Memory<T> for PhasePoint<S, T> {
 
 /// The mass matrix ∂²L/∂v∂v of a run.
 #[derive(Debug)]
-pub(crate) enum Inertial<S: System, T: Real> {
-    /// p = M v with a constant M.
-    Constant(Mass<S, T>),
-    /// It depends on the state; its orientation is watched.
-    Varying(MassOrientation<S, T>),
+pub(crate) struct Inertial<S: System, T: Real> {
+    /// p = M v, if M is constant.
+    pub(crate) mass: Mass<S, T>,
+    /// That of an M that depends on the state, which is watched.
+    orientation: Option<MassOrientation<S, T>>,
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
@@ -199,21 +196,11 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
     /// # Errors
     /// [`StartError::Starter`] where the matrix is singular.
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Result<Self, StartError> {
-        let new = if S::CONSTANT_MASS {
-            Mass::new(system, q, t).map(Self::Constant)
-        } else {
-            MassOrientation::new(system, q, v, t).map(Self::Varying)
-        };
-        new.map_err(StartError::Starter)
-    }
-
-    /// The matrix, if it is the same everywhere.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn constant(&self) -> Option<&Mass<S, T>> {
-        match self {
-            Self::Constant(mass) => Some(mass),
-            Self::Varying(_) => None,
-        }
+        let orientation = (!S::CONSTANT_MASS).then(|| MassOrientation::new(system, q, v, t)).transpose();
+        Ok(Self {
+            orientation: orientation.map_err(StartError::Starter)?,
+            mass: Mass::new(system, q, t).map_err(StartError::Starter)?,
+        })
     }
 
     /// Whether the matrix has kept its orientation at (`q`, `t`), which was reached with Δ = `increment`;
@@ -229,13 +216,16 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
         [t, h]: [T; 2],
         velocity: &mut [T],
     ) -> Result<(), StepFailure> {
-        // The same matrix everywhere has the same orientation: then the rest is not compiled.
-        let (false, Self::Varying(orientation)) = (S::CONSTANT_MASS, self) else { return Ok(()) };
-        let per_h = T::lift(1.0) / h;
-        for (v, &delta) in velocity.iter_mut().zip(increment) {
-            *v = delta * per_h;
+        if !S::CONSTANT_MASS
+            && let Some(orientation) = &mut self.orientation
+        {
+            let per_h = T::lift(1.0) / h;
+            for (v, &delta) in velocity.iter_mut().zip(increment) {
+                *v = delta * per_h;
+            }
+            orientation.check(system, q, velocity, t)?;
         }
-        orientation.check(system, q, velocity, t)
+        Ok(())
     }
 
     /// Sets `v` to the velocity with ∂L/∂v = p at (`q`, `t`).
@@ -250,36 +240,15 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
         t: T,
         v: &mut [T],
     ) -> Result<(), StepFailure> {
-        match self {
-            Self::Constant(mass) => {
-                mass.solve(&phase.p, v);
-                Ok(())
-            }
-            Self::Varying(_) => {
-                phase.history.extrapolate(v);
-                Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v, S::QUADRATIC)
-            }
+        if S::CONSTANT_MASS {
+            self.mass.solve(&phase.p, v);
+            return Ok(());
         }
+        phase.history.extrapolate(v);
+        Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v, S::QUADRATIC)
     }
 }
 
 impl<S: System, T: Real> Memory<T> for Inertial<S, T> {
-    fn restore(&mut self, from: &Self) {
-        if let (Self::Varying(orientation), Self::Varying(from)) = (self, from) {
-            orientation.restore(from);
-        }
-    }
-    #[cfg(feature = "alloc")]
-    fn save(&self, record: &mut Record<T>) {
-        if let Self::Varying(orientation) = self {
-            orientation.save(record);
-        }
-    }
-    #[cfg(feature = "alloc")]
-    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        match self {
-            Self::Constant(_) => Ok(()),
-            Self::Varying(orientation) => orientation.load(reader),
-        }
-    }
+    lasting!(T; parts orientation);
 }

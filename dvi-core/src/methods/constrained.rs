@@ -6,12 +6,14 @@
 //! 0, A is ∂g/∂q, and g(q1) = 0 and A(q1) v1 + ∂g/∂t = 0; of those of velocities, A v + b = 0, what vanishes
 //! is A Δ + h b in the middle of the step and A(q1) v1 + b.
 
+mod impulses;
+
 use crate::discrete::{self, DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::constraints::turning::Gradients;
 use crate::mechanics::constraints::{
-    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, OfStep, Tangent,
+    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, OfStep, Tangent,
 };
 use crate::mechanics::orientation::MassOrientation;
 use crate::memory::{Memory, lasting};
@@ -25,6 +27,8 @@ use crate::state::summation::Summation;
 use crate::system::Same;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
+
+pub(super) use impulses::Impulses;
 
 /// The step of a variational method for systems with constraints, of positions by `constraint = …` or of
 /// velocities by `nonholonomic = …`. The method is [`Variational`](crate::methods::Variational) with any
@@ -124,13 +128,6 @@ struct Place<S: ConstrainedSystem, T: Real> {
     impulses: Impulses<S, T>,
 }
 
-/// The impulses of the constraints at both ends of a step.
-#[derive(Debug)]
-pub(super) struct Impulses<S: ConstrainedSystem, T: Real> {
-    pub(super) first: Multipliers<S, T>,
-    pub(super) last: Multipliers<S, T>,
-}
-
 /// The end of a step as it is being found.
 #[derive(Debug)]
 struct Arrival<S: ConstrainedSystem, T: Real> {
@@ -146,19 +143,6 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     fn new(system: &S) -> Self {
         let [p, v] = system.space().vectors();
         Self { p, v, impulses: Impulses::new(system) }
-    }
-}
-
-impl<S: ConstrainedSystem, T: Real> Impulses<S, T> {
-    pub(super) fn new(system: &S) -> Self {
-        Self { first: system.multipliers().vector(), last: system.multipliers().vector() }
-    }
-
-    /// λ of a step of length `h`, zero before the first, which has none.
-    pub(super) fn over(&self, h: T) -> impl Iterator<Item = T> + '_ {
-        let zero = T::lift(0.0);
-        let impulses = self.first.iter().zip(self.last.iter());
-        impulses.map(move |(&first, &last)| if h == zero { zero } else { (first + last) / h })
     }
 }
 
@@ -181,10 +165,6 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
         let Impulses { first, last } = &self.here.impulses;
         [first, last]
     }
-}
-
-impl<S: ConstrainedSystem, T: Real> Memory<T> for Impulses<S, T> {
-    lasting!(T; numbers first, numbers last);
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {

@@ -14,7 +14,6 @@
 
 use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::phase::Inertial;
 use crate::memory::{Memory, lasting};
 use crate::methods::step::{Attempt, Begin, Carried, Equations, Share, ladder, set_force};
 use crate::methods::variational::verlet;
@@ -213,10 +212,8 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
         let Step { system, q, t, h, statistics } = step;
         let NewmarkMemory { carried, ladder } = memory;
         let (Self { stopping, summation, .. }, interval) = (*self, Interval { t, h });
-        if let (true, Carried { phase, inertial: Inertial::Constant(mass), work, .. }) =
-            (self.is_explicit(), &mut *carried)
-        {
-            return verlet::step(system, mass, phase, work, q, (interval, summation), statistics);
+        if self.is_explicit() {
+            return verlet::step(system, carried, q, (interval, summation), statistics);
         }
         Attempt { system, interval, stopping, summation, q, carried }.take(
             &mut { *self },

@@ -196,11 +196,10 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             !<S::Space as Space>::ON_STACK,
             #[cfg_attr(not(debug_assertions), inline(always))]
             || {
-                let Some(mass) = inertial.constant() else { return Err(StepFailure::NO_MATRIX) };
-                let begin = Begin { system: *system, interval: *interval, q, phase, mass: Some(mass) };
+                let begin = Begin { system: *system, interval: *interval, q, phase, mass: &inertial.mass };
                 let mut coefficients = equations.begin(&begin, &mut work.node)?;
                 let mut scheme = (equations, &mut coefficients);
-                iterate_by_mass(&mut scheme, (&begin, mass), work, criterion, statistics)?;
+                iterate_by_mass(&mut scheme, &begin, work, criterion, statistics)?;
                 arrive::<PLAIN, _, _, _>(
                     scheme,
                     (*system, *interval),
@@ -224,7 +223,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     ) -> Result<(), StepFailure> {
         let Self { system, interval, stopping, q, carried, .. } = self;
         let Carried { phase, inertial, work } = &mut **carried;
-        let mass = inertial.constant();
+        let mass = &inertial.mass;
         let begin = Begin { system: *system, interval: *interval, q, phase, mass };
         let Work { node, increment, trial, weights, .. } = work;
         let coefficients = &mut equations.begin(&begin, node)?;
@@ -266,7 +265,7 @@ fn arrive<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E: Equation
         set_force(system, next, end, force);
         statistics.gradients += 1;
     }
-    let begin = Begin { system, interval, q, phase, mass: inertial.constant() };
+    let begin = Begin { system, interval, q, phase, mass: &inertial.mass };
     sum.fill(T::lift(0.0));
     let share = Share::Both { force };
     equations.evaluate(&begin, increment, share, (coefficients, node), sum, statistics)?;
@@ -275,7 +274,7 @@ fn arrive<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E: Equation
         for (v, (&q0, &q1)) in node.velocity.iter_mut().zip(q.iter().zip(next.iter())) {
             *v = left * q0 + right * q1;
         }
-        begin.mass()?.multiply_add(T::lift(1.0) / interval.h, &node.velocity, sum);
+        begin.mass.multiply_add(T::lift(1.0) / interval.h, &node.velocity, sum);
     }
     if PLAIN {
         add(&phase.p, sum, &mut node.momentum);

@@ -17,8 +17,7 @@ use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::phase::Inertial;
-use crate::methods::step::{Attempt, Carried};
+use crate::methods::step::Attempt;
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
@@ -202,13 +201,8 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     {
         let Step { system, q, t, h, statistics } = step;
         let VariationalMemory { given, ends, carried, ladder } = memory;
-        if S::SEPARABLE
-            && F::UNFITTED
-            && let (true, Carried { phase, inertial: Inertial::Constant(mass), work, .. }) =
-                (self.is_verlet(), &mut *carried)
-        {
-            let interval = Interval { t, h };
-            return verlet::step(system, mass, phase, work, q, (interval, self.summation), statistics);
+        if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
+            return verlet::step(system, carried, q, (Interval { t, h }, self.summation), statistics);
         }
         let Self { stopping, summation, .. } = *self;
         let step = Attempt { system, interval: Interval { t, h }, stopping, summation, q, carried };
@@ -294,14 +288,9 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
 
     #[inline]
     fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        let Carried { phase, inertial, work, .. } = &mut memory.carried;
-        let is_plain = self.summation == Summation::Plain;
-        if S::SEPARABLE
-            && F::UNFITTED
-            && let (true, Inertial::Constant(mass)) = (self.is_verlet() && is_plain, &*inertial)
-        {
+        if S::SEPARABLE && F::UNFITTED && self.is_verlet() && self.summation == Summation::Plain {
             let Steps { system, q, clock, count, statistics } = steps;
-            let (taken, result) = verlet::steps(system, mass, phase, work, q, clock, count);
+            let (taken, result) = verlet::steps(system, &mut memory.carried, q, clock, count);
             statistics.gradients += taken;
             statistics.steps += taken;
             result

@@ -19,6 +19,7 @@
 //! each row of its matrix K, where sⱼ are the sizes of the coordinates: that is the relative error of the
 //! equations that the iterate solves (Oettli & Prager 1964).
 
+mod quick;
 mod together;
 
 use super::sizes::Due;
@@ -27,6 +28,7 @@ use crate::error::{StartError, StepFailure};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 
+pub(crate) use quick::Quick;
 pub(crate) use together::Convergences;
 
 /// The criterion by which an iteration is done.
@@ -165,60 +167,6 @@ pub(crate) struct Convergence<T> {
     kept: T,
     /// The smallest correction of a fixed point.
     least: T,
-}
-
-/// The judge that gives up where an iterate is to be put to the test, or its sizes are to be taken again:
-/// what it takes to do that costs a short step a tenth of its instructions. A [`Convergence`] judges the
-/// step again then.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Quick<T>(Course<T>);
-
-impl<T: Real> Judge<T> for Quick<T> {
-    const NAMES: bool = false;
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn of(course: Course<T>) -> Self {
-        Self(course)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn judge(&mut self, correction: T) -> Verdict {
-        let course = &mut self.0;
-        let shrunk = course.take(correction) - correction;
-        if correction <= course.tolerance {
-            return Verdict::Accept;
-        }
-        // The first correction comes after none and does not shrink, which takes 27 instructions less from a
-        // loop of many iterations than to ask; of Newton's method the compiler takes the first apart.
-        let is_first = course.iterations == 1;
-        let is_alone = is_first && !course.is_fixed_point;
-        if !is_alone && correction * correction < course.tolerance * shrunk {
-            return Verdict::Accept;
-        }
-        if is_alone || !course.is_shrinking(shrunk) {
-            // What is not a number is not small.
-            let is_small = correction <= T::lift(LARGE);
-            if !is_small {
-                return Verdict::GiveUp;
-            }
-            if !is_first {
-                if course.is_noise() {
-                    return Verdict::Accept;
-                }
-                // Newton's method does not creep, but by rounding errors.
-                course.in_vain += usize::from(shrunk <= T::lift(0.0) || !course.is_fixed_point);
-                if course.in_vain > MOST_IN_VAIN {
-                    return Verdict::GiveUp;
-                }
-            }
-        }
-        course.go_on()
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn course(&mut self) -> &mut Course<T> {
-        &mut self.0
-    }
 }
 
 /// How many iterations of Newton's method after the last bring derivatives of up to third order: each

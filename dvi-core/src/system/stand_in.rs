@@ -140,7 +140,7 @@ impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> AffineOneForm<T> for S {
 
 impl<const W: usize, S: StandIn> Packable<W> for S {
     type Packed = Self;
-    fn packed<R>(_systems: &[&Self; W], _f: impl FnOnce(&Self) -> R) -> R {
-        unreachable!()
+    fn packed<R>(systems: &[&Self; W], f: impl FnOnce(&Self) -> R) -> R {
+        f(systems[0])
     }
 }

@@ -20,7 +20,7 @@ impl Emitter<'_> {
             constraints.lengths.iter().enumerate().map(|(constraint, length)| {
                 (local(constraint_members(constraint as u32)), self.length(length))
             });
-        let split = super::split(&format_ident!("__g"), parts, "split_at_mut");
+        let split = super::slices::split(&format_ident!("__g"), parts, "split_at_mut");
         quote!(__g.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
     }
 

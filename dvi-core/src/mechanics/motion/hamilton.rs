@@ -2,16 +2,12 @@
 
 use super::stages::one_by_one;
 use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
-#[cfg(feature = "alloc")]
-use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::memory::{Memory, lasting};
-#[cfg(feature = "alloc")]
-use crate::memory::{Reader, Record};
 use crate::scalar::{Lanes, norm};
 use crate::space::sink::Product;
 use crate::space::{LinearEquations, LinearSolver, Storing};
@@ -27,29 +23,18 @@ use crate::{
 pub struct HamiltonsEquations<S: System, T: Real> {
     /// p at the present point.
     p: Vector<S, T>,
-    inverse: Velocities<S, T>,
-}
-
-/// What finds the velocity that belongs to a momentum.
-#[derive(Debug)]
-enum Velocities<S: System, T: Real> {
-    /// p = M v + a(q, t) with a constant M.
-    Uniform(Uniform<S, T>),
-    Varying(Transform<S, T>),
-}
-
-/// A constant mass matrix, beside terms of L that are linear in v.
-#[derive(Debug)]
-struct Uniform<S: System, T: Real> {
+    /// p = M v + a(q, t), if M is constant.
     mass: Mass<S, T>,
     /// No velocity: p is a(q, t) there.
     rest: Vector<S, T>,
+    /// That of an M that depends on the state.
+    transform: Option<Transform<S, T>>,
 }
 
-impl<S: NondegenerateLagrangian<T>, T: Real> Uniform<S, T> {
-    /// Sets `v` to M⁻¹(`p` − a).
+impl<S: NondegenerateLagrangian<T>, T: Real> HamiltonsEquations<S, T> {
+    /// Sets `v` to M⁻¹(`p` − a), if M is constant.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn velocity(&self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) {
+    fn divide(&self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) {
         if S::CONSTANT_MASS {
             return self.mass.solve(p, v);
         }
@@ -74,46 +59,8 @@ struct Transform<S: System, T: Real> {
     between: Vector<S, T>,
 }
 
-impl<S: RegularLagrangian<T>, T: Real> Velocities<S, T> {
-    /// Sets `v` to the velocity that belongs to `p`; where it is sought, from the one that stands there.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn velocity(&mut self, system: &S, q: &[T], p: &[T], t: T, v: &mut [T]) -> Result<(), StepFailure> {
-        match self {
-            Self::Uniform(uniform) => uniform.velocity(system, q, p, t, v),
-            // Not compiled where the mass is constant.
-            Self::Varying(Transform { legendre, latest, .. }) if !S::UNIFORM_MASS => {
-                legendre.solve(system, q, p, t, v, S::QUADRATIC)?;
-                latest.copy_from_slice(v);
-            }
-            Self::Varying(_) => return Err(StepFailure::NO_MATRIX),
-        }
-        Ok(())
-    }
-}
-
 impl<S: System, T: Real> Memory<T> for HamiltonsEquations<S, T> {
-    lasting!(T; numbers p, part inverse);
-}
-
-impl<S: System, T: Real> Memory<T> for Velocities<S, T> {
-    fn restore(&mut self, from: &Self) {
-        if let (Self::Varying(transform), Self::Varying(from)) = (self, from) {
-            transform.restore(from);
-        }
-    }
-    #[cfg(feature = "alloc")]
-    fn save(&self, record: &mut Record<T>) {
-        if let Self::Varying(transform) = self {
-            transform.save(record);
-        }
-    }
-    #[cfg(feature = "alloc")]
-    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        match self {
-            Self::Uniform(_) => Ok(()),
-            Self::Varying(transform) => transform.load(reader),
-        }
-    }
+    lasting!(T; numbers p, parts transform);
 }
 
 impl<S: System, T: Real> Memory<T> for Transform<S, T> {
@@ -136,29 +83,30 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     const OF_SECOND_ORDER: bool = S::SEPARABLE && S::DIAGONAL_MASS;
 
     fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<HamiltonsEquations<S, T>, StartError> {
-        let [mut force, mut p, mut velocity, latest, between]: [Vector<S, T>; 5] = system.space().vectors();
+        let space = system.space();
+        let [mut force, mut p, rest]: [Vector<S, T>; 3] = space.vectors();
         system.gradient(q, v, t, &mut force, &mut p);
+        let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
+        if S::UNIFORM_MASS {
+            return Ok(HamiltonsEquations { p, mass, rest, transform: None });
+        }
+        let [mut velocity, latest, between] = space.vectors();
         velocity.copy_from_slice(v);
-        let inverse = if S::UNIFORM_MASS {
-            let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
-            Velocities::Uniform(Uniform { mass, rest: between })
-        } else {
-            let orientation = MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?;
-            let legendre = Legendre::new(system, q, v, t);
-            Velocities::Varying(Transform { legendre, orientation, velocity, latest, between })
-        };
-        Ok(HamiltonsEquations { p, inverse })
+        let orientation = MassOrientation::new(system, q, v, t).map_err(StartError::Starter)?;
+        let legendre = Legendre::new(system, q, v, t);
+        let transform = Some(Transform { legendre, orientation, velocity, latest, between });
+        Ok(HamiltonsEquations { p, mass, rest, transform })
     }
     fn gather(equations: &mut HamiltonsEquations<S, T>, q: &Vector<S, T>, y: &mut Self::Point<T>) {
         let [coordinates, momenta] = &mut y.0;
         coordinates.copy_from_slice(q);
         momenta.copy_from_slice(&equations.p);
-        if let Velocities::Varying(Transform { velocity, latest, .. }) = &mut equations.inverse {
+        if let Some(Transform { velocity, latest, .. }) = &mut equations.transform {
             latest.copy_from_slice(velocity);
         }
     }
     fn guess(equations: &HamiltonsEquations<S, T>, slope: &mut Self::Point<T>) {
-        if let Velocities::Varying(Transform { latest, .. }) = &equations.inverse {
+        if let Some(Transform { latest, .. }) = &equations.transform {
             slope.0[0].copy_from_slice(latest);
         }
     }
@@ -173,19 +121,22 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let ([q, p], [velocity, force]) = (&y.0, &mut slope.0);
-        if part == 0 {
-            return equations.inverse.velocity(system, q, p, t, velocity);
+        if part == 1 {
+            system.force(q, velocity, t, force);
+            statistics.gradients += 1;
+        } else if !S::UNIFORM_MASS
+            && let Some(Transform { legendre, latest, .. }) = &mut equations.transform
+        {
+            legendre.solve(system, q, p, t, velocity, S::QUADRATIC)?;
+            latest.copy_from_slice(velocity);
+        } else {
+            equations.divide(system, q, p, t, velocity);
         }
-        system.force(q, velocity, t, force);
-        statistics.gradients += 1;
         Ok(())
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn reciprocal_masses(equations: &HamiltonsEquations<S, T>) -> Option<&[T]> {
-        match &equations.inverse {
-            Velocities::Uniform(uniform) if S::SEPARABLE => uniform.mass.reciprocals(),
-            Velocities::Uniform(_) | Velocities::Varying(_) => None,
-        }
+        if S::SEPARABLE { equations.mass.reciprocals() } else { None }
     }
     fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]) {
         system.gradient(q, v, t, force, residual);
@@ -222,8 +173,8 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         let [arrival, momentum] = &y.0;
         norm::finite(arrival).and(norm::finite(momentum))?;
         if !S::UNIFORM_MASS
-            && let Velocities::Varying(Transform { legendre, orientation, velocity, latest, between }) =
-                &mut equations.inverse
+            && let Some(Transform { legendre, orientation, velocity, latest, between }) =
+                &mut equations.transform
         {
             // The velocity of the last stage leads to the one that belongs to the new momentum, if there is
             // one.
@@ -245,9 +196,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         t: T,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        match &equations.inverse {
-            Velocities::Uniform(uniform) => uniform.velocity(system, q, &equations.p, t, v),
-            Velocities::Varying(Transform { velocity, .. }) => v.copy_from_slice(velocity),
+        match &equations.transform {
+            Some(Transform { velocity, .. }) => v.copy_from_slice(velocity),
+            None => equations.divide(system, q, &equations.p, t, v),
         }
         Ok(())
     }
@@ -271,10 +222,7 @@ where
             statistics.gradients += W as u64;
             return Ok(());
         }
-        let Velocities::Uniform(uniform) = &equations.inverse else {
-            return one_by_one(equations, at, work, out, statistics);
-        };
-        let Some(reciprocals) = uniform.mass.reciprocals() else {
+        let Some(reciprocals) = equations.mass.reciprocals() else {
             return one_by_one(equations, at, work, out, statistics);
         };
         if <S as NondegenerateLagrangian<T>>::CONSTANT_MASS {

@@ -48,10 +48,6 @@ where
             let increments = [&mut unknowns[NODES - 1], &mut residuals[0]];
             return interior.solve(&at, limits, increments, statistics);
         }
-        if !S::SEPARABLE {
-            // Steps are Newton's.
-            return Err(StepFailure::NO_MATRIX);
-        }
         self.guess();
         let (mut equations, _, residuals, [weights, _]) = self.pose();
         equations.iterate((residuals, weights), limits, statistics)?;
@@ -89,7 +85,7 @@ where
         }
         let Self { system, interval, q, path, .. } = self;
         let Path { phase, inertial, interior, unknowns, residuals, .. } = &mut **path;
-        let at = Departure { system: *system, interval: *interval, q, phase, mass: inertial.constant()? };
+        let at = Departure { system: *system, interval: *interval, q, phase, mass: &inertial.mass };
         Some((interior.as_mut()?, at, [unknowns, residuals]))
     }
 
@@ -97,7 +93,7 @@ where
     fn pose(&mut self) -> Posed<'_, NODES, S, F, T> {
         let Self { system, frequency, interval, q, path, .. } = self;
         let Path { phase, inertial, fit, ends, unknowns, residuals, weights, node, .. } = &mut **path;
-        let (mass, interval) = (inertial.constant(), *interval);
+        let (mass, interval) = (&inertial.mass, *interval);
         let equations = Displaced {
             system: *system,
             frequency: *frequency,
@@ -132,7 +128,7 @@ where
                 displacement.fill(T::lift(0.0));
             }
         }
-        phase.guess(inertial.constant(), &phase.p, h, &mut delta[0]);
+        phase.guess(&inertial.mass, &phase.p, h, &mut delta[0]);
     }
 
     /// Moves to q1 = q0 + Δ and p1 = p0 + (D₁ + D₂)L_d, if they are numbers and the mass matrix has kept its

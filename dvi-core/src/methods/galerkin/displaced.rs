@@ -31,8 +31,7 @@ pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) frequency: &'a F,
     pub(super) interval: Interval<T>,
     pub(super) phase: &'a PhasePoint<S, T>,
-    /// M, if it is constant.
-    pub(super) mass: Option<&'a Mass<S, T>>,
+    pub(super) mass: &'a Mass<S, T>,
     pub(super) fit: &'a mut Fit<NODES, T>,
     /// The frequencies at both ends.
     pub(super) ends: &'a mut [Local<S, T>; 2],
@@ -58,12 +57,11 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         (stopping, budget): (Stopping, usize),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Some(mass) = self.mass else { return Err(StepFailure::NO_MATRIX) };
         iterate(Convergence::fixed_point(stopping, budget), statistics, |due, statistics| {
             let (start, unknowns) = self.unknowns.split_at_mut(1);
             due.prepare_all(self.system, weights, &start[0], unknowns);
             self.differentiate(Self::FIRST, residuals, statistics)?;
-            residuals[1..].iter_mut().for_each(|residual| mass.solve_in_place(residual));
+            residuals[1..].iter_mut().for_each(|residual| self.mass.solve_in_place(residual));
             let (mut largest, inverse) = (T::lift(0.0), &self.fit.coefficients.inverse);
             let change = &mut self.node.velocity;
             for (unknown, row) in self.unknowns.iter_mut().zip(inverse).skip(1) {
@@ -80,9 +78,9 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     /// The coefficients for the frequency at the current unknowns.
     fn read_frequency(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { system, frequency, interval, phase, mass, fit, ends, unknowns, node, .. } = self;
-        let (false, Some(mass), Some(_)) = (F::UNFITTED, mass, frequency.reading()) else {
+        if F::UNFITTED || frequency.reading().is_none() {
             return fit.to(frequency.fixed() * interval.h);
-        };
+        }
         let NodeWork { point: end, velocity, gradient: force, .. } = &mut **node;
         let (q, delta) = (&unknowns[0], &unknowns[NODES - 1]);
         for i in 0..q.len() {
@@ -108,10 +106,8 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.read_frequency(statistics)?;
-        if S::SEPARABLE
-            && let Some(mass) = self.mass
-        {
-            self.set_forces(mass, first, residuals, statistics);
+        if S::SEPARABLE {
+            self.set_forces(first, residuals, statistics);
             return Ok(());
         }
         let (step, x) = ((self.system, self.interval), &*self.unknowns);
@@ -126,12 +122,11 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn set_forces(
         &mut self,
-        mass: &Mass<S, T>,
         first: usize,
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) {
-        let Self { system, interval, phase, fit, unknowns, node, .. } = self;
+        let Self { system, interval, phase, mass, fit, unknowns, node, .. } = self;
         let (h, coefficients, last) = (interval.h, &fit.coefficients, NODES - 1);
         let begin = h * coefficients.weights[0];
         for i in 0..phase.p.len() {

@@ -19,9 +19,6 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     /// equations are not of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn place(&mut self, h: T) -> Option<T> {
-        if !S::Kind::OF_SECOND_ORDER {
-            return None;
-        }
         let Self { equations, coefficients, terms, stages, y, rest, weights, .. } = self;
         let reciprocals = S::Kind::reciprocal_masses(equations)?;
         let ([displacements, momenta], [places, renewed]) = (&mut terms[..], &mut stages[..]) else {
@@ -41,9 +38,6 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     /// Sets the increment of the coordinates, if the equations are of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn displace(&mut self, h: T) {
-        if !S::Kind::OF_SECOND_ORDER {
-            return;
-        }
         let Self { equations, coefficients, terms, y, rest, increment, .. } = self;
         let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
         for (k, &reciprocal) in reciprocals.iter().enumerate() {
@@ -55,9 +49,6 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
 
     /// Sets the velocities of the stages, if the equations are of second order: steps do without them.
     pub(super) fn set_velocities(&mut self) {
-        if !S::Kind::OF_SECOND_ORDER {
-            return;
-        }
         let Self { equations, coefficients, slopes, terms, y, .. } = self;
         let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
         let from = |k: usize| (y[1][k], Lanes::all(T::lift(0.0)));

@@ -215,7 +215,7 @@ impl<S: ConstrainedSystem, I, T: Real, const MOST: usize> ImpactsMemory<S, I, T,
 
     /// The impacts of the last step, in the order of the run. None behind a checkpoint.
     pub fn impacts(&self) -> &[Impact<S, T>] {
-        self.events.get(..self.count).unwrap_or(&self.events)
+        &self.events[..self.count]
     }
 
     /// How many impacts the run has had.

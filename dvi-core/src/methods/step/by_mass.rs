@@ -3,7 +3,6 @@
 use super::equations::{Begin, Equations, Kinetic, Share};
 use super::{WithCoefficients, Work};
 use crate::error::StepFailure;
-use crate::mechanics::mass::Mass;
 use crate::scalar::norm;
 use crate::solve::{Convergence, Due, Iteration, Stopping, repeat, sizes};
 use crate::state::Statistics;
@@ -13,7 +12,7 @@ use crate::{NondegenerateLagrangian, Real};
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn iterate_by_mass<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>>(
     scheme: &mut WithCoefficients<'_, S, T, E>,
-    (begin, mass): (&Begin<'_, S, T>, &Mass<S, T>),
+    begin: &Begin<'_, S, T>,
     work: &mut Work<S, T>,
     (stopping, budget): (Stopping, usize),
     statistics: &mut Statistics,
@@ -21,11 +20,11 @@ pub(super) fn iterate_by_mass<S: NondegenerateLagrangian<T>, T: Real, E: Equatio
     let is_explicit = S::SEPARABLE && scheme.0.is_explicit();
     if is_explicit {
         work.increment.fill(T::lift(0.0));
-        return ByMass { scheme, begin, mass, work }.correct(statistics);
+        return ByMass { scheme, begin, work }.correct(statistics);
     }
-    begin.phase.guess(Some(mass), &begin.phase.p, begin.interval.h, &mut work.increment);
+    begin.phase.guess(begin.mass, &begin.phase.p, begin.interval.h, &mut work.increment);
     let convergence = Convergence::fixed_point(stopping, budget);
-    repeat(convergence, statistics, ByMass { scheme, begin, mass, work })?;
+    repeat(convergence, statistics, ByMass { scheme, begin, work })?;
     norm::finite(&work.increment)
 }
 
@@ -33,7 +32,6 @@ pub(super) fn iterate_by_mass<S: NondegenerateLagrangian<T>, T: Real, E: Equatio
 struct ByMass<'a, 'b, 'c, S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>> {
     scheme: &'a mut WithCoefficients<'b, S, T, E>,
     begin: &'a Begin<'c, S, T>,
-    mass: &'a Mass<S, T>,
     work: &'a mut Work<S, T>,
 }
 
@@ -41,12 +39,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>> ByMass<'_, '_, 
     /// Corrects the increment, and leaves the correction in `node.velocity`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn correct(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Self { scheme: (equations, coefficients), begin, mass, work, .. } = self;
+        let Self { scheme: (equations, coefficients), begin, work } = self;
         let Work { node, increment, trial: impulse, .. } = &mut **work;
         let h = begin.interval.h;
         impulse.copy_from_slice(&begin.phase.p);
         equations.evaluate(begin, increment, Share::Left, (coefficients, node), impulse, statistics)?;
-        mass.solve(impulse, &mut node.velocity);
+        begin.mass.solve(impulse, &mut node.velocity);
         let Kinetic { mixed, left, per_stiffness, .. } = equations.kinetic(coefficients);
         for ((v, delta), &q) in node.velocity.iter_mut().zip(increment.iter_mut()).zip(begin.q) {
             let displacement = h * *v;

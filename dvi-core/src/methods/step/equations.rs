@@ -16,19 +16,7 @@ pub(in crate::methods) struct Begin<'a, S: System, T: Real> {
     pub(in crate::methods) interval: Interval<T>,
     pub(in crate::methods) q: &'a [T],
     pub(in crate::methods) phase: &'a PhasePoint<S, T>,
-    /// M, if it is constant.
-    pub(in crate::methods) mass: Option<&'a Mass<S, T>>,
-}
-
-impl<S: System, T: Real> Begin<'_, S, T> {
-    /// M where L is separable, so that it is constant.
-    ///
-    /// # Errors
-    /// None there.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(in crate::methods) fn mass(&self) -> Result<&Mass<S, T>, StepFailure> {
-        self.mass.ok_or(StepFailure::NO_MATRIX)
-    }
+    pub(in crate::methods) mass: &'a Mass<S, T>,
 }
 
 /// Which ends of a step something belongs to.

@@ -59,7 +59,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
         let Self { method: Variational { frequency, .. }, ends: [start, end], .. } = self;
         let NodeWork { point: next, velocity, gradient, .. } = node;
         let Begin { system, interval, q, phase, .. } = begin;
-        let (mass, per_h, t1) = (begin.mass()?, T::lift(1.0) / interval.h, interval.time(T::lift(1.0)));
+        let (mass, per_h, t1) = (begin.mass, T::lift(1.0) / interval.h, interval.time(T::lift(1.0)));
         for i in 0..q.len() {
             next[i] = q[i] + delta[i];
             velocity[i] = delta[i] * per_h;
@@ -135,7 +135,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
             given.fix(*method, *h)?;
             return Ok(**given);
         }
-        let (mass, velocity) = (begin.mass()?, &mut node.velocity);
+        let (mass, velocity) = (begin.mass, &mut node.velocity);
         mass.solve(&phase.p, velocity);
         start.evaluate(&method.frequency, mass, q, velocity, &phase.force)?;
         if READ == read::AT_THE_START {

@@ -4,7 +4,6 @@
 use super::Variational;
 use crate::discrete::frequency::FrequencyIn;
 use crate::discrete::quadrature::Rule;
-use crate::mechanics::mass::Mass;
 use crate::mechanics::phase::Arrival;
 use crate::methods::Clock;
 use crate::methods::together::{Companion, InStep, all_finite, load, load_if_all_have, of_lanes};
@@ -60,7 +59,7 @@ where
         load(q, |run| &*runs[run].q, runs.len());
         load(p, |run| &runs[run].memory.carried.phase.p, runs.len());
         load(force, |run| &runs[run].memory.carried.phase.force, runs.len());
-        let of_run = |run: usize| runs[run].memory.carried.inertial.constant().and_then(Mass::reciprocals);
+        let of_run = |run: usize| runs[run].memory.carried.inertial.mass.reciprocals();
         if !load_if_all_have(reciprocals, of_run, runs.len()) {
             return 0;
         }

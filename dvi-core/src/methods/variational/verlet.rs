@@ -9,9 +9,9 @@
 use crate::discrete::Interval;
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
-use crate::mechanics::phase::{Arrival, Increments, PhasePoint};
+use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
 use crate::methods::Clock;
-use crate::methods::step::{Work, set_force};
+use crate::methods::step::{Carried, Work, set_force};
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
 use crate::space::scratch;
@@ -24,9 +24,7 @@ use crate::{NondegenerateLagrangian, Real, Vector};
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: NondegenerateLagrangian<T>, T: Real>(
     system: &S,
-    mass: &Mass<S, T>,
-    phase: &mut PhasePoint<S, T>,
-    work: &mut Work<S, T>,
+    Carried { phase, inertial: Inertial { mass, .. }, work }: &mut Carried<S, T>,
     q: &mut Vector<S, T>,
     clock: Clock<T>,
     count: u64,
@@ -46,18 +44,16 @@ pub(super) fn steps<S: NondegenerateLagrangian<T>, T: Real>(
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn step<S: NondegenerateLagrangian<T>, T: Real>(
     system: &S,
-    mass: &Mass<S, T>,
-    phase: &mut PhasePoint<S, T>,
-    work: &mut Work<S, T>,
+    carried: &mut Carried<S, T>,
     q: &mut Vector<S, T>,
     (interval, summation): (Interval<T>, Summation),
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     if summation == Summation::Compensated {
         statistics.gradients += 1;
-        return compensated(system, mass, phase, work, q, interval);
+        return compensated(system, carried, q, interval);
     }
-    let (taken, result) = steps(system, mass, phase, work, q, Clock::new(interval.t, interval.h), 1);
+    let (taken, result) = steps(system, carried, q, Clock::new(interval.t, interval.h), 1);
     statistics.gradients += taken;
     result
 }
@@ -66,12 +62,11 @@ pub(in crate::methods) fn step<S: NondegenerateLagrangian<T>, T: Real>(
 #[inline(never)]
 fn compensated<S: NondegenerateLagrangian<T>, T: Real>(
     system: &S,
-    mass: &Mass<S, T>,
-    phase: &mut PhasePoint<S, T>,
-    Work { node, increment, next, trial: force, sum, .. }: &mut Work<S, T>,
+    Carried { phase, inertial: Inertial { mass, .. }, work }: &mut Carried<S, T>,
     q: &mut Vector<S, T>,
     interval: Interval<T>,
 ) -> Result<(), StepFailure> {
+    let Work { node, increment, next, trial: force, sum, .. } = work;
     let half = T::lift(0.5) * interval.h;
     for (impulse, &f) in sum.iter_mut().zip(phase.force.iter()) {
         *impulse = half * f;

@@ -162,9 +162,8 @@ struct Search<'a, 'b, S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> {
     t: T,
     /// The largest defect that is asked for.
     tolerance: T,
-    /// The trial with the smallest defect.
-    best: Option<Trial<T>>,
-    failed: Option<StepFailure>,
+    /// The trial with the smallest defect; before there is one, why there is none.
+    best: Result<Trial<T>, StepFailure>,
 }
 
 impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, M, T> {
@@ -190,25 +189,25 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
         match energy {
             Ok(energy) => {
                 let trial = Trial { h, defect: energy - self.memory.energy };
-                if self.best.is_none_or(|best| trial.size() < best.size()) {
-                    self.best = Some(trial);
+                if !self.best.is_ok_and(|best| trial.size() >= best.size()) {
+                    self.best = Ok(trial);
                 }
                 Some(trial)
             }
             Err(failure) => {
-                self.failed = Some(failure);
+                self.best = self.best.or(Err(failure));
                 None
             }
         }
     }
 
     fn is_solved(&self) -> bool {
-        self.best.is_some_and(|best| best.size() <= self.tolerance)
+        self.best.is_ok_and(|best| best.size() <= self.tolerance)
     }
 
     /// Whether nothing but rounding is left, of which a search may make no less.
     fn is_rounding(&self) -> bool {
-        self.best.is_some_and(|best| best.size() <= self.memory.rounding)
+        self.best.is_ok_and(|best| best.size() <= self.memory.rounding)
     }
 
     /// From a guess and another length on, as long as the lengths stay within reach of the last.
@@ -222,7 +221,7 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
         let mut a = self.trial(other)?;
         if is_rounding && Scalar::abs(b.defect - a.defect) <= self.memory.rounding {
             // The length makes no difference that can be seen: every one is a solution.
-            self.best = Some(b);
+            self.best = Ok(b);
             return Some(());
         }
         for _ in 0..ITERATIONS {
@@ -280,13 +279,11 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
         };
         let found = self.secant([guess, other]).is_some()
             || self.bracket().is_some_and(|ends| self.between(ends).is_some());
-        match (found || self.is_solved() || self.is_rounding(), self.best, self.failed) {
-            (true, Some(best), _) => Ok(best.h),
-            (false, Some(best), _) => {
-                Err(StepFailure::EnergyStep { h: reported(best.h), defect: reported(best.defect) })
-            }
-            (_, None, failed) => Err(failed.unwrap_or(StepFailure::StepLength { h: reported(h) })),
+        let best = self.best?;
+        if found || self.is_solved() || self.is_rounding() {
+            return Ok(best.h);
         }
+        Err(StepFailure::EnergyStep { h: reported(best.h), defect: reported(best.defect) })
     }
 }
 
@@ -349,9 +346,10 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
         run.velocity(t, &mut memory.velocity)?;
         memory.set_rounding(run.system(), t);
         let tolerance = T::lift(self.tolerance) * memory.scale;
-        let mut search = Search { run, memory, t, tolerance, best: None, failed: None };
+        let h = memory.h;
+        let best = Err(StepFailure::StepLength { h: reported(h) });
+        let mut search = Search { run, memory, t, tolerance, best };
         if !search.memory.has_begun {
-            let h = search.memory.h;
             let energy = search.energy(h).inspect_err(|_| search.run.go_back())?;
             (memory.energy, memory.has_begun) = (energy, true);
             return Ok(h);

@@ -1,0 +1,164 @@
+//! The table that a spline goes through: a value for each point of a grid.
+
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+use super::Axis;
+
+crate::error::said!(SplineError);
+
+/// Values at the two ends of a period agree to this part of the largest value of the table.
+const AGREEMENT: f64 = 1e-6;
+
+/// The number of points of a grid.
+pub(super) fn points(axes: &[Axis]) -> Result<usize, SplineError> {
+    let product = |points: usize, axis: &Axis| points.checked_mul(axis.points().len());
+    axes.iter().try_fold(1, product).ok_or(SplineError::Size)
+}
+
+pub(super) fn sampled<const D: usize>(
+    axes: &[Axis; D],
+    mut function: impl FnMut([f64; D]) -> f64,
+) -> Result<Vec<f64>, SplineError> {
+    let count = points(axes)?;
+    let mut values = Vec::new();
+    values.try_reserve(count).map_err(|_| SplineError::Size)?;
+    values.extend((0..count).map(|index| {
+        let at = place(axes, index);
+        function(core::array::from_fn(|axis| axes[axis].points()[at[axis]]))
+    }));
+    Ok(values)
+}
+
+/// The point of the grid at which a value of the table stands.
+fn place<const D: usize>(axes: &[Axis; D], mut index: usize) -> [usize; D] {
+    let mut place = [0; D];
+    for (place, axis) in place.iter_mut().zip(axes).rev() {
+        *place = index % axis.points().len();
+        index /= axis.points().len();
+    }
+    place
+}
+
+/// The values without those at the end of a period, which are compared with those at its start.
+pub(super) fn without_repetitions<const D: usize>(
+    axes: &[Axis; D],
+    values: &[f64],
+) -> Result<Vec<f64>, SplineError> {
+    let repeats = |axis: &Axis| axis.distinct().len() < axis.points().len();
+    if !axes.iter().any(repeats) {
+        return Ok(values.to_vec());
+    }
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let mut kept = Vec::with_capacity(values.len());
+    for (index, &value) in values.iter().enumerate() {
+        let (mut start, mut stride, mut repeated) = (index, 1, None);
+        for (axis, at) in place(axes, index).into_iter().enumerate().rev() {
+            let distinct = axes[axis].distinct().len();
+            if at == distinct {
+                start -= at * stride;
+                repeated = Some(axis);
+            }
+            stride *= axes[axis].points().len();
+        }
+        match repeated {
+            None => kept.push(value),
+            // The difference of large numbers may be infinite, which is no agreement either.
+            Some(axis) if (value - values[start]).abs() > AGREEMENT * largest => {
+                return Err(SplineError::NotPeriodic { axis, index, value, start, expected: values[start] });
+            }
+            Some(_) => {}
+        }
+    }
+    Ok(kept)
+}
+
+/// A table that no spline can be made of.
+///
+/// ```
+/// use dvi_core::field::{Axis, Spline, SplineError};
+///
+/// let few = Axis::uniform([0.0, 1.0], 3)?;
+/// let Err(error) = Spline::<1>::new([few], &[0.0, 1.0, 0.0]) else { panic!("a cubic takes four points") };
+/// assert!(matches!(error, SplineError::TooFewPoints { found: 3, expected: 4, .. }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SplineError {
+    /// An axis has fewer points than the degree asks for.
+    #[error("axis {axis} has {found} different points, and at least {expected} are expected")]
+    TooFewPoints {
+        /// The axis, counted from 0.
+        axis: usize,
+        /// Its points, without the end of a period that repeats the first.
+        found: usize,
+        /// The degree plus one.
+        expected: usize,
+    },
+    /// There is not one value for each point of the grid.
+    #[error("the table has {found} values, and the grid has {expected} points")]
+    Count {
+        /// The values.
+        found: usize,
+        /// The points of the grid.
+        expected: usize,
+    },
+    /// A value is infinite or not a number.
+    #[error("value {index} of the table is {value}, and a finite number is expected")]
+    NotFinite {
+        /// Where it stands in the table, counted from 0.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// The value at the end of a period is not that at its start: they differ by more than a millionth of
+    /// the largest value of the table.
+    #[error(
+        "value {index} of the table is {value} at the end of the period of axis {axis}, and {expected} is expected, \
+         as value {start} is at its start"
+    )]
+    NotPeriodic {
+        /// The axis, counted from 0.
+        axis: usize,
+        /// Where the value at the end stands in the table, counted from 0.
+        index: usize,
+        /// That value.
+        value: f64,
+        /// Where the value at the start stands.
+        start: usize,
+        /// That value.
+        expected: f64,
+    },
+    /// Distances on the axes differ so much that rounding errors of the values would be enlarged more than
+    /// 10⁸ times.
+    #[error(
+        "points {} and {index} of axis {axis}, {before:e} and {after:e}, are too close beside their \
+         neighbours: rounding errors of the values would be enlarged {growth:.1e} times, and 1e8 times is \
+         allowed; leave out one of them",
+        .index - 1
+    )]
+    Unequal {
+        /// The axis, counted from 0.
+        axis: usize,
+        /// The second of the two points on it whose distance is the smallest part of one beside it, counted
+        /// from 0.
+        index: usize,
+        /// The first of them.
+        before: f64,
+        /// The second.
+        after: f64,
+        /// The factor, of all axes together.
+        growth: f64,
+    },
+    /// A coefficient became infinite or not a number: the values are too large, or the distances on an axis
+    /// too unequal.
+    #[error(
+        "a coefficient of the spline is not finite: the values are too large or the distances on an axis too unequal"
+    )]
+    Overflow,
+    /// The grid has more points than there can be memory for.
+    #[error("the grid has more points than there can be memory for")]
+    Size,
+}

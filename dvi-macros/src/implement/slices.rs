@@ -1,0 +1,91 @@
+//! The bodies of generated functions: each cuts its flat slices into one slice per coordinate block, and
+//! runs what [`Emitter`] writes:
+//! ```text
+//! fn hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
+//!     let (__q0, __rest) = __q.split_at(N);
+//!     let (__q1, __rest) = __rest.split_at(N);
+//!     __vector.fill(__T::lift(-0.0));
+//!     …
+//! }
+//! ```
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use syn::Ident;
+
+use crate::emit::{Emitter, local, output_block};
+use crate::routine::Routine;
+use crate::statement::Output;
+use crate::symbolic::{Index, Node};
+
+impl Emitter<'_> {
+    /// One slice for each block of coordinates.
+    fn split(&self, array: &str, block_name: impl Fn(u32) -> String, method: &str) -> TokenStream {
+        let parts = (0..self.model.blocks.len()).map(|block| {
+            let name = block_name(block as u32);
+            (local(name.trim_start_matches('_')), self.index(&self.model.block_size(block)))
+        });
+        split(&format_ident!("__{array}"), parts, method)
+    }
+
+    /// Cuts the inputs that a routine reads.
+    pub(super) fn read(&self, routine: &Routine) -> TokenStream {
+        let nodes = self.graph.reachable(routine.statements.iter().map(|statement| statement.value.node));
+        let cut = |array: &str, is_read: fn(&Node) -> bool| {
+            let is_read = nodes.iter().any(|id| is_read(self.graph.node(*id)));
+            is_read.then(|| self.split(array, |block| format!("{array}{block}"), "split_at"))
+        };
+        let q = cut("q", |node| matches!(node, Node::Coordinate(_)));
+        let v = cut("v", |node| matches!(node, Node::Velocity(_)));
+        quote!(#q #v)
+    }
+
+    /// Clears an output and cuts it.
+    pub(super) fn output(&self, array: &str, output: Output) -> TokenStream {
+        let krate = self.krate();
+        let split = self.split(array, |block| output_block(output, block), "split_at_mut");
+        let array = format_ident!("__{array}");
+        quote!(#array.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
+    }
+
+    /// The number of the first coordinate of each block.
+    pub(super) fn offsets(&self) -> TokenStream {
+        let mut offset = Index::default();
+        let mut tokens = TokenStream::new();
+        for block in 0..self.model.blocks.len() {
+            let (name, value) = (local(format_args!("offset{block}")), self.index(&offset));
+            tokens.extend(quote!(let #name: ::core::primitive::usize = #value;));
+            offset = offset.plus(&self.model.block_size(block), 1);
+        }
+        tokens
+    }
+
+    /// The body of a function that returns a value.
+    pub(super) fn value(&self, routine: &Routine) -> TokenStream {
+        let (read, body) = (self.read(routine), self.body(routine));
+        quote!(#read #body)
+    }
+
+    /// The body of a function that sets one vector.
+    pub(super) fn vector(&self, routine: &Routine) -> TokenStream {
+        let (read, output) = (self.read(routine), self.output("vector", Output::Vector));
+        let body = self.body(routine);
+        quote!(#read #output #body)
+    }
+}
+
+/// `let (__q0, __rest) = __q.split_at(n0); …`
+pub(super) fn split(
+    array: &Ident,
+    parts: impl Iterator<Item = (Ident, TokenStream)>,
+    method: &str,
+) -> TokenStream {
+    let (method, rest) = (format_ident!("{method}"), local("rest"));
+    let mut from = array;
+    let mut tokens = TokenStream::new();
+    for (name, size) in parts {
+        tokens.extend(quote!(let (#name, #rest) = #from.#method(#size);));
+        from = &rest;
+    }
+    quote!(#tokens let _ = #rest;)
+}
