@@ -11,8 +11,7 @@ use crate::space::linear::{scale, set_scales};
 use crate::space::sink::{Places, Sink};
 use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
 
-/// M and M⁻¹. Where M is not constant, the unit matrix stands here, which is right for a fixed point alone:
-/// one that converges has the same limit with any matrix.
+/// M and M⁻¹. Where M is not constant there are no numbers here, so that a step that divides by it fails.
 #[derive(Debug)]
 pub(crate) struct Mass<S: System, T: Real> {
     /// The diagonal of M, and one over it; no numbers if M is not diagonal.
@@ -43,7 +42,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         let [mut v, mut l_q, mut l_v, mut masses]: [Vector<S, T>; 4] = space.vectors();
         let zero = T::lift(0.0);
         if !S::UNIFORM_MASS {
-            v.fill(T::lift(1.0));
+            v.fill(T::lift(f64::NAN));
             return Ok(Self { masses: v.clone(), reciprocals: v, coupled: None });
         }
         if S::DIAGONAL_MASS {
