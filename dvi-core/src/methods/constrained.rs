@@ -316,8 +316,14 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> for Constrained<M> {
-    type Suited<X> = M::Suited<<S::Suited<X> as Same<X>>::As>;
+/// `X` if `S` has constraints, and unknown if it has none: rustc asks nothing of the scheme then.
+type IfConstrained<S, X, T> = <<S as ConstrainedLagrangian<T>>::Suited<X> as Same<X>>::As;
+
+impl<S: ConstrainedLagrangian<T>, T: Real, M> Method<S, T> for Constrained<M>
+where
+    IfConstrained<S, M, T>: InnerScheme<S, T>,
+{
+    type Suited<X> = <IfConstrained<S, M, T> as InnerScheme<S, T>>::Suited<IfConstrained<S, X, T>>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
@@ -370,7 +376,10 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> VariableStep<S, T> for Constrained<M> {
+impl<S: ConstrainedLagrangian<T>, T: Real, M> VariableStep<S, T> for Constrained<M>
+where
+    IfConstrained<S, M, T>: InnerScheme<S, T>,
+{
     type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }
 
