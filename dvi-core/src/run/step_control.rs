@@ -7,6 +7,7 @@
 //! unknown of its equations.
 
 mod breaks;
+mod clock;
 mod controlled;
 mod energy_momentum;
 mod error_control;
