@@ -18,10 +18,9 @@ use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
-use crate::solve::{Due, Guess, Solver, Stopping, from_either_guess, newton, sizes};
+use crate::solve::{Due, Guess, Stopping, from_either_guess, newton, sizes};
 use crate::state::Statistics;
 use crate::state::rates::is_similar;
-use crate::state::summation::Summation;
 use crate::system::Same;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
@@ -381,32 +380,4 @@ where
     IfConstrained<S, M, T>: InnerScheme<S, T>,
 {
     type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
-}
-
-/// Refuses options of the steps of a method itself, if they are not those that it has by default.
-pub(super) fn without_effect_inside(
-    solver: Solver,
-    stopping: Stopping,
-    summation: Summation,
-) -> Result<(), StartError> {
-    let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-    if summation != Summation::default() {
-        return unsupported(
-            "Summation::Compensated",
-            "`Constrained` adds up the increments of its steps plainly",
-        );
-    }
-    if solver != Solver::default() {
-        return unsupported(
-            "the solver of the inner method",
-            "`Constrained` solves its steps by Newton's method",
-        );
-    }
-    if stopping != Stopping::default() {
-        return unsupported(
-            "the `stopping` of the inner method",
-            "`Constrained` has one of its own, which counts",
-        );
-    }
-    Ok(())
 }
