@@ -108,7 +108,7 @@ pub use projected::Projected;
 pub use rattle::Rattle;
 pub use runge_kutta::RungeKutta;
 pub(crate) use sigma_family::SigmaMemory;
-pub use sigma_family::{ParasiticMode, Sigma, Start};
+pub use sigma_family::{BeginsBetween, ParasiticMode, Sigma, Start};
 pub use tabulated::Tabulated;
 #[cfg(feature = "alloc")]
 pub(crate) use together::Companion;
@@ -319,15 +319,28 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
 }
 
 /// A [`Method`] for `S` that is `M`: where it is one for systems of another kind, rustc does not know `M`.
-pub trait Suits<S: Lagrangian<T>, T: Real, M> {
+pub trait Suits<S: Lagrangian<T>, T: Real, M: Carries<S, T>> {
+    /// `M`, of which it is known here that it steps `S`.
+    type Method: Method<S, T, Memory = M::Memory>;
     /// The method as it is.
     fn suited(self) -> M;
+    /// The method as it is, as what steps `S`.
+    fn steps(method: &M) -> &Self::Method;
 }
 
-impl<S: Lagrangian<T>, T: Real, M, X: Method<S, T, Suited<X>: Same<X, As = M>>> Suits<S, T, M> for X {
+impl<S: Lagrangian<T>, T: Real, M, X> Suits<S, T, M> for X
+where
+    X: Method<S, T, Suited<X>: Same<X, As = M>>,
+    M: Method<S, T>,
+{
+    type Method = M;
     #[inline]
     fn suited(self) -> M {
         X::Suited::<X>::same(self)
+    }
+    #[inline]
+    fn steps(method: &M) -> &M {
+        method
     }
 }
 

@@ -33,7 +33,7 @@ pub use integrator::Integrator;
 #[cfg(feature = "alloc")]
 pub use resume::Resume;
 pub use step_control::{
-    CentreSpeed, ControlledIntegrator, ControlledRun, Controls, Density, EnergyMomentum, ErrorControl,
+    CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys,
     Osculating, Power, Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;

@@ -20,10 +20,9 @@ use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
-use crate::solve::{Due, Guess, Solver, Stopping, from_either_guess, newton, sizes};
+use crate::solve::{Due, Guess, Stopping, from_either_guess, newton, sizes};
 use crate::state::Statistics;
 use crate::state::rates::is_similar;
-use crate::state::summation::Summation;
 use crate::system::Same;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
@@ -296,8 +295,14 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> for Constrained<M> {
-    type Suited<X> = M::Suited<<S::Suited<X> as Same<X>>::As>;
+/// `X` if `S` has constraints, and unknown if it has none: rustc asks nothing of the scheme then.
+type IfConstrained<S, X, T> = <<S as ConstrainedLagrangian<T>>::Suited<X> as Same<X>>::As;
+
+impl<S: ConstrainedLagrangian<T>, T: Real, M> Method<S, T> for Constrained<M>
+where
+    IfConstrained<S, M, T>: InnerScheme<S, T>,
+{
+    type Suited<X> = <IfConstrained<S, M, T> as InnerScheme<S, T>>::Suited<IfConstrained<S, X, T>>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
@@ -350,34 +355,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Method<S, T> fo
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> VariableStep<S, T> for Constrained<M> {
+impl<S: ConstrainedLagrangian<T>, T: Real, M> VariableStep<S, T> for Constrained<M>
+where
+    IfConstrained<S, M, T>: InnerScheme<S, T>,
+{
     type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
-}
-
-/// Refuses options of the steps of a method itself, if they are not those that it has by default.
-pub(super) fn without_effect_inside(
-    solver: Solver,
-    stopping: Stopping,
-    summation: Summation,
-) -> Result<(), StartError> {
-    let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-    if summation != Summation::default() {
-        return unsupported(
-            "Summation::Compensated",
-            "`Constrained` adds up the increments of its steps plainly",
-        );
-    }
-    if solver != Solver::default() {
-        return unsupported(
-            "the solver of the inner method",
-            "`Constrained` solves its steps by Newton's method",
-        );
-    }
-    if stopping != Stopping::default() {
-        return unsupported(
-            "the `stopping` of the inner method",
-            "`Constrained` has one of its own, which counts",
-        );
-    }
-    Ok(())
 }

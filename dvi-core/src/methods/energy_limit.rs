@@ -12,8 +12,8 @@ use crate::methods::{
 };
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
-use crate::system::TimeTransform;
 use crate::system::start::extended;
+use crate::system::{Same, TimeTransform};
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// A method whose steps fail where the energy has changed by more than a limit since the start of the run.
@@ -89,8 +89,15 @@ impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for EnergyLimit<M> {
     type Memory = EnergyLimitMemory<M::Memory, Vector<S, T>, T>;
 }
 
-impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M> {
-    type Suited<X> = M::Suited<X>;
+/// `M`, under a name that is in no field: in `EnergyLimit { method, limit }` rustc would look for the method
+/// that does not suit a system, and report it there once more.
+type Itself<M> = <M as Same<M>>::As;
+
+impl<S: Lagrangian<T>, T: Real, M> Method<S, T> for EnergyLimit<M>
+where
+    Itself<M>: Method<S, T>,
+{
+    type Suited<X> = <M as Method<S, T>>::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         if self.limit.is_nan() || self.limit <= 0.0 {
@@ -144,8 +151,11 @@ impl<S: Lagrangian<T>, T: Real, M: Method<S, T>> Method<S, T> for EnergyLimit<M>
     }
 }
 
-impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for EnergyLimit<M> {
-    type SuitedToAnyStep<X> = M::SuitedToAnyStep<X>;
+impl<S: Lagrangian<T>, T: Real, M> VariableStep<S, T> for EnergyLimit<M>
+where
+    Itself<M>: VariableStep<S, T>,
+{
+    type SuitedToAnyStep<X> = <M as VariableStep<S, T>>::SuitedToAnyStep<X>;
 
     fn estimates_local_error(&self) -> bool {
         self.method.estimates_local_error()

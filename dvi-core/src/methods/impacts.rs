@@ -160,10 +160,14 @@ impl<S: ConstrainedSystem, T: Real, M: Carries<S, T>, const MOST: usize> Carries
     type Memory = ImpactsMemory<S, M::Memory, T, MOST>;
 }
 
-impl<S: UnilateralLagrangian<T>, T: Real, M: FreeFlight<S, T>, const MOST: usize> Method<S, T>
-    for Impacts<M, MOST>
+/// `X` if `S` has impacts, and unknown if it has not: rustc asks nothing of the scheme then.
+type IfUnilateral<S, X, T> = <<S as UnilateralLagrangian<T>>::Suited<X> as Same<X>>::As;
+
+impl<S: UnilateralLagrangian<T>, T: Real, M, const MOST: usize> Method<S, T> for Impacts<M, MOST>
+where
+    IfUnilateral<S, M, T>: FreeFlight<S, T>,
 {
-    type Suited<X> = M::Suited<<S::Suited<X> as Same<X>>::As>;
+    type Suited<X> = <IfUnilateral<S, M, T> as FreeFlight<S, T>>::Suited<IfUnilateral<S, X, T>>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let e = self.restitution;

@@ -30,7 +30,7 @@ use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
 
 pub(crate) use memory::SigmaMemory;
 pub use parasitic_mode::ParasiticMode;
-pub use start::Start;
+pub use start::{BeginsBetween, Start};
 
 /// The σ-family: a discrete Lagrangian with one node between the ends.
 ///
@@ -337,26 +337,5 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
 
     fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {
         OneNode::new(system, self.sigma)
-    }
-}
-
-impl<T: Real> Sigma<T> {
-    /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
-    ///
-    /// # Errors
-    /// As [`Method::begin`].
-    pub(crate) fn begin_between<S: DegenerateLagrangian<T>>(
-        &self,
-        system: &S,
-        q0: &Vector<S, T>,
-        q1: &Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<SigmaMemory<S, T>, StartError> {
-        // The phases between two states of unit vectors are not known.
-        spinors::refuse::<S>("a run from two points")?;
-        self.validate(S::AFFINE)?;
-        self.go_with(system, q0, t)?;
-        SigmaMemory::between(system, self, [q0, q1], t, h)
     }
 }

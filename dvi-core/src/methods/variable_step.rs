@@ -1,6 +1,6 @@
 //! Methods whose steps may differ in length.
 
-use super::{Method, Tolerance};
+use super::{Carries, Method, Tolerance};
 #[cfg(doc)]
 use super::{Scheme, Suits};
 use crate::discrete::Span;
@@ -68,17 +68,27 @@ pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
     note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, \
         `Rattle` and `Geodesic`"
 )]
-pub trait SuitsAnyStep<S: Lagrangian<T>, T: Real, M> {
-    /// The method as it is.
+pub trait SuitsAnyStep<S: Lagrangian<T>, T: Real, M: Carries<S, T>> {
+    /// As [`Suits::Method`].
+    type Method: VariableStep<S, T, Memory = M::Memory>;
+    /// As [`Suits::suited`].
     fn suited(self) -> M;
+    /// As [`Suits::steps`].
+    fn steps(method: &M) -> &Self::Method;
 }
 
 impl<S: Lagrangian<T>, T: Real, M, X> SuitsAnyStep<S, T, M> for X
 where
     X: VariableStep<S, T, SuitedToAnyStep<X>: Same<X, As = M>>,
+    M: VariableStep<S, T>,
 {
+    type Method = M;
     #[inline]
     fn suited(self) -> M {
         X::SuitedToAnyStep::<X>::same(self)
+    }
+    #[inline]
+    fn steps(method: &M) -> &M {
+        method
     }
 }

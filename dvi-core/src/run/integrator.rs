@@ -5,7 +5,7 @@ use core::fmt;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::memory::Aside;
-use crate::methods::{Carries, Clock, Method, Suits};
+use crate::methods::{BeginsBetween, Carries, Clock, Method, Suits};
 use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
@@ -13,8 +13,8 @@ use crate::run::kept::Kept;
 use crate::run::{Between, Run, Stepper, WithMethod};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
+use crate::system::StateOf;
 use crate::system::start::{consistent, evaluate, flatten, named, validate_step, velocities};
-use crate::system::{Same, StateOf};
 use crate::{DegenerateLagrangian, Held, Lagrangian, Real, Space, System, Vector};
 
 /// A run of a method on a system with a fixed step.
@@ -43,7 +43,7 @@ pub struct Integrator<H: Held, M: Carries<H::System, T>, T: Real = f64> {
     kept: Option<Aside<Kept<H::System, M, T>>>,
 }
 
-impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Integrator<H, M, T> {
+impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrator<H, M, T> {
     /// A run from `start` at time 0 with step `h`, which may be negative.
     ///
     /// # Errors
@@ -67,13 +67,44 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Integrato
         X: Suits<H::System, T, M>,
     {
         let (held, method) = (system.held(), method.suited());
+        let steps = X::steps(&method);
         let [q, v] = checked(held, t, h, &start)?;
         let begin = || {
-            let begun = method.begin(held, &q, &v[..velocities(held)], t, h);
+            let begun = steps.begin(held, &q, &v[..velocities(held)], t, h);
             begun.map_err(|error| named(held, [&q, &v], t, error))
         };
         let (memory, kept) = (begin()?, Kept::if_looked_at(&q, begin)?);
         Ok(Self { system, stepper: Stepper::new(method, memory, q), clock: Clock::new(t, h), kept })
+    }
+
+    /// A run of [`Sigma`] that starts at `first`, time 0, and whose first step leads to `second`.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn from_two_points<X>(
+        system: H,
+        method: X,
+        h: T,
+        first: StateOf<H, T>,
+        second: StateOf<H, T>,
+    ) -> Result<Self, StartError>
+    where
+        X: BeginsBetween<H::System, T, M>,
+    {
+        let (held, t) = (system.held(), T::lift(0.0));
+        validate(held, t, h)?;
+        let ([q0, _], [q1, _]) = (flatten(held, &first)?, flatten(held, &second)?);
+        let rest = held.space().vector();
+        evaluate(held, &q0, &rest, t)?;
+        consistent(held, &q0, t)?;
+        evaluate(held, &q1, &rest, t + h)?;
+        let begin = || {
+            let begun = method.begin_between(held, &q0, &q1, t, h);
+            begun.map_err(|error| named(held, [&q0, &rest], t, error))
+        };
+        let (memory, kept) = (begin()?, Kept::if_looked_at(&q0, begin)?);
+        let stepper = Stepper::new(method.suited(), memory, q0);
+        Ok(Self { system, stepper, clock: Clock::new(t, h), kept })
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
@@ -89,11 +120,12 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Integrato
     {
         let (t, h) = (checkpoint.time(), checkpoint.step_size());
         let (held, method) = (system.held(), method.suited());
+        let steps = X::steps(&method);
         crate::system::start::validate(held, t)?;
         validate_step(t, h)?;
         let [q, v] = checkpoint.point(held)?;
         let begin = || {
-            let begun = method.begin_again(held, &q, &v[..velocities(held)], t, h);
+            let begun = steps.begin_again(held, &q, &v[..velocities(held)], t, h);
             begun.map_err(|error| named(held, [&q, &v], t, error))
         };
         let (mut memory, kept) = (begin()?, Kept::if_looked_at(&q, begin)?);
@@ -215,35 +247,6 @@ impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator
     fn error(&mut self, failure: StepFailure) -> StepError {
         let (time, h) = (self.time(), self.step_size());
         self.stepper.error(self.system.held(), time, h, failure)
-    }
-}
-
-impl<H: Held<System = S>, S: DegenerateLagrangian<T>, T: Real> Integrator<H, Sigma<T>, T> {
-    /// A run of the two-step method that starts at `first`, time 0, and whose first step leads to `second`.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    #[allow(clippy::type_complexity)]
-    pub fn from_two_points(
-        system: H,
-        method: Sigma<T>,
-        h: T,
-        first: S::State<T>,
-        second: S::State<T>,
-    ) -> Result<Integrator<H, <S::Suited<Sigma<T>> as Same<Sigma<T>>>::As, T>, StartError> {
-        let (held, t) = (system.held(), T::lift(0.0));
-        validate(held, t, h)?;
-        let ([q0, _], [q1, _]) = (flatten(held, &first)?, flatten(held, &second)?);
-        let rest = held.space().vector();
-        evaluate(held, &q0, &rest, t)?;
-        consistent(held, &q0, t)?;
-        evaluate(held, &q1, &rest, t + h)?;
-        let begin = || {
-            let begun = method.begin_between(held, &q0, &q1, t, h);
-            begun.map_err(|error| named(held, [&q0, &rest], t, error))
-        };
-        let (memory, kept) = (begin()?, Kept::if_looked_at(&q0, begin)?);
-        Ok(Integrator { system, stepper: Stepper::new(method, memory, q0), clock: Clock::new(t, h), kept })
     }
 }
 

@@ -27,7 +27,7 @@ pub(super) struct Kept<S: System, M: Carries<S, T>, T: Real> {
 /// How many steps are taken before the next point is kept.
 const BLOCK: u64 = 64;
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Kept<S, M, T> {
+impl<S: Lagrangian<T>, M: Carries<S, T>, T: Real> Kept<S, M, T> {
     /// For a run from `q` whose memory `begin` makes.
     ///
     /// # Errors

@@ -95,18 +95,33 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
     ) -> Result<T, StepFailure>;
 }
 
-/// A [`StepControl`] for `S` that is `C`, as a method [`Suits`](crate::methods::Suits) a system.
-pub trait Controls<S: Lagrangian<T>, T: Real, C> {
+/// A method under the [`StepControl`] `X` for `S`, which is `C`, as a method
+/// [suits](crate::methods::Suits) a system.
+///
+/// It is a trait of the method, so that rustc asks for it only where it knows that the method suits the
+/// system.
+pub trait Obeys<X, S: Lagrangian<T>, T: Real, C: Carries<S, T>> {
+    /// `C`, of which it is known here that it controls steps on `S`.
+    type Control: StepControl<S, T, Memory = C::Memory>;
     /// The control as it is.
-    fn suited(self) -> C;
+    fn suited(control: X) -> C;
+    /// The control as it is, as what controls steps on `S`.
+    fn lengths(control: &C) -> &Self::Control;
 }
 
-impl<S: Lagrangian<T>, T: Real, C, X: StepControl<S, T, Suited<X>: Same<X, As = C>>> Controls<S, T, C>
-    for X
+impl<M, S: Lagrangian<T>, T: Real, C, X> Obeys<X, S, T, C> for M
+where
+    X: StepControl<S, T, Suited<X>: Same<X, As = C>>,
+    C: StepControl<S, T>,
 {
+    type Control = C;
     #[inline]
-    fn suited(self) -> C {
-        X::Suited::<X>::same(self)
+    fn suited(control: X) -> C {
+        X::Suited::<X>::same(control)
+    }
+    #[inline]
+    fn lengths(control: &C) -> &C {
+        control
     }
 }
 

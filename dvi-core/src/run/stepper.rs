@@ -33,11 +33,13 @@ impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<S
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
+impl<S: System, M: Carries<S, T>, T: Real> Stepper<S, M, T> {
     pub(crate) fn new(method: M, memory: M::Memory, q: Vector<S, T>) -> Self {
         Self { method, memory, q, statistics: Statistics::default(), failed: false, points: None }
     }
+}
 
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Goes on from another point, whose memory has just begun.
     pub(crate) fn move_to(&mut self, memory: M::Memory, q: Vector<S, T>) {
         (self.memory, self.q, self.failed) = (memory, q, false);

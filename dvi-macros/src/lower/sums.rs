@@ -33,7 +33,7 @@ impl Lowering<'_> {
             let indices = self.closure_indices::<1>(closure);
             let ((lower, upper), [index]) = (bounds?, indices?);
             if let Some(values) = self.model.written_out(range, closure) {
-                return self.written_out(name, call, (index, values), &closure.body);
+                return self.written_out(name, call, [index], values.map(|value| [value]), &closure.body);
             }
             let (form, only) = natural(depth, &lower, &upper);
             let body = self.inside(&[(index, form, &only)], &closure.body)?;
@@ -48,6 +48,12 @@ impl Lowering<'_> {
         }
         let indices = self.closure_indices::<2>(closure);
         let (bounds, names) = (bounds?, indices?);
+        if let Some(values) = self.model.written_out(range, closure) {
+            let (all, is_ordered) = (values.clone(), name == "sum_ordered_pairs");
+            let pairs = values.flat_map(|first| all.clone().map(move |second| [first, second]));
+            let pairs = pairs.filter(|[first, second]| first < second || (is_ordered && first != second));
+            return self.written_out(name, call, names, pairs, &closure.body);
+        }
         if name == "sum_ordered_pairs" {
             return self.ordered_pairs(bounds, names, &closure.body);
         }
@@ -63,21 +69,24 @@ impl Lowering<'_> {
         self.pairs(bounds, &last, names, &closure.body)
     }
 
-    /// A sum or product term by term.
-    fn written_out(
+    /// A sum or product term by term, with these values of its indices in turn.
+    fn written_out<const INDICES: usize>(
         &mut self,
         name: &str,
         call: &ExprCall,
-        (index, values): (String, std::ops::Range<i64>),
+        indices: [String; INDICES],
+        values: impl Iterator<Item = [i64; INDICES]>,
         body: &Syntax,
     ) -> Option<Value> {
-        let mut terms = Vec::new();
-        for value in values {
+        let (mut terms, outside) = (Vec::new(), self.scope.len());
+        for values in values {
             self.calls.counted(call, self.errors)?;
-            let binding = Binding::Index { form: Index::literal(value), over: None };
-            self.scope.push((index.clone(), binding));
+            for (index, value) in indices.iter().zip(values) {
+                let binding = Binding::Index { form: Index::literal(value), over: None };
+                self.scope.push((index.clone(), binding));
+            }
             let term = self.value(body);
-            self.scope.pop();
+            self.scope.truncate(outside);
             terms.push(term?);
         }
         let whole = terms.into_iter().map(Some).reduce(|before, term| {
@@ -198,13 +207,28 @@ impl Lowering<'_> {
             RangeLimits::HalfOpen(_) => upper,
             RangeLimits::Closed(_) => upper.plus(&Index::literal(1), 1),
         };
+        let bounds = [range.start.as_deref(), Some(end)];
         if let (Some(least), Some(beyond)) = (lower.as_literal(), upper.as_literal())
             && least >= beyond
+            && !bounds.into_iter().flatten().any(|bound| self.names_index(bound))
         {
             self.errors.push(syntax, "this range is empty");
             return None;
         }
         Some((lower, upper))
+    }
+
+    /// Whether an expression names an index: in a sum over components this is a number, and a range that
+    /// has nothing in it for one component may have something for the next.
+    fn names_index(&self, syntax: &Syntax) -> bool {
+        match syntax {
+            Syntax::Path(path) => path.path.get_ident().is_some_and(|name| {
+                matches!(self.binding_of(&name.to_string()), Some(Binding::Index { .. }))
+            }),
+            Syntax::Paren(inner) => self.names_index(&inner.expr),
+            Syntax::Binary(binary) => self.names_index(&binary.left) || self.names_index(&binary.right),
+            _ => false,
+        }
     }
 
     /// Whether an expression is index arithmetic: it names a bound index or a size.

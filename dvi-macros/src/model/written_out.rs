@@ -1,27 +1,32 @@
-//! Sums over the components of a vector, `sum(0..3, |k| r[i][k])`: each component has a block of its own, so
-//! that such a sum is written out term by term.
+//! Sums over the components of a vector, `sum(0..3, |k| r[i][k])`, and over pairs of them: each component has
+//! a block of its own, so that such a sum is written out term by term.
 
 use std::ops::Range;
 
 use syn::visit::{self, Visit};
-use syn::{Expr, ExprClosure, ExprIndex, ExprPath, Ident, Pat, RangeLimits};
+use syn::{Expr, ExprClosure, ExprIndex, ExprPath, Ident, Pat, PatIdent, RangeLimits};
 
 use super::Model;
 use super::vectors::{COMPONENTS, literal};
 
 impl Model {
-    /// The values of the index of a sum that numbers components in its body, where its range is literal.
+    /// The values of the indices of a sum, where its range is literal and one of them numbers components in
+    /// its body.
     pub(crate) fn written_out(&self, range: &Expr, closure: &ExprClosure) -> Option<Range<i64>> {
-        let (Expr::Range(range), Some(Pat::Ident(index))) = (range, closure.inputs.first()) else {
-            return None;
-        };
+        let Expr::Range(range) = range else { return None };
         let first = range.start.as_ref().map_or(Some(0), |start| literal(start))?;
         let last = literal(range.end.as_ref()?)?;
         let past = last.saturating_add(i64::from(matches!(range.limits, RangeLimits::Closed(_))));
         let is_short = past.saturating_sub(first) <= *COMPONENTS.end();
-        let mut search = Search { model: self, index: &index.ident, is_component: false, found: false };
-        search.visit_expr(&closure.body);
-        (search.found && is_short).then_some(first..past)
+        let numbers_components = |index: &Pat| {
+            let Pat::Ident(PatIdent { ident: index, .. }) = index else { return false };
+            let mut search = Search { model: self, index, is_component: false, found: false };
+            search.visit_expr(&closure.body);
+            search.found
+        };
+        // Of pairs there is at least one.
+        let has_terms = past.saturating_sub(first) >= closure.inputs.len() as i64;
+        (is_short && has_terms && closure.inputs.iter().any(numbers_components)).then_some(first..past)
     }
 
     /// Which index is that of a component behind a name or another expression, counted from 0.

@@ -4,6 +4,8 @@
 //! the same source gives the same points in every build. An array needs no storage: an entry is drawn
 //! from its name and its indices.
 
+use std::ops::Range;
+
 use rustc_hash::FxHashMap as HashMap;
 
 use crate::model::{Model, Shape};
@@ -176,8 +178,8 @@ impl Point {
     }
 
     /// The values of `lower..upper` that are visited: of a long range the first ones.
-    pub(super) fn visited(&self, lower: i64, upper: i64) -> Vec<i64> {
-        (lower..upper.min(lower.saturating_add(self.most_visited))).collect()
+    pub(super) fn visited(&self, lower: i64, upper: i64) -> Range<i64> {
+        first_of(lower..upper, self.most_visited)
     }
 
     fn interval(&self, kind: u64, block: usize) -> (f64, f64) {
@@ -251,4 +253,9 @@ impl Point {
         };
         within((-1.5, 1.5), mix(self.seed ^ mix(70 + number)))
     }
+}
+
+/// The values of a range, of which at most so many are visited.
+pub(super) fn first_of(range: Range<i64>, most: i64) -> Range<i64> {
+    range.start..range.end.min(range.start.saturating_add(most))
 }

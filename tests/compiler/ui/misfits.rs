@@ -1,5 +1,5 @@
 //! A method or a step control that does not fit its system is one error, where the run begins: what is done
-//! with the run is none.
+//! with the run is none, unless the type of the run is written out.
 
 use dvi_core::prelude::*;
 
@@ -152,6 +152,98 @@ fn unit_vectors() -> Outcome {
     let mut run = Integrator::new(&Pendulum, Sigma::midpoint(), 0.1, PENDULUM)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn two_points_of_another_method() -> Outcome {
+    let mut run = Integrator::from_two_points(&Bead, Newmark::new(0.25), 0.1, BEAD, BEAD)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn limited_in_place() -> Outcome {
+    let mut run = Integrator::new(
+        &Bead,
+        EnergyLimit { method: Composition::yoshida(Newmark::new(0.25)), limit: 1e-3 },
+        0.1,
+        BEAD,
+    )?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn neither_method_nor_control() -> Outcome {
+    let control = Reversible::power(0.02, 1.5);
+    let mut run = ControlledIntegrator::new(&Vortex, Sigma::midpoint(), control, VORTEX)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn limited_under_a_control() -> Outcome {
+    let method = EnergyLimit { method: Newmark::new(0.25), limit: 1e-3 };
+    let control = Reversible::power(0.02, 1.5);
+    let mut run = ControlledIntegrator::new(&Vortex, method, control, VORTEX)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn another_kind_inside_and_outside() -> Outcome {
+    let method = Constrained::new(Newmark::new(0.25));
+    let mut run = Integrator::new(&Bead, EnergyLimit { method, limit: 1e-3 }, 0.1, BEAD)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+fn no_impacts() -> Outcome {
+    let mut run = Integrator::new(&Vortex, Impacts::reflecting(Sigma::midpoint()), 0.1, VORTEX)?;
+    run.take_steps(100)?;
+    println!("{:?} {}", run.state(), run.energy());
+    Ok(())
+}
+
+/// A run whose type is written out: one error where it begins, and one for each function that is called.
+struct Written<'a> {
+    run: Integrator<&'a Bead, Sigma>,
+}
+
+impl Written<'_> {
+    fn go_on(&mut self) -> Outcome {
+        self.run.take_steps(100)?;
+        Ok(())
+    }
+}
+
+fn written(bead: &Bead) -> Result<Written<'_>, StartError> {
+    Ok(Written { run: Integrator::new(bead, Sigma::midpoint(), 0.1, BEAD)? })
+}
+
+fn written_under_a_control(
+    rod: &Rod,
+) -> Result<ControlledIntegrator<&Rod, OneStep, ErrorControl<'_>>, StartError> {
+    ControlledIntegrator::new(rod, OneStep::midpoint(), ErrorControl::new(1e-9, 0.1), ROD)
+}
+
+fn in_a_box() -> Result<Box<Integrator<Vortex, Variational<Unfitted, Trapezoid>>>, StartError> {
+    Ok(Box::new(Integrator::new(Vortex, Variational::trapezoid(), 0.1, VORTEX)?))
+}
+
+fn two_points_written(bead: &Bead) -> Result<Integrator<&Bead, Sigma>, StartError> {
+    Integrator::from_two_points(bead, Sigma::midpoint(), 0.1, BEAD, BEAD)
+}
+
+fn in_a_local() -> Outcome {
+    let run: Integrator<_, Sigma> = Integrator::new(&Bead, Sigma::midpoint(), 0.1, BEAD)?;
+    println!("{:?}", run.state());
+    Ok(())
+}
+
+fn as_an_argument(run: &mut Integrator<&Bead, Sigma>) -> Outcome {
+    run.take_steps(100)?;
     Ok(())
 }
 

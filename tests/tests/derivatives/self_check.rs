@@ -58,6 +58,35 @@ struct NearOverflow {
     n: usize,
 }
 
+/// Sums over components are written out, and so are those over pairs of them. Up to the first component there
+/// is nothing: a sum is 0 there, and a product 1.
+#[lagrangian(
+    coordinates(r[N][3], s[N][6]),
+    lagrangian = sum(0..N, |i| (dot(r[i]).norm_squared() + dot(s[i]).norm_squared()) / 2
+        - sum(0..3, |k| r[i][k] * (sum(0..k, |l| a[l]) + product(0..k, |l| a[l]) * sum_pairs(k..3, |l, m| a[l] - a[m])))
+        - sum_pairs(0..6, |k, l| s[i][k] * s[i][l] * (l as f64))
+        - sum_ordered_pairs(0..3, |k, l| r[i][k] * a[l] * s[i][1])),
+)]
+struct Components<const N: usize> {
+    a: [f64; 3],
+}
+
+#[test]
+fn sums_over_components_are_those_by_hand() {
+    let (a, r, s) = ([0.5, -1.25, 3.0], [2.0, -0.75, 1.5], [0.25, 3.0, -1.0, 0.5, -2.0, 1.75]);
+    let mut expected = r[0] * ((a[0] - a[1]) + (a[0] - a[2]) + (a[1] - a[2]));
+    expected += r[1] * (a[0] + a[0] * (a[1] - a[2])) + r[2] * (a[0] + a[1]);
+    for l in 0..6 {
+        expected += s[..l].iter().sum::<f64>() * s[l] * l as f64;
+    }
+    for k in 0..3 {
+        expected += r[k] * (a.iter().sum::<f64>() - a[k]) * s[1];
+    }
+    // Each component has a block of its own.
+    let q: Vec<f64> = r.iter().chain(&s).copied().collect();
+    assert_abs_diff_eq!(Components::<1> { a }.energy(&q, &[0.0; 9], 0.0), expected, epsilon = 1e-12);
+}
+
 #[test]
 fn a_zero_keeps_its_sign() {
     for [x, y, u] in [[-0.5, -0.25, 0.75], [0.5, 0.25, 0.75], [-0.5, 0.25, -0.75]] {

@@ -3,10 +3,12 @@
 //! Each start gives q1, and the run begins with p0 = −D₁L_d(q0, q1), so that its first step arrives
 //! there.
 
+use super::{Sigma, SigmaMemory};
 use crate::error::StartError;
-use crate::methods::{Gauss, Method, RungeKutta, Step};
+use crate::methods::{Carries, Gauss, Method, RungeKutta, Step};
 use crate::state::Statistics;
-use crate::{DegenerateLagrangian, Real, Vector};
+use crate::system::{Same, spinors};
+use crate::{DegenerateLagrangian, Real, System, Vector};
 
 /// How the second point of a run is found. A given second point goes to
 /// [`Integrator::from_two_points`](crate::run::Integrator::from_two_points).
@@ -60,4 +62,54 @@ fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
     let step = Step { system, q: &mut q, t, h, statistics };
     method.step(step, &mut memory).map_err(StartError::Starter)?;
     Ok(q)
+}
+
+/// A method for `S` whose runs can begin between two points, and that is `M`: as a method
+/// [suits](crate::methods::Suits) a system.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not begin between two points",
+    label = "`Integrator::new` begins its runs, at one point",
+    note = "the method that begins between two is `Sigma`, for degenerate systems"
+)]
+pub trait BeginsBetween<S: System, T: Real, M: Carries<S, T>> {
+    /// The method as it is.
+    fn suited(self) -> M;
+
+    /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
+    ///
+    /// # Errors
+    /// As [`Method::begin`].
+    fn begin_between(
+        &self,
+        system: &S,
+        q0: &Vector<S, T>,
+        q1: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<M::Memory, StartError>;
+}
+
+impl<S, T: Real, M> BeginsBetween<S, T, M> for Sigma<T>
+where
+    S: DegenerateLagrangian<T, Suited<Self>: Same<Self, As = M>>,
+    M: Carries<S, T, Memory = SigmaMemory<S, T>>,
+{
+    fn suited(self) -> M {
+        S::Suited::<Self>::same(self)
+    }
+
+    fn begin_between(
+        &self,
+        system: &S,
+        q0: &Vector<S, T>,
+        q1: &Vector<S, T>,
+        t: T,
+        h: T,
+    ) -> Result<M::Memory, StartError> {
+        // The phases between two states of unit vectors are not known.
+        spinors::refuse::<S>("a run from two points")?;
+        self.validate(S::AFFINE)?;
+        self.go_with(system, q0, t)?;
+        SigmaMemory::between(system, self, [q0, q1], t, h)
+    }
 }

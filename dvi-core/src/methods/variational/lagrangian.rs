@@ -14,11 +14,11 @@ use crate::discrete::frequency::{FrequencyIn, GivenFrequency, Local};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
-use crate::methods::constrained::without_effect_inside;
 use crate::methods::step::{Begin, Equations, Kinetic, Share, set_force};
 use crate::methods::{InnerScheme, VariationalMethod};
+use crate::solve::{Solver, Stopping};
 use crate::space::sink::Sink;
-use crate::state::Statistics;
+use crate::state::{Statistics, Summation};
 use crate::{NondegenerateLagrangian, Real, System};
 
 /// When a frequency is read from the motion, which the compiler knows in the loop of an iteration.
@@ -358,6 +358,25 @@ where
     type Suited<X> = X;
 
     fn admit_inside(&self) -> Result<(), StartError> {
-        without_effect_inside(self.solver, self.stopping, self.summation)
+        let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
+        if self.summation != Summation::default() {
+            return unsupported(
+                "Summation::Compensated",
+                "`Constrained` adds up the increments of its steps plainly",
+            );
+        }
+        if self.solver != Solver::default() {
+            return unsupported(
+                "the solver of the inner method",
+                "`Constrained` solves its steps by Newton's method",
+            );
+        }
+        if self.stopping != Stopping::default() {
+            return unsupported(
+                "the `stopping` of the inner method",
+                "`Constrained` has one of its own, which counts",
+            );
+        }
+        Ok(())
     }
 }

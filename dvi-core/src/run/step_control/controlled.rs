@@ -27,7 +27,7 @@ pub(super) struct KeptSteps<S: System, M: Carries<S, T>, T: Real> {
     looked_at: Option<Aside<Kept<S, M, T>>>,
 }
 
-impl<S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> KeptSteps<S, M, T> {
+impl<S: Lagrangian<T>, M: Carries<S, T>, T: Real> KeptSteps<S, M, T> {
     pub(super) fn new(
         q: &Vector<S, T>,
         rejects: bool,

@@ -4,12 +4,12 @@ use core::fmt;
 
 use super::clock::VariableClock;
 use super::controlled::{ControlledRun, KeptSteps};
-use super::{Controls, ErrorControl, Reversible, StepControl, reversible};
+use super::{ErrorControl, Obeys, Reversible, StepControl, reversible};
 #[cfg(feature = "alloc")]
 use crate::error::CheckpointError;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::Memory;
-use crate::methods::{Carries, Clock, SuitsAnyStep, VariableStep};
+use crate::methods::{Carries, Clock, Method, SuitsAnyStep, VariableStep};
 #[cfg(feature = "alloc")]
 use crate::run::Checkpoint;
 use crate::run::{Between, Run, Stepper, WithMethod};
@@ -58,20 +58,19 @@ where
 impl<H, M, C, T: Real> ControlledIntegrator<H, M, C, T>
 where
     H: Held<System: Lagrangian<T>>,
-    M: VariableStep<H::System, T>,
-    C: StepControl<H::System, T>,
+    M: Carries<H::System, T>,
+    C: Carries<H::System, T>,
 {
     /// A run from `start` at time 0.
     ///
     /// # Errors
     /// [`StartError`] if an array has the wrong length, a coordinate is not finite, an option of the method
     /// or of the control is out of range, or their starting values cannot be computed.
-    pub fn new(
-        system: H,
-        method: impl SuitsAnyStep<H::System, T, M>,
-        control: impl Controls<H::System, T, C>,
-        start: StateOf<H, T>,
-    ) -> Result<Self, StartError> {
+    pub fn new<X, Y>(system: H, method: X, control: Y, start: StateOf<H, T>) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
         Self::new_at(system, method, control, T::lift(0.0), start)
     }
 
@@ -79,25 +78,30 @@ where
     ///
     /// # Errors
     /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
-    pub fn new_at(
+    pub fn new_at<X, Y>(
         system: H,
-        method: impl SuitsAnyStep<H::System, T, M>,
-        control: impl Controls<H::System, T, C>,
+        method: X,
+        control: Y,
         t: T,
         start: StateOf<H, T>,
-    ) -> Result<Self, StartError> {
-        let (held, method, control) = (system.held(), method.suited(), control.suited());
+    ) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
+        let (held, method, control) = (system.held(), method.suited(), M::suited(control));
+        let (steps, lengths) = (X::steps(&method), M::lengths(&control));
         if H::System::TIME_TRANSFORMED {
             let reason = "the time of the system is transformed, which sets the lengths of its steps";
             return Err(StartError::Unsupported { option: "a step control", reason });
         }
         let [q, all] = begun(held, t, &start)?;
         let v = &all[..velocities(held)];
-        control.admit(&method)?;
+        lengths.admit(steps)?;
         let explained = |error| named(held, [&q, &all], t, error);
-        let (control_memory, h) = control.begin(held, &q, v, t).map_err(explained)?;
-        let begin = || method.begin(held, &q, v, t, h).map_err(explained);
-        let (memory, kept) = (begin()?, KeptSteps::new(&q, C::REJECTS, begin)?);
+        let (control_memory, h) = lengths.begin(held, &q, v, t).map_err(explained)?;
+        let begin = || steps.begin(held, &q, v, t, h).map_err(explained);
+        let (memory, kept) = (begin()?, KeptSteps::new(&q, M::Control::REJECTS, begin)?);
         let (stepper, clock) = (Stepper::new(method, memory, q), VariableClock::new(t));
         Ok(Self { system, stepper, kept, control, control_memory, clock, h })
     }
@@ -110,22 +114,27 @@ where
     /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than method and
     /// control carry on this system, or numbers that no run has.
     #[cfg(feature = "alloc")]
-    pub fn resume(
+    pub fn resume<X, Y>(
         system: H,
-        method: impl SuitsAnyStep<H::System, T, M>,
-        control: impl Controls<H::System, T, C>,
+        method: X,
+        control: Y,
         checkpoint: &Checkpoint<T>,
-    ) -> Result<Self, StartError> {
+    ) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
         let (t, mut h) = (checkpoint.time(), checkpoint.step_size());
-        let (held, method, control) = (system.held(), method.suited(), control.suited());
+        let (held, method, control) = (system.held(), method.suited(), M::suited(control));
+        let (steps, lengths) = (X::steps(&method), M::lengths(&control));
         validate(held, t)?;
         let [q, all] = checkpoint.point(held)?;
         let v = &all[..velocities(held)];
-        control.admit(&method)?;
+        lengths.admit(steps)?;
         let explained = |error| named(held, [&q, &all], t, error);
-        let mut control_memory = control.begin_again(held, &q, v, t).map_err(explained)?;
-        let begin = || method.begin_again(held, &q, v, t, h).map_err(explained);
-        let (mut memory, kept) = (begin()?, KeptSteps::new(&q, C::REJECTS, begin)?);
+        let mut control_memory = lengths.begin_again(held, &q, v, t).map_err(explained)?;
+        let begin = || steps.begin_again(held, &q, v, t, h).map_err(explained);
+        let (mut memory, kept) = (begin()?, KeptSteps::new(&q, M::Control::REJECTS, begin)?);
         let mut clock = VariableClock::new(t);
         checkpoint.load::<H::System, M>(&mut memory, |reader| {
             control_memory.load(reader)?;

@@ -5,7 +5,7 @@ use syn::{Expr, ExprCall, ExprMethodCall, ExprRange, RangeLimits};
 
 use super::super::functions;
 use super::super::jet::Jet;
-use super::super::point::Variable;
+use super::super::point::{Variable, first_of};
 use super::words::{exponent, pattern};
 use super::{Binding, Evaluation, Quantity, Value, unknown, written};
 
@@ -118,9 +118,11 @@ impl Evaluation<'_> {
             _ => Quantity::Empty(Jet::empty_sum()),
         };
         let plus = |a: &Jet, b: &Jet| a.clone().plus(b);
-        let written_out = self.model.written_out(&call.args[0], closure);
-        let firsts = written_out.map_or_else(|| self.point.visited(lower, upper), |values| values.collect());
-        for first in firsts {
+        let most = match self.model.written_out(&call.args[0], closure) {
+            Some(_) => i64::MAX,
+            None => self.point.most_visited,
+        };
+        for first in first_of(lower..upper, most) {
             let seconds = match name {
                 "sum" | "product" => {
                     let term = self.closure(closure, &[first])?;
@@ -128,12 +130,10 @@ impl Evaluation<'_> {
                         if name == "sum" { total.with(&term, plus) } else { total.with(&term, Jet::times) };
                     continue;
                 }
-                "sum_pairs" => self.point.visited(first + 1, upper),
-                _ => {
-                    self.point.visited(lower, upper).into_iter().filter(|second| *second != first).collect()
-                }
+                "sum_pairs" => first_of(first + 1..upper, most),
+                _ => first_of(lower..upper, most),
             };
-            for second in seconds {
+            for second in seconds.filter(|second| *second != first) {
                 total = total.with(&self.closure(closure, &[first, second])?, plus);
             }
         }

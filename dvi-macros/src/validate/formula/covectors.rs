@@ -69,7 +69,7 @@ impl Evaluation<'_> {
             let further = |pass: &Vec<i64>, index: i64| pass.iter().copied().chain([index]).collect();
             passes = passes
                 .iter()
-                .flat_map(|pass| visited.iter().map(move |index| further(pass, *index)))
+                .flat_map(|pass| visited.clone().map(move |index| further(pass, index)))
                 .collect();
         }
         for indices in passes {
