@@ -35,18 +35,14 @@ mod a_coordinate_called_t {
     }
 }
 
-mod a_field_called_energy {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = y * d(x),
-        hamiltonian = x * y * energy,
-        time_transform = 1.0,
-    )]
-    struct S {
-        energy: f64,
-    }
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = x * y * energy,
+    time_transform = 1.0,
+)]
+struct AFieldCalledEnergy {
+    energy: f64,
 }
 
 mod the_energy_in_a_formula {
