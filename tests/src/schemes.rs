@@ -158,12 +158,15 @@ pub fn affine() -> Vec<Case> {
         Projected::standard() => ONE, Elsewhere;
     });
     rows!(table, [four()], |at| {
+        // The implicit midpoint rule, all three of them.
+        Sigma::midpoint() => ONE, Collocation(1);
         Projected::symmetric() => ONE, Collocation(1);
         Projected::standard() => ONE, Collocation(1);
         RungeKutta::midpoint() => ONE, Elsewhere;
         RungeKutta::heun() => ONE, Elsewhere;
         RungeKutta::classical() => ONE, Elsewhere;
         Composition::suzuki(Gauss::<1>::new()) => ONE, Elsewhere;
+        Composition::suzuki(Composition::triple_jump(Gauss::<1>::new())) => ONE, Elsewhere;
         EnergyLimit { method: Sigma::midpoint(), limit: 1e2 } => ONE, discrete(&[0.5], &[1.0]);
     });
     table

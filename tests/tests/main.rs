@@ -10,7 +10,6 @@ mod baselines;
 #[path = "../src/browser.rs"]
 mod browser;
 mod checkpoints;
-mod compositions;
 mod constrained;
 mod constraints;
 mod derivatives;

@@ -1,18 +1,18 @@
-//! The equations of motion that the library solves are those of the Lagrangian, d/dt ∂L/∂v = ∂L/∂q + F +
-//! Gᵀλ, made of it in plain Rust by hyper-dual numbers.
+//! What the library says of a state: L, E = ∂L/∂v·v − L, and the motion, d/dt ∂L/∂v = ∂L/∂q + F + Gᵀλ, which
+//! are made of L in plain Rust by hyper-dual numbers.
 
 use dvi_tests::schemes::Case;
 use dvi_tests::schemes::equations::apart;
 
 use super::{Outcome, below, of_every_kind};
 
-fn rates_are_those_of_the_lagrangian(case: &Case) -> Outcome {
+fn states_are_those_of_the_lagrangian(case: &Case) -> Outcome {
     let (subject, start) = (&case.subject, case.subject.start.concat());
     below(
-        apart(&subject.field(subject.t, &start)?, &subject.rates(&start, subject.t)),
+        apart(&subject.said(subject.t, &start)?, &subject.expected(&start, subject.t)),
         1e-13,
         "another motion",
     )
 }
 
-of_every_kind!(rates_are_those_of_the_lagrangian);
+of_every_kind!(states_are_those_of_the_lagrangian);
