@@ -4,8 +4,6 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Real, State};
 
-#[cfg(feature = "schemes")]
-pub mod schemes;
 pub mod steps;
 pub mod systems;
 pub mod zoo;

@@ -5,7 +5,6 @@ use dvi_core::field::{Axis, ScalarField, Spline};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
-use dvi_tests::schemes;
 use dvi_tests::systems::{ManyVortices, ManyVorticesState, PointVortices, PointVorticesState};
 use dvi_tests::zoo::constrained::{Links, LinksState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
@@ -202,12 +201,12 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     assert_eq!(counted, 100, "the counter counts");
 
     // The thread of the test harness allocates now and then; steps that allocate do so every time.
-    for case in schemes::all() {
+    for case in dvi_laws::all() {
         let mut run = case.run().expect("starts");
         let mut few = || (0..case.subject.steps / 4).for_each(|_| run.advance().expect("steps"));
         assert_eq!((0..3).map(|_| blocks(&mut few)).min(), Some(0), "{case:?}");
     }
-    for case in schemes::fused() {
+    for case in dvi_laws::fused() {
         let mut run = case.run().expect("starts");
         let mut few = || (0..10).for_each(|_| run.advance().expect("steps"));
         assert_eq!((0..3).map(|_| blocks(&mut few)).min(), Some(0), "{case:?}");

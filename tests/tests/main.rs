@@ -33,7 +33,6 @@ mod imports;
 mod lanes;
 mod langevin;
 mod lattices;
-mod laws;
 mod local_functions;
 mod manifold;
 mod many_coordinates;

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use dvi_core::prelude::*;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_examples::models::{TokamakInClass, TokamakInClassState};
-use dvi_tests::schemes::systems::{Belt, Mixed};
+use dvi_laws::systems::{Belt, Mixed};
 use dvi_tests::steps::{apart, stepped};
 use dvi_tests::systems::{SphereForm, SphereFormState};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};

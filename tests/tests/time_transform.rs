@@ -7,7 +7,7 @@ use dvi_core::prelude::*;
 use dvi_core::system::TimeTransform;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_tests::Outcome;
-use dvi_tests::schemes::systems::Belt;
+use dvi_laws::systems::Belt;
 use dvi_tests::steps::{apart, jacobian, stepped};
 use nalgebra::DMatrix;
 use num_dual::Dual64;

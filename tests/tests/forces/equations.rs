@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Vector4};
 use num_dual::Dual64;
 
 use super::Outcome;
-use dvi_tests::schemes::systems::{
+use dvi_laws::systems::{
     Canonical, Damped, DampedStateOf, Harvested, Pulled, PulledState, Swirl, SwirlState,
 };
 

@@ -11,7 +11,7 @@ use dvi_core::prelude::*;
 use nalgebra::{DMatrix, DVector, RealField};
 use num_dual::{Dual64, HyperDual64};
 
-use crate::{larger, state};
+use dvi_tests::{larger, state};
 
 /// A Lagrangian in plain Rust, with its forces and constraints.
 pub trait Formula {

@@ -1,8 +1,8 @@
 //! What the library says of a state: L, E = ∂L/∂v·v − L, and the motion, d/dt ∂L/∂v = ∂L/∂q + F + Gᵀλ, which
 //! are made of L in plain Rust by hyper-dual numbers.
 
-use dvi_tests::schemes::Case;
-use dvi_tests::schemes::equations::apart;
+use dvi_laws::Case;
+use dvi_laws::equations::apart;
 
 use super::{Outcome, below, of_every_kind};
 
