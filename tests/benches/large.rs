@@ -11,6 +11,8 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, Lagrangian};
+use dvi_examples::models::{VortexBlobs, VortexBlobsState};
+use dvi_tests::zoo::constrained::Mobile;
 use markdown::{Cell, Table};
 use std::hint::black_box;
 
@@ -91,32 +93,15 @@ fn lattice(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Masses on rods in a plane, two below each.
-#[lagrangian(
-    coordinates(x[2 * half + 1], y[2 * half + 1]),
-    lagrangian = sum(0..2 * half + 1, |j| (dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0 - y[j]),
-    constraint = x[0] * x[0] + y[0] * y[0] - 1.0,
-    constraint(j in 0..half) = (x[2 * j + 1] - x[j]).powi(2) + (y[2 * j + 1] - y[j]).powi(2) - 1.0,
-    constraint(j in 0..half) = (x[2 * j + 2] - x[j]).powi(2) + (y[2 * j + 2] - y[j]).powi(2) - 1.0,
-)]
-struct Mobile {
-    half: usize,
-}
-
 /// Steps with constraints on a tree, whose matrix is sparse and has no narrow band.
 fn rods(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rods in a tree, constrained midpoint, h = 0.01");
     group.sample_size(10);
     for n in [63, 127, 255] {
-        let side = |j: usize| if j % 2 == 1 { -0.6 } else { 0.6 };
-        let (mut x, mut y) = (vec![0.6; n], vec![-0.8; n]);
-        for j in 1..n {
-            let above = (j - 1) / 2;
-            (x[j], y[j]) = (x[above] + side(j), y[above] - 0.8);
-        }
-        let start = MobileState { x, y, dot_x: vec![0.0; n], dot_y: vec![0.0; n] };
         let (system, method) = (Mobile { half: n / 2 }, Constrained::new(Variational::midpoint()));
-        let Ok(mut run) = Integrator::new(&system, method, 0.01, start) else { panic!("it starts") };
+        let Ok(mut run) = Integrator::new(&system, method, 0.01, system.at_rest()) else {
+            panic!("it starts")
+        };
         group.throughput(Throughput::Elements(n as u64));
         group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
             bencher.iter(|| assert!(run.advance().is_ok()));
@@ -192,26 +177,16 @@ fn beside_gradients<S: Lagrangian, M: Method<S, f64>>(
     evaluations
 }
 
-/// Vortices on a disc, blurred.
-#[degenerate_lagrangian(
-    coordinates(x[gamma.len()], y[gamma.len()]),
-    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = -sum_pairs(0..gamma.len(), |i, j| gamma[i] * gamma[j] / (4.0 * PI)
-        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
-)]
-struct Cloud {
-    gamma: Vec<f64>,
-}
-
 /// By the fixed point, and by Newton's method with a matrix and without.
 fn many_bodies(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("vortices, midpoint");
     group.sample_size(10);
     for n in [64, 128, 256] {
-        let system = Cloud { gamma: (0..n).map(|j| (1.0 + (j % 5) as f64) / n as f64).collect() };
+        let system =
+            VortexBlobs { gamma: (0..n).map(|j| (1.0 + (j % 5) as f64) / n as f64).collect(), core: 0.1 };
         let at = |j: usize| ((j as f64 + 0.5) / n as f64).sqrt();
         let turn = |j: usize| 2.399_963_229_728_653 * j as f64;
-        let start = CloudState {
+        let start = VortexBlobsState {
             x: (0..n).map(|j| at(j) * turn(j).cos()).collect(),
             y: (0..n).map(|j| at(j) * turn(j).sin()).collect(),
         };

@@ -4,8 +4,6 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Real, State};
 
-#[cfg(feature = "schemes")]
-pub mod schemes;
 pub mod steps;
 pub mod systems;
 pub mod zoo;
@@ -120,6 +118,16 @@ pub mod configurations {
 /// Oracles that do not use the integrators.
 pub mod oracle {
     use nalgebra::{DMatrix, DVector};
+
+    /// y after a step of length h from time t, by the classical method of Runge and Kutta.
+    pub fn runge_kutta(rates: impl Fn(&[f64], f64) -> Vec<f64>, y: &[f64], [t, h]: [f64; 2]) -> Vec<f64> {
+        let moved = |by: f64, k: &[f64]| -> Vec<f64> { y.iter().zip(k).map(|(y, k)| y + by * k).collect() };
+        let a = rates(y, t);
+        let b = rates(&moved(h / 2.0, &a), t + h / 2.0);
+        let c = rates(&moved(h / 2.0, &b), t + h / 2.0);
+        let d = rates(&moved(h, &c), t + h);
+        (0..y.len()).map(|i| y[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i])).collect()
+    }
 
     /// A point at which a gradient vanishes, from zero by Newton's method with its differences, up to
     /// rounding; nothing where its matrix is singular.

@@ -5,8 +5,8 @@ use dvi_core::field::{Axis, ScalarField, Spline};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
-use dvi_tests::schemes;
 use dvi_tests::systems::{ManyVortices, ManyVorticesState, PointVortices, PointVorticesState};
+use dvi_tests::zoo::constrained::{Links, LinksState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
 
 #[global_allocator]
@@ -42,15 +42,25 @@ macro_rules! assert_none_controlled {
     )+};
 }
 
+/// Bytes that a run takes, with steps of this length and of this number.
+fn bytes<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: M,
+    (h, steps): (f64, u64),
+    start: S::State<f64>,
+) -> f64 {
+    let before = dhat::HeapStats::get().total_bytes;
+    let mut run = Integrator::new(system, method, h, start).expect("starts");
+    run.take_steps(steps).expect("steps");
+    (dhat::HeapStats::get().total_bytes - before) as f64
+}
+
 /// Bytes that a run of a chain of `n` masses takes.
 fn of_chain<M: Method<RunTimeChain, f64>>(method: M, n: usize) -> f64 {
     let chain = RunTimeChain { mass: vec![1.0; n], coupling: 0.125 };
     let wave = |phase: f64| (0..n).map(|j| 0.3 * (j as f64 + phase).sin()).collect::<Vec<f64>>();
     let start = RunTimeChainState { q: wave(0.0), wall: 0.3, dot_q: wave(1.0), dot_wall: 0.2 };
-    let before = dhat::HeapStats::get().total_bytes;
-    let mut run = Integrator::new(&chain, method, 0.1, start).expect("starts");
-    run.take_steps(3).expect("steps");
-    (dhat::HeapStats::get().total_bytes - before) as f64
+    bytes(&chain, method, (0.1, 3), start)
 }
 
 /// Friction on bodies that all depend on each other.
@@ -73,18 +83,6 @@ struct Rubbed {
 #[derive(Debug)]
 struct Seamed {
     walls: Vec<f64>,
-}
-
-/// Masses on rods, one below the other.
-#[lagrangian(
-    coordinates(x[rod.len()], y[rod.len()]),
-    lagrangian = sum(0..rod.len(), |i| (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - y[i]),
-    constraint = x[0] * x[0] + y[0] * y[0] - rod[0] * rod[0],
-    constraint(i in 1..rod.len()) = (x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2) - rod[i] * rod[i],
-)]
-#[derive(Debug)]
-struct Links {
-    rod: Vec<f64>,
 }
 
 /// Bodies and rods beside a chain, of a number that is known at run time.
@@ -132,20 +130,13 @@ fn of_turning(n: usize) -> f64 {
         omega_R: vec![[0.4, 0.9, -0.3]; n],
         dot_s: vec![[0.0, 0.4, 0.0]; n],
     };
-    let before = dhat::HeapStats::get().total_bytes;
-    let mut run = Integrator::new(&system, Geodesic::trapezoid(), 0.01, start).expect("starts");
-    run.take_steps(3).expect("steps");
-    (dhat::HeapStats::get().total_bytes - before) as f64
+    bytes(&system, Geodesic::trapezoid(), (0.01, 3), start)
 }
 
 /// Bytes that a constrained run of a chain of `n` rods takes.
 fn of_links(n: usize) -> f64 {
     let (system, start) = links(n);
-    let before = dhat::HeapStats::get().total_bytes;
-    let mut run =
-        Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.01, start).expect("starts");
-    run.take_steps(3).expect("steps");
-    (dhat::HeapStats::get().total_bytes - before) as f64
+    bytes(&system, Constrained::new(Variational::midpoint()), (0.01, 3), start)
 }
 
 /// Bytes that a run of `n` such bodies takes.
@@ -178,12 +169,9 @@ fn tree(half: usize) -> (Tree, TreeState) {
 
 /// Bytes that a run of such a tree takes.
 fn of_tree(half: usize) -> f64 {
-    let ((system, start), solver) = (tree(half), Solver::Newton);
-    let before = dhat::HeapStats::get().total_bytes;
-    let method = Variational { solver, ..Variational::midpoint() };
-    let mut run = Integrator::new(&system, method, 0.1, start).expect("starts");
-    run.take_steps(3).expect("steps");
-    (dhat::HeapStats::get().total_bytes - before) as f64
+    let (system, start) = tree(half);
+    let method = Variational { solver: Solver::Newton, ..Variational::midpoint() };
+    bytes(&system, method, (0.1, 3), start)
 }
 
 /// Vortices on a spiral.
@@ -196,10 +184,7 @@ fn spiral(n: usize) -> (ManyVortices, ManyVorticesState) {
 /// Bytes that a run of `n` vortices takes, each of which moves all others.
 fn of_vortices(method: Sigma, n: usize) -> f64 {
     let (system, start) = spiral(n);
-    let before = dhat::HeapStats::get().total_bytes;
-    let mut run = Integrator::new(&system, method, 0.01, start).expect("starts");
-    run.advance().expect("steps");
-    (dhat::HeapStats::get().total_bytes - before) as f64
+    bytes(&system, method, (0.01, 1), start)
 }
 
 macro_rules! assert_linear {
@@ -216,12 +201,12 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     assert_eq!(counted, 100, "the counter counts");
 
     // The thread of the test harness allocates now and then; steps that allocate do so every time.
-    for case in schemes::all() {
+    for case in dvi_laws::all() {
         let mut run = case.run().expect("starts");
         let mut few = || (0..case.subject.steps / 4).for_each(|_| run.advance().expect("steps"));
         assert_eq!((0..3).map(|_| blocks(&mut few)).min(), Some(0), "{case:?}");
     }
-    for case in schemes::fused() {
+    for case in dvi_laws::fused() {
         let mut run = case.run().expect("starts");
         let mut few = || (0..10).for_each(|_| run.advance().expect("steps"));
         assert_eq!((0..3).map(|_| blocks(&mut few)).min(), Some(0), "{case:?}");

@@ -1,24 +1,14 @@
 //! Gauss collocation and explicit Runge–Kutta methods on Hamilton's equations of regular systems.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
+use approx::abs_diff_eq;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_examples::models::Orbit;
 use dvi_tests::Outcome;
 use dvi_tests::zoo::regular::*;
-use dvi_tests::{apart, larger};
+use dvi_tests::{apart, run};
 
-fn last<S: Lagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: M,
-    start: S::State<f64>,
-    time: f64,
-    steps: u64,
-) -> Outcome<Vec<f64>> {
-    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
-    run.take_steps(steps)?;
-    Ok(run.q().to_vec())
-}
+use crate::galerkin::many_nodes::energy_error;
 
 /// Two oscillators of frequency 1 whose velocities are coupled, and beside them dF/dt of F = t x y + x³ y:
 /// the motion is that without it, and p = M v + ∂F/∂q.
@@ -48,33 +38,6 @@ fn momenta_beside_those_of_a_constant_mass_matrix_are_taken_off() -> Outcome {
     check(Gauss::<8>::new().in_lanes(), 10, 1e-12)?;
     check(Gauss { summation: Summation::Compensated, ..Gauss::<4>::new() }, 40, 1e-12)?;
     check(RungeKutta::classical(), 400, 1e-9)
-}
-
-/// A planet of any mass, so that momenta are much larger or smaller than coordinates.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + m * mu / (x * x + y * y).sqrt(),
-)]
-struct Planet {
-    m: f64,
-    mu: f64,
-}
-
-/// Stages are judged in units of the coordinates: the earth in SI units goes where the unit orbit goes.
-#[test]
-fn units_do_not_matter() -> Outcome {
-    let start = PlanetState { x: 0.7, y: 0.0, dot_x: 0.0, dot_y: 1.3 };
-    let unit = last(&Planet { m: 1.0, mu: 1.0 }, Gauss::<2>::new(), start, 6.0, 120)?;
-    for (length, velocity, m) in
-        [(1.5e11, 3e4, 6e24), (1e-9, 1e-3, 1e-27), (1e6, 1e-6, 1e-12), (1.0, 1.0, 1e30)]
-    {
-        let planet = Planet { m, mu: length * velocity * velocity };
-        let start = PlanetState { x: 0.7 * length, y: 0.0, dot_x: 0.0, dot_y: 1.3 * velocity };
-        let found = last(&planet, Gauss::<2>::new(), start, 6.0 * length / velocity, 120)?;
-        let off = found.iter().zip(&unit).map(|(a, b)| (a / length - b).abs()).fold(0.0, larger);
-        assert!(off < 1e-12, "{length:e}, {velocity:e}, {m:e}: {off:e}");
-    }
-    Ok(())
 }
 
 /// A pendulum as an arc of the circle of radius r.
@@ -118,26 +81,11 @@ struct Pushed;
 #[test]
 fn steps_from_rest_at_the_origin() -> Outcome {
     let start = PushedState { x: 0.0, dot_x: 0.0 };
-    let gauss = last(&Pushed, Gauss::<3>::new(), start, 2.0, 40)?;
-    let explicit = last(&Pushed, RungeKutta::classical(), start, 2.0, 400)?;
+    let gauss = run(&Pushed, Gauss::<3>::new(), start, 2.0, 40)?;
+    let explicit = run(&Pushed, RungeKutta::classical(), start, 2.0, 400)?;
     let exact = 2.0 - 2.0_f64.sin();
     assert!(abs_diff_eq!(gauss[0], exact, epsilon = 1e-12), "{gauss:?}");
     assert!(abs_diff_eq!(explicit[0], exact, epsilon = 1e-10), "{explicit:?}");
-    Ok(())
-}
-
-/// Velocities that a run gives are those that belong to its momenta.
-#[test]
-fn velocities_are_those_of_the_momenta() -> Outcome {
-    let start = RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };
-    let system = Relativistic { m: 1.5 };
-    let mut run = Integrator::new(&system, Gauss::<3>::new(), 0.01, start)?;
-    assert_abs_diff_eq!(run.state().dot_x, 0.6, epsilon = 1e-14);
-    let energy = run.energy();
-    run.take_steps(1000)?;
-    assert!(abs_diff_eq!(run.energy(), energy, epsilon = 1e-11), "{:e}", run.energy() - energy);
-    let speed = run.state().dot_x.hypot(run.state().dot_y);
-    assert!(speed < 1.0 && speed > 0.1);
     Ok(())
 }
 
@@ -200,40 +148,6 @@ fn no_step_changes_the_branch_of_the_velocity() -> Outcome {
     ends(RungeKutta::classical(), 0.1, 2.0, 0.2)
 }
 
-/// On the oscillator a step turns by the angle of the diagonal Padé approximant N(ih)/N(−ih) of e^(ih),
-/// N(z) = Σₖ (2S − k)! S! / ((2S)! k! (S − k)!) zᵏ (Hairer & Wanner 1996, theorem IV.3.12).
-#[test]
-fn gauss_turns_the_oscillator_by_the_pade_approximant() -> Outcome {
-    fn check<const S: usize>() -> Outcome
-    where
-        Gauss<S>: Tabulated,
-    {
-        let h = 0.9_f64;
-        // Real and imaginary part of N(ih), term by term.
-        let (mut term, mut numerator) = (1.0, [0.0; 2]);
-        for k in 0..=S {
-            let sign = if k % 4 < 2 { 1.0 } else { -1.0 };
-            numerator[k % 2] += sign * term;
-            term *= h * (S - k) as f64 / ((2 * S - k) as f64 * (k + 1) as f64);
-        }
-        let angle = 2.0 * numerator[1].atan2(numerator[0]);
-        let start = GaugeState { x: 1.0, dot_x: 0.0 };
-        let mut run = Integrator::new(&Gauge { a: 0.0 }, Gauss::<S>::new(), h, start)?;
-        run.take_steps(100)?;
-        let off = run.state().x - (100.0 * angle).cos();
-        assert!(off.abs() < 2e-13, "{S} stages: {off:e}");
-        Ok(())
-    }
-    check::<1>()?;
-    check::<2>()?;
-    check::<3>()?;
-    check::<4>()?;
-    check::<5>()?;
-    check::<6>()?;
-    check::<7>()?;
-    check::<8>()
-}
-
 /// Most of one period of Kepler's orbit in 16 steps, against its closed form.
 #[test]
 fn each_stage_of_gauss_gains_digits() -> Outcome {
@@ -241,11 +155,8 @@ fn each_stage_of_gauss_gains_digits() -> Outcome {
     where
         Gauss<S>: Tabulated,
     {
-        let orbit = Orbit { e: 0.3 };
-        let at = orbit.pericentre();
-        let start = KeplerState { x: at.x, y: at.y, dot_x: at.dot_x, dot_y: at.dot_y };
-        let found = last(&Kepler { mu: 1.0 }, Gauss::<S>::new().in_lanes(), start, 6.0, 16)?;
-        Ok(apart(&found, &orbit.position(6.0)))
+        let found = run(&KEPLER, Gauss::<S>::new().in_lanes(), pericentre(0.3), 6.0, 16)?;
+        Ok(apart(&found, &Orbit { e: 0.3 }.position(6.0)))
     }
     let errors = [error::<3>()?, error::<4>()?, error::<5>()?, error::<6>()?, error::<7>()?, error::<8>()?];
     for (errors, bound) in errors.windows(2).zip([0.1, 0.1, 0.1, 0.1, 0.2]) {
@@ -258,16 +169,7 @@ fn each_stage_of_gauss_gains_digits() -> Outcome {
 /// The energy error of the method with eight stages is that of rounding.
 #[test]
 fn eight_stages_keep_the_energy_to_rounding() -> Outcome {
-    let orbit = Orbit { e: 0.3 };
-    let at = orbit.pericentre();
-    let start = KeplerState { x: at.x, y: at.y, dot_x: at.dot_x, dot_y: at.dot_y };
-    let kepler = Kepler { mu: 1.0 };
-    let mut run = Integrator::new(&kepler, Gauss::<8>::new().in_lanes(), 0.2, start)?;
-    let (before, mut worst) = (run.energy(), 0.0);
-    for _ in 0..300 {
-        run.take_steps(100)?;
-        worst = larger(worst, (run.energy() - before).abs());
-    }
+    let [worst, _] = energy_error(Gauss::<8>::new().in_lanes(), 300)?;
     assert!(worst < 1e-14, "{worst:e}");
     Ok(())
 }

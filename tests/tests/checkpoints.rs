@@ -9,9 +9,7 @@ use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::configurations::leapfrogging;
 use dvi_tests::systems::*;
-use dvi_tests::zoo::regular::{Kepler, KeplerState, KeplerStateOf, RunTimeChain};
-
-const KEPLER: Kepler = Kepler { mu: 1.0 };
+use dvi_tests::zoo::regular::{KEPLER, Kepler, KeplerState, KeplerStateOf, RunTimeChain};
 
 /// As a text, and back.
 fn written_and_read(checkpoint: &Checkpoint) -> Result<Checkpoint, serde_json::Error> {

@@ -1,9 +1,8 @@
-//! Steps of the σ-family: precision, a given second point, what a step costs, and time in the form.
+//! Steps of the σ-family: precision, a given second point, and what a step costs.
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
-use dvi_tests::apart;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 
@@ -84,26 +83,5 @@ fn newton_takes_over_where_the_fixed_point_is_slow() -> Outcome {
     assert!(automatic.statistics().factorisations > 100);
     let apart = dvi_tests::apart(slow.q(), automatic.q());
     assert!(apart < 1e-10, "{apart:e}");
-    Ok(())
-}
-
-/// q(t) of the flow of α = ½(x dy − y dx) + t dx and H = 2x is y = y0 + 3t, x = x0: (Dα)ᵀ − Dα times q′ is
-/// ∇H + ∂α/∂t.
-#[test]
-fn the_rate_of_the_form_drives_the_flow() -> Outcome {
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = (x * d(y) - y * d(x)) / 2.0 + t * d(x),
-        hamiltonian = 2.0 * x,
-    )]
-    struct Ramp {}
-    for (h, sigma) in [0.06, -0.06].into_iter().flat_map(|h| [0.0, 0.3, 0.5, 1.0].map(|sigma| (h, sigma))) {
-        for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
-            let method = Sigma { solver, parasitic_limit: None, ..Sigma::new(sigma) };
-            let mut run = Integrator::new_at(&Ramp {}, method, -0.7, h, RampState { x: 1.0, y: 0.0 })?;
-            run.take_steps(10)?;
-            assert!(apart(run.q(), &[1.0, 30.0 * h]) < 1e-13, "{method:?}, h = {h}: {:?}", run.q());
-        }
-    }
     Ok(())
 }

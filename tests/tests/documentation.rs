@@ -19,12 +19,8 @@ fn read(file: &str) -> String {
 
 /// The files of a module.
 fn files(module: &str) -> Vec<PathBuf> {
-    fn below(folder: &Path) -> Vec<PathBuf> {
-        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-        let paths = entries.map(|entry| entry.expect("an entry").path());
-        paths.flat_map(|path| if path.is_dir() { below(&path) } else { vec![path] }).collect()
-    }
-    let mut files = below(&core().join(module));
+    let folder = core().join(module);
+    let mut files = if folder.is_dir() { crate::imports::files(&folder) } else { Vec::new() };
     files.push(core().join(format!("{module}.rs")));
     files.retain(|file| file.extension().is_some_and(|kind| kind == "rs"));
     files

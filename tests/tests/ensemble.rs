@@ -14,18 +14,10 @@ mod tables;
 
 use dvi_core::ensemble::{Draws, EnsembleError, Results};
 use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::{HenonHeiles, HenonHeilesState};
 
 type Verlet = Variational<dvi_core::discrete::Unfitted, dvi_core::discrete::Trapezoid>;
 type Checked = Result<(), Box<dyn std::error::Error>>;
-
-/// Hénon & Heiles 1964: explicit steps, and motions that leave.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0
-        - (x * x + y * y) / 2.0 - x * x * y + y.powi(3) / 3.0,
-)]
-#[derive(Clone, Debug, PartialEq)]
-struct HenonHeiles;
 
 /// A planet that falls into the sun if it has no angular momentum.
 #[lagrangian(
@@ -36,22 +28,6 @@ struct HenonHeiles;
 #[derive(Clone, Debug, PartialEq)]
 struct Kepler<P = f64> {
     mu: P,
-}
-
-/// Point vortices: a degenerate system, with arrays.
-#[degenerate_lagrangian(
-    coordinates(x[N], y[N]),
-    one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
-        * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
-    momenta(
-        impulse = sum(0..N, |j| gamma[j] * y[j]),
-        angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2))),
-    ),
-)]
-#[derive(Clone, Debug, PartialEq)]
-struct Vortices<const N: usize> {
-    gamma: [f64; N],
 }
 
 /// Some of them leave the well: the energy at which they can is 1/6.

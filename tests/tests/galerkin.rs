@@ -2,7 +2,9 @@
 
 mod equations;
 mod failures;
-mod many_nodes;
+pub(crate) mod many_nodes;
 mod oscillator;
 mod structure;
 mod systems;
+
+use dvi_tests::Outcome;

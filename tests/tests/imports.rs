@@ -17,36 +17,14 @@ fn rooms(of: &str) -> Vec<Vec<String>> {
 }
 
 /// The files below `folder`.
-fn files(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
     entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }
 
-/// What follows `crate::` in the code of a file, up to its tests and without its comments.
+/// What follows `crate::` in the code of a file: rooms, and names that the root passes on.
 fn names_of(text: &str) -> BTreeSet<String> {
-    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-    let code: String =
-        code.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
-    let mut names = BTreeSet::new();
-    for rest in code.split("crate::").skip(1) {
-        // `use crate::{a, b::{c, d}, e};`
-        let (mut depth, mut name) = (0, String::new());
-        for character in rest.chars() {
-            match character {
-                '{' => depth += 1,
-                '}' => depth -= 1,
-                _ if character.is_alphanumeric() || character == '_' => name.push(character),
-                _ => {
-                    names.insert(core::mem::take(&mut name));
-                }
-            }
-            if depth <= 0 && !(character.is_alphanumeric() || character == '_') {
-                break;
-            }
-        }
-        names.insert(name);
-    }
-    names
+    paths_of(text).iter().filter_map(|path| path.split("::").next().map(str::to_owned)).collect()
 }
 
 /// In which room each name is that the root of the crate passes on.

@@ -10,7 +10,6 @@ mod baselines;
 #[path = "../src/browser.rs"]
 mod browser;
 mod checkpoints;
-mod compositions;
 mod constrained;
 mod constraints;
 mod derivatives;
@@ -34,7 +33,6 @@ mod imports;
 mod lanes;
 mod langevin;
 mod lattices;
-mod laws;
 mod local_functions;
 mod manifold;
 mod many_coordinates;

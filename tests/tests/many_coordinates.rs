@@ -3,6 +3,7 @@
 
 use dvi_core::methods::{Composition, Method};
 use dvi_core::prelude::*;
+use dvi_examples::models::{VortexBlobs, VortexBlobsState};
 
 const N: usize = 24;
 
@@ -209,16 +210,6 @@ struct Swarm {
     g: f64,
 }
 
-#[degenerate_lagrangian(
-    coordinates(x[gamma.len()], y[gamma.len()]),
-    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = -sum_pairs(0..gamma.len(), |i, j| gamma[i] * gamma[j] / (4.0 * PI)
-        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
-)]
-struct Cloud {
-    gamma: Vec<f64>,
-}
-
 /// The coordinates of points that fill a disc.
 fn disc(n: usize) -> [Vec<f64>; 2] {
     let turn = |j: usize| (j as f64 + 0.5, 2.399_963_229_728_653 * j as f64);
@@ -271,8 +262,8 @@ fn products_with_vectors_are_enough_for_many_bodies() {
     assert!((run.energy() / energy - 1.0).abs() < 1e-3 && run.statistics().factorisations > 0);
 
     let gamma = (0..n).map(|j| (1.0 + (j % 5) as f64) / n as f64).collect();
-    let cloud = Cloud { gamma };
-    let start = CloudState { x, y };
+    let cloud = VortexBlobs { gamma, core: 0.1 };
+    let start = VortexBlobsState { x, y };
     let by = |solver| Sigma { solver, ..Sigma::midpoint() };
     let (expected, _) = steps(&cloud, by(Solver::FixedPoint), 0.1, start.clone());
     let (found, iterations) = steps(&cloud, by(Solver::NewtonKrylov), 0.1, start);

@@ -3,6 +3,7 @@
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::zoo::constrained::{Mobile, MobileState};
 use dvi_tests::{apart, larger};
 
 /// Masses on springs between each and the two below it.
@@ -37,18 +38,6 @@ struct BentTree {
 struct Pairs {
     half: usize,
     m: Vec<f64>,
-}
-
-/// Masses on rods in a plane, which hang from each other.
-#[lagrangian(
-    coordinates(x[2 * half + 1], y[2 * half + 1]),
-    lagrangian = sum(0..2 * half + 1, |j| (dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0 - y[j]),
-    constraint = x[0] * x[0] + y[0] * y[0] - 1.0,
-    constraint(j in 0..half) = (x[2 * j + 1] - x[j]).powi(2) + (y[2 * j + 1] - y[j]).powi(2) - 1.0,
-    constraint(j in 0..half) = (x[2 * j + 2] - x[j]).powi(2) + (y[2 * j + 2] - y[j]).powi(2) - 1.0,
-)]
-struct Mobile {
-    half: usize,
 }
 
 /// Of a tree with eight levels.
@@ -112,16 +101,9 @@ fn sparse_newton_steps_are_those_without_a_matrix() {
 #[test]
 fn rods_in_a_tree_keep_their_lengths() {
     let system = Mobile { half: N / 2 };
-    // Each to one side of the one above.
-    let side = |j: usize| if j % 2 == 1 { -0.6 } else { 0.6 };
-    let (mut x, mut y): (Vec<f64>, Vec<f64>) = (vec![0.6; N], vec![-0.8; N]);
-    for j in 1..N {
-        let above = (j - 1) / 2;
-        (x[j], y[j]) = (x[above] + side(j), y[above] - 0.8);
-    }
-    let start = MobileState { x, y, dot_x: vec![0.0; N], dot_y: vec![0.0; N] };
     let mut run =
-        Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.01, start).expect("starts");
+        Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.01, system.at_rest())
+            .expect("starts");
     let energy = run.energy();
     run.take_steps(50).expect("steps");
     let state: MobileState = run.state();

@@ -1,11 +1,10 @@
-//! One-step schemes of systems in class: units, failures, and how the class is seen.
+//! One-step schemes of systems in class: failures, and how the class is seen.
 
-use approx::{abs_diff_eq, assert_relative_eq};
-use dvi_core::methods::Method;
+use approx::assert_relative_eq;
 use dvi_core::prelude::*;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_examples::models::{TokamakInClass, TokamakInClassState};
-use dvi_tests::schemes::systems::{Belt, Mixed};
+use dvi_laws::systems::{Belt, Mixed};
 use dvi_tests::steps::{apart, stepped};
 use dvi_tests::systems::{SphereForm, SphereFormState};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
@@ -37,68 +36,6 @@ fn places_count_the_half_with_components_first() {
     let ring = Belt { n: 3 };
     assert_eq!(places(&|i| ProperlyDegenerate::<f64>::place(&ring, i), 6), [0, 1, 2, 3, 4, 5]);
     assert_eq!(places(&|i| ProperlyDegenerate::<f64>::place(&PREY, i), 2), [0, 1]);
-}
-
-/// A planet, in phase space.
-#[degenerate_lagrangian(
-    coordinates(x, y, p, q),
-    one_form = p * d(x) + q * d(y),
-    hamiltonian = (p.powi(2) + q.powi(2)) / (2.0 * m) - m * gm / (x.powi(2) + y.powi(2)).sqrt(),
-)]
-#[derive(Clone, Debug)]
-struct Planet {
-    m: f64,
-    gm: f64,
-}
-
-/// An oscillator, in phase space.
-#[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / (2.0 * m) + m * (omega * x).powi(2) / 2.0)]
-#[derive(Clone, Debug)]
-struct Oscillator {
-    m: f64,
-    omega: f64,
-}
-
-/// In SI units coordinates and momenta are of very different sizes. The orbit is that of a mass of one,
-/// whose momenta are velocities.
-#[test]
-fn units_do_not_matter() -> Outcome {
-    const METRES: f64 = 7.8e11;
-    fn check<M>(method: &M, name: &str) -> Outcome
-    where
-        M: Method<Planet, f64> + Method<Oscillator, f64>,
-    {
-        let gm: f64 = 1.327e20;
-        let speed = (gm / METRES).sqrt() * 0.9;
-        let orbit = |m: f64| {
-            stepped(&Planet { m, gm }, method, &[METRES, 0.0, 0.0, m * speed], [0.0, 86400.0], 1000)
-        };
-        let light = orbit(1.0).map_err(|error| format!("{name}, one kilogram: {error}"))?;
-        for m in [6e24, 1.9e27] {
-            let heavy = orbit(m).map_err(|error| format!("{name}, {m:e} kg: {error}"))?;
-            for i in 0..2 {
-                assert!(
-                    abs_diff_eq!(heavy[i], light[i], epsilon = 1e-9 * METRES),
-                    "{name}, {m:e}: {heavy:?}, {light:?}"
-                );
-                assert!(
-                    abs_diff_eq!(heavy[i + 2] / m, light[i + 2], epsilon = 1e-9 * speed),
-                    "{name}, {m:e}: {heavy:?}, {light:?}"
-                );
-            }
-        }
-        let (m, omega) = (1.9e27, 1.7e-8);
-        let end = stepped(&Oscillator { m, omega }, method, &[METRES, 0.0], [0.0, 86400.0], 1000)
-            .map_err(|error| format!("{name}, oscillator: {error}"))?;
-        let exact = METRES * (omega * 8.64e7).cos();
-        assert!(abs_diff_eq!(end[0], exact, epsilon = 1e-5 * METRES), "{name}: {end:?}, {exact}");
-        Ok(())
-    }
-    check(&OneStep::midpoint(), "midpoint")?;
-    check(&OneStep::trapezoid(), "trapezoid")?;
-    check(&OneStepGauss::<1>::new(), "Gauss 1")?;
-    check(&OneStepGauss::<2>::new(), "Gauss 2")?;
-    check(&OneStepGauss::<4>::new(), "Gauss 4")
 }
 
 /// y leaves the domain of ln y, and Ω is not singular there but none.

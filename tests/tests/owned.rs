@@ -8,11 +8,10 @@ use std::thread;
 use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::leapfrogging;
-use dvi_tests::zoo::regular::{Kepler, KeplerState};
+use dvi_tests::zoo::regular::{KEPLER, Kepler, KeplerState};
 use dvi_tests::{Outcome, bits};
 
 const STEPS: u64 = 300;
-const KEPLER: Kepler = Kepler { mu: 1.0 };
 const START: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.8 };
 
 /// The end of a run, as a checkpoint, which has all of it, and the state.

@@ -8,6 +8,7 @@ use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
 use dvi_core::{DegenerateLagrangian, Lagrangian, Varied};
+use dvi_examples::models::{VortexBlobs, VortexBlobsState};
 use dvi_tests::Outcome;
 
 const SIZES: core::ops::Range<usize> = 1..45;
@@ -68,18 +69,6 @@ fn lanes_agree(
     }
 }
 
-/// Vortices in the plane.
-#[degenerate_lagrangian(
-    coordinates(x[gamma.len()], y[gamma.len()]),
-    one_form = sum(0..gamma.len(), |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = -sum_pairs(0..gamma.len(), |i, j| gamma[i] * gamma[j] / (4.0 * PI)
-        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
-)]
-#[derive(PartialEq)]
-struct Vortices {
-    gamma: Vec<f64>,
-}
-
 fn vortices_by_hand(gamma: &[f64], q: &[f64]) -> Vec<Sum> {
     let n = gamma.len();
     let mut gradient = vec![Sum::default(); 2 * n];
@@ -87,7 +76,7 @@ fn vortices_by_hand(gamma: &[f64], q: &[f64]) -> Vec<Sum> {
         for j in (0..n).filter(|j| *j != i) {
             let apart = [q[i] - q[j], q[n + i] - q[n + j]];
             let square = apart[0] * apart[0] + apart[1] * apart[1] + 0.01;
-            let strength = -gamma[i] * gamma[j] / (2.0 * core::f64::consts::PI * square);
+            let strength = gamma[i] * gamma[j] / (2.0 * core::f64::consts::PI * square);
             gradient[i].add(strength * apart[0]);
             gradient[n + i].add(strength * apart[1]);
         }
@@ -98,7 +87,7 @@ fn vortices_by_hand(gamma: &[f64], q: &[f64]) -> Vec<Sum> {
 #[test]
 fn pairs_of_vortices() {
     for n in SIZES {
-        let (system, q) = (Vortices { gamma: numbers(n, 1) }, numbers(2 * n, 2));
+        let (system, q) = (VortexBlobs { gamma: numbers(n, 1), core: 0.1 }, numbers(2 * n, 2));
         let mut gradient = vec![0.0; 2 * n];
         system.hamiltonian_gradient(&q, 0.0, &mut gradient);
         agree(&gradient, &vortices_by_hand(&system.gamma, &q), &format!("{n} vortices"));
@@ -245,7 +234,7 @@ fn sums_with_neighbours() {
 #[degenerate_lagrangian(
     coordinates(x[N], y[N]),
     one_form = sum(0..N, |j| gamma[j] * y[j] * d(x[j])),
-    hamiltonian = -sum_pairs(0..N, |i, j| gamma[i] * gamma[j] / (4.0 * PI)
+    hamiltonian = sum_pairs(0..N, |i, j| gamma[i] * gamma[j] / (4.0 * PI)
         * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + 0.01).ln()),
 )]
 struct FixedSize<P: Copy, const N: usize> {
@@ -280,8 +269,9 @@ fn pairs_of_a_number_that_the_compiler_knows() {
 #[test]
 fn runs_of_many_vortices() -> Outcome {
     let n = 21;
-    let system = Vortices { gamma: numbers(n, 1).into_iter().map(|gamma| 1.2 + gamma).collect() };
-    let places = |seed| VorticesState { x: numbers(n, seed), y: numbers(n, seed + 1) };
+    let gamma = numbers(n, 1).into_iter().map(|gamma| 1.2 + gamma).collect();
+    let system = VortexBlobs { gamma, core: 0.1 };
+    let places = |seed| VortexBlobsState { x: numbers(n, seed), y: numbers(n, seed + 1) };
     let method = Sigma::midpoint();
     let mut alone: Vec<_> =
         (0..W).map(|j| Integrator::new(&system, method, 0.01, places(10 * j))).collect::<Result<_, _>>()?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use dvi_core::prelude::*;
-use dvi_tests::larger;
+use dvi_tests::{larger, oracle};
 
 const README: &str = include_str!("../../README.md");
 
@@ -143,12 +143,8 @@ fn the_period_that_an_example_prints_is_right() {
     let found: f64 = line.rsplit(' ').next().expect("a number").parse().expect("a number");
     let field = |[x, y]: [f64; 2]| [x * (1.0 - y), y * (x - 2.0)];
     let step = |z: [f64; 2], h: f64| {
-        let along = |k: [f64; 2], c: f64| [z[0] + c * h * k[0], z[1] + c * h * k[1]];
-        let k1 = field(z);
-        let k2 = field(along(k1, 0.5));
-        let k3 = field(along(k2, 0.5));
-        let k4 = field(along(k3, 1.0));
-        [0, 1].map(|i| z[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+        let next = oracle::runge_kutta(|z, _| field([z[0], z[1]]).to_vec(), &z, [0.0, h]);
+        [next[0], next[1]]
     };
     let (mut z, mut t, h) = ([1.0, 0.5], 0.0, 1e-3);
     let mut times = Vec::new();

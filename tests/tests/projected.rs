@@ -4,7 +4,7 @@ use dvi_core::Real;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::space::sink::Dense;
-use dvi_tests::steps::{apart, jacobian, stepped};
+use dvi_tests::steps::{jacobian, stepped};
 use dvi_tests::systems::{LotkaVolterra, SphereForm, SphereFormState};
 use dvi_tests::zoo::particles::Mirror;
 use dvi_tests::{Outcome, failing};
@@ -166,29 +166,5 @@ fn failures_are_values() -> Outcome {
     let start = dvi_tests::systems::LotkaVolterraState { x: q0[0], y: q0[1] };
     let (run, error) = failing(&PREY, Projected::symmetric(), 2.0, start)?;
     assert!(run.state().x > 0.0 && run.state().y > 0.0, "{error}");
-    Ok(())
-}
-
-/// With s times the Hamiltonian and steps of 1/s of the length, the steps are the same, up to rounding.
-#[test]
-fn the_unit_of_time_does_not_matter() -> Outcome {
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = (0.5 * y + 0.3 * y.powi(3) + 0.2 * x * y) * d(x)
-            + (-0.5 * x + 0.1 * x.powi(3) + 0.3 * x * x * y) * d(y),
-        hamiltonian = s * ((x * x + y * y) / 2.0 + 0.2 * x.powi(3) + 0.1 * x * y * y + 0.05 * y.powi(3)),
-    )]
-    struct Fast {
-        s: f64,
-    }
-    let q0 = [0.4, 0.3];
-    for method in [Projected::symmetric(), Projected::standard()] {
-        let slow = stepped(&Fast { s: 1.0 }, &method, &q0, [0.0, 0.0625], 2000)?;
-        for exponent in [-30, -7, 7, 20, 30] {
-            let s = 2.0_f64.powi(exponent);
-            let found = stepped(&Fast { s }, &method, &q0, [0.0, 0.0625 / s], 2000)?;
-            assert!(apart(&found, &slow) < 1e-11, "{method:?}, s = {s}: {found:?} and {slow:?}");
-        }
-    }
     Ok(())
 }

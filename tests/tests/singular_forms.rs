@@ -2,7 +2,7 @@
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
+use dvi_tests::{Numbers, Outcome};
 
 /// α with Ωⱼₖ = bⱼₖ − bₖⱼ, up to the sign, and oscillators that it couples.
 #[degenerate_lagrangian(
@@ -28,15 +28,6 @@ impl Full {
     }
 }
 
-/// Entries in (−1, 1) from a linear congruential generator.
-fn entries(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
 /// Powers of two change nothing but exponents, and the choice of pivots.
 const EXPONENTS: [[i32; 4]; 4] = [[0; 4], [3, -60, 60, 9], [100, 100, -100, -100], [-150, 150, 10, -10]];
 
@@ -52,8 +43,8 @@ fn regular_forms_are_regular_in_any_units() -> Outcome {
         }))
     }
     for seed in 0..50 {
-        let mut next = entries(seed);
-        let b: [[f64; 4]; 4] = core::array::from_fn(|_| core::array::from_fn(|_| next()));
+        let mut numbers = Numbers(seed);
+        let b: [[f64; 4]; 4] = core::array::from_fn(|_| core::array::from_fn(|_| numbers.next()));
         let w = |i: usize, k: usize| b[i][k] - b[k][i];
         // Its square is the determinant.
         let pfaffian = w(0, 1) * w(2, 3) - w(0, 2) * w(1, 3) + w(0, 3) * w(1, 2);
@@ -79,8 +70,8 @@ fn regular_forms_are_regular_in_any_units() -> Outcome {
 #[test]
 fn forms_of_a_lower_rank_are_singular_whatever_rounding_leaves_of_their_pivots() {
     for (seed, exponents) in (0..100).flat_map(|seed| EXPONENTS.map(|exponents| (seed, exponents))) {
-        let mut next = entries(seed);
-        let [u, v]: [[f64; 4]; 2] = core::array::from_fn(|_| core::array::from_fn(|_| next()));
+        let mut numbers = Numbers(seed);
+        let [u, v]: [[f64; 4]; 2] = core::array::from_fn(|_| core::array::from_fn(|_| numbers.next()));
         let b = core::array::from_fn(|j| core::array::from_fn(|k| u[j] * v[k]));
         let system = Full::new(b, exponents.map(|exponent| f64::from(exponent).exp2()));
         let field = system.vector_field(&system.start());

@@ -16,21 +16,6 @@ use dvi_tests::{apart, larger};
 
 const SIGMAS: [f64; 6] = [0.0, 0.25, 0.211_324_865_405_187_1, 0.5, 0.75, 1.0];
 
-#[test]
-fn sigma_midpoint_with_consistent_start_is_the_implicit_midpoint_rule() -> Outcome {
-    let (system, start) = quasi_periodic();
-    let mut variational = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
-    let mut gauss = Integrator::new(&system, Gauss::<1>::new(), 0.1, start)?;
-    for _ in 0..1000 {
-        variational.advance()?;
-        gauss.advance()?;
-        let distance = apart(variational.q(), gauss.q());
-        assert!(distance < 1e-11, "step {}: {distance:e}", gauss.steps());
-    }
-    assert_eq!(variational.parasitic_amplitude(), 0.0);
-    Ok(())
-}
-
 /// The largest deviation of each momentum from its first value.
 fn drift<M: Method<PointVortices<4>, f64>>(
     mut run: Integrator<&PointVortices<4>, M>,

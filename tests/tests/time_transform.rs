@@ -7,23 +7,16 @@ use dvi_core::prelude::*;
 use dvi_core::system::TimeTransform;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_tests::Outcome;
+use dvi_laws::systems::Belt;
 use dvi_tests::steps::{apart, jacobian, stepped};
 use nalgebra::DMatrix;
 use num_dual::Dual64;
 
-/// No component of α is affine, and both α and H depend on time.
+/// [`Belt`] of two: no component of α is affine, and both α and H depend on time.
 #[degenerate_lagrangian(
     coordinates(x[2], y[2]),
     one_form = sum(0..2, |j| ((1.0 + t / 4.0) * y[j] + y[j].powi(3) / 6.0 + x[j] * y[(j + 1) % 2] / 8.0) * d(x[j])),
-    hamiltonian = sum(0..2, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0) + (x[1] - x[0]).powi(4) / 4.0 + x[0] * t.sin(),
-)]
-#[derive(Clone, Debug)]
-struct Plain;
-
-#[degenerate_lagrangian(
-    coordinates(x[2], y[2]),
-    one_form = sum(0..2, |j| ((1.0 + t / 4.0) * y[j] + y[j].powi(3) / 6.0 + x[j] * y[(j + 1) % 2] / 8.0) * d(x[j])),
-    hamiltonian = sum(0..2, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0) + (x[1] - x[0]).powi(4) / 4.0 + x[0] * t.sin(),
+    hamiltonian = sum(0..2, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0) + (x[1] - x[0]).powi(4) / 2.0 + x[0] * t.sin(),
     time_transform = (1.0 + 0.2 * t.cos()) / (0.7 + x[0] * x[0] + y[1] * y[1]),
 )]
 #[derive(Clone, Debug)]
@@ -33,12 +26,14 @@ struct Transformed;
 #[degenerate_lagrangian(
     coordinates(x[2], y[2]),
     lagrangian = sum(0..2, |j| ((1.0 + t / 4.0) * y[j] + y[j].powi(3) / 6.0 + x[j] * y[(j + 1) % 2] / 8.0) * dot(x[j]))
-        - sum(0..2, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0) - (x[1] - x[0]).powi(4) / 4.0 - x[0] * t.sin(),
+        - sum(0..2, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0) - (x[1] - x[0]).powi(4) / 2.0 - x[0] * t.sin(),
     gauge = x[0].powi(3) * t.sin() + x[0] * x[1],
     time_transform = (1.0 + 0.2 * t.cos()) / (0.7 + x[0] * x[0] + y[1] * y[1]),
 )]
 #[derive(Clone, Debug)]
 struct WithGauge;
+
+const PLAIN: Belt = Belt { n: 2 };
 
 const START: TransformedState = TransformedState { x: [0.3, -0.4], y: [0.5, 0.2], t: 0.2, energy: 0.0 };
 
@@ -54,9 +49,9 @@ fn start() -> Result<Vec<f64>, StartError> {
 fn the_motion_is_that_of_the_untransformed_system() -> Outcome {
     let end = stepped(&Transformed, &Gauss::<4>::new(), &start()?, [0.0, 3.0 / 256.0], 256)?;
     let (q, [t, energy]) = (&end[..4], [end[4], end[5]]);
-    let plain = stepped(&Plain, &Gauss::<4>::new(), &start()?[..4], [0.2, (t - 0.2) / 256.0], 256)?;
+    let plain = stepped(&PLAIN, &Gauss::<4>::new(), &start()?[..4], [0.2, (t - 0.2) / 256.0], 256)?;
     assert!(apart(q, &plain) < 1e-13, "{q:?}, {plain:?}");
-    let hamiltonian = Plain.hamiltonian(&plain, t);
+    let hamiltonian = PLAIN.hamiltonian(&plain, t);
     assert!(abs_diff_eq!(energy, hamiltonian, epsilon = 1e-13), "{energy}, {hamiltonian}");
     let TimeTransform { rate, hamiltonian: untransformed } =
         dvi_core::Lagrangian::time_transform(&Transformed, &end).ok_or("its time is transformed")?;

@@ -202,16 +202,6 @@ fn runs_that_are_not_in_step_are_taken_alone() -> Outcome {
     Ok(())
 }
 
-/// Springs side by side.
-#[lagrangian(
-    coordinates(x[k.len()]),
-    lagrangian = sum(0..k.len(), |j| dot(x[j]).powi(2) - k[j] * x[j] * x[j]) / 2.0,
-)]
-#[derive(PartialEq)]
-struct Springs {
-    k: Vec<f64>,
-}
-
 #[test]
 fn runs_of_other_sizes_are_taken_alone() -> Outcome {
     let systems = [2, 3, 3, 5].map(|n| Springs { k: vec![1.5; n] });

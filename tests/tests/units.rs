@@ -1,4 +1,4 @@
-//! Units do not matter: where the unit of each block of coordinates and that of time change by powers of two
+//! Units do not matter: where the unit of each block of coordinates, that of L and that of time change by powers of two
 //! up to 2^±80, every method takes the same steps, scaled, bit for bit, however its equations are solved.
 //!
 //! Each system is written in physical coordinates X = u x, with numbers x in units u, and in a time t τ.
@@ -88,9 +88,9 @@ const SOLVERS: [Solver; 4] = [Solver::Automatic, Solver::FixedPoint, Solver::New
 fn of_degenerate_systems() {
     for solver in SOLVERS {
         let sigma = |sigma| Sigma { solver, ..Sigma::new(sigma) };
-        check::<2, Oscillator, _>("oscillator, midpoint", sigma(0.5));
+        check::<3, Oscillator, _>("oscillator, midpoint", sigma(0.5));
         check::<2, Vortices, _>("vortices, midpoint", sigma(0.5));
-        check::<2, Predators, _>("predators, midpoint", sigma(0.5));
+        check::<3, Predators, _>("predators, midpoint", sigma(0.5));
         check::<4, Centre, _>("centre, midpoint", sigma(0.5));
         check::<2, Amplitudes, _>("amplitudes, midpoint", sigma(0.5));
         check::<4, Tangled, _>("tangled, midpoint", sigma(0.5));
@@ -99,19 +99,22 @@ fn of_degenerate_systems() {
     check::<4, Tangled, _>("tangled, projected", Projected::symmetric());
     check::<4, Tangled, _>("tangled, Runge-Kutta", RungeKutta::classical());
     check::<2, Vortices, _>("vortices, leapfrog", Sigma::leapfrog());
-    check::<2, Oscillator, _>("oscillator, one step", OneStep::midpoint());
-    check::<2, Predators, _>("predators, one step", OneStep::midpoint());
-    check::<2, Predators, _>("predators, trapezoid", OneStep::trapezoid());
-    check::<2, Predators, _>("predators, one-step Gauss", OneStepGauss::<2>::new());
+    check::<3, Oscillator, _>("oscillator, one step", OneStep::midpoint());
+    check::<3, Oscillator, _>("oscillator, Gauss", Gauss::<2>::new());
+    check::<3, Oscillator, _>("oscillator, Gauss in lanes", Gauss::<8>::new().in_lanes());
+    check::<3, Predators, _>("predators, one step", OneStep::midpoint());
+    check::<3, Predators, _>("predators, trapezoid", OneStep::trapezoid());
+    check::<3, Predators, _>("predators, one-step Gauss", OneStepGauss::<2>::new());
     check::<2, Amplitudes, _>("amplitudes, one step", OneStep::midpoint());
-    check::<2, Predators, _>("predators, projected", Projected::symmetric());
+    check::<3, Predators, _>("predators, projected", Projected::symmetric());
+    check::<3, Predators, _>("predators, standard projection", Projected::standard());
     check::<4, Centre, _>("centre, projected", Projected::symmetric());
     check::<2, Vortices, _>("vortices, projected", Projected::standard());
     check::<2, Vortices, _>("vortices, Gauss", Gauss::<4>::new());
     check::<2, Vortices, _>("vortices, Gauss in lanes", Gauss::<8>::new().in_lanes());
     check::<4, Centre, _>("centre, Gauss", Gauss::<3>::new());
     check::<2, Amplitudes, _>("amplitudes, Gauss", Gauss::<2>::new());
-    check::<2, Predators, _>("predators, composition", Composition::suzuki(OneStep::midpoint()));
+    check::<3, Predators, _>("predators, composition", Composition::suzuki(OneStep::midpoint()));
     check::<2, Vortices, _>("vortices, Runge-Kutta", RungeKutta::classical());
 }
 
@@ -119,29 +122,30 @@ fn of_degenerate_systems() {
 fn of_regular_systems() {
     for solver in [Solver::Automatic, Solver::Newton, Solver::NewtonKrylov] {
         let midpoint = Variational { solver, ..Variational::midpoint() };
-        check::<2, Kepler, _>("Kepler, midpoint", midpoint);
+        check::<3, Kepler, _>("Kepler, midpoint", midpoint);
         check::<2, DoublePendulum, _>("double pendulum, midpoint", midpoint);
         check::<3, Charge, _>("charge, midpoint", midpoint);
         check::<2, Chain, _>("chain, midpoint", midpoint);
         check::<3, CoupledMasses, _>("coupled masses, midpoint", midpoint);
         check::<2, Chain, _>("chain, Newmark", Newmark { solver, ..Newmark::new(0.25) });
-        check::<2, Kepler, _>("Kepler, Galerkin", Galerkin { solver, ..Galerkin::<4>::new() });
+        check::<3, Kepler, _>("Kepler, Galerkin", Galerkin { solver, ..Galerkin::<4>::new() });
         check::<2, DoublePendulum, _>(
             "double pendulum, Galerkin",
             Galerkin { solver, ..Galerkin::<4>::new() },
         );
         check::<2, Chain, _>("chain, Galerkin", Galerkin { solver, ..Galerkin::<3>::new() });
     }
-    check::<2, Kepler, _>("Kepler, Verlet", Variational::trapezoid());
-    check::<2, Kepler, _>("Kepler, Simpson", Variational::simpson());
+    check::<3, Kepler, _>("Kepler, Verlet", Variational::trapezoid());
+    check::<3, Kepler, _>("Kepler, Simpson", Variational::simpson());
     check::<3, CoupledMasses, _>("coupled masses, Verlet", Variational::trapezoid());
-    check::<2, Kepler, _>("Kepler, Galerkin in lanes", Galerkin::<6>::new().in_lanes());
-    check::<2, Kepler, _>("Kepler, Gauss", Gauss::<1>::new());
-    check::<2, Kepler, _>("Kepler, Gauss in lanes", Gauss::<8>::new().in_lanes());
+    check::<3, Kepler, _>("Kepler, Galerkin in lanes", Galerkin::<6>::new().in_lanes());
+    check::<3, Kepler, _>("Kepler, Gauss", Gauss::<1>::new());
+    check::<3, Kepler, _>("Kepler, Gauss", Gauss::<2>::new());
+    check::<3, Kepler, _>("Kepler, Gauss in lanes", Gauss::<8>::new().in_lanes());
     check::<2, DoublePendulum, _>("double pendulum, Gauss", Gauss::<2>::new());
     check::<3, Charge, _>("charge, Gauss", Gauss::<4>::new());
     check::<3, CoupledMasses, _>("coupled masses, Gauss", Gauss::<2>::new());
-    check::<2, Kepler, _>("Kepler, composition", Composition::kahan_li_8(Variational::trapezoid()));
+    check::<3, Kepler, _>("Kepler, composition", Composition::kahan_li_8(Variational::trapezoid()));
     check::<2, DoublePendulum, _>("double pendulum, Runge-Kutta", RungeKutta::classical());
 }
 
@@ -255,7 +259,10 @@ fn a_coordinate_that_is_rounding_errors() {
             stays_on_its_circle(m, Sigma { solver, ..Sigma::midpoint() });
         }
         stays_on_its_circle(m, OneStep::midpoint());
+        stays_on_its_circle(m, OneStep::trapezoid());
+        stays_on_its_circle(m, OneStepGauss::<1>::new());
         stays_on_its_circle(m, OneStepGauss::<2>::new());
+        stays_on_its_circle(m, OneStepGauss::<4>::new());
         stays_on_its_circle(m, Projected::symmetric());
         stays_on_its_circle(m, Gauss::<2>::new());
     }

@@ -7,5 +7,4 @@ mod failures;
 mod frequencies;
 mod kepler;
 mod oscillator;
-mod structure;
 mod tangent_maps;

@@ -2,244 +2,105 @@
 
 use dvi_core::prelude::*;
 
-mod no_hamiltonian {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
+/// That a system with a mistake in it is taken for one that can be stepped.
+fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-mod no_one_form {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y))]
+pub struct NoHamiltonian;
+const _: fn() = || stepped(NoHamiltonian, NoHamiltonianState { x: 1.0, y: 0.0 });
 
-mod no_dynamics {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), hamiltonian = x * y)]
+pub struct NoOneForm;
+const _: fn() = || stepped(NoOneForm, NoOneFormState { x: 1.0, y: 0.0 });
 
-mod nothing {
-    use super::*;
-    #[degenerate_lagrangian()]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y))]
+pub struct NoDynamics;
+const _: fn() = || stepped(NoDynamics, NoDynamicsState { x: 1.0, y: 0.0 });
 
-mod lagrangian_and_one_form {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x, one_form = x * d(y))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian()]
+pub struct Nothing;
+const _: fn() = || stepped(Nothing, NothingState { x: 1.0, y: 0.0 });
 
-mod all_three {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x, one_form = x * d(y), hamiltonian = x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x, one_form = x * d(y))]
+pub struct LagrangianAndOneForm;
+const _: fn() = || stepped(LagrangianAndOneForm, LagrangianAndOneFormState { x: 1.0, y: 0.0 });
 
-mod misspelt_argument {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonain = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x, one_form = x * d(y), hamiltonian = x)]
+pub struct AllThree;
+const _: fn() = || stepped(AllThree, AllThreeState { x: 1.0, y: 0.0 });
 
-mod unknown_argument {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, damping = x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonain = x * y)]
+pub struct MisspeltArgument;
+const _: fn() = || stepped(MisspeltArgument, MisspeltArgumentState { x: 1.0, y: 0.0 });
 
-mod argument_twice {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, hamiltonian = x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, damping = x)]
+pub struct UnknownArgument;
+const _: fn() = || stepped(UnknownArgument, UnknownArgumentState { x: 1.0, y: 0.0 });
 
-mod coordinates_assigned {
-    use super::*;
-    #[degenerate_lagrangian(coordinates = (x, y), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, hamiltonian = x)]
+pub struct ArgumentTwice;
+const _: fn() = || stepped(ArgumentTwice, ArgumentTwiceState { x: 1.0, y: 0.0 });
 
-mod hamiltonian_as_a_list {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian(x * y))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates = (x, y), one_form = x * d(y), hamiltonian = x * y)]
+pub struct CoordinatesAssigned;
+const _: fn() = || stepped(CoordinatesAssigned, CoordinatesAssignedState { x: 1.0, y: 0.0 });
 
-mod hamiltonian_is_empty {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = )]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian(x * y))]
+pub struct HamiltonianAsAList;
+const _: fn() = || stepped(HamiltonianAsAList, HamiltonianAsAListState { x: 1.0, y: 0.0 });
 
-mod half_an_expression {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * )]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = )]
+pub struct HamiltonianIsEmpty;
+const _: fn() = || stepped(HamiltonianIsEmpty, HamiltonianIsEmptyState { x: 1.0, y: 0.0 });
 
-mod two_expressions {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * )]
+pub struct HalfAnExpression;
+const _: fn() = || stepped(HalfAnExpression, HalfAnExpressionState { x: 1.0, y: 0.0 });
 
-mod comma_is_missing {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) hamiltonian = x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x y)]
+pub struct TwoExpressions;
+const _: fn() = || stepped(TwoExpressions, TwoExpressionsState { x: 1.0, y: 0.0 });
 
-mod comma_after_a_list_is_missing {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y) one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) hamiltonian = x)]
+pub struct CommaIsMissing;
+const _: fn() = || stepped(CommaIsMissing, CommaIsMissingState { x: 1.0, y: 0.0 });
 
-mod literal_argument {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, "x")]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y) one_form = x * d(y), hamiltonian = x * y)]
+pub struct CommaAfterAListIsMissing;
+const _: fn() = || stepped(CommaAfterAListIsMissing, CommaAfterAListIsMissingState { x: 1.0, y: 0.0 });
 
-mod argument_without_value {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, momenta)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, "x")]
+pub struct LiteralArgument;
+const _: fn() = || stepped(LiteralArgument, LiteralArgumentState { x: 1.0, y: 0.0 });
 
-mod colon_for_equals {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form: x * d(y), hamiltonian = x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, momenta)]
+pub struct ArgumentWithoutValue;
+const _: fn() = || stepped(ArgumentWithoutValue, ArgumentWithoutValueState { x: 1.0, y: 0.0 });
 
-mod crate_is_no_path {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, crate = 3)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form: x * d(y), hamiltonian = x)]
+pub struct ColonForEquals;
+const _: fn() = || stepped(ColonForEquals, ColonForEqualsState { x: 1.0, y: 0.0 });
 
-mod crate_is_text {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, crate = "dvi_core")]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, crate = 3)]
+pub struct CrateIsNoPath;
+const _: fn() = || stepped(CrateIsNoPath, CrateIsNoPathState { x: 1.0, y: 0.0 });
 
-mod closure_for_a_one_form {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = |x, y| x * d(y), hamiltonian = x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, crate = "dvi_core")]
+pub struct CrateIsText;
+const _: fn() = || stepped(CrateIsText, CrateIsTextState { x: 1.0, y: 0.0 });
 
-mod bar_before_another_argument {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x | y, momenta(p = x))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = |x, y| x * d(y), hamiltonian = x)]
+pub struct ClosureForAOneForm;
+const _: fn() = || stepped(ClosureForAOneForm, ClosureForAOneFormState { x: 1.0, y: 0.0 });
 
-mod momentum_in_brackets {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, momenta[p = x])]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x | y, momenta(p = x))]
+pub struct BarBeforeAnotherArgument;
+const _: fn() = || stepped(BarBeforeAnotherArgument, BarBeforeAnotherArgumentState { x: 1.0, y: 0.0 });
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, momenta[p = x])]
+pub struct MomentumInBrackets;
+const _: fn() = || stepped(MomentumInBrackets, MomentumInBracketsState { x: 1.0, y: 0.0 });
 
 fn main() {}

@@ -9,531 +9,443 @@ fn used<S: HolonomicLagrangian>(system: &S) {
     let _ = system.multipliers();
 }
 
-mod velocities {
-    use super::*;
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x * dot(x) + y * dot(y),
+)]
+struct VelocitiesS;
+const _: fn() = || used(&VelocitiesS);
 
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = x * dot(x) + y * dot(y),
-    )]
-    struct S;
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x * dot_x + y,
+)]
+struct VelocitiesT;
 
-    fn run() {
-        used(&S);
-    }
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = 1.0 - t * t,
+)]
+struct WithoutCoordinatesS;
 
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = x * dot_x + y,
-    )]
-    struct T;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n) = rods[i],
+)]
+struct WithoutCoordinatesT {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod without_coordinates {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = 1.0 - t * t,
-    )]
-    struct S;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n) = rods[i],
-    )]
-    struct T {
-        n: usize,
-        rods: Vec<f64>,
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n - 1) = x[0] - x[1],
+)]
+struct WithoutItsIndexS {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod without_its_index {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n - 1) = x[0] - x[1],
-    )]
-    struct S {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n) = sum(0..n, |i| x[i]),
-    )]
-    struct T {
-        n: usize,
-        rods: Vec<f64>,
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n) = sum(0..n, |i| x[i]),
+)]
+struct WithoutItsIndexT {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod empty_list {
-    use super::*;
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = [],
+)]
+struct EmptyList;
+const _: fn() = || used(&EmptyList);
 
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = [],
-    )]
-    struct S;
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint =,
+)]
+struct Empty;
+const _: fn() = || used(&Empty);
 
-    fn run() {
-        used(&S);
-    }
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint,
+)]
+struct WithoutValueS;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint(x * x + y * y - 1.0),
+)]
+struct WithoutValueT;
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n),
+)]
+struct WithoutValueU {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod empty {
-    use super::*;
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint(x) = x * x + y * y - 1.0,
+)]
+struct OnACoordinate;
 
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint =,
-    )]
-    struct S;
-
-    fn run() {
-        used(&S);
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint() = x[0],
+)]
+struct HeadsS {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod without_value {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint,
-    )]
-    struct S;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint(x * x + y * y - 1.0),
-    )]
-    struct T;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n),
-    )]
-    struct U {
-        n: usize,
-        rods: Vec<f64>,
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(0..n) = x[0],
+)]
+struct HeadsT {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod on_a_coordinate {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint(x) = x * x + y * y - 1.0,
-    )]
-    struct S;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i: 0..n) = x[i],
+)]
+struct HeadsU {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod heads {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint() = x[0],
-    )]
-    struct S {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(0..n) = x[0],
-    )]
-    struct T {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i: 0..n) = x[i],
-    )]
-    struct U {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i = 0..n) = x[i],
-    )]
-    struct V {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(|i| 0..n) = x[i],
-    )]
-    struct W {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n, j in 0..n, k in 0..n) = x[i] - x[j] + x[k],
-    )]
-    struct X {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(_ in 0..n) = x[0],
-    )]
-    struct Y {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(for i in 0..n) = x[i],
-    )]
-    struct Z {
-        n: usize,
-        rods: Vec<f64>,
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i = 0..n) = x[i],
+)]
+struct HeadsV {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod ranges {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in n) = x[i],
-    )]
-    struct S {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..) = x[i],
-    )]
-    struct T {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 3..2) = x[i],
-    )]
-    struct U {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..m) = x[i],
-    )]
-    struct V {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..i) = x[i],
-    )]
-    struct W {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n / 2) = x[i],
-    )]
-    struct X {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in rods) = x[i],
-    )]
-    struct Y {
-        n: usize,
-        rods: Vec<f64>,
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(|i| 0..n) = x[i],
+)]
+struct HeadsW {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod closures {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint = |i| x[i] - rods[i],
-    )]
-    struct S {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint = [x[0], |i| x[i]],
-    )]
-    struct T {
-        n: usize,
-        rods: Vec<f64>,
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n, j in 0..n, k in 0..n) = x[i] - x[j] + x[k],
+)]
+struct HeadsX {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod equations {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = x * x + y * y == 1.0,
-    )]
-    struct S;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = x * x + y * y = t + 1.0,
-    )]
-    struct T;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = (x == 0),
-    )]
-    struct U;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n) = x[i] == rods[i],
-    )]
-    struct V {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = [x == y, y - 1.0],
-    )]
-    struct W;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint == x - y,
-    )]
-    struct X;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(_ in 0..n) = x[0],
+)]
+struct HeadsY {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod inequalities {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = x * x + y * y <= 1.0,
-    )]
-    struct S;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(for i in 0..n) = x[i],
+)]
+struct HeadsZ {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod lists {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = [[x, y]],
-    )]
-    struct S;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n) = [x[i], x[i] - rods[i]],
-    )]
-    struct T {
-        n: usize,
-        rods: Vec<f64>,
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in n) = x[i],
+)]
+struct RangesS {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod out_of_range {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[3]),
-        lagrangian = sum(0..3, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..3) = x[i + 1] - x[i],
-    )]
-    struct S;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..) = x[i],
+)]
+struct RangesT {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod indices {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n) = x - rods[i],
-    )]
-    struct S {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n) = x[i] - i,
-    )]
-    struct T {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..n) = x[j] - rods[i],
-    )]
-    struct U {
-        n: usize,
-        rods: Vec<f64>,
-    }
-
-    #[lagrangian(
-        coordinates(x[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-        constraint = x[i] - rods[i],
-    )]
-    struct V {
-        n: usize,
-        rods: Vec<f64>,
-    }
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 3..2) = x[i],
+)]
+struct RangesU {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod twice {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = x - y,
-        constraint = 2.0 * (x - y),
-    )]
-    struct S;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = [x, y, x * y - t],
-    )]
-    struct T;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..m) = x[i],
+)]
+struct RangesV {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod names {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraints = x - y,
-    )]
-    struct S;
-
-    fn run() {
-        used(&S);
-    }
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        holonomic = [x - y],
-    )]
-    struct T;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        contraint = x - y,
-    )]
-    struct U;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = x - z,
-    )]
-    struct V;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..i) = x[i],
+)]
+struct RangesW {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod degenerate {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, constraint = x - y)]
-    struct S;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, constraint(i in 0..2) = x, constraints = [x, y])]
-    struct T;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n / 2) = x[i],
+)]
+struct RangesX {
+    n: usize,
+    rods: Vec<f64>,
 }
 
-mod massless {
-    use super::*;
-
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) / 2.0, constraint = x - y)]
-    struct S;
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in rods) = x[i],
+)]
+struct RangesY {
+    n: usize,
+    rods: Vec<f64>,
 }
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint = |i| x[i] - rods[i],
+)]
+struct ClosuresS {
+    n: usize,
+    rods: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint = [x[0], |i| x[i]],
+)]
+struct ClosuresT {
+    n: usize,
+    rods: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x * x + y * y == 1.0,
+)]
+struct EquationsS;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x * x + y * y = t + 1.0,
+)]
+struct EquationsT;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = (x == 0),
+)]
+struct EquationsU;
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n) = x[i] == rods[i],
+)]
+struct EquationsV {
+    n: usize,
+    rods: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = [x == y, y - 1.0],
+)]
+struct EquationsW;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint == x - y,
+)]
+struct EquationsX;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x * x + y * y <= 1.0,
+)]
+struct Inequalities;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = [[x, y]],
+)]
+struct ListsS;
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n) = [x[i], x[i] - rods[i]],
+)]
+struct ListsT {
+    n: usize,
+    rods: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x[3]),
+    lagrangian = sum(0..3, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..3) = x[i + 1] - x[i],
+)]
+struct OutOfRange;
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n) = x - rods[i],
+)]
+struct IndicesS {
+    n: usize,
+    rods: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n) = x[i] - i,
+)]
+struct IndicesT {
+    n: usize,
+    rods: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..n) = x[j] - rods[i],
+)]
+struct IndicesU {
+    n: usize,
+    rods: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x[n]),
+    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
+    constraint = x[i] - rods[i],
+)]
+struct IndicesV {
+    n: usize,
+    rods: Vec<f64>,
+}
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x - y,
+    constraint = 2.0 * (x - y),
+)]
+struct TwiceS;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = [x, y, x * y - t],
+)]
+struct TwiceT;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraints = x - y,
+)]
+struct NamesS;
+const _: fn() = || used(&NamesS);
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    holonomic = [x - y],
+)]
+struct NamesT;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    contraint = x - y,
+)]
+struct NamesU;
+
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x - z,
+)]
+struct NamesV;
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, constraint = x - y)]
+struct DegenerateS;
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, constraint(i in 0..2) = x, constraints = [x, y])]
+struct DegenerateT;
+
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) / 2.0, constraint = x - y)]
+struct Massless;
 
 /// Methods that keep no constraints.
 mod without_constraints {
@@ -564,46 +476,39 @@ mod without_any {
 
     #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0)]
     struct Free;
-
-    fn run() {
-        used(&Free);
-    }
+    const _: fn() = || used(&Free);
 }
 
 /// Families with two indices.
-mod pairs {
-    use super::*;
+#[lagrangian(
+    coordinates(x[4]),
+    lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..2, i in 0..2) = x[i],
+)]
+struct PairsSameName;
 
-    #[lagrangian(
-        coordinates(x[4]),
-        lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..2, i in 0..2) = x[i],
-    )]
-    struct SameName;
+#[lagrangian(
+    coordinates(x[4]),
+    lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..2, j in i + 1..4) = x[i].powi(2),
+)]
+struct PairsUnused;
 
-    #[lagrangian(
-        coordinates(x[4]),
-        lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..2, j in i + 1..4) = x[i].powi(2),
-    )]
-    struct Unused;
+#[lagrangian(
+    coordinates(x[4]),
+    lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..2, j in 0..(i + 1) % 2) = x[i] * x[j],
+    constraint(i in 0..2, j = 0..2) = x[i] * x[j],
+    constraint(i in 0..j, j in 0..2) = x[i] * x[j],
+    constraint(i in 0..2, j in i + 1..4) >= x[i] * x[j],
+)]
+struct PairsRanges;
 
-    #[lagrangian(
-        coordinates(x[4]),
-        lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..2, j in 0..(i + 1) % 2) = x[i] * x[j],
-        constraint(i in 0..2, j = 0..2) = x[i] * x[j],
-        constraint(i in 0..j, j in 0..2) = x[i] * x[j],
-        constraint(i in 0..2, j in i + 1..4) >= x[i] * x[j],
-    )]
-    struct Ranges;
-
-    #[lagrangian(
-        coordinates(x[4]),
-        lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
-        constraint(i in 0..4, j in i..4) = x[i] * x[j] - 1.0,
-    )]
-    struct TooMany;
-}
+#[lagrangian(
+    coordinates(x[4]),
+    lagrangian = sum(0..4, |j| dot(x[j]).powi(2) / 2.0),
+    constraint(i in 0..4, j in i..4) = x[i] * x[j] - 1.0,
+)]
+struct PairsTooMany;
 
 fn main() {}

@@ -2,245 +2,114 @@
 
 use dvi_core::prelude::*;
 
-mod field_shadows_a_coordinate {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System {
-        pub x: f64,
-    }
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System { x: 1.0 }, Sigma::midpoint(), 0.1, state);
-    }
+/// That a system with a mistake in it is taken for one that can be stepped.
+fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-mod coordinate_twice {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y, x), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
+pub struct FieldShadowsACoordinate {
+    pub x: f64,
 }
+const _: fn() =
+    || stepped(FieldShadowsACoordinate { x: 1.0 }, FieldShadowsACoordinateState { x: 1.0, y: 0.0 });
 
-mod coordinate_is_a_constant {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, PI), one_form = x * d(PI), hamiltonian = x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, PI: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y, x), one_form = x * d(y), hamiltonian = x * y)]
+pub struct CoordinateTwice;
+const _: fn() = || stepped(CoordinateTwice, CoordinateTwiceState { x: 1.0, y: 0.0 });
 
-mod no_coordinates {
-    use super::*;
-    #[degenerate_lagrangian(one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, PI), one_form = x * d(PI), hamiltonian = x)]
+pub struct CoordinateIsAConstant;
+const _: fn() = || stepped(CoordinateIsAConstant, CoordinateIsAConstantState { x: 1.0, PI: 0.0 });
 
-mod empty_coordinates {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(one_form = x * d(y), hamiltonian = x * y)]
+pub struct NoCoordinates;
+const _: fn() = || stepped(NoCoordinates, NoCoordinatesState { x: 1.0, y: 0.0 });
 
-mod three_sizes {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[4][4][4], y), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [[[1.0; 4]; 4]; 4], y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(), one_form = x * d(y), hamiltonian = x * y)]
+pub struct EmptyCoordinates;
+const _: fn() = || stepped(EmptyCoordinates, EmptyCoordinatesState { x: 1.0, y: 0.0 });
 
-mod typed_coordinate {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x: f64, y), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[4][4][4], y), one_form = x * d(y), hamiltonian = x * y)]
+pub struct ThreeSizes;
+const _: fn() = || stepped(ThreeSizes, ThreeSizesState { x: [[[1.0; 4]; 4]; 4], y: 0.0 });
 
-mod coordinates_without_comma {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x y), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x: f64, y), one_form = x * d(y), hamiltonian = x * y)]
+pub struct TypedCoordinate;
+const _: fn() = || stepped(TypedCoordinate, TypedCoordinateState { x: 1.0, y: 0.0 });
 
-mod keyword_as_a_coordinate {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, type), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x y), one_form = x * d(y), hamiltonian = x * y)]
+pub struct CoordinatesWithoutComma;
+const _: fn() = || stepped(CoordinatesWithoutComma, CoordinatesWithoutCommaState { x: 1.0, y: 0.0 });
 
-mod literal_as_a_coordinate {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, 2), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, type), one_form = x * d(y), hamiltonian = x * y)]
+pub struct KeywordAsACoordinate;
+const _: fn() = || stepped(KeywordAsACoordinate, KeywordAsACoordinateState { x: 1.0, y: 0.0 });
 
-mod size_is_a_quotient {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[N / 2], y[N / 2]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System<const N: usize>;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System::<3>, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, 2), one_form = x * d(y), hamiltonian = x * y)]
+pub struct LiteralAsACoordinate;
+const _: fn() = || stepped(LiteralAsACoordinate, LiteralAsACoordinateState { x: 1.0, y: 0.0 });
 
-mod size_is_unknown {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[M], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System<const N: usize>;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System::<4>, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[N / 2], y[N / 2]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsAQuotient<const N: usize>;
+const _: fn() = || stepped(SizeIsAQuotient::<3>, SizeIsAQuotientState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_is_a_real_field {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[n], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System {
-        pub n: f64,
-    }
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System { n: 4.0 }, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[M], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsUnknown<const N: usize>;
+const _: fn() = || stepped(SizeIsUnknown::<4>, SizeIsUnknownState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_is_a_length_of_nothing {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[m.len()], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
+#[degenerate_lagrangian(coordinates(x[n], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsARealField {
+    pub n: f64,
 }
+const _: fn() = || stepped(SizeIsARealField { n: 4.0 }, SizeIsARealFieldState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_is_missing {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[m.len()], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsALengthOfNothing;
+const _: fn() = || stepped(SizeIsALengthOfNothing, SizeIsALengthOfNothingState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_is_zero {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[0], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsMissing;
+const _: fn() = || stepped(SizeIsMissing, SizeIsMissingState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_is_negative {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[-4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[0], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsZero;
+const _: fn() = || stepped(SizeIsZero, SizeIsZeroState { x: [], y: [0.0; 4] });
 
-mod size_is_a_float {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[4.0], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[-4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsNegative;
+const _: fn() = || stepped(SizeIsNegative, SizeIsNegativeState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_is_huge {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[1_000_000_000_000], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[4.0], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsAFloat;
+const _: fn() = || stepped(SizeIsAFloat, SizeIsAFloatState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_is_beyond_integers {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[99999999999999999999999], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[1_000_000_000_000], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsHuge;
+const _: fn() = || stepped(SizeIsHuge, SizeIsHugeState { x: [1.0; 4], y: [0.0; 4] });
 
-mod field_is_text {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = name * x)]
-    pub struct System {
-        pub name: String,
-    }
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System { name: String::new() }, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[99999999999999999999999], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeIsBeyondIntegers;
+const _: fn() = || stepped(SizeIsBeyondIntegers, SizeIsBeyondIntegersState { x: [1.0; 4], y: [0.0; 4] });
 
-mod field_is_of_another_type {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = a * x + a * y)]
-    pub struct System {
-        pub a: Option<f64>,
-    }
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System { a: None }, Sigma::midpoint(), 0.1, state);
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = name * x)]
+pub struct FieldIsText {
+    pub name: String,
 }
+const _: fn() = || stepped(FieldIsText { name: String::new() }, FieldIsTextState { x: 1.0, y: 0.0 });
 
-mod field_is_an_array_of_another_type {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = a[0] * x)]
-    pub struct System {
-        pub a: [Option<f64>; 2],
-    }
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System { a: [None; 2] }, Sigma::midpoint(), 0.1, state);
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = a * x + a * y)]
+pub struct FieldIsOfAnotherType {
+    pub a: Option<f64>,
 }
+const _: fn() = || stepped(FieldIsOfAnotherType { a: None }, FieldIsOfAnotherTypeState { x: 1.0, y: 0.0 });
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = a[0] * x)]
+pub struct FieldIsAnArrayOfAnotherType {
+    pub a: [Option<f64>; 2],
+}
+const _: fn() =
+    || stepped(FieldIsAnArrayOfAnotherType { a: [None; 2] }, FieldIsAnArrayOfAnotherTypeState { x: 1.0, y: 0.0 });
 
 mod function_without_derivatives {
     use super::*;
@@ -249,115 +118,55 @@ mod function_without_derivatives {
     }
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [sine]))]
     pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
+    const _: fn() = || stepped(System, SystemState { x: 1.0, y: 0.0 });
 }
 
 mod function_without_list {
     use super::*;
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = sine))]
     pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
+    const _: fn() = || stepped(System, SystemState { x: 1.0, y: 0.0 });
 }
 
-mod function_is_a_closure {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [|x| x, |x| 1.0, |x| 0.0]))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [|x| x, |x| 1.0, |x| 0.0]))]
+pub struct FunctionIsAClosure;
+const _: fn() = || stepped(FunctionIsAClosure, FunctionIsAClosureState { x: 1.0, y: 0.0 });
 
-mod function_twice {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [f, g, h], f = [f, g, h]))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [f, g, h], f = [f, g, h]))]
+pub struct FunctionTwice;
+const _: fn() = || stepped(FunctionTwice, FunctionTwiceState { x: 1.0, y: 0.0 });
 
-mod function_of_the_table {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = sum(x), functions(sum = [f, g, h]))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = sum(x), functions(sum = [f, g, h]))]
+pub struct FunctionOfTheTable;
+const _: fn() = || stepped(FunctionOfTheTable, FunctionOfTheTableState { x: 1.0, y: 0.0 });
 
-mod momentum_twice {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x, momenta(p = x, p = y))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x, momenta(p = x, p = y))]
+pub struct MomentumTwice;
+const _: fn() = || stepped(MomentumTwice, MomentumTwiceState { x: 1.0, y: 0.0 });
 
-mod momentum_without_formula {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x, momenta(p))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x, momenta(p))]
+pub struct MomentumWithoutFormula;
+const _: fn() = || stepped(MomentumWithoutFormula, MomentumWithoutFormulaState { x: 1.0, y: 0.0 });
 
-mod momentum_is_empty {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x, momenta(p = ))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x, momenta(p = ))]
+pub struct MomentumIsEmpty;
+const _: fn() = || stepped(MomentumIsEmpty, MomentumIsEmptyState { x: 1.0, y: 0.0 });
 
-mod tuple_struct {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System(pub f64);
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System(1.0), Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
+pub struct TupleStruct(pub f64);
+const _: fn() = || stepped(TupleStruct(1.0), TupleStructState { x: 1.0, y: 0.0 });
 
-mod enumeration {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
-    pub enum System {
-        One,
-    }
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System::One, Sigma::midpoint(), 0.1, state);
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
+pub enum Enumeration {
+    One,
 }
+const _: fn() = || stepped(Enumeration::One, EnumerationState { x: 1.0, y: 0.0 });
 
-mod union {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
-    pub union System {
-        pub a: f64,
-    }
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System { a: 1.0 }, Sigma::midpoint(), 0.1, state);
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
+pub union Union {
+    pub a: f64,
 }
+const _: fn() = || stepped(Union { a: 1.0 }, UnionState { x: 1.0, y: 0.0 });
 
 mod function {
     use super::*;
@@ -368,14 +177,8 @@ mod function {
     }
 }
 
-mod size_of_another_type {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[N], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-    pub struct System<const N: bool>;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System::<true>, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[N], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
+pub struct SizeOfAnotherType<const N: bool>;
+const _: fn() = || stepped(SizeOfAnotherType::<true>, SizeOfAnotherTypeState { x: [1.0; 4], y: [0.0; 4] });
 
 fn main() {}

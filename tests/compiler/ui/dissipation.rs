@@ -16,84 +16,52 @@ mod without_velocities {
     struct T;
 }
 
-mod velocities_of_other_names {
-    use super::*;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = dot_x.powi(2))]
+struct VelocitiesOfOtherNamesS;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = dot_x.powi(2))]
-    struct S;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = d(x).powi(2))]
+struct VelocitiesOfOtherNamesT;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = d(x).powi(2))]
-    struct T;
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation(x) = dot(x).powi(2))]
+struct OnACoordinate;
 
-mod on_a_coordinate {
-    use super::*;
+#[lagrangian(
+    coordinates(r[2]),
+    lagrangian = dot(r).norm_squared() / 2.0,
+    dissipation = dot(r),
+)]
+struct NoNumber;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation(x) = dot(x).powi(2))]
-    struct S;
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation =)]
+struct Empty;
 
-mod no_number {
-    use super::*;
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = dot(x).powi(2) / 2.0 + dot(y).powi(2),
+    dissipation = dot(x).powi(2),
+    dissipation = dot(y).powi(2),
+)]
+struct Twice;
 
-    #[lagrangian(
-        coordinates(r[2]),
-        lagrangian = dot(r).norm_squared() / 2.0,
-        dissipation = dot(r),
-    )]
-    struct S;
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, rayleigh = dot(x).powi(2))]
+struct OtherWords;
 
-mod empty {
-    use super::*;
+#[degenerate_lagrangian(
+    coordinates(x, p),
+    one_form = p * d(x),
+    hamiltonian = p * p / 2.0,
+    dissipation = dot(x).powi(2),
+)]
+struct DegenerateS;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation =)]
-    struct S;
-}
+#[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0, rayleigh = p * p)]
+struct DegenerateT;
 
-mod twice {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = dot(x).powi(2) / 2.0 + dot(y).powi(2),
-        dissipation = dot(x).powi(2),
-        dissipation = dot(y).powi(2),
-    )]
-    struct S;
-}
-
-mod other_words {
-    use super::*;
-
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, rayleigh = dot(x).powi(2))]
-    struct S;
-}
-
-mod degenerate {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, p),
-        one_form = p * d(x),
-        hamiltonian = p * p / 2.0,
-        dissipation = dot(x).powi(2),
-    )]
-    struct S;
-
-    #[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0, rayleigh = p * p)]
-    struct T;
-}
-
-mod rotations {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(R: SO3),
-        lagrangian = omega(R).norm_squared(),
-        dissipation = omega(R).norm_squared(),
-    )]
-    struct S;
-}
+#[lagrangian(
+    coordinates(R: SO3),
+    lagrangian = omega(R).norm_squared(),
+    dissipation = omega(R).norm_squared(),
+)]
+struct Rotations;
 
 fn main() {}

@@ -2,16 +2,23 @@
 
 use dvi_core::prelude::*;
 
+/// That a system with a mistake in it is taken for one that can be stepped.
+fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
+}
+
+/// That a regular system with a mistake in it is taken for one that can be stepped.
+fn moved<S: RegularLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Variational::midpoint(), 0.1, state);
+}
+
 macro_rules! hamiltonian {
     ($name:ident: $($formula:tt)*) => {
         mod $name {
             use super::*;
             #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = $($formula)*)]
             pub struct System;
-            pub fn run() {
-                let state = SystemState { x: 1.0, y: 0.0 };
-                let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-            }
+            const _: fn() = || stepped(System, SystemState { x: 1.0, y: 0.0 });
         }
     };
 }
@@ -97,23 +104,14 @@ lagrangian! { letter_of_the_lagrangian: coordinates(x), L = dot(x).powi(2) }
 lagrangian! { short_word_for_coordinates: coords(x), lagrangian = dot(x).powi(2) }
 lagrangian! { parameters: coordinates(x), lagrangian = dot(x).powi(2), parameters(g) }
 
-mod letter_of_the_hamiltonian {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), H = x * y)]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), H = x * y)]
+pub struct LetterOfTheHamiltonian;
 
-mod components_in_parentheses {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = (0.0, x), hamiltonian = x * y)]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = (0.0, x), hamiltonian = x * y)]
+pub struct ComponentsInParentheses;
 
-mod two_form {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = d(x) ^ d(y), hamiltonian = x * y)]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = d(x) ^ d(y), hamiltonian = x * y)]
+pub struct TwoForm;
 
 /// Functions of several variables.
 macro_rules! psi {
@@ -131,23 +129,14 @@ psi! { list_of_arguments: psi([x, y]) }
 psi! { value: psi.value(x, y) }
 psi! { arguments_in_brackets: psi[x, y] }
 
-mod two_systems {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2))]
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::midpoint(), 0.1, state);
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2))]
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
+pub struct TwoSystems;
+const _: fn() = || moved(TwoSystems, TwoSystemsState { x: 1.0, dot_x: 0.0 });
 
-mod number_with_an_index {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let g = x; g[0] * y })]
-    pub struct System {
-        pub g: [f64; 2],
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let g = x; g[0] * y })]
+pub struct NumberWithAnIndex {
+    pub g: [f64; 2],
 }
 
 fn main() {}

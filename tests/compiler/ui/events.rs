@@ -2,6 +2,16 @@
 
 use dvi_core::prelude::*;
 
+/// That a system with a mistake in it is taken for one that can be stepped.
+fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
+}
+
+/// That a regular system with a mistake in it is taken for one that can be stepped.
+fn moved<S: RegularLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Variational::trapezoid(), 0.1, state);
+}
+
 mod event_twice {
     use super::*;
     #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn = dot(x), turn = x))]
@@ -28,79 +38,38 @@ mod unknown_name {
     }
 }
 
-mod no_event {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events())]
-    pub struct System;
-    pub fn run() {
-        let start = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::trapezoid(), 0.1, start);
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events())]
+pub struct NoEvent;
+const _: fn() = || moved(NoEvent, NoEventState { x: 1.0, dot_x: 0.0 });
 
-mod event_without_a_name {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(dot(x)))]
-    pub struct System;
-    pub fn run() {
-        let start = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::trapezoid(), 0.1, start);
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(dot(x)))]
+pub struct EventWithoutAName;
+const _: fn() = || moved(EventWithoutAName, EventWithoutANameState { x: 1.0, dot_x: 0.0 });
 
-mod event_without_a_formula {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn))]
-    pub struct System;
-    pub fn run() {
-        let start = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::trapezoid(), 0.1, start);
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn))]
+pub struct EventWithoutAFormula;
+const _: fn() = || moved(EventWithoutAFormula, EventWithoutAFormulaState { x: 1.0, dot_x: 0.0 });
 
-mod a_differential_is_no_velocity {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn = d(x)))]
-    pub struct System;
-    pub fn run() {
-        let start = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::trapezoid(), 0.1, start);
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn = d(x)))]
+pub struct ADifferentialIsNoVelocity;
+const _: fn() = || moved(ADifferentialIsNoVelocity, ADifferentialIsNoVelocityState { x: 1.0, dot_x: 0.0 });
 
-mod velocities_of_a_degenerate_system {
-    use super::*;
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = x * d(y),
-        hamiltonian = x * y,
-        events(rising = dot(x), other = d(y)),
-    )]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = x * d(y),
+    hamiltonian = x * y,
+    events(rising = dot(x), other = d(y)),
+)]
+pub struct VelocitiesOfADegenerateSystem;
+const _: fn() =
+    || stepped(VelocitiesOfADegenerateSystem, VelocitiesOfADegenerateSystemState { x: 1.0, y: 0.0 });
 
-mod another_word {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, section(turn = x))]
-    pub struct System;
-    pub fn run() {
-        let start = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::trapezoid(), 0.1, start);
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, section(turn = x))]
+pub struct AnotherWord;
+const _: fn() = || moved(AnotherWord, AnotherWordState { x: 1.0, dot_x: 0.0 });
 
-mod not_a_list {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events = x)]
-    pub struct System;
-    pub fn run() {
-        let start = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::trapezoid(), 0.1, start);
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events = x)]
+pub struct NotAList;
+const _: fn() = || moved(NotAList, NotAListState { x: 1.0, dot_x: 0.0 });
 
 fn main() {}

@@ -17,145 +17,97 @@ mod too_few_components {
     }
 }
 
-mod no_list {
-    use super::*;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force = -dot(x))]
+struct NoList;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force = -dot(x))]
-    struct S;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x))]
+struct WithoutValue;
+
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) =)]
+struct Empty;
+
+#[lagrangian(
+    coordinates(theta),
+    lagrangian = dot(theta).powi(2) / 2.0,
+    force(thetta) = -1.0,
+)]
+struct OnNoCoordinateS;
+
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(gamma) = -1.0)]
+struct OnNoCoordinateT {
+    gamma: f64,
 }
 
-mod without_value {
-    use super::*;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force() = -dot(x))]
+struct OnNothingS;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x))]
-    struct S;
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x): -dot(x))]
+struct OnNothingT;
 
-mod empty {
-    use super::*;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, friction(x) = -dot(x))]
+struct OnNothingU;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) =)]
-    struct S;
-}
+#[lagrangian(
+    coordinates(x[2]),
+    lagrangian = sum(0..2, |i| dot(x[i]).powi(2) / 2.0),
+    force(x[0]) = -dot(x[0]),
+)]
+struct OnAnEntry;
 
-mod on_no_coordinate {
-    use super::*;
+#[lagrangian(
+    coordinates(x[2], y),
+    lagrangian = sum(0..2, |i| dot(x[i]).powi(2) / 2.0) + dot(y).powi(2) / 2.0,
+    force(x) = -1.0,
+    force(y) = |i| -1.0,
+)]
+struct WithoutAnIndex;
 
-    #[lagrangian(
-        coordinates(theta),
-        lagrangian = dot(theta).powi(2) / 2.0,
-        force(thetta) = -1.0,
-    )]
-    struct S;
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0,
+    force(x) = -dot(x),
+    force(x) = t.cos(),
+)]
+struct TwiceS;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(gamma) = -1.0)]
-    struct T {
-        gamma: f64,
-    }
-}
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0,
+    force = [-dot(x)],
+    force(x) = t.cos(),
+)]
+struct TwiceT;
 
-mod on_nothing {
-    use super::*;
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = x * x + y * y,
+    force = [-dot(x), 0.0],
+)]
+struct VelocitiesOfADegenerateSystem;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force() = -dot(x))]
-    struct S;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -d(x))]
+struct DifferentialOfARegularSystemS;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x): -dot(x))]
-    struct T;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -dot_x)]
+struct DifferentialOfARegularSystemT;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, friction(x) = -dot(x))]
-    struct U;
-}
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = x * x + y * y,
+    time_transform = 1.0 + x * x,
+    force(x) = -y,
+)]
+struct WithTransformedTime;
 
-mod on_an_entry {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[2]),
-        lagrangian = sum(0..2, |i| dot(x[i]).powi(2) / 2.0),
-        force(x[0]) = -dot(x[0]),
-    )]
-    struct S;
-}
-
-mod without_an_index {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[2], y),
-        lagrangian = sum(0..2, |i| dot(x[i]).powi(2) / 2.0) + dot(y).powi(2) / 2.0,
-        force(x) = -1.0,
-        force(y) = |i| -1.0,
-    )]
-    struct S;
-}
-
-mod twice {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x),
-        lagrangian = dot(x).powi(2) / 2.0,
-        force(x) = -dot(x),
-        force(x) = t.cos(),
-    )]
-    struct S;
-
-    #[lagrangian(
-        coordinates(x),
-        lagrangian = dot(x).powi(2) / 2.0,
-        force = [-dot(x)],
-        force(x) = t.cos(),
-    )]
-    struct T;
-}
-
-mod velocities_of_a_degenerate_system {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = y * d(x),
-        hamiltonian = x * x + y * y,
-        force = [-dot(x), 0.0],
-    )]
-    struct S;
-}
-
-mod differential_of_a_regular_system {
-    use super::*;
-
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -d(x))]
-    struct S;
-
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -dot_x)]
-    struct T;
-}
-
-mod with_transformed_time {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = y * d(x),
-        hamiltonian = x * x + y * y,
-        time_transform = 1.0 + x * x,
-        force(x) = -y,
-    )]
-    struct S;
-}
-
-mod unknown_names {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[3]),
-        lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0),
-        force(x) = |i| -gama * dot(x[i]) + x[i + 3],
-    )]
-    struct S {
-        gamma: f64,
-    }
+#[lagrangian(
+    coordinates(x[3]),
+    lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0),
+    force(x) = |i| -gama * dot(x[i]) + x[i + 3],
+)]
+struct UnknownNames {
+    gamma: f64,
 }
 
 mod explicit_methods {
@@ -170,29 +122,25 @@ mod explicit_methods {
 }
 
 /// Names of indices are those of the formula that they stand in, not of one before.
-mod indices_of_other_formulas {
-    use super::*;
+#[lagrangian(
+    coordinates(x[3]),
+    lagrangian = sum(0..3, |k| dot(x[k]).powi(2)),
+    force(x) = |i| k - sum(0..3, |j| x[j]) * x[i],
+)]
+struct IndicesOfOtherFormulasS;
 
-    #[lagrangian(
-        coordinates(x[3]),
-        lagrangian = sum(0..3, |k| dot(x[k]).powi(2)),
-        force(x) = |i| k - sum(0..3, |j| x[j]) * x[i],
-    )]
-    struct S;
+#[lagrangian(
+    coordinates(x[3]),
+    lagrangian = sum(0..3, |k| dot(x[k]).powi(2)),
+    force(x) = |i| x[i] * j - sum(0..3, |j| x[j]),
+)]
+struct IndicesOfOtherFormulasT;
 
-    #[lagrangian(
-        coordinates(x[3]),
-        lagrangian = sum(0..3, |k| dot(x[k]).powi(2)),
-        force(x) = |i| x[i] * j - sum(0..3, |j| x[j]),
-    )]
-    struct T;
-
-    #[degenerate_lagrangian(
-        coordinates(x[3], y[3]),
-        one_form = [|i| y[i] + sum(0..3, |k| x[k]), |i| k],
-        hamiltonian = x[0],
-    )]
-    struct U;
-}
+#[degenerate_lagrangian(
+    coordinates(x[3], y[3]),
+    one_form = [|i| y[i] + sum(0..3, |k| x[k]), |i| k],
+    hamiltonian = x[0],
+)]
+struct IndicesOfOtherFormulasU;
 
 fn main() {}

@@ -35,15 +35,12 @@ mod function_of_two {
     pub struct System;
 }
 
-mod function_that_does_not_exist {
-    use super::*;
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form    = x * d(y),
-        hamiltonian = f(x) + f(y),
-        functions(f = [any, any, second]),
-    )]
-    pub struct System;
-}
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = x * d(y),
+    hamiltonian = f(x) + f(y),
+    functions(f = [any, any, second]),
+)]
+pub struct FunctionThatDoesNotExist;
 
 fn main() {}

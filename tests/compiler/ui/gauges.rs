@@ -2,35 +2,20 @@
 
 use dvi_core::prelude::*;
 
-mod without_value {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge =)]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge =)]
+pub struct WithoutValue;
 
-mod without_coordinates {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = 2.0 * t)]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = 2.0 * t)]
+pub struct WithoutCoordinates;
 
-mod with_a_velocity {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * d(y))]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * d(y))]
+pub struct WithAVelocity;
 
-mod with_an_unknown_name {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * z)]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * z)]
+pub struct WithAnUnknownName;
 
-mod as_a_list {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge(x * y))]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge(x * y))]
+pub struct AsAList;
 
 mod with_two_derivatives {
     use super::*;
@@ -47,44 +32,32 @@ mod with_two_derivatives {
     pub struct System;
 }
 
-mod of_a_regular_system {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0, gauge = x)]
-    pub struct System;
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0, gauge = x)]
+pub struct OfARegularSystem;
 
-mod not_found_without_a_half_that_omega_leaves_alone {
-    use super::*;
-    #[degenerate_lagrangian(
-        coordinates(x, y, u, w),
-        one_form = x * x * w * d(y) + (u * w).exp() * d(x) - u * d(w) + (y * u).sin() * x * d(u) + y * w * d(x),
-        hamiltonian = x * y,
-        gauge = auto,
-    )]
-    pub struct System;
-}
+#[degenerate_lagrangian(
+    coordinates(x, y, u, w),
+    one_form = x * x * w * d(y) + (u * w).exp() * d(x) - u * d(w) + (y * u).sin() * x * d(u) + y * w * d(x),
+    hamiltonian = x * y,
+    gauge = auto,
+)]
+pub struct NotFoundWithoutAHalfThatOmegaLeavesAlone;
 
-mod not_found_without_an_antiderivative {
-    use super::*;
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = (x * (y * y).sin() + y) * d(x) + (x * y * y + 1.0).sin() * d(y) + (x * x * y).exp() * d(x),
-        hamiltonian = x * y,
-        gauge = auto,
-    )]
-    pub struct System;
-}
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = (x * (y * y).sin() + y) * d(x) + (x * y * y + 1.0).sin() * d(y) + (x * x * y).exp() * d(x),
+    hamiltonian = x * y,
+    gauge = auto,
+)]
+pub struct NotFoundWithoutAnAntiderivative;
 
-mod not_found_in_halves_of_an_array {
-    use super::*;
-    #[degenerate_lagrangian(
-        coordinates(z[4]),
-        one_form = sum(0..4, |j| z[(j + 1) % 4] * d(z[j])),
-        hamiltonian = z[0] * z[1],
-        gauge = auto,
-    )]
-    pub struct System;
-}
+#[degenerate_lagrangian(
+    coordinates(z[4]),
+    one_form = sum(0..4, |j| z[(j + 1) % 4] * d(z[j])),
+    hamiltonian = z[0] * z[1],
+    gauge = auto,
+)]
+pub struct NotFoundInHalvesOfAnArray;
 
 mod not_found_without_a_third_derivative {
     use super::*;
@@ -101,11 +74,8 @@ mod not_found_without_a_third_derivative {
     pub struct System;
 }
 
-mod an_odd_number_of_coordinates {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y, z), one_form = x * d(y) + y * d(z), hamiltonian = x * y, gauge = auto)]
-    pub struct System;
-}
+#[degenerate_lagrangian(coordinates(x, y, z), one_form = x * d(y) + y * d(z), hamiltonian = x * y, gauge = auto)]
+pub struct AnOddNumberOfCoordinates;
 
 mod none_needed {
     use super::*;

@@ -2,225 +2,107 @@
 
 use dvi_core::prelude::*;
 
-mod power_with_stars {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x**2 + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
+/// That a system with a mistake in it is taken for one that can be stepped.
+fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-mod power_with_stars_of_a_product {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 3.0 * (x + y)**3)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
+/// That a regular system with a mistake in it is taken for one that can be stepped.
+fn moved<S: RegularLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Variational::midpoint(), 0.1, state);
 }
 
-mod power_with_a_caret {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x^2)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x**2 + y)]
+pub struct PowerWithStars;
+const _: fn() = || stepped(PowerWithStars, PowerWithStarsState { x: 1.0, y: 0.0 });
 
-mod product_without_a_sign {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 2x + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 3.0 * (x + y)**3)]
+pub struct PowerWithStarsOfAProduct;
+const _: fn() = || stepped(PowerWithStarsOfAProduct, PowerWithStarsOfAProductState { x: 1.0, y: 0.0 });
 
-mod product_without_a_sign_of_a_decimal {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 0.5y + x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x^2)]
+pub struct PowerWithACaret;
+const _: fn() = || stepped(PowerWithACaret, PowerWithACaretState { x: 1.0, y: 0.0 });
 
-mod logarithm {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log() + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 2x + y)]
+pub struct ProductWithoutASign;
+const _: fn() = || stepped(ProductWithoutASign, ProductWithoutASignState { x: 1.0, y: 0.0 });
 
-mod power_by_name {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.pow(2) + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 0.5y + x)]
+pub struct ProductWithoutASignOfADecimal;
+const _: fn() =
+    || stepped(ProductWithoutASignOfADecimal, ProductWithoutASignOfADecimalState { x: 1.0, y: 0.0 });
 
-mod arc_sine {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.arcsin() + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log() + y)]
+pub struct Logarithm;
+const _: fn() = || stepped(Logarithm, LogarithmState { x: 1.0, y: 0.0 });
 
-mod undeclared_function {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = potential(x) + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.pow(2) + y)]
+pub struct PowerByName;
+const _: fn() = || stepped(PowerByName, PowerByNameState { x: 1.0, y: 0.0 });
 
-mod undeclared_method {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.bessel() + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.arcsin() + y)]
+pub struct ArcSine;
+const _: fn() = || stepped(ArcSine, ArcSineState { x: 1.0, y: 0.0 });
 
-mod integers_that_are_divided {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (3 / 2) as f64 * x + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = potential(x) + y)]
+pub struct UndeclaredFunction;
+const _: fn() = || stepped(UndeclaredFunction, UndeclaredFunctionState { x: 1.0, y: 0.0 });
 
-mod differential_as_a_name {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * dy, hamiltonian = x + y)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.bessel() + y)]
+pub struct UndeclaredMethod;
+const _: fn() = || stepped(UndeclaredMethod, UndeclaredMethodState { x: 1.0, y: 0.0 });
 
-mod iterator {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = (0..4).map(|i| x[i]).sum())]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (3 / 2) as f64 * x + y)]
+pub struct IntegersThatAreDivided;
+const _: fn() = || stepped(IntegersThatAreDivided, IntegersThatAreDividedState { x: 1.0, y: 0.0 });
 
-mod iterator_of_a_field {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = g.iter().sum() * x[0])]
-    pub struct System { pub g: [f64; 3] }
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System { g: [1.0; 3] }, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * dy, hamiltonian = x + y)]
+pub struct DifferentialAsAName;
+const _: fn() = || stepped(DifferentialAsAName, DifferentialAsANameState { x: 1.0, y: 0.0 });
 
-mod index_that_is_divided {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum(0..4, |k| (k / 2) as f64 * x[k]))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = (0..4).map(|i| x[i]).sum())]
+pub struct IteratorSystem;
+const _: fn() = || stepped(IteratorSystem, IteratorSystemState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_that_is_divided {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (n / 2) as f64 * x)]
-    pub struct System { pub n: usize }
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System { n: 1 }, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = g.iter().sum() * x[0])]
+pub struct IteratorOfAField { pub g: [f64; 3] }
+const _: fn() =
+    || stepped(IteratorOfAField { g: [1.0; 3] }, IteratorOfAFieldState { x: [1.0; 4], y: [0.0; 4] });
 
-mod size_that_is_not_declared {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[N], y[N]), one_form = sum(0..N, |j| x[j] * d(y[j])), hamiltonian = sum(0..N, |j| x[j] * y[j]))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum(0..4, |k| (k / 2) as f64 * x[k]))]
+pub struct IndexThatIsDivided;
+const _: fn() = || stepped(IndexThatIsDivided, IndexThatIsDividedState { x: [1.0; 4], y: [0.0; 4] });
 
-mod index_out_of_range_of_a_pair {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum_pairs(0..4, |j, k| g[k - j] * x[j]))]
-    pub struct System { pub g: [f64; 3] }
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System { g: [1.0; 3] }, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (n / 2) as f64 * x)]
+pub struct SizeThatIsDivided { pub n: usize }
+const _: fn() = || stepped(SizeThatIsDivided { n: 1 }, SizeThatIsDividedState { x: 1.0, y: 0.0 });
 
-mod index_below_zero_of_a_pair {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum_pairs(0..4, |j, k| g[k - j - 2] * x[j]))]
-    pub struct System { pub g: [f64; 3] }
-    pub fn run() {
-        let state = SystemState { x: [1.0; 4], y: [0.0; 4] };
-        let _ = Integrator::new(&System { g: [1.0; 3] }, Sigma::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[N], y[N]), one_form = sum(0..N, |j| x[j] * d(y[j])), hamiltonian = sum(0..N, |j| x[j] * y[j]))]
+pub struct SizeThatIsNotDeclared;
+const _: fn() = || stepped(SizeThatIsNotDeclared, SizeThatIsNotDeclaredState { x: [1.0; 4], y: [0.0; 4] });
 
-mod velocity_as_one_word {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = xdot * xdot / 2.0 - x * x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum_pairs(0..4, |j, k| g[k - j] * x[j]))]
+pub struct IndexOutOfRangeOfAPair { pub g: [f64; 3] }
+const _: fn() =
+    || stepped(IndexOutOfRangeOfAPair { g: [1.0; 3] }, IndexOutOfRangeOfAPairState { x: [1.0; 4], y: [0.0; 4] });
 
-mod velocity_with_an_underscore {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = x_dot * x_dot / 2.0 - x * x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::midpoint(), 0.1, state);
-    }
-}
+#[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum_pairs(0..4, |j, k| g[k - j - 2] * x[j]))]
+pub struct IndexBelowZeroOfAPair { pub g: [f64; 3] }
+const _: fn() =
+    || stepped(IndexBelowZeroOfAPair { g: [1.0; 3] }, IndexBelowZeroOfAPairState { x: [1.0; 4], y: [0.0; 4] });
 
-mod velocity_with_d {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dx * dx / 2.0 - x * x)]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, dot_x: 0.0 };
-        let _ = Integrator::new(&System, Variational::midpoint(), 0.1, state);
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = xdot * xdot / 2.0 - x * x)]
+pub struct VelocityAsOneWord;
+const _: fn() = || moved(VelocityAsOneWord, VelocityAsOneWordState { x: 1.0, dot_x: 0.0 });
+
+#[lagrangian(coordinates(x), lagrangian = x_dot * x_dot / 2.0 - x * x)]
+pub struct VelocityWithAnUnderscore;
+const _: fn() = || moved(VelocityWithAnUnderscore, VelocityWithAnUnderscoreState { x: 1.0, dot_x: 0.0 });
+
+#[lagrangian(coordinates(x), lagrangian = dx * dx / 2.0 - x * x)]
+pub struct VelocityWithD;
+const _: fn() = || moved(VelocityWithD, VelocityWithDState { x: 1.0, dot_x: 0.0 });
 
 mod quotient_under_a_name {
     use dvi_core::degenerate_lagrangian;

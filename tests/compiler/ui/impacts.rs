@@ -9,98 +9,75 @@ fn used<S: UnilateralLagrangian>(system: &S) {
     let _ = system.multipliers();
 }
 
-mod not_a_gap {
-    use super::*;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = dot(x))]
+struct NotAGapS;
+const _: fn() = || used(&NotAGapS);
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = dot(x))]
-    struct S;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x_dot + x)]
+struct NotAGapT;
 
-    fn run() {
-        used(&S);
-    }
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = 1.0 - t)]
+struct NotAGapU;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x_dot + x)]
-    struct T;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [])]
+struct NotAGapV;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = 1.0 - t)]
-    struct U;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x > 0.0)]
+struct ConditionsS;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [])]
-    struct V;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x <= l)]
+struct ConditionsT {
+    l: f64,
 }
 
-mod conditions {
-    use super::*;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [x != 0.0, x == 1.0])]
+struct ConditionsU;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x > 0.0)]
-    struct S;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, constraint = x >= 0.0)]
+struct ConditionsV;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x <= l)]
-    struct T {
-        l: f64,
-    }
+#[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i) = x[i])]
+struct FamiliesS;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [x != 0.0, x == 1.0])]
-    struct U;
+#[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3) = x[0])]
+struct FamiliesT;
 
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, constraint = x >= 0.0)]
-    struct V;
-}
+#[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact = |i| x[i])]
+struct FamiliesU;
 
-mod families {
-    use super::*;
+#[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3) = [x[i], 1.0 - x[i]])]
+struct FamiliesV;
 
-    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i) = x[i])]
-    struct S;
+#[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3))]
+struct FamiliesW;
 
-    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3) = x[0])]
-    struct T;
+#[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0, impact = [x - y, y - x])]
+struct TwiceS;
 
-    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact = |i| x[i])]
-    struct U;
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    constraint = x - y,
+    impact = x,
+)]
+struct TwiceT;
 
-    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3) = [x[i], 1.0 - x[i]])]
-    struct V;
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+    impact = x,
+    nonholonomic = dot(x) - dot(y),
+)]
+struct TwiceU;
 
-    #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3))]
-    struct W;
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, wall = x)]
+struct OtherWordsS;
 
-mod twice {
-    use super::*;
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impacts = [x, 1.0 - x])]
+struct OtherWordsT;
 
-    #[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0, impact = [x - y, y - x])]
-    struct S;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        constraint = x - y,
-        impact = x,
-    )]
-    struct T;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        impact = x,
-        nonholonomic = dot(x) - dot(y),
-    )]
-    struct U;
-}
-
-mod other_words {
-    use super::*;
-
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, wall = x)]
-    struct S;
-
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impacts = [x, 1.0 - x])]
-    struct T;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + y * y, impact = x)]
-    struct U;
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + y * y, impact = x)]
+struct OtherWordsU;
 
 mod methods {
     use super::*;

@@ -6,85 +6,48 @@ fn run<S: RegularLagrangian>(system: &S, state: S::State<f64>) {
     let _ = (system.energy(&[0.0], &[0.0], 0.0), state);
 }
 
-mod tuple_struct {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-    pub struct System(pub f64);
-    pub fn go() {
-        run(&System(1.0), SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
+pub struct TupleStruct(pub f64);
+const _: fn() = || run(&TupleStruct(1.0), TupleStructState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod enumeration {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-    pub enum System {
-        One,
-    }
-    pub fn go() {
-        run(&System::One, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
+pub enum Enumeration {
+    One,
 }
+const _: fn() = || run(&Enumeration::One, EnumerationState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod union {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-    pub union System {
-        pub a: f64,
-    }
-    pub fn go() {
-        run(&System { a: 1.0 }, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
+pub union Union {
+    pub a: f64,
 }
+const _: fn() = || run(&Union { a: 1.0 }, UnionState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod coordinate_is_called_as_a_velocity {
-    use super::*;
-    #[lagrangian(coordinates(x, dot_x), lagrangian = dot(x).powi(2) + dot(dot_x).powi(2))]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, dot_x: 0.0 });
-    }
-}
+#[lagrangian(coordinates(x, dot_x), lagrangian = dot(x).powi(2) + dot(dot_x).powi(2))]
+pub struct CoordinateIsCalledAsAVelocity;
+const _: fn() =
+    || run(&CoordinateIsCalledAsAVelocity, CoordinateIsCalledAsAVelocityState { x: 1.0, dot_x: 0.0 });
 
-mod the_other_way_round {
-    use super::*;
-    #[lagrangian(coordinates(dot_y[2], y[2]), lagrangian = sum(0..2, |j| dot(y[j]).powi(2) + dot(dot_y[j]).powi(2)))]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { y: [1.0; 2], dot_y: [0.0; 2] });
-    }
-}
+#[lagrangian(coordinates(dot_y[2], y[2]), lagrangian = sum(0..2, |j| dot(y[j]).powi(2) + dot(dot_y[j]).powi(2)))]
+pub struct TheOtherWayRound;
+const _: fn() = || run(&TheOtherWayRound, TheOtherWayRoundState { y: [1.0; 2], dot_y: [0.0; 2] });
 
-mod coordinate_twice {
-    use super::*;
-    #[lagrangian(coordinates(x, y, x), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y, x), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
+pub struct CoordinateTwice;
+const _: fn() = || run(&CoordinateTwice, CoordinateTwiceState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod field_shadows_a_coordinate {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-    pub struct System {
-        pub x: f64,
-    }
-    pub fn go() {
-        run(&System { x: 1.0 }, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
+pub struct FieldShadowsACoordinate {
+    pub x: f64,
 }
+const _: fn() =
+    || run(&FieldShadowsACoordinate { x: 1.0 }, FieldShadowsACoordinateState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod field_is_no_number {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y * name)]
-    pub struct System {
-        pub name: &'static str,
-    }
-    pub fn go() {
-        run(&System { name: "x" }, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y * name)]
+pub struct FieldIsNoNumber {
+    pub name: &'static str,
 }
+const _: fn() =
+    || run(&FieldIsNoNumber { name: "x" }, FieldIsNoNumberState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
 mod function {
     use super::*;
@@ -96,13 +59,9 @@ mod function {
 }
 
 /// No mistakes: names like those of velocities, without the coordinate that they would be of.
-mod names_like_velocities {
-    use super::*;
-    #[lagrangian(coordinates(dot_x, r#type), lagrangian = dot(dot_x).powi(2) + dot(r#type).powi(2))]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { dot_x: 1.0, r#type: 0.0, dot_dot_x: 0.0, dot_type: 1.0 });
-    }
-}
+#[lagrangian(coordinates(dot_x, r#type), lagrangian = dot(dot_x).powi(2) + dot(r#type).powi(2))]
+pub struct NamesLikeVelocities;
+const _: fn() =
+    || run(&NamesLikeVelocities, NamesLikeVelocitiesState { dot_x: 1.0, r#type: 0.0, dot_dot_x: 0.0, dot_type: 1.0 });
 
 fn main() {}

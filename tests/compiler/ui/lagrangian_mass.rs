@@ -6,184 +6,101 @@ fn run<S: RegularLagrangian>(system: &S, state: S::State<f64>) {
     let _ = (system.energy(&[0.0], &[0.0], 0.0), state);
 }
 
-mod affine {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x * y)]
+pub struct Affine;
+const _: fn() = || run(&Affine, AffineState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod affine_with_functions {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = x.sin() * dot(y) + y * dot(x) - x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = x.sin() * dot(y) + y * dot(x) - x * y)]
+pub struct AffineWithFunctions;
+const _: fn() =
+    || run(&AffineWithFunctions, AffineWithFunctionsState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod no_velocity {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = x * y)]
+pub struct NoVelocity;
+const _: fn() = || run(&NoVelocity, NoVelocityState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod no_velocity_of_an_array {
-    use super::*;
-    #[lagrangian(coordinates(x[4], y), lagrangian = x[0] * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x[4], y), lagrangian = x[0] * y)]
+pub struct NoVelocityOfAnArray;
+const _: fn() =
+    || run(&NoVelocityOfAnArray, NoVelocityOfAnArrayState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
 
-mod velocity_cancels {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = (dot(x) - dot(x)) * y + x)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = (dot(x) - dot(x)) * y + x)]
+pub struct VelocityCancels;
+const _: fn() = || run(&VelocityCancels, VelocityCancelsState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod unmentioned {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) / 2.0 - x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) / 2.0 - x * y)]
+pub struct Unmentioned;
+const _: fn() = || run(&Unmentioned, UnmentionedState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod unmentioned_array {
-    use super::*;
-    #[lagrangian(coordinates(x[4], y), lagrangian = dot(y).powi(2) / 2.0 - x[1] * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x[4], y), lagrangian = dot(y).powi(2) / 2.0 - x[1] * y)]
+pub struct UnmentionedArray;
+const _: fn() =
+    || run(&UnmentionedArray, UnmentionedArrayState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
 
-mod two_unmentioned {
-    use super::*;
-    #[lagrangian(coordinates(x, y, z), lagrangian = dot(y).powi(2) / 2.0 - x * y * z)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
-    }
-}
+#[lagrangian(coordinates(x, y, z), lagrangian = dot(y).powi(2) / 2.0 - x * y * z)]
+pub struct TwoUnmentioned;
+const _: fn() =
+    || run(&TwoUnmentioned, TwoUnmentionedState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
 
-mod linear {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) / 2.0 + x * dot(y) - x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) / 2.0 + x * dot(y) - x * y)]
+pub struct Linear;
+const _: fn() = || run(&Linear, LinearState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod linear_and_unmentioned {
-    use super::*;
-    #[lagrangian(coordinates(x, y, z), lagrangian = dot(x).powi(2) / 2.0 + x * dot(y) - x * y * z)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
-    }
-}
+#[lagrangian(coordinates(x, y, z), lagrangian = dot(x).powi(2) / 2.0 + x * dot(y) - x * y * z)]
+pub struct LinearAndUnmentioned;
+const _: fn() =
+    || run(&LinearAndUnmentioned, LinearAndUnmentionedState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
 
-mod part_of_an_array {
-    use super::*;
-    #[lagrangian(coordinates(x[4], y), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) + dot(y).powi(2) - x[3] * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x[4], y), lagrangian = sum(0..3, |j| dot(x[j]).powi(2)) + dot(y).powi(2) - x[3] * y)]
+pub struct PartOfAnArray;
+const _: fn() =
+    || run(&PartOfAnArray, PartOfAnArrayState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
 
-mod one_of_an_array {
-    use super::*;
-    #[lagrangian(coordinates(x[4], y), lagrangian = dot(x[2]).powi(2) + dot(y).powi(2) - x[3] * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x[4], y), lagrangian = dot(x[2]).powi(2) + dot(y).powi(2) - x[3] * y)]
+pub struct OneOfAnArray;
+const _: fn() =
+    || run(&OneOfAnArray, OneOfAnArrayState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
 
-mod piecewise_linear {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).abs() - x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).abs() - x * y)]
+pub struct PiecewiseLinear;
+const _: fn() = || run(&PiecewiseLinear, PiecewiseLinearState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod all_piecewise_linear {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x).abs() + dot(y).abs() - x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).abs() + dot(y).abs() - x * y)]
+pub struct AllPiecewiseLinear;
+const _: fn() =
+    || run(&AllPiecewiseLinear, AllPiecewiseLinearState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod no_matching {
-    use super::*;
-    #[lagrangian(coordinates(x, y, z), lagrangian = dot(x) * (dot(y) + dot(z)) - x * y * z)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
-    }
-}
+#[lagrangian(coordinates(x, y, z), lagrangian = dot(x) * (dot(y) + dot(z)) - x * y * z)]
+pub struct NoMatching;
+const _: fn() =
+    || run(&NoMatching, NoMatchingState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
 
-mod square_of_a_sum {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = (dot(x) + dot(y)).powi(2) - x * y)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = (dot(x) + dot(y)).powi(2) - x * y)]
+pub struct SquareOfASum;
+const _: fn() = || run(&SquareOfASum, SquareOfASumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod square_of_a_sum_with_a_mass {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = m / 2.0 * (3.0 * dot(x) - dot(y)).powi(2) - x * y)]
-    pub struct System {
-        pub m: f64,
-    }
-    pub fn go() {
-        run(&System { m: 1.0 }, SystemState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
+#[lagrangian(coordinates(x, y), lagrangian = m / 2.0 * (3.0 * dot(x) - dot(y)).powi(2) - x * y)]
+pub struct SquareOfASumWithAMass {
+    pub m: f64,
 }
+const _: fn() =
+    || run(&SquareOfASumWithAMass { m: 1.0 }, SquareOfASumWithAMassState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-mod two_squares_of_three {
-    use super::*;
-    #[lagrangian(coordinates(x, y, z), lagrangian = (dot(x) - dot(y)).powi(2) + (dot(y) - dot(z)).powi(2) - x * y * z)]
-    pub struct System;
-    pub fn go() {
-        run(&System, SystemState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
-    }
-}
+#[lagrangian(coordinates(x, y, z), lagrangian = (dot(x) - dot(y)).powi(2) + (dot(y) - dot(z)).powi(2) - x * y * z)]
+pub struct TwoSquaresOfThree;
+const _: fn() =
+    || run(&TwoSquaresOfThree, TwoSquaresOfThreeState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
 
 /// No mistakes: an indefinite matrix, and numbers of very different size.
-mod regular {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x) * dot(y) - x * y)]
-    pub struct Indefinite;
-    #[lagrangian(coordinates(x, y), lagrangian = 1e-20 * dot(x).powi(2) + 1e20 * dot(y).powi(2) - x * y)]
-    pub struct Scaled;
-    #[lagrangian(coordinates(x[4], y[2]), lagrangian = dot(x[0]).powi(2) + sum(1..4, |j| dot(x[j]).powi(2))
-        + sum(0..2, |j| dot(y[(j + 1) % 2]).powi(2)) - x[3] * y[0])]
-    pub struct Covered;
-    pub fn go() {
-        run(&Indefinite, IndefiniteState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-        run(&Scaled, ScaledState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-    }
-}
+#[lagrangian(coordinates(x, y), lagrangian = dot(x) * dot(y) - x * y)]
+pub struct RegularIndefinite;
+#[lagrangian(coordinates(x, y), lagrangian = 1e-20 * dot(x).powi(2) + 1e20 * dot(y).powi(2) - x * y)]
+pub struct RegularScaled;
+#[lagrangian(coordinates(x[4], y[2]), lagrangian = dot(x[0]).powi(2) + sum(1..4, |j| dot(x[j]).powi(2))
+    + sum(0..2, |j| dot(y[(j + 1) % 2]).powi(2)) - x[3] * y[0])]
+pub struct RegularCovered;
+const _: fn() =
+    || run(&RegularIndefinite, RegularIndefiniteState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
+const _: fn() = || run(&RegularScaled, RegularScaledState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
 fn main() {}

@@ -2,14 +2,13 @@
 
 use dvi_core::prelude::*;
 
-mod function_does_not_exist {
-    use super::*;
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [f, g, h]))]
-    pub struct System;
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System, Sigma::midpoint(), 0.1, state);
-    }
+/// That a system with a mistake in it is taken for one that can be stepped.
+fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
+    let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [f, g, h]))]
+pub struct FunctionDoesNotExist;
+const _: fn() = || stepped(FunctionDoesNotExist, FunctionDoesNotExistState { x: 1.0, y: 0.0 });
 
 fn main() {}

@@ -8,103 +8,84 @@ fn used<S: ManifoldLagrangian>(system: &S) {
     let _ = dvi_core::ManifoldSystem::tangent(system);
 }
 
-mod declarations {
-    use super::*;
+#[lagrangian(coordinates(R: SO2), lagrangian = omega(R)[0].powi(2))]
+struct DeclarationsS;
 
-    #[lagrangian(coordinates(R: SO2), lagrangian = omega(R)[0].powi(2))]
-    struct S;
+#[lagrangian(coordinates(R[2]: SO3), lagrangian = omega(R)[0].powi(2))]
+struct DeclarationsT;
 
-    #[lagrangian(coordinates(R[2]: SO3), lagrangian = omega(R)[0].powi(2))]
-    struct T;
+#[lagrangian(coordinates(R: ), lagrangian = omega(R)[0].powi(2))]
+struct DeclarationsU;
 
-    #[lagrangian(coordinates(R: ), lagrangian = omega(R)[0].powi(2))]
-    struct U;
+#[lagrangian(coordinates(R: SO3 x), lagrangian = omega(R)[0].powi(2))]
+struct DeclarationsV;
 
-    #[lagrangian(coordinates(R: SO3 x), lagrangian = omega(R)[0].powi(2))]
-    struct V;
+#[degenerate_lagrangian(coordinates(R: SO3, x), one_form = R[0][0] * d(x), hamiltonian = x)]
+struct DeclarationsW;
 
-    #[degenerate_lagrangian(coordinates(R: SO3, x), one_form = R[0][0] * d(x), hamiltonian = x)]
-    struct W;
+#[lagrangian(coordinates(omega_R, R: SO3), lagrangian = omega(R)[0].powi(2))]
+struct DeclarationsX;
 
-    #[lagrangian(coordinates(omega_R, R: SO3), lagrangian = omega(R)[0].powi(2))]
-    struct X;
-}
+#[lagrangian(
+    coordinates(R: SO3),
+    lagrangian = omega(R)[0].powi(2) + omega(R)[1].powi(2) + omega(R)[2].powi(2) - R[2],
+)]
+struct EntriesS;
+const _: fn() = || used(&EntriesS);
 
-mod entries {
-    use super::*;
+#[lagrangian(
+    coordinates(R: SO3),
+    lagrangian = omega(R)[0].powi(2) + omega(R)[1].powi(2) + omega(R)[3].powi(2) - R[0][3],
+)]
+struct EntriesT;
 
-    #[lagrangian(
-        coordinates(R: SO3),
-        lagrangian = omega(R)[0].powi(2) + omega(R)[1].powi(2) + omega(R)[2].powi(2) - R[2],
-    )]
-    struct S;
+#[lagrangian(coordinates(R: SO3), lagrangian = sum(0..3, |k| omega(R)[k].powi(2)))]
+struct EntriesU;
 
-    fn run() {
-        used(&S);
-    }
+#[lagrangian(coordinates(R: SO3), lagrangian = dot(R[0][0]).powi(2) + dot(R[8]).powi(2))]
+struct EntriesV;
 
-    #[lagrangian(
-        coordinates(R: SO3),
-        lagrangian = omega(R)[0].powi(2) + omega(R)[1].powi(2) + omega(R)[3].powi(2) - R[0][3],
-    )]
-    struct T;
+#[lagrangian(coordinates(R: SO3), lagrangian = omega(R).powi(2) + omega_R[0])]
+struct EntriesW;
 
-    #[lagrangian(coordinates(R: SO3), lagrangian = sum(0..3, |k| omega(R)[k].powi(2)))]
-    struct U;
+#[lagrangian(coordinates(R: SO3), lagrangian = (dot(R[0][1]) + dot((R[2][2]))).powi(2))]
+struct EntriesX;
 
-    #[lagrangian(coordinates(R: SO3), lagrangian = dot(R[0][0]).powi(2) + dot(R[8]).powi(2))]
-    struct V;
+#[lagrangian(coordinates(R: SO3, s: S2), lagrangian = (omega(R))[0].powi(2) * (R)[0][0] - R[0][1][2] + omega(s)[0])]
+struct EntriesY;
 
-    #[lagrangian(coordinates(R: SO3), lagrangian = omega(R).powi(2) + omega_R[0])]
-    struct W;
+#[lagrangian(coordinates(R: SO3), lagrangian = { let row = R[0]; dot(R) + (R * 2.0) + R.sqrt() + row })]
+struct EntriesZ;
 
-    #[lagrangian(coordinates(R: SO3), lagrangian = (dot(R[0][1]) + dot((R[2][2]))).powi(2))]
-    struct X;
+#[lagrangian(coordinates(R: SO3), lagrangian = omega(R)[0].powi(2) + omega(R)[2].powi(2) - R[2][2])]
+struct MassesS;
 
-    #[lagrangian(coordinates(R: SO3, s: S2), lagrangian = (omega(R))[0].powi(2) * (R)[0][0] - R[0][1][2] + omega(s)[0])]
-    struct Y;
+#[lagrangian(coordinates(R: SO3, x), lagrangian = dot(x).powi(2) - R[2][2])]
+struct MassesT;
 
-    #[lagrangian(coordinates(R: SO3), lagrangian = { let row = R[0]; dot(R) + (R * 2.0) + R.sqrt() + row })]
-    struct Z;
-}
+#[lagrangian(coordinates(s: S2), lagrangian = dot(s[0]).powi(2) + dot(s[1]).powi(2) - s[2])]
+struct MassesU;
 
-mod masses {
-    use super::*;
+#[lagrangian(
+    coordinates(s: S2),
+    lagrangian = sum(0..3, |i| dot(s[i]).powi(2)),
+    constraint = s[2] - 0.5,
+)]
+struct BesideS;
 
-    #[lagrangian(coordinates(R: SO3), lagrangian = omega(R)[0].powi(2) + omega(R)[2].powi(2) - R[2][2])]
-    struct S;
+#[lagrangian(
+    coordinates(s: S2),
+    lagrangian = sum(0..3, |i| dot(s[i]).powi(2)),
+    force(s) = |i| -dot(s[i]),
+)]
+struct BesideT;
 
-    #[lagrangian(coordinates(R: SO3, x), lagrangian = dot(x).powi(2) - R[2][2])]
-    struct T;
-
-    #[lagrangian(coordinates(s: S2), lagrangian = dot(s[0]).powi(2) + dot(s[1]).powi(2) - s[2])]
-    struct U;
-}
-
-mod beside {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(s: S2),
-        lagrangian = sum(0..3, |i| dot(s[i]).powi(2)),
-        constraint = s[2] - 0.5,
-    )]
-    struct S;
-
-    #[lagrangian(
-        coordinates(s: S2),
-        lagrangian = sum(0..3, |i| dot(s[i]).powi(2)),
-        force(s) = |i| -dot(s[i]),
-    )]
-    struct T;
-
-    #[lagrangian(
-        coordinates(R: SO3, x),
-        lagrangian = omega(R)[0].powi(2) + omega(R)[1].powi(2) + omega(R)[2].powi(2) + dot(x).powi(2),
-        impact = x - R[2][2],
-    )]
-    struct U;
-}
+#[lagrangian(
+    coordinates(R: SO3, x),
+    lagrangian = omega(R)[0].powi(2) + omega(R)[1].powi(2) + omega(R)[2].powi(2) + dot(x).powi(2),
+    impact = x - R[2][2],
+)]
+struct BesideU;
 
 mod methods {
     use super::*;

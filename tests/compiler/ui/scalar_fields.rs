@@ -13,72 +13,37 @@ impl ScalarField<2> for Flat {
     }
 }
 
-mod a_number_that_is_called {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = k(x + y))]
-    struct S {
-        k: f64,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = k(x + y))]
+struct ANumberThatIsCalled {
+    k: f64,
 }
+const _: ANumberThatIsCalledState = ANumberThatIsCalledState { x: 1.0, y: 2.0 };
 
-mod no_arguments {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y + psi())]
-    struct S {
-        psi: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y + psi())]
+struct NoArguments {
+    psi: Flat,
 }
+const _: NoArgumentsState = NoArgumentsState { x: 1.0, y: 2.0 };
 
-mod two_arguments_and_three {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y) + psi(x, y, 1.0))]
-    struct S {
-        psi: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y) + psi(x, y, 1.0))]
+struct TwoArgumentsAndThree {
+    psi: Flat,
 }
+const _: TwoArgumentsAndThreeState = TwoArgumentsAndThreeState { x: 1.0, y: 2.0 };
 
-mod another_number_of_arguments {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y, 1.0))]
-    struct S {
-        psi: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y, 1.0))]
+struct AnotherNumberOfArguments {
+    psi: Flat,
 }
+const _: AnotherNumberOfArgumentsState = AnotherNumberOfArgumentsState { x: 1.0, y: 2.0 };
 
-mod a_type_that_is_no_function {
-    use super::*;
+struct Plain;
 
-    struct Plain;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y))]
-    struct S {
-        psi: Plain,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y))]
+struct ATypeThatIsNoFunction {
+    psi: Plain,
 }
+const _: ATypeThatIsNoFunctionState = ATypeThatIsNoFunctionState { x: 1.0, y: 2.0 };
 
 mod a_path_that_is_no_function {
     use super::*;
@@ -92,130 +57,71 @@ mod a_path_that_is_no_function {
         functions(psi = self::PLAIN),
     )]
     struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+    const _: SState = SState { x: 1.0, y: 2.0 };
 }
 
-mod in_a_gauge {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = x * d(y),
-        hamiltonian = x,
-        gauge = psi(x, y) * x,
-    )]
-    struct S {
-        psi: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = x * d(y),
+    hamiltonian = x,
+    gauge = psi(x, y) * x,
+)]
+struct InAGauge {
+    psi: Flat,
 }
+const _: InAGaugeState = InAGaugeState { x: 1.0, y: 2.0 };
 
-mod a_method_of_self {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = self.psi(x, y))]
-    struct S {
-        psi: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = self.psi(x, y))]
+struct AMethodOfSelf {
+    psi: Flat,
 }
+const _: AMethodOfSelfState = AMethodOfSelfState { x: 1.0, y: 2.0 };
 
-mod not_called {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi * x)]
-    struct S {
-        psi: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi * x)]
+struct NotCalled {
+    psi: Flat,
 }
+const _: NotCalledState = NotCalledState { x: 1.0, y: 2.0 };
 
-mod declared_twice {
-    use super::*;
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = x * d(y),
+    hamiltonian = psi(x, y),
+    functions(psi = super::Flat, psi = super::Flat),
+)]
+struct DeclaredTwice;
+const _: DeclaredTwiceState = DeclaredTwiceState { x: 1.0, y: 2.0 };
 
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = x * d(y),
-        hamiltonian = psi(x, y),
-        functions(psi = super::Flat, psi = super::Flat),
-    )]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = x * d(y),
+    hamiltonian = psi(x, y),
+    functions(psi = super::Flat),
+)]
+struct AFieldAndAPath {
+    psi: Flat,
 }
+const _: AFieldAndAPathState = AFieldAndAPathState { x: 1.0, y: 2.0 };
 
-mod a_field_and_a_path {
-    use super::*;
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = x * d(y),
+    hamiltonian = x * y.exp(),
+    functions(exp = super::Flat),
+)]
+struct ANameOfTheLanguage;
+const _: ANameOfTheLanguageState = ANameOfTheLanguageState { x: 1.0, y: 2.0 };
 
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = x * d(y),
-        hamiltonian = psi(x, y),
-        functions(psi = super::Flat),
-    )]
-    struct S {
-        psi: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.psi(y))]
+struct AFieldCalledAsAMethod {
+    psi: Flat,
 }
+const _: AFieldCalledAsAMethodState = AFieldCalledAsAMethodState { x: 1.0, y: 2.0 };
 
-mod a_name_of_the_language {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = x * d(y),
-        hamiltonian = x * y.exp(),
-        functions(exp = super::Flat),
-    )]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y))]
+struct NotThere {
+    phi_of: Flat,
 }
-
-mod a_field_called_as_a_method {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.psi(y))]
-    struct S {
-        psi: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
-}
-
-mod not_there {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y))]
-    struct S {
-        phi_of: Flat,
-    }
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
-}
+const _: NotThereState = NotThereState { x: 1.0, y: 2.0 };
 
 fn main() {}

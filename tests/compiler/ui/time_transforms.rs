@@ -2,111 +2,59 @@
 
 use dvi_core::prelude::*;
 
-mod not_positive {
-    use super::*;
+#[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x * y, time_transform = -1.0)]
+struct NotPositive;
+const _: NotPositiveState = NotPositiveState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 };
 
-    #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x * y, time_transform = -1.0)]
-    struct S;
+#[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x * y, time_transform = d(x))]
+struct AVelocity;
+const _: AVelocityState = AVelocityState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 };
 
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 }
-    }
+#[degenerate_lagrangian(coordinates(x, t), one_form = t * d(x), hamiltonian = x * t, time_transform = 1.0)]
+struct ACoordinateCalledT;
+const _: ACoordinateCalledTState = ACoordinateCalledTState { x: 1.0, t: 2.0 };
+
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = x * y * energy,
+    time_transform = 1.0,
+)]
+struct AFieldCalledEnergy {
+    energy: f64,
 }
 
-mod a_velocity {
-    use super::*;
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x),
+    hamiltonian = x * y,
+    time_transform = 1.0 / (energy - x * y),
+)]
+struct TheEnergyInAFormula;
+const _: TheEnergyInAFormulaState = TheEnergyInAFormulaState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 };
 
-    #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x * y, time_transform = d(x))]
-    struct S;
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = y * d(x) - x * d(t),
+    hamiltonian = x * y,
+    time_transform = 1.0 + x * x,
+)]
+struct TheVelocityOfTheTime;
+const _: TheVelocityOfTheTimeState = TheVelocityOfTheTimeState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 };
 
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 }
-    }
-}
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form = [y, 0.0, 1.0, 0.0],
+    hamiltonian = x * y,
+    time_transform = 1.0 + x * x,
+)]
+struct ComponentsOfTheDeclaredCoordinates;
+const _: ComponentsOfTheDeclaredCoordinatesState =
+    ComponentsOfTheDeclaredCoordinatesState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 };
 
-mod a_coordinate_called_t {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, t), one_form = t * d(x), hamiltonian = x * t, time_transform = 1.0)]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, t: 2.0 }
-    }
-}
-
-mod a_field_called_energy {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = y * d(x),
-        hamiltonian = x * y * energy,
-        time_transform = 1.0,
-    )]
-    struct S {
-        energy: f64,
-    }
-}
-
-mod the_energy_in_a_formula {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = y * d(x),
-        hamiltonian = x * y,
-        time_transform = 1.0 / (energy - x * y),
-    )]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 }
-    }
-}
-
-mod the_velocity_of_the_time {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = y * d(x) - x * d(t),
-        hamiltonian = x * y,
-        time_transform = 1.0 + x * x,
-    )]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 }
-    }
-}
-
-mod components_of_the_declared_coordinates {
-    use super::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = [y, 0.0, 1.0, 0.0],
-        hamiltonian = x * y,
-        time_transform = 1.0 + x * x,
-    )]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 }
-    }
-}
-
-mod of_a_regular_system {
-    use super::*;
-
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, time_transform = 1.0 + x * x)]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, dot_x: 2.0 }
-    }
-}
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, time_transform = 1.0 + x * x)]
+struct OfARegularSystem;
+const _: OfARegularSystemState = OfARegularSystemState { x: 1.0, dot_x: 2.0 };
 
 mod not_transformed {
     use super::*;
@@ -119,16 +67,9 @@ mod not_transformed {
     }
 }
 
-mod no_value {
-    use super::*;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x * y, time_transform(x))]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0 }
-    }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x * y, time_transform(x))]
+struct NoValue;
+const _: NoValueState = NoValueState { x: 1.0, y: 2.0 };
 
 mod begun_with_a_mistake {
     use super::*;

@@ -2,12 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::{FREE, PLANE, PlanarState, SpringState};
 use dvi_tests::{Numbers, Outcome};
-
-/// Free motion, whose steps are exact.
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0)]
-#[derive(Debug)]
-struct Free;
 
 /// A condition with `depth` dips a little below zero once in each period of x, `half_width` to each side of
 /// its middle, or comes as near to it from above: so many periods at all places within steps of all lengths,
@@ -22,11 +18,11 @@ fn graze(
     for k in 0..100 {
         let (h, depth) = (within(0.1, 1.5), 10_f64.powf(within(deepest, -1.0)));
         let depth = if k % 2 == 0 { depth } else { -depth };
-        let start = FreeState { x: -PI - within(0.0, h), dot_x: 1.0 };
-        let mut run = Integrator::new(&Free, Variational::trapezoid(), h, start)?;
+        let start = SpringState { x: -PI - within(0.0, h), dot_x: 1.0 };
+        let mut run = Integrator::new(&FREE, Variational::trapezoid(), h, start)?;
         let mut events = run.events([Direction::Either], |_, state| [condition(state.x, depth)])?;
         let (mut falling, mut count) = (true, 0);
-        while let Some(Event { state: FreeState { x, .. }, .. }) =
+        while let Some(Event { state: SpringState { x, .. }, .. }) =
             events.next_until(TAU * f64::from(periods))?
         {
             // Left and right of the middle of a period.
@@ -54,14 +50,6 @@ fn no_flat_graze_is_missed_and_none_is_made_up() -> Outcome {
     graze((13, -8.0, 300), condition, |depth| (1.0 - depth.sqrt()).acos())
 }
 
-/// An oscillator that turns.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - x * x - y * y) / 2.0,
-)]
-#[derive(Clone, Debug)]
-struct Planar;
-
 /// Steps of eight stages over up to 1.4 periods, with several turns in each: every change of sign that is
 /// seen between 40 places to the radian of the same steps is an event, and each event is a zero.
 #[test]
@@ -73,7 +61,7 @@ fn turns_within_long_steps_are_seen() -> Outcome {
         let (h, level, phase) = (within(0.5, 9.0), within(-1.0, 1.0), within(0.0, TAU));
         let (sin, cos) = phase.sin_cos();
         let start = PlanarState { x: cos, y: sin, dot_x: -sin, dot_y: cos };
-        let run = || Integrator::new(&Planar, Gauss::<8>::new(), h, start);
+        let run = || Integrator::new(&PLANE, Gauss::<8>::new(), h, start);
         let (mut found, mut searched) = (Vec::new(), run()?);
         let mut events = searched.events([Direction::Either], |_, state| [state.x - level])?;
         while events.run().steps() < u64::from(steps) {

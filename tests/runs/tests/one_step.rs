@@ -11,19 +11,25 @@ use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 
 const PREY: OneSided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
 
-/// The largest energy error within the first thousand steps and within all.
-fn errors<M: Method<OneSided, f64>>(method: M, h: f64, steps: u64) -> Result<[f64; 2], StepError> {
-    let start = OneSidedState { x: 2.0, y: 1.0 };
-    let mut run = Integrator::new(&PREY, method, h, start).expect("starts");
+/// The largest energy error of a run within the first `few` steps and within all.
+pub(crate) fn energy_errors<R: Run<Scalar = f64>>(
+    mut run: R,
+    [few, steps]: [u64; 2],
+) -> Result<[f64; 2], StepError> {
     let (energy, mut largest, mut early) = (run.energy(), 0.0, 0.0);
     for step in 0..steps {
         run.advance()?;
         largest = larger(largest, (run.energy() - energy).abs());
-        if step == 1000 {
+        if step == few {
             early = largest;
         }
     }
     Ok([early, largest])
+}
+
+fn errors<M: Method<OneSided, f64>>(method: M, h: f64, steps: u64) -> Result<[f64; 2], StepError> {
+    let start = OneSidedState { x: 2.0, y: 1.0 };
+    energy_errors(Integrator::new(&PREY, method, h, start).expect("starts"), [1000, steps])
 }
 
 #[test]

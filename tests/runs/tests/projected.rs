@@ -3,22 +3,14 @@
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
-use dvi_tests::larger;
 use dvi_tests::zoo::particles::{Mirror, MirrorState};
+
+use crate::one_step::energy_errors;
 
 /// The largest energy error within the first tenth of the steps, and within all.
 fn errors(method: Projected, steps: u64) -> Result<[f64; 2], StepError> {
     let start = MirrorState { x: 0.4, y: 0.3, z: 0.2, u: 0.5 };
-    let mut run = Integrator::new(&Mirror, method, 0.1, start).expect("starts");
-    let (energy, mut largest, mut early) = (run.energy(), 0.0, 0.0);
-    for step in 0..steps {
-        run.advance()?;
-        largest = larger(largest, (run.energy() - energy).abs());
-        if step == steps / 10 {
-            early = largest;
-        }
-    }
-    Ok([early, largest])
+    energy_errors(Integrator::new(&Mirror, method, 0.1, start).expect("starts"), [steps / 10, steps])
 }
 
 #[test]

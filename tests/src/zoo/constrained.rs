@@ -173,3 +173,31 @@ pub struct Ring<const N: usize> {
     /// Masses of the joints.
     pub mass: [f64; N],
 }
+
+/// Masses on rods in a plane, two below each.
+#[lagrangian(
+    coordinates(x[2 * half + 1], y[2 * half + 1]),
+    lagrangian = sum(0..2 * half + 1, |j| (dot(x[j]).powi(2) + dot(y[j]).powi(2)) / 2.0 - y[j]),
+    constraint = x[0] * x[0] + y[0] * y[0] - 1.0,
+    constraint(j in 0..half) = (x[2 * j + 1] - x[j]).powi(2) + (y[2 * j + 1] - y[j]).powi(2) - 1.0,
+    constraint(j in 0..half) = (x[2 * j + 2] - x[j]).powi(2) + (y[2 * j + 2] - y[j]).powi(2) - 1.0,
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct Mobile {
+    /// How many have two below them.
+    pub half: usize,
+}
+
+impl Mobile {
+    /// Each at rest to one side of the one above.
+    pub fn at_rest(&self) -> MobileState {
+        let n = 2 * self.half + 1;
+        let side = |j: usize| if j % 2 == 1 { -0.6 } else { 0.6 };
+        let (mut x, mut y) = (vec![0.6; n], vec![-0.8; n]);
+        for j in 1..n {
+            let above = (j - 1) / 2;
+            (x[j], y[j]) = (x[above] + side(j), y[above] - 0.8);
+        }
+        MobileState { x, y, dot_x: vec![0.0; n], dot_y: vec![0.0; n] }
+    }
+}

@@ -14,6 +14,14 @@ pub struct Kepler {
     pub mu: f64,
 }
 
+/// A sun of unit strength.
+pub const KEPLER: Kepler = Kepler { mu: 1.0 };
+
+/// At the pericentre of an orbit with eccentricity `e` and period 2π.
+pub fn pericentre(e: f64) -> KeplerState {
+    KeplerState { x: 1.0 - e, y: 0.0, dot_x: 0.0, dot_y: ((1.0 + e) / (1.0 - e)).sqrt() }
+}
+
 /// Two pendulums, the second hung from the first, in angles from the vertical.
 #[lagrangian(
     coordinates(a, b),
@@ -221,3 +229,43 @@ pub struct Spring {
     /// The square of the frequency.
     pub stiffness: f64,
 }
+
+/// One that swings once in 2π.
+pub const SPRING: Spring = Spring { stiffness: 1.0 };
+
+/// A particle that nothing pulls at.
+pub const FREE: Spring = Spring { stiffness: 0.0 };
+
+/// A particle in the plane on a spring.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - stiffness * (x * x + y * y) / 2.0,
+)]
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planar {
+    /// The square of the frequency.
+    pub stiffness: f64,
+}
+
+/// One that turns once in 2π.
+pub const PLANE: Planar = Planar { stiffness: 1.0 };
+
+/// Springs side by side, as many as there are.
+#[lagrangian(
+    coordinates(x[k.len()]),
+    lagrangian = sum(0..k.len(), |j| dot(x[j]).powi(2) - k[j] * x[j] * x[j]) / 2.0,
+)]
+#[derive(Clone, Debug, PartialEq)]
+pub struct Springs {
+    /// The squares of their frequencies.
+    pub k: Vec<f64>,
+}
+
+/// Hénon & Heiles 1964: explicit steps, and motions that leave.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0
+        - (x * x + y * y) / 2.0 - x * x * y + y.powi(3) / 3.0,
+)]
+#[derive(Clone, Debug, PartialEq)]
+pub struct HenonHeiles;

@@ -10,7 +10,10 @@ use dvi_core::{Lagrangian, ScalarField, Varied};
 use num_dual::{Dual64, HyperDual64};
 
 use super::Outcome;
-use super::systems::{Beads, ByHand, Chain, Driven, Hung, Linked, Pendulum, Three, surface};
+use super::systems::{Beads, ByHand, Chain, Driven, Hung, Linked, Three, surface};
+use dvi_tests::zoo::constrained::Pendulum;
+
+const PENDULUM: Pendulum = Pendulum { m: 1.0, g: 9.81, length: 1.3 };
 
 /// Numbers that have nothing to do with each other.
 pub(super) fn point(n: usize, seed: f64) -> Vec<f64> {
@@ -78,7 +81,7 @@ fn compare<S: ByHand>(system: &S) {
 
 #[test]
 fn generated_functions_are_those_of_the_formulas() {
-    compare(&Pendulum { g: 9.81, length: 1.3 });
+    compare(&PENDULUM);
     compare(&Driven { amplitude: 0.7 });
     compare(&Three);
     compare(&Chain::<4> { rods: vec![1.0, 0.5, 0.7] });
@@ -90,32 +93,11 @@ fn generated_functions_are_those_of_the_formulas() {
     compare(&Linked::<5>);
 }
 
-#[test]
-fn the_pendulum_has_what_stands_in_textbooks() {
-    let system = Pendulum { g: 9.81, length: 2.0 };
-    let found = generated(&system, &[3.0, 4.0], &[0.5, -0.25], 0.0);
-    assert_eq!((found.g, found.jacobian), (vec![21.0], vec![6.0, 8.0]));
-    assert_eq!((found.rate, found.curvature), (vec![1.0], vec![2.0 * (0.25 + 0.0625)]));
-}
-
-#[test]
-fn members_of_a_family_stand_in_its_place() {
-    // x[0] − 0.1 t, two rods, y[0], the sum, no member of the second family, the last one.
-    let system = Hung { rods: vec![1.0, 2.0] };
-    let q = [0.5, 1.5, 3.0, 0.25, 0.5, 0.75];
-    let found = generated(&system, &q, &[0.0; 6], 10.0);
-    assert_eq!(found.g, [-0.5, 0.0625, -1.6875, 0.25, 4.25, 2.25]);
-    let rows: Vec<&[f64]> = found.jacobian.chunks(6).collect();
-    assert_eq!(rows[1], [-2.0, 2.0, 0.0, -0.5, 0.5, 0.0]);
-    assert_eq!(rows[3], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
-    assert_eq!(rows[5], [0.0, 0.0, 0.75, 0.0, 0.0, 3.0]);
-}
-
 fn is<S: ConstrainedSystem<Multipliers = M, Augmented = A>, M: Space, A: Space>(_: &S, _: M, _: A) {}
 
 #[test]
 fn spaces_are_fixed_where_stable_rust_can_count() {
-    is(&Pendulum { g: 1.0, length: 1.0 }, Fixed::<1, 1>::new(), Fixed::<1, 3>::new());
+    is(&PENDULUM, Fixed::<1, 1>::new(), Fixed::<1, 3>::new());
     is(&Three, Fixed::<1, 2>::new(), Fixed::<1, 8>::new());
     is(&Linked::<5>, Fixed::<3, 5, 2, _>::new(), Fixed::<6, 5, 3, _>::new());
     let run_time = |dimension: usize| RunTime { dimension };

@@ -160,31 +160,6 @@ fn generated_functions_are_those_of_the_formulas() {
     compare(&Ring::<5>);
 }
 
-#[test]
-fn the_knife_edge_has_what_stands_in_textbooks() {
-    let system = KnifeEdge { inertia: 1.0, slope: 0.0 };
-    let (theta, v) = (0.7_f64, [0.5, -0.25, 2.0]);
-    let found = generated(&system, &[3.0, 4.0, theta], &v, 0.0, [1.0, 0.0]);
-    let (s, c) = theta.sin_cos();
-    close(&found.a, &[v[0] * s - v[1] * c], "a");
-    let by_theta = v[0] * c + v[1] * s;
-    close(&found.jacobian, &[0.0, 0.0, by_theta], "∂a/∂q");
-    close(&found.rate, &[v[2] * by_theta], "da/dt");
-    let found = generated(&system, &[3.0, 4.0, theta], &v, 0.0, [0.0, 1.0]);
-    close(&found.jacobian, &[s, -c, 0.0], "A");
-}
-
-#[test]
-fn a_rolling_disc_has_a_row_for_each_direction() {
-    let (phi, v) = (0.4_f64, [0.3, -0.2, 1.5, 0.6]);
-    let system = Disc { radius: 2.0 };
-    let found = generated(&system, &[0.0, 0.0, 9.0, phi], &v, 0.0, [0.0, 1.0]);
-    let (s, c) = phi.sin_cos();
-    close(&found.a, &[0.3 - 3.0 * c, -0.2 - 3.0 * s], "a");
-    close(&found.jacobian, &[1.0, 0.0, -2.0 * c, 0.0, 0.0, 1.0, -2.0 * s, 0.0], "A");
-    close(&found.rate, &[3.0 * s * 0.6, -3.0 * c * 0.6], "da/dt");
-}
-
 fn is<S: ConstrainedSystem<Multipliers = M, Augmented = A>, M: Space, A: Space>(_: &S, _: M, _: A) {}
 
 #[test]

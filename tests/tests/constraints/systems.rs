@@ -4,6 +4,7 @@ use dvi_core::field::{Axis, Spline};
 use dvi_core::prelude::*;
 use dvi_core::{HolonomicLagrangian, NondegenerateLagrangian, Scalar};
 use dvi_tests::Outcome;
+use dvi_tests::zoo::constrained::Pendulum;
 use num_dual::{DualNum, HyperDual64};
 
 /// `f64` and the dual numbers over it.
@@ -13,19 +14,6 @@ impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 /// A system and its g, written a second time.
 pub(crate) trait ByHand: HolonomicLagrangian + NondegenerateLagrangian<HyperDual64> {
     fn by_hand<D: Number>(&self, q: &[D], t: D) -> Vec<D>;
-}
-
-/// A pendulum in the plane.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - g * y,
-    constraint = x * x + y * y - length * length,
-    momenta(angular = x * dot(y) - y * dot(x)),
-)]
-#[derive(Clone, Debug)]
-pub(crate) struct Pendulum {
-    pub(crate) g: f64,
-    pub(crate) length: f64,
 }
 
 impl ByHand for Pendulum {

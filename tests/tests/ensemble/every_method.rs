@@ -6,6 +6,10 @@ use std::time::Duration;
 use dvi_core::ensemble::Ensemble;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::zoo::constrained::{Pendulum, PendulumState};
+use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
+use dvi_tests::zoo::impacts::{Ball, BallState};
+use dvi_tests::zoo::manifold::{Body, BodyState};
 
 use crate::ensemble::{Checked, HenonHeiles, HenonHeilesState, bytes, file, wells};
 
@@ -66,24 +70,18 @@ fn of_degenerate_systems() -> Checked {
         coordinates(x, y),
         one_form = y.ln() / x * d(x),
         hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
-    )]
-    #[derive(Debug)]
-    struct Predators;
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = y.ln() / x * d(x),
-        hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
         time_transform = 1.0 / (x + y),
     )]
     #[derive(Debug)]
     struct Slow;
-    let state = |k: u32| PredatorsState { x: 1.0 + 0.5 * f64::from(k), y: 1.0 - 0.24 * f64::from(k) };
+    let predators = OneSided { a: [1.0; 2], b: [-1.0, -2.0] };
+    let state = |k: u32| OneSidedState { x: 1.0 + 0.5 * f64::from(k), y: 1.0 - 0.24 * f64::from(k) };
     let states: Vec<_> = (0..6).map(state).collect();
-    check("one-step", &Predators, OneStep::midpoint(), 0.3, &states)?;
-    check("one-step-gauss", &Predators, OneStepGauss::<2>::new(), 0.3, &states)?;
-    check("projected", &Predators, Projected::symmetric(), 0.1, &states)?;
-    check("sigma", &Predators, Sigma::midpoint(), 0.1, &states)?;
-    check("degenerate-gauss", &Predators, Gauss::<3>::new(), 0.3, &states)?;
+    check("one-step", &predators, OneStep::midpoint(), 0.3, &states)?;
+    check("one-step-gauss", &predators, OneStepGauss::<2>::new(), 0.3, &states)?;
+    check("projected", &predators, Projected::symmetric(), 0.1, &states)?;
+    check("sigma", &predators, Sigma::midpoint(), 0.1, &states)?;
+    check("degenerate-gauss", &predators, Gauss::<3>::new(), 0.3, &states)?;
     let state = |k: u32| SlowState { x: 1.0 + f64::from(k), y: 0.9, t: 0.0, energy: 0.0 };
     let mut states = (0..4).map(|k| Slow.with_energy(state(k))).collect::<Result<Vec<_>, _>>()?;
     states.push(state(5));
@@ -93,40 +91,33 @@ fn of_degenerate_systems() -> Checked {
 
 #[test]
 fn with_constraints_impacts_and_rotations() -> Checked {
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - y,
-        constraint = x * x + y * y - 1.0,
-    )]
-    #[derive(Debug)]
-    struct Bob;
-    let state = |k: u32| BobState { x: f64::from(k).sin(), y: f64::from(k).cos(), dot_x: 0.0, dot_y: 0.0 };
+    let bob = Pendulum { m: 1.0, g: 1.0, length: 1.0 };
+    let state =
+        |k: u32| PendulumState { x: f64::from(k).sin(), y: f64::from(k).cos(), dot_x: 0.0, dot_y: 0.0 };
     let mut states: Vec<_> = (0..4).map(state).collect();
-    states.push(BobState { x: 2.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 });
-    states.push(BobState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 40.0 });
-    check("rattle", &Bob, Rattle::default(), 0.1, &states)?;
-    check("constrained", &Bob, Constrained::new(Variational::midpoint()), 0.1, &states)?;
+    states.push(PendulumState { x: 2.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 });
+    states.push(PendulumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 40.0 });
+    check("rattle", &bob, Rattle::default(), 0.1, &states)?;
+    check("constrained", &bob, Constrained::new(Variational::midpoint()), 0.1, &states)?;
 
-    #[lagrangian(coordinates(z), lagrangian = dot(z).powi(2) / 2.0 - z, impact = z)]
-    #[derive(Debug)]
-    struct Ball;
-    let states: Vec<_> = (0..5).map(|k| BallState { z: -0.5 + 0.3 * f64::from(k), dot_z: 0.1 }).collect();
-    check("impacts", &Ball, Impacts::reflecting(Variational::trapezoid()), 0.1, &states)?;
-    check("restitution", &Ball, Impacts::new(Variational::midpoint()).with_restitution(0.5), 0.1, &states)?;
+    let states: Vec<_> = (0..5).map(|k| BallState { y: -0.5 + 0.3 * f64::from(k), dot_y: 0.1 }).collect();
+    check("impacts", &Ball { m: 1.0 }, Impacts::reflecting(Variational::trapezoid()), 0.1, &states)?;
+    check(
+        "restitution",
+        &Ball { m: 1.0 },
+        Impacts::new(Variational::midpoint()).with_restitution(0.5),
+        0.1,
+        &states,
+    )?;
 
-    #[lagrangian(
-        coordinates(R: SO3),
-        lagrangian = (omega(R)[0].powi(2) + 2.0 * omega(R)[1].powi(2) + 3.0 * omega(R)[2].powi(2)) / 2.0 - R[2][2],
-    )]
-    #[derive(Debug)]
-    struct Top;
+    let top = Body { inertia: [1.0, 2.0, 3.0], tip: [0.0, 0.0, 1.0], weight: -1.0 };
     let state = |k: u32| {
         let rotation = dvi_core::rotations::exp([0.1 * f64::from(k), 0.2, 0.3]);
-        TopState { R: rotation, omega_R: [0.1, f64::from(k), 1.0] }
+        BodyState { R: rotation, omega_R: [0.1, f64::from(k), 1.0] }
     };
     let states: Vec<_> = (0..4).map(state).collect();
-    check("geodesic", &Top, Geodesic::midpoint(), 0.1, &states)?;
-    check("geodesic-trapezoid", &Top, Geodesic::trapezoid(), 0.1, &states)?;
+    check("geodesic", &top, Geodesic::midpoint(), 0.1, &states)?;
+    check("geodesic-trapezoid", &top, Geodesic::trapezoid(), 0.1, &states)?;
 
     #[lagrangian(
         coordinates(s[2]: S2, R[2]: SO3),

@@ -6,12 +6,9 @@ use std::time::Duration;
 use approx::assert_abs_diff_eq;
 use dvi_core::ensemble::{Ensemble, Member, Outcome};
 use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::{SPRING, SpringState};
 
 use crate::ensemble::{Checked, Kepler, KeplerState, bytes, file};
-
-#[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
-#[derive(Debug, PartialEq)]
-struct Spring;
 
 /// A body that falls with unit acceleration.
 #[lagrangian(
@@ -39,7 +36,7 @@ fn springs_end_within_a_step() -> Checked {
     let amplitudes = [0.5, 1.0, 2.0];
     for h in [0.25, -0.25] {
         let starts = amplitudes.map(|x| SpringState { x, dot_x: 0.0 });
-        let results = Ensemble::new(&Spring, Gauss::<8>::new(), h, starts)
+        let results = Ensemble::new(&SPRING, Gauss::<8>::new(), h, starts)
             .until(["half of it"], |_, state, _| [state.x.hypot(state.dot_x) / 2.0 - state.x])
             .take_steps(100)?;
         for (member, a) in results.members().iter().zip(amplitudes) {
@@ -155,7 +152,7 @@ fn members_end_at_events_of_their_runs() -> Checked {
 #[test]
 fn a_limit_that_is_no_number_is_a_failure() -> Checked {
     let starts = [0.5, -1.0].map(|x| SpringState { x, dot_x: 0.0 });
-    let results = Ensemble::new(&Spring, Gauss::<2>::new(), 0.1, starts)
+    let results = Ensemble::new(&SPRING, Gauss::<2>::new(), 0.1, starts)
         .until(["small"], |_, state, _| [-1.0 - state.x.sqrt()])
         .take_steps(100)?;
     for (member, steps) in results.members().iter().zip([16, 0]) {

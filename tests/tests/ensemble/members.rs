@@ -80,23 +80,6 @@ fn exponents_are_those_of_the_diagnostic() -> Checked {
     Ok(())
 }
 
-/// A harmonic motion crosses x = 0 upwards once in each period.
-#[test]
-fn crossings_are_counted() -> Checked {
-    #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
-    struct Spring;
-    let crossings = |direction| {
-        let start = SpringState { x: 1.0, dot_x: 0.0 };
-        let ensemble = Ensemble::new(&Spring, Variational::trapezoid(), 0.01, [start]);
-        ensemble.section(direction, |_, state| state.x).stride(5).take_steps(6200)
-    };
-    // Ten periods are 62.8.
-    assert_eq!(crossings(Direction::Rising)?.members()[0].crossings, 10);
-    assert_eq!(crossings(Direction::Falling)?.members()[0].crossings, 10);
-    assert_eq!(crossings(Direction::Either)?.members()[0].crossings, 20);
-    Ok(())
-}
-
 #[test]
 fn draws_depend_on_seed_and_member_alone() {
     let of = |draw: &mut dvi_core::ensemble::Draw| [draw.normal(0.0, 1.0), draw.uniform(-1.0, 3.0)];

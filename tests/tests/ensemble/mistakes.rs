@@ -3,6 +3,7 @@
 
 use dvi_core::ensemble::{Ensemble, EnsembleError, Outcome, Shard};
 use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::{Springs, SpringsState};
 
 use crate::ensemble::{Checked, HenonHeiles, bytes, planets, said, wells};
 
@@ -43,14 +44,6 @@ fn numbers_out_of_range() {
 /// Systems whose arrays have a length at run time.
 #[test]
 fn shapes_that_differ() -> Checked {
-    #[lagrangian(
-        coordinates(x[k.len()]),
-        lagrangian = sum(0..k.len(), |j| dot(x[j]).powi(2) - k[j] * x[j] * x[j]) / 2.0,
-    )]
-    #[derive(Debug)]
-    struct Springs {
-        k: Vec<f64>,
-    }
     let springs = |n: usize| Springs { k: vec![1.0; n] };
     let state = |n: usize| SpringsState { x: vec![1.0; n], dot_x: vec![0.0; n] };
     let take = |systems: &[Springs], states: [SpringsState; 2]| {

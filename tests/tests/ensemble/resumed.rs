@@ -7,10 +7,9 @@ use std::time::Duration;
 
 use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
 use dvi_core::prelude::*;
+use dvi_tests::systems::{PointVortices, PointVorticesState};
 
-use crate::ensemble::{
-    Checked, HenonHeiles, LEFT, Verlet, Vortices, VorticesState, bytes, file, left, planets, wells,
-};
+use crate::ensemble::{Checked, HenonHeiles, LEFT, Verlet, bytes, file, left, planets, wells};
 
 const STEPS: u64 = 2000;
 
@@ -85,8 +84,8 @@ fn a_killed_process_goes_on_where_it_was() -> Checked {
 /// Interrupted at every look, and resumed by the same process.
 #[test]
 fn interruptions_change_nothing() -> Checked {
-    let system = Vortices { gamma: [1.0, 2.0, -0.5] };
-    let state = |k: u32| VorticesState { x: [-1.0, 0.01 * f64::from(k), 1.0], y: [0.0, 0.3, 0.1] };
+    let system = PointVortices { gamma: [1.0, 2.0, -0.5] };
+    let state = |k: u32| PointVorticesState { x: [-1.0, 0.01 * f64::from(k), 1.0], y: [0.0, 0.3, 0.1] };
     for method in [Sigma::midpoint(), Sigma::leapfrog(), Sigma::new(0.3)] {
         let ensemble = || Ensemble::new(&system, method, 0.05, (0..6).map(state)).stride(20);
         let (plain, path) = (ensemble().take_steps(200)?, file("interrupted.ckpt"));

@@ -2,10 +2,9 @@
 
 use dvi_core::ensemble::{Ensemble, Results, Shard};
 use dvi_core::prelude::*;
+use dvi_tests::systems::{PointVortices, PointVorticesState};
 
-use crate::ensemble::{
-    Checked, HenonHeiles, LEFT, Verlet, Vortices, VorticesState, bytes, left, planets, wells,
-};
+use crate::ensemble::{Checked, HenonHeiles, LEFT, Verlet, bytes, left, planets, wells};
 
 const STEPS: u64 = 1500;
 
@@ -58,11 +57,11 @@ fn for_every_number_of_lanes() -> Checked {
 /// Implicit steps, with iterations that are counted.
 #[test]
 fn of_vortices_in_lanes() -> Checked {
-    let system = Vortices { gamma: [1.0, 2.0, -0.5] };
-    let state = |k: u32| VorticesState { x: [-1.0, 0.01 * f64::from(k), 1.0], y: [0.0, 0.3, 0.1] };
+    let system = PointVortices { gamma: [1.0, 2.0, -0.5] };
+    let state = |k: u32| PointVorticesState { x: [-1.0, 0.01 * f64::from(k), 1.0], y: [0.0, 0.3, 0.1] };
     let ensemble = || Ensemble::new(&system, Sigma::midpoint(), 0.05, (0..21).map(state)).stride(13);
     let alone = ensemble().take_steps(300)?;
-    assert!(alone.members().iter().all(|member| member.iterations > 0 && member.momenta.len() == 2));
+    assert!(alone.members().iter().all(|member| member.iterations > 0 && member.momenta.len() == 3));
     assert_eq!(bytes(&ensemble().in_lanes::<4>().take_steps(300)?)?, bytes(&alone)?);
     assert_eq!(bytes(&ensemble().in_lanes::<8>().take_steps(300)?)?, bytes(&alone)?);
     Ok(())

@@ -5,12 +5,9 @@ use std::time::Duration;
 
 use dvi_core::ensemble::{Draws, Ensemble, Outcome, Results, Shard};
 use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::{SPRING, SpringState};
 
 use crate::ensemble::{Checked, bytes, file};
-
-#[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
-#[derive(Debug, PartialEq)]
-struct Spring;
 
 /// cos(t + φ)
 fn spring(phase: f64) -> SpringState {
@@ -39,7 +36,7 @@ fn none_is_lost_within_long_steps() -> Checked {
             let down = |phase: f64| rises(-level, phase + PI, end);
             for direction in [Direction::Rising, Direction::Falling, Direction::Either] {
                 let results =
-                    Ensemble::new(&Spring, Gauss::<8>::new(), h, phases.iter().copied().map(spring))
+                    Ensemble::new(&SPRING, Gauss::<8>::new(), h, phases.iter().copied().map(spring))
                         .section(direction, move |_, state| state.x - level)
                         .take_steps(100)?;
                 for (member, &phase) in results.members().iter().zip(&phases) {
@@ -74,7 +71,7 @@ fn they_are_as_accurate_as_the_run() -> Checked {
     let end = 1000.0 * LONG;
     let phase = |early: f64| (3.0 * FRAC_PI_2 - end + early).rem_euclid(TAU);
     let counted = |early: f64| {
-        Ensemble::new(&Spring, Gauss::<8>::new(), LONG, [spring(phase(early))])
+        Ensemble::new(&SPRING, Gauss::<8>::new(), LONG, [spring(phase(early))])
             .section(Direction::Rising, |_, state| state.x)
             .take_steps(1000)
     };
@@ -87,7 +84,7 @@ fn they_are_as_accurate_as_the_run() -> Checked {
 #[test]
 fn they_count_up_to_a_limit() -> Checked {
     for (level, expected) in [(0.5, 1), (-0.5, 0)] {
-        let results = Ensemble::new(&Spring, Gauss::<8>::new(), 2.2, [spring(0.0)])
+        let results = Ensemble::new(&SPRING, Gauss::<8>::new(), 2.2, [spring(0.0)])
             .until(["half way"], |_, state, _| [-state.x])
             .section(Direction::Falling, move |_, state| state.x - level)
             .take_steps(5)?;
@@ -100,7 +97,7 @@ fn they_count_up_to_a_limit() -> Checked {
 
 #[test]
 fn a_section_that_is_no_number_is_a_failure() -> Checked {
-    let results = Ensemble::new(&Spring, Gauss::<2>::new(), 0.1, [spring(0.5)])
+    let results = Ensemble::new(&SPRING, Gauss::<2>::new(), 0.1, [spring(0.5)])
         .section(Direction::Rising, |_, state| state.x.sqrt())
         .take_steps(100)?;
     let member = &results.members()[0];
@@ -117,7 +114,7 @@ fn they_are_the_same_however_they_are_computed() -> Checked {
     let phases: Vec<f64> = Draws::new(6).take(7, |draw| draw.uniform(0.0, TAU)).collect();
     let ensemble = |limited: bool| {
         let states = phases.iter().map(|&phase| spring(phase));
-        let ensemble = Ensemble::new(&Spring, Variational::trapezoid(), LONG, states)
+        let ensemble = Ensemble::new(&SPRING, Variational::trapezoid(), LONG, states)
             .section(Direction::Either, |_, state| state.x - 0.95)
             .stride(9);
         if limited { ensemble.until(["late"], |_, _, t| [t - 30.0]).exponents() } else { ensemble }

@@ -11,9 +11,9 @@ use super::{KEPLER, Outcome, pericentre};
     lagrangian = dot(x).powi(2) / 2.0,
     force(x) = if t > on { if t < off { 1.0 } else { 0.0 } } else { 0.0 },
 )]
-struct Pushed {
-    on: f64,
-    off: f64,
+pub(super) struct Pushed {
+    pub(super) on: f64,
+    pub(super) off: f64,
 }
 
 fn is_near(a: f64, b: f64) -> bool {

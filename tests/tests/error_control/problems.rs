@@ -7,15 +7,14 @@ use dvi_core::field::{Axis, Spline};
 use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
-use dvi_tests::zoo::regular::{RestrictedThreeBody, RestrictedThreeBodyState};
+use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
+use dvi_tests::zoo::regular::{
+    HenonHeiles, HenonHeilesState, RestrictedThreeBody, RestrictedThreeBodyState,
+};
 
+use super::breaks::{Pushed, PushedState};
+use super::seams::{Dry, DryState, Well, WellState};
 use super::{DoublePendulum, DoublePendulumState, KEPLER, Outcome, larger, pericentre};
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - x * x - y * y) / 2.0 - x * x * y + y.powi(3) / 3.0,
-)]
-struct HenonHeiles;
 
 #[lagrangian(
     coordinates(x),
@@ -24,35 +23,10 @@ struct HenonHeiles;
 )]
 struct VanDerPol;
 
-/// x' = x (1 − y), y' = y (x − 1)
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = y.ln() / x * d(x),
-    hamiltonian = x.ln() + y.ln() - x - y,
-)]
-struct LotkaVolterra;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.abs())]
-struct Well;
-
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0,
-    force(x) = if t > 50.0 { if t < 50.2 { 1.0 } else { 0.0 } } else { 0.0 },
-)]
-struct Pulse;
-
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - psi(x))]
-struct Splined {
-    psi: Spline<1>,
+pub(super) struct Splined {
+    pub(super) psi: Spline<1>,
 }
-
-#[lagrangian(
-    coordinates(x),
-    lagrangian = (dot(x).powi(2) - x * x) / 2.0,
-    force(x) = if dot(x) > 0.0 { -0.01 } else { 0.01 },
-)]
-struct DryFriction;
 
 /// The largest error at time `end`, in units of what the tolerance allows there: ε (1 + |y|).
 fn error<S: Lagrangian, M: VariableStep<S, f64>>(
@@ -174,7 +148,7 @@ fn errors_at_the_end_of_smooth_motions_are_within_thirty_tolerances() -> Outcome
     )?;
     check(
         "Lotka & Volterra",
-        (&LotkaVolterra, &LotkaVolterraState { x: 2.0, y: 0.5 }),
+        (&OneSided { a: [-1.0; 2], b: [1.0; 2] }, &OneSidedState { x: 2.0, y: 0.5 }),
         &[],
         (30.0, &[0.3380138710218476, 1.4463853991621933]),
         [1.9, 1.4, 0.8],
@@ -195,7 +169,7 @@ fn errors_at_the_end_of_rough_motions_are_within_thirty_tolerances() -> Outcome 
     )?;
     check(
         "pulse, with breaks",
-        (&Pulse, &PulseState { x: 0.0, dot_x: 0.0 }),
+        (&Pushed { on: 50.0, off: 50.2 }, &PushedState { x: 0.0, dot_x: 0.0 }),
         &[50.0, 50.2],
         (100.0, &[9.98, 0.2]),
         [9.1e5, 9.1e8, 9.1e11],
@@ -219,7 +193,7 @@ fn errors_at_the_end_of_rough_motions_are_within_thirty_tolerances() -> Outcome 
     let (amplitude, angle) = (1.0 - mu - 2.0 * mu * halves, 20.0 - halves * PI);
     check(
         "dry friction",
-        (&DryFriction, &DryFrictionState { x: 1.0, dot_x: 0.0 }),
+        (&Dry { friction: mu }, &DryState { x: 1.0, dot_x: 0.0 }),
         &[],
         (20.0, &[mu + amplitude * angle.cos(), -amplitude * angle.sin()]),
         [39.4, 15.6, 68.8],

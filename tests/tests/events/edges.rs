@@ -3,20 +3,19 @@
 use approx::abs_diff_eq;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use dvi_core::prelude::*;
-use dvi_tests::zoo::regular::{Kepler, KeplerState};
+use dvi_tests::zoo::impacts::{Channel, ChannelState};
+use dvi_tests::zoo::regular::{FREE, Kepler, KeplerState, PLANE, Planar, PlanarState, Spring, SpringState};
 use dvi_tests::{Outcome, bits};
 use num_dual::Dual64;
 
-use super::{PLANAR, Planar, PlanarState};
+use super::PLANAR;
 
-/// Free motion, whose steps are exact.
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0)]
-#[derive(Clone, Debug)]
-struct Free;
+#[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y)]
+struct Ball;
 
-/// From `x` with velocity one.
-fn free(x: f64, h: f64) -> Outcome<impl Run<System = Free, Scalar = f64>> {
-    Ok(Integrator::new(&Free, Variational::trapezoid(), h, FreeState { x, dot_x: 1.0 })?)
+/// From `x` with velocity one, by steps that are exact.
+fn free(x: f64, h: f64) -> Outcome<impl Run<System = Spring, Scalar = f64>> {
+    Ok(Integrator::new(&FREE, Variational::trapezoid(), h, SpringState { x, dot_x: 1.0 })?)
 }
 
 #[test]
@@ -54,7 +53,7 @@ fn a_start_on_a_zero_is_no_event() -> Outcome {
 
 #[test]
 fn directions_are_along_a_run_back_in_time() -> Outcome {
-    let mut run = Integrator::new(&Planar, Gauss::<8>::new(), -0.3, PLANAR)?;
+    let mut run = Integrator::new(&PLANE, Gauss::<8>::new(), -0.3, PLANAR)?;
     let conditions = [Direction::Falling, Direction::Rising];
     for (k, event) in run.events(conditions, |_, state| [state.x; 2])?.take(6).enumerate() {
         let Event { index, time, .. } = event?;
@@ -93,11 +92,11 @@ fn a_condition_that_is_no_number_is_an_error() -> Outcome {
     assert!(matches!(error, StepError { step: 4, failure: StepFailure::UndefinedEvent { event: 1 }, .. }));
     // Until another state is set.
     assert_eq!(events.next_until(-2.0).err(), Some(error));
-    events.set_state(0.0, FreeState { x: 9.1, dot_x: 1.0 })?;
+    events.set_state(0.0, SpringState { x: 9.1, dot_x: 1.0 })?;
     let Some(Event { index: 1, time, .. }) = events.next_until(-6.0)? else { panic!("none") };
     assert!(abs_diff_eq!(time, -5.1, epsilon = 1e-13), "{time}");
     // Set where a condition is none, the run is there, and no events are known.
-    assert!(events.set_state(1.0, FreeState { x: -1.0, dot_x: 1.0 }).is_err());
+    assert!(events.set_state(1.0, SpringState { x: -1.0, dot_x: 1.0 }).is_err());
     assert_eq!((events.run().time(), events.run().q()[0]), (1.0, -1.0));
     assert!(matches!(
         events.next_until(-6.0).err(),
@@ -138,9 +137,9 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
     }
     let method = Gauss::<4>::new();
     for sign in [1.0, -1.0] {
-        check(Integrator::new(&Planar, method, 0.1 * sign, PLANAR)?, sign)?;
+        check(Integrator::new(&PLANE, method, 0.1 * sign, PLANAR)?, sign)?;
         let control = ErrorControl::new(1e-9, 0.1 * sign);
-        check(ControlledIntegrator::new(&Planar, method, control, PLANAR)?, sign)?;
+        check(ControlledIntegrator::new(&PLANE, method, control, PLANAR)?, sign)?;
     }
     Ok(())
 }
@@ -169,21 +168,18 @@ fn a_run_goes_on_from_another_state() -> Outcome {
         Ok(())
     }
     let verlet = Variational::trapezoid();
-    let fixed = |t, at| Ok(Integrator::new_at(&Planar, verlet, t, 0.1, at)?);
+    let fixed = |t, at| Ok(Integrator::new_at(&PLANE, verlet, t, 0.1, at)?);
     check(fixed(0.0, PLANAR)?, fixed)?;
     let (gauss, control) = (Gauss::<4>::new(), ErrorControl::new(1e-9, 0.1));
-    let controlled = |t, at| Ok(ControlledIntegrator::new_at(&Planar, gauss, control, t, at)?);
+    let controlled = |t, at| Ok(ControlledIntegrator::new_at(&PLANE, gauss, control, t, at)?);
     check(controlled(0.0, PLANAR)?, controlled)
 }
 
 /// A particle between walls: the velocity jumps within a step, where the impact is.
 #[test]
 fn an_event_may_be_an_impact() -> Outcome {
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [x, 1.0 - x])]
-    #[derive(Debug)]
-    struct Walled;
-    let start = WalledState { x: 0.3, dot_x: 1.0 };
-    let mut run = Integrator::new(&Walled, Impacts::new(Variational::trapezoid()), 0.4, start)?;
+    let start = ChannelState { x: 0.3, dot_x: 1.0 };
+    let mut run = Integrator::new(&Channel, Impacts::new(Variational::trapezoid()), 0.4, start)?;
     let turns = run.events([Direction::Either], |_, state| [state.dot_x])?;
     for (k, turn) in turns.take(5).enumerate() {
         let time = turn?.time;
@@ -197,8 +193,8 @@ fn an_event_may_be_an_impact() -> Outcome {
 fn an_event_is_left_behind_where_the_same_state_is_set() -> Outcome {
     for direction in [Direction::Rising, Direction::Falling, Direction::Either] {
         let [mut run, mut untouched] = [
-            Integrator::new(&Planar, Gauss::<4>::new(), 0.1, PLANAR)?,
-            Integrator::new(&Planar, Gauss::<4>::new(), 0.1, PLANAR)?,
+            Integrator::new(&PLANE, Gauss::<4>::new(), 0.1, PLANAR)?,
+            Integrator::new(&PLANE, Gauss::<4>::new(), 0.1, PLANAR)?,
         ];
         let jumps = |_: f64, state: &PlanarState| [state.x.signum() - 0.5, state.dot_x];
         let mut events = run.events([direction; 2], jumps)?;
@@ -237,7 +233,7 @@ fn a_condition_may_stay_at_zero() -> Outcome {
 fn a_condition_with_a_band_of_zeros_comes_there_once() -> Outcome {
     let band = |x: f64| if x > 0.5 { x - 0.5 } else { (x + 0.5).min(0.0) };
     for power in [1, 2, 3] {
-        let mut run = Integrator::new(&Planar, Gauss::<4>::new(), 0.1, PLANAR)?;
+        let mut run = Integrator::new(&PLANE, Gauss::<4>::new(), 0.1, PLANAR)?;
         let mut events = run.events([Direction::Either], |_, state| [band(state.x).powi(power)])?;
         for turn in [1.0, 4.0, 7.0, 10.0] {
             let Some(Event { time, state, .. }) = events.next_until(12.0)? else { panic!("none at {turn}") };
@@ -256,7 +252,7 @@ fn events_after_the_end_wait() -> Outcome {
     let mut events = run.events([Direction::Rising], |_, state| [state.x])?;
     assert!(events.next_until(0.25)?.is_none());
     assert!(
-        matches!(events.state_at(0.25)?, FreeState { x, .. } if abs_diff_eq!(x, -0.05, epsilon = 1e-15))
+        matches!(events.state_at(0.25)?, SpringState { x, .. } if abs_diff_eq!(x, -0.05, epsilon = 1e-15))
     );
     assert!(matches!(
         events.state_at(0.5).err(),
@@ -270,24 +266,22 @@ fn events_after_the_end_wait() -> Outcome {
 /// A ball that comes into corners of a box meets both walls, whatever rounding says of their order.
 #[test]
 fn a_corner_reflects_twice() -> Outcome {
-    #[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0)]
-    struct Plane;
     for k in 0..200 {
         let speed = 0.3 + 0.007_13 * f64::from(k);
-        let start = PlaneState { x: 0.5, y: 0.5, dot_x: speed, dot_y: speed };
-        let mut run = Integrator::new(&Plane, Variational::trapezoid(), 0.13, start)?;
-        let walls = |_, s: &PlaneState| [s.x, s.y, 1.0 - s.x, 1.0 - s.y];
+        let start = PlanarState { x: 0.5, y: 0.5, dot_x: speed, dot_y: speed };
+        let mut run = Integrator::new(&Planar { stiffness: 0.0 }, Variational::trapezoid(), 0.13, start)?;
+        let walls = |_, s: &PlanarState| [s.x, s.y, 1.0 - s.x, 1.0 - s.y];
         let mut events = run.events([Direction::Falling; 4], walls)?;
         let mut count = [0; 4];
         while let Some(Event { index, time, state }) = events.next_until(20.0)? {
             count[index] += 1;
             let state = match index {
-                0 | 2 => PlaneState { dot_x: -state.dot_x, ..state },
-                _ => PlaneState { dot_y: -state.dot_y, ..state },
+                0 | 2 => PlanarState { dot_x: -state.dot_x, ..state },
+                _ => PlanarState { dot_y: -state.dot_y, ..state },
             };
             events.set_state(time, state)?;
         }
-        let PlaneState { x, y, .. } = run.state();
+        let PlanarState { x, y, .. } = run.state();
         assert!(abs_diff_eq!(x, y, epsilon = 1e-11) && x > -0.3 && x < 1.3, "{speed}: {x} {y}");
         let expected = (20.0 * speed + 0.5).floor() as i32;
         assert_eq!((count[0] + count[2], count[1] + count[3]), (expected, expected), "{speed}");
@@ -298,8 +292,6 @@ fn a_corner_reflects_twice() -> Outcome {
 /// Hops become shorter until they are none, and do not fall through the floor.
 #[test]
 fn a_ball_that_comes_to_rest_does_not_fall_through_the_floor() -> Outcome {
-    #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y)]
-    struct Ball;
     for restitution in [0.2, 0.5, 0.8, 0.9] {
         for (h, floor) in [(0.01, 0.0), (0.1, 0.0), (0.7, 0.0), (0.1, 5.0), (0.1, -3.7)] {
             let start = BallState { y: floor + 0.5, dot_y: 0.0 };
@@ -345,7 +337,7 @@ fn a_condition_that_is_flat_before_is_not_missed() -> Outcome {
 #[test]
 fn events_at_one_time_come_in_the_order_of_the_conditions() -> Outcome {
     for k in 0..200 {
-        let mut run = Integrator::new(&Planar, Gauss::<8>::new(), 0.1 + 0.003 * f64::from(k), PLANAR)?;
+        let mut run = Integrator::new(&PLANE, Gauss::<8>::new(), 0.1 + 0.003 * f64::from(k), PLANAR)?;
         let conditions = |_, state: &PlanarState| [state.x, 3.0 * state.x, (2.0 * state.x).exp() - 1.0];
         let events = run.events([Direction::Either; 3], conditions)?.take(6);
         let order = events.map(|event| Ok(event?.index)).collect::<Outcome<Vec<_>>>()?;
@@ -358,8 +350,6 @@ fn events_at_one_time_come_in_the_order_of_the_conditions() -> Outcome {
 /// 1/√(2y).
 #[test]
 fn times_of_events_carry_derivatives() -> Outcome {
-    #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y)]
-    struct Ball;
     for h in [1.0, 0.5, 0.25, 0.2, 0.1, 0.07, 0.05, 0.04] {
         let start = BallStateOf { y: Dual64::from(0.5).derivative(), dot_y: Dual64::from(0.0) };
         let mut run = Integrator::new(&Ball, Variational::trapezoid(), Dual64::from(h), start)?;

@@ -5,7 +5,7 @@ use dvi_core::prelude::*;
 use dvi_core::{IndexError, OutsideError, ScalarField};
 
 use super::Outcome;
-use dvi_tests::schemes::systems::{Damped, Harvested, Pulled, Swirl, SwirlState};
+use dvi_laws::systems::{Damped, Harvested, Pulled, Swirl, SwirlState};
 
 /// The same forces as a list and one by one, with arrays of run-time size.
 #[lagrangian(

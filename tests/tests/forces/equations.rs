@@ -10,42 +10,13 @@ use nalgebra::{Matrix4, Vector4};
 use num_dual::Dual64;
 
 use super::Outcome;
-use dvi_tests::schemes::systems::{
-    Canonical, Damped, DampedState, DampedStateOf, Harvested, Pulled, PulledState, Swirl, SwirlState,
+use dvi_laws::systems::{
+    Canonical, Damped, DampedStateOf, Harvested, Pulled, PulledState, Swirl, SwirlState,
 };
 
 const DAMPED: Damped = Damped { gamma: 0.3 };
 const START: [f64; 4] = [1.2, 0.0, 0.1, 0.9];
 const H: f64 = 0.05;
-
-/// Points and velocities of a particle, one after the other.
-fn run<M: Method<Damped, f64>>(method: M, steps: usize) -> Outcome<Vec<DampedState>> {
-    let start = state(&DAMPED, &START[..2], &START[2..]);
-    let mut states = vec![start];
-    for state in Integrator::new(&DAMPED, method, H, start)?.take(steps) {
-        states.push(state?);
-    }
-    Ok(states)
-}
-
-/// By the forced discrete Noether theorem the angular momentum changes by F⁻·ξ(q0) + F⁺·ξ(q1) with ξ = (−y,
-/// x), because L is invariant under rotations (Marsden & West 2001, section 3.2.4).
-#[test]
-fn the_angular_momentum_changes_by_the_moment_of_the_discrete_forces() -> Outcome {
-    for (rule, c) in [(Quadrature::gauss(1)?, 0.5), (Quadrature::sigma(0.3), 0.3)] {
-        for pair in run(Variational::new(rule), 400)?.windows(2) {
-            let [from, to] = [&pair[0], &pair[1]];
-            let moment = |s: &DampedState| s.x * s.dot_y - s.y * s.dot_x;
-            // F at the node: −γ Δ/h.
-            let force = [-DAMPED.gamma * (to.x - from.x) / H, -DAMPED.gamma * (to.y - from.y) / H];
-            let turned = |s: &DampedState| s.x * force[1] - s.y * force[0];
-            let expected = H * ((1.0 - c) * turned(from) + c * turned(to));
-            let change = moment(to) - moment(from);
-            assert!(abs_diff_eq!(change, expected, epsilon = 1e-12), "{change:e} {expected:e}");
-        }
-    }
-    Ok(())
-}
 
 /// The tangent map of a step in (q, p) by the second derivatives of the discrete Lagrangian and the
 /// derivatives of the forces, against the step in dual numbers.

@@ -1,6 +1,7 @@
 //! Friction whose derivative is infinite at rest, in runs that begin there.
 
 use dvi_core::prelude::*;
+use dvi_tests::oracle;
 
 use super::Outcome;
 
@@ -29,18 +30,10 @@ struct Dragged;
 )]
 struct Rod;
 
-/// x(1) of x'' = a(x, x') from `x`, at rest, by the classical method of Runge and Kutta in 10⁵ steps.
+/// x(1) of x'' = a(x, x') from `x`, at rest, in 10⁵ steps.
 fn reference(x: f64, a: impl Fn(f64, f64) -> f64) -> f64 {
-    let (mut x, mut v, h) = (x, 0.0, 1e-5);
-    for _ in 0..100_000 {
-        let k1 = (v, a(x, v));
-        let k2 = (v + h / 2.0 * k1.1, a(x + h / 2.0 * k1.0, v + h / 2.0 * k1.1));
-        let k3 = (v + h / 2.0 * k2.1, a(x + h / 2.0 * k2.0, v + h / 2.0 * k2.1));
-        let k4 = (v + h * k3.1, a(x + h * k3.0, v + h * k3.1));
-        x += h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0);
-        v += h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1);
-    }
-    x
+    let rates = |y: &[f64], _| vec![y[1], a(y[0], y[1])];
+    (0..100_000).fold(vec![x, 0.0], |y, _| oracle::runge_kutta(rates, &y, [0.0, 1e-5]))[0]
 }
 
 fn friction(v: f64) -> f64 {

@@ -4,7 +4,7 @@ use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
 
-use crate::galerkin::systems::{KEPLER, Outcome, pericentre};
+use super::Outcome;
 
 #[test]
 fn a_fixed_point_step_needs_forces_only_and_newton_stands_by() -> Outcome {

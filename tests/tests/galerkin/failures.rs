@@ -6,7 +6,8 @@ use dvi_core::prelude::*;
 use dvi_tests::failing;
 use dvi_tests::zoo::regular::*;
 
-use crate::galerkin::systems::{KEPLER, Outcome, double_pendulum, pericentre, relativistic};
+use super::Outcome;
+use super::systems::{double_pendulum, relativistic};
 
 #[test]
 fn what_cannot_be_done_is_refused() {

@@ -5,7 +5,7 @@ use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
 
-use crate::galerkin::systems::Outcome;
+use super::Outcome;
 
 #[test]
 fn on_the_fitted_oscillator_three_nodes_have_their_closed_form() -> Outcome {

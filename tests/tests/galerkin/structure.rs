@@ -4,9 +4,11 @@ use dvi_core::Space;
 use dvi_core::methods::{Method, Step};
 use dvi_core::prelude::*;
 use dvi_core::state::Statistics;
+use dvi_tests::zoo::regular::KEPLER;
 use dvi_tests::{apart, larger};
 
-use crate::galerkin::systems::{KEPLER, Outcome, chain, double_pendulum};
+use super::Outcome;
+use super::systems::{chain, double_pendulum};
 
 /// Steps of these lengths there, and of their negatives back.
 fn check_variable<S: RegularLagrangian, const NODES: usize>(

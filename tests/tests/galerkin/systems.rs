@@ -1,14 +1,6 @@
 //! The systems and starts of these tests, and runs of them.
 
-pub(crate) use dvi_tests::Outcome;
 use dvi_tests::zoo::regular::*;
-
-pub(crate) const KEPLER: Kepler = Kepler { mu: 1.0 };
-
-/// At the pericentre of an orbit with period 2π.
-pub(crate) fn pericentre(e: f64) -> KeplerState {
-    KeplerState { x: 1.0 - e, y: 0.0, dot_x: 0.0, dot_y: ((1.0 + e) / (1.0 - e)).sqrt() }
-}
 
 pub(crate) fn double_pendulum() -> (DoublePendulum, DoublePendulumState) {
     let system = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 0.8], g: 9.81 };

@@ -96,20 +96,3 @@ fn a_gap_that_is_no_number_ends_the_run() -> Outcome {
     assert!(matches!(error.failure, StepFailure::Gap { surface: 0, .. }), "{error}");
     Ok(())
 }
-
-#[test]
-fn a_run_goes_on_from_its_checkpoint_bit_by_bit() -> Outcome {
-    let (system, start) = (Wavy { a: 0.5 }, WavyState { x: 0.3, y: 1.0, dot_x: 0.4, dot_y: 0.0 });
-    let method = Impacts::new(Variational::midpoint());
-    let mut whole = Integrator::new(&system, method, 0.03, start)?;
-    whole.take_steps(137)?;
-    let mut resumed = Integrator::resume(&system, method, &whole.checkpoint())?;
-    for _ in 0..200 {
-        whole.advance()?;
-        resumed.advance()?;
-        assert_eq!(whole.state(), resumed.state());
-    }
-    assert_eq!(whole.memory().total(), resumed.memory().total());
-    assert!(whole.memory().total() > 3);
-    Ok(())
-}

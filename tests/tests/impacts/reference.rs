@@ -1,5 +1,7 @@
 //! The motion between impacts by the classical Runge–Kutta method in short steps, and impacts by bisection.
 
+use dvi_tests::oracle;
+
 /// Equations of motion by hand.
 pub(crate) trait ByHand<const N: usize> {
     fn acceleration(&self, q: [f64; N], v: [f64; N], t: f64) -> [f64; N];
@@ -9,24 +11,13 @@ pub(crate) trait ByHand<const N: usize> {
     fn reflected(&self, q: [f64; N], v: [f64; N], t: f64) -> [f64; N];
 }
 
-fn moved<const N: usize>(x: [f64; N], h: f64, rate: [f64; N]) -> [f64; N] {
-    core::array::from_fn(|i| x[i] + h * rate[i])
-}
-
-fn step<const N: usize>(system: &impl ByHand<N>, [q, v]: [[f64; N]; 2], t: f64, h: f64) -> [[f64; N]; 2] {
-    let rate = |[q, v]: [[f64; N]; 2], t: f64| [v, system.acceleration(q, v, t)];
-    let along = |h: f64, k: [[f64; N]; 2]| [moved(q, h, k[0]), moved(v, h, k[1])];
-    let k1 = rate([q, v], t);
-    let k2 = rate(along(h / 2.0, k1), t + h / 2.0);
-    let k3 = rate(along(h / 2.0, k2), t + h / 2.0);
-    let k4 = rate(along(h, k3), t + h);
-    [0, 1].map(|part| {
-        let x = [q, v][part];
-        core::array::from_fn(|i| {
-            let sum = k1[part][i] + 2.0 * k2[part][i] + 2.0 * k3[part][i] + k4[part][i];
-            x[i] + h / 6.0 * sum
-        })
-    })
+fn step<const N: usize>(system: &impl ByHand<N>, state: [[f64; N]; 2], t: f64, h: f64) -> [[f64; N]; 2] {
+    let halves = |y: &[f64]| [0, 1].map(|part| core::array::from_fn(|i| y[part * N + i]));
+    let rates = |y: &[f64], t: f64| {
+        let [q, v] = halves(y);
+        [v, system.acceleration(q, v, t)].concat()
+    };
+    halves(&oracle::runge_kutta(rates, &state.concat(), [t, h]))
 }
 
 /// The state at `end` of the motion from `begin`, and how many impacts there were.

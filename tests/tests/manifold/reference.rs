@@ -1,6 +1,7 @@
 //! Motion by hand: the equations of motion as they stand in textbooks, by the classical method of Runge and
 //! Kutta with short steps.
 
+use dvi_tests::oracle;
 use dvi_tests::zoo::manifold::cross;
 
 /// The state after `time`, by `steps` steps.
@@ -11,14 +12,9 @@ pub(crate) fn motion<const N: usize>(
     steps: u32,
 ) -> [f64; N] {
     let h = time / f64::from(steps);
-    let moved =
-        |y: &[f64; N], by: &[f64; N], h: f64| -> [f64; N] { core::array::from_fn(|i| y[i] + h * by[i]) };
     (0..steps).fold(start, |y, _| {
-        let a = rates(&y);
-        let b = rates(&moved(&y, &a, h / 2.0));
-        let c = rates(&moved(&y, &b, h / 2.0));
-        let d = rates(&moved(&y, &c, h));
-        core::array::from_fn(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]))
+        let rates = |y: &[f64], _| rates(y.try_into().expect("as many numbers")).to_vec();
+        oracle::runge_kutta(rates, &y, [0.0, h]).try_into().expect("as many numbers")
     })
 }
 

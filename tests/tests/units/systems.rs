@@ -4,7 +4,7 @@ use dvi_core::prelude::*;
 
 use super::InUnits;
 
-/// A system with one unit for each coordinate: its step and its start, coordinates and then velocities.
+/// A system with one unit for each coordinate, and some with one for L or for a constraint: its step and its start, coordinates and then velocities.
 macro_rules! in_units {
     ($system:ident, [f64; $n:literal], $h:literal, $start:expr) => {
         impl InUnits<$n> for $system {
@@ -39,15 +39,15 @@ macro_rules! arrays_in_units {
 
 #[degenerate_lagrangian(
     coordinates(x, p),
-    one_form = u[1] * p * u[0] * d(x) / tau,
-    hamiltonian = (u[1] * p).powi(2) / 2.0 + (u[0] * x).powi(2) / 2.0 + (u[0] * x).powi(4) / 8.0,
+    one_form = u[2] * u[1] * p * u[0] * d(x) / tau,
+    hamiltonian = u[2] * ((u[1] * p).powi(2) / 2.0 + (u[0] * x).powi(2) / 2.0 + (u[0] * x).powi(4) / 8.0),
 )]
 pub(super) struct Oscillator {
-    u: [f64; 2],
+    u: [f64; 3],
     tau: f64,
 }
 
-in_units!(Oscillator, [f64; 2], 0.1, [1.0, 0.0]);
+in_units!(Oscillator, [f64; 3], 0.1, [1.0, 0.0]);
 
 #[degenerate_lagrangian(
     coordinates(x[3], y[3]),
@@ -93,15 +93,15 @@ in_units!(Tangled, [f64; 4], 0.5, [1.0, 0.75, -0.5, 1.25]);
 /// Predators y and their prey x.
 #[degenerate_lagrangian(
     coordinates(x, y),
-    one_form = (u[1] * y).ln() / (u[0] * x) * u[0] * d(x) / tau,
-    hamiltonian = u[0] * x + u[1] * y - (u[0] * x).ln() - 2.0 * (u[1] * y).ln(),
+    one_form = u[2] * (u[1] * y).ln() / (u[0] * x) * u[0] * d(x) / tau,
+    hamiltonian = u[2] * (u[0] * x + u[1] * y - (u[0] * x).ln() - 2.0 * (u[1] * y).ln()),
 )]
 pub(super) struct Predators {
-    u: [f64; 2],
+    u: [f64; 3],
     tau: f64,
 }
 
-in_units!(Predators, [f64; 2], 0.1, [1.0, 1.0]);
+in_units!(Predators, [f64; 3], 0.1, [1.0, 1.0]);
 
 /// The centre of the gyration of a charge: Ω couples three coordinates.
 #[degenerate_lagrangian(
@@ -136,15 +136,15 @@ arrays_in_units!(Amplitudes, n, 4, 0.05, vec![1.0, 0.0, 0.5, -0.4, 0.0, 0.3, 0.2
 
 #[lagrangian(
     coordinates(x, y),
-    lagrangian = ((u[0] * dot(x) / tau).powi(2) + (u[1] * dot(y) / tau).powi(2)) / 2.0
-        + 1.0 / ((u[0] * x).powi(2) + (u[1] * y).powi(2)).sqrt(),
+    lagrangian = u[2] * (((u[0] * dot(x) / tau).powi(2) + (u[1] * dot(y) / tau).powi(2)) / 2.0
+        + 1.0 / ((u[0] * x).powi(2) + (u[1] * y).powi(2)).sqrt()),
 )]
 pub(super) struct Kepler {
-    u: [f64; 2],
+    u: [f64; 3],
     tau: f64,
 }
 
-in_units!(Kepler, [f64; 2], 0.05, [0.8, 0.0, 0.0, 1.2]);
+in_units!(Kepler, [f64; 3], 0.05, [0.8, 0.0, 0.0, 1.2]);
 
 #[lagrangian(
     coordinates(a, b),

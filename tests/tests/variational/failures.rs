@@ -8,8 +8,6 @@ use dvi_core::prelude::*;
 use dvi_tests::failing;
 use dvi_tests::zoo::regular::*;
 
-const KEPLER: Kepler = Kepler { mu: 1.0 };
-
 fn state(x: f64, dot_y: f64) -> KeplerState {
     KeplerState { x, y: 0.0, dot_x: 0.0, dot_y }
 }

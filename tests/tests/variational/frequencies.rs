@@ -5,7 +5,6 @@ use dvi_core::discrete::{Frequency, FrequencyIn};
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
 
-const KEPLER: Kepler = Kepler { mu: 1.0 };
 const START: KeplerState = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
 
 /// r^(−3/2), without derivatives.

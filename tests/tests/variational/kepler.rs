@@ -6,20 +6,13 @@ use dvi_core::discrete::{FrequencyIn, Rule};
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use dvi_tests::larger;
-use dvi_tests::zoo::regular::{Kepler, KeplerState};
+use dvi_tests::zoo::regular::{KEPLER, KeplerState, pericentre};
 
 type Period = (KeplerState, f64);
 
-const SYSTEM: Kepler = Kepler { mu: 1.0 };
-
-/// At the pericentre of an orbit with period 2π.
-fn pericentre(e: f64) -> KeplerState {
-    KeplerState { x: 1.0 - e, y: 0.0, dot_x: 0.0, dot_y: ((1.0 + e) / (1.0 - e)).sqrt() }
-}
-
 /// The state after one period of `steps` steps, and max |ΔE| on the way.
 fn period<F: FrequencyIn<f64>, R: Rule>(method: Variational<F, R>, e: f64, steps: u64) -> Outcome<Period> {
-    let mut run = Integrator::new(&SYSTEM, method, TAU / steps as f64, pericentre(e))?;
+    let mut run = Integrator::new(&KEPLER, method, TAU / steps as f64, pericentre(e))?;
     let initial = run.energy();
     let mut largest: f64 = 0.0;
     for _ in 0..steps {

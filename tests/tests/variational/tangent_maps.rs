@@ -8,7 +8,7 @@ use dvi_core::methods::{Method, VariationalMethod};
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, Space, State};
 use dvi_tests::larger;
-use dvi_tests::schemes::equations::Nodes;
+use dvi_laws::equations::Nodes;
 use dvi_tests::systems::LotkaVolterra;
 use dvi_tests::zoo::regular::*;
 use num_dual::HyperDual64;

@@ -2,7 +2,7 @@
 //!
 //! A row is a method with its options, the ways in which its steps are solved and added up, its
 //! equations, and an order where that on these systems is not the one that it has everywhere. Every law
-//! in `tests/laws` is asked of every row.
+//! in `tests` is asked of every row.
 
 pub mod case;
 pub mod equations;
@@ -23,15 +23,15 @@ use equations::{Equations, Nodes};
 use formula::{Formula, Subject};
 use systems::*;
 
-use crate::configurations::quasi_periodic;
-use crate::systems::*;
-use crate::zoo::constrained::{
+use dvi_tests::configurations::quasi_periodic;
+use dvi_tests::systems::*;
+use dvi_tests::zoo::constrained::{
     Bead, BeadParameterState, Charge, Double, DoubleAngles, DoubleAnglesState, Links, Spherical, Swing,
     SwingAngleState, on_ring, swinging,
 };
-use crate::zoo::nonholonomic::{Particle, Steered};
-use crate::zoo::particles::Mirror;
-use crate::zoo::regular::*;
+use dvi_tests::zoo::nonholonomic::{Particle, Steered};
+use dvi_tests::zoo::particles::Mirror;
+use dvi_tests::zoo::regular::*;
 
 /// Where the order is hidden, by a parasitic mode or by rounding. High orders are measured on the
 /// oscillator.
@@ -158,12 +158,15 @@ pub fn affine() -> Vec<Case> {
         Projected::standard() => ONE, Elsewhere;
     });
     rows!(table, [four()], |at| {
+        // The implicit midpoint rule, all three of them.
+        Sigma::midpoint() => ONE, Collocation(1);
         Projected::symmetric() => ONE, Collocation(1);
         Projected::standard() => ONE, Collocation(1);
         RungeKutta::midpoint() => ONE, Elsewhere;
         RungeKutta::heun() => ONE, Elsewhere;
         RungeKutta::classical() => ONE, Elsewhere;
         Composition::suzuki(Gauss::<1>::new()) => ONE, Elsewhere;
+        Composition::suzuki(Composition::triple_jump(Gauss::<1>::new())) => ONE, Elsewhere;
         EnergyLimit { method: Sigma::midpoint(), limit: 1e2 } => ONE, discrete(&[0.5], &[1.0]);
     });
     table

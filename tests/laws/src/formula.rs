@@ -11,7 +11,7 @@ use dvi_core::prelude::*;
 use nalgebra::{DMatrix, DVector, RealField};
 use num_dual::{Dual64, HyperDual64};
 
-use crate::{larger, state};
+use dvi_tests::{larger, state};
 
 /// A Lagrangian in plain Rust, with its forces and constraints.
 pub trait Formula {
@@ -128,8 +128,10 @@ impl Subject {
         let n = start[0].len();
         let field = move |t: f64, values: &[f64]| {
             let (q, v) = values.split_at(n);
-            let rates = system.at_time(t).vector_field(&state(system, q, v))?;
-            Ok(system.values(&rates)?.collect())
+            let (here, at) = (state(system, q, v), system.at_time(t));
+            let rates = at.vector_field(&here)?;
+            let values = [at.lagrangian(&here)?, at.energy(&here)?];
+            Ok(system.values(&rates)?.chain(values).collect())
         };
         let field = Box::new(field);
         Self {
@@ -146,11 +148,11 @@ impl Subject {
         }
     }
 
-    /// The rates of change as the library computes them.
+    /// What the library says of a state: its rates of change, L along them and E.
     ///
     /// # Errors
     /// Those of the library.
-    pub fn field(&self, t: f64, values: &[f64]) -> Result<Vec<f64>, StartError> {
+    pub fn said(&self, t: f64, values: &[f64]) -> Result<Vec<f64>, StartError> {
         (self.field)(t, values)
     }
 
@@ -327,6 +329,15 @@ impl Subject {
         });
         let right = DVector::from_fn(n + m, |i, _| if i < n { pull[i] - rate[i] } else { -bent[i - n] });
         [v, &solved(matrix, &right).as_slice()[..n]].concat()
+    }
+
+    /// The same as it follows from the formula, E = ∂L/∂v·v − L.
+    pub fn expected(&self, values: &[f64], t: f64) -> Vec<f64> {
+        let (rates, (q, v)) = (self.rates(values, t), values.split_at(self.dimension()));
+        let v = if self.regular { v } else { &rates };
+        let along = self.lagrangian(&dual(q, None), &dual(v, None), t).re;
+        let twice: f64 = self.momenta(q, v, t).iter().zip(v).map(|(p, v)| p * v).sum();
+        [&rates[..], &[along, twice - along]].concat()
     }
 
     /// The derivative of the rates along that of a point, by central differences of eighth order.

@@ -7,9 +7,9 @@ use dvi_core::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use dvi_core::prelude::*;
 use dvi_core::state::{Memory, Reader, Record};
 use dvi_core::{Real, Vector};
-use dvi_tests::schemes::equations::{Equations, Nodes};
-use dvi_tests::schemes::systems::{FusedSeparable, Shaken, real};
-use dvi_tests::schemes::{Case, Fused, Options, on};
+use dvi_laws::equations::{Equations, Nodes};
+use dvi_laws::systems::{FusedSeparable, Shaken, real};
+use dvi_laws::{Case, Fused, Options, on};
 
 use super::checkpoint::runs_go_on;
 use super::equations::steps_solve_their_equations;

@@ -1,16 +1,17 @@
-//! What is asked of every scheme in the table, [`dvi_tests::schemes`].
+//! What is asked of every scheme in the table, [`dvi_laws`].
 
 mod between;
 mod checkpoint;
 mod equations;
 mod failure;
+mod forms;
 mod mistakes;
 mod momenta;
 mod motion;
 mod order;
 mod reversal;
 mod solvers;
-pub(crate) mod structure;
+mod structure;
 
 use core::fmt::Debug;
 use dvi_tests::Outcome;
@@ -32,12 +33,12 @@ fn below(found: f64, bound: f64, what: &str) -> Outcome {
 /// A test of the law for each kind of system, so that they share the processor.
 macro_rules! of_every_kind {
     ($law:expr) => {
-        crate::laws::of_every_kind!($law, affine at_large in_class separable regular constrained nonholonomic);
+        crate::of_every_kind!($law, affine at_large in_class separable regular constrained nonholonomic);
     };
     ($law:expr, $($kind:ident)+) => {$(
         #[test]
         fn $kind() {
-            crate::laws::ask(&dvi_tests::schemes::$kind(), $law);
+            crate::ask(&dvi_laws::$kind(), $law);
         }
     )+};
 }

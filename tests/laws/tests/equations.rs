@@ -9,9 +9,9 @@
 //! - Gauss collocation: ∂L/∂v = p + h Σ aᵢⱼ (∂L/∂q + F) at the stages of a regular system, and d/dt
 //!   ∂L/∂v = ∂L/∂q + F at those of a degenerate one, solved here with matrices of differences.
 
-use dvi_tests::schemes::equations::{Equations, Nodes, Tableau};
-use dvi_tests::schemes::formula::{Subject, defect, dual, size};
-use dvi_tests::schemes::{Case, NOT_STIFF, STIFF, stiff};
+use dvi_laws::equations::{Equations, Nodes, Tableau};
+use dvi_laws::formula::{Subject, defect, dual, size};
+use dvi_laws::{Case, NOT_STIFF, STIFF, stiff};
 use dvi_tests::{larger, oracle};
 use nalgebra::{DMatrix, DVector};
 

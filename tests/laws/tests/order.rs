@@ -3,8 +3,8 @@
 //! numbers.
 
 use dvi_core::prelude::convergence_order;
-use dvi_tests::schemes::Case;
-use dvi_tests::schemes::equations::apart;
+use dvi_laws::Case;
+use dvi_laws::equations::apart;
 
 use super::{Outcome, below, of_every_kind};
 

@@ -1,8 +1,8 @@
 //! However its equations are solved and its sums are taken, a step is the same: asked where no equations in
 //! the table say so.
 
-use dvi_tests::schemes::all;
-use dvi_tests::schemes::equations::{Equations, apart};
+use dvi_laws::all;
+use dvi_laws::equations::{Equations, apart};
 
 use super::{ask, below};
 

@@ -4,8 +4,8 @@
 use dvi_core::run::Checkpoint;
 use dvi_core::state::Statistics;
 use dvi_tests::bits;
-use dvi_tests::schemes::case::Written;
-use dvi_tests::schemes::{Case, STIFF, stiff};
+use dvi_laws::case::Written;
+use dvi_laws::{Case, STIFF, stiff};
 
 use super::{Outcome, ask, of_every_kind};
 

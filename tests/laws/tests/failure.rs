@@ -4,8 +4,8 @@
 
 use dvi_core::prelude::StepFailure;
 use dvi_tests::bits;
-use dvi_tests::schemes::equations::apart;
-use dvi_tests::schemes::{Fused, fuse, fused};
+use dvi_laws::equations::apart;
+use dvi_laws::{Fused, fuse, fused};
 
 use super::{Outcome, ask, below};
 

@@ -2,13 +2,13 @@
 //! scheme.
 
 use super::Outcome;
-use crate::laws::structure::lost;
+use super::structure::lost;
 use approx::abs_diff_eq;
 use dvi_core::discrete::{FrequencyIn, Rule};
 use dvi_core::prelude::*;
-use dvi_tests::schemes::equations::Equations;
-use dvi_tests::schemes::formula::Formula;
-use dvi_tests::schemes::{Case, Options, on};
+use dvi_laws::equations::Equations;
+use dvi_laws::formula::Formula;
+use dvi_laws::{Case, Options, on};
 use dvi_tests::zoo::regular::*;
 use num_dual::Dual64;
 

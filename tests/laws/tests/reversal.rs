@@ -1,8 +1,8 @@
 //! A step of −h undoes a step of h if a scheme says that it is symmetric, and not if it is of first
 //! order. Runs go back from coordinates and velocities.
 
-use dvi_tests::schemes::Case;
-use dvi_tests::schemes::equations::apart;
+use dvi_laws::Case;
+use dvi_laws::equations::apart;
 
 use super::{Outcome, below, of_every_kind};
 

@@ -3,7 +3,7 @@
 
 use dvi_core::methods::PreservedForm;
 use dvi_tests::larger;
-use dvi_tests::schemes::Case;
+use dvi_laws::Case;
 
 use super::{Outcome, below, of_every_kind};
 

@@ -11,8 +11,8 @@
 
 use dvi_core::methods::PreservedForm;
 use dvi_tests::larger;
-use dvi_tests::schemes::Case;
-use dvi_tests::schemes::equations::Equations;
+use dvi_laws::Case;
+use dvi_laws::equations::Equations;
 use num_dual::{Dual64, HyperDual64};
 
 use super::{Outcome, below, of_every_kind};

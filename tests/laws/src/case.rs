@@ -13,7 +13,7 @@ use num_dual::Dual64;
 
 use super::equations::Equations;
 use super::formula::Subject;
-use crate::{Outcome, bits, state};
+use dvi_tests::{Outcome, bits, state};
 
 /// How steps of a scheme are solved and added up, as far as it has a choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,8 +2,8 @@
 //! points, and the points themselves, stay what they are.
 
 use dvi_tests::bits;
-use dvi_tests::schemes::Case;
-use dvi_tests::schemes::equations::apart;
+use dvi_laws::Case;
+use dvi_laws::equations::apart;
 
 use super::{Outcome, below, of_every_kind};
 
