@@ -133,7 +133,6 @@ impl Subject {
             let values = [at.lagrangian(&here)?, at.energy(&here)?];
             Ok(system.values(&rates)?.chain(values).collect())
         };
-        let field = Box::new(field);
         Self {
             name,
             regular,
@@ -143,7 +142,7 @@ impl Subject {
             time: 2.0,
             steps: 80,
             formula: system,
-            field,
+            field: Box::new(field),
             end: OnceCell::new(),
         }
     }

@@ -1,5 +1,5 @@
 //! Steps that end where a formula is not smooth: where such places are, that no step sees both sides of one,
-//! and what becomes of motions that touch one, or do not leave it.
+//! and what becomes of motions that do not leave it.
 
 use core::f64::consts::{PI, SQRT_2};
 
@@ -8,8 +8,8 @@ use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, Scalar};
 
+use super::Outcome;
 use super::rough::{CORNERS, CornersState};
-use super::{Outcome, apart};
 
 /// All that makes a seam, and what makes none: sums over what differs from term to term, parameters,
 /// momenta and events.
@@ -368,33 +368,6 @@ fn motions_that_do_not_leave_a_seam_end_soon() -> Outcome {
     Ok(())
 }
 
-/// A force that is greater beyond x = 0 and leads back from there.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - y * y) / 2.0 + x - x.abs() / 2.0 - y.abs(),
-)]
-struct Touching;
-
-/// A motion that comes to one seam and turns there, all along another one that does not push it away.
-#[test]
-fn seams_that_are_touched_are_no_obstacle() -> Outcome {
-    for above in [0.0, 1e-16, 1e-14, 1e-11, 1e-8, 1e-5] {
-        let start = TouchingState { x: 0.25 + above, y: 0.0, dot_x: -0.5, dot_y: 0.0 };
-        for tolerance in [1e-6, 1e-9, 1e-12] {
-            for first_step in [0.01, 0.9, 1.0] {
-                let control = ErrorControl::new(tolerance, first_step);
-                let mut run = ControlledIntegrator::new(&Touching, Gauss::<8>::new(), control, start)?;
-                run.advance_to(2.0)?;
-                // To the height above and back again.
-                assert_abs_diff_eq!(run.state().x, start.x, epsilon = tolerance);
-                assert_eq!((run.state().y, run.state().dot_y), (0.0, 0.0));
-                assert!(run.steps() + run.statistics().rejected < 20, "{above:e}: {:?}", run.statistics());
-            }
-        }
-    }
-    Ok(())
-}
-
 /// Numbers of 32 bits, and the derivative of a place by the amplitude: the time at which a seam is met has
 /// one too.
 #[test]
@@ -413,25 +386,5 @@ fn seams_are_met_in_other_numbers() -> Outcome {
     let slope = -2.0 * (4.0 - 2.0 * SQRT_2) / SQRT_2 - 1.0;
     assert_abs_diff_eq!(run.state().x.re, well(1.0, 4.0), epsilon = 1e-9);
     assert_abs_diff_eq!(run.state().x.eps, slope, epsilon = 1e-7);
-    Ok(())
-}
-
-/// A force that changes its side a thousand times within a step is no motion that does not leave a seam.
-#[test]
-fn many_seams_in_a_step_are_met_one_by_one() -> Outcome {
-    #[lagrangian(
-        coordinates(x),
-        lagrangian = dot(x).powi(2) / 2.0,
-        force(x) = if (1000.0 * t).sin() > 0.0 { 1.0 } else { -1.0 },
-    )]
-    struct Shaken;
-    let control = ErrorControl::new(1e-9, 0.01);
-    let start = ShakenState { x: 0.0, dot_x: 0.0 };
-    let mut run = ControlledIntegrator::new(&Shaken, Gauss::<4>::new(), control, start)?;
-    // Whole periods, in each of which it moves by the square of a half.
-    let half = PI / 1000.0;
-    run.advance_to(100.0 * half)?;
-    let error = apart(run.q(), &[50.0 * half * half]);
-    assert!(error < 1e-9, "{error:e}");
     Ok(())
 }
