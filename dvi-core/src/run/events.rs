@@ -63,18 +63,19 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 ///
 /// What follows from an event is the body of the loop: note it, leave the loop, or change the state and go
 /// on by [`set_state`](Self::set_state). A run that is to stop at an event is set to its time and state:
-/// [`Run::set_state`]. Without an event the loop does not end; [`next_until`](Self::next_until) looks for
-/// events up to a time.
+/// [`Run::set_state`]; `events` that are asked of it anew begin at the end of its last step, behind what else
+/// is in that. Without an event the loop does not end; [`next_until`](Self::next_until) looks for events up
+/// to a time.
 ///
 /// Of several events at one time the first in the array comes first. Where a run begins with g = 0 there is
-/// no event, and one that lies at the end of a step counts once. A step that begins and ends on one side is
-/// seen to cross zero in between if g turns once on the way, and with [`Gauss`](crate::methods::Gauss) of six
-/// stages and more if it turns once between two of these; what turns more often may pass unseen, and what is
-/// flat for many steps and dips in a part of one. A condition that jumps across zero,
-/// as a velocity does at an impact, is an event behind its jump, and one that comes to zero and stays there
-/// is an event where it comes. Events within a step that fails are not
-/// found, those before it are. Where events follow each other ever faster, as those of a ball that comes to
-/// rest, the run ends with [`StepFailure::Hops`].
+/// no event, and one that lies at the end of a step counts once. A step that ends on the other side has
+/// crossed zero once; one that ends on the same side is seen to cross it twice if g turns once on the way,
+/// and with [`Gauss`](crate::methods::Gauss) of six stages and more if it turns once between two of these.
+/// What turns more often may pass unseen, as in steps of other methods over several turns, and what is flat
+/// for many steps and dips in a part of one. A condition that jumps across zero, as a velocity does at an
+/// impact, is an event behind its jump, and one that comes to zero and stays there is an event where it
+/// comes. Events within a step that fails are not found, those before it are. Where events follow each other
+/// ever faster, as those of a ball that comes to rest, the run ends with [`StepFailure::Hops`].
 ///
 /// ```
 /// use dvi_core::prelude::*;

@@ -1,9 +1,9 @@
 //! The state between two points of a run is that of the method begun anew at the first of them; those at the
 //! points, and the points themselves, stay what they are.
 
-use dvi_tests::bits;
 use dvi_laws::Case;
 use dvi_laws::equations::apart;
+use dvi_tests::bits;
 
 use super::{Outcome, below, of_every_kind};
 

@@ -3,9 +3,9 @@
 
 use dvi_core::run::Checkpoint;
 use dvi_core::state::Statistics;
-use dvi_tests::bits;
 use dvi_laws::case::Written;
 use dvi_laws::{Case, STIFF, stiff};
+use dvi_tests::bits;
 
 use super::{Outcome, ask, of_every_kind};
 

@@ -3,9 +3,9 @@
 //! nothing had been.
 
 use dvi_core::prelude::StepFailure;
-use dvi_tests::bits;
 use dvi_laws::equations::apart;
 use dvi_laws::{Fused, fuse, fused};
+use dvi_tests::bits;
 
 use super::{Outcome, ask, below};
 

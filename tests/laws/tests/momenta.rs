@@ -2,8 +2,8 @@
 //! motion keeps (Marsden & West 2001, section 1.3.3).
 
 use dvi_core::methods::PreservedForm;
-use dvi_tests::larger;
 use dvi_laws::Case;
+use dvi_tests::larger;
 
 use super::{Outcome, below, of_every_kind};
 

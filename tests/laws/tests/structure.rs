@@ -10,9 +10,9 @@
 //! Momenta and their variations are those of the Lagrangian in plain Rust.
 
 use dvi_core::methods::PreservedForm;
-use dvi_tests::larger;
 use dvi_laws::Case;
 use dvi_laws::equations::Equations;
+use dvi_tests::larger;
 use num_dual::{Dual64, HyperDual64};
 
 use super::{Outcome, below, of_every_kind};

@@ -37,6 +37,36 @@ fn events_at_the_ends_of_steps_count_once() -> Outcome {
     Ok(())
 }
 
+/// A zero at the end of a step, or beside it by rounding, hides none within the step, and has the direction
+/// that the run comes from.
+#[test]
+fn a_zero_at_the_end_of_a_step_hides_no_other() -> Outcome {
+    let beside = [0.25_f64.next_down(), 0.25_f64.next_up()];
+    let at_ends = [(0.1, 0.25), (-0.25, 0.0), (0.6, 1.0), (0.99, 1.0), (0.1, beside[0]), (0.1, beside[1])];
+    for (first, last) in at_ends.into_iter().chain([(0.4, 0.4), (0.1, 0.15)]) {
+        for sign in [1.0, -1.0] {
+            let zeros = |x: f64| sign * (x - first) * (x - last);
+            let mut run = free(-0.5, 0.25)?;
+            let mut events = run.events([Direction::Rising, Direction::Falling], |_, s| [zeros(s.x); 2])?;
+            let mut found = Vec::new();
+            while let Some(Event { index, time, .. }) = events.next_until(3.0)? {
+                found.push((index, time));
+            }
+            let [outwards, inwards] = if sign > 0.0 { [1, 0] } else { [0, 1] };
+            let expected = [(outwards, first + 0.5), (inwards, last + 0.5)];
+            let expected = if first < last { &expected[..] } else { &[] };
+            assert_eq!(found.len(), expected.len(), "{first} {last}: {found:?}");
+            for (found, expected) in found.iter().zip(expected) {
+                assert!(
+                    found.0 == expected.0 && (found.1 - expected.1).abs() < 1e-13,
+                    "{first} {last}: {found:?}"
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
 /// A run that begins with g = 0 has no event there, and one that follows in the same step is seen.
 #[test]
 fn a_start_on_a_zero_is_no_event() -> Outcome {

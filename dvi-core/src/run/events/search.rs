@@ -78,10 +78,10 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
     /// Where in a part of the step the condition is met, from its values at both ends.
     pub(super) fn events(
         &mut self,
-        [[from, mut a], [to, b]]: [[R::Scalar; 2]; 2],
-    ) -> Result<[Option<R::Scalar>; 2], StepFailure> {
+        [[from, mut a], [to, mut b]]: [[R::Scalar; 2]; 2],
+    ) -> Result<[Option<R::Scalar>; 3], StepFailure> {
         let [zero, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
-        let (mut begin, mut hop) = (from, None);
+        let (mut begin, mut hop, mut end, mut last) = (from, None, to, None);
         if a == zero {
             // The side to which it leads, or from which it comes back at once.
             (begin, a) = (from + chord, self.look(from + chord)?);
@@ -92,18 +92,26 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
                 hop = self.locate([[top, at_top], [begin, a]])?;
             }
         }
+        if b == zero && begin < to - chord {
+            // The side from which it comes; one that stays at zero is looked for from the other end.
+            let before = [to - chord, self.look(to - chord)?];
+            if before[1] != zero {
+                last = self.locate([before, [to, b]])?;
+                [end, b] = before;
+            }
+        }
         let side = if a < zero { -one } else { one };
         if b == zero || (b < zero) != (a < zero) || hop.is_some() {
-            return Ok([hop, self.locate([[begin, a], [to, b]])?]);
+            return Ok([hop, self.locate([[begin, a], [end, b]])?, last]);
         }
-        let [from, to] = [self.sample(side, [begin, a])?, self.sample(side, [to, b])?];
+        let [from, to] = [self.sample(side, [begin, a])?, self.sample(side, [end, b])?];
         let low = dip([from, to], SURE, |place| {
             let value = self.look(place)?;
             self.sample(side, [place, value])
         })?;
-        let Some(low) = low else { return Ok([None; 2]) };
+        let Some(low) = low else { return Ok([None, None, last]) };
         let middle = [low, self.look(low)?];
-        Ok([self.locate([[begin, a], middle])?, self.locate([middle, [to.place, b]])?])
+        Ok([self.locate([[begin, a], middle])?, self.locate([middle, [end, b]])?, last])
     }
 
     /// The part of the step at which the condition crosses zero between two others, if it does so in its

@@ -57,8 +57,8 @@ pub struct Watch<R: Run, G, const N: usize> {
     lost: Option<StepError>,
 }
 
-/// Two between neighbours of the ends of a step and of places within it.
-const FOUND: usize = 2 * (PLACES + 1);
+/// Two between neighbours of the ends of a step and of places within it, and one at the second of them.
+const FOUND: usize = 3 * (PLACES + 1);
 /// A condition is far from zero if its values are larger than so many of its largest changes in a step.
 const FAR: f64 = 3.0;
 /// In one of so many steps places are looked at wherever zero is.
@@ -260,8 +260,10 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             }
             self.watched[index] = Watched { g: b, course: Some(course) };
             let stays = (a > zero && b > zero) || (a < zero && b < zero);
+            // So near to zero, a side is that of rounding: it has been left since, or come to just now.
+            let is_beside = Scalar::abs(a) <= left * change || Scalar::abs(b) <= left * change;
             let turn = match before {
-                Some(before) if stays => course.turns(&before, [a, b], h, WHOLE),
+                Some(before) if stays && !is_beside => course.turns(&before, [a, b], h, WHOLE),
                 _ => Turn::Likely,
             };
             if turn == Turn::No {

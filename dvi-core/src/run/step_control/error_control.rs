@@ -102,7 +102,8 @@ pub struct ErrorControl<'a> {
     pub longest_step: f64,
     /// Times in ascending order at which functions break that a formula calls, as where one of your own
     /// switches a force on: steps end there, to the rounding of the time, forward and backward, and none sees
-    /// both sides of a jump. What an `if` of a formula does needs none. Default: none.
+    /// both sides of a jump. An `if` of a formula needs none, but where it changes its side there and back
+    /// within a step: that is a force that comes and goes, and asks for a `longest_step`. Default: none.
     ///
     /// ```
     /// use dvi_core::prelude::*;
