@@ -148,8 +148,8 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     ///
     /// # Errors
     /// [`RecordError::State`] if an array of the state does not have the length that `system` declares, or
-    /// that the system of [`new`](Self::new) does; [`RecordError::Index`] if a parameter array of `system` is
-    /// too short. There is no row then.
+    /// that the system of [`new`](Self::new) does; [`RecordError::Index`] if a parameter array of `system`
+    /// is too short. There is no row then.
     pub fn push(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), RecordError> {
         system.check()?;
         Ok(self.add(system, time, state)?)
@@ -180,8 +180,8 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     /// `every` steps.
     ///
     /// # Errors
-    /// As of [`Recorded::record`]; [`RecordError::State`] if an array of the run does not have the length that
-    /// the system of [`new`](Self::new) declares.
+    /// As of [`Recorded::record`]; [`RecordError::State`] if an array of the run does not have the length
+    /// that the system of [`new`](Self::new) declares.
     pub fn record<R>(mut self, run: &mut R, every: u64, rows: u64) -> Result<Record, RecordError>
     where
         R: Run<System = S, Scalar = f64>,
