@@ -4,8 +4,10 @@ mod bodies;
 mod columns;
 mod files;
 mod page;
+mod sizes;
 
 use dvi_core::prelude::*;
+use dvi_core::record::RecordError;
 
 type Checked = Result<(), Box<dyn std::error::Error>>;
 
@@ -22,4 +24,8 @@ const START: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.8 
 
 fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
+}
+
+fn said<T>(result: Result<T, RecordError>) -> String {
+    result.map_or_else(|error| error.to_string(), |_| "no error".into())
 }

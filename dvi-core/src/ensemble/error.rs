@@ -43,7 +43,7 @@ pub enum EnsembleError {
         states: usize,
     },
     /// The systems differ in the sizes of their arrays, and their states do not go into one table.
-    #[error("the system of member {member} has another number of coordinates than that of member 0")]
+    #[error("the arrays of the system of member {member} have other lengths than those of member 0")]
     Shape {
         /// The member.
         member: usize,

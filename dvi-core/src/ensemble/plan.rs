@@ -14,6 +14,7 @@ use super::fingerprint::Fingerprint;
 use super::member::plain;
 use super::settings::{Settings, Swept, Systems};
 use crate::methods::Method;
+use crate::system::names::lengths;
 use crate::{Lagrangian, Space, State};
 
 /// A fact that not every ensemble knows: then it is empty, and belongs to all.
@@ -130,11 +131,7 @@ fn names<S: Lagrangian, M: Method<S, f64>>(
                 return Err(EnsembleError::Systems { systems: systems.len(), states });
             }
             let Some(first) = systems.first() else { return Ok(Vec::new()) };
-            let sizes = |system: &S| -> Vec<usize> {
-                (0..S::REPORT.coordinates.len()).map(|block| system.block_len(block)).collect()
-            };
-            let expected = sizes(first);
-            match systems.iter().position(|system| sizes(system) != expected) {
+            match systems.iter().position(|system| !lengths(system).eq(lengths(first))) {
                 Some(member) => Err(EnsembleError::Shape { member }),
                 None => Ok(of(first)),
             }

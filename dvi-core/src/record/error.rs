@@ -6,7 +6,7 @@ use std::string::String;
 use thiserror::Error;
 
 use super::Record;
-use crate::error::{LengthError, StepError};
+use crate::error::{IndexError, LengthError, StepError};
 
 crate::error::said!(RecordError);
 
@@ -39,9 +39,12 @@ pub enum RecordError {
     /// There are to be no steps between two rows, so that the run would stay where it is.
     #[error("there must be at least one step between two rows")]
     Every,
-    /// An array of a state has another length than the system declares.
+    /// An array of a state has another length than the system declares, or the one that the columns are for.
     #[error(transparent)]
     State(#[from] LengthError),
+    /// A parameter array is too short for the formulas.
+    #[error(transparent)]
+    Index(#[from] IndexError),
     /// Two columns would have one name.
     #[error("the record already has a column `{name}`")]
     Duplicate {

@@ -10,6 +10,7 @@ use super::column::{Column, Quantity, Values};
 use super::{Record, RecordError};
 use crate::error::{LengthError, StepError};
 use crate::run::{Event, Run};
+use crate::system::names::lengths;
 use crate::system::{Factor, Name};
 use crate::{Lagrangian, Space, State};
 
@@ -31,6 +32,8 @@ type Function<'f, S, Q> = Box<dyn FnMut(&S, &Q, f64) -> f64 + 'f>;
 /// ```
 pub struct Recorder<'f, S: Lagrangian> {
     record: Record,
+    /// Those of the system that the columns are for.
+    lengths: Vec<usize>,
     functions: Vec<Function<'f, S, S::State<f64>>>,
 }
 
@@ -100,7 +103,7 @@ impl<Q> Moment<Q> for Event<Q, f64> {
 }
 
 impl<'f, S: Lagrangian> Recorder<'f, S> {
-    /// A recorder without rows, for states of systems that have as many coordinates as `system` has.
+    /// A recorder without rows, for states of systems whose arrays are as long as those of `system`.
     pub fn new(system: &S) -> Self {
         let column = |name, quantity| Column::new(name, Vec::<f64>::new()).with_quantity(quantity);
         let entry = |name: Name| {
@@ -123,7 +126,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         columns[..=entries].rotate_right(1);
         let mut record = Record::new(S::REPORT.system);
         (record.columns, record.turning) = (columns, turning(system));
-        Self { record, functions: Vec::new() }
+        Self { record, lengths: lengths(system).collect(), functions: Vec::new() }
     }
 
     /// The same with a column more: a function of the system, the state and the time.
@@ -144,11 +147,19 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     /// Adds a row: a state of `system` at a time.
     ///
     /// # Errors
-    /// [`LengthError`] if an array of the state does not have the length that the system declares; there is
-    /// no row then.
-    pub fn push(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), LengthError> {
+    /// [`RecordError::State`] if an array of the state does not have the length that `system` declares, or
+    /// that the system of [`new`](Self::new) does; [`RecordError::Index`] if a parameter array of `system`
+    /// is too short. There is no row then.
+    pub fn push(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), RecordError> {
+        system.check()?;
+        Ok(self.add(system, time, state)?)
+    }
+
+    /// Adds a row for a system that is checked.
+    fn add(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), LengthError> {
         let (mut q, mut v) = (system.space().vector(), system.space().vector());
         state.write(|block| system.block_len(block), &mut q, &mut v)?;
+        state.write(|block| self.lengths[block], &mut q, &mut v)?;
         let momentum = |index| system.momentum(index, &q, &v, time);
         let functions = self.functions.iter_mut().map(|function| function(system, state, time));
         let row = [time]
@@ -169,7 +180,8 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     /// `every` steps.
     ///
     /// # Errors
-    /// As of [`Recorded::record`]; [`RecordError::State`] if the run is one of another system.
+    /// As of [`Recorded::record`]; [`RecordError::State`] if an array of the run does not have the length
+    /// that the system of [`new`](Self::new) declares.
     pub fn record<R>(mut self, run: &mut R, every: u64, rows: u64) -> Result<Record, RecordError>
     where
         R: Run<System = S, Scalar = f64>,
@@ -177,12 +189,12 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         if every == 0 {
             return Err(RecordError::Every);
         }
-        self.push(run.system(), run.time(), &run.state())?;
+        self.add(run.system(), run.time(), &run.state())?;
         for _ in 0..rows {
             if let Err(error) = run.take_steps(every) {
                 return Err(self.record.until(error));
             }
-            self.push(run.system(), run.time(), &run.state())?;
+            self.add(run.system(), run.time(), &run.state())?;
         }
         Ok(self.record)
     }
@@ -191,15 +203,16 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     ///
     /// # Errors
     /// [`RecordError::Step`] with the record up to the first point that is an error; [`RecordError::State`]
-    /// if an array of a state does not have the length that the system declares.
+    /// and [`RecordError::Index`] as of [`push`](Self::push).
     pub fn points<P: Moment<S::State<f64>>>(
         mut self,
         system: &S,
         points: impl IntoIterator<Item = Result<P, StepError>>,
     ) -> Result<Record, RecordError> {
+        system.check()?;
         for point in points {
             match point {
-                Ok(point) => self.push(system, point.time(), point.state())?,
+                Ok(point) => self.add(system, point.time(), point.state())?,
                 Err(error) => return Err(self.record.until(error)),
             }
         }

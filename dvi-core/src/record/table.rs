@@ -80,13 +80,16 @@ impl Record {
         Ok(self)
     }
 
-    /// The same without a column.
+    /// The same without a column, and without the bodies whose position it is a part of.
     ///
     /// # Errors
     /// [`RecordError::Missing`].
     pub fn without_column(mut self, name: &str) -> Result<Self, RecordError> {
         let place = self.place(name)?;
         self.columns.remove(place);
+        for bodies in [&mut self.turning, &mut self.named] {
+            bodies.retain(|body| body.position.iter().all(|column| column != name));
+        }
         Ok(self)
     }
 
@@ -137,7 +140,8 @@ impl Record {
     /// The bodies that move in a plane or in space: those that were [named](Self::with_body); if none was,
     /// those whose coordinates, or functions of yours, have names that are alike but for the letters `x`,
     /// `y` and perhaps `z` at their beginning or end, as `x[3]` and `y[3]`, `x2` and `y2`, `sun_x` and
-    /// `sun_y`; and unit vectors and the three axes of rotations.
+    /// `sun_y`; and unit vectors and the three axes of rotations. The array `r[3]` is none, since its
+    /// numbers may be three angles as well: where it is a position, [name it](Self::with_body).
     pub fn bodies(&self) -> Vec<Body> {
         if self.named.is_empty() { body::told(&self.columns, &self.turning) } else { self.named.clone() }
     }

@@ -41,6 +41,13 @@ fn numbers_out_of_range() {
     assert_eq!(said(result), "there are 2 systems for 3 states");
 }
 
+/// Free particles, in an array with two indices.
+#[lagrangian(coordinates(q[n][m]), lagrangian = sum(0..n, |i| sum(0..m, |j| dot(q[i][j]).powi(2) / 2.0)))]
+struct Lattice {
+    n: usize,
+    m: usize,
+}
+
 /// Systems whose arrays have a length at run time.
 #[test]
 fn shapes_that_differ() -> Checked {
@@ -50,10 +57,13 @@ fn shapes_that_differ() -> Checked {
         Ensemble::with_systems(systems, Variational::trapezoid(), 0.1, states).take_steps(10)
     };
     let result = take(&[springs(2), springs(3)], [state(2), state(3)]);
-    assert_eq!(
-        said(result),
-        "the system of member 1 has another number of coordinates than that of member 0"
-    );
+    let differ = "the arrays of the system of member 1 have other lengths than those of member 0";
+    assert_eq!(said(result), differ);
+    // As many coordinates, in rows of other lengths.
+    let [wide, tall] = [[2, 3], [3, 2]].map(|[n, m]| Lattice { n, m });
+    let states = [&wide, &tall].map(|system| system.state_of([]));
+    let result = Ensemble::with_systems(&[wide, tall], Variational::trapezoid(), 0.1, states).take_steps(10);
+    assert_eq!(said(result), differ);
     // A state of another length is a member that fails.
     let results = take(&[springs(2), springs(2)], [state(2), state(3)])?;
     let [good, bad] = results.members() else { return Err("there are two".into()) };

@@ -98,3 +98,31 @@ fn unit_vectors_and_rotations_are_bodies_in_space() {
     ];
     assert_eq!(found, expected);
 }
+
+/// A body without one of its columns could not be drawn.
+#[test]
+fn bodies_go_with_their_columns() -> Checked {
+    let names = |record: &Record| record.bodies().into_iter().map(|body| body.name).collect::<Vec<_>>();
+    let record = Recorder::new(&Turning).finish();
+    let shorter = record.clone().without_column("s[1]")?.without_column("x[3]")?;
+    assert_eq!(names(&shorter), ["x, axis 2", "x, axis 3"]);
+    let named = record.with_body("one", &["s[0]", "s[1]"])?.with_body("two", &["s[1]", "s[2]"])?;
+    assert_eq!(names(&named.without_column("s[0]")?), ["two"]);
+    Ok(())
+}
+
+/// A particle in space, and two angles: nothing but the user says which of the arrays is a position.
+#[lagrangian(
+    coordinates(r[3], angle[2]),
+    lagrangian = (dot(r).norm_squared() + dot(angle[0]).powi(2) + dot(angle[1]).powi(2)) / 2.0,
+)]
+struct Arrays;
+
+#[test]
+fn arrays_of_numbers_are_bodies_if_they_are_named() -> Checked {
+    let record = Recorder::new(&Arrays).finish();
+    assert_eq!(record.bodies(), []);
+    let position = ["r[0]", "r[1]", "r[2]"];
+    assert_eq!(record.with_body("r", &position)?.bodies()[0].position, position);
+    Ok(())
+}

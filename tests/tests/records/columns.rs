@@ -3,11 +3,7 @@
 use dvi_core::prelude::*;
 use dvi_core::record::{Column, Quantity, Record, RecordError, Recorder, Values};
 
-use crate::records::{Checked, Kepler, KeplerState, START, bits};
-
-fn said<T>(result: Result<T, RecordError>) -> String {
-    result.map_or_else(|error| error.to_string(), |_| "no error".into())
-}
+use crate::records::{Checked, Kepler, KeplerState, START, bits, said};
 
 /// Row by row against a second run that is asked.
 #[test]
@@ -137,31 +133,6 @@ fn names_that_are_taken_are_told_apart() -> Checked {
     assert_eq!(record.numbers("run.energy")?[3], run.energy());
     assert_eq!(record.numbers("energy")?[3], run.state().energy);
     assert_eq!(record.numbers("run.run.energy")?[3], run.state().x * run.state().y);
-    Ok(())
-}
-
-/// A chain whose length is known when the program runs.
-#[lagrangian(coordinates(x[n]), lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0 - x[j].powi(4)))]
-struct Chain {
-    n: usize,
-}
-
-#[test]
-fn states_of_another_length_are_refused() -> Checked {
-    let chain = Chain { n: 3 };
-    let mut recorder = Recorder::new(&chain);
-    let wrong = ChainState { x: vec![0.0; 2], dot_x: vec![0.0; 3] };
-    let error = recorder.push(&chain, 0.0, &wrong).map_err(|error| error.to_string());
-    assert_eq!(error, Err("`x` has length 2, but the system declares 3".into()));
-    let right = ChainState { x: vec![1.0, 2.0, 3.0], dot_x: vec![4.0, 5.0, 6.0] };
-    recorder.push(&chain, 0.5, &right)?;
-    let record = recorder.finish();
-    assert_eq!((record.rows(), record.numbers("dot_x[1]")?), (1, &[5.0][..]));
-    let points = [Ok((0.0, right)), Ok((1.0, wrong))];
-    assert_eq!(
-        said(Recorder::new(&chain).points(&chain, points)),
-        "`x` has length 2, but the system declares 3"
-    );
     Ok(())
 }
 
