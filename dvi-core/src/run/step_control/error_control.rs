@@ -102,8 +102,8 @@ pub struct ErrorControl<'a> {
     pub longest_step: f64,
     /// Times in ascending order at which functions break that a formula calls, as where one of your own
     /// switches a force on: steps end there, to the rounding of the time, forward and backward, and none sees
-    /// both sides of a jump. An `if` of a formula needs none, but where it changes its side there and back
-    /// within a step: that is a force that comes and goes, and asks for a `longest_step`. Default: none.
+    /// both sides of a jump. An `if` of a formula needs none: steps end where its side changes, and a step in
+    /// which what it compares turns more than once is taken shorter. Default: none.
     ///
     /// ```
     /// use dvi_core::prelude::*;
@@ -274,6 +274,11 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         }
         let Accepted { h: tried, found: (error, at_seam), is_first } =
             step_of_at_most(run, t, first, AFTER_FAILURE, |run, h| {
+                if let Some(seams) = &mut seams
+                    && let Some(factor) = seams.second_turn(run, h)?
+                {
+                    return Ok(Verdict::TooLong { factor, failure: None });
+                }
                 let at_seam = seams.as_mut().map_or(Ok(None), |seams| {
                     seams.end(run, h, breaks::between(self.breaks, [t, h])[0] != t)
                 })?;

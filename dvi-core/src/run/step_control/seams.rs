@@ -8,7 +8,8 @@
 //! with the sign that makes each seam gₖ positive where the step begins. It ends behind that place by some
 //! rounding errors, so that the next step begins on the other side, and its error is estimated where it is
 //! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors. Where
-//! a seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for.
+//! a seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for; a
+//! step over several turns of a seam is too long.
 
 use super::ControlledRun;
 use crate::error::StepFailure;
@@ -29,6 +30,8 @@ const LEAVING: f64 = 256.0;
 const WIDER: [f64; 2] = [8.0, 262_144.0];
 /// A seam that is not crossed by so many rounding errors of its values at both ends of a step is touched.
 const TOUCHING: f64 = 64.0;
+/// The places of a step at which seams are looked at for turns: uneven, so that no oscillation keeps step.
+const PLACES: [f64; 13] = [0.001, 0.08, 0.19, 0.27, 0.38, 0.45, 0.56, 0.66, 0.74, 0.85, 0.93, 0.999, 1.0];
 /// Looks at the turn of a seam that comes nearer at the beginning of a step and goes away at its end.
 const SURE: usize = 6;
 /// Iterations for the derivatives of a length, of numbers that carry some.
@@ -155,6 +158,70 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         // The motion touches the seam, or leaves it where the step begins.
         self.look(run, h)?;
         Ok(None)
+    }
+
+    /// The part of a step of length `h`, which has been taken, that ends well before a seam turns for the
+    /// second time: [`end`](Self::end) sees one turn. As far as the cubic path between its ends tells; a seam
+    /// that is farther from zero than it changes may turn as it likes.
+    ///
+    /// # Errors
+    /// As [`Method::velocity`](crate::methods::Method::velocity).
+    pub(super) fn second_turn<M: VariableStep<S, T>>(
+        &mut self,
+        run: &ControlledRun<'_, S, M, T>,
+        h: T,
+    ) -> Result<Option<T>, StepFailure> {
+        run.velocity(self.t + h, &mut self.v_end)?;
+        let (nothing, mut first) = (T::lift(0.0), None);
+        for seam in 0..S::SEAMS {
+            let noise = self.noise(run, seam, h);
+            let ([mut earlier, mut before], mut last) = ([nothing; 2], self.at_begin(run.system(), seam));
+            let ([mut low, mut high], mut slope, mut turns) = ([last; 2], nothing, 0);
+            for place in PLACES.map(T::lift) {
+                self.set_near(run, [place, h]);
+                let value = run.system().seam(seam, &self.near[0], &self.near[1], self.t + place * h);
+                (low, high) = (-larger(-low, -value), larger(high, value));
+                let change = value - last;
+                if Scalar::abs(change) <= noise {
+                    continue;
+                }
+                turns += usize::from(change * slope < nothing);
+                let may_meet = larger(low, -high) <= high - low;
+                if turns == 2 && may_meet && first.is_none_or(|first| earlier < first) {
+                    first = Some(earlier);
+                }
+                ([earlier, before], last, slope) = ([before, place], value, change);
+            }
+        }
+        Ok(first.map(|first| larger(first, T::lift(PLACES[1]))))
+    }
+
+    /// What rounding may change a seam by at the end of a step of length `h`.
+    fn noise<M: VariableStep<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, seam: usize, h: T) -> T {
+        let rounded = T::lift(1.0) + T::lift(TOUCHING) * T::default_epsilon();
+        let [near_q, near_v] = &mut self.near;
+        for (k, &q) in run.q().iter().enumerate() {
+            (near_q[k], near_v[k]) = (q * rounded, self.v_end[k] * rounded);
+        }
+        let (system, t) = (run.system(), self.t + h);
+        let value = system.seam(seam, run.q(), &self.v_end, t);
+        let near = system.seam(seam, &self.near[0], &self.near[1], t * rounded);
+        Scalar::abs(near - value) + Scalar::abs(value) * (rounded - T::lift(1.0))
+    }
+
+    /// Sets the point near by to a place of a step of length `h`, on the cubic path between its ends.
+    fn set_near<M: VariableStep<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, [x, h]: [T; 2]) {
+        let [one, two, three, six] = [1.0, 2.0, 3.0, 6.0].map(T::lift);
+        let [near_q, near_v] = &mut self.near;
+        for (k, &end) in run.q().iter().enumerate() {
+            let (moved, [v, v_end]) = (end - self.q[k], [self.v[k], self.v_end[k]].map(|v| h * v));
+            near_q[k] =
+                self.q[k] + x * x * (three - two * x) * moved + x * (x - one) * ((x - one) * v + x * v_end);
+            let rate = six * x * (one - x) * moved
+                + (x - one) * (three * x - one) * v
+                + x * (three * x - two) * v_end;
+            near_v[k] = rate / h;
+        }
     }
 
     /// A part of a step of length `h`, which has been taken, at which a seam has been crossed that is ahead
