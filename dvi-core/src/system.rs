@@ -171,6 +171,15 @@ pub trait System: Held<System = Self> {
         names::entries(self).map(|(name, _)| name)
     }
 
+    /// The lengths of the arrays of a state, by the numbers of their blocks, and behind them those of rows: what
+    /// the [names](Self::names) follow from.
+    fn lengths(&self) -> impl Iterator<Item = usize>
+    where
+        Self: Sized,
+    {
+        (0..2 * Self::REPORT.coordinates.len()).map(|block| self.block_len(block))
+    }
+
     /// The entries of a state, in the order of [`names`](Self::names).
     ///
     /// # Errors

@@ -14,7 +14,6 @@ use super::fingerprint::Fingerprint;
 use super::member::plain;
 use super::settings::{Settings, Swept, Systems};
 use crate::methods::Method;
-use crate::system::names::lengths;
 use crate::{Lagrangian, Space, State};
 
 /// A fact that not every ensemble knows: then it is empty, and belongs to all.
@@ -131,7 +130,7 @@ fn names<S: Lagrangian, M: Method<S, f64>>(
                 return Err(EnsembleError::Systems { systems: systems.len(), states });
             }
             let Some(first) = systems.first() else { return Ok(Vec::new()) };
-            match systems.iter().position(|system| !lengths(system).eq(lengths(first))) {
+            match systems.iter().position(|system| !system.lengths().eq(first.lengths())) {
                 Some(member) => Err(EnsembleError::Shape { member }),
                 None => Ok(of(first)),
             }

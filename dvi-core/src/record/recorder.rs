@@ -10,7 +10,6 @@ use super::column::{Column, Quantity, Values};
 use super::{Record, RecordError};
 use crate::error::{LengthError, StepError};
 use crate::run::{Event, Run};
-use crate::system::names::lengths;
 use crate::system::{Factor, Name};
 use crate::{Lagrangian, Space, State};
 
@@ -126,7 +125,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         columns[..=entries].rotate_right(1);
         let mut record = Record::new(S::REPORT.system);
         (record.columns, record.turning) = (columns, turning(system));
-        Self { record, lengths: lengths(system).collect(), functions: Vec::new() }
+        Self { record, lengths: system.lengths().collect(), functions: Vec::new() }
     }
 
     /// The same with a column more: a function of the system, the state and the time.

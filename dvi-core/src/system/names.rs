@@ -13,13 +13,6 @@ pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
     Entries { system, is_velocity: false, block: 0, first: 0, index: 0 }
 }
 
-/// The lengths of all arrays of the states of `system`: if they are the same, so are the names.
-#[cfg(feature = "records")]
-pub(crate) fn lengths<S: System>(system: &S) -> impl Iterator<Item = usize> {
-    // Those of rows come after those of the blocks.
-    (0..2 * S::REPORT.coordinates.len()).map(|block| system.block_len(block))
-}
-
 /// The state with these entries, in the order of [`System::names`]; those that are lacking are zero.
 pub(crate) fn state<S: System, T: Scalar>(system: &S, values: impl IntoIterator<Item = T>) -> S::State<T> {
     let (mut q, mut v) = (system.space().vector(), system.space().vector());

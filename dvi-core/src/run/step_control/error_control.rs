@@ -274,15 +274,16 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         }
         let Accepted { h: tried, found: (error, at_seam), is_first } =
             step_of_at_most(run, t, first, AFTER_FAILURE, |run, h| {
-                if let Some(seams) = &mut seams
-                    && let Some(factor) = seams.second_turn(run, h)?
-                {
-                    return Ok(Verdict::TooLong { factor, failure: None });
-                }
                 let at_seam = seams.as_mut().map_or(Ok(None), |seams| {
                     seams.end(run, h, breaks::between(self.breaks, [t, h])[0] != t)
                 })?;
                 let judged = at_seam.map_or(h, |AtSeam { before, .. }| before);
+                if let Some(seams) = &mut seams
+                    && t + judged != t
+                    && let Some(part) = seams.second_turn(run, judged)?
+                {
+                    return Ok(Verdict::TooLong { factor: part * (judged / h), failure: None });
+                }
                 let [start, length] = breaks::between(self.breaks, [t, judged]);
                 let error = match at_seam {
                     // A step that begins there and crosses it is too short to have one.
