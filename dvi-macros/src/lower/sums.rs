@@ -193,10 +193,7 @@ impl Lowering<'_> {
             self.errors.push(syntax, "expected a range of indices, as in `0..n`");
             return None;
         };
-        let lower = match &range.start {
-            Some(start) => self.index(start),
-            None => Some(Index::literal(0)),
-        };
+        let lower = range.start.as_ref().map_or_else(|| Some(Index::literal(0)), |start| self.index(start));
         let Some(end) = &range.end else {
             self.errors.push(syntax, "this range has no end: write `0..n`");
             return None;
@@ -207,10 +204,10 @@ impl Lowering<'_> {
             RangeLimits::HalfOpen(_) => upper,
             RangeLimits::Closed(_) => upper.plus(&Index::literal(1), 1),
         };
-        let bounds = [range.start.as_deref(), Some(end)];
         if let (Some(least), Some(beyond)) = (lower.as_literal(), upper.as_literal())
             && least >= beyond
-            && !bounds.into_iter().flatten().any(|bound| self.names_index(bound))
+            && !range.start.iter().any(|start| self.names_index(start))
+            && !self.names_index(end)
         {
             self.errors.push(syntax, "this range is empty");
             return None;

@@ -240,8 +240,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         end: [R::Scalar; N],
     ) -> Result<(), StepFailure> {
         let [zero, one, left, unsure] = [0.0, 1.0, LEFT, UNSURE].map(R::Scalar::lift);
-        let h = Scalar::abs(run.step_size());
-        let h = if WHOLE { h } else { h * (to - from) };
+        let h = Scalar::abs(run.step_size()) * if WHOLE { one } else { to - from };
         for (index, mut b) in end.into_iter().enumerate() {
             let Watched { g: a, course } = self.watched[index];
             // Of another motion, before the state was set.
@@ -260,8 +259,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             }
             self.watched[index] = Watched { g: b, course: Some(course) };
             let stays = (a > zero && b > zero) || (a < zero && b < zero);
-            // So near to zero, a side is that of rounding: it has been left since, or come to just now.
-            let is_beside = Scalar::abs(a) <= left * change || Scalar::abs(b) <= left * change;
+            // The side of what is so near to zero is that of rounding.
+            let is_beside = [a, b].iter().any(|&g| Scalar::abs(g) <= left * change);
             let turn = match before {
                 Some(before) if stays && !is_beside => course.turns(&before, [a, b], h, WHOLE),
                 _ => Turn::Likely,
