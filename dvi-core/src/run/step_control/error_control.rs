@@ -58,8 +58,9 @@ const STRETCH: f64 = 1.01;
 /// `abs` or `signum` changes its sign, or a comparison by `if`, `min` or `max` its outcome, outside of sums.
 /// A step that leads to the other side of one is taken again so that it ends there, to rounding, forward and
 /// backward, so that none sees both sides. A seam that is crossed twice within a step is found if it comes
-/// nearer at the beginning and goes away at the end. A motion that does not leave a seam, as a body at rest
-/// under dry friction, ends the run with [`StepFailure::Seam`], or with that of a step that does not succeed.
+/// nearer at the beginning and goes away at the end; a step in which it turns more often, on a cubic path
+/// between the ends, is taken shorter. A motion that does not leave a seam, as a body at rest under dry
+/// friction, ends the run with [`StepFailure::Seam`], or with that of a step that does not succeed.
 ///
 /// The estimate looks at the whole step: at the `S` stages, at both ends, and between each two stages. A
 /// jump or a kink in a term of a sum or in a function of your own, or the knot of a spline, makes steps short
