@@ -171,8 +171,8 @@ pub trait System: Held<System = Self> {
         names::entries(self).map(|(name, _)| name)
     }
 
-    /// The lengths of the arrays of a state, by the numbers of their blocks, and behind them those of rows: what
-    /// the [names](Self::names) follow from.
+    /// The lengths of the arrays of a state, by the numbers of their blocks, and behind them those of rows:
+    /// what the [names](Self::names) follow from.
     fn lengths(&self) -> impl Iterator<Item = usize>
     where
         Self: Sized,

@@ -1,5 +1,6 @@
 //! Events of a run are as accurate as the run, by every kind of method and with steps of all lengths.
 
+mod changes;
 mod declared;
 mod edges;
 

@@ -1,5 +1,6 @@
-//! Units do not matter: where the unit of each block of coordinates, that of L and that of time change by powers of two
-//! up to 2^±80, every method takes the same steps, scaled, bit for bit, however its equations are solved.
+//! Units do not matter: where the unit of each block of coordinates, that of L and that of time change by
+//! powers of two up to 2^±80, every method takes the same steps, scaled, bit for bit, however its equations
+//! are solved.
 //!
 //! Each system is written in physical coordinates X = u x, with numbers x in units u, and in a time t τ.
 //! What a run computes of X is exact in u and τ where these are powers of two; so any difference is a

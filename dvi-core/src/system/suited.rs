@@ -6,11 +6,11 @@
 //! unknown if it has not.
 //!
 //! Of what is unknown rustc asks nothing. So a second question, whether the method inside fits into
-//! [`Constrained`](crate::methods::Constrained) or a step control goes with the system, is asked of a type that
-//! is known where the first has its answer: there is one error at a time.
+//! [`Constrained`](crate::methods::Constrained) or a step control goes with the system, is asked of a type
+//! that is known where the first has its answer: there is one error at a time.
 //!
-//! Where the type of a run is written out, in a field or as an argument, rustc knows it: each function that is
-//! called is one more error. An alias for the type could leave it unknown there too; but of an alias
+//! Where the type of a run is written out, in a field or as an argument, rustc knows it: each function that
+//! is called is one more error. An alias for the type could leave it unknown there too; but of an alias
 //! `Integrator::new` does not find its method, and a field of that type is an error wherever it is used.
 
 /// A type that is `M`, by another name.

@@ -4,7 +4,8 @@ use dvi_core::prelude::*;
 
 use super::InUnits;
 
-/// A system with one unit for each coordinate, and some with one for L or for a constraint: its step and its start, coordinates and then velocities.
+/// A system with one unit for each coordinate, and some with one for L or for a constraint: its step and its
+/// start, coordinates and then velocities.
 macro_rules! in_units {
     ($system:ident, [f64; $n:literal], $h:literal, $start:expr) => {
         impl InUnits<$n> for $system {

@@ -281,7 +281,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
                 let judged = at_seam.map_or(h, |AtSeam { before, .. }| before);
                 if let Some(seams) = &mut seams
                     && t + judged != t
-                    && let Some(part) = seams.second_turn(run, judged)?
+                    && let Some(part) = seams.second_turn(run, judged)
                 {
                     return Ok(Verdict::TooLong { factor: part * (judged / h), failure: None });
                 }

@@ -8,8 +8,8 @@
 //! with the sign that makes each seam gₖ positive where the step begins. It ends behind that place by some
 //! rounding errors, so that the next step begins on the other side, and its error is estimated where it is
 //! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors. Where
-//! a seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for; a
-//! step over several turns of a seam is too long.
+//! a seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for;
+//! a step over several turns of a seam is too long.
 
 use super::ControlledRun;
 use crate::error::StepFailure;
@@ -162,16 +162,13 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
 
     /// The part of a step of length `h`, which has been taken, that ends well before a seam turns for the
     /// second time: [`end`](Self::end) sees one turn. As far as the cubic path between its ends tells; a seam
-    /// that is farther from zero than it changes may turn as it likes.
-    ///
-    /// # Errors
-    /// As [`Method::velocity`](crate::methods::Method::velocity).
+    /// that is farther from zero than it changes may turn as it likes. To be asked behind [`end`](Self::end),
+    /// which knows the velocity there.
     pub(super) fn second_turn<M: VariableStep<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,
         h: T,
-    ) -> Result<Option<T>, StepFailure> {
-        run.velocity(self.t + h, &mut self.v_end)?;
+    ) -> Option<T> {
         let (nothing, mut first) = (T::lift(0.0), None);
         for seam in 0..S::SEAMS {
             let noise = self.noise(run, seam, h);
@@ -193,7 +190,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
                 ([earlier, before], last, slope) = ([before, place], value, change);
             }
         }
-        Ok(first.map(|first| larger(first, T::lift(PLACES[1]))))
+        first.map(|first| larger(first, T::lift(PLACES[1])))
     }
 
     /// What rounding may change a seam by at the end of a step of length `h`.
