@@ -1,12 +1,12 @@
 //! Gauss collocation and explicit Runge–Kutta methods on Hamilton's equations of regular systems.
 
-use approx::abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_examples::models::Orbit;
 use dvi_tests::Outcome;
 use dvi_tests::zoo::regular::*;
-use dvi_tests::{apart, run};
+use dvi_tests::{apart, larger, run};
 
 use crate::galerkin::many_nodes::energy_error;
 
@@ -171,5 +171,47 @@ fn each_stage_of_gauss_gains_digits() -> Outcome {
 fn eight_stages_keep_the_energy_to_rounding() -> Outcome {
     let [worst, _] = energy_error(Gauss::<8>::new().in_lanes(), 300)?;
     assert!(worst < 1e-14, "{worst:e}");
+    Ok(())
+}
+
+/// A planet of any mass, so that momenta are much larger or smaller than coordinates.
+#[lagrangian(
+    coordinates(x, y),
+    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + m * mu / (x * x + y * y).sqrt(),
+)]
+struct Planet {
+    m: f64,
+    mu: f64,
+}
+
+/// Stages are judged in units of the coordinates: the earth in SI units goes where the unit orbit goes.
+#[test]
+fn units_do_not_matter() -> Outcome {
+    let start = PlanetState { x: 0.7, y: 0.0, dot_x: 0.0, dot_y: 1.3 };
+    let unit = run(&Planet { m: 1.0, mu: 1.0 }, Gauss::<2>::new(), start, 6.0, 120)?;
+    for (length, velocity, m) in
+        [(1.5e11, 3e4, 6e24), (1e-9, 1e-3, 1e-27), (1e6, 1e-6, 1e-12), (1.0, 1.0, 1e30)]
+    {
+        let planet = Planet { m, mu: length * velocity * velocity };
+        let start = PlanetState { x: 0.7 * length, y: 0.0, dot_x: 0.0, dot_y: 1.3 * velocity };
+        let found = run(&planet, Gauss::<2>::new(), start, 6.0 * length / velocity, 120)?;
+        let off = found.iter().zip(&unit).map(|(a, b)| (a / length - b).abs()).fold(0.0, larger);
+        assert!(off < 1e-12, "{length:e}, {velocity:e}, {m:e}: {off:e}");
+    }
+    Ok(())
+}
+
+/// Velocities that a run gives are those that belong to its momenta.
+#[test]
+fn velocities_are_those_of_the_momenta() -> Outcome {
+    let start = RelativisticState { x: 0.3, y: -1.1, dot_x: 0.6, dot_y: -0.5 };
+    let system = Relativistic { m: 1.5 };
+    let mut run = Integrator::new(&system, Gauss::<3>::new(), 0.01, start)?;
+    assert_abs_diff_eq!(run.state().dot_x, 0.6, epsilon = 1e-14);
+    let energy = run.energy();
+    run.take_steps(1000)?;
+    assert!(abs_diff_eq!(run.energy(), energy, epsilon = 1e-11), "{:e}", run.energy() - energy);
+    let speed = run.state().dot_x.hypot(run.state().dot_y);
+    assert!(speed < 1.0 && speed > 0.1);
     Ok(())
 }

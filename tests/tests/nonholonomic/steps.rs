@@ -169,3 +169,24 @@ fn a_velocity_across_a_constraint_is_an_error_that_names_it() -> Outcome {
     Integrator::new(&disc, Constrained::new(Variational::midpoint()), 0.1, projected)?.take_steps(10)?;
     Ok(())
 }
+
+/// Where the constraint moves, v1 moves with it; friction takes energy.
+#[test]
+fn constraints_may_depend_on_time() -> Outcome {
+    let start = SteeredState { x: 0.5, y: 0.0, dot_x: 1.0, dot_y: 0.5 + 1.0 };
+    let mut run = Integrator::new(&Steered, Constrained::new(Variational::midpoint()), 0.01, start)?;
+    for _ in 0..1000 {
+        run.advance()?;
+        let SteeredState { x, dot_x, dot_y, .. } = run.state();
+        let (t, off): (f64, f64) = (run.time(), dot_y - x * dot_x);
+        let off = off - t.cos();
+        assert!(off.abs() < 1e-14, "{off:e}");
+    }
+    // ẍ = −x − 0.2 ẋ − λx(2 + sin x), ÿ = λ(2 + sin x) = ẋ² + xẍ − sin t
+    let rates = Steered.at_time(0.3).vector_field(&SteeredState { dot_y: 0.5 + 0.3_f64.cos(), ..start })?;
+    let (x, u) = (0.5, 1.0);
+    let acceleration = (-x - 0.2 * u - x * (u * u - 0.3_f64.sin())) / (1.0 + x * x);
+    assert!(abs_diff_eq!(rates.dot_x, acceleration, epsilon = 1e-14), "{} {acceleration}", rates.dot_x);
+    assert_abs_diff_eq!(rates.dot_y, (u * u + x * acceleration - 0.3_f64.sin()), epsilon = 1e-14);
+    Ok(())
+}
