@@ -25,6 +25,23 @@ impl Errors {
         }
     }
 
+    /// An error, and nothing in the place of what it is on.
+    pub(crate) fn refuse<T>(&mut self, at: impl ToTokens, message: impl std::fmt::Display) -> Option<T> {
+        self.push(at, message);
+        None
+    }
+
+    /// The same, once for each `kind`.
+    pub(crate) fn refuse_once<T>(
+        &mut self,
+        kind: &str,
+        at: impl ToTokens,
+        message: impl std::fmt::Display,
+    ) -> Option<T> {
+        self.push_once(kind, at, message);
+        None
+    }
+
     pub(crate) fn push_syn(&mut self, error: syn::Error) {
         self.found.push(error);
     }

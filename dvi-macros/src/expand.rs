@@ -184,11 +184,11 @@ fn read_item(kind: Kind, item: TokenStream) -> Result<ItemStruct, TokenStream> {
         Ok(Item::Struct(item)) => return Ok(item),
         Ok(Item::Enum(other)) => {
             errors.push(other.enum_token, advice);
-            stand_in::without_struct(kind, &other.vis, &other.ident, &other.generics, errors)
+            stand_in::without_struct(kind, &other.vis, (&other.ident, &other.generics), errors)
         }
         Ok(Item::Union(other)) => {
             errors.push(other.union_token, advice);
-            stand_in::without_struct(kind, &other.vis, &other.ident, &other.generics, errors)
+            stand_in::without_struct(kind, &other.vis, (&other.ident, &other.generics), errors)
         }
         Ok(other) => {
             errors.push(other, advice);

@@ -186,19 +186,36 @@ pub(crate) fn kind(
     }
 }
 
-/// The implementation of `Held`: a run may own the system.
-pub(crate) fn held(krate: &Path, name: &Ident, generics: &Generics) -> TokenStream {
+/// The implementation of a trait that is not over numbers, without attributes.
+pub(crate) fn bare(
+    krate: &Path,
+    (name, generics): (&Ident, &Generics),
+    implemented: &TokenStream,
+    items: &TokenStream,
+) -> TokenStream {
     let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
-    let allow = allow();
-    quote! {
-        #[automatically_derived]
-        #allow
-        impl #impl_generics #krate::Held for #name #type_generics #where_clause {
-            type System = Self;
-            #ForceInline
-            fn held(&self) -> &Self { self }
-        }
-    }
+    quote!(impl #impl_generics #krate::#implemented for #name #type_generics #where_clause { #items })
+}
+
+/// The implementation of a trait that is not over numbers.
+pub(crate) fn of_type(
+    krate: &Path,
+    of: (&Ident, &Generics),
+    implemented: &TokenStream,
+    items: &TokenStream,
+) -> TokenStream {
+    let (allow, implementation) = (allow(), bare(krate, of, implemented, items));
+    quote!(#[automatically_derived] #allow #implementation)
+}
+
+/// The implementation of `Held`: a run may own the system.
+pub(crate) fn held(krate: &Path, of: (&Ident, &Generics)) -> TokenStream {
+    let items = quote! {
+        type System = Self;
+        #ForceInline
+        fn held(&self) -> &Self { self }
+    };
+    of_type(krate, of, &quote!(Held), &items)
 }
 
 /// The implementation of `System`.
@@ -209,8 +226,6 @@ fn configuration(
     report: &TokenStream,
 ) -> TokenStream {
     let krate = emitter.krate();
-    let (name, allow) = (&emitter.model.item.ident, allow());
-    let (impl_generics, type_generics, where_clause) = emitter.model.item.generics.split_for_impl();
     let State { space, space_value, type_in_trait, .. } = state;
     let model = emitter.model;
     let sizes = (0..model.blocks.len()).map(|block| (block, model.block_size(block)));
@@ -239,32 +254,29 @@ fn configuration(
         check::check(emitter, programs),
         kind(krate, emitter.model.kind, constrained, emitter.model.is_on_manifold()),
     );
-    let held = held(krate, name, &emitter.model.item.generics);
-    quote! {
-        #held
-        #[automatically_derived]
-        #allow
-        impl #impl_generics #krate::System for #name #type_generics #where_clause {
-            type Space = #space;
-            type Kind = #kind;
-            type State<__T: #krate::Scalar> = #type_in_trait;
-            const REPORT: #krate::Report = #report;
-            const HAS_SCALAR_FIELDS: ::core::primitive::bool = #has_scalar_fields;
-            #has_domain
-            #seams
-            const TIME_TRANSFORMED: ::core::primitive::bool = #time_transformed;
-            const FORCED: ::core::primitive::bool = #forced;
-            const AUTONOMOUS: ::core::primitive::bool = #autonomous;
+    let held = held(krate, model.named());
+    let items = quote! {
+        type Space = #space;
+        type Kind = #kind;
+        type State<__T: #krate::Scalar> = #type_in_trait;
+        const REPORT: #krate::Report = #report;
+        const HAS_SCALAR_FIELDS: ::core::primitive::bool = #has_scalar_fields;
+        #has_domain
+        #seams
+        const TIME_TRANSFORMED: ::core::primitive::bool = #time_transformed;
+        const FORCED: ::core::primitive::bool = #forced;
+        const AUTONOMOUS: ::core::primitive::bool = #autonomous;
 
-            #ForceInline
-            fn space(&self) -> Self::Space { #space_value }
-            #[inline]
-            fn block_len(&self, __block: ::core::primitive::usize) -> ::core::primitive::usize {
-                match __block { #(#blocks => #lengths,)* _ => 0usize }
-            }
-            fn check(&self) -> ::core::result::Result<(), #krate::IndexError> { #check }
+        #ForceInline
+        fn space(&self) -> Self::Space { #space_value }
+        #[inline]
+        fn block_len(&self, __block: ::core::primitive::usize) -> ::core::primitive::usize {
+            match __block { #(#blocks => #lengths,)* _ => 0usize }
         }
-    }
+        fn check(&self) -> ::core::result::Result<(), #krate::IndexError> { #check }
+    };
+    let system = of_type(krate, model.named(), &quote!(System), &items);
+    quote!(#held #system)
 }
 
 /// The implementation of `Lagrangian`.

@@ -198,6 +198,11 @@ impl<'a> Lowering<'a> {
         self.index_names = names.0;
     }
 
+    /// An error, and nothing in the place of what it is on.
+    fn refuse<T>(&mut self, at: impl quote::ToTokens, message: impl std::fmt::Display) -> Option<T> {
+        self.errors.refuse(at, message)
+    }
+
     /// The value of a number.
     fn expr(&mut self, syntax: &Syntax) -> Option<Expr> {
         let value = self.value(syntax)?;
@@ -213,8 +218,7 @@ impl<'a> Lowering<'a> {
         self.depth -= 1;
         let value = value?;
         if value.entries().iter().any(|entry| !entry.scale.is_finite()) {
-            self.errors.push(syntax, "the value of this is not a finite number");
-            return None;
+            return self.refuse(syntax, "the value of this is not a finite number");
         }
         let is_deep = value.entries().iter().any(|entry| self.nesting(*entry) > DEEPEST);
         if is_deep { self.too_deep(syntax) } else { Some(value) }
@@ -226,8 +230,7 @@ impl<'a> Lowering<'a> {
              `sum(0..n, |j| …)`, or declare a part as a function of your own, with its derivatives: \
              `functions(f = [f, df, d2f])`"
         );
-        self.errors.push_once("depth", syntax, message);
-        None
+        self.errors.refuse_once("depth", syntax, message)
     }
 
     fn value_inside(&mut self, syntax: &Syntax) -> Option<Value> {
@@ -259,12 +262,10 @@ impl<'a> Lowering<'a> {
             Lit::Float(value) => (value.base10_digits(), value.suffix()),
             Lit::Int(value) => (value.base10_digits(), value.suffix()),
             Lit::Str(_) => {
-                self.errors.push(literal, "a formula is written as it is, without quotes");
-                return None;
+                return self.refuse(literal, "a formula is written as it is, without quotes");
             }
             _ => {
-                self.errors.push(literal, "expected a number");
-                return None;
+                return self.refuse(literal, "expected a number");
             }
         };
         if !matches!(suffix, "" | "f64" | "f32") {
@@ -277,8 +278,7 @@ impl<'a> Lowering<'a> {
             } else {
                 format!("a product is written with `*`: `{digits} * {suffix}`")
             };
-            self.errors.push(literal, message);
-            return None;
+            return self.refuse(literal, message);
         }
         let value = digits.parse::<f64>().ok();
         if value.is_none() {

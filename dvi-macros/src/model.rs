@@ -6,7 +6,7 @@
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::ext::IdentExt as _;
-use syn::{Ident, ItemStruct, Path, Type};
+use syn::{Generics, Ident, ItemStruct, Path, Type};
 
 use crate::errors::Errors;
 use crate::symbolic::Index;
@@ -274,6 +274,11 @@ impl Model {
             is_velocity.or_else(|| (*name == block.velocity_name()).then_some((name, &block.name)))
         };
         self.blocks.iter().find_map(clash)
+    }
+
+    /// The name of the struct and its generics.
+    pub(crate) fn named(&self) -> (&Ident, &Generics) {
+        (&self.item.ident, &self.item.generics)
     }
 
     /// Whether a coordinate is a rotation or a unit vector.

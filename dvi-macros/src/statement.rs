@@ -38,3 +38,15 @@ pub(crate) struct Row {
     pub(crate) constraint: u32,
     pub(crate) member: Count,
 }
+
+impl Place {
+    /// The array and the coordinate, if it is an entry of an array.
+    pub(crate) fn entry(&self) -> Option<(Output, &Coordinate)> {
+        match self {
+            Self::Entry(output, coordinate) => Some((*output, coordinate)),
+            Self::Result | Self::MatrixEntry(..) | Self::Constraint(_) | Self::ConstraintDerivative(..) => {
+                None
+            }
+        }
+    }
+}

@@ -42,7 +42,7 @@ use super::{Element, Function, local, name, output_array};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::internal::internal;
 use crate::schedule::{Accumulated, Step};
-use crate::statement::{Output, Place};
+use crate::statement::Output;
 use crate::symbolic::{Coordinate, Fold, Index, Loop, Node, Parameter, Unary};
 
 /// A range whose bounds are literals and that has fewer terms is not worth it.
@@ -80,22 +80,19 @@ impl Function<'_> {
         let steps = body.iter().all(|step| match step {
             Step::Let(register) => self.is_packed(*register, over),
             Step::Loop { .. } => false,
-            Step::Write(statement, _) => match &self.routine.statements[*statement].place {
-                Place::Entry(output, entry) => {
-                    let mut others =
-                        entries.iter().filter(|(of, other)| of == output && other.block == entry.block);
-                    // Else nobody knows which of two statements adds first to an entry: see `by_entry`.
-                    let are_ordered = others.all(|(_, other)| {
-                        other.index.unturned().plus(&entry.index.unturned(), -1).as_literal().is_some()
-                    });
-                    entries.push((*output, entry));
-                    are_ordered && follows(&entry.index, over)
-                }
-                Place::Result
-                | Place::MatrixEntry(..)
-                | Place::Constraint(_)
-                | Place::ConstraintDerivative(..) => false,
-            },
+            Step::Write(statement, _) => {
+                let Some((output, entry)) = self.routine.statements[*statement].place.entry() else {
+                    return false;
+                };
+                let mut others =
+                    entries.iter().filter(|(of, other)| *of == output && other.block == entry.block);
+                // Else nobody knows which of two statements adds first to an entry: see `by_entry`.
+                let are_ordered = others.all(|(_, other)| {
+                    other.index.unturned().plus(&entry.index.unturned(), -1).as_literal().is_some()
+                });
+                entries.push((output, entry));
+                are_ordered && follows(&entry.index, over)
+            }
         });
         !is_short && over.range.left_out().next().is_none() && sums && steps
     }
@@ -150,13 +147,9 @@ impl Function<'_> {
                 },
                 _ => None,
             },
-            Step::Write(statement, _) => match &self.routine.statements[*statement].place {
-                Place::Entry(_, entry) => Some(&entry.index),
-                Place::Result
-                | Place::MatrixEntry(..)
-                | Place::Constraint(_)
-                | Place::ConstraintDerivative(..) => None,
-            },
+            Step::Write(statement, _) => {
+                self.routine.statements[*statement].place.entry().map(|(_, entry)| &entry.index)
+            }
             Step::Loop { .. } => None,
         });
         indices.filter_map(Index::on_ring).fold([0, 0], |[before, behind], ring| {
@@ -240,11 +233,11 @@ impl Function<'_> {
         let mut additions: Vec<Addition<'a>> = Vec::new();
         for step in body {
             let Step::Write(statement, value) = step else { continue };
-            let Place::Entry(output, entry) = &self.routine.statements[*statement].place else {
+            let Some((output, entry)) = self.routine.statements[*statement].place.entry() else {
                 internal("packs add to entries alone")
             };
             let waiting = local(format_args!("waiting{statement}"));
-            let (array, index) = ((*output, entry.block), entry.index.unturned());
+            let (array, index) = ((output, entry.block), entry.index.unturned());
             additions.push(Addition { array, index, value, behind: 0, waiting });
         }
         additions.sort_by_key(|addition| Reverse(addition.index.constant));

@@ -33,7 +33,7 @@ use super::values::parameter_slice;
 use super::{Element, Function, local, output_array};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::schedule::{Accumulated, Step};
-use crate::statement::{Output, Place};
+use crate::statement::Output;
 use crate::symbolic::{Atom, Index, Loop, Node};
 
 /// What is emitted where there are many bodies.
@@ -187,14 +187,8 @@ impl Function<'_> {
 
     /// The block that a statement adds to, at the index of the loop at `depth` itself.
     fn entry_of(&self, statement: usize, depth: u32) -> Option<(Output, u32)> {
-        match &self.routine.statements[statement].place {
-            Place::Entry(output, entry) if entry.index == Index::open(depth) => Some((*output, entry.block)),
-            Place::Entry(..)
-            | Place::Result
-            | Place::MatrixEntry(..)
-            | Place::Constraint(_)
-            | Place::ConstraintDerivative(..) => None,
-        }
+        let (output, entry) = self.routine.statements[statement].place.entry()?;
+        (entry.index == Index::open(depth)).then_some((output, entry.block))
     }
 
     /// Whether a register, if it is a leaf, is read from a slice at a place that the loops know.

@@ -75,8 +75,7 @@ impl Stages {
                             "no gauge was found that brings the one-form into the class of one-step schemes: {reason}; \
                              write `gauge = F` with a function of your own, or leave it out and take `Gauss`"
                         );
-                        self.errors.push(word, message);
-                        return None;
+                        return self.errors.refuse(word, message);
                     }
                 }
             }
@@ -92,8 +91,7 @@ impl Stages {
         if !self.graph.depends(gauge.node, |node| matches!(node, Node::Coordinate(_))) {
             let message = "a gauge without coordinates in it changes nothing: write a function of the coordinates, or \
                            leave it out";
-            self.errors.push(formula, message);
-            return None;
+            return self.errors.refuse(formula, message);
         }
         let is_of_spinor = |node: &Node| match node {
             Node::Coordinate(coordinate) => self.model.blocks[coordinate.block as usize].is_spinor(),
@@ -102,8 +100,7 @@ impl Stages {
         if self.graph.depends(gauge.node, is_of_spinor) {
             let message = "unit vectors stand in no gauge: the one-form `area(s)` is in no class of one-step schemes, and \
                            the other methods do as well without a gauge";
-            self.errors.push(formula, message);
-            return None;
+            return self.errors.refuse(formula, message);
         }
         for (number, function) in self.model.functions.iter().enumerate() {
             let calls = |node: &Node| matches!(node, Node::Call(known, ..) if *known as usize == number);
@@ -113,8 +110,7 @@ impl Stages {
                     "a gauge is differentiated three times, and the function `{name}` stands in it: declare its third \
                      derivative too, as in `{name} = [f, df, d2f, d3f]`"
                 );
-                self.errors.push(formula, message);
-                return None;
+                return self.errors.refuse(formula, message);
             }
         }
         if let Some(field) = self.graph.scalar_field_below(gauge) {
@@ -123,8 +119,7 @@ impl Stages {
                 "a gauge is differentiated three times, and `{name}`, which stands in it, has two derivatives: no function \
                  that implements `ScalarField` stands in a gauge"
             );
-            self.errors.push(formula, message);
-            return None;
+            return self.errors.refuse(formula, message);
         }
         Some(())
     }
@@ -214,14 +209,14 @@ fn time_transform(
     };
     let rate = lowering.formula(formula, Role::TimeTransform)?;
     if rate.as_number().is_some_and(|rate| rate <= 0.0) {
-        lowering.errors.push(formula, "a time transformation is positive: it is how fast the time passes");
-        return None;
+        return lowering
+            .errors
+            .refuse(formula, "a time transformation is positive: it is how fast the time passes");
     }
     if !attribute.forces.is_empty() {
         let message = "a system with forces keeps its time: without `time_transform` all methods step it, with steps of equal \
                        length";
-        lowering.errors.push(formula, message);
-        return None;
+        return lowering.errors.refuse(formula, message);
     }
     // Where its coordinates have no names, that is an error of its own.
     lowering.model.extended?;
@@ -279,20 +274,16 @@ fn one_form_and_hamiltonian(
 fn lower_one_form(lowering: &mut Lowering<'_>, one_form: &Syntax) -> Option<Expr> {
     match one_form {
         Syntax::Array(components) => lowering.components(components),
-        Syntax::Tuple(list) => {
-            lowering
-                .errors
-                .push(list, "components of a one-form are listed in brackets: `one_form = [a, b]`");
-            None
-        }
+        Syntax::Tuple(list) => lowering
+            .errors
+            .refuse(list, "components of a one-form are listed in brackets: `one_form = [a, b]`"),
         _ => {
             let value = lowering.formula(one_form, Role::OneForm)?;
             let (stray, _) = split_parts(lowering.graph, value);
             if !stray.is_zero() {
-                lowering
+                return lowering
                     .errors
-                    .push(one_form, "this one-form has no d(·): write `… * d(x)` for a coordinate x");
-                return None;
+                    .refuse(one_form, "this one-form has no d(·): write `… * d(x)` for a coordinate x");
             }
             Some(value)
         }

@@ -15,8 +15,7 @@ use crate::syntax::{Constrained, Kind};
 /// A type that takes the place of a system.
 struct StandIn<'a> {
     kind: Kind,
-    name: &'a Ident,
-    generics: &'a Generics,
+    of: (&'a Ident, &'a Generics),
     krate: &'a Path,
     space: TokenStream,
     state: TokenStream,
@@ -32,19 +31,17 @@ pub(super) fn stand_in(
     mut errors: Errors,
 ) -> TokenStream {
     let (model, krate) = (emitter.model, emitter.krate());
-    let item = &model.item;
+    let (item, of) = (&model.item, model.named());
     let (space, state, state_item) = if model.lost_coordinates {
-        lost_state(krate, &item.vis, &item.ident, &item.generics, &mut errors)
+        lost_state(krate, &item.vis, of, &mut errors)
     } else {
         let State { space, type_in_trait, item, .. } = implement::state(emitter);
         (space, type_in_trait, item)
     };
-    let (name, generics, time_transformed) = (&item.ident, &item.generics, model.extended.is_some());
-    let (kind, is_on_manifold) = (model.kind, model.is_on_manifold());
+    let (time_transformed, is_on_manifold) = (model.extended.is_some(), model.is_on_manifold());
     let stand_in =
-        StandIn { kind, name, generics, krate, space, state, time_transformed, constrained, is_on_manifold };
-    let implementations = stand_in.implementations();
-    let errors = errors.into_tokens();
+        StandIn { kind: model.kind, of, krate, space, state, time_transformed, constrained, is_on_manifold };
+    let (implementations, errors) = (stand_in.implementations(), errors.into_tokens());
     quote!(#errors #item #state_item #implementations)
 }
 
@@ -52,88 +49,63 @@ pub(super) fn stand_in(
 pub(super) fn without_struct(
     kind: Kind,
     visibility: &Visibility,
-    name: &Ident,
-    generics: &Generics,
+    of: (&Ident, &Generics),
     mut errors: Errors,
 ) -> TokenStream {
-    let krate: Path = syn::parse_quote!(::dvi_core);
-    let (space, state, state_item) = lost_state(&krate, visibility, name, generics, &mut errors);
+    let krate = &syn::parse_quote!(::dvi_core);
+    let (space, state, state_item) = lost_state(krate, visibility, of, &mut errors);
     let (time_transformed, constrained, is_on_manifold) = (false, None, false);
-    let krate = &krate;
-    let stand_in =
-        StandIn { kind, name, generics, krate, space, state, time_transformed, constrained, is_on_manifold };
-    let implementations = stand_in.implementations();
-    let errors = errors.into_tokens();
+    let stand_in = StandIn { kind, of, krate, space, state, time_transformed, constrained, is_on_manifold };
+    let (implementations, errors) = (stand_in.implementations(), errors.into_tokens());
     quote!(#errors #state_item #implementations)
 }
 
 impl StandIn<'_> {
     fn implementations(&self) -> TokenStream {
-        let Self { name, krate, space, state, .. } = self;
-        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
-        let (allow, suited) = (implement::allow(), implement::suited());
+        let Self { of, krate, space, state, .. } = self;
         let never = quote!({ ::core::unreachable!() });
-        let held = implement::held(krate, name, self.generics);
         let kind = implement::kind(krate, self.kind, self.constrained, self.is_on_manifold);
+        let is_regular = self.kind == Kind::Regular;
+        let held = implement::held(krate, *of);
+        let items = quote! {
+            type Space = #space;
+            type State<__T: #krate::Scalar> = #state;
+            const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[], &[]);
+            type Kind = #kind;
+            fn space(&self) -> Self::Space #never
+            fn block_len(&self, _: ::core::primitive::usize) -> ::core::primitive::usize #never
+            fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
+        };
+        let system = implement::of_type(krate, *of, &quote!(System), &items);
+        let bare = |implemented, items| implement::bare(krate, *of, &implemented, &items);
+        let stand_in = bare(quote!(__private::StandIn), implement::suited());
         let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
-        let constrained = (self.kind == Kind::Regular && self.constrained.is_some())
-            .then(|| self.with_constraints(&never));
-        let manifold = (self.kind == Kind::Regular && self.is_on_manifold).then(|| self.on_manifold(&never));
-        quote! {
-            const _: () = {
-                #held
-                #[automatically_derived]
-                #allow
-                impl #impl_generics #krate::System for #name #type_generics #where_clause {
-                    type Space = #space;
-                    type State<__T: #krate::Scalar> = #state;
-                    const REPORT: #krate::Report = #krate::Report::new("", &[], &[], &[], &[], &[], &[], &[], &[]);
-                    type Kind = #kind;
-                    fn space(&self) -> Self::Space #never
-                    fn block_len(&self, _: ::core::primitive::usize) -> ::core::primitive::usize #never
-                    fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
-                }
-                impl #impl_generics #krate::__private::StandIn for #name #type_generics #where_clause { #suited }
-                #time_transformed
-                #constrained
-                #manifold
-            };
-        }
-    }
-
-    /// The trait that systems have with rotations and unit vectors only.
-    fn on_manifold(&self, never: &TokenStream) -> TokenStream {
-        let Self { name, krate, .. } = self;
-        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
-        quote! {
-            impl #impl_generics #krate::ManifoldSystem for #name #type_generics #where_clause {
-                type Tangent = #krate::Fixed<1usize, 1usize>;
-                fn tangent(&self) -> Self::Tangent #never
-            }
-        }
-    }
-
-    /// The trait that systems have with constraints only.
-    fn with_constraints(&self, never: &TokenStream) -> TokenStream {
-        let Self { name, krate, .. } = self;
-        let (impl_generics, type_generics, where_clause) = self.generics.split_for_impl();
-        quote! {
-            impl #impl_generics #krate::ConstrainedSystem for #name #type_generics #where_clause {
+        let constrained = (is_regular && self.constrained.is_some()).then(|| {
+            let items = quote! {
                 type Multipliers = #krate::Fixed<1usize, 1usize>;
                 type Augmented = #krate::Fixed<1usize, 2usize>;
                 fn multipliers(&self) -> Self::Multipliers #never
                 fn augmented(&self) -> Self::Augmented #never
-            }
-        }
+            };
+            bare(quote!(ConstrainedSystem), items)
+        });
+        let manifold = (is_regular && self.is_on_manifold).then(|| {
+            let items = quote! {
+                type Tangent = #krate::Fixed<1usize, 1usize>;
+                fn tangent(&self) -> Self::Tangent #never
+            };
+            bare(quote!(ManifoldSystem), items)
+        });
+        quote!(const _: () = { #held #system #stand_in #time_transformed #constrained #manifold };)
     }
 
     /// The trait that systems have with a time transformation only.
     fn time_transformed(&self, never: &TokenStream) -> TokenStream {
-        let Self { name, krate, .. } = self;
-        let mut generics = self.generics.clone();
-        generics.params.push(syn::parse_quote!(__T: #krate::Scalar));
-        let (impl_generics, _, where_clause) = generics.split_for_impl();
-        let (_, type_generics, _) = self.generics.split_for_impl();
+        let Self { of: (name, generics), krate, .. } = self;
+        let mut with_numbers = (*generics).clone();
+        with_numbers.params.push(syn::parse_quote!(__T: #krate::Scalar));
+        let (impl_generics, _, where_clause) = with_numbers.split_for_impl();
+        let (_, type_generics, _) = generics.split_for_impl();
         quote! {
             impl #impl_generics #krate::TimeTransformed<__T> for #name #type_generics #where_clause {
                 fn time_transform_at(&self, _: &[__T]) -> #krate::system::TimeTransform<__T> #never
@@ -153,8 +125,7 @@ impl StandIn<'_> {
 fn lost_state(
     krate: &Path,
     visibility: &Visibility,
-    system: &Ident,
-    generics: &Generics,
+    (system, generics): (&Ident, &Generics),
     errors: &mut Errors,
 ) -> (TokenStream, TokenStream, TokenStream) {
     let Names { state: name, of_f64 } = Names::of(system);

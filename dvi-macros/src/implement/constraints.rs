@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::state::space_of;
-use super::{allow, in_numbers, suited};
+use super::{in_numbers, of_type, suited};
 use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, constraint_members, first_constraint, local};
 use crate::program::Constraints;
@@ -60,97 +60,64 @@ impl Emitter<'_> {
 /// The implementations of `ConstrainedSystem` and of `HolonomicLagrangian`, `NonholonomicLagrangian` or
 /// `UnilateralLagrangian`.
 pub(super) fn constraints(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
-    let system = system(emitter, constraints);
-    let lagrangian = match (constraints.of, &constraints.curvature) {
-        (Constrained::Gaps, _) => unilateral(emitter, constraints),
-        (_, Some(curvature)) => holonomic(emitter, constraints, curvature),
-        (_, None) => nonholonomic(emitter, constraints),
-    };
+    let (system, lagrangian) = (system(emitter, constraints), lagrangian(emitter, constraints));
     quote!(#system #lagrangian)
 }
 
 fn system(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
-    let (krate, name, allow) = (emitter.krate(), &emitter.model.item.ident, allow());
-    let (impl_generics, type_generics, where_clause) = emitter.model.item.generics.split_for_impl();
     let (multipliers, multipliers_value) = space_of(emitter, &constraints.lengths);
     let sizes = (0..emitter.model.blocks.len()).map(|block| emitter.model.block_size(block).into());
     let both: Vec<Count> = sizes.chain(constraints.lengths.iter().cloned()).collect();
     let (augmented, augmented_value) = space_of(emitter, &both);
-    quote! {
-        #[automatically_derived]
-        #allow
-        impl #impl_generics #krate::ConstrainedSystem for #name #type_generics #where_clause {
-            type Multipliers = #multipliers;
-            type Augmented = #augmented;
-
-            #ForceInline
-            fn multipliers(&self) -> Self::Multipliers { #multipliers_value }
-            #ForceInline
-            fn augmented(&self) -> Self::Augmented { #augmented_value }
-        }
-    }
-}
-
-fn holonomic(emitter: &Emitter<'_>, constraints: &Constraints, curvature: &Routine) -> TokenStream {
-    let krate = emitter.krate();
-    let [value, rate, curvature] = [&constraints.value, &constraints.rate, curvature]
-        .map(|routine| emitter.for_constraints(constraints, routine));
-    let (jacobian, suited) = (emitter.constraint_jacobian(constraints), suited());
     let items = quote! {
-        #suited
-        #[inline]
-        fn constraint(&self, __q: &[__T], __t: __T, __g: &mut [__T]) { #value }
-        #[inline]
-        fn constraint_jacobian<__K: #krate::Sink<__T>>(
-            &self, __q: &[__T], __t: __T, __g: &mut [__T], __sink: &mut __K,
-        ) {
-            #jacobian
-        }
-        #[inline]
-        fn constraint_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
-        #[inline]
-        fn constraint_curvature(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #curvature }
+        type Multipliers = #multipliers;
+        type Augmented = #augmented;
+
+        #ForceInline
+        fn multipliers(&self) -> Self::Multipliers { #multipliers_value }
+        #ForceInline
+        fn augmented(&self) -> Self::Augmented { #augmented_value }
     };
-    in_numbers(emitter, &quote!(HolonomicLagrangian), &items)
+    of_type(emitter.krate(), emitter.model.named(), &quote!(ConstrainedSystem), &items)
 }
 
-fn nonholonomic(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
+/// Of velocities there are two derivatives, which the Jacobian adds up with weights.
+fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let krate = emitter.krate();
-    let [value, rate] =
-        [&constraints.value, &constraints.rate].map(|routine| emitter.for_constraints(constraints, routine));
+    let (name, function) = match constraints.of {
+        Constrained::Positions => (quote!(HolonomicLagrangian), "constraint"),
+        Constrained::Velocities => (quote!(NonholonomicLagrangian), "velocity_constraint"),
+        Constrained::Gaps => (quote!(UnilateralLagrangian), "gap"),
+    };
+    let [value_of, jacobian_of, rate_of, curvature_of] =
+        ["", "_jacobian", "_rate", "_curvature"].map(|part| format_ident!("{function}{part}"));
+    let of_velocities = constraints.of == Constrained::Velocities;
+    let (suited, velocity, weights) = match of_velocities {
+        true => (None, Some(quote!(__v: &[__T],)), Some(quote!(__weights: [__T; 2],))),
+        false => (Some(suited()), None, None),
+    };
+    let for_constraints = |routine: &Routine| emitter.for_constraints(constraints, routine);
+    let [value, rate] = [&constraints.value, &constraints.rate].map(for_constraints);
     let jacobian = emitter.constraint_jacobian(constraints);
-    let items = quote! {
-        #[inline]
-        fn velocity_constraint(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #value }
-        #[inline]
-        fn velocity_constraint_jacobian<__K: #krate::Sink<__T>>(
-            &self, __q: &[__T], __v: &[__T], __t: __T, __weights: [__T; 2], __g: &mut [__T], __sink: &mut __K,
-        ) {
-            #jacobian
+    let curvature = constraints.curvature.as_ref().map(for_constraints).map(|curvature| {
+        quote! {
+            #[inline]
+            fn #curvature_of(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #curvature }
         }
-        #[inline]
-        fn velocity_constraint_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
-    };
-    in_numbers(emitter, &quote!(NonholonomicLagrangian), &items)
-}
-
-fn unilateral(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
-    let krate = emitter.krate();
-    let [value, rate] =
-        [&constraints.value, &constraints.rate].map(|routine| emitter.for_constraints(constraints, routine));
-    let (jacobian, suited) = (emitter.constraint_jacobian(constraints), suited());
+    });
     let items = quote! {
         #suited
         #[inline]
-        fn gap(&self, __q: &[__T], __t: __T, __g: &mut [__T]) { #value }
+        fn #value_of(&self, __q: &[__T], #velocity __t: __T, __g: &mut [__T]) { #value }
         #[inline]
-        fn gap_jacobian<__K: #krate::Sink<__T>>(
-            &self, __q: &[__T], __t: __T, __g: &mut [__T], __sink: &mut __K,
+        fn #jacobian_of<__K: #krate::Sink<__T>>(
+            &self, __q: &[__T], #velocity __t: __T, #weights __g: &mut [__T], __sink: &mut __K,
         ) {
             #jacobian
         }
         #[inline]
-        fn gap_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
+        fn #rate_of(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
+        #curvature
     };
-    in_numbers(emitter, &quote!(UnilateralLagrangian), &items)
+    in_numbers(emitter, &name, &items)
 }

@@ -104,8 +104,7 @@ fn account(
         ));
     }
     account.sentence(checked.sentence());
-    account.momenta(emitter, &formulas.momenta);
-    account.events(emitter, &formulas.events);
+    account.observed(emitter, &formulas.momenta, &formulas.events);
     account.forces(emitter, &programs.shared);
     account.seams(emitter, &programs.shared.seams);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);

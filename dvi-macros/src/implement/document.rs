@@ -34,8 +34,6 @@ pub(super) struct Account {
     /// Whether there are some that are not typeset.
     has_more: bool,
     sentences: Vec<String>,
-    momenta: Vec<String>,
-    events: Vec<String>,
 }
 
 impl Account {
@@ -51,8 +49,7 @@ impl Account {
         let declared = declared(attribute, &mut typesetter);
         let has_more = declared.iter().any(Equation::is_endless);
         let equations = [declared, Vec::new()];
-        let [momenta, events] = [Vec::new(), Vec::new()];
-        Self { opening, formulas, equations, typesetter, has_more, sentences, momenta, events }
+        Self { opening, formulas, equations, typesetter, has_more, sentences }
     }
 
     /// Adds what is said of the system as a whole.
@@ -60,20 +57,12 @@ impl Account {
         self.sentences.push(sentence);
     }
 
-    /// Adds the declared momenta.
-    pub(super) fn momenta(&mut self, emitter: &Emitter<'_>, values: &[Expr]) {
-        for (name, value) in emitter.model.momenta.iter().zip(values) {
-            self.formulas.push((name.clone(), quantity(emitter, *value)));
-            self.momenta.push(name.clone());
-        }
-    }
-
-    /// Adds the declared events.
-    pub(super) fn events(&mut self, emitter: &Emitter<'_>, values: &[Expr]) {
-        for (name, value) in emitter.model.events.iter().zip(values) {
-            self.formulas.push((name.clone(), quantity(emitter, *value)));
-            self.events.push(name.clone());
-        }
+    /// Adds the declared momenta and events.
+    pub(super) fn observed(&mut self, emitter: &Emitter<'_>, momenta: &[Expr], events: &[Expr]) {
+        let Model { momenta: names, events: others, .. } = emitter.model;
+        let values = momenta.iter().chain(events);
+        let named = names.iter().chain(others).zip(values);
+        self.formulas.extend(named.map(|(name, value)| (name.clone(), quantity(emitter, *value))));
     }
 
     /// Says where the formulas are not smooth.
@@ -108,8 +97,8 @@ impl Account {
     ) {
         let are_equations = statements.iter().all(|statement| statement.loops.is_empty());
         for statement in statements {
-            let Place::Entry(output, coordinate) = &statement.place else { continue };
-            let (text, tex) = name(&mut self.typesetter, *output, coordinate);
+            let Some((output, coordinate)) = statement.place.entry() else { continue };
+            let (text, tex) = name(&mut self.typesetter, output, coordinate);
             self.formulas.push((text, in_loops(emitter, statement)));
             match tex {
                 Some(name) if are_equations => self.typeset(emitter, name, statement.value),
@@ -139,10 +128,10 @@ impl Account {
             let rows = before.iter().chain([&row.member]).filter_map(|count| count.rows.as_ref());
             in_rows(emitter, rows, &first.plus(&row.member.rest, 1))
         };
-        let (letter, model) = (constraints.of.letter(), emitter.model);
+        let (letter, model) = (constraints.of.words().letter, emitter.model);
         for statement in &constraints.value.statements {
             let Place::Constraint(row) = &statement.place else { continue };
-            let name = format!("{} {letter}[{}]", constraints.of.nouns()[0], number(row));
+            let name = format!("{} {letter}[{}]", constraints.of.words().nouns[0], number(row));
             self.formulas.push((name, in_loops(emitter, statement)));
         }
         for (variable, statement) in &constraints.derivatives {
@@ -157,7 +146,7 @@ impl Account {
             constraints.lengths.iter().fold(Index::default(), |sum, length| sum.plus(&length.rest, 1));
         let literals = constraints.lengths.iter().map(Count::as_literal);
         let literal = literals.sum::<Option<i64>>();
-        let nouns = constraints.of.nouns();
+        let nouns = constraints.of.words().nouns;
         let noun = if literal == Some(1) { nouns[0] } else { nouns[1] };
         // A range that ends before it begins has no members, which the sum of the lengths does not show.
         let may_end_early = constraints.lengths.iter().any(|length| !length.is_natural());
@@ -166,16 +155,19 @@ impl Account {
         let rows = constraints.lengths.iter().filter_map(|length| length.rows.as_ref());
         let count = literal.map_or_else(|| in_rows(emitter, rows, &rest), |literal| literal.to_string());
         let adjective = match constraints.of {
-            Constrained::Positions | Constrained::Velocities => format!("{} ", constraints.of.adjective()),
+            Constrained::Positions | Constrained::Velocities => {
+                format!("{} ", constraints.of.words().adjective)
+            }
             Constrained::Gaps => String::new(),
         };
-        let (function, relation) = (constraints.of.function(), constraints.of.relation());
+        let (function, relation) = (constraints.of.words().function, constraints.of.words().relation);
         self.sentence(format!("{count} {adjective}{noun} {function} {relation}{condition}."));
     }
 
     pub(super) fn report(&self, emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
         let krate = emitter.krate();
-        let Self { formulas, sentences, momenta, events, .. } = self;
+        let Self { formulas, sentences, .. } = self;
+        let Model { momenta, events, .. } = emitter.model;
         let system = emitter.model.item.ident.to_string();
         let blocks = emitter.model.blocks.iter().map(|block| {
             let (name, size) =
@@ -283,12 +275,8 @@ pub(super) fn beside_force(
     sign: char,
     entry: &Coordinate,
 ) -> [String; 2] {
-    let acts = |statement: &Statement| match &statement.place {
-        Place::Entry(_, on) => on.block == entry.block,
-        Place::Result | Place::MatrixEntry(..) | Place::Constraint(_) | Place::ConstraintDerivative(..) => {
-            false
-        }
-    };
+    let acts =
+        |statement: &Statement| statement.place.entry().is_some_and(|(_, on)| on.block == entry.block);
     let is_forced = programs.forces.iter().any(|forces| forces.statements.iter().any(acts));
     if !is_forced {
         return Default::default();

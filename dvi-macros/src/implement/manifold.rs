@@ -4,16 +4,14 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::state::space_of;
-use super::{allow, in_numbers, suited};
+use super::{in_numbers, of_type, suited};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
 use crate::symbolic::{Count, Index};
 
 /// The implementations of `ManifoldSystem` and of `ManifoldLagrangian`.
 pub(super) fn manifold(emitter: &Emitter<'_>) -> TokenStream {
-    let (krate, model, allow) = (emitter.krate(), emitter.model, allow());
-    let name = &model.item.ident;
-    let (impl_generics, type_generics, where_clause) = model.item.generics.split_for_impl();
+    let model = emitter.model;
     let dimension = |block: usize| match (model.blocks[block].factor.dimension(), model.blocks[block].axis) {
         (None, _) => Some(model.block_size(block)),
         (Some(dimension), None) => Some(Index::literal(dimension as i64)),
@@ -22,15 +20,12 @@ pub(super) fn manifold(emitter: &Emitter<'_>) -> TokenStream {
     };
     let dimensions: Vec<Count> = (0..model.blocks.len()).filter_map(dimension).map(Count::from).collect();
     let (tangent, value) = space_of(emitter, &dimensions);
+    let items = quote! {
+        type Tangent = #tangent;
+        #ForceInline
+        fn tangent(&self) -> Self::Tangent { #value }
+    };
+    let system = of_type(emitter.krate(), model.named(), &quote!(ManifoldSystem), &items);
     let lagrangian = in_numbers(emitter, &quote!(ManifoldLagrangian), &suited());
-    quote! {
-        #[automatically_derived]
-        #allow
-        impl #impl_generics #krate::ManifoldSystem for #name #type_generics #where_clause {
-            type Tangent = #tangent;
-            #ForceInline
-            fn tangent(&self) -> Self::Tangent { #value }
-        }
-        #lagrangian
-    }
+    quote!(#system #lagrangian)
 }

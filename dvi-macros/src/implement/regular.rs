@@ -61,8 +61,7 @@ fn account(
         structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of), emitter.model),
     );
     account.sentence(checked.sentence());
-    account.momenta(emitter, &formulas.momenta);
-    account.events(emitter, &formulas.events);
+    account.observed(emitter, &formulas.momenta, &formulas.events);
     account.forces(emitter, &programs.shared);
     account.seams(emitter, &programs.shared.seams);
     account.constraints(emitter, &programs.shared);

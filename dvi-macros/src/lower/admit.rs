@@ -103,16 +103,14 @@ impl Lowering<'_> {
             && factors.iter().any(|(_, exponent)| *exponent > LARGEST_EXPONENT)
         {
             let message = format!("this power is too large: exponents go up to {LARGEST_EXPONENT}");
-            self.errors.push(syntax, message);
-            return None;
+            return self.refuse(syntax, message);
         }
         if self.measured(value).functions > DEEPEST_FUNCTION {
             let message = format!(
                 "more than {DEEPEST_FUNCTION} functions stand inside one another here; declare the inner ones \
                      as a function of your own, with its derivatives: `functions(f = [f, df, d2f])`"
             );
-            self.errors.push_once("depth of functions", syntax, message);
-            return None;
+            return self.errors.refuse_once("depth of functions", syntax, message);
         }
         if !self.is_to_be_affine() || self.degree(value) < 2 {
             return Some(value);
@@ -128,8 +126,7 @@ impl Lowering<'_> {
                  `#[degenerate_lagrangian]`; a regular Lagrangian belongs to `#[lagrangian]`"
             }
         };
-        self.errors.push(syntax, message);
-        None
+        self.refuse(syntax, message)
     }
 
     /// Whether the formula is to be affine in the velocities.
@@ -150,8 +147,7 @@ impl Lowering<'_> {
             "{what} depends on a velocity, so {formula} is not affine in the velocities; \
              a condition compares coordinates, parameters and `t`"
         );
-        self.errors.push(at, message);
-        None
+        self.refuse(at, message)
     }
 
     /// Whether this is a one-form, or a name that may stand in one.
@@ -170,7 +166,6 @@ impl Lowering<'_> {
             _ => return Some(()),
         };
         self.errors
-            .push(stray, "this term of the one-form has no d(·): write `… * d(x)` for a coordinate x");
-        None
+            .refuse(stray, "this term of the one-form has no d(·): write `… * d(x)` for a coordinate x")
     }
 }

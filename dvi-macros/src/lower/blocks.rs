@@ -47,10 +47,7 @@ impl Lowering<'_> {
         }
         let value = match init {
             Some(init) => self.value(init),
-            None => {
-                self.errors.push(local, "write `let name = value;`");
-                None
-            }
+            None => self.refuse(local, "write `let name = value;`"),
         };
         let written = local.init.as_ref().map_or(Written::Real, |init| self.written(&init.expr));
         match bound_name(&local.pat) {
@@ -72,8 +69,7 @@ impl Lowering<'_> {
     pub(super) fn choice(&mut self, choice: &ExprIf) -> Option<Value> {
         let then = self.statements(&choice.then_branch);
         let Some((_, otherwise)) = &choice.else_branch else {
-            self.errors.push(choice, "an `if` of a formula needs its `else` branch");
-            return None;
+            return self.refuse(choice, "an `if` of a formula needs its `else` branch");
         };
         let value = self.value(otherwise);
         let branches = match (then, value) {
@@ -129,12 +125,10 @@ impl Lowering<'_> {
                         };
                         let message =
                             format!("a condition compares with `<`, `<=`, `>` or `>=`, as in `{meant}`");
-                        self.errors.push(condition, message);
-                        return None;
+                        return self.refuse(condition, message);
                     }
                     _ => {
-                        self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
-                        return None;
+                        return self.refuse(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
                     }
                 };
                 let (left, right) = (self.expr(&binary.left), self.expr(&binary.right));
@@ -146,10 +140,7 @@ impl Lowering<'_> {
                     self.admitted(condition, value)
                 })
             }
-            _ => {
-                self.errors.push(condition, "a condition compares with `<`, `<=`, `>` or `>=`");
-                None
-            }
+            _ => self.refuse(condition, "a condition compares with `<`, `<=`, `>` or `>=`"),
         }
     }
 }

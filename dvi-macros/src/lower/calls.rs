@@ -16,17 +16,14 @@ impl Lowering<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Value> {
         let name = call.method.to_string();
         if let Some(turbofish) = &call.turbofish {
-            self.errors.push(turbofish, format!("`{name}` takes no types: formulas are real"));
-            return None;
+            return self.refuse(turbofish, format!("`{name}` takes no types: formulas are real"));
         }
         if self.model.functions.iter().any(|function| function.name == name) {
-            self.errors.push(&call.method, format!("a function of your own is called as `{name}(…)`"));
-            return None;
+            return self.refuse(&call.method, format!("a function of your own is called as `{name}(…)`"));
         }
         if matches!(&*call.receiver, Syntax::Path(receiver) if receiver.path.is_ident("self")) {
             let message = format!("what the struct holds is called by its name: write `{name}(…)`");
-            self.errors.push(call, message);
-            return None;
+            return self.refuse(call, message);
         }
         if self.iterated(call) {
             return None;
@@ -38,8 +35,7 @@ impl Lowering<'_> {
         {
             if call.args.len() != arity {
                 let message = format!("`{name}` takes {}; {}", arguments(arity), here(call.args.len()));
-                self.errors.push(&call.method, message);
-                return None;
+                return self.refuse(&call.method, message);
             }
             let arguments: Vec<&Syntax> = call.args.iter().collect();
             return self.vector_method(method, call, &arguments);
@@ -53,8 +49,7 @@ impl Lowering<'_> {
                     "a function of several variables is called by its name, and derivatives are taken of \
                      it where they are needed: write `{function}({listed})`"
                 );
-                self.errors.push(&call.method, message);
-                return None;
+                return self.refuse(&call.method, message);
             }
             let arguments: Vec<&Syntax> = call.args.iter().collect();
             match self.quietly(&call.receiver) {
@@ -76,13 +71,11 @@ impl Lowering<'_> {
         {
             let rest: Vec<&Syntax> = call.args.iter().skip(1).collect();
             let written = Self::as_method(&name, call.args.first(), &rest);
-            self.errors.push(call, format!("functions are written as methods: `{written}`"));
-            return None;
+            return self.refuse(call, format!("functions are written as methods: `{written}`"));
         }
         if call.args.len() != method.arity() {
             let message = format!("`{name}` takes {}; {}", arguments(method.arity()), here(call.args.len()));
-            self.errors.push(&call.method, message);
-            return None;
+            return self.refuse(&call.method, message);
         }
         let receiver = match self.value(&call.receiver) {
             Some(Value::Number(receiver)) => Some(receiver),
@@ -141,11 +134,10 @@ impl Lowering<'_> {
     fn integer(&mut self, syntax: &Syntax) -> Option<i32> {
         let value = self.literal_index(syntax).and_then(|value| i32::try_from(value).ok());
         if value.is_none_or(|value| value.unsigned_abs() > LARGEST_EXPONENT) {
-            self.errors.push(
+            return self.refuse(
                 syntax,
                 "`powi` takes a literal integer exponent of moderate size; `powf` takes any expression",
             );
-            return None;
         }
         value
     }
@@ -158,13 +150,13 @@ impl Lowering<'_> {
         };
         if is_factor {
             let factors = [text(&call.func), call.args.iter().map(text).collect::<Vec<_>>().join(", ")];
-            self.errors
-                .push(call, format!("a product is written with `*`: `{} * ({})`", factors[0], factors[1]));
-            return None;
+            return self.refuse(
+                call,
+                format!("a product is written with `*`: `{} * ({})`", factors[0], factors[1]),
+            );
         }
         let Syntax::Path(path) = &*call.func else {
-            self.errors.push(&call.func, "a function is called by its name, as in `x.sin()` or `f(x)`");
-            return None;
+            return self.refuse(&call.func, "a function is called by its name, as in `x.sin()` or `f(x)`");
         };
         let Some(name) = path.path.get_ident().map(ToString::to_string) else {
             return self.path_call(call, &path.path);
@@ -195,8 +187,7 @@ impl Lowering<'_> {
             {
                 let arguments: Vec<&Syntax> = call.args.iter().skip(1).collect();
                 let written = Self::as_method(&function.to_string(), receiver, &arguments);
-                self.errors.push(path, format!("functions are written as methods: `{written}`"));
-                None
+                self.refuse(path, format!("functions are written as methods: `{written}`"))
             }
             ([float, method], Some(receiver)) if *float == "f64" || *float == "f32" => {
                 self.method(&ExprMethodCall {
@@ -212,8 +203,7 @@ impl Lowering<'_> {
             _ => {
                 let message = "a function of a formula is declared as `functions(f = [path, derivative, second_derivative])` \
                                and called by its name";
-                self.errors.push(path, message);
-                None
+                self.refuse(path, message)
             }
         }
     }
@@ -243,8 +233,8 @@ impl Lowering<'_> {
             return None;
         };
         if call.args.len() != 1 {
-            self.errors.push(&call.func, format!("`{name}` takes one argument; {}", here(call.args.len())));
-            return None;
+            return self
+                .refuse(&call.func, format!("`{name}` takes one argument; {}", here(call.args.len())));
         }
         let argument = self.expr(&call.args[0])?;
         let value = self.graph.call(function as u32, 0, argument);

@@ -78,8 +78,7 @@ impl Lowering<'_> {
         }
         if force.is_empty() {
             let message = "no velocity `dot(x)` stands in this dissipation function, or none is left: it makes no force";
-            self.errors.push(formula, message);
-            return None;
+            return self.refuse(formula, message);
         }
         Some(force)
     }
@@ -145,14 +144,12 @@ impl Lowering<'_> {
                     self.model.blocks[first].label()
                 ),
             };
-            self.errors.push(component, message);
-            return None;
+            return self.refuse(component, message);
         }
         match (array.clone(), component) {
             (None, Syntax::Closure(_)) => {
                 let message = format!("`{name}` is a single coordinate: write its component without `|…|`");
-                self.errors.push(component, message);
-                None
+                self.refuse(component, message)
             }
             (None, _) => {
                 let value = self.formula(component, role)?;
@@ -191,8 +188,7 @@ impl Lowering<'_> {
                     let (of, entry) = if is_grid { ("|i, j|", "i, j") } else { ("|i|", "i") };
                     let message =
                         format!("`{name}` is an array: write its component as `{of} …`, for entry {entry}");
-                    self.errors.push(component, message);
-                    return None;
+                    return self.refuse(component, message);
                 };
                 self.begin(component, role);
                 let value = self.value(component)?;

@@ -45,20 +45,19 @@ impl Lowering<'_> {
         self.scope.truncate(outside);
         let indices = indices?;
         if let Some(Member { index, .. }) = family.iter().find(|member| !uses(formula, &member.index)) {
-            let nouns = of.nouns()[1];
+            let nouns = of.words().nouns[1];
             let message = match family {
                 [_] => format!(
                     "the index `{index}` stands nowhere in this formula, so that all {nouns} of the family are the same: write \
                      `{} = …` for one",
-                    of.word()
+                    of.words().word
                 ),
                 _ => format!(
                     "the index `{index}` stands nowhere in this formula, so that {nouns} of the family are the same for all of its \
                      values"
                 ),
             };
-            self.errors.push(index, message);
-            return None;
+            return self.refuse(index, message);
         }
         let over = indices.into_iter().zip(&loops).map(|((name, form), over)| (name, form, over));
         let value = self.inside(&over.collect::<Vec<_>>(), formula)?;
@@ -83,8 +82,7 @@ impl Lowering<'_> {
         if length.terms.iter().any(|(atom, _)| is_turned(atom)) {
             let message =
                 "the range of an index of a family depends on the other one by sums and literal multiples";
-            self.errors.push(range, message);
-            return None;
+            return self.refuse(range, message);
         }
         let name = index.to_string();
         self.scope.push((name.clone(), Binding::Index { form: form.clone(), over: Some(over.clone()) }));
@@ -159,8 +157,7 @@ impl Lowering<'_> {
                  `constraint = …`"
             }
         };
-        self.errors.push(formula, message);
-        None
+        self.refuse(formula, message)
     }
 }
 

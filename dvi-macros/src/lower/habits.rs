@@ -56,19 +56,9 @@ const OTHER_NAMES: [(&str, &str); 43] = [
 ];
 
 /// Functions that jump.
+#[rustfmt::skip]
 const JUMPING: [&str; 13] = [
-    "ceil",
-    "floor",
-    "fract",
-    "heaviside",
-    "mod",
-    "rem_euclid",
-    "rint",
-    "round",
-    "step",
-    "theta",
-    "trunc",
-    "unit_step",
+    "ceil", "floor", "fract", "heaviside", "mod", "rem_euclid", "rint", "round", "step", "theta", "trunc", "unit_step",
     "unitstep",
 ];
 

@@ -13,12 +13,10 @@ impl Lowering<'_> {
     pub(super) fn cast(&mut self, cast: &syn::ExprCast) -> Option<Expr> {
         let is_float = matches!(&*cast.ty, syn::Type::Path(path) if path.path.is_ident("f64") || path.path.is_ident("f32"));
         if !is_float {
-            self.errors.push(&cast.ty, "formulas are real: only `as f64` is possible here");
-            return None;
+            return self.refuse(&cast.ty, "formulas are real: only `as f64` is possible here");
         }
         if let Some(block) = block_with_names(&cast.expr) {
-            self.errors.push(block, "write `as f64` at the integers inside of this block");
-            return None;
+            return self.refuse(block, "write `as f64` at the integers inside of this block");
         }
         if let Some(division) = self.integer_division(&cast.expr) {
             let (left, right) = (&division.left, &division.right);
@@ -27,8 +25,7 @@ impl Lowering<'_> {
                 Self::as_real(left),
                 Self::as_real(right)
             );
-            self.errors.push(&division, message);
-            return None;
+            return self.refuse(&division, message);
         }
         if self.is_index(&cast.expr) {
             let index = self.index(&cast.expr)?;

@@ -12,7 +12,7 @@ use quote::{quote, quote_spanned};
 use syn::visit::Visit;
 use syn::{Expr, Ident, Pat, Stmt};
 
-use crate::syntax::{Member, closure, value};
+use crate::syntax::{Member, bound, closure, value};
 
 /// A name of an inner scope.
 struct Local {
@@ -75,14 +75,6 @@ pub(crate) fn warnings<'a>(
     quote!(#(#unused)* #(#hidden)*)
 }
 
-fn name_of(pattern: &Pat) -> Option<&Ident> {
-    match pattern {
-        Pat::Ident(name) => Some(&name.ident),
-        Pat::Type(typed) => name_of(&typed.pat),
-        _ => None,
-    }
-}
-
 impl Names {
     fn define(&mut self, local: &syn::Local) {
         match value(local).map(|value| (closure(value), value)) {
@@ -102,14 +94,12 @@ impl Names {
     }
 
     fn bind(&mut self, pattern: &Pat, index: bool) {
-        if let Pat::Tuple(names) = pattern {
-            return names.elems.iter().for_each(|name| self.bind(name, index));
+        for name in bound(pattern) {
+            if index && self.open.iter().any(|local| local.index && local.name == *name) {
+                self.hidden.push(name.clone());
+            }
+            self.open.push(Local { name: name.clone(), index, used: false });
         }
-        let Some(name) = name_of(pattern) else { return };
-        if index && self.open.iter().any(|local| local.index && local.name == *name) {
-            self.hidden.push(name.clone());
-        }
-        self.open.push(Local { name: name.clone(), index, used: false });
     }
 
     fn close(&mut self, outside: usize) {

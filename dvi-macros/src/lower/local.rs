@@ -15,7 +15,7 @@ use syn::{Expr as Syntax, ExprCall, ExprClosure, Pat, Stmt};
 use super::{Binding, Lowering, Role, Value, Written, bound_name};
 use crate::errors::{Errors, here};
 use crate::symbolic::Unary;
-use crate::syntax::closure;
+use crate::syntax::{bound, closure};
 use crate::words::SUMS;
 
 /// So many calls of functions of their own have the formulas of a system.
@@ -117,8 +117,7 @@ impl Lowering<'_> {
                 1 => "one argument".to_string(),
                 many => format!("{many} arguments"),
             };
-            self.errors.push(&call.func, format!("`{name}` takes {takes}; {}", here(call.args.len())));
-            return None;
+            return self.refuse(&call.func, format!("`{name}` takes {takes}; {}", here(call.args.len())));
         }
         self.calls.counted(call, self.errors)?;
         let (outside, mut arguments) = (self.scope.len(), Vec::new());
@@ -205,10 +204,7 @@ impl<'a, 'b> Places<'a, 'b> {
     }
 
     fn binds(&self, pattern: &Pat) -> bool {
-        match pattern {
-            Pat::Tuple(names) => names.elems.iter().any(|name| self.binds(name)),
-            name => bound_name(name).is_some_and(|name| name == self.name),
-        }
+        bound(pattern).into_iter().any(|name| name == self.name)
     }
 
     /// What a function takes its parameters for, if there is one of this name.

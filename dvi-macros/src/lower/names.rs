@@ -29,13 +29,13 @@ impl Lowering<'_> {
                 return if is_shared { self.used(path, &name, value) } else { Some(value) };
             }
             Some(Binding::Function(_)) => {
-                self.errors.push(path, format!("`{name}` is a function: write `{name}(…)`"));
-                return None;
+                return self.refuse(path, format!("`{name}` is a function: write `{name}(…)`"));
             }
             Some(Binding::Index { .. }) => {
-                self.errors
-                    .push(path, format!("`{name}` is an index: as a number it is written `{name} as f64`"));
-                return None;
+                return self.refuse(
+                    path,
+                    format!("`{name}` is an index: as a number it is written `{name} as f64`"),
+                );
             }
             None => {}
         }
@@ -53,14 +53,12 @@ impl Lowering<'_> {
                 let entries = if axis.is_some() { "vectors" } else { "coordinates" };
                 let written = self.model.blocks[block].letters();
                 let message = format!("`{name}` is an array of {entries}: write `{name}{written}`");
-                self.errors.push(path, message);
-                return None;
+                return self.refuse(path, message);
             }
             if self.model.extended.is_some_and(|extended| extended.energy == block) {
                 let message = "`energy` is the value that H has in a run, which the time transformation adds as a coordinate: \
                                formulas do without it";
-                self.errors.push(path, message);
-                return None;
+                return self.refuse(path, message);
             }
             return Some(self.coordinate_node(block, Index::literal(0)).into());
         }
@@ -98,17 +96,13 @@ impl Lowering<'_> {
                 Some(self.vector_parameter(field, *length, &[]))
             }
             Shape::Array(..) => {
-                self.errors.push(at, format!("`{name}` is an array of parameters: write `{name}[i]`"));
-                None
+                self.refuse(at, format!("`{name}` is an array of parameters: write `{name}[i]`"))
             }
-            Shape::Other => {
-                self.errors.push_once(
-                    &format!("field {name}"),
-                    at,
-                    format!("the field `{name}` is not a number"),
-                );
-                None
-            }
+            Shape::Other => self.errors.refuse_once(
+                &format!("field {name}"),
+                at,
+                format!("the field `{name}` is not a number"),
+            ),
             _ => Some(self.parameter_node(field, Vec::new()).into()),
         }
     }
@@ -199,8 +193,7 @@ impl Lowering<'_> {
                 Some(Binding::Value { .. }) => return self.component(base, &indices),
                 Some(Binding::Index { .. } | Binding::Function(_)) => {
                     let message = format!("`{name}` is a name of this formula here: it takes no index");
-                    self.errors.push(base, message);
-                    return None;
+                    return self.refuse(base, message);
                 }
                 None => {}
             }
@@ -209,8 +202,7 @@ impl Lowering<'_> {
         if words::is_method(&function) && !self.is_declared(&name.to_string()) {
             let message =
                 format!("functions are written as methods: `{}.{function}()`", as_receiver(indices[0]));
-            self.errors.push(syntax, message);
-            return None;
+            return self.refuse(syntax, message);
         }
         if let Some(block) = self.model.blocks.iter().position(|block| block.name == name) {
             let declared = &self.model.blocks[block];
@@ -232,8 +224,7 @@ impl Lowering<'_> {
         let name = name.to_string();
         let mut shape = self.shape_of(field).clone();
         if shape == Shape::Number || shape == Shape::Count {
-            self.errors.push(syntax, format!("`{name}` is a single number: it takes no index"));
-            return None;
+            return self.refuse(syntax, format!("`{name}` is a single number: it takes no index"));
         }
         for (syntax, index) in indices.iter().zip(&lowered) {
             shape = match shape {
@@ -243,8 +234,7 @@ impl Lowering<'_> {
                 }
                 Shape::Unknown => Shape::Unknown,
                 _ => {
-                    self.errors.push(syntax, format!("this is one index too many for `{name}`"));
-                    return None;
+                    return self.refuse(syntax, format!("this is one index too many for `{name}`"));
                 }
             };
         }
@@ -254,17 +244,13 @@ impl Lowering<'_> {
             }
             Shape::Array(..) => {
                 let message = format!("the entries of `{name}` are arrays: write one index more");
-                self.errors.push(syntax, message);
-                None
+                self.refuse(syntax, message)
             }
-            Shape::Other => {
-                self.errors.push_once(
-                    &format!("field {name}"),
-                    syntax,
-                    format!("the entries of `{name}` are not numbers"),
-                );
-                None
-            }
+            Shape::Other => self.errors.refuse_once(
+                &format!("field {name}"),
+                syntax,
+                format!("the entries of `{name}` are not numbers"),
+            ),
             _ => Some(self.entry_node(field, lowered).into()),
         }
     }
@@ -279,9 +265,8 @@ impl Lowering<'_> {
     ) -> Option<Value> {
         let name = self.model.blocks[first].name.to_string();
         if let [_, _, ..] = &indices[1..] {
-            self.errors
-                .push(syntax, format!("`{name}` takes two indices: the second is that of a component"));
-            return None;
+            return self
+                .refuse(syntax, format!("`{name}` takes two indices: the second is that of a component"));
         }
         let index = self.coordinate_index(first, indices[0]);
         if self.model.blocks[first].is_spinor() {
@@ -312,8 +297,7 @@ impl Lowering<'_> {
     fn indexed_coordinate(&mut self, syntax: &Syntax, block: usize, indices: &[&Syntax]) -> Option<Expr> {
         let name = self.model.blocks[block].name.to_string();
         if self.model.blocks[block].array.is_none() {
-            self.errors.push(syntax, format!("`{name}` is a single coordinate: it takes no index"));
-            return None;
+            return self.refuse(syntax, format!("`{name}` is a single coordinate: it takes no index"));
         }
         let index = match (indices, self.model.blocks[block].grid.clone()) {
             ([index], None) => self.coordinate_index(block, index)?,

@@ -8,8 +8,7 @@
 use syn::Expr as Syntax;
 
 use super::{Binding, Lowering};
-use crate::internal::internal;
-use crate::symbolic::{Atom, Index, Loop};
+use crate::symbolic::{Index, Loop};
 
 /// Ranges up to this length are walked as a whole, longer ones at their ends.
 const WHOLE: i64 = 16;
@@ -68,8 +67,7 @@ impl Lowering<'_> {
             i64::MAX => format!("the first entry of `{name}` is number 0"),
             _ => format!("the entries of `{name}` are numbered 0 to {}", length - 1),
         };
-        self.errors.push(at, format!("{reached}: {range}"));
-        None
+        self.refuse(at, format!("{reached}: {range}"))
     }
 
     /// The loops around the place that is read, from the outermost.
@@ -103,16 +101,16 @@ impl Walk<'_> {
     /// `None` if something is not known: a size, or a loop that was left out.
     fn passes(&mut self, depth: usize, values: &mut Vec<(u32, i64)>) -> Option<()> {
         let Some(Around { over, walked }) = self.loops.get(depth) else {
-            let value = evaluated(self.index, values)?;
+            let value = self.index.value(values)?;
             let (least, largest) = self.reached.unwrap_or((value, value));
             self.reached = Some((least.min(value), largest.max(value)));
             self.left = self.left.saturating_sub(1);
             return Some(());
         };
         let (own, walked) = (over.depth, *walked);
-        let (lower, upper) = (evaluated(&over.range.lower, values)?, evaluated(&over.range.upper, values)?);
+        let (lower, upper) = (over.range.lower.value(values)?, over.range.upper.value(values)?);
         let except = match &over.range.except {
-            Some(except) => Some(evaluated(except, values)?),
+            Some(except) => Some(except.value(values)?),
             None => None,
         };
         let whole = upper.saturating_sub(lower) <= WHOLE;
@@ -127,25 +125,5 @@ impl Walk<'_> {
             }
         }
         Some(())
-    }
-}
-
-/// The value of an index in one pass.
-fn evaluated(index: &Index, values: &[(u32, i64)]) -> Option<i64> {
-    index.terms.iter().try_fold(index.constant, |sum, (atom, coefficient)| {
-        sum.checked_add(value(atom, values)?.checked_mul(*coefficient)?)
-    })
-}
-
-fn value(atom: &Atom, values: &[(u32, i64)]) -> Option<i64> {
-    match atom {
-        Atom::Open(depth) => values.iter().find(|(known, _)| known == depth).map(|(_, value)| *value),
-        Atom::Bound(_) => internal("an index of a closed sum in the text of a formula"),
-        Atom::Remainder(of, modulus) => {
-            evaluated(of, values)?.checked_rem_euclid(evaluated(modulus, values)?)
-        }
-        Atom::Row(row, length) => evaluated(row, values)?.checked_mul(evaluated(length, values)?),
-        // One of its factors is a size.
-        Atom::Size(_) | Atom::Product(_) => None,
     }
 }

@@ -5,10 +5,10 @@
 //! where it does not use the name it is none.
 
 use quote::ToTokens;
-use syn::{Ident, Pat};
+use syn::Ident;
 
 use super::{Lowering, Role, Value};
-use crate::syntax::{Attribute, closure, value};
+use crate::syntax::{Attribute, bound, closure, value};
 use crate::words::{self, VELOCITIES};
 
 impl Lowering<'_> {
@@ -16,7 +16,7 @@ impl Lowering<'_> {
     pub(crate) fn share(&mut self, attribute: &Attribute) {
         let [of_one_form, of_lagrangian] = VELOCITIES;
         self.shared.velocity = if attribute.one_form.is_some() { of_one_form } else { of_lagrangian };
-        let names: Vec<Vec<&Ident>> = attribute.shared.iter().map(|local| named(&local.pat)).collect();
+        let names: Vec<Vec<&Ident>> = attribute.shared.iter().map(|local| bound(&local.pat)).collect();
         self.shared.names = names.iter().flatten().map(|name| name.to_string()).collect();
         let mut before = Vec::new();
         for (local, names) in attribute.shared.iter().zip(names) {
@@ -74,8 +74,7 @@ impl Lowering<'_> {
         {
             let message =
                 format!("velocities stand in `{name}`, which `let = {{ … }}` defines, and {reason}");
-            self.errors.push(at, message);
-            return None;
+            return self.refuse(at, message);
         }
         value.map(|entry| self.admitted(at, entry))
     }
@@ -100,14 +99,4 @@ pub(super) struct Shared {
     count: usize,
     /// How velocities are written in them.
     pub(super) velocity: &'static str,
-}
-
-/// The names that a pattern binds.
-fn named(pattern: &Pat) -> Vec<&Ident> {
-    match pattern {
-        Pat::Ident(name) => vec![&name.ident],
-        Pat::Type(typed) => named(&typed.pat),
-        Pat::Tuple(list) => list.elems.iter().flat_map(named).collect(),
-        _ => Vec::new(),
-    }
 }

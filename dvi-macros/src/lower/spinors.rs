@@ -38,13 +38,11 @@ impl Lowering<'_> {
     /// `area(s)`
     pub(super) fn area(&mut self, call: &ExprCall) -> Option<Value> {
         if let Err(reason) = self.velocity_word() {
-            self.errors.push(call, reason);
-            return None;
+            return self.refuse(call, reason);
         }
         let [of] = call.args.iter().collect::<Vec<_>>()[..] else {
             let message = format!("`{AREA}` takes one unit vector; {}", here(call.args.len()));
-            self.errors.push(&call.func, message);
-            return None;
+            return self.refuse(&call.func, message);
         };
         let (first, index) = self.place_of_spinor(of)?;
         let [a, b, c, d] = self.spinor(first, &index, Node::Coordinate);
@@ -78,8 +76,7 @@ impl Lowering<'_> {
             (Some(first), _) => {
                 let name = self.model.blocks[first].label();
                 let message = format!("`{AREA}` takes a unit vector as a whole: write `{AREA}({name})`");
-                self.errors.push(of, message);
-                None
+                self.refuse(of, message)
             }
             (None, _) => {
                 let names = self.model.blocks.iter().filter(|block| block.is_spinor());
@@ -89,8 +86,7 @@ impl Lowering<'_> {
                      `d(x)`",
                     text(of)
                 );
-                self.errors.push(of, message);
-                None
+                self.refuse(of, message)
             }
         }
     }
@@ -103,8 +99,7 @@ impl Lowering<'_> {
         {
             return Some(());
         }
-        self.errors.push(at, STRENGTH);
-        None
+        self.refuse(at, STRENGTH)
     }
 }
 

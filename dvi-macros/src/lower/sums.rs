@@ -20,12 +20,10 @@ impl Lowering<'_> {
         let (Some(range), Some(Syntax::Closure(closure)), 2) =
             (call.args.first(), call.args.get(1), call.args.len())
         else {
-            self.errors.push(call, format!("write `{form}`"));
-            return None;
+            return self.refuse(call, format!("write `{form}`"));
         };
         if self.loops + 2 > DEEPEST_SUM {
-            self.errors.push_once("depth of sums", call, "sums are nested too deeply");
-            return None;
+            return self.errors.refuse_once("depth of sums", call, "sums are nested too deeply");
         }
         let bounds = self.range(range);
         let depth = self.loops;
@@ -170,8 +168,7 @@ impl Lowering<'_> {
                 }
                 None => "an index is a name: write `|j| …`",
             };
-            self.errors.push(input, message);
-            return None;
+            return self.refuse(input, message);
         }
         let found = names.len();
         let names = <[String; COUNT]>::try_from(names).ok();
@@ -190,13 +187,11 @@ impl Lowering<'_> {
 
     pub(super) fn range(&mut self, syntax: &Syntax) -> Option<(Index, Index)> {
         let Syntax::Range(range) = syntax else {
-            self.errors.push(syntax, "expected a range of indices, as in `0..n`");
-            return None;
+            return self.refuse(syntax, "expected a range of indices, as in `0..n`");
         };
         let lower = range.start.as_ref().map_or_else(|| Some(Index::literal(0)), |start| self.index(start));
         let Some(end) = &range.end else {
-            self.errors.push(syntax, "this range has no end: write `0..n`");
-            return None;
+            return self.refuse(syntax, "this range has no end: write `0..n`");
         };
         let upper = self.index(end);
         let (lower, upper) = (lower?, upper?);
@@ -209,8 +204,7 @@ impl Lowering<'_> {
             && !range.start.iter().any(|start| self.names_index(start))
             && !self.names_index(end)
         {
-            self.errors.push(syntax, "this range is empty");
-            return None;
+            return self.refuse(syntax, "this range is empty");
         }
         Some((lower, upper))
     }
@@ -250,8 +244,7 @@ impl Lowering<'_> {
         let index = self.index_inside(syntax)?;
         let numbers = index.terms.iter().map(|(_, coefficient)| *coefficient);
         if numbers.chain([index.constant]).any(|number| number.unsigned_abs() > LARGEST) {
-            self.errors.push(syntax, "this index is too large");
-            return None;
+            return self.refuse(syntax, "this index is too large");
         }
         Some(index)
     }
@@ -275,8 +268,7 @@ impl Lowering<'_> {
                     Some(Binding::Index { form, .. }) => return Some(form.clone()),
                     Some(Binding::Value { .. } | Binding::Function(_)) => {
                         let message = format!("`{name}` is a name of this formula here, and no index");
-                        self.errors.push(path, message);
-                        return None;
+                        return self.refuse(path, message);
                     }
                     None => {}
                 }
@@ -314,8 +306,7 @@ impl Lowering<'_> {
             BinOp::Sub(_) => Some(left.plus(&right, -1)),
             BinOp::Rem(_) => {
                 if right.as_literal().is_some_and(|modulus| modulus < 1) {
-                    self.errors.push(&binary.right, "a remainder is taken by a positive number");
-                    return None;
+                    return self.refuse(&binary.right, "a remainder is taken by a positive number");
                 }
                 Some(left.remainder(&right))
             }
@@ -325,19 +316,12 @@ impl Lowering<'_> {
                 _ if [&left, &right].iter().any(|factor| factor.free() == Free::default()) => {
                     Some(left.product(&right))
                 }
-                _ => {
-                    self.errors.push(
-                        binary,
-                        "an index is multiplied by a literal or a size, and not by another index",
-                    );
-                    None
-                }
+                _ => self.refuse(
+                    binary,
+                    "an index is multiplied by a literal or a size, and not by another index",
+                ),
             },
-            _ => {
-                self.errors
-                    .push(binary, "index arithmetic knows `+`, `-`, `*` by a literal or a size, and `%`");
-                None
-            }
+            _ => self.refuse(binary, "index arithmetic knows `+`, `-`, `*` by a literal or a size, and `%`"),
         }
     }
 
@@ -351,7 +335,7 @@ impl Lowering<'_> {
             || match self.role {
                 Role::Constraint(of) => format!(
                     "; an index is bound by the constraint, as in `{}(i in 0..n) = …`, or by a sum, as in `sum(0..n, |j| …)`",
-                    of.word()
+                    of.words().word
                 ),
                 Role::OneForm
                 | Role::Component

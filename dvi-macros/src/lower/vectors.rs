@@ -74,8 +74,7 @@ impl Lowering<'_> {
             "this is {kind}, where a number is expected: write a component, as `{name}[0]`, `{name}.norm()` or \
              `{name}.norm_squared()`"
         );
-        self.errors.push(at, message);
-        None
+        self.refuse(at, message)
     }
 
     /// The number that a formula is.
@@ -89,8 +88,7 @@ impl Lowering<'_> {
             value.kind(),
             name_of(formula)
         );
-        self.errors.push(formula, message);
-        None
+        self.refuse(formula, message)
     }
 
     /// The values of two expressions that are to be of one kind: `joined`, as in "a sum".
@@ -113,8 +111,7 @@ impl Lowering<'_> {
                 name_of(vector)
             ),
         };
-        self.errors.push(at, format!("{joined} of {} and {}: {advice}", a.kind(), b.kind()));
-        None
+        self.refuse(at, format!("{joined} of {} and {}: {advice}", a.kind(), b.kind()))
     }
 
     /// a b, where one of them may be a vector.
@@ -131,8 +128,7 @@ impl Lowering<'_> {
                     "a product of two vectors is written `{a}.dot({b})` where a number is meant, and `{a}.cross({b})` \
                      where a vector is"
                 );
-                self.errors.push(syntax, message);
-                return None;
+                return self.refuse(syntax, message);
             }
         };
         vector.map(|component| {
@@ -149,12 +145,10 @@ impl Lowering<'_> {
                 "nothing is divided by {}: write `{name}.norm()` for its length, or divide by a component, as `{name}[0]`",
                 right.kind()
             );
-            self.errors.push(&syntax.right, message);
-            return None;
+            return self.refuse(&syntax.right, message);
         };
         if right.is_zero() {
-            self.errors.push(&syntax.right, "division by zero");
-            return None;
+            return self.refuse(&syntax.right, "division by zero");
         }
         left.map(|left| {
             self.check_strength(left, (&syntax.right, right))?;
@@ -173,8 +167,7 @@ impl Lowering<'_> {
                 COMPONENTS.start(),
                 COMPONENTS.end()
             );
-            self.errors.push(list, message);
-            return None;
+            return self.refuse(list, message);
         }
         components.into_iter().collect::<Option<_>>().map(Value::Vector)
     }
@@ -197,12 +190,10 @@ impl Lowering<'_> {
                 Syntax::Path(name) => format!("`{}` is a number here: it takes no index", text(name)),
                 _ => "only coordinates, fields of the struct and vectors take an index".to_string(),
             };
-            self.errors.push(base, message);
-            return None;
+            return self.refuse(base, message);
         };
         let [index] = indices else {
-            self.errors.push(indices[1], "a component of a vector is a number: it takes no index");
-            return None;
+            return self.refuse(indices[1], "a component of a vector is a number: it takes no index");
         };
         let place = self.axis(index, components.len(), &name_of(base))?;
         Some(components[place].into())
@@ -249,9 +240,8 @@ impl Lowering<'_> {
                 VectorMethod::NormSquared => format!("write `{of}.powi(2)`"),
                 VectorMethod::Dot | VectorMethod::Cross => "numbers are multiplied by `*`".to_string(),
             };
-            self.errors
-                .push(&call.receiver, format!("`{name}` is of vectors, and this is a number: {advice}"));
-            return None;
+            return self
+                .refuse(&call.receiver, format!("`{name}` is of vectors, and this is a number: {advice}"));
         };
         let value = match (method, others.into_iter().next()) {
             (VectorMethod::Norm, _) => {
@@ -311,8 +301,7 @@ impl Lowering<'_> {
             } else {
                 format!("the cross product is of vectors in space, and these have {} components", a.len())
             };
-            self.errors.push(&call.method, message);
-            return None;
+            return self.refuse(&call.method, message);
         };
         let mut minor = |a: Expr, b: Expr, c: Expr, d: Expr| {
             let (first, second) = (self.graph.multiply(a, d), self.graph.multiply(b, c));

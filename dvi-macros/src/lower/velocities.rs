@@ -19,31 +19,26 @@ impl Lowering<'_> {
             };
             let message =
                 format!("`dot` is the velocity of one coordinate; a scalar product is written `{meant}`");
-            self.errors.push(call, message);
-            return None;
+            return self.refuse(call, message);
         }
         let wanted = match self.velocity_word() {
             Ok(wanted) => wanted,
             Err(reason) => {
-                self.errors.push(call, reason);
-                return None;
+                return self.refuse(call, reason);
             }
         };
         if name != wanted {
             let message = format!("in {} a velocity is written `{wanted}(x)`", self.role.name());
-            self.errors.push(&call.func, message);
-            return None;
+            return self.refuse(&call.func, message);
         }
         if call.args.len() != 1 {
-            self.errors
-                .push(&call.func, format!("`{name}` takes one coordinate; {}", here(call.args.len())));
-            return None;
+            return self
+                .refuse(&call.func, format!("`{name}` takes one coordinate; {}", here(call.args.len())));
         }
         if let Some(name_of) = root(&call.args[0]).filter(|name| self.binding_of(name).is_some()) {
             let message =
                 format!("`{name}` takes a coordinate, and `{name_of}` is a name of this formula here");
-            self.errors.push(&call.args[0], message);
-            return None;
+            return self.refuse(&call.args[0], message);
         }
         let place = root(&call.args[0]);
         let block =
@@ -53,8 +48,7 @@ impl Lowering<'_> {
                 "a unit vector has no `{name}(…)` here: its one-form is that of the area on the sphere, `{AREA}({})`",
                 block.label()
             );
-            self.errors.push(&call.args[0], message);
-            return None;
+            return self.refuse(&call.args[0], message);
         }
         let value = self.value(&call.args[0])?;
         if place.is_none() {
@@ -78,8 +72,7 @@ impl Lowering<'_> {
         };
         if self.model.extended.is_some_and(|extended| extended.time == coordinate.block as usize) {
             let message = "`t` is the physical time: its velocity is the time transformation";
-            self.errors.push(call, message);
-            return None;
+            return self.refuse(call, message);
         }
         Some(self.graph.intern(Node::Velocity(coordinate)).into())
     }

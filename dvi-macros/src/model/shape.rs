@@ -2,7 +2,7 @@
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
-use syn::{Expr, ExprLit, GenericArgument, Generics, Ident, Lit, PathArguments, Type};
+use syn::{Expr, ExprLit, GenericArgument, Generics, Ident, Lit, PathArguments, PathSegment, Type};
 
 /// What the type of a field says, as far as it is written out.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,8 +16,29 @@ pub(crate) enum Shape {
     Other,
 }
 
-pub(super) fn shape(ty: &Type) -> Shape {
+/// The type behind references and parentheses.
+pub(super) fn plain(ty: &Type) -> &Type {
     match ty {
+        Type::Reference(reference) => plain(&reference.elem),
+        Type::Paren(inner) => plain(&inner.elem),
+        Type::Group(inner) => plain(&inner.elem),
+        _ => ty,
+    }
+}
+
+/// The entries of `Vec<f64>`.
+fn argument(of: &PathSegment) -> Option<&Type> {
+    match &of.arguments {
+        PathArguments::AngleBracketed(list) => match list.args.first()? {
+            GenericArgument::Type(ty) => Some(ty),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+pub(super) fn shape(ty: &Type) -> Shape {
+    match plain(ty) {
         Type::Array(array) => {
             let length = match &array.len {
                 Expr::Lit(ExprLit { lit: Lit::Int(length), .. }) => length.base10_parse().ok(),
@@ -26,21 +47,17 @@ pub(super) fn shape(ty: &Type) -> Shape {
             Shape::Array(length, Box::new(shape(&array.elem)))
         }
         Type::Slice(slice) => Shape::Array(None, Box::new(shape(&slice.elem))),
-        Type::Reference(reference) => shape(&reference.elem),
-        Type::Paren(inner) => shape(&inner.elem),
-        Type::Group(inner) => shape(&inner.elem),
         Type::Tuple(_) | Type::Never(_) => Shape::Other,
         Type::Path(path) => {
             let Some(last) = path.path.segments.last() else { return Shape::Unknown };
+            let entry = || argument(last).map_or(Shape::Unknown, shape);
             match last.ident.to_string().as_str() {
                 "f64" | "f32" | "i8" | "i16" | "i32" | "i64" | "isize" | "u8" | "u16" | "u32" | "u64" => {
                     Shape::Number
                 }
                 "usize" => Shape::Count,
-                "Box" | "Rc" | "Arc" => entry(&last.arguments),
-                "Vec" | "VecDeque" | "SmallVec" | "ArrayVec" => {
-                    Shape::Array(None, Box::new(entry(&last.arguments)))
-                }
+                "Box" | "Rc" | "Arc" => entry(),
+                "Vec" | "VecDeque" | "SmallVec" | "ArrayVec" => Shape::Array(None, Box::new(entry())),
                 "String" | "str" | "bool" | "char" | "Option" | "Result" | "PhantomData" | "HashMap"
                 | "BTreeMap" => Shape::Other,
                 _ => Shape::Unknown,
@@ -52,23 +69,15 @@ pub(super) fn shape(ty: &Type) -> Shape {
 
 /// The generic type among `generics` that the numbers of a type are of: `P` for `[P; 3]`.
 pub(super) fn generic(ty: &Type, generics: &Generics) -> Option<Ident> {
-    match ty {
+    match plain(ty) {
         Type::Array(array) => generic(&array.elem, generics),
         Type::Slice(slice) => generic(&slice.elem, generics),
-        Type::Reference(reference) => generic(&reference.elem, generics),
-        Type::Paren(inner) => generic(&inner.elem, generics),
-        Type::Group(inner) => generic(&inner.elem, generics),
         Type::Path(path) => match path.path.get_ident() {
             Some(name) => generics.type_params().any(|known| known.ident == *name).then(|| name.clone()),
-            None => match &path.path.segments.last()?.arguments {
-                PathArguments::AngleBracketed(list) => match list.args.first()? {
-                    GenericArgument::Type(entry) if matches!(shape(ty), Shape::Array(..)) => {
-                        generic(entry, generics)
-                    }
-                    _ => None,
-                },
-                _ => None,
-            },
+            None => {
+                let entry = argument(path.path.segments.last()?)?;
+                matches!(shape(ty), Shape::Array(..)).then(|| generic(entry, generics))?
+            }
         },
         _ => None,
     }
@@ -82,21 +91,14 @@ pub(super) fn is_slice(ty: &Type, generics: &Generics) -> bool {
         }
         _ => false,
     };
-    match ty {
+    match plain(ty) {
         Type::Array(array) => is_number(&array.elem),
         Type::Slice(slice) => is_number(&slice.elem),
-        Type::Reference(reference) => is_slice(&reference.elem, generics),
-        Type::Paren(inner) => is_slice(&inner.elem, generics),
-        Type::Group(inner) => is_slice(&inner.elem, generics),
         // Another type of this name would have another path.
         Type::Path(path) if path.path.segments.len() == 1 => {
-            path.path.segments.last().is_some_and(|last| match (&last.arguments, last.ident.to_string().as_str()) {
-                (PathArguments::AngleBracketed(list), "Vec") => {
-                    matches!(list.args.first(), Some(GenericArgument::Type(entry)) if is_number(entry))
-                }
-                (PathArguments::AngleBracketed(list), "Box" | "Rc" | "Arc") => {
-                    matches!(list.args.first(), Some(GenericArgument::Type(slice)) if is_slice(slice, generics))
-                }
+            path.path.segments.last().is_some_and(|last| match last.ident.to_string().as_str() {
+                "Vec" => argument(last).is_some_and(is_number),
+                "Box" | "Rc" | "Arc" => argument(last).is_some_and(|slice| is_slice(slice, generics)),
                 _ => false,
             })
         }
@@ -104,25 +106,11 @@ pub(super) fn is_slice(ty: &Type, generics: &Generics) -> bool {
     }
 }
 
-/// The entries of `Vec<f64>`.
-fn entry(arguments: &PathArguments) -> Shape {
-    match arguments {
-        PathArguments::AngleBracketed(list) => match list.args.first() {
-            Some(GenericArgument::Type(ty)) => shape(ty),
-            _ => Shape::Unknown,
-        },
-        _ => Shape::Unknown,
-    }
-}
-
 /// Whether the numbers of a type are integers for certain.
 pub(super) fn is_integer(ty: &Type) -> bool {
-    match ty {
+    match plain(ty) {
         Type::Array(array) => is_integer(&array.elem),
         Type::Slice(slice) => is_integer(&slice.elem),
-        Type::Reference(reference) => is_integer(&reference.elem),
-        Type::Paren(inner) => is_integer(&inner.elem),
-        Type::Group(inner) => is_integer(&inner.elem),
         Type::Path(path) => path.path.segments.last().is_some_and(|last| match &last.arguments {
             PathArguments::AngleBracketed(list) => list
                 .args

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, ExprLit, GenericParam, Ident, Lit, Member, Type};
 
-use super::shape::{Shape, shape};
+use super::shape::{Shape, plain, shape};
 use super::{Model, ParameterName, SizeName};
 use crate::errors::{Errors, text};
 use crate::internal::internal;
@@ -242,10 +242,7 @@ impl Model {
 
 /// The length of an array type, or of its entries at a deeper `level`.
 fn array_length(ty: &Type, level: usize) -> Option<&Expr> {
-    match (ty, level) {
-        (Type::Reference(reference), _) => array_length(&reference.elem, level),
-        (Type::Paren(inner), _) => array_length(&inner.elem, level),
-        (Type::Group(inner), _) => array_length(&inner.elem, level),
+    match (plain(ty), level) {
         (Type::Array(array), 0) => Some(&array.len),
         (Type::Array(array), _) => array_length(&array.elem, level - 1),
         _ => None,

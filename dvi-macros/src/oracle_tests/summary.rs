@@ -28,7 +28,10 @@ impl Summary {
             Verdict::Agrees { largest, claims } => {
                 self.count("agrees");
                 if !system.constraints.is_empty() {
-                    self.count(&format!("agrees, with {} constraints", system.constrained.adjective()));
+                    self.count(&format!(
+                        "agrees, with {} constraints",
+                        system.constrained.words().adjective
+                    ));
                 }
                 if system.dissipation.is_some() {
                     self.count("agrees, with a dissipation function");

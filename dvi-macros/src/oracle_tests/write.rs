@@ -103,7 +103,7 @@ impl System {
 
     /// Constraints that follow each other without an index are a list.
     fn constraint_arguments(&self, writer: &Writer<'_>) -> String {
-        let (mut text, word) = (String::new(), self.constrained.word());
+        let (mut text, word) = (String::new(), self.constrained.words().word);
         for run in self.constraints.chunk_by(|one, next| one.ranges.is_empty() && next.ranges.is_empty()) {
             text += &match run {
                 [Constraint { ranges, formula }] if !ranges.is_empty() => {

@@ -47,14 +47,6 @@ impl RegularPrograms {
 
 /// The statement of an entry of `output`, with its value in the only vector.
 pub(super) fn as_vector(statement: &Statement, output: Output) -> Option<Statement> {
-    match &statement.place {
-        Place::Entry(found, coordinate) if *found == output => {
-            Some(Statement { place: Place::Entry(Output::Vector, coordinate.clone()), ..statement.clone() })
-        }
-        Place::Result
-        | Place::Entry(..)
-        | Place::MatrixEntry(..)
-        | Place::Constraint(_)
-        | Place::ConstraintDerivative(..) => None,
-    }
+    let (_, coordinate) = statement.place.entry().filter(|(found, _)| *found == output)?;
+    Some(Statement { place: Place::Entry(Output::Vector, coordinate.clone()), ..statement.clone() })
 }

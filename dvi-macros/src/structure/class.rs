@@ -6,7 +6,7 @@
 use super::gauge::{self, Effort, Found, Search};
 use crate::formulas::{Variable, variable};
 use crate::model::Model;
-use crate::symbolic::{Atom, Coordinate, Expr, Graph, Index, Loop};
+use crate::symbolic::{Coordinate, Expr, Graph, Index, Loop};
 
 /// Along which coordinates of a block the one-form has components.
 #[derive(Clone, Debug, PartialEq)]
@@ -175,29 +175,15 @@ fn visited(index: &Index, loops: &[Loop]) -> Option<Vec<i64>> {
 
 fn visit(index: &Index, loops: &[Loop], open: &mut Vec<(u32, i64)>, found: &mut Vec<i64>) -> Option<()> {
     let Some((outer, inner)) = loops.split_first() else {
-        found.push(value(index, open)?);
+        found.push(index.value(open)?);
         return (found.len() <= MOST).then_some(());
     };
-    let (lower, upper) = (value(&outer.range.lower, open)?, value(&outer.range.upper, open)?);
-    let left_out = outer.range.left_out().map(|index| value(index, open)).collect::<Option<Vec<i64>>>()?;
+    let (lower, upper) = (outer.range.lower.value(open)?, outer.range.upper.value(open)?);
+    let left_out = outer.range.left_out().map(|index| index.value(open)).collect::<Option<Vec<i64>>>()?;
     for at in (lower..upper).filter(|at| !left_out.contains(at)) {
         open.push((outer.depth, at));
         visit(index, inner, open, found)?;
         open.pop();
     }
     Some(())
-}
-
-/// The value of an index where those of the loops are known.
-fn value(index: &Index, open: &[(u32, i64)]) -> Option<i64> {
-    index.terms.iter().try_fold(index.constant, |sum, (atom, coefficient)| {
-        let value = match atom {
-            Atom::Open(depth) => open.iter().find(|(known, _)| known == depth)?.1,
-            Atom::Remainder(of, modulus) => value(of, open)?.checked_rem_euclid(value(modulus, open)?)?,
-            Atom::Row(row, length) => value(row, open)?.checked_mul(value(length, open)?)?,
-            // One of its factors is a size.
-            Atom::Bound(_) | Atom::Size(_) | Atom::Product(_) => return None,
-        };
-        sum.checked_add(value.checked_mul(*coefficient)?)
-    })
 }

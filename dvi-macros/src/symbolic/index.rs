@@ -215,6 +215,20 @@ impl Index {
         })
     }
 
+    /// The value where those of the loops at these depths are known; none if a size or a sum has a say.
+    pub(crate) fn value(&self, open: &[(u32, i64)]) -> Option<i64> {
+        self.terms.iter().try_fold(self.constant, |sum, (atom, coefficient)| {
+            let value = match atom {
+                Atom::Open(depth) => open.iter().find(|(known, _)| known == depth)?.1,
+                Atom::Remainder(of, modulus) => of.value(open)?.checked_rem_euclid(modulus.value(open)?)?,
+                Atom::Row(row, length) => row.value(open)?.checked_mul(length.value(open)?)?,
+                // One of the factors of a product is a size.
+                Atom::Bound(_) | Atom::Size(_) | Atom::Product(_) => return None,
+            };
+            sum.checked_add(value.checked_mul(*coefficient)?)
+        })
+    }
+
     /// The terms that have a value: not those that are there to depend on a loop.
     pub(crate) fn counted_terms(&self) -> impl Iterator<Item = &(Atom, i64)> {
         self.terms.iter().filter(|(atom, _)| !atom.is_tie())

@@ -46,7 +46,7 @@ impl Argument {
             } else if let Some(of) = Constrained::named(&name.to_string()) {
                 return Err(input.error(format!(
                     "a family of {} is written {}",
-                    of.nouns()[1],
+                    of.words().nouns[1],
                     of.family()
                 )));
             } else {

@@ -22,50 +22,50 @@ pub(crate) enum Constrained {
     Gaps,
 }
 
-/// Words for what is a constraint.
-const CONSTRAINTS: [&str; 10] = [
-    "algebraic",
-    "bond",
-    "bonds",
-    "constrain",
-    "constrained",
-    "constraints",
-    "equality",
-    "holonomic",
-    "rod",
-    "rods",
-];
+/// What is said of one kind of constraints.
+#[derive(Debug)]
+pub(crate) struct Words {
+    /// The word that declares them.
+    pub(crate) word: &'static str,
+    /// Words that mean it.
+    others: &'static [&'static str],
+    pub(crate) adjective: &'static str,
+    /// What one of them is called, and several.
+    pub(crate) nouns: [&'static str; 2],
+    /// All of them, with the adjective.
+    plural: &'static str,
+    /// The function that is zero, or not negative.
+    pub(crate) letter: &'static str,
+    /// That function of its variables.
+    pub(crate) function: &'static str,
+    /// What it is to be.
+    pub(crate) relation: &'static str,
+}
 
-/// Words for what is a constraint of the velocities.
-const VELOCITY_CONSTRAINTS: [&str; 10] = [
-    "anholonomic",
-    "no_slip",
-    "non_holonomic",
-    "nonholonomic_constraint",
-    "nonholonomic_constraints",
-    "rolling",
-    "slip",
-    "velocity_constraint",
-    "velocity_constraints",
-    "without_slip",
-];
-
-/// Words for what the motion is not to pass.
-const IMPACTS: [&str; 14] = [
-    "barrier",
-    "bounce",
-    "boundary",
-    "collision",
-    "collisions",
-    "contact",
-    "floor",
-    "gap",
-    "impacts",
-    "inequality",
-    "obstacle",
-    "unilateral",
-    "wall",
-    "walls",
+/// In the order of the variants.
+#[rustfmt::skip]
+const WORDS: [Words; 3] = [
+    Words {
+        word: "constraint",
+        others: &["algebraic", "bond", "bonds", "constrain", "constrained", "constraints", "equality", "holonomic", "rod",
+            "rods"],
+        adjective: "holonomic", nouns: ["constraint", "constraints"], plural: "holonomic constraints",
+        letter: "g", function: "g(q, t)", relation: "= 0",
+    },
+    Words {
+        word: "nonholonomic",
+        others: &["anholonomic", "no_slip", "non_holonomic", "nonholonomic_constraint", "nonholonomic_constraints",
+            "rolling", "slip", "velocity_constraint", "velocity_constraints", "without_slip"],
+        adjective: "nonholonomic", nouns: ["constraint", "constraints"], plural: "nonholonomic constraints",
+        letter: "a", function: "a(q, v, t)", relation: "= 0",
+    },
+    Words {
+        word: "impact",
+        others: &["barrier", "bounce", "boundary", "collision", "collisions", "contact", "floor", "gap", "impacts",
+            "inequality", "obstacle", "unilateral", "wall", "walls"],
+        adjective: "unilateral", nouns: ["gap function", "gap functions"], plural: "impacts",
+        letter: "g", function: "g(q, t)", relation: "≥ 0",
+    },
 ];
 
 /// `constraint = g`, an entry of `constraint = [g, …]`, or `constraint(i in 0..n, j in i + 1..n) = g`; or the
@@ -87,91 +87,28 @@ pub(crate) struct Member {
 impl Constrained {
     const ALL: [Self; 3] = [Self::Positions, Self::Velocities, Self::Gaps];
 
+    pub(crate) fn words(self) -> &'static Words {
+        &WORDS[self as usize]
+    }
+
     /// What is constrained by an argument of this name, or of one like it.
     pub(super) fn named_like(name: &str) -> Option<Self> {
-        let declares = |of: &Self| {
-            let others: &[&str] = match of {
-                Self::Positions => &CONSTRAINTS,
-                Self::Velocities => &VELOCITY_CONSTRAINTS,
-                Self::Gaps => &IMPACTS,
-            };
-            name == of.word() || others.contains(&name)
-        };
-        Self::ALL.into_iter().find(declares)
+        Self::named(name).or_else(|| Self::ALL.into_iter().find(|of| of.words().others.contains(&name)))
     }
 
     /// What is constrained by an argument of this very name.
     pub(super) fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|of| of.word() == name)
-    }
-
-    /// The word that declares such constraints.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Positions => "constraint",
-            Self::Velocities => "nonholonomic",
-            Self::Gaps => "impact",
-        }
-    }
-
-    /// What such a constraint is called.
-    pub(crate) fn adjective(self) -> &'static str {
-        match self {
-            Self::Positions => "holonomic",
-            Self::Velocities => "nonholonomic",
-            Self::Gaps => "unilateral",
-        }
-    }
-
-    /// The function that is zero, or not negative.
-    pub(crate) fn letter(self) -> &'static str {
-        match self {
-            Self::Positions | Self::Gaps => "g",
-            Self::Velocities => "a",
-        }
-    }
-
-    /// That function of its variables.
-    pub(crate) fn function(self) -> &'static str {
-        match self {
-            Self::Positions | Self::Gaps => "g(q, t)",
-            Self::Velocities => "a(q, v, t)",
-        }
-    }
-
-    /// What it is to be.
-    pub(crate) fn relation(self) -> &'static str {
-        match self {
-            Self::Positions | Self::Velocities => "= 0",
-            Self::Gaps => "≥ 0",
-        }
-    }
-
-    /// What one of them is, and several.
-    pub(crate) fn nouns(self) -> [&'static str; 2] {
-        match self {
-            Self::Positions | Self::Velocities => ["constraint", "constraints"],
-            Self::Gaps => ["gap function", "gap functions"],
-        }
-    }
-
-    /// Several of them, with their adjective.
-    fn plural(self) -> &'static str {
-        match self {
-            Self::Positions => "holonomic constraints",
-            Self::Velocities => "nonholonomic constraints",
-            Self::Gaps => "impacts",
-        }
+        Self::ALL.into_iter().find(|of| of.words().word == name)
     }
 
     /// How a family is written.
     pub(super) fn family(self) -> String {
-        format!("`{}(i in 0..n) = {}(i)`", self.word(), self.letter())
+        format!("`{}(i in 0..n) = {}(i)`", self.words().word, self.words().letter)
     }
 
     /// How one of two indices is.
     fn family_of_pairs(self) -> String {
-        format!("`{}(i in 0..n, j in i + 1..n) = {}(i, j)`", self.word(), self.letter())
+        format!("`{}(i in 0..n, j in i + 1..n) = {}(i, j)`", self.words().word, self.words().letter)
     }
 }
 
@@ -196,12 +133,12 @@ impl Attribute {
                     "a degenerate one has no momentum of its own that could jump at a surface"
                 }
             };
-            let (what, regular) = (of.plural(), Kind::Regular.attribute());
+            let (what, regular) = (of.words().plural, Kind::Regular.attribute());
             let message = format!("{what} are for regular systems, in `{regular}`: {reason}");
             errors.push_once("constraints", name, message);
             return;
         }
-        let (word, function, letter) = (of.word(), of.function(), of.letter());
+        let Words { word, function, letter, .. } = *of.words();
         let before = *self.constrained.get_or_insert(of);
         if name != word {
             let what = match of {
@@ -218,23 +155,24 @@ impl Attribute {
             return;
         }
         if before != of {
-            let advice = match (before, of) {
-                (Constrained::Gaps, _) | (_, Constrained::Gaps) => {
-                    "choose the coordinates so that the constraints hold".to_string()
-                }
-                (Constrained::Positions | Constrained::Velocities, _) => format!(
-                    "choose the coordinates so that the constraints of the positions hold, or declare their rates of change by \
-                     `{} = …` too",
-                    Constrained::Velocities.word()
+            let (what, advice) = match (before, of) {
+                (Constrained::Gaps, _) | (_, Constrained::Gaps) => (
+                    "a system has either constraints or impacts",
+                    "choose the coordinates so that the constraints hold".to_string(),
                 ),
+                (Constrained::Positions | Constrained::Velocities, _) => {
+                    let rates = Constrained::Velocities.words().word;
+                    let advice = format!(
+                        "choose the coordinates so that the constraints of the positions hold, or declare \
+                         their rates of change by `{rates} = …` too"
+                    );
+                    ("a system has constraints of one kind", advice)
+                }
             };
-            let what = match of {
-                Constrained::Gaps => "a system has either constraints or impacts",
-                _ if before == Constrained::Gaps => "a system has either constraints or impacts",
-                Constrained::Positions | Constrained::Velocities => "a system has constraints of one kind",
-            };
-            let message =
-                format!("{what}, and those before this one are declared by `{}`: {advice}", before.word());
+            let message = format!(
+                "{what}, and those before this one are declared by `{}`: {advice}",
+                before.words().word
+            );
             errors.push_once("constraints of two kinds", name, message);
             return;
         }
@@ -247,7 +185,7 @@ impl Attribute {
             }
             Value::AssignedTo { of: index, value, parentheses } => {
                 let family = if index.is_empty() {
-                    let message = format!("a family of {} is written {}", of.nouns()[1], of.family());
+                    let message = format!("a family of {} is written {}", of.words().nouns[1], of.family());
                     Err(syn::Error::new(parentheses, message))
                 } else {
                     read_by(index, |input| family(input, of))
@@ -275,8 +213,11 @@ fn family(input: ParseStream<'_>, of: Constrained) -> syn::Result<Vec<Member>> {
         }
         let member = Member::parse(input, of)?;
         if family.len() == 2 {
-            let message =
-                format!("a family of {} has two indices at most, {}", of.nouns()[1], of.family_of_pairs());
+            let message = format!(
+                "a family of {} has two indices at most, {}",
+                of.words().nouns[1],
+                of.family_of_pairs()
+            );
             return Err(syn::Error::new(member.index.span(), message));
         }
         if family[0].index == member.index {
@@ -290,15 +231,15 @@ fn family(input: ParseStream<'_>, of: Constrained) -> syn::Result<Vec<Member>> {
 
 impl Member {
     fn parse(input: ParseStream<'_>, of: Constrained) -> syn::Result<Self> {
-        let (form, word, function) = (of.family(), of.word(), of.function());
-        let advice = format!("a family of {} is written {form}", of.nouns()[1]);
+        let (form, Words { word, function, .. }) = (of.family(), of.words());
+        let advice = format!("a family of {} is written {form}", of.words().nouns[1]);
         let at = input.span();
         let index: Ident = input.parse().map_err(|_| syn::Error::new(at, &advice))?;
         if input.is_empty() {
             let message = format!(
                 "a {} is one of the whole system, not of `{index}` alone: write `{word} = {function}`; one for each value of an index \
                  is {form}",
-                of.nouns()[0]
+                of.words().nouns[0]
             );
             return Err(syn::Error::new(index.span(), message));
         }
@@ -319,10 +260,10 @@ impl Constraint {
     pub(super) fn of_value(of: Constrained, value: Expr) -> Vec<syn::Result<Self>> {
         match value {
             Expr::Array(list) if list.elems.is_empty() => {
-                let (word, letter) = (of.word(), of.letter());
+                let Words { word, letter, .. } = of.words();
                 let message = format!(
                     "there is no {} in this list: write `{word} = [{letter}1, {letter}2]`, or leave it out",
-                    of.nouns()[0]
+                    of.words().nouns[0]
                 );
                 vec![Err(syn::Error::new_spanned(list, message))]
             }
@@ -356,9 +297,9 @@ impl Constraint {
                     let message = format!(
                         "a {} constraint is an equation {} = 0, of which {} is written: no inequality is one; that a motion does not \
                          pass a surface is written `impact = g(q, t)`",
-                        of.adjective(),
-                        of.function(),
-                        of.letter()
+                        of.words().adjective,
+                        of.words().function,
+                        of.words().letter
                     );
                     refused(&binary.op, message)
                 }
@@ -366,14 +307,14 @@ impl Constraint {
             },
             Expr::Closure(closure) => refused(
                 closure,
-                format!("one {} for each value of an index is written {}", of.nouns()[0], of.family()),
+                format!("one {} for each value of an index is written {}", of.words().nouns[0], of.family()),
             ),
             Expr::Array(list) => {
                 let (what, message) = match family.as_slice() {
                     [] => ("list", "holds formulas: write them without these brackets"),
                     [..] => ("family", "has one formula: write a family for each of these"),
                 };
-                refused(list, format!("a {what} of {} {message}", of.nouns()[1]))
+                refused(list, format!("a {what} of {} {message}", of.words().nouns[1]))
             }
             _ => Ok(Self { family, formula }),
         }
@@ -384,8 +325,8 @@ impl Constraint {
 fn one_side(of: Constrained, family: &[Member], left: &Expr, right: &Expr) -> String {
     let members = family.iter().map(|Member { index, range }| format!("{index} in {}", text(range)));
     let head = match members.collect::<Vec<_>>().join(", ") {
-        none if none.is_empty() => of.word().to_string(),
-        members => format!("{}({members})", of.word()),
+        none if none.is_empty() => of.words().word.to_string(),
+        members => format!("{}({members})", of.words().word),
     };
     let left = text(left);
     let all = match right {
@@ -395,7 +336,7 @@ fn one_side(of: Constrained, family: &[Member], left: &Expr, right: &Expr) -> St
         }
         right => format!("{left} - {}", text(right)),
     };
-    let (function, letter, relation) = (of.function(), of.letter(), of.relation());
+    let Words { function, letter, relation, .. } = of.words();
     let what = match of {
         Constrained::Positions | Constrained::Velocities => "a constraint",
         Constrained::Gaps => "a surface that the motion does not pass",

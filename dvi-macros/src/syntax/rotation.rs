@@ -11,7 +11,7 @@ use syn::spanned::Spanned;
 use syn::visit_mut::{self, VisitMut};
 use syn::{Block, Expr, ExprClosure, Lit, Local, Pat, parse_quote_spanned};
 
-use super::{Attribute, Declaration, Factor, Kind};
+use super::{Attribute, Declaration, Factor, Kind, bound};
 use crate::errors::{Errors, text};
 
 /// The angular velocity of a rotation, in the body.
@@ -41,7 +41,10 @@ impl Attribute {
                     format!("a unit vector as numbers is `{first}[3]`, with its length as a constraint")
                 }
             };
-            Some(format!("a system with rotations or unit vectors has no `{}` yet: {numbers}", of.word()))
+            Some(format!(
+                "a system with rotations or unit vectors has no `{}` yet: {numbers}",
+                of.words().word
+            ))
         } else if !self.forces.is_empty() || self.dissipation.is_some() {
             let word = if self.forces.is_empty() { "dissipation" } else { "force" };
             Some(format!("a system with rotations or unit vectors has no forces yet: leave `{word}` out"))
@@ -275,13 +278,7 @@ impl Entries<'_> {
     }
 
     fn hide(&mut self, pattern: &Pat) {
-        match pattern {
-            Pat::Ident(name) => self.hidden.push(name.ident.clone()),
-            Pat::Type(typed) => self.hide(&typed.pat),
-            Pat::Tuple(names) => names.elems.iter().for_each(|name| self.hide(name)),
-            // Refused where formulas are read.
-            _ => {}
-        }
+        self.hidden.extend(bound(pattern).into_iter().cloned());
     }
 
     fn refused(&mut self, at: &Expr, message: String) -> Expr {
