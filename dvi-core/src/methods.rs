@@ -74,7 +74,6 @@ mod newmark;
 mod one_point;
 mod one_step;
 mod projected;
-mod rattle;
 mod runge_kutta;
 mod sigma_family;
 mod step;
@@ -92,7 +91,7 @@ use crate::system::Same;
 use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::Composition;
-pub use constrained::Constrained;
+pub use constrained::{Constrained, Rattle};
 pub use context::{Here, Step, Steps};
 pub use energy_limit::EnergyLimit;
 pub use flight::FreeFlight;
@@ -105,7 +104,6 @@ pub use langevin::Langevin;
 pub use newmark::Newmark;
 pub use one_step::{OneStep, OneStepGauss};
 pub use projected::Projected;
-pub use rattle::Rattle;
 pub use runge_kutta::RungeKutta;
 pub(crate) use sigma_family::SigmaMemory;
 pub use sigma_family::{BeginsBetween, ParasiticMode, Sigma, Start};
@@ -383,6 +381,9 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     /// As [`Method::Suited`].
     type Suited<M>: Same<M, As = M>;
+
+    /// Whether the compiler knows that without constraints the steps would be those of Störmer and Verlet.
+    const IS_VERLET: bool;
 
     /// Refuses options that have no effect there.
     ///

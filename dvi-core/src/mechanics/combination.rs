@@ -166,8 +166,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         self.factors().is_none().then_some(&*self.scales)
     }
 
-    /// Gives the entries of the solution, as of [`solve`](Self::solve), to `set`; with another matrix in
-    /// each lane: entry i of `entries` is the only one of row i.
+    /// Sets `x` to the solution, as of [`solve`](Self::solve), with another matrix in each lane: entry i of
+    /// `entries` is the only one of row i.
     ///
     /// # Errors
     /// As [`prepare`](Self::prepare), of the first lane that fails.
@@ -175,7 +175,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         system: &S,
         entries: &[Lanes<W, T>],
         rhs: &[Lanes<W, T>],
-        mut set: impl FnMut(usize, Lanes<W, T>),
+        x: &mut [Lanes<W, T>],
     ) -> Result<(), StepFailure> {
         let (zero, one) = (Lanes::all(T::lift(0.0)), Lanes::all(T::lift(1.0)));
         let mut finite = zero;
@@ -183,7 +183,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             let conjugate = system.conjugate(j);
             let reciprocal = one / entries[conjugate];
             finite += reciprocal * zero;
-            set(j, rhs[conjugate] * reciprocal);
+            x[j] = rhs[conjugate] * reciprocal;
         }
         if finite == zero { Ok(()) } else { Self::first_singular(system, entries) }
     }

@@ -69,13 +69,13 @@ impl<T: Copy, V: DerefMut<Target = [T]>, const K: usize> Memory<T> for Point<V, 
     label = "it is no system, it has rotations or unit vectors, or a parameter of it is no number"
 )]
 pub trait Rates<S: System, T: Real>: Kind {
-    /// The rates of change of coordinates and velocities along the motion through (`q`, `v`, `t`); of a
-    /// degenerate system, which has no velocities, the second is zero.
+    /// The acceleration of the motion through (`q`, `v`, `t`); of a degenerate system, which has no
+    /// velocities, the rate of change of the coordinates.
     ///
     /// # Errors
     /// [`StepFailure::Singular`] where Ω or the mass matrix is singular;
     /// [`StepFailure::RedundantConstraint`].
-    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure>;
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Vector<S, T>, StepFailure>;
 }
 
 /// What the equations of motion of a kind of system are stored in.

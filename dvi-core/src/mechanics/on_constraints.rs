@@ -1,11 +1,11 @@
 //! What can be asked of a system with constraints at one state, without a run.
 
+use crate::Real;
 use crate::error::StartError;
 use crate::mechanics::constraints::consistent::{self, Among, check};
 use crate::mechanics::constraints::{ConstrainedLagrangian, Multipliers};
 use crate::mechanics::motion::constrained::acceleration;
 use crate::system::start::{evaluate, flatten, validate};
-use crate::{Real, Space};
 
 /// What can be asked of a system with constraints at one state.
 ///
@@ -52,8 +52,7 @@ pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
         let [q, v] = flatten(self, state)?;
         evaluate(self, &q, &v, t)?;
         check(self, [&q, &v], t, Among::States)?;
-        let mut multipliers = self.multipliers().vector();
-        acceleration(self, [&q, &v], t, &mut multipliers).map_err(StartError::Undetermined)?;
+        let (_, multipliers) = acceleration(self, [&q, &v], t).map_err(StartError::Undetermined)?;
         Ok(multipliers)
     }
 }

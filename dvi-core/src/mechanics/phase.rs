@@ -245,7 +245,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
             return Ok(());
         }
         phase.history.extrapolate(v);
-        Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v, S::QUADRATIC)
+        let mut legendre = Legendre::new(system, q, v, t);
+        legendre.solve(system, q, &phase.p, t, v).or_else(|_| {
+            // Extrapolated, a velocity may be beyond what L is defined for.
+            v.fill(T::lift(0.0));
+            legendre.solve(system, q, &phase.p, t, v)
+        })
     }
 }
 

@@ -19,14 +19,6 @@ pub struct VectorField<S: System, T: Real> {
     entries: Vector<S, T>,
 }
 
-/// What the evaluation in lanes works with.
-pub(crate) struct LaneWork<'a, const W: usize, T> {
-    pub(crate) gradient: &'a mut [Lanes<W, T>],
-    pub(crate) entries: &'a mut [Lanes<W, T>],
-    /// One lane.
-    pub(crate) vector: &'a mut [T],
-}
-
 impl<S: System, T: Real> Clone for VectorField<S, T> {
     fn clone(&self) -> Self {
         Self {
@@ -85,8 +77,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         self.solve(system, q, t, velocity, statistics)
     }
 
-    /// Gives the entries of X, each with its place, to `set`: at the points in the lanes of `q`, at the
-    /// times in those of `t`, bit for bit as [`evaluate`](Self::evaluate) finds them one by one.
+    /// Sets `out` to X at the points in the lanes of `q`, at the times in those of `t`, bit for bit as
+    /// [`evaluate`](Self::evaluate) finds them one by one. What comes with `vector`, one lane, is storage.
     ///
     /// # Errors
     /// As there, of the first lane that fails.
@@ -96,27 +88,26 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         system: &S,
         q: &[Lanes<W, T>],
         t: Lanes<W, T>,
-        work: LaneWork<'_, W, T>,
-        mut set: impl FnMut(usize, Lanes<W, T>),
+        ([gradient, entries], vector): ([&mut [Lanes<W, T>]; 2], &mut [T]),
+        out: &mut [Lanes<W, T>],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
         S: DegenerateLagrangian<Lanes<W, T>>,
     {
-        let LaneWork { gradient, entries, vector } = work;
         system.flow_source(q, t, gradient);
         statistics.gradients += W as u64;
         if !<S as DegenerateLagrangian<T>>::AFFINE && <S as DegenerateLagrangian<T>>::CANONICAL {
             let Combination { a, b } = Self::omega();
             system.conjugate_entries(q, t, Lanes::all(a), Lanes::all(b), entries);
-            return Inverse::<S, T>::of_entries_in_lanes(system, entries, gradient, set);
+            return Inverse::<S, T>::of_entries_in_lanes(system, entries, gradient, out);
         }
         if <S as DegenerateLagrangian<T>>::AFFINE
             && let Some(reciprocals) = self.inverse.reciprocals()
         {
             for (j, &reciprocal) in reciprocals.iter().enumerate() {
                 let conjugate = DegenerateLagrangian::<T>::conjugate(system, j);
-                set(j, gradient[conjugate] * Lanes::all(reciprocal));
+                out[j] = gradient[conjugate] * Lanes::all(reciprocal);
             }
             return Ok(());
         }
@@ -134,10 +125,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
             }
             read_lane(lane, gradient, &mut self.gradient);
             self.inverse.solve(system, &self.gradient, vector);
-            write_lane(lane, vector, gradient);
-        }
-        for (j, &velocity) in gradient.iter().enumerate() {
-            set(j, velocity);
+            write_lane(lane, vector, out);
         }
         Ok(())
     }

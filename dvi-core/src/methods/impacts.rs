@@ -99,8 +99,8 @@ pub enum Collision {
 /// assert_eq!(run.memory().impacts().len(), 0);
 /// run.advance()?;
 /// let [impact] = run.memory().impacts() else { panic!("one impact") };
-/// assert!((impact.time() - 2.0_f64.sqrt()).abs() < 1e-14);
-/// assert!((impact.impulse() - 2.0 * 2.0_f64.sqrt()).abs() < 1e-3);
+/// assert!((impact.time - 2.0_f64.sqrt()).abs() < 1e-14);
+/// assert!((impact.impulse - 2.0 * 2.0_f64.sqrt()).abs() < 1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -30,7 +30,7 @@ fn a_particle_between_two_walls() -> Outcome {
             assert_eq!(impacts.len() as i64, walls(run.time()) - walls(before));
             // The walls take turns, and the last velocity is that of the run.
             assert!(impacts.windows(2).all(|two| two[0].surface() != two[1].surface()));
-            assert!(impacts.last().is_none_or(|last| (last.v()[0] - run.state().dot_x).abs() < 1e-12));
+            assert!(impacts.last().is_none_or(|last| (last.v[0] - run.state().dot_x).abs() < 1e-12));
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::residuals::{ROUNDINGS, farthest};
 use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{
-    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, OfVelocity,
+    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Lower, Multipliers,
 };
 use crate::mechanics::legendre;
 use crate::scalar::norm::{self, reported};
@@ -42,19 +42,8 @@ impl<'a, S: ConstrainedLagrangian<T>, T: Real> Projection<'a, S, T> {
         Self { system, t, solver, none: system.multipliers().vector(), work }
     }
 
-    /// By how much q is to be changed.
-    fn of_position(&mut self, q: &[T], v: &[T]) -> Result<&[T], StepFailure> {
-        let lower = OfPosition { system: self.system, at: At { q, t: self.t } };
-        self.change([q, v], lower)
-    }
-
-    /// By how much v is to be changed.
-    fn of_velocity(&mut self, q: &[T], v: &[T]) -> Result<&[T], StepFailure> {
-        let lower = OfVelocity { system: self.system, at: At { q, t: self.t }, v };
-        self.change([q, v], lower)
-    }
-
-    fn change(&mut self, [q, v]: [&[T]; 2], lower: impl LinearEquations<T>) -> Result<&[T], StepFailure> {
+    /// By how much q or v is to be changed.
+    fn change(&mut self, [q, v]: [&[T]; 2], lower: Lower<'_, S, T>) -> Result<&[T], StepFailure> {
         let Self { system, t, solver, none, work: [l_q, p] } = self;
         let upper = Shortest(legendre::Equations { system: *system, points: [q, v, p], t: *t, l_q });
         let (multipliers, active) = (&**none, none.len());
@@ -66,32 +55,17 @@ impl<'a, S: ConstrainedLagrangian<T>, T: Real> Projection<'a, S, T> {
     }
 }
 
-/// What vanishes at a position, of constraints of positions.
-struct OfPosition<'a, S, T> {
-    system: &'a S,
-    at: At<'a, T>,
-}
-
-impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfPosition<'_, S, T> {
-    fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        S::Kind::forces(self.system, self.at.q, self.at.t, c, sink);
-        Ok(())
-    }
-}
-
 /// The constraint of positions that is farthest from being kept, of those that are off by more than the
 /// errors of the coordinates, `error`, times the derivatives by them explain, and its value.
 fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
-    mut of: impl LinearEquations<T>,
+    At { q, t }: At<'_, T>,
     error: impl Fn(usize) -> T,
-) -> Result<Option<(usize, f64)>, StepFailure> {
+) -> Option<(usize, f64)> {
     let [mut values, mut sizes]: [Multipliers<S, T>; 2] = system.multipliers().vectors();
-    of.evaluate(
-        &mut values,
-        &mut Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j)),
-    )?;
-    Ok(farthest(&values, &sizes, 1.0))
+    let mut terms = Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j));
+    S::Kind::forces(system, q, t, &mut values, &mut terms);
+    farthest(&values, &sizes, 1.0)
 }
 
 /// Where a state stands, which says how exact it is: what velocities are rounded relative to besides
@@ -139,8 +113,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     if S::Kind::OF_POSITIONS {
         let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
         let left_over = among.left_over([q, v]);
-        let off = worst(system, OfPosition { system, at }, |j| rounding * Scalar::abs(q[j]) + left_over);
-        match off.map_err(StartError::Starter)? {
+        match worst(system, at, |j| rounding * Scalar::abs(q[j]) + left_over) {
             Some((constraint, value)) if value.is_finite() => {
                 return Err(StartError::OffConstraint { constraint, value });
             }
@@ -161,7 +134,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     }
     // A redundant constraint is named by these equations.
     let mut projection = Projection::new(system, q, v, t);
-    let determined = projection.of_velocity(q, v).map(|_| ());
+    let determined = projection.change([q, v], Lower::OfVelocity(at, v)).map(|_| ());
     let residuals = &mut projection.solver.residuals;
     residuals.evaluate(system, at, v, |j| sizes[j]);
     match residuals.worst(system, at, v) {
@@ -192,34 +165,26 @@ pub(crate) fn projected<S: ConstrainedLagrangian<T>, T: Real>(
     Ok(S::State::read(|block| system.block_len(block), &q, &v))
 }
 
-/// What vanishes is affine in the velocity: one iteration is enough, but for rounding errors of what it has
-/// taken away. Where little or nothing is left of a velocity they are large beside it, and each iteration
-/// leaves 10⁻¹⁶ of them, down to the smallest numbers.
-const ITERATIONS: usize = 40;
-
-/// Makes `v` a velocity that the constraints admit at `q`.
+/// Makes `v` a velocity that the constraints admit at `q`. What vanishes is affine in the velocity: one
+/// iteration is enough, but for rounding errors of what it has taken away, which are large beside a velocity
+/// of which little or nothing is left.
 fn align<S: ConstrainedLagrangian<T>, T: Real>(
     projection: &mut Projection<'_, S, T>,
     q: &[T],
     v: &mut [T],
 ) -> Result<(), StartError> {
     let Projection { system, t, .. } = *projection;
-    let mut worst = None;
-    for iteration in 0..ITERATIONS {
-        let change = projection.of_velocity(q, v).map_err(StartError::Projection)?;
-        for (v, &change) in v.iter_mut().zip(change) {
-            *v -= change;
-        }
+    let at = At { q, t };
+    loop {
+        let change = projection.change([q, v], Lower::OfVelocity(at, v)).map_err(StartError::Projection)?;
+        v.iter_mut().zip(change).for_each(|(v, &change)| *v -= change);
         let residuals = &mut projection.solver.residuals;
-        residuals.evaluate(system, At { q, t }, v, |j| Scalar::abs(v[j]) + smallest_normal());
-        worst = residuals.worst(system, At { q, t }, v);
-        if iteration > 0 && worst.is_none() {
-            break;
+        residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + smallest_normal());
+        if residuals.are_settled() {
+            let off = residuals.worst(system, at, v);
+            return off
+                .map_or(Ok(()), |(constraint, value)| Err(StartError::Inconsistent { constraint, value }));
         }
-    }
-    match worst {
-        None => Ok(()),
-        Some((constraint, value)) => Err(StartError::Inconsistent { constraint, value }),
     }
 }
 
@@ -243,7 +208,7 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
     let (mut off, mut kept) = (None, 0);
     for _ in 0..MOVES {
         projection.solver.balance(system, At { q, t }, v);
-        let change = match (projection.of_position(q, v), off) {
+        let change = match (projection.change([q, v], Lower::OfPosition(At { q, t })), off) {
             (Ok(change), _) => change,
             // The way there has ended where the equations have no solution, which says nothing of the
             // constraints.
@@ -255,8 +220,7 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
         for (q, &change) in q.iter_mut().zip(change) {
             *q -= change;
         }
-        let of = OfPosition { system, at: At { q, t } };
-        off = worst(system, of, |j| rounding * Scalar::abs(q[j])).map_err(StartError::Projection)?;
+        off = worst(system, At { q, t }, |j| rounding * Scalar::abs(q[j]));
         kept = if off.is_none() { kept + 1 } else { 0 };
         if kept > LAST_MOVES {
             return Ok(());

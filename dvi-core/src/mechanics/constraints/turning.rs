@@ -53,6 +53,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
         Self { here, next, weights, values }
     }
 
+    /// Goes to another point.
+    pub(crate) fn stand(&mut self, system: &S, At { q, t }: At<'_, T>) {
+        self.here.clear();
+        S::Kind::forces(system, q, t, &mut self.values, &mut self.here);
+    }
+
     /// Looks at the end of a step from `q0` with Δ = `increment`.
     ///
     /// # Errors
