@@ -39,12 +39,6 @@ pub(crate) struct Inverse<S: System, T: Real> {
     factors: Option<(Square<S, T>, Vector<S, T>)>,
 }
 
-impl<S: System, T: Real> Clone for Inverse<S, T> {
-    fn clone(&self) -> Self {
-        Self { scales: self.scales.clone(), factors: self.factors.clone() }
-    }
-}
-
 impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     /// Storage for the inverse of `combination`, which is evaluated at (`q`, `t`); its value comes from
     /// [`prepare`](Self::prepare).

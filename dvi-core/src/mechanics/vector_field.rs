@@ -19,16 +19,6 @@ pub struct VectorField<S: System, T: Real> {
     entries: Vector<S, T>,
 }
 
-impl<S: System, T: Real> Clone for VectorField<S, T> {
-    fn clone(&self) -> Self {
-        Self {
-            inverse: self.inverse.clone(),
-            gradient: self.gradient.clone(),
-            entries: self.entries.clone(),
-        }
-    }
-}
-
 impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     /// The vector field of `system`, inverted at (`q`, `t`).
     ///

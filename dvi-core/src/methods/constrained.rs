@@ -6,7 +6,6 @@
 //! 0, A is ∂g/∂q, and g(q1) = 0 and A(q1) v1 + ∂g/∂t = 0; of those of velocities, A v + b = 0, what vanishes
 //! is A Δ + h b in the middle of the step and A(q1) v1 + b.
 
-mod impulses;
 mod memory;
 mod reduced;
 
@@ -22,7 +21,6 @@ use crate::system::Same;
 use crate::system::start::evaluate;
 use crate::{Real, Vector};
 
-use impulses::Impulses;
 use memory::ConstrainedMemory;
 
 /// The step of a variational method for systems with constraints, of positions by `constraint = …` or of

@@ -1,12 +1,11 @@
 //! Where a constrained run is, and its step for all unknowns.
 
-use super::Impulses;
 use super::reduced::Reduced;
 use crate::discrete::{self, DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::turning::Gradients;
 use crate::mechanics::constraints::{
-    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Lower, Tangent,
+    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Lower, Multipliers, Tangent,
 };
 use crate::mechanics::orientation::MassOrientation;
 use crate::memory::{Aside, Memory, lasting};
@@ -37,6 +36,9 @@ pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
     reduced: Option<Aside<Reduced<S, T>>>,
 }
 
+/// The impulses of the constraints at both ends of a step.
+pub(super) type Impulses<S, T> = [Multipliers<S, T>; 2];
+
 /// The momentum and the velocity at a point of a run, and the impulses of the step that has led there.
 #[derive(Debug)]
 struct Place<S: ConstrainedSystem, T: Real> {
@@ -59,7 +61,7 @@ struct Arrival<S: ConstrainedSystem, T: Real> {
 impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     fn new(system: &S) -> Self {
         let [p, v] = system.space().vectors();
-        Self { p, v, impulses: Impulses::new(system) }
+        Self { p, v, impulses: system.multipliers().vectors() }
     }
 }
 
@@ -69,27 +71,25 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
         self.reduced.as_ref().map_or(&self.here.p, |reduced| &reduced.here.p)
     }
 
-    fn last_impulses(&self) -> &Impulses<S, T> {
-        self.reduced.as_ref().map_or(&self.here.impulses, |reduced| &reduced.here.impulses)
-    }
-
     /// The Lagrange multipliers λ of the last step, one for each constraint, so that G(q)ᵀλ is the force of
     /// the constraints. With a symmetric rule they are those in the middle of the step, to order h². Zero
     /// before the first.
     pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
-        self.last_impulses().over(self.last_step)
+        let [first, last] = self.impulses();
+        let (h, zero) = (self.last_step, T::lift(0.0));
+        first.iter().zip(last).map(move |(&first, &last)| if h == zero { zero } else { (first + last) / h })
     }
 
     /// The impulses G(q)ᵀι of the constraints at the beginning and at the end of the last step, as numbers
     /// ι, one for each constraint.
     pub fn impulses(&self) -> [&[T]; 2] {
-        let Impulses { first, last } = self.last_impulses();
-        [first, last]
+        let here = &self.here.impulses;
+        self.reduced.as_ref().map_or(here, |reduced| &reduced.here.impulses).each_ref().map(|ends| &ends[..])
     }
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
-    lasting!(T; numbers p, numbers v, part impulses);
+    lasting!(T; numbers p, numbers v, vectors impulses);
 }
 
 impl<S: ConstrainedSystem, L, T: Real> Memory<T> for ConstrainedMemory<S, L, T> {
@@ -115,7 +115,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     pub(super) fn new(system: &S, l_d: L, [q, v]: [&[T]; 2], t: T) -> Result<Self, StartError> {
         let [bend, increment, weights, next, mut work] = system.space().vectors();
         let (mut here, mut solver) = (Place::new(system), ConstraintSolver::new(system, q, v, t));
-        let Place { p, v: velocity, impulses: Impulses { last: impulse, .. } } = &mut here;
+        let Place { p, v: velocity, impulses: [_, impulse] } = &mut here;
         system.gradient(q, v, t, &mut work, p);
         velocity.copy_from_slice(v);
         let tangent = Tangent { p, v: velocity, impulse, work: &mut work };
@@ -179,7 +179,9 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         let Some(reduced) = reduced else { return };
         p.copy_from_slice(&reduced.here.p);
         reduced.mass.solve(p, v);
-        impulses.restore(&reduced.here.impulses);
+        for (impulse, last) in impulses.iter_mut().zip(&reduced.here.impulses) {
+            impulse.copy_from_slice(last);
+        }
         reduced.bend(*last_step, bend);
         if let Some(gradients) = gradients {
             gradients.stand(system, At { q, t: interval.t });
@@ -197,7 +199,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         for ((delta, &v), &bend) in arrival.increment.iter_mut().zip(v.iter()).zip(bend.iter()) {
             *delta = h * v + ratio * ratio * bend;
         }
-        for (impulse, &last) in arrival.place.impulses.first.iter_mut().zip(impulses.first.iter()) {
+        for (impulse, &last) in arrival.place.impulses[0].iter_mut().zip(impulses[0].iter()) {
             *impulse = ratio * last;
         }
     }
@@ -207,7 +209,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         let Begin { system, interval, q, stopping } = *begin;
         let Self { here: Place { p, .. }, l_d, solver, is_positive, gradients, arrival, .. } = self;
         let Arrival { increment, weights, q: next, place, work } = arrival;
-        let impulse = &mut place.impulses.first;
+        let [impulse, _] = &mut place.impulses;
         newton(stopping, statistics, |due, statistics| {
             due.prepare(system, weights, q, increment);
             statistics.linearizations += 1;
@@ -250,7 +252,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         let Begin { system, interval, q, .. } = *begin;
         let Self { here: Place { p: p0, .. }, l_d, solver, arrival, orientation, .. } = self;
         let Arrival { increment, q: next, place, work, .. } = arrival;
-        let Place { p, v, impulses: Impulses { first, last } } = place;
+        let Place { p, v, impulses: [first, last] } = place;
         p.fill(T::lift(0.0));
         work.fill(T::lift(0.0));
         let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };

@@ -10,7 +10,7 @@
 mod arrival;
 mod rows;
 
-use super::Impulses;
+use super::memory::Impulses;
 use crate::mechanics::constraints::{ConstrainedLagrangian, ConstraintSolver};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
@@ -64,7 +64,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
         }
         let (here, work) = (Place::new(system), Arrival::new(system));
         let mut new = Self { here, mass, is_positive: true, work };
-        new.stand(system, [q, p], t, &Impulses::new(system));
+        new.stand(system, [q, p], t, &system.multipliers().vectors());
         let (Place { rows, solved, squares, .. }, gram) = (&new.here, &mut new.work.gram);
         fill(gram, [rows, solved], squares);
         gram.factor().ok()?;
@@ -76,7 +76,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
     pub(super) fn stand(&mut self, system: &S, [q, p]: [&[T]; 2], t: T, impulses: &Impulses<S, T>) {
         let Self { here, mass, work, .. } = self;
         here.p.copy_from_slice(p);
-        here.impulses.restore(impulses);
+        for (impulse, last) in here.impulses.iter_mut().zip(impulses) {
+            impulse.copy_from_slice(last);
+        }
         system.force(q, &[], t, &mut here.force);
         here.constrain(system, q, t, &mut work.values);
         here.measure(mass);
@@ -86,7 +88,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
     pub(super) fn bend(&self, h: T, bend: &mut [T]) {
         let Place { force, rows, impulses, .. } = &self.here;
         bend.iter_mut().zip(force.iter()).for_each(|(bend, &force)| *bend = T::lift(0.5) * h * force);
-        combine(rows, &impulses.first, bend);
+        combine(rows, &impulses[0], bend);
         self.mass.solve_in_place(bend);
         bend.iter_mut().for_each(|bend| *bend *= h);
     }
@@ -122,7 +124,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
             let t = clock.after(taken).time();
             let begin = Begin { system, mass, is_positive, q: at, here: from, t, h, stopping };
             let mut of_step = Statistics::default();
-            work.guess(ratio, &from.impulses.first);
+            work.guess(ratio, &from.impulses[0]);
             if work.shake(&begin, &mut of_step).and_then(|()| work.rattle(&begin)).is_none() {
                 break;
             }

@@ -6,7 +6,7 @@ use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints, Multipliers};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
-use crate::methods::constrained::Impulses;
+use crate::methods::constrained::memory::Impulses;
 use crate::methods::kicks::kick;
 use crate::solve::{Course, Due, Iteration, Judge, Quick, Stopping, repeat, sizes};
 use crate::space::SquareMatrix;
@@ -52,14 +52,14 @@ pub(super) struct Arrival<S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
-    lasting!(T; numbers p, numbers force, vectors rows, vectors solved, numbers squares, part impulses);
+    lasting!(T; numbers p, numbers force, vectors rows, vectors solved, numbers squares, vectors impulses);
 }
 
 impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let rows = || system.multipliers().array(vector);
-        let (squares, impulses) = (system.multipliers().vector(), Impulses::new(system));
+        let (squares, impulses) = (system.multipliers().vector(), system.multipliers().vectors());
         Self { p: vector(), force: vector(), rows: rows(), solved: rows(), squares, impulses }
     }
 }
@@ -84,7 +84,7 @@ impl<S: ConstrainedSystem, T: Real> Arrival<S, T> {
 
     /// Sets the guess of ι0 to `ratio` times `last`.
     pub(super) fn guess(&mut self, ratio: T, last: &[T]) {
-        for (impulse, &last) in self.place.impulses.first.iter_mut().zip(last) {
+        for (impulse, &last) in self.place.impulses[0].iter_mut().zip(last) {
             *impulse = ratio * last;
         }
     }
@@ -168,7 +168,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn shake(&mut self, begin: &Begin<'_, S, T>, statistics: &mut Statistics) -> Option<()> {
         let Begin { system, mass, q, here, t, h, stopping, .. } = *begin;
-        let Self { q: q1, place: Place { p, impulses: Impulses { first, .. }, .. }, vector, .. } = self;
+        let Self { q: q1, place: Place { p, impulses: [first, _], .. }, vector, .. } = self;
         let half = T::lift(0.5) * h;
         for ((p, &p0), &f) in p.iter_mut().zip(here.p.iter()).zip(here.force.iter()) {
             *p = p0 + half * f;
@@ -184,8 +184,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
         let Self { q: q1, place, vector, values, gram, .. } = self;
         place.constrain(system, q1, t + h, values);
         place.measure(mass);
-        let (reciprocal, Place { p, rows, impulses: Impulses { first, .. }, .. }) =
-            (T::lift(1.0) / h, place);
+        let (reciprocal, Place { p, rows, impulses: [first, _], .. }) = (T::lift(1.0) / h, place);
         first.iter_mut().for_each(|impulse| *impulse *= reciprocal);
         combine(&here.rows, first, p);
         mass.solve(p, vector);
@@ -217,10 +216,10 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
         } else {
             solve(gram, [rows, solved], squares, values)?;
         }
-        for (impulse, &value) in impulses.last.iter_mut().zip(values.iter()) {
+        for (impulse, &value) in impulses[1].iter_mut().zip(values.iter()) {
             *impulse = -value;
         }
-        combine(rows, &impulses.last, p);
+        combine(rows, &impulses[1], p);
         match squares[..] {
             [square] => (Scalar::abs(square) > least()).then_some(()),
             _ => Some(()),
@@ -261,7 +260,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T>
             // What a quick look cannot solve is no failure of the step.
             solve(gram, [rows, &here.solved], &here.squares, values).ok_or(StepFailure::Branch)?;
         }
-        impulses.first.iter_mut().zip(values.iter()).for_each(|(impulse, &change)| *impulse -= change);
+        impulses[0].iter_mut().zip(values.iter()).for_each(|(impulse, &change)| *impulse -= change);
         vector.fill(T::lift(NEUTRAL));
         combine(&here.solved, values, vector);
         let size = sizes::reduce(system, weights, q, vector);
