@@ -24,7 +24,7 @@
 //! | method | order | preserves | when to take it |
 //! |---|---|---|---|
 //! | [`Rattle`] | 2 | dq ∧ dp | first, with constraints of positions and the L of `trapezoid()` |
-//! | [`Constrained`] | 1, 2 | dq ∧ dp | for other L, for more than about ten constraints, and for constraints of velocities, under which no form can be preserved |
+//! | [`Constrained`] | 1, 2 | dq ∧ dp | for other L, and for constraints of velocities, under which no form can be preserved |
 //! | [`Impacts::reflecting`] | 1, 2 | nothing | first, with impacts: keeps the energy at each; also around [`Galerkin`], with its order |
 //! | [`Impacts::new`] | 1, 2 | dq ∧ dp | with impacts, if the form counts more: keeps the discrete energy |
 //! | [`Geodesic`] | 1, 2 | dq ∧ dp | with rotations `R: SO3` and unit vectors `s: S2` |

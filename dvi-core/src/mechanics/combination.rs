@@ -162,9 +162,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
 
     /// Sets `x` to the solution, as of [`solve`](Self::solve), with another matrix in each lane: entry i of
     /// `entries` is the only one of row i.
-    ///
-    /// # Errors
-    /// As [`prepare`](Self::prepare), of the first lane that fails.
     pub(crate) fn of_entries_in_lanes<const W: usize>(
         system: &S,
         entries: &[Lanes<W, T>],

@@ -205,28 +205,20 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
                 self.improve_tangent(*due, system, at, Tangent { p, v, impulse, work })
             })?;
         }
-        self.refine_tangent(system, at, Tangent { p, v, impulse, work })?;
-        // In the equations the impulse is subtracted.
-        impulse.iter_mut().for_each(|impulse| *impulse = -*impulse);
-        self.add_impulse(system, at, impulse, p);
-        norm::finite(v).and(norm::finite(p))
-    }
-
-    /// Iterates again where rounding has left the velocity off the constraints.
-    fn refine_tangent(
-        &mut self,
-        system: &S,
-        at: At<'_, T>,
-        Tangent { p, v, impulse, work }: Tangent<'_, T>,
-    ) -> Result<(), StepFailure> {
+        // Rounding may have left the velocity off the constraints.
         loop {
             let Self { residuals, solution, .. } = self;
             residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + Scalar::abs(solution[j]));
             if residuals.are_settled() {
-                return residuals.admit(system, at, v);
+                residuals.admit(system, at, v)?;
+                break;
             }
             self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         }
+        // In the equations the impulse is subtracted.
+        impulse.iter_mut().for_each(|impulse| *impulse = -*impulse);
+        self.add_impulse(system, at, impulse, p);
+        norm::finite(v).and(norm::finite(p))
     }
 
     /// One iteration: the size of the correction of the velocity or, where that is due, of the residual.

@@ -1,11 +1,11 @@
 //! What can be asked of a system with constraints at one state, without a run.
 
-use crate::Real;
 use crate::error::StartError;
-use crate::mechanics::constraints::consistent::{self, Among, check};
+use crate::mechanics::constraints::consistent::{check, project};
 use crate::mechanics::constraints::{ConstrainedLagrangian, Multipliers};
 use crate::mechanics::motion::constrained::acceleration;
 use crate::system::start::{evaluate, flatten, validate};
+use crate::{Real, State};
 
 /// What can be asked of a system with constraints at one state.
 ///
@@ -37,7 +37,11 @@ pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
     /// [`StartError::Inconsistent`] where no position is found in 1500 iterations, or no velocity;
     /// [`StartError::Projection`] where a constraint is redundant; others as the start of a run has.
     fn projected(&self, t: T, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
-        consistent::projected(self, t, state)
+        validate(self, t)?;
+        let [mut q, mut v] = flatten(self, state)?;
+        evaluate(self, &q, &v, t)?;
+        project(self, [&mut q, &mut v], t)?;
+        Ok(State::read(|block| self.block_len(block), &q, &v))
     }
 
     /// The Lagrange multipliers λ at a state that the constraints admit at time `t`, one for each
@@ -51,7 +55,7 @@ pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
         validate(self, t)?;
         let [q, v] = flatten(self, state)?;
         evaluate(self, &q, &v, t)?;
-        check(self, [&q, &v], t, Among::States)?;
+        check(self, [&q, &v], t, None)?;
         let (_, multipliers) = acceleration(self, [&q, &v], t).map_err(StartError::Undetermined)?;
         Ok(multipliers)
     }

@@ -4,7 +4,7 @@
 //! Bᵢⱼ = ∂ᵢαⱼ − ∂ⱼαᵢ, that is B = (Dα)ᵀ − Dα (Rowley & Marsden 2002, section 3.2). B is inverted once if α
 //! is linear, by one reciprocal per coordinate if it has canonical shape, and by elimination otherwise.
 
-use crate::error::{StartError, StepFailure};
+use crate::error::StepFailure;
 use crate::mechanics::combination::{Combination, Inverse};
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
@@ -33,18 +33,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         Ok(Self { inverse, gradient: space.vector(), entries })
     }
 
-    /// X(`q`, `t`) where a run begins.
-    ///
-    /// # Errors
-    /// [`StartError::Starter`] if Ω is singular at `q`.
-    pub(crate) fn starting(system: &S, q: &Vector<S, T>, t: T) -> Result<Vector<S, T>, StartError> {
-        let mut velocity = system.space().vector();
-        Self::new(system, q, t)
-            .and_then(|mut field| field.evaluate(system, q, t, &mut velocity, &mut Statistics::default()))
-            .map_err(StartError::Starter)?;
-        Ok(velocity)
-    }
-
     fn omega() -> Combination<T> {
         Combination { a: T::lift(-1.0), b: T::lift(1.0) }
     }
@@ -69,9 +57,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
 
     /// Sets `out` to X at the points in the lanes of `q`, at the times in those of `t`, bit for bit as
     /// [`evaluate`](Self::evaluate) finds them one by one. What comes with `vector`, one lane, is storage.
-    ///
-    /// # Errors
-    /// As there, of the first lane that fails.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn evaluate_in_lanes<const W: usize>(
         &mut self,

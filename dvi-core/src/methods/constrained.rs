@@ -1,10 +1,4 @@
-//! The step of a discrete Lagrangian with constraints:
-//!
-//! p0 = −D₁L_d(q0, q1) − A(q0)ᵀι0      p1 = D₂L_d(q0, q1) + A(q1)ᵀι1, with p1 = ∂L/∂v(q1, v1)
-//!
-//! for q1 and the impulses ι0 and ι1 of the constraints at both ends. Of constraints of positions, g(q, t) =
-//! 0, A is ∂g/∂q, and g(q1) = 0 and A(q1) v1 + ∂g/∂t = 0; of those of velocities, A v + b = 0, what vanishes
-//! is A Δ + h b in the middle of the step and A(q1) v1 + b.
+//! The step of a discrete Lagrangian with constraints.
 
 mod memory;
 mod reduced;
@@ -12,7 +6,7 @@ mod reduced;
 use crate::discrete::frequency::Unfitted;
 use crate::discrete::quadrature::Trapezoid;
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::constraints::consistent::{self, Among};
+use crate::mechanics::constraints::consistent::check;
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints};
 use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
 use crate::methods::{InnerScheme, Variational, VariationalMethod};
@@ -157,7 +151,7 @@ where
         self.scheme.admit(system)?;
         self.scheme.admit_inside()?;
         evaluate(system, q, v, t)?;
-        consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;
+        check(system, [q, v], t, Some((h, self.stopping.tolerance)))?;
         let mut memory = ConstrainedMemory::new(system, self.scheme.discrete_lagrangian(system), [q, v], t)?;
         if IfConstrained::<S, M, T>::IS_VERLET && S::Kind::OF_POSITIONS {
             memory.reduce(system, [q, v], t);

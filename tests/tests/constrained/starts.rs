@@ -63,7 +63,7 @@ fn units_do_not_matter() -> Outcome {
         let system = Pendulum { m: mass, g: length, length };
         let start = PendulumState { x: 0.8 * length, y: -0.6 * length, dot_x: 0.0, dot_y: 0.0 };
         let mut rattle = Integrator::new(&system, Rattle::default(), 0.05, start)?;
-        let method = Constrained::new(Variational::trapezoid());
+        let method = Constrained::new(Variational::new(Quadrature::trapezoid()));
         let mut general = Integrator::new(&system, method, 0.05, start)?;
         rattle.take_steps(100)?;
         general.take_steps(100)?;

@@ -161,7 +161,7 @@ fn a_run_goes_back_the_way_it_came() -> Outcome {
         Impacts::reflecting(Variational::trapezoid()),
     }
     goes_back! { Ball { m: 2.0 }, BallState { y: 1.0, dot_y: 0.0 }, 0.07 =>
-        Impacts::reflecting(Variational::midpoint()).with_restitution(0.95),
+        Impacts { restitution: 0.95, ..Impacts::reflecting(Variational::midpoint()) },
     }
     Ok(())
 }

@@ -8,11 +8,9 @@ use crate::mechanics::constraints::{
 };
 use crate::mechanics::legendre;
 use crate::scalar::norm::{self, reported};
-use crate::scalar::smallest_normal;
 use crate::space::sink::Places;
 use crate::space::{LinearEquations, Sink};
-use crate::system::start::{evaluate, flatten, validate};
-use crate::{Real, Scalar, Space, State, Vector};
+use crate::{Real, Scalar, Space, Vector};
 
 /// ∂²L/∂v∂v as A, and b = 0: the solution is the shortest change in the metric of the mass matrix.
 struct Shortest<'a, S, T>(legendre::Equations<'a, S, T>);
@@ -68,31 +66,10 @@ fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     farthest(&values, &sizes, 1.0)
 }
 
-/// Where a state stands, which says how exact it is: what velocities are rounded relative to besides
-/// themselves, and the tolerance of positions if that is looser than rounding.
-#[derive(Clone, Copy)]
-pub(crate) enum Among<T> {
-    /// The velocities that forces give in a step of length h, what a run at rest leaves; and what its
-    /// iterations leave.
-    Steps { h: T, tolerance: f64 },
-    /// The velocities that forces give on a way of the size of the coordinates.
-    States,
-}
-
-impl<T: Real> Among<T> {
-    /// What the tolerance of a run leaves in positions. Where it asks for rounding errors they are all that
-    /// there is.
-    fn left_over(self, [q, v]: [&[T]; 2]) -> T {
-        match self {
-            Self::Steps { h, tolerance } if tolerance > reported(T::default_epsilon()) => {
-                T::lift(tolerance) * (norm::largest(q) + Scalar::abs(h) * norm::largest(v))
-            }
-            Self::Steps { .. } | Self::States => T::lift(0.0),
-        }
-    }
-}
-
-/// Whether a motion along the constraints leads through (`q`, `v`, `t`).
+/// Whether a motion along the constraints leads through (`q`, `v`, `t`): at a state, or where a run with
+/// steps of a length h begins, whose iterations leave a tolerance. Velocities are rounded relative to
+/// themselves and to what forces make in a step, what a run at rest leaves, or on a way of the size of the
+/// coordinates.
 ///
 /// # Errors
 /// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] with the constraint that is farthest
@@ -103,7 +80,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
     t: T,
-    among: Among<T>,
+    of_run: Option<(T, f64)>,
 ) -> Result<(), StartError> {
     let at = At { q, t };
     let undefined = |constraint, value| {
@@ -112,7 +89,13 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     };
     if S::Kind::OF_POSITIONS {
         let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
-        let left_over = among.left_over([q, v]);
+        // Where a run asks for rounding errors they are all that there is.
+        let left_over = match of_run {
+            Some((h, tolerance)) if tolerance > reported(T::default_epsilon()) => {
+                T::lift(tolerance) * (norm::largest(q) + Scalar::abs(h) * norm::largest(v))
+            }
+            Some(_) | None => T::lift(0.0),
+        };
         match worst(system, at, |j| rounding * Scalar::abs(q[j]) + left_over) {
             Some((constraint, value)) if value.is_finite() => {
                 return Err(StartError::OffConstraint { constraint, value });
@@ -126,11 +109,11 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     system.gradient(q, v, t, &mut force, &mut momentum);
     for ((scale, &force), (&q, &v)) in sizes.iter_mut().zip(force.iter()).zip(q.iter().zip(v)) {
         let acceleration = Scalar::abs(force) * *scale * *scale;
-        let of_force = match among {
-            Among::Steps { h, .. } => Scalar::abs(h) * acceleration,
-            Among::States => Scalar::sqrt(acceleration * Scalar::abs(q)),
+        let of_force = match of_run {
+            Some((h, _)) => Scalar::abs(h) * acceleration,
+            None => Scalar::sqrt(acceleration * Scalar::abs(q)),
         };
-        *scale = Scalar::abs(v) + of_force + smallest_normal();
+        *scale = Scalar::abs(v) + of_force;
     }
     // A redundant constraint is named by these equations.
     let mut projection = Projection::new(system, q, v, t);
@@ -138,10 +121,8 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     let residuals = &mut projection.solver.residuals;
     residuals.evaluate(system, at, v, |j| sizes[j]);
     match residuals.worst(system, at, v) {
-        None => determined.map_err(|failure| match among {
-            Among::Steps { .. } => StartError::Starter(failure),
-            Among::States => StartError::Undetermined(failure),
-        }),
+        None if of_run.is_none() => determined.map_err(StartError::Undetermined),
+        None => determined.map_err(StartError::Starter),
         Some((constraint, rate)) if rate.is_finite() => {
             Err(StartError::AcrossConstraint { constraint, rate })
         }
@@ -149,20 +130,19 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     }
 }
 
-/// See [`OnConstraints::projected`](super::OnConstraints::projected).
-pub(crate) fn projected<S: ConstrainedLagrangian<T>, T: Real>(
+/// Moves a state to the constraints.
+///
+/// # Errors
+/// [`StartError::Inconsistent`] and [`StartError::Projection`].
+pub(crate) fn project<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
+    [q, v]: [&mut Vector<S, T>; 2],
     t: T,
-    state: &S::State<T>,
-) -> Result<S::State<T>, StartError> {
-    validate(system, t)?;
-    let [mut q, mut v] = flatten(system, state)?;
-    evaluate(system, &q, &v, t)?;
+) -> Result<(), StartError> {
     if S::Kind::OF_POSITIONS {
-        move_to(&mut Projection::new(system, &q, &v, t), &mut q, &v)?;
+        move_to(&mut Projection::new(system, q, v, t), q, v)?;
     }
-    align(&mut Projection::new(system, &q, &v, t), &q, &mut v)?;
-    Ok(S::State::read(|block| system.block_len(block), &q, &v))
+    align(&mut Projection::new(system, q, v, t), q, v)
 }
 
 /// Makes `v` a velocity that the constraints admit at `q`. What vanishes is affine in the velocity: one
@@ -173,13 +153,12 @@ fn align<S: ConstrainedLagrangian<T>, T: Real>(
     q: &[T],
     v: &mut [T],
 ) -> Result<(), StartError> {
-    let Projection { system, t, .. } = *projection;
-    let at = At { q, t };
+    let (system, at) = (projection.system, At { q, t: projection.t });
     loop {
         let change = projection.change([q, v], Lower::OfVelocity(at, v)).map_err(StartError::Projection)?;
         v.iter_mut().zip(change).for_each(|(v, &change)| *v -= change);
         let residuals = &mut projection.solver.residuals;
-        residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + smallest_normal());
+        residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]));
         if residuals.are_settled() {
             let off = residuals.worst(system, at, v);
             return off

@@ -10,6 +10,7 @@
 use super::{At, ConstrainedLagrangian, Constraints, Multipliers};
 use crate::error::StepFailure;
 use crate::scalar::norm::{larger, largest, reported};
+use crate::scalar::smallest_normal;
 use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
@@ -56,7 +57,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         Self { values, sizes, others, point, units: kept, before: None }
     }
 
-    /// Looks at a velocity, whose entries are rounded relative to `scale`.
+    /// Looks at a velocity, whose entries are rounded relative to `scale`, or to the smallest normal number.
     pub(crate) fn evaluate(
         &mut self,
         system: &S,
@@ -69,7 +70,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         speeds.fill(T::lift(0.0));
         let mut terms = Places(|k: usize, j: usize, entry: T| {
             sizes[k] += Scalar::abs(entry) * units[j];
-            speeds[k] = larger(speeds[k], scale(j) / units[j]);
+            speeds[k] = larger(speeds[k], (scale(j) + smallest_normal()) / units[j]);
         });
         S::Kind::of_velocity(system, q, v, t, values, &mut terms);
         for (size, &speed) in sizes.iter_mut().zip(speeds.iter()) {

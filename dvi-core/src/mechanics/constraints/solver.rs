@@ -110,9 +110,6 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     }
 
     /// The residual of the equations, as [`linear::residual`].
-    ///
-    /// # Errors
-    /// Those of the equations.
     pub(crate) fn residual<U: LinearEquations<T>>(
         &mut self,
         equations: &mut Bordered<'_, S, T, U>,
@@ -140,21 +137,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         equations.evaluate(solution, &mut Scaled { sink: matrix.cleared(), factor })?;
         norm::finite(solution).map_err(|failure| of_row(failure, n))?;
         matrix.factor()?;
-        let (x, multipliers) = solution.split_at_mut(n);
-        let (of_coordinates, of_constraints) = scales.split_at(n);
-        for (b, &scale) in x.iter_mut().zip(of_coordinates) {
-            *b *= scale * alpha;
-        }
-        for (c, &scale) in multipliers.iter_mut().zip(of_constraints) {
-            *c *= scale;
+        for (k, (entry, &scale)) in solution.iter_mut().zip(scales.iter()).enumerate() {
+            *entry *= if k < n { scale * alpha } else { scale };
         }
         matrix.solve(solution);
-        let (x, multipliers) = solution.split_at_mut(n);
-        for (x, &scale) in x.iter_mut().zip(of_coordinates) {
-            *x *= scale;
-        }
-        for (multiplier, &scale) in multipliers.iter_mut().zip(of_constraints) {
-            *multiplier *= scale / alpha;
+        for (k, (entry, &scale)) in solution.iter_mut().zip(scales.iter()).enumerate() {
+            *entry *= if k < n { scale } else { scale / alpha };
         }
         Ok(())
     }

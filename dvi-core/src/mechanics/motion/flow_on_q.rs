@@ -109,7 +109,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         let [arrival] = &y.0;
         norm::finite(arrival)?;
-        equations.orientation.check(system, arrival, t)?;
+        equations.orientation.pass(system, &[], (arrival, t))?;
         q.copy_from_slice(arrival);
         Ok(())
     }

@@ -32,7 +32,7 @@ pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
     l_d: L,
     solver: ConstraintSolver<S, T>,
     arrival: Arrival<S, T>,
-    /// Where the run is instead of `here`, if its steps are solved for the impulses alone.
+    /// Where the run is instead of `here`, if its steps are solved for the impulses alone and that is open.
     reduced: Option<Aside<Reduced<S, T>>>,
 }
 
@@ -68,7 +68,11 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
 impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
     /// The discrete momentum at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
-        self.reduced.as_ref().map_or(&self.here.p, |reduced| &reduced.here.p)
+        self.open().map_or(&self.here.p, |reduced| &reduced.here.p)
+    }
+
+    fn open(&self) -> Option<&Aside<Reduced<S, T>>> {
+        self.reduced.as_ref().filter(|reduced| reduced.is_open)
     }
 
     /// The Lagrange multipliers λ of the last step, one for each constraint, so that G(q)ᵀλ is the force of
@@ -84,7 +88,7 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
     /// ι, one for each constraint.
     pub fn impulses(&self) -> [&[T]; 2] {
         let here = &self.here.impulses;
-        self.reduced.as_ref().map_or(here, |reduced| &reduced.here.impulses).each_ref().map(|ends| &ends[..])
+        self.open().map_or(here, |reduced| &reduced.here.impulses).each_ref().map(|ends| &ends[..])
     }
 }
 
@@ -109,9 +113,6 @@ struct Begin<'a, S, T> {
 
 impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> ConstrainedMemory<S, L, T> {
     /// At (`q`, `v`, `t`).
-    ///
-    /// # Errors
-    /// [`StartError::Starter`].
     pub(super) fn new(system: &S, l_d: L, [q, v]: [&[T]; 2], t: T) -> Result<Self, StartError> {
         let [bend, increment, weights, next, mut work] = system.space().vectors();
         let (mut here, mut solver) = (Place::new(system), ConstraintSolver::new(system, q, v, t));
@@ -138,13 +139,14 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
 
     /// Solves the steps of Störmer and Verlet for the impulses alone from (`q`, `v`, `t`) on, if that can be
     /// done.
+    #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
     pub(super) fn reduce(&mut self, system: &S, [q, v]: [&[T]; 2], t: T) {
         self.reduced = Reduced::new(system, &self.solver, [q, v, &self.here.p], t).map(Aside::from);
     }
 
     /// Sets `v` to the velocity where the run is.
     pub(super) fn velocity(&self, v: &mut [T]) {
-        match &self.reduced {
+        match self.open() {
             Some(reduced) => reduced.mass.solve(&reduced.here.p, v),
             None => v.copy_from_slice(&self.here.v),
         }
@@ -157,13 +159,10 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     }
 
     /// Takes a step for all unknowns.
-    ///
-    /// # Errors
-    /// Any [`StepFailure`].
     pub(super) fn take(&mut self, step: Step<'_, S, T>, stopping: Stopping) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let begin = Begin { system, interval: Interval { t, h }, q, stopping };
-        self.stand(&begin);
+        self.stand();
         from_either_guess(|guess| {
             self.guess(h, guess);
             self.solve(&begin, statistics)
@@ -174,18 +173,15 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     }
 
     /// Goes to where the run is.
-    fn stand(&mut self, &Begin { system, interval, q, .. }: &Begin<'_, S, T>) {
-        let Self { here: Place { p, v, impulses }, bend, last_step, gradients, reduced, .. } = self;
-        let Some(reduced) = reduced else { return };
+    fn stand(&mut self) {
+        let Self { here: Place { p, v, impulses }, bend, last_step, reduced, .. } = self;
+        let Some(reduced) = reduced.as_ref().filter(|reduced| reduced.is_open) else { return };
         p.copy_from_slice(&reduced.here.p);
         reduced.mass.solve(p, v);
         for (impulse, last) in impulses.iter_mut().zip(&reduced.here.impulses) {
             impulse.copy_from_slice(last);
         }
         reduced.bend(*last_step, bend);
-        if let Some(gradients) = gradients {
-            gradients.stand(system, At { q, t: interval.t });
-        }
     }
 
     /// Sets Δ to a guess: that of the velocity, bent as in the step before. Newton's method finds the
@@ -243,7 +239,8 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             return Err(StepFailure::Branch);
         }
         gradients.as_mut().map_or(Ok(()), |gradients| {
-            gradients.check(system, q, increment, At { q: next, t: interval.time(T::lift(1.0)) })
+            let end = At { q: next, t: interval.time(T::lift(1.0)) };
+            gradients.check(system, [At { q, t: interval.t }, end], increment)
         })
     }
 
@@ -271,17 +268,14 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
 
     /// Moves to the end of the step.
     fn keep(&mut self, system: &S, q: &mut [T], [t, h]: [T; 2]) {
-        let Self { here, bend, last_step, gradients, arrival, reduced, .. } = self;
+        let Self { here, bend, last_step, arrival, reduced, .. } = self;
         for ((bend, &delta), &v) in bend.iter_mut().zip(arrival.increment.iter()).zip(here.v.iter()) {
             *bend = delta - h * v;
-        }
-        if let Some(gradients) = gradients {
-            gradients.keep();
         }
         q.copy_from_slice(&arrival.q);
         here.restore(&arrival.place);
         *last_step = h;
-        if let Some(reduced) = reduced {
+        if let Some(reduced) = reduced.as_mut().filter(|reduced| reduced.is_open) {
             reduced.stand(system, [q, &here.p], t + h, &here.impulses);
         }
     }

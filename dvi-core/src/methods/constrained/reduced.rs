@@ -14,12 +14,12 @@ use super::memory::Impulses;
 use crate::mechanics::constraints::{ConstrainedLagrangian, ConstraintSolver};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
-use crate::methods::Steps;
+use crate::methods::{Clock, Steps};
 use crate::scalar::norm;
 use crate::solve::Stopping;
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
-use crate::{ConstrainedSystem, Real, Space};
+use crate::{ConstrainedSystem, Real, Space, Vector};
 use arrival::{Arrival, Begin, Place};
 use rows::{combine, fill};
 
@@ -37,37 +37,37 @@ pub(super) struct Reduced<S: ConstrainedSystem, T: Real> {
     pub(super) mass: Mass<S, T>,
     /// Whether the determinant of G M⁻¹ Gᵀ is positive where the run begins.
     is_positive: bool,
+    /// Whether such steps are taken: not where a coordinate is light against others where the run begins,
+    /// as rounding errors of its large momenta within a step would be velocities across the constraints.
+    pub(super) is_open: bool,
     work: Arrival<S, T>,
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Reduced<S, T> {
-    lasting!(T; part here, flag is_positive);
+    lasting!(T; part here, flag is_positive, flag is_open);
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
     /// At (`q`, `v`, `t`) with the momentum `p`; `None` where steps for all unknowns are better: with many
-    /// constraints, with a mass matrix that is diagonal and not positive, and where a coordinate is light
-    /// against others, so that rounding errors of its large momenta within a step would be velocities across
-    /// the constraints.
+    /// constraints, and with a mass matrix that is diagonal and not positive.
     pub(super) fn new(
         system: &S,
         solver: &ConstraintSolver<S, T>,
         [q, v, p]: [&[T]; 3],
         t: T,
     ) -> Option<Self> {
-        if system.multipliers().dimension() > FEW || solver.has_light_coordinates(system, [q, v], t) {
-            return None;
-        }
         let mass = Mass::new(system, q, t).ok()?;
-        if mass.reciprocals().is_some_and(|all| !all.iter().all(|&one| one > T::lift(0.0))) {
+        let are_positive = |all: &[T]| all.iter().all(|&one| one > T::lift(0.0));
+        if system.multipliers().dimension() > FEW || !mass.reciprocals().is_none_or(are_positive) {
             return None;
         }
         let (here, work) = (Place::new(system), Arrival::new(system));
-        let mut new = Self { here, mass, is_positive: true, work };
+        let is_open = !solver.has_light_coordinates(system, [q, v], t);
+        let mut new = Self { here, mass, is_positive: true, is_open, work };
         new.stand(system, [q, p], t, &system.multipliers().vectors());
         let (Place { rows, solved, squares, .. }, gram) = (&new.here, &mut new.work.gram);
         fill(gram, [rows, solved], squares);
-        gram.factor().ok()?;
+        new.is_open &= gram.factor().is_ok();
         new.is_positive = gram.is_positive();
         Some(new)
     }
@@ -104,31 +104,69 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
         last: &mut T,
     ) -> Option<u64> {
         let Steps { system, q, clock, count, statistics } = steps;
-        let Self { here, mass, is_positive, work } = self;
-        let (h, is_positive) = (clock.step_size(), *is_positive);
+        let Self { here, mass, is_positive, is_open, work } = self;
+        if !*is_open {
+            return None;
+        }
+        let h = clock.step_size();
+        // The impulse is guessed to be so many times that of the last step.
+        let ratio = if *last == T::lift(0.0) { T::lift(0.0) } else { h / *last };
         let entries = system.space().dimension() * system.multipliers().dimension();
         let is_short =
             <S::Space as Space>::ON_STACK && <S::Multipliers as Space>::ON_STACK && entries <= SHORT;
-        let mut aside = is_short.then(|| (q.clone(), Place::new(system), Arrival::new(system)));
-        if let Some((_, from, _)) = &mut aside {
+        let walk = Walk { system, mass, is_positive: *is_positive, stopping, clock, count };
+        let (taken, iterations) = if is_short {
+            let (mut at, mut from, mut work) = (q.clone(), Place::new(system), Arrival::new(system));
             from.restore(here);
-        }
-        let (at, from, work) = match &mut aside {
-            Some((at, from, work)) => (at, from, work),
-            None => (&mut *q, &mut *here, work),
+            from.impulses[0].iter_mut().for_each(|impulse| *impulse *= ratio);
+            let walked = walk.along::<false>((&mut at, &mut from, &mut work), T::lift(1.0));
+            if walked.0 > 0 {
+                norm::finite(&from.p).and(norm::finite(&at)).ok()?;
+                q.copy_from_slice(&at);
+                here.restore(&from);
+            }
+            walked
+        } else {
+            walk.along::<true>((q, here, work), ratio)
         };
-        // The impulse is guessed to be so many times that of the last step.
-        let mut ratio = if *last == T::lift(0.0) { T::lift(0.0) } else { h / *last };
+        if taken > 0 {
+            *last = h;
+            statistics.gradients += taken;
+            statistics.iterations += iterations;
+        }
+        Some(taken)
+    }
+}
+
+/// Steps to take.
+struct Walk<'a, S: ConstrainedSystem, T: Real> {
+    system: &'a S,
+    mass: &'a Mass<S, T>,
+    is_positive: bool,
+    stopping: Stopping,
+    clock: Clock<T>,
+    count: u64,
+}
+
+impl<S: ConstrainedLagrangian<T>, T: Real> Walk<'_, S, T> {
+    /// How many of them succeed, and in how many iterations. With `CHECKS` what is no number ends them.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn along<const CHECKS: bool>(
+        &self,
+        (at, from, work): (&mut Vector<S, T>, &mut Place<S, T>, &mut Arrival<S, T>),
+        mut ratio: T,
+    ) -> (u64, u64) {
+        let Self { system, mass, is_positive, stopping, clock, count } = *self;
         let (mut taken, mut iterations) = (0, 0);
         while taken < count {
-            let t = clock.after(taken).time();
+            let (t, h) = (clock.after(taken).time(), clock.step_size());
             let begin = Begin { system, mass, is_positive, q: at, here: from, t, h, stopping };
             let mut of_step = Statistics::default();
             work.guess(ratio, &from.impulses[0]);
             if work.shake(&begin, &mut of_step).and_then(|()| work.rattle(&begin)).is_none() {
                 break;
             }
-            if !is_short && norm::finite(&work.place.p).and(norm::finite(&work.q)).is_err() {
+            if CHECKS && norm::finite(&work.place.p).and(norm::finite(&work.q)).is_err() {
                 break;
             }
             at.copy_from_slice(&work.q);
@@ -137,16 +175,6 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
             taken += 1;
             ratio = T::lift(1.0);
         }
-        if taken > 0 {
-            if let Some((at, from, _)) = &aside {
-                norm::finite(&from.p).and(norm::finite(at)).ok()?;
-                q.copy_from_slice(at);
-                here.restore(from);
-            }
-            *last = h;
-            statistics.gradients += taken;
-            statistics.iterations += iterations;
-        }
-        Some(taken)
+        (taken, iterations)
     }
 }

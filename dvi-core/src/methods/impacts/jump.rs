@@ -3,7 +3,7 @@
 use core::mem;
 
 use super::Collision;
-use super::memory::{ImpactsMemory, Wall};
+use super::memory::{ImpactsMemory, MOST, Wall};
 use super::passage::Passage;
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::StepFailure;
@@ -43,12 +43,7 @@ fn inertia<S: UnilateralLagrangian<T>, T: Real>(
     sum / (squared * squared)
 }
 
-impl<S, M, T, const MOST: usize> Passage<'_, S, M, T, MOST>
-where
-    S: UnilateralLagrangian<T>,
-    M: FreeFlight<S, T>,
-    T: Real,
-{
+impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M, T> {
     /// Goes back to where the flight begins.
     fn go_back(&mut self) {
         let Self { memory, q, is_there, .. } = self;

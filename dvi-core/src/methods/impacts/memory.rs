@@ -10,6 +10,9 @@ use crate::scalar::norm::reported;
 use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Scalar, Space, State, System, UnilateralLagrangian, Vector};
 
+/// How many impacts a step may have.
+pub(super) const MOST: usize = 16;
+
 /// An impact of the last step, with vectors of type `V`.
 #[derive(Clone, Debug)]
 pub struct Impact<V, T> {
@@ -34,7 +37,7 @@ impl<V: Deref<Target = [T]>, T: Real> Impact<V, T> {
 
 /// A run with impacts: the memory of its method, the impacts of its last step, and work space.
 #[derive(Debug)]
-pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real, const MOST: usize> {
+pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real> {
     /// At the present point, or at the end of the flight at hand.
     pub(super) inner: I,
     /// Where the step at hand began, if it has been divided.
@@ -134,7 +137,7 @@ impl<S: UnilateralLagrangian<T>, T: Real> Wall<S, T> {
     }
 }
 
-impl<S: UnilateralLagrangian<T>, I, T: Real, const MOST: usize> ImpactsMemory<S, I, T, MOST> {
+impl<S: UnilateralLagrangian<T>, I, T: Real> ImpactsMemory<S, I, T> {
     pub(super) fn new(
         system: &S,
         q: &Vector<S, T>,
@@ -167,7 +170,7 @@ impl<S: UnilateralLagrangian<T>, I, T: Real, const MOST: usize> ImpactsMemory<S,
     }
 }
 
-impl<S: ConstrainedSystem, I, T: Real, const MOST: usize> ImpactsMemory<S, I, T, MOST> {
+impl<S: ConstrainedSystem, I, T: Real> ImpactsMemory<S, I, T> {
     /// The memory of the method.
     pub fn inner(&self) -> &I {
         &self.inner
@@ -191,9 +194,7 @@ impl<S: ConstrainedSystem, I, T: Real, const MOST: usize> ImpactsMemory<S, I, T,
     }
 }
 
-impl<S: ConstrainedSystem, I: Memory<T>, T: Real, const MOST: usize> Memory<T>
-    for ImpactsMemory<S, I, T, MOST>
-{
+impl<S: ConstrainedSystem, I: Memory<T>, T: Real> Memory<T> for ImpactsMemory<S, I, T> {
     lasting!(T; part inner, count total, count grazing);
 }
 

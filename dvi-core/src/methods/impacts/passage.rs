@@ -26,10 +26,10 @@ const ROUNDINGS: f64 = 64.0;
 const OFF: f64 = 1e4;
 
 /// A step that is being taken.
-pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real, const MOST: usize> {
-    pub(super) method: &'a Impacts<M, MOST>,
+pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> {
+    pub(super) method: &'a Impacts<M>,
     pub(super) system: &'a S,
-    pub(super) memory: &'a mut ImpactsMemory<S, M::Memory, T, MOST>,
+    pub(super) memory: &'a mut ImpactsMemory<S, M::Memory, T>,
     pub(super) q: &'a mut Vector<S, T>,
     pub(super) statistics: &'a mut Statistics,
     /// When the flight at hand begins.
@@ -46,12 +46,7 @@ pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T
     pub(super) turns: usize,
 }
 
-impl<S, M, T, const MOST: usize> Passage<'_, S, M, T, MOST>
-where
-    S: UnilateralLagrangian<T>,
-    M: FreeFlight<S, T>,
-    T: Real,
-{
+impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M, T> {
     /// Takes the step.
     ///
     /// # Errors

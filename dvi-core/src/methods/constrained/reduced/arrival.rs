@@ -221,7 +221,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
         }
         combine(rows, &impulses[1], p);
         match squares[..] {
-            [square] => (Scalar::abs(square) > least()).then_some(()),
+            [square] => (square > least()).then_some(()),
             _ => Some(()),
         }
     }
