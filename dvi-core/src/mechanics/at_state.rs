@@ -102,7 +102,7 @@ fn rates<S: Lagrangian<T> + System<Kind: Rates<S, T>>, T: Real>(
 }
 
 /// The coordinates and velocities of a state at which the system is defined.
-fn point<S: Lagrangian<T>, T: Real>(
+pub(super) fn point<S: Lagrangian<T>, T: Real>(
     system: &S,
     t: T,
     state: &S::State<T>,

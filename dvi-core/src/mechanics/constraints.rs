@@ -210,8 +210,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             let Self { residuals, solution, .. } = self;
             residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + Scalar::abs(solution[j]));
             if residuals.are_settled() {
-                residuals.admit(system, at, v)?;
-                break;
+                match residuals.worst(system, at, v) {
+                    None => break,
+                    Some((constraint, value)) => {
+                        return Err(StepFailure::OffConstraint { constraint, value });
+                    }
+                }
             }
             self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         }
@@ -245,7 +249,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
 
     /// Adds Gᵀι at a point to a momentum.
     pub(crate) fn add_impulse(&mut self, system: &S, at: At<'_, T>, impulse: &[T], p: &mut [T]) {
-        let values = self.values(at.q.len());
+        let values = &mut self.solution[at.q.len()..];
         S::Kind::forces(system, at.q, at.t, values, &mut TransposedProduct { x: impulse, sum: p });
     }
 }

@@ -11,7 +11,6 @@ impl<S: HolonomicLagrangian<T>, T: Real> Constraints<S, T> for Holonomic {
 
     const OF_POSITIONS: bool = true;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn forces<K: Sink<T>>(system: &S, q: &[T], t: T, out: &mut [T], sink: &mut K) {
         system.constraint_jacobian(q, t, out, sink);
     }

@@ -8,7 +8,6 @@
 //! them cancel in all cases.
 
 use super::{At, ConstrainedLagrangian, Constraints, Multipliers};
-use crate::error::StepFailure;
 use crate::scalar::norm::{larger, largest, reported};
 use crate::scalar::smallest_normal;
 use crate::space::sink::Places;
@@ -95,15 +94,6 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         let is_settled = self.are_within(KEPT) || !shrinks;
         self.before = if is_settled { None } else { Some(size) };
         is_settled
-    }
-
-    /// # Errors
-    /// [`StepFailure::OffConstraint`] where more than rounding is left at the end of a step.
-    pub(crate) fn admit(&mut self, system: &S, at: At<'_, T>, v: &[T]) -> Result<(), StepFailure> {
-        match self.worst(system, at, v) {
-            None => Ok(()),
-            Some((constraint, value)) => Err(StepFailure::OffConstraint { constraint, value }),
-        }
     }
 
     /// The constraint that is farthest from being kept, of those that are off by more than rounding errors,

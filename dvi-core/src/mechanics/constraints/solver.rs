@@ -194,11 +194,6 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         let unknowns = x.iter_mut().chain(multipliers);
         unknowns.zip(self.solution.iter()).for_each(|(unknown, &change)| *unknown -= change);
     }
-
-    /// Work space with a number for each constraint.
-    pub(super) fn values(&mut self, n: usize) -> &mut [T] {
-        &mut self.solution[n..]
-    }
 }
 
 /// The failure of a row beyond the first `n`, with the name of its constraint.

@@ -103,14 +103,6 @@ impl<S: ConstrainedSystem, L, T: Real> Memory<T> for ConstrainedMemory<S, L, T> 
     );
 }
 
-/// Where a step begins, and how it is solved.
-struct Begin<'a, S, T> {
-    system: &'a S,
-    interval: Interval<T>,
-    q: &'a [T],
-    stopping: Stopping,
-}
-
 impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> ConstrainedMemory<S, L, T> {
     /// At (`q`, `v`, `t`).
     pub(super) fn new(system: &S, l_d: L, [q, v]: [&[T]; 2], t: T) -> Result<Self, StartError> {
@@ -161,13 +153,13 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     /// Takes a step for all unknowns.
     pub(super) fn take(&mut self, step: Step<'_, S, T>, stopping: Stopping) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
-        let begin = Begin { system, interval: Interval { t, h }, q, stopping };
+        let interval = Interval { t, h };
         self.stand();
         from_either_guess(|guess| {
             self.guess(h, guess);
-            self.solve(&begin, statistics)
+            self.solve((system, q), interval, stopping, statistics)
         })?;
-        self.arrive(&begin, statistics)?;
+        self.arrive((system, q), interval, statistics)?;
         self.keep(system, q, [t, h]);
         Ok(())
     }
@@ -201,8 +193,13 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     }
 
     /// Improves Δ and ι0 until q1 is on the constraints, and on the branch of the motion.
-    fn solve(&mut self, begin: &Begin<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Begin { system, interval, q, stopping } = *begin;
+    fn solve(
+        &mut self,
+        (system, q): (&S, &[T]),
+        interval: Interval<T>,
+        stopping: Stopping,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
         let Self { here: Place { p, .. }, l_d, solver, is_positive, gradients, arrival, .. } = self;
         let Arrival { increment, weights, q: next, place, work } = arrival;
         let [impulse, _] = &mut place.impulses;
@@ -245,8 +242,12 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     }
 
     /// Finds p1 = p0 + (D₁ + D₂)L_d + G(q0)ᵀι0 + G(q1)ᵀι1 and v1.
-    fn arrive(&mut self, begin: &Begin<'_, S, T>, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Begin { system, interval, q, .. } = *begin;
+    fn arrive(
+        &mut self,
+        (system, q): (&S, &[T]),
+        interval: Interval<T>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
         let Self { here: Place { p: p0, .. }, l_d, solver, arrival, orientation, .. } = self;
         let Arrival { increment, q: next, place, work, .. } = arrival;
         let Place { p, v, impulses: [first, last] } = place;

@@ -218,7 +218,9 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
     /// where the motion towards the surface has been used up, to where W is as much higher as e² times what
     /// it has come down; for an L that is quadratic in v that is where ġ⁺ = −e ġ⁻.
     fn reflect(&mut self, surface: usize, rate: T) -> Result<(), StepFailure> {
-        let (restitution, zero) = (self.restitution(), T::lift(0.0));
+        let (e, zero) = (T::lift(self.method.restitution), T::lift(0.0));
+        // Back in time an impact gains what it loses.
+        let restitution = if self.h < zero { T::lift(1.0) / e } else { e };
         let lambda = if S::QUADRATIC {
             self.impulse_for(surface, [rate, -restitution * rate])?
         } else {
@@ -332,11 +334,5 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         wall.is_grazing = !(is_behind && is_solved);
         wall.impulse = if wall.is_grazing { reflection } else { lambda };
         Ok(())
-    }
-
-    /// e, or 1/e where the run goes back in time.
-    fn restitution(&self) -> T {
-        let e = T::lift(self.method.restitution);
-        if self.h < T::lift(0.0) { T::lift(1.0) / e } else { e }
     }
 }

@@ -113,21 +113,17 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
     /// The surface and the length of the flight at which the next impact happens; `None` if there is none in
     /// what is left of the step.
     fn next_impact(&mut self) -> Result<Option<(usize, T)>, StepFailure> {
-        if let Some(surface) = self.immediate() {
-            return Ok(Some((surface, T::lift(0.0))));
+        let (zero, here) = (T::lift(0.0), &self.memory.here);
+        let mut surfaces = here.gap.iter().zip(here.rate.iter());
+        // It may be reached where the flight begins.
+        if let Some(surface) = surfaces.position(|(&gap, &rate)| gap <= zero && self.along(rate) < zero) {
+            return Ok(Some((surface, zero)));
         }
         let left = self.left;
         match self.try_flight(left) {
             Ok(()) => self.first_before(left),
             Err(failure) => self.before_failure(failure),
         }
-    }
-
-    /// A surface that is reached where the flight begins.
-    fn immediate(&self) -> Option<usize> {
-        let (zero, here) = (T::lift(0.0), &self.memory.here);
-        let mut surfaces = here.gap.iter().zip(here.rate.iter());
-        surfaces.position(|(&gap, &rate)| gap <= zero && self.along(rate) < zero)
     }
 
     /// The first impact in a flight whose end fails, perhaps because it is outside of the domain of L.
