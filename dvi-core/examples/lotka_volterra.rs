@@ -18,7 +18,7 @@ struct LotkaVolterra {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let system = LotkaVolterra { rate: 2.0 };
     let start = LotkaVolterraState { x: 1.0, y: 0.5 };
-    let rates = system.vector_field(&start)?;
+    let rates = system.vector_field(0.0, &start)?;
     println!("at the start x' = {} and y' = {}", rates.x, rates.y);
 
     let mut run = Integrator::new(&system, Gauss::<2>::new(), 0.01, start)?;

@@ -47,6 +47,19 @@ impl<T> Memory<T> for () {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl<T, R: Memory<T>> Memory<T> for Aside<R> {
+    fn restore(&mut self, from: &Self) {
+        (**self).restore(from);
+    }
+    fn save(&self, record: &mut Record<T>) {
+        (**self).save(record);
+    }
+    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
+        (**self).load(reader)
+    }
+}
+
 /// Numbers and counts, in the order in which a run lists what it carries.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Debug, Default, PartialEq)]

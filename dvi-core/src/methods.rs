@@ -24,7 +24,7 @@
 //! | method | order | preserves | when to take it |
 //! |---|---|---|---|
 //! | [`Rattle`] | 2 | dq ∧ dp | first, with constraints of positions and the L of `trapezoid()` |
-//! | [`Constrained`] | 1, 2 | dq ∧ dp | for other L, for more than about ten constraints, and for constraints of velocities, under which no form can be preserved |
+//! | [`Constrained`] | 1, 2 | dq ∧ dp | for other L, and for constraints of velocities, under which no form can be preserved |
 //! | [`Impacts::reflecting`] | 1, 2 | nothing | first, with impacts: keeps the energy at each; also around [`Galerkin`], with its order |
 //! | [`Impacts::new`] | 1, 2 | dq ∧ dp | with impacts, if the form counts more: keeps the discrete energy |
 //! | [`Geodesic`] | 1, 2 | dq ∧ dp | with rotations `R: SO3` and unit vectors `s: S2` |
@@ -74,7 +74,6 @@ mod newmark;
 mod one_point;
 mod one_step;
 mod projected;
-mod rattle;
 mod runge_kutta;
 mod sigma_family;
 mod step;
@@ -92,7 +91,7 @@ use crate::system::Same;
 use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::Composition;
-pub use constrained::Constrained;
+pub use constrained::{Constrained, Rattle};
 pub use context::{Here, Step, Steps};
 pub use energy_limit::EnergyLimit;
 pub use flight::FreeFlight;
@@ -105,7 +104,6 @@ pub use langevin::Langevin;
 pub use newmark::Newmark;
 pub use one_step::{OneStep, OneStepGauss};
 pub use projected::Projected;
-pub use rattle::Rattle;
 pub use runge_kutta::RungeKutta;
 pub(crate) use sigma_family::SigmaMemory;
 pub use sigma_family::{BeginsBetween, ParasiticMode, Sigma, Start};
@@ -383,6 +381,9 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     /// As [`Method::Suited`].
     type Suited<M>: Same<M, As = M>;
+
+    /// Whether the compiler knows that without constraints the steps would be those of Störmer and Verlet.
+    const IS_VERLET: bool;
 
     /// Refuses options that have no effect there.
     ///

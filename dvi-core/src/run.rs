@@ -267,7 +267,7 @@ pub trait Run {
             return power(&v, &v);
         }
         match <Self::System as System>::Kind::rates(system, &q, &[], t) {
-            Ok([velocity, _]) => power(&[], &velocity),
+            Ok(velocity) => power(&[], &velocity),
             Err(_) => Self::Scalar::lift(f64::NAN),
         }
     }

@@ -58,7 +58,7 @@ impl<'a, S: AtState + System<Kind: Rates<S, f64>>> Accelerations<'a, S> {
     }
 
     pub fn energy(&self) -> Result<f64, StartError> {
-        self.system.energy_at(&self.state())
+        self.system.energy_at(0.0, &self.state())
     }
 
     pub fn step(&mut self) -> Result<(), StartError> {
@@ -72,7 +72,7 @@ impl<'a, S: AtState + System<Kind: Rates<S, f64>>> Accelerations<'a, S> {
     }
 
     fn slope(&self, y: &[f64]) -> Result<Vec<f64>, StartError> {
-        let rates = self.system.vector_field(&self.system.state_of(y.iter().copied()))?;
+        let rates = self.system.vector_field(0.0, &self.system.state_of(y.iter().copied()))?;
         Ok(self.system.values(&rates)?.collect())
     }
 }

@@ -46,15 +46,15 @@ fn entries_have_flat_names() -> Outcome {
 fn states_without_an_answer_are_errors() {
     let origin = KeplerState { x: 0.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
     let kepler = Kepler { mu: 1.0 };
-    assert!(matches!(kepler.vector_field(&origin), Err(StartError::Undefined { .. })));
-    assert!(matches!(kepler.energy_at(&origin), Err(StartError::Undefined { .. })));
+    assert!(matches!(kepler.vector_field(0.0, &origin), Err(StartError::Undefined { .. })));
+    assert!(matches!(kepler.energy_at(0.0, &origin), Err(StartError::Undefined { .. })));
     let nowhere = KeplerState { x: f64::NAN, ..origin };
-    assert!(matches!(kepler.lagrangian_at(&nowhere), Err(StartError::NotFinite { .. })));
+    assert!(matches!(kepler.lagrangian_at(0.0, &nowhere), Err(StartError::NotFinite { .. })));
     // The form of the sphere, z dφ, is regular; one that is zero at a point is not.
     let singular = Curved { kappa: -1.0 / 3.0 };
     let at = CurvedState { x: 1.0, y: 1.0 };
-    assert!(matches!(singular.vector_field(&at), Err(StartError::Singular { matrix: "Ω = −dα", .. })));
-    assert!(singular.energy_at(&at).is_ok());
+    assert!(matches!(singular.vector_field(0.0, &at), Err(StartError::Singular { matrix: "Ω = −dα", .. })));
+    assert!(singular.energy_at(0.0, &at).is_ok());
 }
 
 /// An array of const-generic size beside single coordinates and an array of literal size.
@@ -140,6 +140,6 @@ fn states_are_of_f64_unless_another_name_is_written() {
     assert_eq!(start.x.abs().sqrt(), 0.5_f64.sqrt());
     assert_eq!(format!("{start:?}"), "KeplerState { x: -0.5, y: 0.0, dot_x: 0.0, dot_y: 1.0 }");
     let narrow = KeplerStateOf { x: -0.5_f32, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
-    assert_eq!(Kepler { mu: 1.0 }.energy_at(&narrow).ok(), Some(-1.5_f32));
-    assert_eq!(Kepler { mu: 1.0 }.energy_at(&start).ok(), Some(-1.5));
+    assert_eq!(Kepler { mu: 1.0 }.energy_at(0.0, &narrow).ok(), Some(-1.5_f32));
+    assert_eq!(Kepler { mu: 1.0 }.energy_at(0.0, &start).ok(), Some(-1.5));
 }

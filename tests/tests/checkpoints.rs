@@ -75,7 +75,8 @@ fn constrained_runs_of_a_loose_tolerance_go_on_from_everywhere() -> Outcome {
     for tolerance in [1e-4, 1e-6, 1e-8, 1e-12] {
         let stopping = Stopping { tolerance, ..Stopping::default() };
         for h in [0.03, 0.1, 0.2] {
-            check(Rattle { stopping }, h).map_err(|error| format!("RATTLE, {tolerance:e}, {h}: {error}"))?;
+            check(Rattle { stopping, ..Rattle::default() }, h)
+                .map_err(|error| format!("RATTLE, {tolerance:e}, {h}: {error}"))?;
             let constrained = Constrained { stopping, ..Constrained::new(Variational::midpoint()) };
             check(constrained, h).map_err(|error| format!("{tolerance:e}, {h}: {error}"))?;
         }

@@ -84,7 +84,7 @@ potential! {
 fn a_formula_with_functions_is_what_rust_makes_of_it() -> Outcome {
     let system = Well { depth: 0.75 };
     for (x, y) in [(0.3, 0.4), (0.4, 0.3), (-1.2, 2.0), (2.5, -0.1)] {
-        let found = system.energy_at(&WellState { x, y, dot_x: 0.0, dot_y: 0.0 })?;
+        let found = system.energy_at(0.0, &WellState { x, y, dot_x: 0.0, dot_y: 0.0 })?;
         let expected = by_rust(system.depth, x, y);
         assert!(abs_diff_eq!(found, expected, epsilon = 1e-14 * expected.abs()), "{found}, not {expected}");
     }
@@ -113,6 +113,6 @@ fn indices_are_passed_on() -> Outcome {
     let state = RingState { x, dot_x: [0.0; 4] };
     let terms = (0..4).map(|i| system.strength[i] * (1.0 + i as f64 / 2.0) * x[i] * x[(i + 1) % 4]);
     let expected: f64 = terms.sum();
-    assert!(abs_diff_eq!(system.lagrangian_at(&state)?, expected, epsilon = 1e-15));
+    assert!(abs_diff_eq!(system.lagrangian_at(0.0, &state)?, expected, epsilon = 1e-15));
     Ok(())
 }

@@ -270,7 +270,7 @@ fn a_run_does_not_begin_outside_of_the_table() -> Outcome {
         error.to_string(),
         "`slope` is not known there: its argument 1 is 2.5, and must be at most 2"
     );
-    let error = Drifting { slope: Table }.vector_field(&start).err().ok_or("an error")?;
+    let error = Drifting { slope: Table }.vector_field(0.0, &start).err().ok_or("an error")?;
     assert!(matches!(error, StartError::Outside(_)), "{error}");
     Ok(())
 }
@@ -289,7 +289,7 @@ struct Guarded {
 fn a_table_that_is_not_asked_is_not_to_blame() -> Outcome {
     let system = Guarded { slope: Table };
     let start = GuardedState { x: 2.2, dot_x: 2.0 };
-    assert!(system.energy_at(&start).is_ok());
+    assert!(system.energy_at(0.0, &start).is_ok());
     let mut run = Integrator::new(&system, Variational::trapezoid(), 0.1, start)?;
     let error = run.take_steps(100).err().ok_or("an error")?;
     assert!(matches!(error.failure, StepFailure::NotFinite { .. }), "{error}");

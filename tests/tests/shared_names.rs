@@ -63,7 +63,7 @@ fn a_system_with_shared_names_is_the_same_system() -> Outcome {
     let same = WrittenOutState { x: q, dot_x: v };
     for event in 0..2 {
         let rates: [f64; 2] =
-            [named.at_time(0.0).event_rate(event, &state)?, written.at_time(0.0).event_rate(event, &same)?];
+            [named.event_rate(0.0, event, &state)?, written.event_rate(0.0, event, &same)?];
         assert_eq!(rates[0], rates[1]);
     }
     let seen = |report: &Report| format!("{:?}", (report.structure, report.residual, report.jacobian));
@@ -90,7 +90,7 @@ struct Oscillator;
 #[test]
 fn a_degenerate_system_shares_names_too() -> Outcome {
     let state = OscillatorState { x: 0.6, p: -0.8 };
-    assert!(abs_diff_eq!(Oscillator.energy_at(&state)?, 0.5, epsilon = 1e-15));
+    assert!(abs_diff_eq!(Oscillator.energy_at(0.0, &state)?, 0.5, epsilon = 1e-15));
     let mut one_form = [0.0; 2];
     Oscillator.one_form(&[0.6, -0.8], 0.0, &mut one_form);
     // α + d(−½xp) = ½ (p dx − x dp)

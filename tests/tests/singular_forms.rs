@@ -34,7 +34,7 @@ const EXPONENTS: [[i32; 4]; 4] = [[0; 4], [3, -60, 60, 9], [100, 100, -100, -100
 #[test]
 fn regular_forms_are_regular_in_any_units() -> Outcome {
     fn path(system: &Full) -> Outcome<[f64; 8]> {
-        let field = system.vector_field(&system.start())?.q;
+        let field = system.vector_field(0.0, &system.start())?.q;
         let mut run = Integrator::new(system, RungeKutta::classical(), 0.01, system.start())?;
         run.take_steps(100)?;
         let end = run.state().q;
@@ -74,7 +74,7 @@ fn forms_of_a_lower_rank_are_singular_whatever_rounding_leaves_of_their_pivots()
         let [u, v]: [[f64; 4]; 2] = core::array::from_fn(|_| core::array::from_fn(|_| numbers.next()));
         let b = core::array::from_fn(|j| core::array::from_fn(|k| u[j] * v[k]));
         let system = Full::new(b, exponents.map(|exponent| f64::from(exponent).exp2()));
-        let field = system.vector_field(&system.start());
+        let field = system.vector_field(0.0, &system.start());
         assert!(
             matches!(field, Err(StartError::Undetermined(StepFailure::Singular { .. }))),
             "seed {seed}, {exponents:?}: {field:?}"

@@ -127,7 +127,7 @@ fn regular_masses_are_regular_in_any_units() -> Outcome {
         let path = |unit: f64| -> Outcome<[f64; 2]> {
             let system = Coupled { a: unit * unit, r, c: 1.0 / (unit * unit) };
             let start = CoupledState { x: 1.0 / unit, y: unit, dot_x: 0.0, dot_y: 0.0 };
-            let field = system.vector_field(&start)?;
+            let field = system.vector_field(0.0, &start)?;
             assert!((field.dot_x * unit + 1.0 / (1.0 + r)).abs() < 1e-15, "{field:?}");
             let mut run = Integrator::new(&system, Variational::trapezoid(), 0.01, start)?;
             run.take_steps(100)?;
@@ -163,7 +163,7 @@ fn masses_of_a_lower_rank_are_singular_whatever_rounding_leaves_of_their_pivots(
     let state = RankTwoState { x: 1.0, y: 1.0, z: 1.0, dot_x: 0.0, dot_y: 0.0, dot_z: 0.0 };
     for (i, k) in (1..=20).flat_map(|i| (1..=20).map(move |k| (i, k))) {
         let system = RankTwo { a: f64::from(i) * 0.1, b: 0.4, c: f64::from(k) * 0.1, d: -0.1, e: 0.3 };
-        let field = system.vector_field(&state);
+        let field = system.vector_field(0.0, &state);
         assert!(matches!(field, Err(StartError::Undetermined(StepFailure::Singular { .. }))), "{field:?}");
         let run = Integrator::new(&system, Variational::trapezoid(), 0.01, state).map(|_| ());
         assert!(matches!(run, Err(StartError::Starter(StepFailure::Singular { .. }))), "{i}, {k}: {run:?}");

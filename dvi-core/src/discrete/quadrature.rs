@@ -14,6 +14,9 @@ pub(crate) const NODES: usize = 5;
 /// [`Midpoint`], [`Trapezoid`] and [`Simpson`] are known at compile time: their steps are straight code. A
 /// [`Quadrature`] is any rule, chosen at run time.
 pub trait Rule: Copy + core::fmt::Debug {
+    /// Whether the compiler knows that this is the trapezoidal rule.
+    const TRAPEZOIDAL: bool = false;
+
     /// The nodes cⱼ.
     fn nodes(&self) -> &[f64];
     /// The weights wⱼ.
@@ -50,6 +53,11 @@ macro_rules! rules {
         pub struct $name;
 
         impl Rule for $name {
+            const TRAPEZOIDAL: bool = {
+                let nodes: &[f64] = &$nodes;
+                matches!(nodes, [0.0, 1.0])
+            };
+
             fn nodes(&self) -> &[f64] {
                 &$nodes
             }

@@ -39,12 +39,6 @@ pub(crate) struct Inverse<S: System, T: Real> {
     factors: Option<(Square<S, T>, Vector<S, T>)>,
 }
 
-impl<S: System, T: Real> Clone for Inverse<S, T> {
-    fn clone(&self) -> Self {
-        Self { scales: self.scales.clone(), factors: self.factors.clone() }
-    }
-}
-
 impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     /// Storage for the inverse of `combination`, which is evaluated at (`q`, `t`); its value comes from
     /// [`prepare`](Self::prepare).
@@ -166,16 +160,13 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         self.factors().is_none().then_some(&*self.scales)
     }
 
-    /// Gives the entries of the solution, as of [`solve`](Self::solve), to `set`; with another matrix in
-    /// each lane: entry i of `entries` is the only one of row i.
-    ///
-    /// # Errors
-    /// As [`prepare`](Self::prepare), of the first lane that fails.
+    /// Sets `x` to the solution, as of [`solve`](Self::solve), with another matrix in each lane: entry i of
+    /// `entries` is the only one of row i.
     pub(crate) fn of_entries_in_lanes<const W: usize>(
         system: &S,
         entries: &[Lanes<W, T>],
         rhs: &[Lanes<W, T>],
-        mut set: impl FnMut(usize, Lanes<W, T>),
+        x: &mut [Lanes<W, T>],
     ) -> Result<(), StepFailure> {
         let (zero, one) = (Lanes::all(T::lift(0.0)), Lanes::all(T::lift(1.0)));
         let mut finite = zero;
@@ -183,7 +174,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             let conjugate = system.conjugate(j);
             let reciprocal = one / entries[conjugate];
             finite += reciprocal * zero;
-            set(j, rhs[conjugate] * reciprocal);
+            x[j] = rhs[conjugate] * reciprocal;
         }
         if finite == zero { Ok(()) } else { Self::first_singular(system, entries) }
     }

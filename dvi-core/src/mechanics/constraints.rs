@@ -93,56 +93,38 @@ pub(crate) struct At<'a, T> {
     pub(crate) t: T,
 }
 
-/// What vanishes at the end of a step.
-pub(crate) struct OfStep<'a, 'b, S, T> {
-    pub(crate) span: Span<'b, S, T>,
-    pub(crate) work: [&'a mut [T]; 2],
+/// What the lower rows of the equations say.
+pub(crate) enum Lower<'a, S, T> {
+    /// What vanishes at a position, of constraints of positions.
+    OfPosition(At<'a, T>),
+    /// What vanishes at the end of a step. The slices are work space.
+    OfStep(Span<'a, S, T>, [&'a mut [T]; 2]),
+    /// What vanishes with a velocity.
+    OfVelocity(At<'a, T>, &'a [T]),
+    /// What the acceleration with a velocity is to be.
+    OfAcceleration(At<'a, T>, &'a [T]),
 }
 
-/// What vanishes with a velocity.
-pub(crate) struct OfVelocity<'a, S, T> {
-    pub(crate) system: &'a S,
-    pub(crate) at: At<'a, T>,
-    pub(crate) v: &'a [T],
-}
-
-/// What the acceleration with a velocity is to be.
-pub(crate) struct OfAcceleration<'a, S, T> {
-    pub(crate) system: &'a S,
-    pub(crate) at: At<'a, T>,
-    pub(crate) v: &'a [T],
-}
-
-impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfStep<'_, '_, S, T> {
-    fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let Self { span, work: [point, velocity] } = self;
-        S::Kind::of_step(span.system, *span, [point, velocity], c, sink);
-        Ok(())
-    }
-}
-
-impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfVelocity<'_, S, T> {
-    fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let Self { system, at, v } = self;
-        S::Kind::of_velocity(system, at.q, v, at.t, c, sink);
-        Ok(())
-    }
-}
-
-impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfAcceleration<'_, S, T> {
-    fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let Self { system, at, v } = self;
-        S::Kind::of_acceleration(system, at.q, v, at.t, c, sink);
-        Ok(())
+impl<S: ConstrainedLagrangian<T>, T: Real> Lower<'_, S, T> {
+    #[inline]
+    fn evaluate<K: Sink<T>>(&mut self, system: &S, c: &mut [T], sink: &mut K) {
+        match self {
+            Self::OfPosition(At { q, t }) => S::Kind::forces(system, q, *t, c, sink),
+            Self::OfStep(span, [point, velocity]) => {
+                S::Kind::of_step(system, *span, [point, velocity], c, sink);
+            }
+            Self::OfVelocity(At { q, t }, v) => S::Kind::of_velocity(system, q, v, *t, c, sink),
+            Self::OfAcceleration(At { q, t }, v) => S::Kind::of_acceleration(system, q, v, *t, c, sink),
+        }
     }
 }
 
 /// The equations, linearised: `upper` evaluates b and the entries of A, to b is added Gᵀν, and `lower`
 /// evaluates c and the entries of the lower rows.
-pub(crate) struct Bordered<'a, S, T, U, W> {
+pub(crate) struct Bordered<'a, S, T, U> {
     pub(crate) system: &'a S,
     pub(crate) upper: U,
-    pub(crate) lower: W,
+    pub(crate) lower: Lower<'a, S, T>,
     /// ν.
     pub(crate) multipliers: &'a [T],
     /// Where the G is evaluated whose transpose multiplies ν; `None` if it is the matrix of the lower rows.
@@ -151,12 +133,8 @@ pub(crate) struct Bordered<'a, S, T, U, W> {
     pub(crate) active: usize,
 }
 
-impl<S, T, U, W> LinearEquations<T> for Bordered<'_, S, T, U, W>
-where
-    S: ConstrainedLagrangian<T>,
-    T: Real,
-    U: LinearEquations<T>,
-    W: LinearEquations<T>,
+impl<S: ConstrainedLagrangian<T>, T: Real, U: LinearEquations<T>> LinearEquations<T>
+    for Bordered<'_, S, T, U>
 {
     #[inline]
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
@@ -183,7 +161,7 @@ where
                 }
             }
         };
-        lower.evaluate(lower_b, &mut Places(entries))?;
+        lower.evaluate(system, lower_b, &mut Places(entries));
         for (k, c) in lower_b.iter_mut().enumerate().skip(active) {
             *c = T::lift(0.0);
             sink.add(n + k, n + k, T::lift(1.0));
@@ -227,28 +205,24 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
                 self.improve_tangent(*due, system, at, Tangent { p, v, impulse, work })
             })?;
         }
-        self.refine_tangent(system, at, Tangent { p, v, impulse, work })?;
-        // In the equations the impulse is subtracted.
-        impulse.iter_mut().for_each(|impulse| *impulse = -*impulse);
-        self.add_impulse(system, at, impulse, p);
-        norm::finite(v).and(norm::finite(p))
-    }
-
-    /// Iterates again where rounding has left the velocity off the constraints.
-    fn refine_tangent(
-        &mut self,
-        system: &S,
-        at: At<'_, T>,
-        Tangent { p, v, impulse, work }: Tangent<'_, T>,
-    ) -> Result<(), StepFailure> {
+        // Rounding may have left the velocity off the constraints.
         loop {
             let Self { residuals, solution, .. } = self;
             residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + Scalar::abs(solution[j]));
             if residuals.are_settled() {
-                return residuals.admit(system, at, v);
+                match residuals.worst(system, at, v) {
+                    None => break,
+                    Some((constraint, value)) => {
+                        return Err(StepFailure::OffConstraint { constraint, value });
+                    }
+                }
             }
             self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         }
+        // In the equations the impulse is subtracted.
+        impulse.iter_mut().for_each(|impulse| *impulse = -*impulse);
+        self.add_impulse(system, at, impulse, p);
+        norm::finite(v).and(norm::finite(p))
     }
 
     /// One iteration: the size of the correction of the velocity or, where that is due, of the residual.
@@ -261,7 +235,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     ) -> Result<T, StepFailure> {
         let n = v.len();
         let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };
-        let lower = OfVelocity { system, at, v };
+        let lower = Lower::OfVelocity(at, v);
         let (multipliers, active) = (&*impulse, impulse.len());
         let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
         if due == Due::Residual {
@@ -275,7 +249,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
 
     /// Adds Gᵀι at a point to a momentum.
     pub(crate) fn add_impulse(&mut self, system: &S, at: At<'_, T>, impulse: &[T], p: &mut [T]) {
-        let values = self.values(at.q.len());
+        let values = &mut self.solution[at.q.len()..];
         S::Kind::forces(system, at.q, at.t, values, &mut TransposedProduct { x: impulse, sum: p });
     }
 }

@@ -9,7 +9,7 @@ use crate::scalar::norm;
 use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear};
 use crate::state::Statistics;
-use crate::{Lagrangian, Linear, Real, Space, System, Vector, Weights};
+use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Vector, Weights};
 
 /// Storage for the transform.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(crate) struct Legendre<S: System, T: Real> {
 /// How often a correction that leads out of the domain of L is halved.
 const HALVINGS: usize = 60;
 
-impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
+impl<S: NondegenerateLagrangian<T>, T: Real> Legendre<S, T> {
     /// For points of which (`q`, `v`, `t`) is one.
     pub(crate) fn new(system: &S, q: &[T], v: &[T], t: T) -> Self {
         let space = system.space();
@@ -52,12 +52,11 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
         p: &[T],
         t: T,
         v: &mut [T],
-        is_quadratic: bool,
     ) -> Result<(), StepFailure> {
         self.correction.fill(T::lift(0.0));
         Due::Sizes.prepare_alone(system, &mut self.weights, v);
         self.improve(system, q, p, t, v)?;
-        if is_quadratic {
+        if S::QUADRATIC {
             return norm::finite(v);
         }
         newton(Stopping::default(), &mut Statistics::default(), |due, _| {
@@ -72,26 +71,6 @@ impl<S: Lagrangian<T>, T: Real> Legendre<S, T> {
             Ok(sizes::largest(&self.weights, &self.correction))
         })?;
         norm::finite(v)
-    }
-
-    /// Improves the guess `v` until ∂L/∂v = `p`, and begins again from rest where that does not lead to a
-    /// velocity: extrapolated, it may be beyond what L is defined for.
-    ///
-    /// # Errors
-    /// As [`solve`](Self::solve).
-    pub(crate) fn solve_near(
-        &mut self,
-        system: &S,
-        q: &[T],
-        p: &[T],
-        t: T,
-        v: &mut [T],
-        is_quadratic: bool,
-    ) -> Result<(), StepFailure> {
-        self.solve(system, q, p, t, v, is_quadratic).or_else(|_| {
-            v.fill(T::lift(0.0));
-            self.solve(system, q, p, t, v, is_quadratic)
-        })
     }
 
     /// One iteration, from `v` or, where L is not defined there, from nearer to where the last one began,

@@ -1,9 +1,5 @@
 //! The equations of motion as ordinary differential equations of first order, y' = X(y, t): what the
 //! baselines solve.
-//!
-//! A degenerate system has y = q and Ω q' = ∇H + ∂α/∂t. A regular one has y = (q, p) and Hamilton's
-//! equations in terms of L: q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t) (Marsden & Ratiu 1999,
-//! section 7.2).
 
 pub(crate) mod constrained;
 mod flow_on_q;
@@ -69,13 +65,13 @@ impl<T: Copy, V: DerefMut<Target = [T]>, const K: usize> Memory<T> for Point<V, 
     label = "it is no system, it has rotations or unit vectors, or a parameter of it is no number"
 )]
 pub trait Rates<S: System, T: Real>: Kind {
-    /// The rates of change of coordinates and velocities along the motion through (`q`, `v`, `t`); of a
-    /// degenerate system, which has no velocities, the second is zero.
+    /// The acceleration of the motion through (`q`, `v`, `t`); of a degenerate system, which has no
+    /// velocities, the rate of change of the coordinates.
     ///
     /// # Errors
     /// [`StepFailure::Singular`] where Ω or the mass matrix is singular;
     /// [`StepFailure::RedundantConstraint`].
-    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure>;
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Vector<S, T>, StepFailure>;
 }
 
 /// What the equations of motion of a kind of system are stored in.
@@ -107,7 +103,8 @@ pub(crate) type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point<T>;
 /// The same in packs of type `P`, of numbers of type `T`.
 pub(crate) type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point<P>;
 
-/// The equations of motion of a system `S`, y' = X(y, t), in the arithmetic of `T`.
+/// The equations of motion of a system `S`, y' = X(y, t), in the arithmetic of `T`: of a regular one
+/// Hamilton's in terms of L (Marsden & Ratiu 1999, section 7.2).
 ///
 /// ```math
 /// \begin{aligned}

@@ -1,11 +1,11 @@
 //! What can be asked of a system with constraints at one state, without a run.
 
 use crate::error::StartError;
-use crate::mechanics::constraints::consistent::{self, Among, check};
+use crate::mechanics::at_state::point;
+use crate::mechanics::constraints::consistent::{check, project};
 use crate::mechanics::constraints::{ConstrainedLagrangian, Multipliers};
 use crate::mechanics::motion::constrained::acceleration;
-use crate::system::start::{evaluate, flatten, validate};
-use crate::{Real, Space};
+use crate::{Real, State};
 
 /// What can be asked of a system with constraints at one state.
 ///
@@ -37,7 +37,9 @@ pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
     /// [`StartError::Inconsistent`] where no position is found in 1500 iterations, or no velocity;
     /// [`StartError::Projection`] where a constraint is redundant; others as the start of a run has.
     fn projected(&self, t: T, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
-        consistent::projected(self, t, state)
+        let [mut q, mut v] = point(self, t, state)?;
+        project(self, [&mut q, &mut v], t)?;
+        Ok(State::read(|block| self.block_len(block), &q, &v))
     }
 
     /// The Lagrange multipliers λ at a state that the constraints admit at time `t`, one for each
@@ -48,12 +50,9 @@ pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
     /// [`StartError::Undetermined`] where a constraint is redundant or the mass matrix singular; others as
     /// the start of a run has.
     fn multipliers_at(&self, t: T, state: &Self::State<T>) -> Result<Multipliers<Self, T>, StartError> {
-        validate(self, t)?;
-        let [q, v] = flatten(self, state)?;
-        evaluate(self, &q, &v, t)?;
-        check(self, [&q, &v], t, Among::States)?;
-        let mut multipliers = self.multipliers().vector();
-        acceleration(self, [&q, &v], t, &mut multipliers).map_err(StartError::Undetermined)?;
+        let [q, v] = point(self, t, state)?;
+        check(self, [&q, &v], t, None)?;
+        let (_, multipliers) = acceleration(self, [&q, &v], t).map_err(StartError::Undetermined)?;
         Ok(multipliers)
     }
 }

@@ -59,15 +59,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
         if S::CANONICAL { None } else { self.pfaffian.as_mut() }
     }
 
-    /// Compares Ω at (`q`, `t`), the end of a step, with the last, and keeps it.
-    ///
-    /// # Errors
-    /// [`StepFailure::Orientation`]; the last is kept then.
-    #[inline]
-    pub(crate) fn check(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
-        self.pass(system, &[], (q, t))
-    }
-
     /// Compares Ω at points and times `within` a step and at its `end` with the last, and keeps that at the
     /// end.
     ///

@@ -24,7 +24,7 @@ pub(crate) struct PhasePoint<S: System, T: Real> {
     /// The length of the step before; zero before the first.
     last_step: T,
     /// What rounding has left out of q and of p.
-    carried: [Carried<S, T>; 2],
+    pub(crate) carried: [Carried<S, T>; 2],
 }
 
 /// The end of a step: q1, p1 and, if L is separable, ∂L/∂q there.
@@ -90,18 +90,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         self.carried[0].add(q, increment, q1);
     }
 
-    /// What rounding has left out of coordinate `k`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn left_out_of_q(&self, k: usize) -> T {
-        self.carried[0].left_out_of(k)
-    }
-
-    /// What rounding has left out of its momentum.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn left_out_of_p(&self, k: usize) -> T {
-        self.carried[1].left_out_of(k)
-    }
-
     /// Sets `p1` to p0 and `impulse`.
     pub(crate) fn kick(&self, impulse: &[T], p1: &mut [T]) {
         self.carried[1].add(&self.p, impulse, p1);
@@ -130,9 +118,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     }
 
     /// The same where sums are plain, with Δ.
-    ///
-    /// # Errors
-    /// As [`advance`](Self::advance).
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn advance_plainly(
         &mut self,
@@ -205,9 +190,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
 
     /// Whether the matrix has kept its orientation at (`q`, `t`), which was reached with Δ = `increment`;
     /// `velocity` is storage.
-    ///
-    /// # Errors
-    /// As [`MassOrientation::check`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn check(
         &mut self,
@@ -229,9 +211,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
     }
 
     /// Sets `v` to the velocity with ∂L/∂v = p at (`q`, `t`).
-    ///
-    /// # Errors
-    /// As [`Legendre::solve`].
     pub(crate) fn velocity(
         &self,
         system: &S,
@@ -245,7 +224,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
             return Ok(());
         }
         phase.history.extrapolate(v);
-        Legendre::new(system, q, v, t).solve_near(system, q, &phase.p, t, v, S::QUADRATIC)
+        let mut legendre = Legendre::new(system, q, v, t);
+        legendre.solve(system, q, &phase.p, t, v).or_else(|_| {
+            // Extrapolated, a velocity may be beyond what L is defined for.
+            v.fill(T::lift(0.0));
+            legendre.solve(system, q, &phase.p, t, v)
+        })
     }
 }
 

@@ -4,7 +4,7 @@
 //! Bᵢⱼ = ∂ᵢαⱼ − ∂ⱼαᵢ, that is B = (Dα)ᵀ − Dα (Rowley & Marsden 2002, section 3.2). B is inverted once if α
 //! is linear, by one reciprocal per coordinate if it has canonical shape, and by elimination otherwise.
 
-use crate::error::{StartError, StepFailure};
+use crate::error::StepFailure;
 use crate::mechanics::combination::{Combination, Inverse};
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
@@ -19,24 +19,6 @@ pub struct VectorField<S: System, T: Real> {
     entries: Vector<S, T>,
 }
 
-/// What the evaluation in lanes works with.
-pub(crate) struct LaneWork<'a, const W: usize, T> {
-    pub(crate) gradient: &'a mut [Lanes<W, T>],
-    pub(crate) entries: &'a mut [Lanes<W, T>],
-    /// One lane.
-    pub(crate) vector: &'a mut [T],
-}
-
-impl<S: System, T: Real> Clone for VectorField<S, T> {
-    fn clone(&self) -> Self {
-        Self {
-            inverse: self.inverse.clone(),
-            gradient: self.gradient.clone(),
-            entries: self.entries.clone(),
-        }
-    }
-}
-
 impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     /// The vector field of `system`, inverted at (`q`, `t`).
     ///
@@ -49,18 +31,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         let prepared = inverse.prepare(system, q, t, omega, &mut entries, &mut Statistics::default());
         prepared.map_err(|failure| failure.of(StepFailure::OMEGA))?;
         Ok(Self { inverse, gradient: space.vector(), entries })
-    }
-
-    /// X(`q`, `t`) where a run begins.
-    ///
-    /// # Errors
-    /// [`StartError::Starter`] if Ω is singular at `q`.
-    pub(crate) fn starting(system: &S, q: &Vector<S, T>, t: T) -> Result<Vector<S, T>, StartError> {
-        let mut velocity = system.space().vector();
-        Self::new(system, q, t)
-            .and_then(|mut field| field.evaluate(system, q, t, &mut velocity, &mut Statistics::default()))
-            .map_err(StartError::Starter)?;
-        Ok(velocity)
     }
 
     fn omega() -> Combination<T> {
@@ -85,38 +55,34 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         self.solve(system, q, t, velocity, statistics)
     }
 
-    /// Gives the entries of X, each with its place, to `set`: at the points in the lanes of `q`, at the
-    /// times in those of `t`, bit for bit as [`evaluate`](Self::evaluate) finds them one by one.
-    ///
-    /// # Errors
-    /// As there, of the first lane that fails.
+    /// Sets `out` to X at the points in the lanes of `q`, at the times in those of `t`, bit for bit as
+    /// [`evaluate`](Self::evaluate) finds them one by one. What comes with `vector`, one lane, is storage.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn evaluate_in_lanes<const W: usize>(
         &mut self,
         system: &S,
         q: &[Lanes<W, T>],
         t: Lanes<W, T>,
-        work: LaneWork<'_, W, T>,
-        mut set: impl FnMut(usize, Lanes<W, T>),
+        ([gradient, entries], vector): ([&mut [Lanes<W, T>]; 2], &mut [T]),
+        out: &mut [Lanes<W, T>],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
         S: DegenerateLagrangian<Lanes<W, T>>,
     {
-        let LaneWork { gradient, entries, vector } = work;
         system.flow_source(q, t, gradient);
         statistics.gradients += W as u64;
         if !<S as DegenerateLagrangian<T>>::AFFINE && <S as DegenerateLagrangian<T>>::CANONICAL {
             let Combination { a, b } = Self::omega();
             system.conjugate_entries(q, t, Lanes::all(a), Lanes::all(b), entries);
-            return Inverse::<S, T>::of_entries_in_lanes(system, entries, gradient, set);
+            return Inverse::<S, T>::of_entries_in_lanes(system, entries, gradient, out);
         }
         if <S as DegenerateLagrangian<T>>::AFFINE
             && let Some(reciprocals) = self.inverse.reciprocals()
         {
             for (j, &reciprocal) in reciprocals.iter().enumerate() {
                 let conjugate = DegenerateLagrangian::<T>::conjugate(system, j);
-                set(j, gradient[conjugate] * Lanes::all(reciprocal));
+                out[j] = gradient[conjugate] * Lanes::all(reciprocal);
             }
             return Ok(());
         }
@@ -134,10 +100,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
             }
             read_lane(lane, gradient, &mut self.gradient);
             self.inverse.solve(system, &self.gradient, vector);
-            write_lane(lane, vector, gradient);
-        }
-        for (j, &velocity) in gradient.iter().enumerate() {
-            set(j, velocity);
+            write_lane(lane, vector, out);
         }
         Ok(())
     }

@@ -45,9 +45,7 @@ pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Scheme + Carries<S
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]);
 
     /// Whether [`energy_of_flight`](Self::energy_of_flight) is known.
-    fn has_energy_of_flight(&self) -> bool {
-        false
-    }
+    const HAS_ENERGY: bool = false;
 
     /// The discrete energy E_d = −∂L_d/∂h of a flight, for L that does not depend on time; `None` if it is
     /// not known. `work` is storage for a point and a velocity.

@@ -1,11 +1,6 @@
 //! Variational integrators on manifolds: the discrete Lagrangian is a quadrature rule of L on a geodesic
-//! between the two ends.
-//!
-//! L_d(q0, q1) = h Σⱼ wⱼ L(γ(cⱼ), γ'(cⱼ)/h, t + cⱼh),   γ(0) = q0, γ(1) = q1
-//!
-//! with γ(c) = R0 exp(cû) of a rotation, a great circle of a unit vector, a straight line of numbers. In the
-//! moving frame of the body the discrete Euler–Lagrange equations of a rotation are those of Euler and
-//! Poincaré (Marsden, Pekarsky & Shkoller 1999).
+//! between the two ends. In the moving frame of the body the discrete Euler–Lagrange equations of a rotation
+//! are those of Euler and Poincaré (Marsden, Pekarsky & Shkoller 1999).
 
 mod between;
 mod covectors;

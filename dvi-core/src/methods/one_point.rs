@@ -1,10 +1,11 @@
 //! What a run carries whose steps couple two points of Q, with p = α(q) at each: no parasitic mode is left.
 
 use crate::error::StartError;
-use crate::mechanics::VectorField;
+use crate::mechanics::motion;
 use crate::mechanics::orientation::FormOrientation;
 use crate::memory::{Memory, lasting};
 use crate::state::rates::Rates;
+use crate::system::Degenerate;
 use crate::{DegenerateLagrangian, Real, Space, System, Vector};
 
 #[derive(Debug)]
@@ -29,7 +30,9 @@ impl<S: DegenerateLagrangian<T>, T: Real, const KINDS: usize> OnePoint<S, T, KIN
     ) -> Result<Self, StartError> {
         let mut p = system.space().vector();
         system.one_form(q, t, &mut p);
-        let rates = Rates::new(system, seeds(VectorField::starting(system, q, t)?));
+        let velocity =
+            <Degenerate as motion::Rates<S, T>>::rates(system, q, &[], t).map_err(StartError::Starter)?;
+        let rates = Rates::new(system, seeds(velocity));
         Ok(Self { p, rates, orientation: FormOrientation::new(system, q, t) })
     }
 

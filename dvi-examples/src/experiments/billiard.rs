@@ -101,7 +101,7 @@ impl Orbit {
             run.advance()?;
             let of_step = run.memory().impacts();
             for impact in of_step {
-                let ([x, y], [u, v]) = ([impact.q()[0], impact.q()[1]], [impact.v()[0], impact.v()[1]]);
+                let ([x, y], [u, v]) = ([impact.q[0], impact.q[1]], [impact.v[0], impact.v[1]]);
                 let (gap, normal) = curve(x, y);
                 orbit.gap = larger(orbit.gap, gap.abs());
                 if orbit.section.len() < SHOWN {

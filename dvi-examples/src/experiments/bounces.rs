@@ -87,7 +87,7 @@ fn bounces(job: &Job<'_>, collision: Collision, h: f64, stroke: Stroke, end: f64
 fn by_rk4(job: &Job<'_>, end: f64) -> Result<Bounces> {
     let (mut bounces, span) = (0, Span { end, early: EARLY, intervals: 300 });
     let mut y = [START.x, START.y, START.dot_x, START.dot_y];
-    let energy = |y: [f64; 4]| FLOOR.energy_at(&FLOOR.state_of(y));
+    let energy = |y: [f64; 4]| FLOOR.energy_at(0.0, &FLOOR.state_of(y));
     let begin: f64 = energy(y)?;
     let after = |y: &[f64; 4], h: f64| {
         rk4(y, h, |&[x, y, u, w]| {
@@ -158,7 +158,7 @@ fn path() -> Result<Panel> {
     let (mut path, mut impacts) = (vec![[START.x, START.y]], Vec::new());
     while run.time() < 20.0 {
         run.advance()?;
-        let here: Vec<_> = run.memory().impacts().iter().map(|at| [at.q()[0], at.q()[1]]).collect();
+        let here: Vec<_> = run.memory().impacts().iter().map(|at| [at.q[0], at.q[1]]).collect();
         impacts.extend(&here);
         path.extend(here.into_iter().chain([place(&run)]));
     }

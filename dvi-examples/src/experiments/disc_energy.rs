@@ -38,8 +38,8 @@ impl Errors {
                 let free = |of: RollingDiscState| [of.x, of.y, of.phi, of.dot_theta, of.dot_phi];
                 let mut now = free(begin);
                 Ok(move || {
-                    now = try_rk4(&now, H, |now| disc.vector_field(&state(now)).map(free))?;
-                    Ok(disc.energy_at(&state(&now))?)
+                    now = try_rk4(&now, H, |now| disc.vector_field(0.0, &state(now)).map(free))?;
+                    Ok(disc.energy_at(0.0, &state(&now))?)
                 })
             })
         };
@@ -112,7 +112,7 @@ fn growth<F: FnMut() -> Result<f64>>(
     let mut points: Vec<[f64; 2]> = times.map(|t| [t, 0.0]).collect();
     for k in 0..STARTS {
         let begin = disc.rolling(PLACE, 0.3 + k as f64 * TAU / STARTS as f64, RATES);
-        let (first, mut step) = (disc.energy_at(&begin)?, begun(begin)?);
+        let (first, mut step) = (disc.energy_at(0.0, &begin)?, begun(begin)?);
         let (mut largest, mut steps, mut next) = (0.0, 0_u64, 0);
         job.repeat((end / h).round() as u64, || {
             largest = larger(largest, (step()? - first).abs());

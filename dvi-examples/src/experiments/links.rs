@@ -3,7 +3,7 @@
 //! Positions stay on the constraints and velocities along them to rounding, and the energy does not drift
 //! (Wendlandt & Marsden 1997; Leimkuhler & Skeel 1994). RK4 on the equations of motion with the
 //! accelerations at each state does neither. The potential is linear, so that RATTLE and the constrained
-//! steps of the trapezoidal and of the midpoint rule are one method, which three codes compute.
+//! steps of the trapezoidal and of the midpoint rule are one method.
 
 use crate::vocabulary::*;
 

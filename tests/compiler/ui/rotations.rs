@@ -100,8 +100,8 @@ mod methods {
         let start = FreeState { s: [1.0, 0.0, 0.0], dot_s: [0.0; 3] };
         let _ = Integrator::new(&Free, Variational::trapezoid(), 0.1, start);
         let _ = Integrator::new(&Free, RungeKutta::classical(), 0.1, start);
-        let _ = Free.energy_at(&start);
-        let _ = Free.vector_field(&start);
+        let _ = Free.energy_at(0.0, &start);
+        let _ = Free.vector_field(0.0, &start);
         let start = FlatState { x: 1.0, dot_x: 0.0 };
         let _ = Integrator::new(&Flat, Geodesic::trapezoid(), 0.1, start);
     }

@@ -203,7 +203,7 @@ const ON_SPHERE: NeumannState = NeumannState { r: [0.6, 0.0, -0.8], dot_r: [0.4,
 fn rattle(steps: u64) -> f64 {
     let (m, k) = NEUMANN;
     let system = black_box(Neumann { m, k });
-    let method = Rattle { stopping: stopping() };
+    let method = Rattle { stopping: stopping(), ..Rattle::default() };
     let Ok(mut run) = Integrator::new(&system, method, H, ON_SPHERE) else { return f64::NAN };
     match run.take_steps(steps) {
         Ok(()) => run.q()[0],

@@ -128,9 +128,9 @@ impl Subject {
         let n = start[0].len();
         let field = move |t: f64, values: &[f64]| {
             let (q, v) = values.split_at(n);
-            let (here, at) = (state(system, q, v), system.at_time(t));
-            let rates = at.vector_field(&here)?;
-            let values = [at.lagrangian(&here)?, at.energy(&here)?];
+            let here = state(system, q, v);
+            let rates = system.vector_field(t, &here)?;
+            let values = [system.lagrangian_at(t, &here)?, system.energy_at(t, &here)?];
             Ok(system.values(&rates)?.chain(values).collect())
         };
         Self {

@@ -42,7 +42,8 @@ fn rattle_by_hand() -> Outcome {
     let start = PendulumState { x: 1.3, y: 0.0, dot_x: 0.0, dot_y: -0.4 };
     let mut by_hand = ByHand { system, q: [1.3, 0.0], p: [0.0, -0.4 * 1.7] };
     let mut rattle = Integrator::new(&system, Rattle::default(), 0.1, start)?;
-    let mut general = Integrator::new(&system, Constrained::new(Variational::trapezoid()), 0.1, start)?;
+    let mut general =
+        Integrator::new(&system, Constrained::new(Variational::new(Quadrature::trapezoid())), 0.1, start)?;
     for _ in 0..100 {
         let [first, last] = by_hand.step(0.1);
         rattle.advance()?;
@@ -69,7 +70,7 @@ where
 {
     for h in [h, -h] {
         let mut fast = Integrator::new_at(system, Rattle::default(), 0.3, h, start.clone())?;
-        let method = Constrained::new(Variational::trapezoid());
+        let method = Constrained::new(Variational::new(Quadrature::trapezoid()));
         let mut general = Integrator::new_at(system, method, 0.3, h, start.clone())?;
         for _ in 0..40 {
             fast.advance()?;

@@ -50,7 +50,7 @@ fn a_step_that_is_too_long_fails_and_leaves_the_state() -> Outcome {
     for h in [1.2, 2.0, 5.0, 1e3] {
         for failure in [
             fails(Rattle::default(), h)?,
-            fails(Constrained::new(Variational::trapezoid()), h)?,
+            fails(Constrained::new(Variational::new(Quadrature::trapezoid())), h)?,
             fails(Constrained::new(Variational::midpoint()), h)?,
         ] {
             let is_explained = matches!(

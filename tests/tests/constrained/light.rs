@@ -50,7 +50,8 @@ fn a_light_joint_stays_on_its_rods() -> Outcome {
             let system = Joint { m, far: 0.0 };
             let near = JointState { x: [0.9, 1.5], y: [0.1, 0.8], dot_x: [0.3, -0.2], dot_y: [0.5, 0.4] };
             let start = system.projected(0.0, &near)?;
-            let trapezoid = follow(&system, Constrained::new(Variational::trapezoid()), start)?;
+            let trapezoid =
+                follow(&system, Constrained::new(Variational::new(Quadrature::trapezoid())), start)?;
             let midpoint = follow(&system, Constrained::new(Variational::midpoint()), start)?;
             for found in
                 [off(&system, &start), trapezoid, midpoint, follow(&system, Rattle::default(), start)?]
@@ -126,7 +127,7 @@ fn a_light_slide_stays_on_its_constraints() -> Outcome {
         let system = Slide { mass };
         let near = SlideState { x: 0.5, y: 0.4, z: 0.8, dot_x: 0.3, dot_y: 0.2, dot_z: 1.0 };
         let start = system.projected(0.0, &near)?;
-        let trapezoid = slide(&system, Constrained::new(Variational::trapezoid()), start)?;
+        let trapezoid = slide(&system, Constrained::new(Variational::new(Quadrature::trapezoid())), start)?;
         let midpoint = slide(&system, Constrained::new(Variational::midpoint()), start)?;
         for found in [trapezoid, midpoint] {
             assert!(found[0] < 2e-15 && found[1] < 2e-15, "{mass:e} {found:?}");

@@ -105,7 +105,7 @@ fn with_constraints_impacts_and_rotations() -> Checked {
     check(
         "restitution",
         &Ball { m: 1.0 },
-        Impacts::new(Variational::midpoint()).with_restitution(0.5),
+        Impacts { restitution: 0.5, ..Impacts::new(Variational::midpoint()) },
         0.1,
         &states,
     )?;

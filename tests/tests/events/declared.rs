@@ -90,15 +90,13 @@ fn check_rates<S: Lagrangian, M: Method<S, f64> + Clone>(
 
 #[test]
 fn rates_are_those_along_the_motion() -> Outcome {
-    check_rates(&PLANET, &Gauss::<4>::new(), &START, |t, index| {
-        PLANET.at_time(t).event_rate(index, &START)
-    })?;
+    check_rates(&PLANET, &Gauss::<4>::new(), &START, |t, index| PLANET.event_rate(t, index, &START))?;
     let prey = PreyState { x: [1.1, 0.8], y: [1.5, 2.2] };
-    check_rates(&Prey, &Gauss::<4>::new(), &prey, |t, index| Prey.at_time(t).event_rate(index, &prey))?;
+    check_rates(&Prey, &Gauss::<4>::new(), &prey, |t, index| Prey.event_rate(t, index, &prey))?;
     let (sin, cos) = 0.4_f64.sin_cos();
     let bob = BobState { x: sin, y: -cos, dot_x: 0.9 * cos, dot_y: 0.9 * sin };
     let method = Composition::kahan_li_8(Constrained::new(Variational::midpoint()));
-    check_rates(&Bob, &method, &bob, |t, index| Bob.at_time(t).event_rate(index, &bob))
+    check_rates(&Bob, &method, &bob, |t, index| Bob.event_rate(t, index, &bob))
 }
 
 /// Conditions of a degenerate system, and of a rotation, are met where they are zero.

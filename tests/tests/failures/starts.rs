@@ -110,7 +110,7 @@ fn what_has_no_mass_or_no_circulation_is_refused_by_its_name() {
     }
     named(of_vortices, Gauss::<2>::new());
     named(of_vortices, RungeKutta::classical());
-    let message = vortices.vector_field(&start).err().map(|error| error.to_string());
+    let message = vortices.vector_field(0.0, &start).err().map(|error| error.to_string());
     let expected = "Ω = −dα is singular at the initial state: its row for `x[2]` has the size 0e0, so that \
                     nothing determines the motion of this coordinate";
     assert_eq!(message.as_deref(), Some(expected));

@@ -11,7 +11,7 @@ use super::Outcome;
 #[test]
 fn impacts_that_accumulate_end_the_run_where_the_ball_comes_to_rest() -> Outcome {
     for e in [0.3, 0.8, 0.95] {
-        let method = Impacts::reflecting(Variational::midpoint()).with_restitution(e);
+        let method = Impacts { restitution: e, ..Impacts::reflecting(Variational::midpoint()) };
         let ball = Ball { m: 1.0 };
         let mut run = Integrator::new(&ball, method, 0.01, BallState { y: 1.0, dot_y: 0.0 })?;
         let error = loop {
@@ -75,7 +75,7 @@ fn what_a_run_does_not_begin_with() -> Outcome {
     }
     let is_unsupported =
         |error| matches!(error, StartError::Unsupported { option: "Collision::Variational", .. });
-    assert!(is_unsupported(begin(plain().with_restitution(0.5), 1.0)));
+    assert!(is_unsupported(begin(Impacts { restitution: 0.5, ..plain() }, 1.0)));
     let table = Integrator::new(&Table { a: 0.1 }, plain(), 0.1, TableState { y: 1.0, dot_y: 0.0 });
     assert!(is_unsupported(table.map(|_| ()).expect_err("forces act")));
     let galerkin = Impacts::new(Galerkin::<3>::new());

@@ -96,7 +96,7 @@ fn a_slip_is_one_everywhere() {
 fn states_off_the_constraints_have_no_multipliers() -> Outcome {
     let off = StartError::AcrossConstraint { constraint: 0, rate: -5.0 };
     assert_eq!(Blade.multipliers_at(0.0, &at(2.0, 5.0)).map(drop), Err(off));
-    assert!(Blade.vector_field(&at(2.0, 5.0)).is_ok());
+    assert!(Blade.vector_field(0.0, &at(2.0, 5.0)).is_ok());
     Blade.multipliers_at(0.0, &at(2.0, 0.0))?;
     Ok(())
 }

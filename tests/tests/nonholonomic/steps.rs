@@ -56,7 +56,7 @@ fn a_knife_edge_moves_as_in_closed_form() -> Outcome {
     // The multiplier is the force across the blade: ẍ = λ sin/m + slope.
     for t in [0.4, 1.1, 2.9] {
         let (state, sin) = (blade(t), (1.3 * t).sin());
-        let rates = BLADE.vector_field(&state)?;
+        let rates = BLADE.vector_field(0.0, &state)?;
         let acceleration = BLADE.slope * (2.0 * 1.3 * t).cos();
         assert!(abs_diff_eq!(rates.dot_x, acceleration, epsilon = 1e-14), "{} {acceleration}", rates.dot_x);
         let multiplier = BLADE.multipliers_at(0.0, &state)?[0];
@@ -183,7 +183,7 @@ fn constraints_may_depend_on_time() -> Outcome {
         assert!(off.abs() < 1e-14, "{off:e}");
     }
     // ẍ = −x − 0.2 ẋ − λx(2 + sin x), ÿ = λ(2 + sin x) = ẋ² + xẍ − sin t
-    let rates = Steered.at_time(0.3).vector_field(&SteeredState { dot_y: 0.5 + 0.3_f64.cos(), ..start })?;
+    let rates = Steered.vector_field(0.3, &SteeredState { dot_y: 0.5 + 0.3_f64.cos(), ..start })?;
     let (x, u) = (0.5, 1.0);
     let acceleration = (-x - 0.2 * u - x * (u * u - 0.3_f64.sin())) / (1.0 + x * x);
     assert!(abs_diff_eq!(rates.dot_x, acceleration, epsilon = 1e-14), "{} {acceleration}", rates.dot_x);

@@ -4,15 +4,13 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::residuals::{ROUNDINGS, farthest};
 use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{
-    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, OfVelocity,
+    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Lower, Multipliers,
 };
 use crate::mechanics::legendre;
 use crate::scalar::norm::{self, reported};
-use crate::scalar::smallest_normal;
 use crate::space::sink::Places;
 use crate::space::{LinearEquations, Sink};
-use crate::system::start::{evaluate, flatten, validate};
-use crate::{Real, Scalar, Space, State, Vector};
+use crate::{Real, Scalar, Space, Vector};
 
 /// ∂²L/∂v∂v as A, and b = 0: the solution is the shortest change in the metric of the mass matrix.
 struct Shortest<'a, S, T>(legendre::Equations<'a, S, T>);
@@ -42,19 +40,8 @@ impl<'a, S: ConstrainedLagrangian<T>, T: Real> Projection<'a, S, T> {
         Self { system, t, solver, none: system.multipliers().vector(), work }
     }
 
-    /// By how much q is to be changed.
-    fn of_position(&mut self, q: &[T], v: &[T]) -> Result<&[T], StepFailure> {
-        let lower = OfPosition { system: self.system, at: At { q, t: self.t } };
-        self.change([q, v], lower)
-    }
-
-    /// By how much v is to be changed.
-    fn of_velocity(&mut self, q: &[T], v: &[T]) -> Result<&[T], StepFailure> {
-        let lower = OfVelocity { system: self.system, at: At { q, t: self.t }, v };
-        self.change([q, v], lower)
-    }
-
-    fn change(&mut self, [q, v]: [&[T]; 2], lower: impl LinearEquations<T>) -> Result<&[T], StepFailure> {
+    /// By how much q or v is to be changed.
+    fn change(&mut self, [q, v]: [&[T]; 2], lower: Lower<'_, S, T>) -> Result<&[T], StepFailure> {
         let Self { system, t, solver, none, work: [l_q, p] } = self;
         let upper = Shortest(legendre::Equations { system: *system, points: [q, v, p], t: *t, l_q });
         let (multipliers, active) = (&**none, none.len());
@@ -66,59 +53,23 @@ impl<'a, S: ConstrainedLagrangian<T>, T: Real> Projection<'a, S, T> {
     }
 }
 
-/// What vanishes at a position, of constraints of positions.
-struct OfPosition<'a, S, T> {
-    system: &'a S,
-    at: At<'a, T>,
-}
-
-impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for OfPosition<'_, S, T> {
-    fn evaluate<K: Sink<T>>(&mut self, c: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        S::Kind::forces(self.system, self.at.q, self.at.t, c, sink);
-        Ok(())
-    }
-}
-
 /// The constraint of positions that is farthest from being kept, of those that are off by more than the
 /// errors of the coordinates, `error`, times the derivatives by them explain, and its value.
 fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
-    mut of: impl LinearEquations<T>,
+    At { q, t }: At<'_, T>,
     error: impl Fn(usize) -> T,
-) -> Result<Option<(usize, f64)>, StepFailure> {
+) -> Option<(usize, f64)> {
     let [mut values, mut sizes]: [Multipliers<S, T>; 2] = system.multipliers().vectors();
-    of.evaluate(
-        &mut values,
-        &mut Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j)),
-    )?;
-    Ok(farthest(&values, &sizes, 1.0))
+    let mut terms = Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j));
+    S::Kind::forces(system, q, t, &mut values, &mut terms);
+    farthest(&values, &sizes, 1.0)
 }
 
-/// Where a state stands, which says how exact it is: what velocities are rounded relative to besides
-/// themselves, and the tolerance of positions if that is looser than rounding.
-#[derive(Clone, Copy)]
-pub(crate) enum Among<T> {
-    /// The velocities that forces give in a step of length h, what a run at rest leaves; and what its
-    /// iterations leave.
-    Steps { h: T, tolerance: f64 },
-    /// The velocities that forces give on a way of the size of the coordinates.
-    States,
-}
-
-impl<T: Real> Among<T> {
-    /// What the tolerance of a run leaves in positions. Where it asks for rounding errors they are all that
-    /// there is.
-    fn left_over(self, [q, v]: [&[T]; 2]) -> T {
-        match self {
-            Self::Steps { h, tolerance } if tolerance > reported(T::default_epsilon()) => {
-                T::lift(tolerance) * (norm::largest(q) + Scalar::abs(h) * norm::largest(v))
-            }
-            Self::Steps { .. } | Self::States => T::lift(0.0),
-        }
-    }
-}
-
-/// Whether a motion along the constraints leads through (`q`, `v`, `t`).
+/// Whether a motion along the constraints leads through (`q`, `v`, `t`): at a state, or where a run with
+/// steps of a length h begins, whose iterations leave a tolerance. Velocities are rounded relative to
+/// themselves and to what forces make in a step, what a run at rest leaves, or on a way of the size of the
+/// coordinates.
 ///
 /// # Errors
 /// [`StartError::OffConstraint`] and [`StartError::AcrossConstraint`] with the constraint that is farthest
@@ -129,7 +80,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
     t: T,
-    among: Among<T>,
+    of_run: Option<(T, f64)>,
 ) -> Result<(), StartError> {
     let at = At { q, t };
     let undefined = |constraint, value| {
@@ -138,9 +89,14 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     };
     if S::Kind::OF_POSITIONS {
         let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
-        let left_over = among.left_over([q, v]);
-        let off = worst(system, OfPosition { system, at }, |j| rounding * Scalar::abs(q[j]) + left_over);
-        match off.map_err(StartError::Starter)? {
+        // Where a run asks for rounding errors they are all that there is.
+        let left_over = match of_run {
+            Some((h, tolerance)) if tolerance > reported(T::default_epsilon()) => {
+                T::lift(tolerance) * (norm::largest(q) + Scalar::abs(h) * norm::largest(v))
+            }
+            Some(_) | None => T::lift(0.0),
+        };
+        match worst(system, at, |j| rounding * Scalar::abs(q[j]) + left_over) {
             Some((constraint, value)) if value.is_finite() => {
                 return Err(StartError::OffConstraint { constraint, value });
             }
@@ -153,22 +109,20 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     system.gradient(q, v, t, &mut force, &mut momentum);
     for ((scale, &force), (&q, &v)) in sizes.iter_mut().zip(force.iter()).zip(q.iter().zip(v)) {
         let acceleration = Scalar::abs(force) * *scale * *scale;
-        let of_force = match among {
-            Among::Steps { h, .. } => Scalar::abs(h) * acceleration,
-            Among::States => Scalar::sqrt(acceleration * Scalar::abs(q)),
+        let of_force = match of_run {
+            Some((h, _)) => Scalar::abs(h) * acceleration,
+            None => Scalar::sqrt(acceleration * Scalar::abs(q)),
         };
-        *scale = Scalar::abs(v) + of_force + smallest_normal();
+        *scale = Scalar::abs(v) + of_force;
     }
     // A redundant constraint is named by these equations.
     let mut projection = Projection::new(system, q, v, t);
-    let determined = projection.of_velocity(q, v).map(|_| ());
+    let determined = projection.change([q, v], Lower::OfVelocity(at, v)).map(|_| ());
     let residuals = &mut projection.solver.residuals;
     residuals.evaluate(system, at, v, |j| sizes[j]);
     match residuals.worst(system, at, v) {
-        None => determined.map_err(|failure| match among {
-            Among::Steps { .. } => StartError::Starter(failure),
-            Among::States => StartError::Undetermined(failure),
-        }),
+        None if of_run.is_none() => determined.map_err(StartError::Undetermined),
+        None => determined.map_err(StartError::Starter),
         Some((constraint, rate)) if rate.is_finite() => {
             Err(StartError::AcrossConstraint { constraint, rate })
         }
@@ -176,50 +130,40 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     }
 }
 
-/// See [`OnConstraints::projected`](super::OnConstraints::projected).
-pub(crate) fn projected<S: ConstrainedLagrangian<T>, T: Real>(
+/// Moves a state to the constraints.
+///
+/// # Errors
+/// [`StartError::Inconsistent`] and [`StartError::Projection`].
+pub(crate) fn project<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
+    [q, v]: [&mut Vector<S, T>; 2],
     t: T,
-    state: &S::State<T>,
-) -> Result<S::State<T>, StartError> {
-    validate(system, t)?;
-    let [mut q, mut v] = flatten(system, state)?;
-    evaluate(system, &q, &v, t)?;
+) -> Result<(), StartError> {
     if S::Kind::OF_POSITIONS {
-        move_to(&mut Projection::new(system, &q, &v, t), &mut q, &v)?;
+        move_to(&mut Projection::new(system, q, v, t), q, v)?;
     }
-    align(&mut Projection::new(system, &q, &v, t), &q, &mut v)?;
-    Ok(S::State::read(|block| system.block_len(block), &q, &v))
+    align(&mut Projection::new(system, q, v, t), q, v)
 }
 
-/// What vanishes is affine in the velocity: one iteration is enough, but for rounding errors of what it has
-/// taken away. Where little or nothing is left of a velocity they are large beside it, and each iteration
-/// leaves 10⁻¹⁶ of them, down to the smallest numbers.
-const ITERATIONS: usize = 40;
-
-/// Makes `v` a velocity that the constraints admit at `q`.
+/// Makes `v` a velocity that the constraints admit at `q`. What vanishes is affine in the velocity: one
+/// iteration is enough, but for rounding errors of what it has taken away, which are large beside a velocity
+/// of which little or nothing is left.
 fn align<S: ConstrainedLagrangian<T>, T: Real>(
     projection: &mut Projection<'_, S, T>,
     q: &[T],
     v: &mut [T],
 ) -> Result<(), StartError> {
-    let Projection { system, t, .. } = *projection;
-    let mut worst = None;
-    for iteration in 0..ITERATIONS {
-        let change = projection.of_velocity(q, v).map_err(StartError::Projection)?;
-        for (v, &change) in v.iter_mut().zip(change) {
-            *v -= change;
-        }
+    let (system, at) = (projection.system, At { q, t: projection.t });
+    loop {
+        let change = projection.change([q, v], Lower::OfVelocity(at, v)).map_err(StartError::Projection)?;
+        v.iter_mut().zip(change).for_each(|(v, &change)| *v -= change);
         let residuals = &mut projection.solver.residuals;
-        residuals.evaluate(system, At { q, t }, v, |j| Scalar::abs(v[j]) + smallest_normal());
-        worst = residuals.worst(system, At { q, t }, v);
-        if iteration > 0 && worst.is_none() {
-            break;
+        residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]));
+        if residuals.are_settled() {
+            let off = residuals.worst(system, at, v);
+            return off
+                .map_or(Ok(()), |(constraint, value)| Err(StartError::Inconsistent { constraint, value }));
         }
-    }
-    match worst {
-        None => Ok(()),
-        Some((constraint, value)) => Err(StartError::Inconsistent { constraint, value }),
     }
 }
 
@@ -243,7 +187,7 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
     let (mut off, mut kept) = (None, 0);
     for _ in 0..MOVES {
         projection.solver.balance(system, At { q, t }, v);
-        let change = match (projection.of_position(q, v), off) {
+        let change = match (projection.change([q, v], Lower::OfPosition(At { q, t })), off) {
             (Ok(change), _) => change,
             // The way there has ended where the equations have no solution, which says nothing of the
             // constraints.
@@ -255,8 +199,7 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
         for (q, &change) in q.iter_mut().zip(change) {
             *q -= change;
         }
-        let of = OfPosition { system, at: At { q, t } };
-        off = worst(system, of, |j| rounding * Scalar::abs(q[j])).map_err(StartError::Projection)?;
+        off = worst(system, At { q, t }, |j| rounding * Scalar::abs(q[j]));
         kept = if off.is_none() { kept + 1 } else { 0 };
         if kept > LAST_MOVES {
             return Ok(());

@@ -8,8 +8,8 @@
 //! them cancel in all cases.
 
 use super::{At, ConstrainedLagrangian, Constraints, Multipliers};
-use crate::error::StepFailure;
 use crate::scalar::norm::{larger, largest, reported};
+use crate::scalar::smallest_normal;
 use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
@@ -56,7 +56,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         Self { values, sizes, others, point, units: kept, before: None }
     }
 
-    /// Looks at a velocity, whose entries are rounded relative to `scale`.
+    /// Looks at a velocity, whose entries are rounded relative to `scale`, or to the smallest normal number.
     pub(crate) fn evaluate(
         &mut self,
         system: &S,
@@ -69,7 +69,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         speeds.fill(T::lift(0.0));
         let mut terms = Places(|k: usize, j: usize, entry: T| {
             sizes[k] += Scalar::abs(entry) * units[j];
-            speeds[k] = larger(speeds[k], scale(j) / units[j]);
+            speeds[k] = larger(speeds[k], (scale(j) + smallest_normal()) / units[j]);
         });
         S::Kind::of_velocity(system, q, v, t, values, &mut terms);
         for (size, &speed) in sizes.iter_mut().zip(speeds.iter()) {
@@ -94,15 +94,6 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         let is_settled = self.are_within(KEPT) || !shrinks;
         self.before = if is_settled { None } else { Some(size) };
         is_settled
-    }
-
-    /// # Errors
-    /// [`StepFailure::OffConstraint`] where more than rounding is left at the end of a step.
-    pub(crate) fn admit(&mut self, system: &S, at: At<'_, T>, v: &[T]) -> Result<(), StepFailure> {
-        match self.worst(system, at, v) {
-            None => Ok(()),
-            Some((constraint, value)) => Err(StepFailure::OffConstraint { constraint, value }),
-        }
     }
 
     /// The constraint that is farthest from being kept, of those that are off by more than rounding errors,

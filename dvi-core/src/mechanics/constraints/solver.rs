@@ -36,6 +36,10 @@ pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
     pub(super) weights: Vector<S, T>,
 }
 
+/// The unit that the constraints give a coordinate is smaller by this factor than that of its mass, if it is
+/// light. Rounding errors grow by the square of it.
+const LIGHT: f64 = 1.0 / 32.0;
+
 /// In other units a run would be rounded in another way.
 impl<S: ConstrainedSystem, T: Real> Memory<T> for ConstraintSolver<S, T> {
     lasting!(T; numbers scales);
@@ -80,6 +84,15 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         scales::balance(system, at, v, self.scales.split_at_mut(at.q.len()));
     }
 
+    /// Whether the constraints give a coordinate a much smaller unit than its mass does, near (`q`, `v`, `t`):
+    /// it is light against others.
+    pub(crate) fn has_light_coordinates(&self, system: &S, at: [&[T]; 2], t: T) -> bool {
+        let mut of_masses: Vector<S, T> = system.space().vector();
+        scales::scale_coordinates(system, at, t, &mut of_masses);
+        let mut units = self.scales.iter().zip(of_masses.iter());
+        units.any(|(&unit, &of_mass)| unit < T::lift(LIGHT) * of_mass)
+    }
+
     /// Solves the equations, whose A is of the size of M/`alpha` with a positive `alpha`; the solution is
     /// here, x in its first n entries.
     ///
@@ -87,9 +100,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     /// [`StepFailure::RedundantConstraint`] names the first constraint that depends on those before it;
     /// [`StepFailure::Singular`] where A is singular.
     #[inline]
-    pub(crate) fn solve<U: LinearEquations<T>, W: LinearEquations<T>>(
+    pub(crate) fn solve<U: LinearEquations<T>>(
         &mut self,
-        equations: &mut Bordered<'_, S, T, U, W>,
+        equations: &mut Bordered<'_, S, T, U>,
         alpha: T,
     ) -> Result<(), StepFailure> {
         let result = self.eliminate(equations, alpha);
@@ -97,21 +110,18 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     }
 
     /// The residual of the equations, as [`linear::residual`].
-    ///
-    /// # Errors
-    /// Those of the equations.
-    pub(crate) fn residual<U: LinearEquations<T>, W: LinearEquations<T>>(
+    pub(crate) fn residual<U: LinearEquations<T>>(
         &mut self,
-        equations: &mut Bordered<'_, S, T, U, W>,
+        equations: &mut Bordered<'_, S, T, U>,
         size: impl Fn(usize) -> T,
         given: impl Fn(usize) -> T,
     ) -> Result<T, StepFailure> {
         linear::residual(equations, size, given, [&mut self.solution, &mut self.sums])
     }
 
-    fn eliminate<U: LinearEquations<T>, W: LinearEquations<T>>(
+    fn eliminate<U: LinearEquations<T>>(
         &mut self,
-        equations: &mut Bordered<'_, S, T, U, W>,
+        equations: &mut Bordered<'_, S, T, U>,
         alpha: T,
     ) -> Result<(), StepFailure> {
         let Self { matrix, solution, scales, .. } = self;
@@ -127,31 +137,22 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         equations.evaluate(solution, &mut Scaled { sink: matrix.cleared(), factor })?;
         norm::finite(solution).map_err(|failure| of_row(failure, n))?;
         matrix.factor()?;
-        let (x, multipliers) = solution.split_at_mut(n);
-        let (of_coordinates, of_constraints) = scales.split_at(n);
-        for (b, &scale) in x.iter_mut().zip(of_coordinates) {
-            *b *= scale * alpha;
-        }
-        for (c, &scale) in multipliers.iter_mut().zip(of_constraints) {
-            *c *= scale;
+        for (k, (entry, &scale)) in solution.iter_mut().zip(scales.iter()).enumerate() {
+            *entry *= if k < n { scale * alpha } else { scale };
         }
         matrix.solve(solution);
-        let (x, multipliers) = solution.split_at_mut(n);
-        for (x, &scale) in x.iter_mut().zip(of_coordinates) {
-            *x *= scale;
-        }
-        for (multiplier, &scale) in multipliers.iter_mut().zip(of_constraints) {
-            *multiplier *= scale / alpha;
+        for (k, (entry, &scale)) in solution.iter_mut().zip(scales.iter()).enumerate() {
+            *entry *= if k < n { scale } else { scale / alpha };
         }
         Ok(())
     }
 
     /// The failure, with the name of the constraint if one is to blame.
     #[cold]
-    fn blamed<U: LinearEquations<T>, W: LinearEquations<T>>(
+    fn blamed<U: LinearEquations<T>>(
         &mut self,
         failure: StepFailure,
-        equations: &mut Bordered<'_, S, T, U, W>,
+        equations: &mut Bordered<'_, S, T, U>,
         alpha: T,
     ) -> StepFailure {
         let StepFailure::Singular { pivot, .. } = failure else { return failure };
@@ -168,9 +169,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     }
 
     /// Whether the equations with the first `active` constraints have a solution.
-    fn is_regular<U: LinearEquations<T>, W: LinearEquations<T>>(
+    fn is_regular<U: LinearEquations<T>>(
         &mut self,
-        equations: &mut Bordered<'_, S, T, U, W>,
+        equations: &mut Bordered<'_, S, T, U>,
         alpha: T,
         active: usize,
     ) -> bool {
@@ -192,11 +193,6 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     pub(crate) fn reduce(&self, x: &mut [T], multipliers: &mut [T]) {
         let unknowns = x.iter_mut().chain(multipliers);
         unknowns.zip(self.solution.iter()).for_each(|(unknown, &change)| *unknown -= change);
-    }
-
-    /// Work space with a number for each constraint.
-    pub(super) fn values(&mut self, n: usize) -> &mut [T] {
-        &mut self.solution[n..]
     }
 }
 

@@ -19,20 +19,18 @@ use crate::{ConstrainedSystem, Real, Space, System, Vector};
 
 type Rows<S, T> = <<S as System>::Space as Space>::Rows<<S as ConstrainedSystem>::Multipliers, T>;
 
-/// The gradients of the constraints at the current point.
+/// What compares the gradients of the constraints at both ends of a step.
 #[derive(Debug)]
 pub(crate) struct Gradients<S: ConstrainedSystem, T: Real> {
-    here: Rows<S, T>,
-    /// At the end of a step.
-    next: Rows<S, T>,
+    /// Work space: the gradients at both ends, and what comes with them.
+    ends: [Rows<S, T>; 2],
+    values: Multipliers<S, T>,
     /// One over the diagonal of the mass matrix where the run began: the metric.
     weights: Vector<S, T>,
-    /// Work space.
-    values: Multipliers<S, T>,
 }
 
 impl<S: ConstrainedSystem, T: Real> Memory<T> for Gradients<S, T> {
-    lasting!(T; part here, numbers weights);
+    lasting!(T; numbers weights);
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
@@ -48,25 +46,25 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
                 S::Kind::forces(system, at.q, at.t, &mut values, &mut places);
             })
         };
-        let (mut here, next): (Rows<S, T>, _) = (rows(), rows());
-        S::Kind::forces(system, at.q, at.t, &mut values, &mut here);
-        Self { here, next, weights, values }
+        Self { ends: [rows(), rows()], values, weights }
     }
 
-    /// Looks at the end of a step from `q0` with Δ = `increment`.
+    /// Looks at a step with Δ = `increment` from one point to another.
     ///
     /// # Errors
     /// [`StepFailure::Turned`].
     pub(crate) fn check(
         &mut self,
         system: &S,
-        q0: &[T],
+        points: [At<'_, T>; 2],
         increment: &[T],
-        at: At<'_, T>,
     ) -> Result<(), StepFailure> {
-        let Self { here, next, weights, values } = self;
-        next.clear();
-        S::Kind::forces(system, at.q, at.t, values, next);
+        let Self { ends, values, weights } = self;
+        for (rows, At { q, t }) in ends.iter_mut().zip(points) {
+            rows.clear();
+            S::Kind::forces(system, q, t, values, rows);
+        }
+        let [here, next] = ends;
         let squared = |x: &[T]| {
             x.iter().zip(weights.iter()).fold(T::lift(0.0), |sum, (&x, &weight)| sum + x * x / weight)
         };
@@ -76,17 +74,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
             // What is no number is no turn by less than a right angle either.
             next.dot(constraint, here, weights) > T::lift(0.0)
                 && (!S::AUTONOMOUS
-                    || is_along(here.times(constraint, increment), square, length, || squared(q0)))
+                    || is_along(here.times(constraint, increment), square, length, || squared(points[0].q)))
         };
         match (0..values.len()).find(|constraint| !is_here(constraint)) {
             None => Ok(()),
             Some(constraint) => Err(StepFailure::Turned { constraint }),
         }
-    }
-
-    /// Moves to the end of the step.
-    pub(crate) fn keep(&mut self) {
-        core::mem::swap(&mut self.here, &mut self.next);
     }
 }
 

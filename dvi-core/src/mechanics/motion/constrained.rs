@@ -4,12 +4,14 @@
 use super::Rates;
 use super::hamilton::SecondOrder;
 use crate::error::StepFailure;
-use crate::mechanics::constraints::{At, Bordered, ConstrainedLagrangian, ConstraintSolver, OfAcceleration};
+use crate::mechanics::constraints::{
+    At, Bordered, ConstrainedLagrangian, ConstraintSolver, Lower, Multipliers,
+};
 use crate::scalar::norm;
 use crate::system::{Holonomic, Nonholonomic};
 use crate::{HolonomicLagrangian, NonholonomicLagrangian, Real, Space, Vector};
 
-/// Returns the acceleration of the motion through (`q`, `v`, `t`), and sets `multipliers` to λ.
+/// Returns the acceleration of the motion through (`q`, `v`, `t`), and λ.
 ///
 /// # Errors
 /// [`StepFailure::RedundantConstraint`]; [`StepFailure::Singular`] where the mass matrix is.
@@ -17,47 +19,30 @@ pub(crate) fn acceleration<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
     t: T,
-    multipliers: &mut [T],
-) -> Result<Vector<S, T>, StepFailure> {
+) -> Result<(Vector<S, T>, Multipliers<S, T>), StepFailure> {
     let [mut acceleration, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
+    let mut multipliers: Multipliers<S, T> = system.multipliers().vector();
     let mut solver = ConstraintSolver::new(system, q, v, t);
-    multipliers.fill(T::lift(0.0));
     let upper = SecondOrder { system, q, v, t, l_v: &mut l_v };
-    let lower = OfAcceleration { system, at: At { q, t }, v };
-    let active = multipliers.len();
-    let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
+    let (lower, active) = (Lower::OfAcceleration(At { q, t }, v), multipliers.len());
+    let equations = &mut Bordered { system, upper, lower, multipliers: &multipliers, forces: None, active };
     solver.solve(equations, T::lift(1.0))?;
     let (found, of_constraints) = solver.parts(q.len());
     norm::finite(found)?;
     acceleration.copy_from_slice(found);
     // In the equations Gᵀλ stands on the left.
-    for (multiplier, &found) in multipliers.iter_mut().zip(of_constraints) {
-        *multiplier = -found;
-    }
-    Ok(acceleration)
-}
-
-fn rates<S: ConstrainedLagrangian<T>, T: Real>(
-    system: &S,
-    q: &[T],
-    v: &[T],
-    t: T,
-) -> Result<[Vector<S, T>; 2], StepFailure> {
-    let mut velocity: Vector<S, T> = system.space().vector();
-    velocity.copy_from_slice(v);
-    let mut multipliers = system.multipliers().vector();
-    let acceleration = acceleration(system, [q, v], t, &mut multipliers)?;
-    Ok([velocity, acceleration])
+    multipliers.iter_mut().zip(of_constraints).for_each(|(multiplier, &found)| *multiplier = -found);
+    Ok((acceleration, multipliers))
 }
 
 impl<S: HolonomicLagrangian<T>, T: Real> Rates<S, T> for Holonomic {
-    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
-        rates(system, q, v, t)
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Vector<S, T>, StepFailure> {
+        acceleration(system, [q, v], t).map(|(acceleration, _)| acceleration)
     }
 }
 
 impl<S: NonholonomicLagrangian<T>, T: Real> Rates<S, T> for Nonholonomic {
-    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
-        rates(system, q, v, t)
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Vector<S, T>, StepFailure> {
+        acceleration(system, [q, v], t).map(|(acceleration, _)| acceleration)
     }
 }

@@ -109,7 +109,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         let [arrival] = &y.0;
         norm::finite(arrival)?;
-        equations.orientation.check(system, arrival, t)?;
+        equations.orientation.pass(system, &[], (arrival, t))?;
         q.copy_from_slice(arrival);
         Ok(())
     }
@@ -127,16 +127,17 @@ where
         out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let set = |j, velocity| out[j] = velocity;
-        equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work.of_field(), set, statistics)
+        let StageWork { gradient, entries, vector, .. } = work;
+        let work = ([&mut gradient[..], &mut entries[..]], &mut vector[..]);
+        equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work, out, statistics)
     }
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Rates<S, T> for Degenerate {
-    fn rates(system: &S, q: &Vector<S, T>, _v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
-        let [mut velocity, none] = system.space().vectors();
+    fn rates(system: &S, q: &Vector<S, T>, _v: &[T], t: T) -> Result<Vector<S, T>, StepFailure> {
+        let mut velocity = system.space().vector();
         let mut field = VectorField::new(system, q, t)?;
         field.evaluate(system, q, t, &mut velocity, &mut Statistics::default())?;
-        Ok([velocity, none])
+        Ok(velocity)
     }
 }

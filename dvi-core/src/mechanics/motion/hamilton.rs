@@ -1,7 +1,8 @@
 //! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
 
-use super::stages::one_by_one;
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
+use super::{
+    AtStages, FirstOrder, FirstOrderInLanes, Motion, OneByOne, Point, Rates, StageEvaluation, StageWork,
+};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
@@ -127,7 +128,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         } else if !S::UNIFORM_MASS
             && let Some(Transform { legendre, latest, .. }) = &mut equations.transform
         {
-            legendre.solve(system, q, p, t, velocity, S::QUADRATIC)?;
+            legendre.solve(system, q, p, t, velocity)?;
             latest.copy_from_slice(velocity);
         } else {
             equations.divide(system, q, p, t, velocity);
@@ -178,7 +179,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         {
             // The velocity of the last stage leads to the one that belongs to the new momentum, if there is
             // one.
-            legendre.solve(system, arrival, momentum, t, latest, S::QUADRATIC)?;
+            legendre.solve(system, arrival, momentum, t, latest)?;
             // Between two branches of ∂L/∂v(v) = p the mass matrix changes its sign.
             norm::mean(velocity, latest, between);
             orientation.check(system, arrival, between, t)?;
@@ -223,7 +224,7 @@ where
             return Ok(());
         }
         let Some(reciprocals) = equations.mass.reciprocals() else {
-            return one_by_one(equations, at, work, out, statistics);
+            return OneByOne::evaluate_part(equations, at, work, out, statistics);
         };
         if <S as NondegenerateLagrangian<T>>::CONSTANT_MASS {
             for ((velocity, &p), &reciprocal) in out.iter_mut().zip(p.iter()).zip(reciprocals) {
@@ -242,39 +243,35 @@ where
 }
 
 impl<S: RegularLagrangian<T>, T: Real> Rates<S, T> for Regular {
-    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
-        rates(system, q, v, t)
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Vector<S, T>, StepFailure> {
+        acceleration(system, [q, v], t)
     }
 }
 
 impl<S: UnilateralLagrangian<T>, T: Real> Rates<S, T> for Unilateral {
-    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<[Vector<S, T>; 2], StepFailure> {
-        rates(system, q, v, t)
+    fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Vector<S, T>, StepFailure> {
+        acceleration(system, [q, v], t)
     }
 }
 
-fn rates<S: NondegenerateLagrangian<T>, T: Real>(
+fn acceleration<S: NondegenerateLagrangian<T>, T: Real>(
     system: &S,
-    q: &[T],
-    v: &[T],
+    [q, v]: [&[T]; 2],
     t: T,
-) -> Result<[Vector<S, T>; 2], StepFailure> {
-    let [mut velocity, mut acceleration, mut l_v]: [Vector<S, T>; 3] = system.space().vectors();
-    velocity.copy_from_slice(v);
+) -> Result<Vector<S, T>, StepFailure> {
+    let [mut acceleration, mut l_v, mut alike]: [Vector<S, T>; 3] = system.space().vectors();
     if S::SEPARABLE {
         system.force(q, &[], t, &mut l_v);
         Mass::new(system, q, t)?.solve(&l_v, &mut acceleration);
-        norm::finite(&acceleration)?;
-        return Ok([velocity, acceleration]);
+    } else {
+        let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
+        let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
+        alike.fill(T::lift(1.0));
+        let solved = solver.solve(&mut equations, &alike, &mut acceleration);
+        solved.map_err(|failure| failure.of(StepFailure::MASS))?;
     }
-    let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
-    let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
-    let mut alike: Vector<S, T> = system.space().vector();
-    alike.fill(T::lift(1.0));
-    let solved = solver.solve(&mut equations, &alike, &mut acceleration);
-    solved.map_err(|failure| failure.of(StepFailure::MASS))?;
     norm::finite(&acceleration)?;
-    Ok([velocity, acceleration])
+    Ok(acceleration)
 }
 
 /// ∂²L/∂v∂v a = ∂L/∂q − ∂²L/∂v∂q v − ∂²L/∂t∂v, the Euler–Lagrange equations.

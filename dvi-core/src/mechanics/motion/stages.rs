@@ -3,7 +3,6 @@
 
 use super::{EquationsOf, FirstOrder, Motion, PackedOf, PointOf};
 use crate::error::StepFailure;
-use crate::mechanics::vector_field::LaneWork;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::simd::widest_if;
@@ -35,7 +34,7 @@ pub struct StageWork<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     /// One stage.
     pub(crate) point: PointOf<S, T>,
     pub(crate) slope: PointOf<S, T>,
-    vector: Vector<S, T>,
+    pub(super) vector: Vector<S, T>,
     /// All stages: forces or ∇H, or X itself.
     pub(super) gradient: Vector<S, Lanes<W, T>>,
     /// Of Ω; of a regular system, the velocity zero.
@@ -47,13 +46,6 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> 
         let space = system.space();
         let [point, slope] = S::Kind::points(system);
         Self { point, slope, vector: space.vector(), gradient: space.vector(), entries: space.vector() }
-    }
-
-    /// For the vector field of a degenerate system.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of_field(&mut self) -> LaneWork<'_, W, T> {
-        let Self { vector, gradient, entries, .. } = self;
-        LaneWork { gradient, entries, vector }
     }
 }
 
@@ -139,7 +131,16 @@ impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation
         out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        one_by_one(equations, at, work, out, statistics)
+        let StageWork { point, slope, .. } = work;
+        for stage in 0..W {
+            for (to, from) in point.iter_mut().zip(at.y.iter()) {
+                read_lane(stage, from, to);
+            }
+            read_lane(stage, at.velocity, &mut slope[0]);
+            S::Kind::evaluate_part(equations, at.system, at.part, point, at.t.0[stage], slope, statistics)?;
+            write_lane(stage, &slope[at.part], out);
+        }
+        Ok(())
     }
 }
 
@@ -178,25 +179,4 @@ pub trait FirstOrderInLanes<const W: usize, S: System, T: Real>: FirstOrder<S, T
     ) -> Result<(), StepFailure>
     where
         S: System<Kind = Self>;
-}
-
-/// Evaluates the stages one by one.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn one_by_one<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real>(
-    equations: &mut EquationsOf<S, T>,
-    at: &AtStages<'_, W, S, T>,
-    work: &mut StageWork<W, S, T>,
-    out: &mut Vector<S, Lanes<W, T>>,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let StageWork { point, slope, .. } = work;
-    for stage in 0..W {
-        for (to, from) in point.iter_mut().zip(at.y.iter()) {
-            read_lane(stage, from, to);
-        }
-        read_lane(stage, at.velocity, &mut slope[0]);
-        S::Kind::evaluate_part(equations, at.system, at.part, point, at.t.0[stage], slope, statistics)?;
-        write_lane(stage, &slope[at.part], out);
-    }
-    Ok(())
 }

@@ -239,7 +239,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
         mass.displace(h, &phase.p, &mut self.drift);
         let [impulse, _] = &mut self.work;
         for (k, impulse) in impulse.iter_mut().enumerate() {
-            *impulse = h * self.end * phase.force[k] + phase.left_out_of_p(k);
+            *impulse = h * self.end * phase.force[k] + phase.carried[1].left_out_of(k);
         }
         mass.displace(h, impulse, &mut self.kick);
         self.place(at);
@@ -335,7 +335,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             displacements,
             #[cfg_attr(not(debug_assertions), inline(always))]
             |k| {
-                let small = Lanes::all(phase.left_out_of_q(k)) + nodes * Lanes::all(kick[k]);
+                let small = Lanes::all(phase.carried[0].left_out_of(k)) + nodes * Lanes::all(kick[k]);
                 (q[k], small + nodes * Lanes::all(drift[k]))
             },
             sizes,

@@ -1,6 +1,6 @@
 //! Second derivatives over the coordinates as those over the tangent vectors of their blocks.
 
-use super::node::Variation;
+use super::node::Rows;
 use crate::mechanics::manifold::blocks;
 use crate::mechanics::pattern::visit_second_derivatives;
 use crate::space::Sink;
@@ -41,37 +41,13 @@ pub(super) fn visit_coupled<S: ManifoldLagrangian<T>, T: Real>(
     visit_second_derivatives(system, at, t, &mut |row, column| all(slots[row], slots[column]));
 }
 
-/// Which of the derivatives of L an entry is of.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum By {
-    Point,
-    Velocity,
-}
-
 /// Passes the entries of a matrix over the coordinates on as those of Aᵀ M B, where the rows of A and B are
 /// variations.
 pub(super) struct Between<'a, S: System, T: Real, K> {
-    left: &'a [[T; 3]],
-    right: &'a [[T; 3]],
-    slots: &'a Slots<S>,
-    sink: &'a mut K,
-}
-
-impl<'a, S: System, T: Real, K> Between<'a, S, T, K> {
-    /// From variations of the first point to those `with`, into `sink`.
-    pub(super) fn new(
-        first: &'a Variation<S, T>,
-        with: &'a Variation<S, T>,
-        slots: &'a Slots<S>,
-        [row, column]: [By; 2],
-        sink: &'a mut K,
-    ) -> Self {
-        let of = |variation: &'a Variation<S, T>, by: By| match by {
-            By::Point => &variation.point[..],
-            By::Velocity => &variation.velocity[..],
-        };
-        Self { left: of(first, row), right: of(with, column), slots, sink }
-    }
+    pub(super) left: &'a Rows<S, T>,
+    pub(super) right: &'a Rows<S, T>,
+    pub(super) slots: &'a Slots<S>,
+    pub(super) sink: &'a mut K,
 }
 
 impl<S: System, T: Real, K: Sink<T>> Sink<T> for Between<'_, S, T, K> {

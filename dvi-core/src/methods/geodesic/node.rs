@@ -5,7 +5,7 @@ use core::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::between::{Between, By, Slots, slots};
+use super::between::{Between, Slots, slots};
 use super::memory::MassRows;
 use crate::discrete::NodeWork;
 use crate::mechanics::manifold::series::Series;
@@ -17,7 +17,7 @@ use crate::system::Factor;
 use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Weights};
 
 /// Three numbers for each coordinate: how it varies with the tangent vectors of its block.
-type Rows<S, T> = <<S as System>::Space as Space>::Array<[T; 3]>;
+pub(super) type Rows<S, T> = <<S as System>::Space as Space>::Array<[T; 3]>;
 
 /// How the point and the velocity of a node vary, in each row with the tangent vectors of its block.
 #[derive(Debug)]
@@ -265,16 +265,16 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         let zero = T::lift(0.0);
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
         let all = [
-            ([By::Point, By::Point], Weights { qq: weight, ..none }),
-            ([By::Velocity, By::Velocity], Weights { vv: weight, ..none }),
-            ([By::Point, By::Velocity], Weights { qv: weight, ..none }),
-            ([By::Velocity, By::Point], Weights { vq: weight, ..none }),
+            (&first.point, &displacement.point, Weights { qq: weight, ..none }),
+            (&first.velocity, &displacement.velocity, Weights { vv: weight, ..none }),
+            (&first.point, &displacement.velocity, Weights { qv: weight, ..none }),
+            (&first.velocity, &displacement.point, Weights { vq: weight, ..none }),
         ];
         // Where M is constant, positions and velocities do not mix.
         let mixed = if S::CONSTANT_MASS { 2 } else { 4 };
-        for (by, weights) in &all[..mixed] {
-            let mut between = Between::<S, T, K>::new(first, displacement, slots, *by, sink);
-            system.linearize(point, velocity, t, *weights, gradient, momentum, &mut between);
+        for &(left, right, weights) in &all[..mixed] {
+            let mut between = Between::<S, T, K> { left, right, slots, sink };
+            system.linearize(point, velocity, t, weights, gradient, momentum, &mut between);
         }
     }
 
@@ -287,7 +287,8 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         sink: &mut K,
     ) {
         let Self { first, displacement, slots, .. } = self;
-        let mut between = Between::<S, T, K>::new(first, displacement, slots, [By::Velocity; 2], sink);
+        let (left, right) = (&first.velocity, &displacement.velocity);
+        let mut between = Between::<S, T, K> { left, right, slots, sink };
         for row in blocks(system).flat_map(Block::velocities) {
             mass.row(row, |column, entry| {
                 if entry != T::lift(0.0) {
@@ -301,7 +302,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     pub(super) fn add_mass<K: Sink<T>>(&mut self, system: &S, [q, v]: [&[T]; 2], t: T, sink: &mut K) {
         self.rest(system, q, v);
         let Self { work: NodeWork { point, velocity, gradient, momentum }, first, slots, .. } = self;
-        let mut between = Between::<S, T, K>::new(first, first, slots, [By::Velocity; 2], sink);
+        let mut between = Between::<S, T, K> { left: &first.velocity, right: &first.velocity, slots, sink };
         system.linearize(point, velocity, t, Weights::mass(), gradient, momentum, &mut between);
     }
 

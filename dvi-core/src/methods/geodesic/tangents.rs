@@ -104,9 +104,6 @@ pub(super) struct Legendre<'a, S, T> {
 
 impl<S: ManifoldLagrangian<T>, T: Real> Legendre<'_, S, T> {
     /// Improves `v`, which begins as rates of displacement, until ∂L/∂v = p.
-    ///
-    /// # Errors
-    /// As [`Tangents::solve`].
     pub(super) fn solve(&self, v: &mut [T]) -> Result<(), StepFailure> {
         velocity(self.system, self.q, v);
         let mut tangents = Tangents::new(self.system, [self.q, v], self.t);

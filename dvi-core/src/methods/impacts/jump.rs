@@ -3,7 +3,7 @@
 use core::mem;
 
 use super::Collision;
-use super::memory::{ImpactsMemory, Wall};
+use super::memory::{ImpactsMemory, MOST, Wall};
 use super::passage::Passage;
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::StepFailure;
@@ -43,12 +43,7 @@ fn inertia<S: UnilateralLagrangian<T>, T: Real>(
     sum / (squared * squared)
 }
 
-impl<S, M, T, const MOST: usize> Passage<'_, S, M, T, MOST>
-where
-    S: UnilateralLagrangian<T>,
-    M: FreeFlight<S, T>,
-    T: Real,
-{
+impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M, T> {
     /// Goes back to where the flight begins.
     fn go_back(&mut self) {
         let Self { memory, q, is_there, .. } = self;
@@ -223,7 +218,9 @@ where
     /// where the motion towards the surface has been used up, to where W is as much higher as e² times what
     /// it has come down; for an L that is quadratic in v that is where ġ⁺ = −e ġ⁻.
     fn reflect(&mut self, surface: usize, rate: T) -> Result<(), StepFailure> {
-        let (restitution, zero) = (self.restitution(), T::lift(0.0));
+        let (e, zero) = (T::lift(self.method.restitution), T::lift(0.0));
+        // Back in time an impact gains what it loses.
+        let restitution = if self.h < zero { T::lift(1.0) / e } else { e };
         let lambda = if S::QUADRATIC {
             self.impulse_for(surface, [rate, -restitution * rate])?
         } else {
@@ -337,11 +334,5 @@ where
         wall.is_grazing = !(is_behind && is_solved);
         wall.impulse = if wall.is_grazing { reflection } else { lambda };
         Ok(())
-    }
-
-    /// e, or 1/e where the run goes back in time.
-    fn restitution(&self) -> T {
-        let e = T::lift(self.method.restitution);
-        if self.h < T::lift(0.0) { T::lift(1.0) / e } else { e }
     }
 }

@@ -1,6 +1,6 @@
 //! What a run with impacts carries from step to step.
 
-use core::fmt;
+use core::ops::Deref;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::Multipliers;
@@ -10,71 +10,34 @@ use crate::scalar::norm::reported;
 use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Scalar, Space, State, System, UnilateralLagrangian, Vector};
 
-/// An impact of the last step.
-pub struct Impact<S: System, T: Real> {
-    pub(super) surface: usize,
-    pub(super) time: T,
-    pub(super) impulse: T,
-    pub(super) q: Vector<S, T>,
-    pub(super) v: Vector<S, T>,
-}
+/// How many impacts a step may have.
+pub(super) const MOST: usize = 16;
 
-// Derived, these would ask for them of the system too.
-impl<S: System, T: Real> Clone for Impact<S, T> {
-    fn clone(&self) -> Self {
-        let Self { surface, time, impulse, q, v } = self;
-        Self { surface: *surface, time: *time, impulse: *impulse, q: q.clone(), v: v.clone() }
-    }
-}
-
-impl<S: System, T: Real> fmt::Debug for Impact<S, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { surface, time, impulse, q, v } = self;
-        f.debug_struct("Impact")
-            .field("surface", surface)
-            .field("time", time)
-            .field("impulse", impulse)
-            .field("q", q)
-            .field("v", v)
-            .finish()
-    }
-}
-
-impl<S: System, T: Real> Impact<S, T> {
+/// An impact of the last step, with vectors of type `V`.
+#[derive(Clone, Debug)]
+pub struct Impact<V, T> {
     /// The number of the surface, counted from 0 in the order of declaration.
-    pub fn surface(&self) -> usize {
-        self.surface
-    }
-
+    pub surface: usize,
     /// When it happened.
-    pub fn time(&self) -> T {
-        self.time
-    }
-
+    pub time: T,
     /// λ, by which the momentum has jumped: p⁺ − p⁻ = λ ∂g/∂q. Positive in runs forward in time.
-    pub fn impulse(&self) -> T {
-        self.impulse
-    }
-
+    pub impulse: T,
     /// The coordinates where it happened, flat, in the order of declaration.
-    pub fn q(&self) -> &[T] {
-        &self.q
-    }
-
+    pub q: V,
     /// The velocity after it, flat, in the order of declaration.
-    pub fn v(&self) -> &[T] {
-        &self.v
-    }
+    pub v: V,
+}
 
+impl<V: Deref<Target = [T]>, T: Real> Impact<V, T> {
     /// The state after it.
-    pub fn state(&self, system: &S) -> S::State<T> {
+    pub fn state<S: System>(&self, system: &S) -> S::State<T> {
         S::State::read(|block| system.block_len(block), &self.q, &self.v)
     }
 }
 
 /// A run with impacts: the memory of its method, the impacts of its last step, and work space.
 #[derive(Debug)]
-pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real, const MOST: usize> {
+pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real> {
     /// At the present point, or at the end of the flight at hand.
     pub(super) inner: I,
     /// Where the step at hand began, if it has been divided.
@@ -87,7 +50,7 @@ pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real, const MOST: usize> {
     /// Storage for gaps that are not asked for.
     pub(super) row: Multipliers<S, T>,
     pub(super) wall: Wall<S, T>,
-    pub(super) events: [Impact<S, T>; MOST],
+    pub(super) events: [Impact<Vector<S, T>, T>; MOST],
     /// Whether the step at hand has been divided.
     pub(super) is_divided: bool,
     /// How many of the events are those of the last step.
@@ -174,7 +137,7 @@ impl<S: UnilateralLagrangian<T>, T: Real> Wall<S, T> {
     }
 }
 
-impl<S: UnilateralLagrangian<T>, I, T: Real, const MOST: usize> ImpactsMemory<S, I, T, MOST> {
+impl<S: UnilateralLagrangian<T>, I, T: Real> ImpactsMemory<S, I, T> {
     pub(super) fn new(
         system: &S,
         q: &Vector<S, T>,
@@ -207,14 +170,14 @@ impl<S: UnilateralLagrangian<T>, I, T: Real, const MOST: usize> ImpactsMemory<S,
     }
 }
 
-impl<S: ConstrainedSystem, I, T: Real, const MOST: usize> ImpactsMemory<S, I, T, MOST> {
+impl<S: ConstrainedSystem, I, T: Real> ImpactsMemory<S, I, T> {
     /// The memory of the method.
     pub fn inner(&self) -> &I {
         &self.inner
     }
 
     /// The impacts of the last step, in the order of the run. None behind a checkpoint.
-    pub fn impacts(&self) -> &[Impact<S, T>] {
+    pub fn impacts(&self) -> &[Impact<Vector<S, T>, T>] {
         &self.events[..self.count]
     }
 
@@ -231,9 +194,7 @@ impl<S: ConstrainedSystem, I, T: Real, const MOST: usize> ImpactsMemory<S, I, T,
     }
 }
 
-impl<S: ConstrainedSystem, I: Memory<T>, T: Real, const MOST: usize> Memory<T>
-    for ImpactsMemory<S, I, T, MOST>
-{
+impl<S: ConstrainedSystem, I: Memory<T>, T: Real> Memory<T> for ImpactsMemory<S, I, T> {
     lasting!(T; part inner, count total, count grazing);
 }
 

@@ -26,10 +26,10 @@ const ROUNDINGS: f64 = 64.0;
 const OFF: f64 = 1e4;
 
 /// A step that is being taken.
-pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real, const MOST: usize> {
-    pub(super) method: &'a Impacts<M, MOST>,
+pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> {
+    pub(super) method: &'a Impacts<M>,
     pub(super) system: &'a S,
-    pub(super) memory: &'a mut ImpactsMemory<S, M::Memory, T, MOST>,
+    pub(super) memory: &'a mut ImpactsMemory<S, M::Memory, T>,
     pub(super) q: &'a mut Vector<S, T>,
     pub(super) statistics: &'a mut Statistics,
     /// When the flight at hand begins.
@@ -46,12 +46,7 @@ pub(super) struct Passage<'a, S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T
     pub(super) turns: usize,
 }
 
-impl<S, M, T, const MOST: usize> Passage<'_, S, M, T, MOST>
-where
-    S: UnilateralLagrangian<T>,
-    M: FreeFlight<S, T>,
-    T: Real,
-{
+impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M, T> {
     /// Takes the step.
     ///
     /// # Errors
@@ -118,21 +113,17 @@ where
     /// The surface and the length of the flight at which the next impact happens; `None` if there is none in
     /// what is left of the step.
     fn next_impact(&mut self) -> Result<Option<(usize, T)>, StepFailure> {
-        if let Some(surface) = self.immediate() {
-            return Ok(Some((surface, T::lift(0.0))));
+        let (zero, here) = (T::lift(0.0), &self.memory.here);
+        let mut surfaces = here.gap.iter().zip(here.rate.iter());
+        // It may be reached where the flight begins.
+        if let Some(surface) = surfaces.position(|(&gap, &rate)| gap <= zero && self.along(rate) < zero) {
+            return Ok(Some((surface, zero)));
         }
         let left = self.left;
         match self.try_flight(left) {
             Ok(()) => self.first_before(left),
             Err(failure) => self.before_failure(failure),
         }
-    }
-
-    /// A surface that is reached where the flight begins.
-    fn immediate(&self) -> Option<usize> {
-        let (zero, here) = (T::lift(0.0), &self.memory.here);
-        let mut surfaces = here.gap.iter().zip(here.rate.iter());
-        surfaces.position(|(&gap, &rate)| gap <= zero && self.along(rate) < zero)
     }
 
     /// The first impact in a flight whose end fails, perhaps because it is outside of the domain of L.

@@ -214,7 +214,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
             momentum[i] += right_h * gradient[i] - end_form[i];
         }
         norm::finite(momentum)?;
-        orientation.check(system, next, end)?;
+        orientation.pass(system, &[], (next, end))?;
         q.copy_from_slice(next);
         defect.copy_from_slice(momentum);
         one_form.copy_from_slice(end_form);

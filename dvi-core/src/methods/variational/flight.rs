@@ -35,6 +35,8 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
 impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Variational<Unfitted, R> {
     type Suited<X> = X;
 
+    const HAS_ENERGY: bool = true;
+
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate::<S, T>(system)?;
         VariationalMemory::new(system, self, q, v, t, h)
@@ -52,9 +54,6 @@ impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Varia
     }
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
         memory.carried.phase.jump(impulse, velocity);
-    }
-    fn has_energy_of_flight(&self) -> bool {
-        true
     }
     fn energy_of_flight(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> Option<T> {
         Some(self.energy_of(span, work))

@@ -10,7 +10,7 @@
 use super::Variational;
 use super::coefficients::{Coefficients, End};
 use crate::discrete::basis::Basis;
-use crate::discrete::frequency::{FrequencyIn, GivenFrequency, Local};
+use crate::discrete::frequency::{Frequency, FrequencyIn, GivenFrequency, Local};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
@@ -351,11 +351,13 @@ where
     }
 }
 
-impl<S: NondegenerateLagrangian<T>, F, R, T: Real> InnerScheme<S, T> for Variational<F, R>
+impl<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> InnerScheme<S, T> for Variational<F, R>
 where
     Self: VariationalMethod<S, T>,
 {
     type Suited<X> = X;
+
+    const IS_VERLET: bool = S::SEPARABLE && F::UNFITTED && R::TRAPEZOIDAL;
 
     fn admit_inside(&self) -> Result<(), StartError> {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });

@@ -2,8 +2,6 @@
 
 use core::ops::Deref;
 
-use crate::error::StepFailure;
-use crate::scalar::norm;
 use crate::solve::sizes::weight_of;
 use crate::space::elimination::LEAST;
 use crate::space::{Sink, SquareMatrix};
@@ -51,50 +49,24 @@ pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
 }
 
 /// Overwrites `x` with the solution of A Bᵀ y = x, where A and B have these rows, for constraints whose
-/// gradients have these `squares`.
-///
-/// # Errors
-/// [`StepFailure::RedundantConstraint`] and [`StepFailure::UndefinedConstraint`].
+/// gradients have these `squares`; `None` where the matrix is singular.
 pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
     rows: [&[V]; 2],
     squares: &[T],
     x: &mut [T],
-) -> Result<(), StepFailure> {
+) -> Option<()> {
     if let ([a], [b], [x]) = (rows[0], rows[1], &mut *x) {
         let pivot = dot(a, b);
-        admit(pivot)?;
         *x /= pivot;
-        return Ok(());
+        return (Scalar::abs(pivot) > least()).then_some(());
     }
     fill(gram, rows, squares);
     x.iter_mut().zip(squares).for_each(|(x, &square)| *x *= scale(square));
-    gram.eliminate(&mut [], x).map_err(named)
+    gram.eliminate(&mut [], x).ok()
 }
 
 /// A pivot is larger.
 pub(super) fn least<T: Real>() -> T {
     T::default_epsilon() * T::lift(LEAST)
-}
-
-/// Whether the matrix of one equation can be divided by.
-///
-/// # Errors
-/// As [`solve`].
-pub(super) fn admit<T: Real>(pivot: T) -> Result<(), StepFailure> {
-    if Scalar::abs(pivot) > least() { Ok(()) } else { Err(named(norm::singular(pivot, 0))) }
-}
-
-/// The failure of a matrix over the constraints, with the name of one.
-#[cold]
-pub(super) fn named(failure: StepFailure) -> StepFailure {
-    match failure {
-        StepFailure::Singular { column, pivot, .. } if pivot.is_nan() => {
-            StepFailure::UndefinedConstraint { constraint: column, value: pivot }
-        }
-        StepFailure::Singular { column, pivot, .. } => {
-            StepFailure::RedundantConstraint { constraint: column, pivot }
-        }
-        other => other,
-    }
 }
