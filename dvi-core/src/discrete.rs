@@ -21,10 +21,9 @@ pub(crate) mod frequency;
 pub(crate) mod quadrature;
 
 use crate::error::StepFailure;
-use crate::mechanics::pattern::of_second_derivatives;
 use crate::solve::{Linearize, Stopping};
+use crate::space::LinearEquations;
 use crate::space::sink::Sink;
-use crate::space::{LinearEquations, Storing};
 use crate::state::Statistics;
 use crate::{Lagrangian, Linear, Real, Vector};
 
@@ -45,12 +44,6 @@ pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 /// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so
 /// that nothing is allocated.
 pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
-    /// A solver for equations with D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here the matrix has
-    /// the entries of ∂²L in all blocks, as a sum over nodes has whose points depend on the ends alone.
-    fn solver(&self, system: &S, q: &[T], v: &[T], t: T) -> Linear<S, T> {
-        of_second_derivatives(system, q, v, t, Storing::Always)
-    }
-
     /// Adds D₁L_d to `d1` and D₁L_d + D₂L_d to `sum`, each one entry per coordinate.
     ///
     /// # Errors
@@ -83,7 +76,7 @@ pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
     message = "the second derivatives of `{Self}` in one point are not known",
     label = "has no tangent map"
 )]
-pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, T> {
+pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real> {
     /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, its transpose
     /// D₂D₁L_d and D₂D₂L_d to sinks. With forces on the system these are the derivatives of D₁L_d + F⁻ and
     /// D₂L_d + F⁺, and no matrix is the transpose of another.

@@ -17,8 +17,8 @@ use crate::mechanics::constraints::{
 };
 use crate::mechanics::orientation::MassOrientation;
 use crate::memory::{Memory, lasting};
+use crate::methods::InnerScheme;
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
-use crate::methods::{InnerScheme, VariationalMethod};
 use crate::scalar::norm;
 use crate::solve::{Due, Guess, Stopping, from_either_guess, newton, sizes};
 use crate::state::Statistics;
@@ -186,8 +186,8 @@ impl<M: Scheme> Scheme for Constrained<M> {
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Carries<S, T> for Constrained<M> {
-    type Memory = ConstrainedMemory<S, M::DiscreteLagrangian, T>;
+impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Carries<S, T> for Constrained<M> {
+    type Memory = ConstrainedMemory<S, M::Inside, T>;
 }
 
 /// Where a step begins, and how it is solved.
@@ -307,7 +307,7 @@ where
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         self.scheme.admit(system)?;
-        self.scheme.admit_inside()?;
+        let l_d = self.scheme.inside(system)?;
         evaluate(system, q, v, t)?;
         consistent::check(system, [q, v], t, Among::Steps { h, tolerance: self.stopping.tolerance })?;
         let [bend, increment, weights, next, mut work] = system.space().vectors();
@@ -326,7 +326,7 @@ where
             gradients: S::Kind::OF_POSITIONS.then(|| Gradients::new(system, At { q, t }, v)),
             is_positive: solver.is_positive(),
             orientation: orientation.transpose().map_err(StartError::Starter)?,
-            l_d: self.scheme.discrete_lagrangian(system),
+            l_d,
             solver,
             arrival: Arrival { increment, weights, q: next, place: Place::new(system), work },
         })

@@ -13,6 +13,7 @@ mod attempt;
 mod coefficients;
 mod displaced;
 mod evaluation;
+mod fitted;
 mod interior;
 mod lagrangian;
 mod memory;

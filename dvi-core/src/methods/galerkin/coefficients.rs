@@ -10,13 +10,12 @@
 
 use crate::discrete::basis::Bases;
 use crate::discrete::frequency;
-use crate::discrete::{Interval, NodeWork, Rule};
+use crate::discrete::{Interval, Rule};
 use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::{Lobatto, MOST};
 use crate::scalar::norm::reported;
 use crate::space::elimination;
-use crate::state::Statistics;
-use crate::{Lagrangian, Real, Scalar, Vector};
+use crate::{Real, Scalar};
 use core::ops::{Deref, DerefMut};
 
 /// sin u and what multiplies the new point count as zero below this.
@@ -51,31 +50,6 @@ impl<const NODES: usize, T: Real> Fit<NODES, T> {
             self.coefficients = Coefficients::new(&self.rule, &self.differentiation, u)?;
         }
         Ok(())
-    }
-
-    /// Sets the derivatives of L_d in all directions at the unknowns `x` of a step of any L. `node` is
-    /// storage.
-    pub(super) fn differentiate<S: Lagrangian<T>>(
-        &self,
-        (system, interval): (&S, Interval<T>),
-        x: &[Vector<S, T>; NODES],
-        node: &mut NodeWork<S, T>,
-        derivatives: &mut [Vector<S, T>; NODES],
-        statistics: &mut Statistics,
-    ) {
-        let NodeWork { point, velocity, gradient, momentum } = node;
-        derivatives.iter_mut().for_each(|derivative| derivative.fill(T::lift(0.0)));
-        for j in 0..NODES {
-            self.coefficients.place(j, interval.h, x, [point, velocity]);
-            system.gradient(point, velocity, self.time(interval, j), gradient, momentum);
-            for (r, derivative) in derivatives.iter_mut().enumerate() {
-                let [by_point, by_velocity] = self.coefficients.weighted_direction(j, r);
-                for i in 0..derivative.len() {
-                    derivative[i] += interval.h * by_point * gradient[i] + by_velocity * momentum[i];
-                }
-            }
-        }
-        statistics.gradients += NODES as u64;
     }
 
     /// The time of node `j`.

@@ -82,7 +82,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
     pub(super) fn jump(&mut self, impulse: &[T], velocity: &[T]) {
         self.path.phase.jump(impulse, velocity);
         if let Some(interior) = &mut self.path.interior {
-            interior.forget();
+            interior.remember(T::lift(0.0));
         }
     }
 

@@ -57,7 +57,8 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         E::run(
             #[cfg_attr(not(debug_assertions), inline(always))]
             || {
-                let mut step = Attempt { system, frequency, stopping: *stopping, interval, q, path };
+                let mut step =
+                    Attempt { system, frequency, stopping: *stopping, interval, q, path, is_kicked: true };
                 ladder.solve(
                     &mut step,
                     statistics,

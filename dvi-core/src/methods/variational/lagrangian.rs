@@ -351,13 +351,17 @@ where
     }
 }
 
-impl<S: NondegenerateLagrangian<T>, F, R, T: Real> InnerScheme<S, T> for Variational<F, R>
+impl<S, F, R, T> InnerScheme<S, T> for Variational<F, R>
 where
-    Self: VariationalMethod<S, T>,
+    S: NondegenerateLagrangian<T>,
+    F: FrequencyIn<T> + GivenFrequency + Clone,
+    R: Rule + Clone,
+    T: Real,
 {
     type Suited<X> = X;
+    type Inside = QuadratureLagrangian<S, F, R, T>;
 
-    fn admit_inside(&self) -> Result<(), StartError> {
+    fn inside(&self, system: &S) -> Result<Self::Inside, StartError> {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         if self.summation != Summation::default() {
             return unsupported(
@@ -377,6 +381,6 @@ where
                 "`Constrained` has one of its own, which counts",
             );
         }
-        Ok(())
+        Ok(self.discrete_lagrangian(system))
     }
 }
