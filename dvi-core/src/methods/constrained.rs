@@ -8,7 +8,7 @@
 
 mod impulses;
 
-use crate::discrete::{self, DiscreteLagrangian, Ends, Interval, Span};
+use crate::discrete::{Departing, DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::{self, Among};
 use crate::mechanics::constraints::turning::Gradients;
@@ -20,7 +20,7 @@ use crate::memory::{Memory, lasting};
 use crate::methods::InnerScheme;
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::scalar::norm;
-use crate::solve::{Due, Guess, Stopping, from_either_guess, newton, sizes};
+use crate::solve::{AtIncrement, Due, Guess, Stopping, from_either_guess, newton, sizes};
 use crate::state::Statistics;
 use crate::state::rates::is_similar;
 use crate::system::Same;
@@ -226,7 +226,8 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             statistics.linearizations += 1;
             statistics.factorisations += 1;
             let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
-            let upper = discrete::Equations { l_d, span, p0: p, statistics };
+            let departing = &mut Departing { l_d, system, interval, q0: q };
+            let upper = AtIncrement { equations: departing, p0: p, delta: increment, statistics };
             let lower = OfStep { span, work: [next, work] };
             let forces = Some(At { q, t: interval.t });
             let (multipliers, active) = (&**impulse, impulse.len());

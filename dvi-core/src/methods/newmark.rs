@@ -16,7 +16,6 @@ use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::methods::step::{Attempt, Begin, Carried, Equations, Share, ladder, set_force};
-use crate::methods::variational::verlet;
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use crate::scalar::norm::reported;
 use crate::solve::{Ladder, Solver, Stopping};
@@ -126,10 +125,14 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
     ) -> Result<(), StepFailure> {
         match share {
             Share::Left => {
-                phase.reach(q, delta, point);
-                set_force(*system, point, interval.time(T::lift(1.0)), gradient);
-                statistics.gradients += 1;
-                self.add_impulse(interval.h, [&phase.force, gradient], to);
+                let mut force: &[T] = &phase.force;
+                if !self.is_verlet() {
+                    phase.reach(q, delta, point);
+                    set_force(*system, point, interval.time(T::lift(1.0)), gradient);
+                    statistics.gradients += 1;
+                    force = gradient;
+                }
+                self.add_impulse(interval.h, [&phase.force, force], to);
             }
             Share::Both { force } => {
                 for ((sum, &f0), &f1) in to.iter_mut().zip(phase.force.iter()).zip(force) {
@@ -163,6 +166,10 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
         r.iter_mut().zip(momentum.iter()).for_each(|(r, &momentum)| *r -= momentum);
         Ok(())
     }
+
+    fn is_explicit(&self) -> bool {
+        self.is_verlet()
+    }
 }
 
 impl<T: Real> Newmark<T> {
@@ -174,7 +181,7 @@ impl<T: Real> Newmark<T> {
         self.stopping.validate()
     }
 
-    fn is_explicit(&self) -> bool {
+    fn is_verlet(&self) -> bool {
         self.beta == T::lift(0.0)
     }
 }
@@ -187,7 +194,7 @@ impl<T: Real> Scheme for Newmark<T> {
         true
     }
     fn preserved_form(&self) -> PreservedForm {
-        if self.is_explicit() { PreservedForm::Canonical } else { PreservedForm::Conjugate }
+        if self.is_verlet() { PreservedForm::Canonical } else { PreservedForm::Conjugate }
     }
 }
 
@@ -200,7 +207,8 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.validate()?;
-        let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
+        let solver =
+            if self.is_verlet() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
         Ok(NewmarkMemory {
             carried: Carried::new(system, q, v, t, self.summation)?,
             ladder: ladder(system, q, v, t, solver),
@@ -212,9 +220,6 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
         let Step { system, q, t, h, statistics } = step;
         let NewmarkMemory { carried, ladder } = memory;
         let (Self { stopping, summation, .. }, interval) = (*self, Interval { t, h });
-        if self.is_explicit() {
-            return verlet::step(system, carried, q, (interval, summation), statistics);
-        }
         Attempt { system, interval, stopping, summation, q, carried }.take(
             &mut { *self },
             ladder,

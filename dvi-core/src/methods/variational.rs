@@ -11,14 +11,14 @@ mod flight;
 mod lagrangian;
 mod memory;
 mod together;
-pub(super) mod verlet;
+mod verlet;
 
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::Attempt;
-use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
+use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
@@ -172,10 +172,13 @@ impl<F, R> Variational<F, R> {
 }
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
-    /// Whether the step is Störmer–Verlet, for separable systems.
+    /// Whether the step is Störmer–Verlet with plain sums, for separable systems.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_verlet(&self) -> bool {
-        F::UNFITTED && self.rule.nodes() == Trapezoid.nodes() && self.rule.weights() == Trapezoid.weights()
+        F::UNFITTED
+            && self.summation == Summation::Plain
+            && self.rule.nodes() == Trapezoid.nodes()
+            && self.rule.weights() == Trapezoid.weights()
     }
 
     /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
@@ -202,7 +205,9 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         let Step { system, q, t, h, statistics } = step;
         let VariationalMemory { given, ends, carried, ladder } = memory;
         if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
-            return verlet::step(system, carried, q, (Interval { t, h }, self.summation), statistics);
+            let (taken, result) = verlet::steps(system, carried, q, Clock::new(t, h), 1);
+            statistics.gradients += taken;
+            return result;
         }
         let Self { stopping, summation, .. } = *self;
         let step = Attempt { system, interval: Interval { t, h }, stopping, summation, q, carried };
@@ -288,7 +293,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
 
     #[inline]
     fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        if S::SEPARABLE && F::UNFITTED && self.is_verlet() && self.summation == Summation::Plain {
+        if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
             let Steps { system, q, clock, count, statistics } = steps;
             let (taken, result) = verlet::steps(system, &mut memory.carried, q, clock, count);
             statistics.gradients += taken;

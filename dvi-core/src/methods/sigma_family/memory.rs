@@ -29,7 +29,7 @@ pub struct SigmaMemory<S: System, T: Real> {
     /// With the matrix of Newton's method. Explicit steps do not use it.
     pub(super) ladder: Ladder<Linear<S, T>>,
     pub(super) monitor: Monitor<S, T>,
-    /// Where α is affine and σ = 0.
+    /// Where σ = 0 and Dα is constant and antisymmetric.
     pub(super) leaps: Option<Leaps<S, T>>,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Carried<S: System, T: Real> {
     /// That of K times `scale`: constant if α is affine, and else frozen for one step.
     pub(super) inverse: Inverse<S, T>,
     pub(super) scale: T,
-    /// K' = σ(Dα)ᵀ − (1−σ)Dα, if α is affine and σ neither 0 nor ½, where c is just reversed.
+    /// K' = σ(Dα)ᵀ − (1−σ)Dα, if α is affine; not if σ = ½, where c is just reversed, nor beside `leaps`.
     pub(super) product: Option<Product<S, T>>,
     pub(super) l_d: OneNode<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
@@ -71,17 +71,13 @@ pub(super) struct Work<S: System, T: Real> {
     pub(super) next: Vector<S, T>,
 }
 
-/// What the explicit steps of σ = 0 take besides.
+/// What the explicit steps of σ = 0 take besides, where Dα is antisymmetric.
 #[derive(Debug)]
 pub(super) struct Leaps<S: System, T: Real> {
     /// K' = −Dα.
     pub(super) product: Product<S, T>,
-    /// The point ahead, q0 + K⁻¹c0.
-    pub(super) ahead: Vector<S, T>,
-    /// Whether Dα is antisymmetric, so that K⁻¹c1 = −Δ.
-    pub(super) reverses: bool,
-    /// For Δ and c1 where it is not.
-    pub(super) storage: [Vector<S, T>; 2],
+    /// The point before, q0 + K⁻¹c0.
+    pub(super) before: Vector<S, T>,
 }
 
 impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
@@ -96,7 +92,7 @@ impl<S: System, T: Real> Memory<T> for Carried<S, T> {
 }
 
 impl<S: System, T: Real> Memory<T> for Leaps<S, T> {
-    lasting!(T; numbers ahead);
+    lasting!(T; numbers before);
 }
 
 impl<S: System, T: Real> SigmaMemory<S, T> {
@@ -181,9 +177,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         let symmetric = Combination { a: one, b: one };
         let reverses = S::AFFINE && Product::new(system, q, t, symmetric).vanishes(system);
         let (leaps, product) = match product {
-            Some(product) if sigma == T::lift(0.0) => {
-                let leaps = Leaps { product, ahead: space.vector(), reverses, storage: space.vectors() };
-                (Some(leaps), None)
+            Some(product) if reverses && sigma == T::lift(0.0) => {
+                (Some(Leaps { product, before: space.vector() }), None)
             }
             product => (None, product),
         };
@@ -227,8 +222,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
             for i in 0..q.len() {
                 increment[i] -= shift[i];
             }
-            if let Some(Leaps { ahead, .. }) = leaps {
-                add(q, shift, ahead);
+            if let Some(Leaps { before, .. }) = leaps {
+                add(q, shift, before);
             }
         }
         carried.history.begin_again(&carried.work.increment);

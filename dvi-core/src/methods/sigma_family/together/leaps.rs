@@ -24,8 +24,7 @@ where
     S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
 {
     let Packs { q, other: ahead, kept, gradient, reciprocals, one, increment, .. } = packs;
-    let ahead_of = |run: usize| runs[run].memory.leaps.as_ref().filter(|leaps| leaps.reverses);
-    if !load_if_all_have(ahead, |run| Some(&*ahead_of(run)?.ahead), runs.len()) {
+    if !load_if_all_have(ahead, |run| Some(&*runs[run].memory.leaps.as_ref()?.before), runs.len()) {
         return 0;
     }
     load(q, |run| &*runs[run].q, runs.len());
@@ -61,7 +60,7 @@ where
         read_lane(lane, q, run.q);
         let SigmaMemory { carried, leaps, .. } = &mut *run.memory;
         // All have them: the point ahead has been loaded from there.
-        if let Some(Leaps { product, ahead: before, .. }) = leaps {
+        if let Some(Leaps { product, before }) = leaps {
             read_lane(lane, ahead, before);
             for ((delta, &now), &before) in increment.iter_mut().zip(run.q.iter()).zip(before.iter()) {
                 *delta = now - before;
