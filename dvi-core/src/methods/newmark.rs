@@ -14,16 +14,15 @@
 
 use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
-use crate::memory::{Memory, lasting};
-use crate::methods::step::{Attempt, Begin, Carried, Equations, Share, ladder, set_force};
+use crate::methods::step::{Attempt, Begin, Equations, PhaseMemory, Share, set_force};
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use crate::scalar::norm::reported;
-use crate::solve::{Ladder, Solver, Stopping};
+use crate::solve::{Solver, Stopping};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::system::Same;
-use crate::{Linear, Real, RegularLagrangian, Separable, System, Vector, Weights};
+use crate::{Real, RegularLagrangian, Separable, System, Vector, Weights};
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t): for [`Separable`] systems.
 ///
@@ -78,24 +77,6 @@ impl<T> Newmark<T> {
             summation: Summation::default(),
         }
     }
-}
-
-/// The phase point of a run of Newmark's method, and its work space.
-#[derive(Debug)]
-pub struct NewmarkMemory<S: System, T: Real> {
-    carried: Carried<S, T>,
-    ladder: Ladder<Linear<S, T>>,
-}
-
-impl<S: RegularLagrangian<T>, T: Real> NewmarkMemory<S, T> {
-    /// p = ∂L/∂v at the current point, one entry per coordinate.
-    pub fn p(&self) -> &[T] {
-        &self.carried.phase.p
-    }
-}
-
-impl<S: System, T: Real> Memory<T> for NewmarkMemory<S, T> {
-    lasting!(T; part carried, part ladder);
 }
 
 impl<T: Real> Newmark<T> {
@@ -199,7 +180,7 @@ impl<T: Real> Scheme for Newmark<T> {
 }
 
 impl<S: System, T: Real> Carries<S, T> for Newmark<T> {
-    type Memory = NewmarkMemory<S, T>;
+    type Memory = PhaseMemory<S, T>;
 }
 
 impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T> {
@@ -207,18 +188,14 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.validate()?;
-        let solver =
-            if self.is_verlet() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
-        Ok(NewmarkMemory {
-            carried: Carried::new(system, q, v, t, self.summation)?,
-            ladder: ladder(system, q, v, t, solver),
-        })
+        let solver = if self.is_verlet() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
+        PhaseMemory::new(system, (q, v, t), (solver, self.summation), ())
     }
 
     #[inline]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
-        let NewmarkMemory { carried, ladder } = memory;
+        let PhaseMemory { carried, ladder, .. } = memory;
         let (Self { stopping, summation, .. }, interval) = (*self, Interval { t, h });
         Attempt { system, interval, stopping, summation, q, carried }.take(
             &mut { *self },

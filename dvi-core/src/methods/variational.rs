@@ -17,14 +17,14 @@ use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
-use crate::methods::step::Attempt;
+use crate::methods::step::{Attempt, PhaseMemory};
 use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
 use lagrangian::{Interpolated, read};
-use memory::VariationalMemory;
+use memory::Interpolation;
 
 /// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
 ///
@@ -197,13 +197,13 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     fn take<S: NondegenerateLagrangian<T>, T: Real>(
         &self,
         step: Step<'_, S, T>,
-        memory: &mut VariationalMemory<S, T>,
+        memory: &mut PhaseMemory<S, T, Interpolation<S, T>>,
     ) -> Result<(), StepFailure>
     where
         F: FrequencyIn<T>,
     {
         let Step { system, q, t, h, statistics } = step;
-        let VariationalMemory { given, ends, carried, ladder } = memory;
+        let PhaseMemory { carried, ladder, own: Interpolation { given, ends } } = memory;
         if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
             let (taken, result) = verlet::steps(system, carried, q, Clock::new(t, h), 1);
             statistics.gradients += taken;
@@ -233,18 +233,11 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         F: FrequencyIn<T>,
     {
         Quadrature::new(self.rule.nodes(), self.rule.weights())?;
-        let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-        if !S::SEPARABLE && self.frequency.reading().is_some() {
-            return unsupported(
-                "a frequency read from the motion",
-                "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities",
-            );
-        }
+        frequency::admit(&self.frequency, system)?;
         if self.solver == Solver::FixedPoint && !S::CONSTANT_MASS {
             let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton";
-            return unsupported("Solver::FixedPoint", reason);
+            return Err(StartError::Unsupported { option: "Solver::FixedPoint", reason });
         }
-        frequency::admit(&self.frequency, system)?;
         self.stopping.validate()
     }
 }
@@ -265,15 +258,14 @@ impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
 }
 
 impl<S: System, F, R, T: Real> Carries<S, T> for Variational<F, R> {
-    type Memory = VariationalMemory<S, T>;
+    type Memory = PhaseMemory<S, T, Interpolation<S, T>>;
 }
 
 impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.validate::<S, T>(system)?;
-        VariationalMemory::new(system, self, q, v, t, h)
+        self.depart_from(system, (q, v, t), h)
     }
 
     // A step of Simpson's rule with a frequency of the motion takes 976 instructions, and 1149 without it.

@@ -5,16 +5,23 @@
 //!
 //! Where the frequency is read from the motion, the residual is exact, and the matrix is that of ω held
 //! constant, which is close enough for Newton's method to contract.
+//!
+//! Of L = ½ v·M v − V(q, t) a fixed point solves the same equations, x ← x − h A⁻¹M⁻¹ r with A = Σⱼ wⱼ
+//! (ψ̂ⱼ ψⱼᵀ − u² φ̂ⱼ φⱼᵀ): A contains the oscillator of the fitted frequency, so that only what differs from
+//! it is iterated. As b = 0 at the end and no displacement reaches it, an iteration needs the forces of the
+//! interior nodes alone.
 
-use super::coefficients::Fit;
-use super::fitted::Fitted;
-use crate::discrete::frequency::FrequencyIn;
+use super::coefficients::{Fit, weighted};
+use crate::discrete::frequency::{FrequencyIn, Local};
 use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
-use crate::solve::CoupledEquations;
+use crate::mechanics::mass::Mass;
+use crate::mechanics::phase::PhasePoint;
+use crate::scalar::norm;
+use crate::solve::{Convergence, CoupledEquations, Stopping, iterate, sizes};
 use crate::space::{NodeSum, Sink, scratch};
 use crate::state::Statistics;
-use crate::{Lagrangian, NondegenerateLagrangian, Real, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, System, Vector, Weights};
 
 /// A path from the first of the unknowns.
 pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
@@ -32,20 +39,82 @@ pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) j: usize,
 }
 
-impl<const NODES: usize, S: Lagrangian<T>, F, T: Real> Displaced<'_, NODES, S, F, T> {
-    /// Sets `residuals`, of which that of the ends is (D₁ + D₂)L_d.
+/// Where a step begins, and the frequency.
+pub(super) struct Fitted<'a, S: System, F, T: Real> {
+    pub(super) frequency: &'a F,
+    pub(super) phase: &'a PhasePoint<S, T>,
+    pub(super) mass: &'a Mass<S, T>,
+    /// The frequencies at both ends.
+    pub(super) ends: &'a mut [Local<S, T>; 2],
+}
+
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real> Fitted<'_, S, F, T> {
+    /// Makes `fit` that for the frequency at the `unknowns`; `node` is storage.
+    ///
+    /// # Errors
+    /// Those of a frequency.
+    fn read<const NODES: usize>(
+        &mut self,
+        (system, interval): (&S, Interval<T>),
+        fit: &mut Fit<NODES, T>,
+        unknowns: &[Vector<S, T>; NODES],
+        node: &mut NodeWork<S, T>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { frequency, phase, mass, ends } = self;
+        if F::UNFITTED || frequency.reading().is_none() {
+            return fit.to(frequency.fixed() * interval.h);
+        }
+        let NodeWork { point: end, velocity, gradient: force, .. } = node;
+        let (q, delta) = (&unknowns[0], &unknowns[NODES - 1]);
+        for i in 0..q.len() {
+            end[i] = q[i] + delta[i];
+            velocity[i] = delta[i] / interval.h;
+        }
+        system.force(end, &[], interval.time(T::lift(1.0)), force);
+        statistics.gradients += 1;
+        let [first, last] = &mut **ends;
+        first.evaluate(*frequency, mass, q, velocity, &phase.force)?;
+        last.evaluate(*frequency, mass, end, velocity, force)?;
+        let omega = T::lift(0.5) * (first.omega + last.omega);
+        fit.to(omega * interval.h)
+    }
+}
+
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
+    Displaced<'_, NODES, S, F, T>
+{
+    /// Sets `residuals`, of which that of the ends is (D₁ + D₂)L_d; in a step of a separable L, but for the
+    /// force at the end.
     pub(super) fn differentiate(
         &mut self,
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) {
-        let Self { system, interval, p0, fit, unknowns, node, .. } = self;
+        let Self { system, interval, p0, fitted, fit, unknowns, node, .. } = self;
         let NodeWork { point, velocity, gradient, momentum } = &mut **node;
         residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
         residuals[NODES - 1].copy_from_slice(p0);
         for j in 0..NODES {
             fit.coefficients.place(j, interval.h, unknowns, [point, velocity]);
-            system.gradient(point, velocity, fit.time(*interval, j), gradient, momentum);
+            let t = fit.time(*interval, j);
+            if S::SEPARABLE
+                && let Some(Fitted { phase, mass, .. }) = fitted
+            {
+                momentum.fill(T::lift(0.0));
+                mass.multiply_add(T::lift(1.0), velocity, momentum);
+                if j == 0 {
+                    gradient.copy_from_slice(&phase.force);
+                } else if j < NODES - 1 {
+                    system.force(point, &[], t, gradient);
+                    statistics.gradients += 1;
+                } else {
+                    gradient.fill(T::lift(0.0));
+                }
+            } else {
+                system.gradient(point, velocity, t, gradient, momentum);
+                statistics.gradients += 1;
+            }
             for (r, residual) in residuals.iter_mut().enumerate() {
                 let [by_point, by_velocity] = fit.coefficients.weighted_direction(j, r);
                 for i in 0..residual.len() {
@@ -53,7 +122,36 @@ impl<const NODES: usize, S: Lagrangian<T>, F, T: Real> Displaced<'_, NODES, S, F
                 }
             }
         }
-        statistics.gradients += NODES as u64;
+    }
+
+    /// Solves the equations of a separable L by the fixed point over its mass matrix M, in up to `budget`
+    /// iterations. What comes with `residuals` is storage.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
+    pub(super) fn iterate(
+        &mut self,
+        mass: &Mass<S, T>,
+        (residuals, weights): (&mut [Vector<S, T>; NODES], &mut [T]),
+        (stopping, budget): (Stopping, usize),
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        iterate(Convergence::fixed_point(stopping, budget), statistics, |due, statistics| {
+            let (start, rest) = self.unknowns.split_at_mut(1);
+            due.prepare_all(self.system, weights, &start[0], rest);
+            self.evaluate(residuals, statistics)?;
+            residuals[1..].iter_mut().for_each(|residual| mass.solve_in_place(residual));
+            let (mut largest, change) = (T::lift(0.0), &mut self.node.velocity);
+            for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.coefficients.inverse).skip(1) {
+                for i in 0..change.len() {
+                    change[i] = self.interval.h * weighted(&row[1..], &residuals[1..], i);
+                }
+                largest = norm::larger(largest, sizes::reduce(self.system, weights, unknown, change));
+            }
+            Ok(largest)
+        })?;
+        self.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown))?;
+        self.evaluate(residuals, statistics)
     }
 
     fn time(&self) -> T {
@@ -74,14 +172,16 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         if let Some(fitted) = &mut self.fitted {
-            fitted.read(self.fit, self.unknowns, self.node, statistics)?;
+            fitted.read((self.system, self.interval), self.fit, self.unknowns, self.node, statistics)?;
         }
         self.differentiate(residuals, statistics);
         Ok(())
     }
 }
 
-impl<const NODES: usize, S: Lagrangian<T>, F, T: Real> NodeSum<NODES, T> for Displaced<'_, NODES, S, F, T> {
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real> NodeSum<NODES, T>
+    for Displaced<'_, NODES, S, F, T>
+{
     const FIRST: usize = 1;
 
     fn place(&mut self, j: usize) {

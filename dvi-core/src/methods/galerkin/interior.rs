@@ -84,9 +84,6 @@ pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Siz
     /// Remembers the forces of a completed step of length `h`; of no length, forgets it: the next step begins
     /// with the force at its start.
     fn remember(&mut self, h: T);
-    /// Sets the displacements and Δ, which stand behind q0, to those that the forces of the step before lead
-    /// to.
-    fn guess(&mut self, at: &Departure<'_, S, T>, unknowns: &mut [Vector<S, T>; NODES]);
     /// Finds the positions by the fixed point, in up to so many iterations, and sets Δ, and p1 − p0 but for
     /// the kick at the end.
     ///
@@ -149,17 +146,6 @@ where
         self.completed[0].copy_from_slice(&self.forces);
         self.first.copy_from_slice(&self.start);
         self.last = h;
-    }
-
-    fn guess(&mut self, at: &Departure<'_, S, T>, unknowns: &mut [Vector<S, T>; NODES]) {
-        self.depart(at);
-        for (k, &q) in at.q.iter().enumerate() {
-            let delta = self.increment(k);
-            unknowns[NODES - 1][k] = delta;
-            for node in 0..Self::COUNT {
-                unknowns[node + 1][k] = (self.places[k].0[node] - q) - self.nystrom.nodes.0[node] * delta;
-            }
-        }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

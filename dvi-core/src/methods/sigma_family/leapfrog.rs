@@ -7,49 +7,49 @@
 //! arrays, which the compiler can keep in registers, and c, which no step needs, is computed at the end: 128
 //! instructions a step of four vortices, and 250 where each state is read.
 
-use super::memory::{Carried, Leaps};
+use super::memory::{Carried, SigmaMemory};
 use super::parasitic_mode::Monitor;
 use crate::error::StepFailure;
-use crate::mechanics::combination::Inverse;
+use crate::mechanics::combination::{Inverse, Product};
 use crate::methods::Clock;
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
 use crate::space::scratch;
+use crate::state::Statistics;
 use crate::{DegenerateLagrangian, Real, System, Vector};
 
-/// What a run with σ = 0 carries.
-type Parts<'a, S, T> = (&'a mut Carried<S, T>, &'a mut Leaps<S, T>, &'a mut Monitor<S, T>);
-
-/// Takes `count` steps, or as many as succeed, and returns how many; `q`, and what the run carries, are then
-/// at the last good point.
+/// Takes `count` leaps, or as many as succeed, and returns how many; `q`, and what the run carries, are then
+/// at the last good point. `None` if steps are no leaps.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
-    (carried, leaps, monitor): Parts<'_, S, T>,
+    SigmaMemory { carried, monitor, .. }: &mut SigmaMemory<S, T>,
     q: &mut Vector<S, T>,
-    clock: Clock<T>,
-    count: u64,
-) -> (u64, Result<(), StepFailure>) {
-    let Carried { defect, inverse, l_d, work, .. } = carried;
+    (clock, count): (Clock<T>, u64),
+    statistics: &mut Statistics,
+) -> Option<(u64, Result<(), StepFailure>)> {
+    let Carried { defect, inverse, product, before, l_d, work, .. } = carried;
+    let (before, product) = (before.as_mut()?, product.as_ref()?);
     let (node, from) = (&mut l_d.work, monitor.steps);
     scratch!(q1 = system, work.next);
     scratch!(q0 = system, node.velocity);
     scratch!(gradient = system, node.gradient);
     scratch!(next = system, work.increment);
     q1.copy_from_slice(q);
-    q0.copy_from_slice(&leaps.before);
-    let spare = &mut node.momentum;
-    let kept = Kept { q, leaps, defect, spare };
-    let leapfrog = Leapfrog { system, inverse, monitor: &mut *monitor, clock, kept, q0, q1, gradient, next };
+    q0.copy_from_slice(before);
+    let kept = Kept { q, before, defect, spare: &mut node.momentum };
+    let leapfrog =
+        Leapfrog { system, inverse, product, monitor: &mut *monitor, clock, kept, q0, q1, gradient, next };
     let (taken, result) = walk(leapfrog, from, count);
     monitor.steps = from + taken;
-    (taken, result)
+    statistics.gradients += taken;
+    Some((taken, result))
 }
 
 /// The last good point, with the point before and the defect there, and storage for a point.
 struct Kept<'a, S: System, T: Real> {
     q: &'a mut Vector<S, T>,
-    leaps: &'a mut Leaps<S, T>,
+    before: &'a mut Vector<S, T>,
     defect: &'a mut Vector<S, T>,
     spare: &'a mut Vector<S, T>,
 }
@@ -58,6 +58,7 @@ struct Kept<'a, S: System, T: Real> {
 struct Leapfrog<'a, 'b, S: System, T: Real> {
     system: &'a S,
     inverse: &'a Inverse<S, T>,
+    product: &'a Product<S, T>,
     monitor: &'a mut Monitor<S, T>,
     clock: Clock<T>,
     kept: Kept<'a, S, T>,
@@ -108,18 +109,18 @@ impl<S: DegenerateLagrangian<T>, T: Real> Walk for Leapfrog<'_, '_, S, T> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self) {
-        let Self { system, kept: Kept { q, leaps, defect, .. }, q0, q1, next: delta, .. } = self;
+        let Self { system, product, kept: Kept { q, before, defect, .. }, q0, q1, next: delta, .. } = self;
         q.copy_from_slice(q1);
-        leaps.before.copy_from_slice(q0);
+        before.copy_from_slice(q0);
         for (delta, (&q1, &q0)) in delta.iter_mut().zip(q1.iter().zip(q0.iter())) {
             *delta = q1 - q0;
         }
-        leaps.product.apply(system, delta, defect);
+        product.apply(system, delta, defect);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_back(&mut self) {
         self.q1.copy_from_slice(self.kept.q);
-        self.q0.copy_from_slice(&self.kept.leaps.before);
+        self.q0.copy_from_slice(self.kept.before);
     }
 }

@@ -8,8 +8,8 @@
 //! KΔ = c0 − (1−σ)h∇H(q_σ)        c1 = K'Δ − σh∇H(q_σ)        K' = σ(Dα)ᵀ − (1−σ)Dα
 //!
 //! At σ = 0 and 1 no gradient of the unknown point occurs in the first: explicit. Where Dα is antisymmetric,
-//! steps with σ = 0 are [`leaps`](super::leapfrog). At σ = ½, K' = −K and c1 = −c0; with c0 = 0 the scheme is the implicit
-//! midpoint rule.
+//! steps with σ = 0 are [`leaps`](super::leapfrog). At σ = ½, K' = −K and c1 = −c0; with c0 = 0 the scheme is
+//! the implicit midpoint rule.
 
 use super::Step;
 use super::affine::fixed_point;
@@ -18,7 +18,7 @@ use crate::discrete::{Departing, DiscreteLagrangian, Ends, Span};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
-use crate::solve::{Convergence, Guess, iterate, sizes, solve_by_newton};
+use crate::solve::{Guess, solve_by_fixed_point, solve_by_newton};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -89,7 +89,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         l_d.place(step.h, Ends { q0: q, delta: increment });
         let (_, matrix) = scaled_matrix::<S, T>(step.method, step.h);
         inverse.prepare(system, &l_d.work.point, step.node_time(), matrix, trial, statistics)?;
-        let mut correct = |delta: &mut [T], change: &mut [T], statistics: &mut Statistics| {
+        let criterion = (!is_linear).then_some((step.method.stopping, *budget));
+        let storage = [&mut increment[..], trial, weights];
+        solve_by_fixed_point((system, q), storage, criterion, statistics, |delta, change, statistics| {
             add(defect, one_form, residual);
             let span = Span { system, interval: step.interval(), ends: Ends { q0: q, delta } };
             l_d.derivatives(span, residual, sum, statistics)?;
@@ -98,18 +100,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
                 *delta += change;
             }
             Ok(())
-        };
-        if is_linear {
-            correct(increment, trial, statistics)?;
-        } else {
-            let convergence = Convergence::fixed_point(step.method.stopping, *budget);
-            iterate(convergence, statistics, |due, statistics| {
-                due.prepare(system, weights, q, increment);
-                correct(increment, trial, statistics)?;
-                Ok(sizes::largest(weights, trial))
-            })?;
-        }
-        norm::finite(increment)
+        })
     }
 
     /// Newton on Δ.

@@ -14,9 +14,6 @@ use crate::methods::step::Kinetic;
 use crate::scalar::norm::reported;
 use crate::{NondegenerateLagrangian, Real, Scalar};
 
-/// sin u and S count as zero below this.
-const RESONANCE: f64 = 1e-4;
-
 /// The coefficients of all nodes of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coefficients<T> {
@@ -66,19 +63,9 @@ impl<T: Real> Coefficients<T> {
         }
         let sinc = nodes.sinc();
         let cosine_sum = mixed + u * u * inner;
-        let small = T::lift(RESONANCE);
-        let determined = Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small;
-        if !determined {
-            // Not the coefficients of any step.
-            self.u = T::lift(f64::NAN);
-            frequency::defined(u)?;
-            let u = reported(u);
-            return Err(StepFailure::Resonance {
-                u,
-                sine: u * reported(sinc),
-                cosine_sum: reported(cosine_sum),
-            });
-        }
+        // Unless there are some, these are not the coefficients of any step.
+        self.u = T::lift(f64::NAN);
+        frequency::determined(u, sinc, cosine_sum)?;
         let mut factor = nodes.reciprocal() * nodes.reciprocal();
         if fitting == Fitting::PhaseAndMomentum {
             let fitted = sinc / cosine_sum;

@@ -106,8 +106,8 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
     }
 }
 
-/// Sets `rows`, of blocks that are stored transposed, from the row and the column `first` on; `second` is room
-/// for L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
+/// Sets `rows`, of blocks that are stored transposed, from the row and the column `first` on; `second` is
+/// room for L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
 pub(crate) fn assemble<const NODES: usize, T: Real, M: NodeSum<NODES, T>, D>(
     matrix: &mut M,
     second: &mut [D; 4],
