@@ -21,19 +21,17 @@ pub(crate) mod frequency;
 pub(crate) mod quadrature;
 
 use crate::error::StepFailure;
-use crate::mechanics::pattern::of_second_derivatives;
-use crate::solve::{Linearize, Stopping};
+use crate::solve::Linearize;
 use crate::space::sink::Sink;
-use crate::space::{LinearEquations, Storing};
 use crate::state::Statistics;
-use crate::{Lagrangian, Linear, Real, Vector};
+use crate::{Lagrangian, Real};
 
 pub use crate::mechanics::{Ends, Interval, Span};
 pub use frequency::{
     Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, Radial, Reading, Unfitted,
 };
-pub(crate) use node::NodeWork;
 pub use node::OneNode;
+pub(crate) use node::{Node, NodeWork, Nodes, SumOverNodes, linearize};
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 
 /// What one interval contributes to the discrete equations of a system.
@@ -45,12 +43,6 @@ pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 /// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so
 /// that nothing is allocated.
 pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
-    /// A solver for equations with D₁D₂L_d on `system`, for a run from (`q`, `v`, `t`). Here the matrix has
-    /// the entries of ∂²L in all blocks, as a sum over nodes has whose points depend on the ends alone.
-    fn solver(&self, system: &S, q: &[T], v: &[T], t: T) -> Linear<S, T> {
-        of_second_derivatives(system, q, v, t, Storing::Always)
-    }
-
     /// Adds D₁L_d to `d1` and D₁L_d + D₂L_d to `sum`, each one entry per coordinate.
     ///
     /// # Errors
@@ -83,7 +75,7 @@ pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
     message = "the second derivatives of `{Self}` in one point are not known",
     label = "has no tangent map"
 )]
-pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, T> {
+pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real> {
     /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, its transpose
     /// D₂D₁L_d and D₂D₂L_d to sinks. With forces on the system these are the derivatives of D₁L_d + F⁻ and
     /// D₂L_d + F⁺, and no matrix is the transpose of another.
@@ -93,25 +85,7 @@ pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real>: DiscreteLagrangian<S, 
     fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 4]) -> Result<(), StepFailure>;
 }
 
-/// D₁D₂L_d d = p0 + D₁L_d, for the correction −d of Δ.
-pub(crate) struct Equations<'a, 'b, S, T, L> {
-    pub(crate) l_d: &'a mut L,
-    pub(crate) span: Span<'b, S, T>,
-    pub(crate) p0: &'a [T],
-    pub(crate) statistics: &'a mut Statistics,
-}
-
-impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> LinearEquations<T>
-    for Equations<'_, '_, S, T, L>
-{
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        b.copy_from_slice(self.p0);
-        self.l_d.linearize(self.span, b, sink, self.statistics)
-    }
-}
-
-/// A discrete Lagrangian where a step begins.
+/// A discrete Lagrangian where a step begins, whose equation p0 + D₁L_d(q0, q0 + Δ) = 0 is to be solved.
 pub(crate) struct Departing<'a, S, T, L> {
     pub(crate) l_d: &'a mut L,
     pub(crate) system: &'a S,
@@ -132,24 +106,4 @@ impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> Linearize<T> for De
         let ends = Ends { q0, delta };
         l_d.linearize(Span { system, interval: *interval, ends }, d1, sink, statistics)
     }
-}
-
-/// Solves p0 + D₁L_d(q0, q0 + Δ) = 0 by Newton's method, from the `delta` that stands there.
-///
-/// # Errors
-/// As [`solve_by_newton`](crate::solve::solve_by_newton).
-#[inline]
-#[allow(clippy::too_many_arguments)]
-pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
-    l_d: &mut impl DiscreteLagrangian<S, T>,
-    system: &S,
-    interval: Interval<T>,
-    [q0, p0]: [&[T]; 2],
-    delta: &mut [T],
-    storage: (&mut Linear<S, T>, [&mut Vector<S, T>; 2]),
-    stopping: Stopping,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let equations = &mut Departing { l_d, system, interval, q0 };
-    crate::solve::solve_by_newton(equations, system, [q0, p0], delta, storage, stopping, statistics)
 }

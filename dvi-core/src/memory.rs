@@ -37,16 +37,6 @@ pub trait Memory<T> {
     fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError>;
 }
 
-impl<T> Memory<T> for () {
-    fn restore(&mut self, _from: &Self) {}
-    #[cfg(feature = "alloc")]
-    fn save(&self, _record: &mut Record<T>) {}
-    #[cfg(feature = "alloc")]
-    fn load(&mut self, _reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        Ok(())
-    }
-}
-
 #[cfg(feature = "alloc")]
 impl<T, R: Memory<T>> Memory<T> for Aside<R> {
     fn restore(&mut self, from: &Self) {
@@ -160,17 +150,17 @@ impl<T: Copy> Reader<'_, T> {
 macro_rules! lasting {
     ($T:ty; $($kind:ident $field:ident),* $(,)? $(; $sound:ident)?) => {
         #[inline]
-        fn restore(&mut self, from: &Self) {
+        fn restore(&mut self, #[allow(unused_variables)] from: &Self) {
             $($crate::memory::lasting!(@restore $T, $kind self.$field, from.$field);)*
         }
         #[cfg(feature = "alloc")]
-        fn save(&self, record: &mut $crate::memory::Record<$T>) {
+        fn save(&self, #[allow(unused_variables)] record: &mut $crate::memory::Record<$T>) {
             $($crate::memory::lasting!(@save $kind self.$field, record);)*
         }
         #[cfg(feature = "alloc")]
         fn load(
             &mut self,
-            reader: &mut $crate::memory::Reader<'_, $T>,
+            #[allow(unused_variables)] reader: &mut $crate::memory::Reader<'_, $T>,
         ) -> Result<(), $crate::error::CheckpointError> {
             $($crate::memory::lasting!(@load $T, $kind self.$field, reader);)*
             $(
@@ -239,3 +229,7 @@ macro_rules! lasting {
     (@load $T:ty, vectors $to:expr, $reader:ident) => { for vector in $to.iter_mut() { $reader.numbers(vector)?; } };
 }
 pub(crate) use lasting;
+
+impl<T> Memory<T> for () {
+    lasting!(T;);
+}

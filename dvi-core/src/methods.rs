@@ -84,7 +84,7 @@ mod variable_step;
 mod variational;
 mod walk;
 
-use crate::discrete::DiscreteLagrangian;
+use crate::discrete::{DiscreteLagrangian, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::memory::Memory;
 use crate::system::Same;
@@ -345,8 +345,7 @@ where
 /// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian.
 ///
 /// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
-/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from the second derivatives, if it has
-/// them all.
+/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from its second derivatives.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, or it reads a frequency from the motion",
@@ -355,7 +354,7 @@ where
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
-    type DiscreteLagrangian: DiscreteLagrangian<S, T>;
+    type DiscreteLagrangian: TwiceDifferentiable<S, T>;
 
     /// Checks the options of the method.
     ///
@@ -381,13 +380,15 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     /// As [`Method::Suited`].
     type Suited<M>: Same<M, As = M>;
+    /// The discrete Lagrangian.
+    type Inside: DiscreteLagrangian<S, T>;
 
     /// Whether the compiler knows that without constraints the steps would be those of Störmer and Verlet.
     const IS_VERLET: bool;
 
-    /// Refuses options that have no effect there.
+    /// The discrete Lagrangian on `system`, if no options are set that have no effect there.
     ///
     /// # Errors
     /// [`StartError::Unsupported`] names the first that is not left at its default.
-    fn admit_inside(&self) -> Result<(), StartError>;
+    fn inside(&self, system: &S) -> Result<Self::Inside, StartError>;
 }

@@ -3,6 +3,7 @@
 
 mod coupled;
 pub(crate) mod crossing;
+mod fixed_point;
 mod newton;
 pub(crate) mod sizes;
 mod stopping;
@@ -16,7 +17,8 @@ use crate::state::Statistics;
 
 pub(crate) use crate::state::history::Guess;
 pub(crate) use coupled::{CoupledEquations, solve_coupled};
-pub(crate) use newton::{Linearize, solve_by_newton};
+pub(crate) use fixed_point::solve_by_fixed_point;
+pub(crate) use newton::{AtIncrement, Linearize, solve_by_newton};
 pub(crate) use sizes::Due;
 pub use stopping::Stopping;
 pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdict};

@@ -157,11 +157,11 @@ impl<T: Real> FrequencyIn<T> for Constant {
     }
 }
 
-/// Whether `frequency` gives what its reading needs, and its options are in range.
+/// Whether `frequency` gives what its reading needs, `system` can be read, and options are in range.
 ///
 /// # Errors
-/// [`StartError::Unsupported`] names the method of [`FrequencyIn`] that is missing; else as
-/// [`FrequencyIn::validate`].
+/// [`StartError::Unsupported`] names the method of [`FrequencyIn`] that is missing, or what the system has;
+/// else as [`FrequencyIn::validate`].
 pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     frequency: &F,
     system: &S,
@@ -169,6 +169,12 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
     frequency.validate()?;
     let space = system.space();
     let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
+    if !S::SEPARABLE && frequency.reading().is_some() {
+        return unsupported(
+            "a frequency read from the motion",
+            "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities",
+        );
+    }
     match frequency.reading() {
         None if !frequency.fixed().is_finite() => unsupported(
             "a frequency that is not read from the motion",
@@ -336,4 +342,24 @@ fn dot<T: Real>(x: &[T], y: &[T]) -> T {
 /// [`StepFailure::Frequency`].
 pub(crate) fn defined<T: Real>(omega: T) -> Result<(), StepFailure> {
     if omega.is_finite() { Ok(()) } else { Err(StepFailure::Frequency { omega: norm::reported(omega) }) }
+}
+
+/// sin u and what multiplies the new point count as zero below this.
+const RESONANCE: f64 = 1e-4;
+
+/// Whether there is a step for u = ωh, with `sinc` = sin u/u and what multiplies the new point times its
+/// square.
+///
+/// # Errors
+/// [`StepFailure::Resonance`] where there is none, and [`StepFailure::Frequency`].
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn determined<T: Real>(u: T, sinc: T, cosine_sum: T) -> Result<(), StepFailure> {
+    let small = T::lift(RESONANCE);
+    if Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small {
+        return Ok(());
+    }
+    defined(u)?;
+    let u = norm::reported(u);
+    let (sine, cosine_sum) = (u * norm::reported(sinc), norm::reported(cosine_sum));
+    Err(StepFailure::Resonance { u, sine, cosine_sum })
 }

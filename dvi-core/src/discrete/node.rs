@@ -1,22 +1,20 @@
-//! One node: L_d(q0, q1) = h L(q_σ, Δ/h, t + σh), q_σ = q0 + σΔ.
+//! Discrete Lagrangians with nodes that depend on the ends alone:
 //!
-//! D₁L_d = (1−σ)h ∂L/∂q − ∂L/∂v      D₂L_d = σh ∂L/∂q + ∂L/∂v
-//! D₁D₂L_d = σ(1−σ)h L_qq + (1−σ)L_qv − σL_vq − L_vv/h
+//! L_d(q0, q1) = h Σ w L(q, q̇, t + ch),   q = b q0 + b̄ q1,   q̇ = (B q0 + B̄ q1)/h
 //!
-//! For L = α·v − H it is L_d = α(q_σ)·Δ − h H(q_σ) (Rowley & Marsden 2002, eqs. 9, 10 and 17).
+//! D₁L_d = Σ w (h b ∂L/∂q + B ∂L/∂v)      D₂L_d = Σ w (h b̄ ∂L/∂q + B̄ ∂L/∂v)
+//! D₁D₂L_d = Σ w (h b b̄ L_qq + b B̄ L_qv + B b̄ L_vq + B B̄ L_vv/h),
+//! and D₁D₁L_d, D₂D₂L_d with b, B or b̄, B̄ twice
+//!
+//! That of one node, q = q0 + σΔ and q̇ = Δ/h, is α(q)·Δ − h H(q) for L = α·v − H (Rowley & Marsden 2002,
+//! eqs. 9, 10 and 17).
 
+use super::basis::Basis;
 use super::{DiscreteLagrangian, Ends, Interval, Span, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::space::sink::Sink;
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space, System, Vector, Weights};
-
-/// The discrete Lagrangian h L(q_σ, Δ/h) of any L, with the storage that it needs.
-#[derive(Debug)]
-pub struct OneNode<S: System, T: Real = f64> {
-    sigma: T,
-    pub(crate) work: NodeWork<S, T>,
-}
 
 /// Where L is evaluated, and its derivatives there.
 #[derive(Debug)]
@@ -35,37 +33,92 @@ impl<S: Lagrangian<T>, T: Real> NodeWork<S, T> {
         let vector = || system.space().vector();
         Self { point: vector(), velocity: vector(), gradient: vector(), momentum: vector() }
     }
+
+    /// Adds h b ∂L/∂q + B ∂L/∂v, times a weight.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn add(&self, weight: T, h: T, [b, d]: [T; 2], to: &mut [T]) {
+        for (to, (&gradient, &momentum)) in to.iter_mut().zip(self.gradient.iter().zip(self.momentum.iter()))
+        {
+            *to += weight * (h * b * gradient + d * momentum);
+        }
+    }
 }
 
-impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
-    /// The discrete Lagrangian with its node at q0 + σΔ.
-    pub fn new(system: &S, sigma: T) -> Self {
-        Self { sigma, work: NodeWork::new(system) }
+/// A node.
+#[derive(Clone, Copy, Debug)]
+pub struct Node<T> {
+    /// c
+    pub(crate) time: T,
+    pub(crate) weight: T,
+    /// b and B, b̄ and B̄, and their sums.
+    pub(crate) left: [T; 2],
+    pub(crate) right: [T; 2],
+    pub(crate) both: [T; 2],
+}
+
+impl<T: Real> Node<T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn new(time: T, weight: T, Basis { b, b_bar, d, d_bar }: Basis<T>) -> Self {
+        Self { time, weight, left: [b, d], right: [b_bar, d_bar], both: [b + b_bar, d + d_bar] }
     }
 
-    /// Sets `point` to q_σ and `velocity` to Δ/h.
+    /// Adds its second derivative by two ends, at which `work` stands; sets ∂L/∂q and ∂L/∂v there.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn place(&mut self, interval: Interval<T>, Ends { q0, delta }: Ends<'_, T>) {
-        let NodeWork { point, velocity, .. } = &mut self.work;
-        let per_h = T::lift(1.0) / interval.h;
+    fn add_second<S: Lagrangian<T>, K: Sink<T>>(
+        &self,
+        [[b, d], [c, e]]: [[T; 2]; 2],
+        (system, interval): (&S, Interval<T>),
+        NodeWork { point, velocity, gradient, momentum }: &mut NodeWork<S, T>,
+        sink: &mut K,
+    ) {
+        let (w, h) = (self.weight, interval.h);
+        let vv = if S::REGULAR { w * d * e / h } else { T::lift(0.0) };
+        let weights = Weights { qq: w * h * b * c, qv: w * b * e, vq: w * d * c, vv };
+        system.linearize(point, velocity, interval.time(self.time), weights, gradient, momentum, sink);
+    }
+}
+
+/// The nodes of an interval.
+pub trait Nodes<T: Real> {
+    /// Makes them those of intervals of length `h`.
+    ///
+    /// # Errors
+    /// Those of an interpolation that is fitted to a frequency.
+    fn fit(&mut self, _h: T) -> Result<(), StepFailure> {
+        Ok(())
+    }
+
+    /// How many there are.
+    fn count(&self) -> usize;
+
+    /// Node `j`.
+    fn node(&self, j: usize) -> Node<T>;
+
+    /// Sets `point` and `velocity` to those of node `j`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn place(&self, j: usize, h: T, Ends { q0, delta }: Ends<'_, T>, [point, velocity]: [&mut [T]; 2]) {
+        let (Node { right: [b_bar, d_bar], both: [b, d], .. }, per_h) = (self.node(j), T::lift(1.0) / h);
         for i in 0..q0.len() {
-            point[i] = q0[i] + self.sigma * delta[i];
-            velocity[i] = delta[i] * per_h;
-        }
-    }
-
-    /// Adds D₁L_d, from the derivatives of L.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_first(&self, h: T, d1: &mut [T]) {
-        let left_h = (T::lift(1.0) - self.sigma) * h;
-        let NodeWork { gradient, momentum, .. } = &self.work;
-        for i in 0..d1.len() {
-            d1[i] = d1[i] - momentum[i] + left_h * gradient[i];
+            point[i] = b * q0[i] + b_bar * delta[i];
+            velocity[i] = (d * q0[i] + d_bar * delta[i]) * per_h;
         }
     }
 }
 
-impl<S: Lagrangian<T>, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
+/// A discrete Lagrangian with these nodes, and the storage that it needs.
+#[derive(Debug)]
+pub struct SumOverNodes<S: System, N, T: Real = f64> {
+    nodes: N,
+    pub(crate) work: NodeWork<S, T>,
+}
+
+impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> SumOverNodes<S, N, T> {
+    pub(crate) fn of(system: &S, nodes: N) -> Self {
+        Self { nodes, work: NodeWork::new(system) }
+    }
+}
+
+impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOverNodes<S, N, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn derivatives(
         &mut self,
@@ -74,56 +127,110 @@ impl<S: Lagrangian<T>, T: Real> DiscreteLagrangian<S, T> for OneNode<S, T> {
         sum: &mut [T],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.place(interval, ends);
-        let NodeWork { point, velocity, gradient, momentum } = &mut self.work;
-        system.gradient(point, velocity, interval.time(self.sigma), gradient, momentum);
-        statistics.gradients += 1;
-        for (sum, &gradient) in sum.iter_mut().zip(gradient.iter()) {
-            *sum += interval.h * gradient;
+        let (Self { nodes, work }, h) = (self, interval.h);
+        nodes.fit(h)?;
+        for j in 0..nodes.count() {
+            let Node { time, weight, left, both, .. } = nodes.node(j);
+            nodes.place(j, h, ends, [&mut work.point, &mut work.velocity]);
+            let NodeWork { point, velocity, gradient, momentum } = &mut *work;
+            system.gradient(point, velocity, interval.time(time), gradient, momentum);
+            statistics.gradients += 1;
+            work.add(weight, h, both, sum);
+            work.add(weight, h, left, d1);
         }
-        self.add_first(interval.h, d1);
         Ok(())
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn linearize<K: Sink<T>>(
         &mut self,
-        Span { system, interval, ends }: Span<'_, S, T>,
+        span: Span<'_, S, T>,
         d1: &mut [T],
         sink: &mut K,
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.place(interval, ends);
-        let NodeWork { point, velocity, gradient, momentum } = &mut self.work;
-        let (h, sigma, left) = (interval.h, self.sigma, T::lift(1.0) - self.sigma);
-        let vv = if S::REGULAR { -T::lift(1.0) / h } else { T::lift(0.0) };
-        let weights = Weights { qq: sigma * left * h, qv: left, vq: -sigma, vv };
-        system.linearize(point, velocity, interval.time(sigma), weights, gradient, momentum, sink);
-        self.add_first(h, d1);
+        self.nodes.fit(span.interval.h)?;
+        linearize(&self.nodes, span, &mut self.work, d1, sink);
         Ok(())
     }
 }
 
-impl<S: Lagrangian<T>, T: Real> TwiceDifferentiable<S, T> for OneNode<S, T> {
+/// Adds D₁L_d and D₁D₂L_d.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn linearize<S: Lagrangian<T>, T: Real, K: Sink<T>>(
+    nodes: &impl Nodes<T>,
+    Span { system, interval, ends }: Span<'_, S, T>,
+    work: &mut NodeWork<S, T>,
+    d1: &mut [T],
+    sink: &mut K,
+) {
+    for j in 0..nodes.count() {
+        let node = nodes.node(j);
+        nodes.place(j, interval.h, ends, [&mut work.point, &mut work.velocity]);
+        node.add_second([node.left, node.right], (system, interval), work, sink);
+        work.add(node.weight, interval.h, node.left, d1);
+    }
+}
+
+impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> TwiceDifferentiable<S, T> for SumOverNodes<S, N, T> {
     fn hessian<K: Sink<T>>(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,
         [d11, d12, d21, d22]: [&mut K; 4],
     ) -> Result<(), StepFailure> {
-        self.place(interval, ends);
-        let NodeWork { point, velocity, gradient, momentum } = &mut self.work;
-        let (h, right, left) = (interval.h, self.sigma, T::lift(1.0) - self.sigma);
-        let per_h = T::lift(1.0) / h;
-        let weights = [
-            (Weights { qq: h * left * left, qv: -left, vq: -left, vv: per_h }, d11),
-            (Weights { qq: h * left * right, qv: left, vq: -right, vv: -per_h }, d12),
-            (Weights { qq: h * left * right, qv: -right, vq: left, vv: -per_h }, d21),
-            (Weights { qq: h * right * right, qv: right, vq: right, vv: per_h }, d22),
-        ];
-        for (weights, sink) in weights {
-            let t = interval.time(right);
-            system.linearize(point, velocity, t, weights, gradient, momentum, sink);
+        let Self { nodes, work } = self;
+        nodes.fit(interval.h)?;
+        for j in 0..nodes.count() {
+            let node @ Node { left, right, .. } = nodes.node(j);
+            nodes.place(j, interval.h, ends, [&mut work.point, &mut work.velocity]);
+            node.add_second([left, left], (system, interval), work, d11);
+            node.add_second([left, right], (system, interval), work, d12);
+            node.add_second([right, left], (system, interval), work, d21);
+            node.add_second([right, right], (system, interval), work, d22);
         }
         Ok(())
+    }
+}
+
+/// The discrete Lagrangian h L(q0 + σΔ, Δ/h) of any L, with the storage that it needs.
+pub type OneNode<S, T = f64> = SumOverNodes<S, Between<T>, T>;
+
+/// A node at q0 + σΔ.
+#[derive(Clone, Copy, Debug)]
+pub struct Between<T>(T);
+
+impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
+    /// The discrete Lagrangian with its node at q0 + σΔ.
+    pub fn new(system: &S, sigma: T) -> Self {
+        Self::of(system, Between(sigma))
+    }
+
+    /// Sets `point` to q_σ and `velocity` to Δ/h.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn place(&mut self, h: T, ends: Ends<'_, T>) {
+        self.nodes.place(0, h, ends, [&mut self.work.point, &mut self.work.velocity]);
+    }
+}
+
+impl<T: Real> Nodes<T> for Between<T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn count(&self) -> usize {
+        1
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn node(&self, _j: usize) -> Node<T> {
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
+        let (left, right) = ([one - self.0, -one], [self.0, one]);
+        Node { time: self.0, weight: one, left, right, both: [one, zero] }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn place(&self, _j: usize, h: T, Ends { q0, delta }: Ends<'_, T>, [point, velocity]: [&mut [T]; 2]) {
+        let per_h = T::lift(1.0) / h;
+        for i in 0..q0.len() {
+            point[i] = q0[i] + self.0 * delta[i];
+            velocity[i] = delta[i] * per_h;
+        }
     }
 }

@@ -28,12 +28,6 @@ pub(crate) fn visit_second_derivatives<S: Lagrangian<T>, T: Real>(
     visit_entries(system, points, t, weights, |_| true, visit);
 }
 
-/// A solver for a matrix with all entries.
-pub(crate) fn linear_of_all<S: Lagrangian<T>, T: Real>(system: &S) -> Linear<S, T> {
-    let n = system.space().dimension();
-    system.space().linear(Storing::Always, |visit| (0..n).for_each(|i| (0..n).for_each(|j| visit(i, j))))
-}
-
 /// A matrix with room for those second derivatives at (q, v, t) that count.
 pub(crate) fn of_entries<S: Lagrangian<T>, T: Real>(
     system: &S,

@@ -9,7 +9,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::check;
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints};
 use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
-use crate::methods::{InnerScheme, Variational, VariationalMethod};
+use crate::methods::{InnerScheme, Variational};
 use crate::solve::Stopping;
 use crate::system::Same;
 use crate::system::start::evaluate;
@@ -133,8 +133,8 @@ impl<M: Scheme> Scheme for Constrained<M> {
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M: VariationalMethod<S, T>> Carries<S, T> for Constrained<M> {
-    type Memory = ConstrainedMemory<S, M::DiscreteLagrangian, T>;
+impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Carries<S, T> for Constrained<M> {
+    type Memory = ConstrainedMemory<S, M::Inside, T>;
 }
 
 /// `X` if `S` has constraints, and unknown if it has none: rustc asks nothing of the scheme then.
@@ -149,10 +149,10 @@ where
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         self.scheme.admit(system)?;
-        self.scheme.admit_inside()?;
+        let l_d = self.scheme.inside(system)?;
         evaluate(system, q, v, t)?;
         check(system, [q, v], t, Some((h, self.stopping.tolerance)))?;
-        let mut memory = ConstrainedMemory::new(system, self.scheme.discrete_lagrangian(system), [q, v], t)?;
+        let mut memory = ConstrainedMemory::new(system, l_d, [q, v], t)?;
         if IfConstrained::<S, M, T>::IS_VERLET && S::Kind::OF_POSITIONS {
             memory.reduce(system, [q, v], t);
         }

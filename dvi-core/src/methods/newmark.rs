@@ -14,17 +14,15 @@
 
 use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
-use crate::memory::{Memory, lasting};
-use crate::methods::step::{Attempt, Begin, Carried, Equations, Share, ladder, set_force};
-use crate::methods::variational::verlet;
+use crate::methods::step::{Attempt, Begin, Equations, PhaseMemory, Share, set_force};
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use crate::scalar::norm::reported;
-use crate::solve::{Ladder, Solver, Stopping};
+use crate::solve::{Solver, Stopping};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::system::Same;
-use crate::{Linear, Real, RegularLagrangian, Separable, System, Vector, Weights};
+use crate::{Real, RegularLagrangian, Separable, System, Vector, Weights};
 
 /// Newmark's method with γ = ½ for L = ½ v·M v − V(q, t): for [`Separable`] systems.
 ///
@@ -81,24 +79,6 @@ impl<T> Newmark<T> {
     }
 }
 
-/// The phase point of a run of Newmark's method, and its work space.
-#[derive(Debug)]
-pub struct NewmarkMemory<S: System, T: Real> {
-    carried: Carried<S, T>,
-    ladder: Ladder<Linear<S, T>>,
-}
-
-impl<S: RegularLagrangian<T>, T: Real> NewmarkMemory<S, T> {
-    /// p = ∂L/∂v at the current point, one entry per coordinate.
-    pub fn p(&self) -> &[T] {
-        &self.carried.phase.p
-    }
-}
-
-impl<S: System, T: Real> Memory<T> for NewmarkMemory<S, T> {
-    lasting!(T; part carried, part ladder);
-}
-
 impl<T: Real> Newmark<T> {
     /// Adds h[½F0 + β(F1 − F0)] to `r`.
     fn add_impulse(&self, h: T, [f0, f1]: [&[T]; 2], r: &mut [T]) {
@@ -126,10 +106,14 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
     ) -> Result<(), StepFailure> {
         match share {
             Share::Left => {
-                phase.reach(q, delta, point);
-                set_force(*system, point, interval.time(T::lift(1.0)), gradient);
-                statistics.gradients += 1;
-                self.add_impulse(interval.h, [&phase.force, gradient], to);
+                let mut force: &[T] = &phase.force;
+                if !self.is_verlet() {
+                    phase.reach(q, delta, point);
+                    set_force(*system, point, interval.time(T::lift(1.0)), gradient);
+                    statistics.gradients += 1;
+                    force = gradient;
+                }
+                self.add_impulse(interval.h, [&phase.force, force], to);
             }
             Share::Both { force } => {
                 for ((sum, &f0), &f1) in to.iter_mut().zip(phase.force.iter()).zip(force) {
@@ -163,6 +147,10 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
         r.iter_mut().zip(momentum.iter()).for_each(|(r, &momentum)| *r -= momentum);
         Ok(())
     }
+
+    fn is_explicit(&self) -> bool {
+        self.is_verlet()
+    }
 }
 
 impl<T: Real> Newmark<T> {
@@ -174,7 +162,7 @@ impl<T: Real> Newmark<T> {
         self.stopping.validate()
     }
 
-    fn is_explicit(&self) -> bool {
+    fn is_verlet(&self) -> bool {
         self.beta == T::lift(0.0)
     }
 }
@@ -187,12 +175,12 @@ impl<T: Real> Scheme for Newmark<T> {
         true
     }
     fn preserved_form(&self) -> PreservedForm {
-        if self.is_explicit() { PreservedForm::Canonical } else { PreservedForm::Conjugate }
+        if self.is_verlet() { PreservedForm::Canonical } else { PreservedForm::Conjugate }
     }
 }
 
 impl<S: System, T: Real> Carries<S, T> for Newmark<T> {
-    type Memory = NewmarkMemory<S, T>;
+    type Memory = PhaseMemory<S, T>;
 }
 
 impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T> {
@@ -200,21 +188,15 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
         self.validate()?;
-        let solver = if self.is_explicit() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
-        Ok(NewmarkMemory {
-            carried: Carried::new(system, q, v, t, self.summation)?,
-            ladder: ladder(system, q, v, t, solver),
-        })
+        let solver = if self.is_verlet() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
+        PhaseMemory::new(system, (q, v, t), (solver, self.summation), ())
     }
 
     #[inline]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
-        let NewmarkMemory { carried, ladder } = memory;
+        let PhaseMemory { carried, ladder, .. } = memory;
         let (Self { stopping, summation, .. }, interval) = (*self, Interval { t, h });
-        if self.is_explicit() {
-            return verlet::step(system, carried, q, (interval, summation), statistics);
-        }
         Attempt { system, interval, stopping, summation, q, carried }.take(
             &mut { *self },
             ladder,

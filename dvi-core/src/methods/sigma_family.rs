@@ -295,10 +295,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     #[inline]
     fn step(&self, step: methods::Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let methods::Step { system, q, t, h, statistics } = step;
-        if let (true, SigmaMemory { carried, leaps: Some(leaps), monitor, .. }) = (S::AFFINE, &mut *memory) {
-            let run = (carried, leaps, monitor);
-            let (taken, result) = leapfrog::steps(system, run, q, Clock::new(t, h), 1);
-            statistics.gradients += taken;
+        let leap = (Clock::new(t, h), 1);
+        if S::AFFINE
+            && let Some((_, result)) = leapfrog::steps(system, memory, q, leap, statistics)
+        {
             return result;
         }
         step::step(&Step { system, method: self, t, h }, memory, q, statistics)
@@ -316,14 +316,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
 
     #[inline]
     fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        if let (true, SigmaMemory { carried, leaps: Some(leaps), monitor, .. }) = (S::AFFINE, &mut *memory) {
-            let Steps { system, q, clock, count, statistics } = steps;
-            let (taken, result) = leapfrog::steps(system, (carried, leaps, monitor), q, clock, count);
+        let Steps { system, q, clock, count, statistics } = steps;
+        if S::AFFINE
+            && let Some((taken, result)) = leapfrog::steps(system, memory, q, (clock, count), statistics)
+        {
             statistics.steps += taken;
-            statistics.gradients += taken;
             return result;
         }
-        steps.one_by_one(self, memory)
+        Steps { system, q, clock, count, statistics }.one_by_one(self, memory)
     }
 }
 

@@ -8,10 +8,9 @@
 //!
 //! r = I⁻ + M((A − K) q0 − KΔ)/h      s = I⁻ + I⁺ + M((A − K) q0 + (C − K) q1)/h
 //!
-//! What belongs to no scheme stands here: the guess of Δ; the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + r) where M is
-//! constant, and Newton's method behind it or alone; what is looked at where a step ends; and the sums.
+//! What belongs to no scheme stands here: the guess of Δ; the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + r) where M
+//! is constant, and Newton's method behind it or alone; what is looked at where a step ends; and the sums.
 
-mod by_mass;
 mod equations;
 
 use crate::discrete::{Interval, NodeWork};
@@ -23,13 +22,12 @@ use crate::methods::Here;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
 use crate::scalar::simd::widest_if;
-use crate::solve::{Guess, Ladder, Linearize, Solver, Stopping, solve_by_newton};
+use crate::solve::{Guess, Ladder, Linearize, Solver, Stopping, solve_by_fixed_point, solve_by_newton};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Vector};
 
-use by_mass::iterate_by_mass;
 pub(super) use equations::{Begin, Equations, Kinetic, Share, set_force};
 
 /// What a run carries from step to step, and its work space.
@@ -75,13 +73,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Carried<S, T> {
     ///
     /// # Errors
     /// [`StartError::Starter`] where momentum or force is no number, or the mass matrix is singular.
-    pub(super) fn new(
-        system: &S,
-        q: &Vector<S, T>,
-        v: &[T],
-        t: T,
-        summation: Summation,
-    ) -> Result<Self, StartError> {
+    pub(super) fn new(system: &S, q: &[T], v: &[T], t: T, summation: Summation) -> Result<Self, StartError> {
         Ok(Self {
             phase: PhasePoint::new(system, q, v, t, summation)?,
             inertial: Inertial::new(system, q, v, t)?,
@@ -101,16 +93,41 @@ impl<S: System, T: Real> Memory<T> for Carried<S, T> {
     lasting!(T; part phase, part inertial);
 }
 
-/// The fixed point of a run from (`q`, `v`, `t`) and Newton's method behind it, with its matrix, as far as
-/// `solver` has them.
-pub(super) fn ladder<S: NondegenerateLagrangian<T>, T: Real>(
-    system: &S,
-    q: &Vector<S, T>,
-    v: &[T],
-    t: T,
-    solver: Solver,
-) -> Ladder<Linear<S, T>> {
-    Ladder::new(solver, || of_second_derivatives(system, q, v, t, solver.storing()))
+/// What a run carries, how its steps are solved, and what its method has of its own.
+#[derive(Debug)]
+pub struct PhaseMemory<S: System, T: Real, X = (), N = Linear<S, T>> {
+    pub(super) carried: Carried<S, T>,
+    /// With the matrix of Newton's method; explicit steps do not use it.
+    pub(super) ladder: Ladder<N>,
+    pub(super) own: X,
+}
+
+impl<S: NondegenerateLagrangian<T>, T: Real, X, N> PhaseMemory<S, T, X, N> {
+    /// p = ∂L/∂v at the current point, one entry per coordinate.
+    pub fn p(&self) -> &[T] {
+        &self.carried.phase.p
+    }
+}
+
+impl<S: NondegenerateLagrangian<T>, T: Real, X> PhaseMemory<S, T, X> {
+    /// Of a run from (`q`, `v`, `t`).
+    ///
+    /// # Errors
+    /// As [`Carried::new`].
+    pub(super) fn new(
+        system: &S,
+        (q, v, t): (&[T], &[T], T),
+        (solver, summation): (Solver, Summation),
+        own: X,
+    ) -> Result<Self, StartError> {
+        let newton = || of_second_derivatives(system, q, v, t, solver.storing());
+        let carried = Carried::new(system, q, v, t, summation)?;
+        Ok(Self { carried, ladder: Ladder::new(solver, newton), own })
+    }
+}
+
+impl<S: System, T: Real, X: Memory<T>, N> Memory<T> for PhaseMemory<S, T, X, N> {
+    lasting!(T; part carried, part own, part ladder);
 }
 
 /// A step, and what it changes.
@@ -141,42 +158,32 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             &mut (self, equations),
             statistics,
             #[cfg_attr(not(debug_assertions), inline(always))]
-            |(step, equations), statistics| step.by_fixed_point(*equations, budget, statistics),
+            |(step, equations), statistics| {
+                let criterion = (step.stopping, budget);
+                match step.summation {
+                    Summation::Plain => step.by_fixed_point::<true, E>(*equations, criterion, statistics),
+                    Summation::Compensated => step.compensated(*equations, criterion, statistics),
+                }
+            },
             |(step, equations), solver, guess, statistics| {
                 step.by_newton(*equations, solver, guess, statistics)
             },
         )
     }
 
-    /// A step by the fixed point, with M as its matrix.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn by_fixed_point<E: Equations<S, T>>(
-        &mut self,
-        equations: &mut E,
-        budget: usize,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        match self.summation {
-            Summation::Plain => {
-                self.solve_by_mass::<true, E>(equations, (self.stopping, budget), statistics)
-            }
-            Summation::Compensated => self.compensated(equations, budget, statistics),
-        }
-    }
-
     #[inline(never)]
     fn compensated<E: Equations<S, T>>(
         &mut self,
         equations: &mut E,
-        budget: usize,
+        criterion: (Stopping, usize),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let criterion = (self.stopping, budget);
-        self.solve_by_mass::<false, E>(equations, criterion, statistics)
+        self.by_fixed_point::<false, E>(equations, criterion, statistics)
     }
 
+    /// A step by the fixed point, with M as its matrix.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve_by_mass<const PLAIN: bool, E: Equations<S, T>>(
+    fn by_fixed_point<const PLAIN: bool, E: Equations<S, T>>(
         &mut self,
         equations: &mut E,
         criterion: (Stopping, usize),
@@ -244,6 +251,42 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
 
 /// Equations and their coefficients.
 type WithCoefficients<'a, S, T, E> = (&'a mut E, &'a mut <E as Equations<S, T>>::Coefficients);
+
+/// Sets the increment by the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + r), where M is constant.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn iterate_by_mass<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>>(
+    (equations, coefficients): &mut WithCoefficients<'_, S, T, E>,
+    begin: &Begin<'_, S, T>,
+    Work { node, increment, next, trial: impulse, weights, .. }: &mut Work<S, T>,
+    criterion: (Stopping, usize),
+    statistics: &mut Statistics,
+) -> Result<(), StepFailure> {
+    let (h, is_explicit) = (begin.interval.h, S::SEPARABLE && equations.is_explicit());
+    if !is_explicit {
+        begin.phase.guess(begin.mass, &begin.phase.p, h, increment);
+    }
+    solve_by_fixed_point(
+        (begin.system, begin.q),
+        [increment, next, weights],
+        (!is_explicit).then_some(criterion),
+        statistics,
+        #[cfg_attr(not(debug_assertions), inline(always))]
+        |delta, change, statistics| {
+            impulse.copy_from_slice(&begin.phase.p);
+            equations.evaluate(begin, delta, Share::Left, (coefficients, node), impulse, statistics)?;
+            begin.mass.solve(impulse, change);
+            let Kinetic { mixed, left, per_stiffness, .. } = equations.kinetic(coefficients);
+            for ((v, delta), &q) in change.iter_mut().zip(delta.iter_mut()).zip(begin.q) {
+                let displacement = h * *v;
+                let missing =
+                    if S::SEPARABLE { displacement + left * q - mixed * *delta } else { displacement };
+                *v = missing * per_stiffness;
+                *delta += *v;
+            }
+            Ok(())
+        },
+    )
+}
 
 /// Moves to q1 = q0 + Δ and p1 = p0 + s; `PLAIN` says that sums are plain, where they need not be asked.
 #[cfg_attr(not(debug_assertions), inline(always))]

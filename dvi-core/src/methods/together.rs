@@ -81,11 +81,9 @@ pub(crate) fn load_if_all_have<'a, const W: usize>(
     runs: usize,
 ) -> bool {
     (0..W).all(|lane| {
-        let vector = vector(run_in(lane, runs));
-        vector.is_some_and(|vector| {
-            crate::scalar::lanes::write_lane(lane, vector, packs);
-            true
-        })
+        vector(run_in(lane, runs))
+            .map(|vector| crate::scalar::lanes::write_lane(lane, vector, packs))
+            .is_some()
     })
 }
 

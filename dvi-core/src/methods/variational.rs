@@ -11,20 +11,20 @@ mod flight;
 mod lagrangian;
 mod memory;
 mod together;
-pub(super) mod verlet;
+mod verlet;
 
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
-use crate::methods::step::Attempt;
-use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
+use crate::methods::step::{Attempt, PhaseMemory};
+use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
 use lagrangian::{Interpolated, read};
-use memory::VariationalMemory;
+use memory::Interpolation;
 
 /// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
 ///
@@ -172,10 +172,13 @@ impl<F, R> Variational<F, R> {
 }
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
-    /// Whether the step is Störmer–Verlet, for separable systems.
+    /// Whether the step is Störmer–Verlet with plain sums, for separable systems.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_verlet(&self) -> bool {
-        F::UNFITTED && self.rule.nodes() == Trapezoid.nodes() && self.rule.weights() == Trapezoid.weights()
+        F::UNFITTED
+            && self.summation == Summation::Plain
+            && self.rule.nodes() == Trapezoid.nodes()
+            && self.rule.weights() == Trapezoid.weights()
     }
 
     /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
@@ -194,15 +197,17 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     fn take<S: NondegenerateLagrangian<T>, T: Real>(
         &self,
         step: Step<'_, S, T>,
-        memory: &mut VariationalMemory<S, T>,
+        memory: &mut PhaseMemory<S, T, Interpolation<S, T>>,
     ) -> Result<(), StepFailure>
     where
         F: FrequencyIn<T>,
     {
         let Step { system, q, t, h, statistics } = step;
-        let VariationalMemory { given, ends, carried, ladder } = memory;
+        let PhaseMemory { carried, ladder, own: Interpolation { given, ends } } = memory;
         if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
-            return verlet::step(system, carried, q, (Interval { t, h }, self.summation), statistics);
+            let (taken, result) = verlet::steps(system, carried, q, Clock::new(t, h), 1);
+            statistics.gradients += taken;
+            return result;
         }
         let Self { stopping, summation, .. } = *self;
         let step = Attempt { system, interval: Interval { t, h }, stopping, summation, q, carried };
@@ -228,18 +233,11 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         F: FrequencyIn<T>,
     {
         Quadrature::new(self.rule.nodes(), self.rule.weights())?;
-        let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-        if !S::SEPARABLE && self.frequency.reading().is_some() {
-            return unsupported(
-                "a frequency read from the motion",
-                "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities",
-            );
-        }
+        frequency::admit(&self.frequency, system)?;
         if self.solver == Solver::FixedPoint && !S::CONSTANT_MASS {
             let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M; take Solver::Newton";
-            return unsupported("Solver::FixedPoint", reason);
+            return Err(StartError::Unsupported { option: "Solver::FixedPoint", reason });
         }
-        frequency::admit(&self.frequency, system)?;
         self.stopping.validate()
     }
 }
@@ -260,15 +258,14 @@ impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
 }
 
 impl<S: System, F, R, T: Real> Carries<S, T> for Variational<F, R> {
-    type Memory = VariationalMemory<S, T>;
+    type Memory = PhaseMemory<S, T, Interpolation<S, T>>;
 }
 
 impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.validate::<S, T>(system)?;
-        VariationalMemory::new(system, self, q, v, t, h)
+        self.depart_from(system, (q, v, t), h)
     }
 
     // A step of Simpson's rule with a frequency of the motion takes 976 instructions, and 1149 without it.
@@ -288,7 +285,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
 
     #[inline]
     fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        if S::SEPARABLE && F::UNFITTED && self.is_verlet() && self.summation == Summation::Plain {
+        if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
             let Steps { system, q, clock, count, statistics } = steps;
             let (taken, result) = verlet::steps(system, &mut memory.carried, q, clock, count);
             statistics.gradients += taken;

@@ -23,14 +23,14 @@ pub(crate) trait Linearize<T> {
 }
 
 /// Equations at an increment, whose solution is to be taken from it.
-struct At<'a, T, E> {
-    equations: &'a mut E,
-    p0: &'a [T],
-    delta: &'a [T],
-    statistics: &'a mut Statistics,
+pub(crate) struct AtIncrement<'a, T, E> {
+    pub(crate) equations: &'a mut E,
+    pub(crate) p0: &'a [T],
+    pub(crate) delta: &'a [T],
+    pub(crate) statistics: &'a mut Statistics,
 }
 
-impl<T: Real, E: Linearize<T>> LinearEquations<T> for At<'_, T, E> {
+impl<T: Real, E: Linearize<T>> LinearEquations<T> for AtIncrement<'_, T, E> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         b.copy_from_slice(self.p0);
@@ -57,7 +57,7 @@ pub(crate) fn solve_by_newton<S: System, T: Real>(
         due.prepare(system, weights, q0, delta);
         statistics.linearizations += 1;
         statistics.factorisations += 1;
-        let mut at = At { equations, p0, delta, statistics };
+        let mut at = AtIncrement { equations, p0, delta, statistics };
         if *due == Due::Residual {
             let size = |j: usize| Scalar::abs(q0[j]) + Scalar::abs(at.delta[j]);
             return linear::residual(&mut at, size, |i| p0[i], [residual, weights]);

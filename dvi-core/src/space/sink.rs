@@ -86,17 +86,6 @@ impl<T, F: FnMut(usize, usize, T)> Sink<T> for Places<F> {
     }
 }
 
-/// Passes the entries of Aᵀ on.
-#[derive(Debug)]
-pub(crate) struct Transposed<'a, K>(pub(crate) &'a mut K);
-
-impl<T, K: Sink<T>> Sink<T> for Transposed<'_, K> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add(&mut self, row: usize, column: usize, entry: T) {
-        self.0.add(column, row, entry);
-    }
-}
-
 /// Passes the entries on with factors.
 #[derive(Debug)]
 pub(crate) struct Scaled<'a, K, F> {

@@ -1,6 +1,6 @@
 //! The frequency at one end of a step, and its gradient.
 
-use super::{FrequencyIn, Reading, defined};
+use super::{FrequencyIn, defined};
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::scalar::norm;
@@ -18,11 +18,10 @@ pub(crate) struct Local<S: System, T: Real> {
     acceleration: Vector<S, T>,
     da: Vector<S, T>,
     l: [Vector<S, T>; 2],
-    reading: Option<Reading>,
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
-    pub(crate) fn new(system: &S, reading: Option<Reading>) -> Self {
+    pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
         Self {
             omega: T::lift(0.0),
@@ -31,7 +30,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
             acceleration: space.vector(),
             da: space.vector(),
             l: [space.vector(), space.vector()],
-            reading,
         }
     }
 
@@ -60,9 +58,6 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
         v: &[T],
         t: T,
     ) -> Result<(), StepFailure> {
-        if self.reading != Some(Reading::Variational) {
-            return Ok(());
-        }
         let Self { acceleration, dq, dv, da, l: [l_q, l_v], .. } = self;
         system.gradient(q, v, t, l_q, l_v);
         mass.solve(l_q, acceleration);

@@ -1,7 +1,7 @@
 //! Where a constrained run is, and its step for all unknowns.
 
 use super::reduced::Reduced;
-use crate::discrete::{self, DiscreteLagrangian, Ends, Interval, Span};
+use crate::discrete::{Departing, DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::turning::Gradients;
 use crate::mechanics::constraints::{
@@ -11,7 +11,7 @@ use crate::mechanics::orientation::MassOrientation;
 use crate::memory::{Aside, Memory, lasting};
 use crate::methods::{Step, Steps};
 use crate::scalar::norm;
-use crate::solve::{Due, Guess, Stopping, from_either_guess, newton, sizes};
+use crate::solve::{AtIncrement, Due, Guess, Stopping, from_either_guess, newton, sizes};
 use crate::state::Statistics;
 use crate::state::rates::is_similar;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
@@ -208,7 +208,8 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             statistics.linearizations += 1;
             statistics.factorisations += 1;
             let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
-            let upper = discrete::Equations { l_d, span, p0: p, statistics };
+            let departing = &mut Departing { l_d, system, interval, q0: q };
+            let upper = AtIncrement { equations: departing, p0: p, delta: increment, statistics };
             let lower = Lower::OfStep(span, [next, work]);
             let forces = Some(At { q, t: interval.t });
             let (multipliers, active) = (&**impulse, impulse.len());

@@ -8,19 +8,14 @@
 //! interior node, and that of q0, (b, B), for p0 + D₁L_d. Direction 0 moves both ends and gives (D₁ +
 //! D₂)L_d.
 
-use crate::discrete::basis::Bases;
+use crate::Real;
+use crate::discrete::basis::{Bases, Basis};
 use crate::discrete::frequency;
-use crate::discrete::{Interval, NodeWork, Rule};
+use crate::discrete::{Interval, Rule};
 use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::{Lobatto, MOST};
-use crate::scalar::norm::reported;
 use crate::space::elimination;
-use crate::state::Statistics;
-use crate::{Lagrangian, Real, Scalar, Vector};
 use core::ops::{Deref, DerefMut};
-
-/// sin u and what multiplies the new point count as zero below this.
-const RESONANCE: f64 = 1e-4;
 
 /// How many unknowns there are at most.
 const UNKNOWNS: usize = MOST - 1;
@@ -53,31 +48,6 @@ impl<const NODES: usize, T: Real> Fit<NODES, T> {
         Ok(())
     }
 
-    /// Sets the derivatives of L_d in all directions at the unknowns `x` of a step of any L. `node` is
-    /// storage.
-    pub(super) fn differentiate<S: Lagrangian<T>>(
-        &self,
-        (system, interval): (&S, Interval<T>),
-        x: &[Vector<S, T>; NODES],
-        node: &mut NodeWork<S, T>,
-        derivatives: &mut [Vector<S, T>; NODES],
-        statistics: &mut Statistics,
-    ) {
-        let NodeWork { point, velocity, gradient, momentum } = node;
-        derivatives.iter_mut().for_each(|derivative| derivative.fill(T::lift(0.0)));
-        for j in 0..NODES {
-            self.coefficients.place(j, interval.h, x, [point, velocity]);
-            system.gradient(point, velocity, self.time(interval, j), gradient, momentum);
-            for (r, derivative) in derivatives.iter_mut().enumerate() {
-                let [by_point, by_velocity] = self.coefficients.weighted_direction(j, r);
-                for i in 0..derivative.len() {
-                    derivative[i] += interval.h * by_point * gradient[i] + by_velocity * momentum[i];
-                }
-            }
-        }
-        statistics.gradients += NODES as u64;
-    }
-
     /// The time of node `j`.
     pub(super) fn time(&self, interval: Interval<T>, j: usize) -> T {
         interval.time(T::lift(self.rule.nodes()[j]))
@@ -90,14 +60,10 @@ pub(super) struct Coefficients<const NODES: usize, T> {
     /// ωh
     u: T,
     pub(super) weights: [T; NODES],
-    /// φ
-    point: [[T; NODES]; NODES],
-    /// ψ
-    velocity: [[T; NODES]; NODES],
+    /// φ and ψ of each node and each unknown.
+    slopes: [[[T; 2]; NODES]; NODES],
     /// b and B of each node.
     left: [[T; 2]; NODES],
-    /// Entry (r, k): Σⱼ wⱼ ψ̂ⱼᵣ ψⱼₖ, which M/h multiplies.
-    pub(super) kinetic: [[T; NODES]; NODES],
     /// The inverse of Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − u² φ̂ⱼᵣ φⱼₖ), r and k from 1.
     pub(super) inverse: [[T; NODES]; NODES],
 }
@@ -109,64 +75,36 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
     /// [`StepFailure::Resonance`] where there is no step, and [`StepFailure::Frequency`].
     fn new(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
         let (new, [sinc, cosine_sum]) = Self::at(rule, a, u);
-        let small = T::lift(RESONANCE);
-        if Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small {
-            return Ok(new);
-        }
-        frequency::defined(u)?;
-        let u = reported(u);
-        Err(StepFailure::Resonance { u, sine: u * reported(sinc), cosine_sum: reported(cosine_sum) })
+        frequency::determined(u, sinc, cosine_sum)?;
+        Ok(new)
     }
 
     /// The same beside sin u/u and what multiplies the new point.
     fn at(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> (Self, [T; 2]) {
         let (zero, one, last) = (T::lift(0.0), T::lift(1.0), NODES - 1);
-        let none = [[zero; NODES]; NODES];
         let mut new = Self {
             u,
             weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
-            point: none,
-            velocity: none,
+            slopes: [[[zero; 2]; NODES]; NODES],
             left: [[zero; 2]; NODES],
-            kinetic: none,
-            inverse: none,
+            inverse: [[zero; NODES]; NODES],
         };
         let nodes = Bases::new(u);
         for (j, &c) in rule.nodes().iter().enumerate().take(NODES) {
-            let basis = nodes.basis(c, nodes.pairs(c));
-            new.left[j] = [basis.b, basis.d];
-            new.point[j][0] = basis.b + basis.b_bar;
-            new.velocity[j][0] = basis.d + basis.d_bar;
+            let Basis { b, b_bar, d, d_bar } = nodes.basis(c, nodes.pairs(c));
+            new.left[j] = [b, d];
+            new.slopes[j][0] = [b + b_bar, d + d_bar];
             for k in 1..last {
-                new.point[j][k] = if j == k { one } else { zero };
-                new.velocity[j][k] = T::lift(a[j][k]);
+                new.slopes[j][k] = [if j == k { one } else { zero }, T::lift(a[j][k])];
             }
-            new.point[j][last] = basis.b_bar;
-            new.velocity[j][last] = basis.d_bar;
-        }
-        for r in 0..NODES {
-            for k in 0..NODES {
-                new.kinetic[r][k] = new.sum(r, k, zero);
-            }
+            new.slopes[j][last] = [b_bar, d_bar];
         }
         let sinc = nodes.sinc();
         let cosine_sum = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
         (new, [sinc, cosine_sum])
     }
 
-    /// φ̂ and ψ̂ of direction `r` at node `j`.
-    pub(super) fn direction(&self, j: usize, r: usize) -> [T; 2] {
-        if r == NODES - 1 { self.left[j] } else { [self.point[j][r], self.velocity[j][r]] }
-    }
-
-    /// Sets `point` to qʲ of node `j`.
-    pub(super) fn set_point<V: DerefMut<Target = [T]>>(&self, j: usize, x: &[V; NODES], point: &mut [T]) {
-        for i in 0..point.len() {
-            point[i] = weighted(&self.point[j], x, i, T::lift(0.0));
-        }
-    }
-
-    /// The same, and `velocity` to q̇ʲ, in a step of length `h`.
+    /// Sets `point` to qʲ of node `j` and `velocity` to q̇ʲ, in a step of length `h`.
     pub(super) fn place<V: DerefMut<Target = [T]>>(
         &self,
         j: usize,
@@ -174,29 +112,23 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         x: &[V; NODES],
         [point, velocity]: [&mut [T]; 2],
     ) {
-        let per_h = T::lift(1.0) / h;
-        self.set_point(j, x, point);
-        for i in 0..velocity.len() {
-            velocity[i] = per_h * weighted(&self.velocity[j], x, i, T::lift(0.0));
+        let (per_h, [phi, psi]) =
+            (T::lift(1.0) / h, [0, 1].map(|of| self.slopes[j].map(|slopes| slopes[of])));
+        for i in 0..point.len() {
+            point[i] = weighted(&phi, x, i);
+            velocity[i] = per_h * weighted(&psi, x, i);
         }
     }
 
-    /// The same times the weight of the node.
+    /// φ̂ and ψ̂ of direction `r` at node `j`, times the weight of the node.
     pub(super) fn weighted_direction(&self, j: usize, r: usize) -> [T; 2] {
-        self.direction(j, r).map(|along| self.weights[j] * along)
+        let direction = if r == NODES - 1 { self.left[j] } else { self.slopes[j][r] };
+        direction.map(|along| self.weights[j] * along)
     }
 
     /// φ and ψ of unknown `k` at node `j`.
     pub(super) fn slopes(&self, j: usize, k: usize) -> [T; 2] {
-        [self.point[j][k], self.velocity[j][k]]
-    }
-
-    /// Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − z φ̂ⱼᵣ φⱼₖ)
-    fn sum(&self, r: usize, k: usize, z: T) -> T {
-        (0..NODES).fold(T::lift(0.0), |sum, j| {
-            let [point, velocity] = self.direction(j, r);
-            sum + self.weights[j] * (velocity * self.velocity[j][k] - z * point * self.point[j][k])
-        })
+        self.slopes[j][k]
     }
 
     /// Sets `inverse`, and returns by what the equation for the new point multiplies it once the
@@ -206,7 +138,11 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         let (mut matrix, mut permutation) = ([zero; UNKNOWNS * UNKNOWNS], [0; UNKNOWNS]);
         for r in 0..n {
             for k in 0..n {
-                matrix[r * n + k] = self.sum(r + 1, k + 1, self.u * self.u);
+                matrix[r * n + k] = (0..NODES).fold(zero, |sum, j| {
+                    let ([left, left_dot], [right, right_dot]) =
+                        (self.weighted_direction(j, r + 1), self.slopes[j][k + 1]);
+                    sum + left_dot * right_dot - self.u * self.u * left * right
+                });
             }
         }
         let (matrix, permutation) = (&mut matrix[..n * n], &mut permutation[..n]);
@@ -224,9 +160,9 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
     }
 }
 
-/// `from` + Σₖ `row`ₖ xₖ of coordinate `i`.
-pub(super) fn weighted<T: Real>(row: &[T], x: &[impl Deref<Target = [T]>], i: usize, from: T) -> T {
-    row.iter().zip(x).fold(from, |sum, (&factor, x)| sum + factor * x[i])
+/// Σₖ `row`ₖ xₖ of coordinate `i`.
+pub(super) fn weighted<T: Real>(row: &[T], x: &[impl Deref<Target = [T]>], i: usize) -> T {
+    row.iter().zip(x).fold(T::lift(0.0), |sum, (&factor, x)| sum + factor * x[i])
 }
 
 #[cfg(test)]

@@ -1,17 +1,15 @@
-//! The equations of a step for the displacements and Δ, of any L.
+//! The equations of a path for its displacements and Δ, of any L.
 //!
 //! rᵣ = Σⱼ wⱼ (h φ̂ⱼᵣ ∂L/∂q + ψ̂ⱼᵣ ∂L/∂v), for Δ with p0 added
 //! ∂rᵣ/∂xₖ = Σⱼ wⱼ (h φ̂ⱼᵣφⱼₖ L_qq + φ̂ⱼᵣψⱼₖ L_qv + ψ̂ⱼᵣφⱼₖ L_vq + ψ̂ⱼᵣψⱼₖ L_vv/h)
 //!
 //! Where the frequency is read from the motion, the residual is exact, and the matrix is that of ω held
-//! constant, which is close enough for Newton's method to contract. For L = ½ v·M v − V(q, t) it is forces
-//! only that are evaluated,
+//! constant, which is close enough for Newton's method to contract.
 //!
-//! rᵣ = h Σⱼ wⱼ φ̂ⱼᵣ F(qʲ) + M Σₖ Kᵣₖ xₖ/h      K = Σⱼ wⱼ ψ̂ⱼ ψⱼᵀ
-//!
-//! and a fixed point solves the same equations, x ← x − h A⁻¹M⁻¹ r with A = Σⱼ wⱼ (ψ̂ⱼ ψⱼᵀ − u² φ̂ⱼ φⱼᵀ): A
-//! contains the oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0
-//! at the end and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
+//! Of L = ½ v·M v − V(q, t) a fixed point solves the same equations, x ← x − h A⁻¹M⁻¹ r with A = Σⱼ wⱼ
+//! (ψ̂ⱼ ψⱼᵀ − u² φ̂ⱼ φⱼᵀ): A contains the oscillator of the fitted frequency, so that only what differs from
+//! it is iterated. As b = 0 at the end and no displacement reaches it, an iteration needs the forces of the
+//! interior nodes alone.
 
 use super::coefficients::{Fit, weighted};
 use crate::discrete::frequency::{FrequencyIn, Local};
@@ -23,18 +21,16 @@ use crate::scalar::norm;
 use crate::solve::{Convergence, CoupledEquations, Stopping, iterate, sizes};
 use crate::space::{NodeSum, Sink, scratch};
 use crate::state::Statistics;
-use crate::{Lagrangian, NondegenerateLagrangian, Real, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, System, Vector, Weights};
 
-/// A step from the point `phase` has, whose coordinates are the first of the unknowns.
+/// A path from the first of the unknowns.
 pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) system: &'a S,
-    pub(super) frequency: &'a F,
     pub(super) interval: Interval<T>,
-    pub(super) phase: &'a PhasePoint<S, T>,
-    pub(super) mass: &'a Mass<S, T>,
+    pub(super) p0: &'a [T],
+    /// What the coefficients are fitted by, unless they are given.
+    pub(super) fitted: Option<Fitted<'a, S, F, T>>,
     pub(super) fit: &'a mut Fit<NODES, T>,
-    /// The frequencies at both ends.
-    pub(super) ends: &'a mut [Local<S, T>; 2],
     /// q0, the displacements of the interior nodes, and Δ.
     pub(super) unknowns: &'a mut [Vector<S, T>; NODES],
     /// Work space.
@@ -43,45 +39,33 @@ pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) j: usize,
 }
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
-    Displaced<'_, NODES, S, F, T>
-{
-    /// Solves the equations by the fixed point over M, in up to `budget` iterations. What comes with
-    /// `residuals` is storage.
+/// Where a step begins, and the frequency.
+pub(super) struct Fitted<'a, S: System, F, T: Real> {
+    pub(super) frequency: &'a F,
+    pub(super) phase: &'a PhasePoint<S, T>,
+    pub(super) mass: &'a Mass<S, T>,
+    /// The frequencies at both ends.
+    pub(super) ends: &'a mut [Local<S, T>; 2],
+}
+
+impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real> Fitted<'_, S, F, T> {
+    /// Makes `fit` that for the frequency at the `unknowns`; `node` is storage.
     ///
     /// # Errors
-    /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
-    pub(super) fn iterate(
+    /// Those of a frequency.
+    fn read<const NODES: usize>(
         &mut self,
-        (residuals, weights): (&mut [Vector<S, T>; NODES], &mut [T]),
-        (stopping, budget): (Stopping, usize),
+        (system, interval): (&S, Interval<T>),
+        fit: &mut Fit<NODES, T>,
+        unknowns: &[Vector<S, T>; NODES],
+        node: &mut NodeWork<S, T>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        iterate(Convergence::fixed_point(stopping, budget), statistics, |due, statistics| {
-            let (start, unknowns) = self.unknowns.split_at_mut(1);
-            due.prepare_all(self.system, weights, &start[0], unknowns);
-            self.differentiate(Self::FIRST, residuals, statistics)?;
-            residuals[1..].iter_mut().for_each(|residual| self.mass.solve_in_place(residual));
-            let (mut largest, inverse) = (T::lift(0.0), &self.fit.coefficients.inverse);
-            let change = &mut self.node.velocity;
-            for (unknown, row) in self.unknowns.iter_mut().zip(inverse).skip(1) {
-                for i in 0..change.len() {
-                    change[i] = self.interval.h * weighted(&row[1..], &residuals[1..], i, T::lift(0.0));
-                }
-                largest = norm::larger(largest, sizes::reduce(self.system, weights, unknown, change));
-            }
-            Ok(largest)
-        })?;
-        self.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown))
-    }
-
-    /// The coefficients for the frequency at the current unknowns.
-    fn read_frequency(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Self { system, frequency, interval, phase, mass, fit, ends, unknowns, node, .. } = self;
+        let Self { frequency, phase, mass, ends } = self;
         if F::UNFITTED || frequency.reading().is_none() {
             return fit.to(frequency.fixed() * interval.h);
         }
-        let NodeWork { point: end, velocity, gradient: force, .. } = &mut **node;
+        let NodeWork { point: end, velocity, gradient: force, .. } = node;
         let (q, delta) = (&unknowns[0], &unknowns[NODES - 1]);
         for i in 0..q.len() {
             end[i] = q[i] + delta[i];
@@ -95,62 +79,79 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         let omega = T::lift(0.5) * (first.omega + last.omega);
         fit.to(omega * interval.h)
     }
+}
 
-    /// Sets `residuals` from the `first`, of which that of the ends is (D₁ + D₂)L_d; of a separable L, but
-    /// for the force at the end.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
+    Displaced<'_, NODES, S, F, T>
+{
+    /// Sets `residuals`, of which that of the ends is (D₁ + D₂)L_d; in a step of a separable L, but for the
+    /// force at the end.
     pub(super) fn differentiate(
         &mut self,
-        first: usize,
-        residuals: &mut [Vector<S, T>; NODES],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.read_frequency(statistics)?;
-        if S::SEPARABLE {
-            self.set_forces(first, residuals, statistics);
-            return Ok(());
-        }
-        let (step, x) = ((self.system, self.interval), &*self.unknowns);
-        self.fit.differentiate(step, x, self.node, residuals, statistics);
-        for (residual, &p) in residuals[NODES - 1].iter_mut().zip(self.phase.p.iter()) {
-            *residual += p;
-        }
-        Ok(())
-    }
-
-    /// The same by the forces at the nodes but for the last, and M Kx/h.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn set_forces(
-        &mut self,
-        first: usize,
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) {
-        let Self { system, interval, phase, mass, fit, unknowns, node, .. } = self;
-        let (h, coefficients, last) = (interval.h, &fit.coefficients, NODES - 1);
-        let begin = h * coefficients.weights[0];
-        for i in 0..phase.p.len() {
-            residuals[0][i] = begin * phase.force[i];
-            residuals[last][i] = phase.p[i] + residuals[0][i];
-        }
-        for j in 1..last {
-            coefficients.set_point(j, unknowns, &mut node.point);
-            system.force(&node.point, &[], fit.time(*interval, j), &mut node.gradient);
-            let ([both, _], [left, _]) = (coefficients.direction(j, 0), coefficients.direction(j, last));
-            for i in 0..node.gradient.len() {
-                let impulse = h * coefficients.weights[j] * node.gradient[i];
-                residuals[j][i] = impulse;
-                residuals[last][i] += left * impulse;
-                residuals[0][i] += both * impulse;
+        let Self { system, interval, p0, fitted, fit, unknowns, node, .. } = self;
+        let NodeWork { point, velocity, gradient, momentum } = &mut **node;
+        residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
+        residuals[NODES - 1].copy_from_slice(p0);
+        for j in 0..NODES {
+            fit.coefficients.place(j, interval.h, unknowns, [point, velocity]);
+            let t = fit.time(*interval, j);
+            if S::SEPARABLE
+                && let Some(Fitted { phase, mass, .. }) = fitted
+            {
+                momentum.fill(T::lift(0.0));
+                mass.multiply_add(T::lift(1.0), velocity, momentum);
+                if j == 0 {
+                    gradient.copy_from_slice(&phase.force);
+                } else if j < NODES - 1 {
+                    system.force(point, &[], t, gradient);
+                    statistics.gradients += 1;
+                } else {
+                    gradient.fill(T::lift(0.0));
+                }
+            } else {
+                system.gradient(point, velocity, t, gradient, momentum);
+                statistics.gradients += 1;
+            }
+            for (r, residual) in residuals.iter_mut().enumerate() {
+                let [by_point, by_velocity] = fit.coefficients.weighted_direction(j, r);
+                for i in 0..residual.len() {
+                    residual[i] += interval.h * by_point * gradient[i] + by_velocity * momentum[i];
+                }
             }
         }
-        for (residual, row) in residuals.iter_mut().zip(&coefficients.kinetic).skip(first) {
-            for i in 0..node.velocity.len() {
-                node.velocity[i] = weighted(row, &unknowns[..], i, T::lift(0.0));
+    }
+
+    /// Solves the equations of a separable L by the fixed point over its mass matrix M, in up to `budget`
+    /// iterations. What comes with `residuals` is storage.
+    ///
+    /// # Errors
+    /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
+    pub(super) fn iterate(
+        &mut self,
+        mass: &Mass<S, T>,
+        (residuals, weights): (&mut [Vector<S, T>; NODES], &mut [T]),
+        (stopping, budget): (Stopping, usize),
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        iterate(Convergence::fixed_point(stopping, budget), statistics, |due, statistics| {
+            let (start, rest) = self.unknowns.split_at_mut(1);
+            due.prepare_all(self.system, weights, &start[0], rest);
+            self.evaluate(residuals, statistics)?;
+            residuals[1..].iter_mut().for_each(|residual| mass.solve_in_place(residual));
+            let (mut largest, change) = (T::lift(0.0), &mut self.node.velocity);
+            for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.coefficients.inverse).skip(1) {
+                for i in 0..change.len() {
+                    change[i] = self.interval.h * weighted(&row[1..], &residuals[1..], i);
+                }
+                largest = norm::larger(largest, sizes::reduce(self.system, weights, unknown, change));
             }
-            mass.multiply_add(T::lift(1.0) / h, &node.velocity, residual);
-        }
-        statistics.gradients += (NODES - 2) as u64;
+            Ok(largest)
+        })?;
+        self.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown))?;
+        self.evaluate(residuals, statistics)
     }
 
     fn time(&self) -> T {
@@ -170,7 +171,11 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        self.differentiate(Self::FIRST, residuals, statistics)
+        if let Some(fitted) = &mut self.fitted {
+            fitted.read((self.system, self.interval), self.fit, self.unknowns, self.node, statistics)?;
+        }
+        self.differentiate(residuals, statistics);
+        Ok(())
     }
 }
 
@@ -186,7 +191,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     }
 
     fn given(&self, i: usize) -> T {
-        self.phase.p[i]
+        self.p0[i]
     }
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
@@ -206,27 +211,17 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         self.system.linearize(point, velocity, t, w, gradient, momentum, vq);
     }
 
+    // Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what
+    // is read, and evaluates once what the three have in common.
+    #[inline(never)]
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>) {
-        second_derivatives((self.system, self.time()), self.node, qq, qv, vv);
+        let (system, t, zero, one) = (self.system, self.time(), T::lift(0.0), T::lift(1.0));
+        let NodeWork { point, velocity, gradient, momentum } = &mut *self.node;
+        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        scratch!(l_q = system, *gradient);
+        scratch!(l_v = system, *momentum);
+        system.linearize(point, velocity, t, Weights { qq: one, ..none }, l_q, l_v, qq);
+        system.linearize(point, velocity, t, Weights { qv: one, ..none }, l_q, l_v, qv);
+        system.linearize(point, velocity, t, Weights { vv: one, ..none }, l_q, l_v, vv);
     }
-}
-
-/// Adds the second derivatives of L where `node` is.
-// Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what is
-// read, and evaluates once what the three have in common.
-#[inline(never)]
-pub(super) fn second_derivatives<S: Lagrangian<T>, T: Real>(
-    (system, t): (&S, T),
-    NodeWork { point, velocity, gradient, momentum }: &mut NodeWork<S, T>,
-    qq: &mut impl Sink<T>,
-    qv: &mut impl Sink<T>,
-    vv: &mut impl Sink<T>,
-) {
-    let (zero, one) = (T::lift(0.0), T::lift(1.0));
-    let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-    scratch!(l_q = system, *gradient);
-    scratch!(l_v = system, *momentum);
-    system.linearize(point, velocity, t, Weights { qq: one, ..none }, l_q, l_v, qq);
-    system.linearize(point, velocity, t, Weights { qv: one, ..none }, l_q, l_v, qv);
-    system.linearize(point, velocity, t, Weights { vv: one, ..none }, l_q, l_v, vv);
 }

@@ -81,13 +81,9 @@ pub struct Departure<'a, S: System, T: Real> {
 pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Sized {
     /// Of the Lobatto rule.
     fn new(system: &S) -> Self;
-    /// Forgets the last step: the next one begins with the force at its start.
-    fn forget(&mut self);
-    /// Remembers the forces of a completed step of length `h`.
+    /// Remembers the forces of a completed step of length `h`; of no length, forgets it: the next step begins
+    /// with the force at its start.
     fn remember(&mut self, h: T);
-    /// Sets the displacements and Δ, which stand behind q0, to those that the forces of the step before lead
-    /// to.
-    fn guess(&mut self, at: &Departure<'_, S, T>, unknowns: &mut [Vector<S, T>; NODES]);
     /// Finds the positions by the fixed point, in up to so many iterations, and sets Δ, and p1 − p0 but for
     /// the kick at the end.
     ///
@@ -100,15 +96,6 @@ pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Siz
         increments: [&mut Vector<S, T>; 2],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
-    /// Puts the nodes where the `unknowns` are, q0, the displacements and Δ, and sets `impulse` to p1 − p0
-    /// but for the kick at the end.
-    fn visit(
-        &mut self,
-        at: &Departure<'_, S, T>,
-        unknowns: &[Vector<S, T>; NODES],
-        impulse: &mut [T],
-        statistics: &mut Statistics,
-    );
 }
 
 impl<const NODES: usize, const W: usize, S, T: Real, E> InteriorNodes<NODES, S, T>
@@ -154,26 +141,11 @@ where
         }
     }
 
-    fn forget(&mut self) {
-        self.last = T::lift(0.0);
-    }
-
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn remember(&mut self, h: T) {
         self.completed[0].copy_from_slice(&self.forces);
         self.first.copy_from_slice(&self.start);
         self.last = h;
-    }
-
-    fn guess(&mut self, at: &Departure<'_, S, T>, unknowns: &mut [Vector<S, T>; NODES]) {
-        self.depart(at);
-        for (k, &q) in at.q.iter().enumerate() {
-            let delta = self.increment(k);
-            unknowns[NODES - 1][k] = delta;
-            for node in 0..Self::COUNT {
-                unknowns[node + 1][k] = (self.places[k].0[node] - q) - self.nystrom.nodes.0[node] * delta;
-            }
-        }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -203,24 +175,6 @@ where
         }
         self.set_impulse(at.interval.h, impulse);
         norm::finite(delta)
-    }
-
-    fn visit(
-        &mut self,
-        at: &Departure<'_, S, T>,
-        unknowns: &[Vector<S, T>; NODES],
-        impulse: &mut [T],
-        statistics: &mut Statistics,
-    ) {
-        for (k, place) in self.places.iter_mut().enumerate() {
-            for lane in 0..W {
-                let node = lane.min(Self::COUNT - 1);
-                let straight = unknowns[0][k] + self.nystrom.nodes.0[lane] * unknowns[NODES - 1][k];
-                place.0[lane] = straight + unknowns[node + 1][k];
-            }
-        }
-        self.evaluate(at, statistics);
-        self.set_impulse(at.interval.h, impulse);
     }
 }
 

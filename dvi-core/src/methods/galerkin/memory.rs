@@ -3,13 +3,11 @@
 use super::Galerkin;
 use super::coefficients::Fit;
 use super::interior::InteriorNodes;
-use crate::discrete::NodeWork;
-use crate::discrete::frequency::{FrequencyIn, Local};
-use crate::error::{StartError, StepFailure};
+use crate::discrete::frequency::{Frequency, FrequencyIn, Local};
+use crate::error::StartError;
 use crate::mechanics::pattern::coupled_by_second_derivatives;
-use crate::mechanics::phase::{Inertial, PhasePoint};
 use crate::memory::{Aside, Memory, lasting};
-use crate::methods::Here;
+use crate::methods::step::{Carried, PhaseMemory};
 use crate::solve::{Ladder, Solver};
 use crate::space::Storing;
 use crate::state::history::History;
@@ -18,21 +16,16 @@ use crate::{Coupled, Lagrangian, NondegenerateLagrangian, Real, Space, System, V
 /// Without a heap, a matrix of fixed size is made on the stack, where threads have two megabytes.
 const MOST_BYTES: usize = 1 << 20;
 
-/// The phase point of a run with interior displacements, its path between the points and its work space.
-#[derive(Debug)]
-pub struct GalerkinMemory<const NODES: usize, S: System, T: Real, I> {
-    pub(super) ladder: Ladder<Aside<Coupled<NODES, S, T>>>,
-    pub(super) path: Path<NODES, S, T, I>,
-}
+/// What a run with interior displacements carries.
+pub(super) type GalerkinMemory<const NODES: usize, S, T, I> =
+    PhaseMemory<S, T, Path<NODES, S, T, I>, Aside<Coupled<NODES, S, T>>>;
 
-/// Where the run is, and how it goes on from there.
+/// The path of a step, and how the next one is guessed.
 #[derive(Debug)]
-pub(super) struct Path<const NODES: usize, S: System, T: Real, I> {
-    pub(super) phase: PhasePoint<S, T>,
-    pub(super) inertial: Inertial<S, T>,
+pub struct Path<const NODES: usize, S: System, T: Real, I> {
     /// The interior nodes, where L = ½ v·M v − V(q, t) and there is no frequency.
     pub(super) interior: Option<I>,
-    /// Elsewhere, their displacements.
+    /// Elsewhere, and where Newton's method takes all steps, their displacements.
     pub(super) displacements: Option<Displacements<NODES, S, T>>,
     pub(super) fit: Fit<NODES, T>,
     /// The frequencies at both ends of the step.
@@ -43,7 +36,6 @@ pub(super) struct Path<const NODES: usize, S: System, T: Real, I> {
     pub(super) residuals: [Vector<S, T>; NODES],
     /// In which iterations judge coordinates, and work space.
     pub(super) weights: [Vector<S, T>; 2],
-    pub(super) node: NodeWork<S, T>,
 }
 
 /// δ/h² of each interior node, of the last steps; the first and the last entry are not used.
@@ -56,49 +48,27 @@ impl<const NODES: usize, S: System, T: Real> Memory<T> for Displacements<NODES, 
     lasting!(T; parts nodes);
 }
 
-impl<const NODES: usize, S: System, T: Real, I: Memory<T>> Memory<T> for GalerkinMemory<NODES, S, T, I> {
-    lasting!(T; part path, part ladder);
-}
-
 impl<const NODES: usize, S: System, T: Real, I: Memory<T>> Memory<T> for Path<NODES, S, T, I> {
-    lasting!(T; part phase, part inertial, parts interior, parts displacements);
+    lasting!(T; parts interior, parts displacements);
 }
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNodes<NODES, S, T>>
-    GalerkinMemory<NODES, S, T, I>
-{
-    /// p = ∂L/∂v at the current point, one entry per coordinate.
-    pub fn p(&self) -> &[T] {
-        &self.path.phase.p
-    }
-
-    /// Sets `v` to the velocity at the present point.
-    pub(super) fn velocity(&self, here: Here<'_, S, T>, v: &mut [T]) -> Result<(), StepFailure> {
-        let Here { system, q, t } = here;
-        self.path.inertial.velocity(system, &self.path.phase, q, t, v)
-    }
-
-    /// Adds an impulse to the momentum, which leads to about `velocity`.
-    pub(super) fn jump(&mut self, impulse: &[T], velocity: &[T]) {
-        self.path.phase.jump(impulse, velocity);
-        if let Some(interior) = &mut self.path.interior {
-            interior.forget();
-        }
-    }
-
+impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
     /// Of a run from (q, v, t), whose steps have the length h.
     ///
     /// # Errors
     /// Those of [`Galerkin::validate`]; [`StartError::Unsupported`] where Newton's matrix is too large for
     /// the stack; [`StartError::Starter`].
-    pub(super) fn new<F: FrequencyIn<T>, E>(
-        method: &Galerkin<NODES, F, E>,
+    pub(super) fn depart_from<S: NondegenerateLagrangian<T>, T: Real, I: InteriorNodes<NODES, S, T>>(
+        &self,
         system: &S,
         [q, v]: [&[T]; 2],
         [t, h]: [T; 2],
-    ) -> Result<Self, StartError> {
-        method.validate::<S, T>(system)?;
-        let solver = match method.solver.in_numbers::<T>() {
+    ) -> Result<GalerkinMemory<NODES, S, T, I>, StartError>
+    where
+        F: FrequencyIn<T>,
+    {
+        self.validate::<S, T>(system)?;
+        let solver = match self.solver.in_numbers::<T>() {
             // Any L has no fixed point.
             Solver::Automatic if !S::SEPARABLE => Solver::Newton,
             solver => solver,
@@ -110,24 +80,23 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, T: Real, I: InteriorNode
         }
         let (space, eliminates) = (system.space(), S::SEPARABLE && F::UNFITTED);
         let histories = || Displacements { nodes: core::array::from_fn(|_| History::new(system, None)) };
-        let reading = method.frequency.reading();
+        let reading = self.frequency.reading();
+        let carried = Carried::new(system, q, v, t, self.summation)?;
         let mut path = Path {
-            phase: PhasePoint::new(system, q, v, t, method.summation)?,
-            inertial: Inertial::new(system, q, v, t)?,
             interior: eliminates.then(|| I::new(system)),
-            displacements: (!eliminates).then(histories),
+            displacements: (!eliminates || matches!(solver, Solver::Newton | Solver::NewtonKrylov))
+                .then(histories),
             fit: Fit::new(),
-            ends: [Local::new(system, reading), Local::new(system, reading)],
+            ends: [Local::new(system), Local::new(system)],
             unknowns: space.vectors(),
             residuals: space.vectors(),
             weights: space.vectors(),
-            node: NodeWork::new(system),
         };
         if reading.is_none() {
-            path.fit.to(method.frequency.fixed() * h).map_err(StartError::Starter)?;
+            path.fit.to(self.frequency.fixed() * h).map_err(StartError::Starter)?;
         }
         let ladder = Ladder::new(solver, || newton_matrix(system, [q, v], t, solver.storing()));
-        Ok(Self { ladder, path })
+        Ok(PhaseMemory { carried, ladder, own: path })
     }
 }
 

@@ -7,6 +7,7 @@ use super::{Galerkin, NodeEvaluation};
 use crate::discrete::Interval;
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::error::{StartError, StepFailure};
+use crate::methods::step::PhaseMemory;
 use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::solve::Solver;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
@@ -20,20 +21,15 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         F: FrequencyIn<T>,
     {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-        let separable =
-            "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities";
-        match self.frequency.reading() {
-            None => {}
-            Some(Reading::Averaged) if S::SEPARABLE => {}
-            Some(Reading::Averaged) => return unsupported("a frequency read from the motion", separable),
-            Some(_) => return unsupported("this reading of the frequency", "take Reading::Averaged"),
+        frequency::admit(&self.frequency, system)?;
+        if let Some(Reading::LeftFrozen | Reading::Variational) = self.frequency.reading() {
+            return unsupported("this reading of the frequency", "take Reading::Averaged");
         }
         if !S::SEPARABLE && self.solver == Solver::FixedPoint {
             let reason = "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities; take \
                           Solver::Newton";
             return unsupported("Solver::FixedPoint", reason);
         }
-        frequency::admit(&self.frequency, system)?;
         self.stopping.validate()
     }
 }
@@ -51,13 +47,22 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
     {
         let Step { system, q, t, h, statistics } = step;
-        let GalerkinMemory { ladder, path } = memory;
+        let PhaseMemory { carried, ladder, own: path } = memory;
         let (interval, Self { frequency, stopping, .. }) = (Interval { t, h }, self);
         let budget = ladder.budget(stopping.max_iterations, 24 + q.len());
         E::run(
             #[cfg_attr(not(debug_assertions), inline(always))]
             || {
-                let mut step = Attempt { system, frequency, stopping: *stopping, interval, q, path };
+                let mut step = Attempt {
+                    system,
+                    frequency,
+                    stopping: *stopping,
+                    interval,
+                    q,
+                    carried,
+                    path,
+                    by_newton: true,
+                };
                 ladder.solve(
                     &mut step,
                     statistics,
@@ -101,7 +106,7 @@ where
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        GalerkinMemory::new(self, system, [q, v], [t, h])
+        self.depart_from(system, [q, v], [t, h])
     }
 
     #[inline]
@@ -115,7 +120,7 @@ where
         memory: &Self::Memory,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.velocity(here, v)
+        memory.carried.velocity(here, v)
     }
 }
 
@@ -136,7 +141,7 @@ where
     type Suited<X> = X;
 
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        GalerkinMemory::new(self, system, [q, v], [t, h])
+        self.depart_from(system, [q, v], [t, h])
     }
     fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         self.take(step, memory)
@@ -147,9 +152,12 @@ where
         memory: &Self::Memory,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.velocity(here, v)
+        memory.carried.velocity(here, v)
     }
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
-        memory.jump(impulse, velocity);
+        memory.carried.phase.jump(impulse, velocity);
+        if let Some(interior) = &mut memory.own.interior {
+            interior.remember(T::lift(0.0));
+        }
     }
 }

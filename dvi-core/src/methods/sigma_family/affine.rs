@@ -23,7 +23,7 @@ pub(super) fn fixed_point<S: DegenerateLagrangian<T>, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     if step.method.summation == Summation::Compensated {
-        return compensated(step, q, carried, budget, statistics);
+        return carefully::<true, S, T>(step, q, carried, budget, statistics);
     }
     let quick = Quick::of(Course::fixed_point(step.method.stopping, budget));
     let result = widest_if(
@@ -32,15 +32,17 @@ pub(super) fn fixed_point<S: DegenerateLagrangian<T>, T: Real>(
         || iterate::<false, S, T>(step, q, carried, quick, statistics),
     );
     match result {
-        Err(StepFailure::NotConverged { .. }) => carefully(step, q, carried, budget, statistics),
+        Err(StepFailure::NotConverged { .. }) => {
+            carefully::<false, S, T>(step, q, carried, budget, statistics)
+        }
         result => result,
     }
 }
 
-/// The same where the quick look has given up.
-#[cold]
+/// The same where the quick look has given up; or from what rounding has left out of q0 too, with what it
+/// leaves out of s in `work.sum`.
 #[inline(never)]
-fn carefully<S: DegenerateLagrangian<T>, T: Real>(
+fn carefully<const COMPENSATED: bool, S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     q: &Vector<S, T>,
     carried: &mut Carried<S, T>,
@@ -48,20 +50,7 @@ fn carefully<S: DegenerateLagrangian<T>, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let convergence = Convergence::fixed_point(step.method.stopping, budget);
-    iterate::<false, S, T>(step, q, carried, convergence, statistics)
-}
-
-/// The same from what rounding has left out of q0 too, with what it leaves out of s in `work.sum`.
-#[inline(never)]
-fn compensated<S: DegenerateLagrangian<T>, T: Real>(
-    step: &Step<'_, S, T>,
-    q: &Vector<S, T>,
-    carried: &mut Carried<S, T>,
-    budget: usize,
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    let convergence = Convergence::fixed_point(step.method.stopping, budget);
-    iterate::<true, S, T>(step, q, carried, convergence, statistics)
+    iterate::<COMPENSATED, S, T>(step, q, carried, convergence, statistics)
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -29,8 +29,6 @@ pub struct SigmaMemory<S: System, T: Real> {
     /// With the matrix of Newton's method. Explicit steps do not use it.
     pub(super) ladder: Ladder<Linear<S, T>>,
     pub(super) monitor: Monitor<S, T>,
-    /// Where α is affine and σ = 0.
-    pub(super) leaps: Option<Leaps<S, T>>,
 }
 
 /// The state (q, c) of the two-step map without q, and what its steps are computed with.
@@ -47,8 +45,10 @@ pub(super) struct Carried<S: System, T: Real> {
     /// That of K times `scale`: constant if α is affine, and else frozen for one step.
     pub(super) inverse: Inverse<S, T>,
     pub(super) scale: T,
-    /// K' = σ(Dα)ᵀ − (1−σ)Dα, if α is affine and σ neither 0 nor ½, where c is just reversed.
+    /// K' = σ(Dα)ᵀ − (1−σ)Dα, if α is affine and σ is not ½, where c is just reversed.
     pub(super) product: Option<Product<S, T>>,
+    /// The point before, q0 + K⁻¹c0, where σ = 0 and Dα is constant and antisymmetric: steps are leaps then.
+    pub(super) before: Option<Vector<S, T>>,
     pub(super) l_d: OneNode<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
     /// What rounding has left out of the coordinates, if α is affine and σ neither 0 nor 1.
@@ -71,32 +71,16 @@ pub(super) struct Work<S: System, T: Real> {
     pub(super) next: Vector<S, T>,
 }
 
-/// What the explicit steps of σ = 0 take besides.
-#[derive(Debug)]
-pub(super) struct Leaps<S: System, T: Real> {
-    /// K' = −Dα.
-    pub(super) product: Product<S, T>,
-    /// The point ahead, q0 + K⁻¹c0.
-    pub(super) ahead: Vector<S, T>,
-    /// Whether Dα is antisymmetric, so that K⁻¹c1 = −Δ.
-    pub(super) reverses: bool,
-    /// For Δ and c1 where it is not.
-    pub(super) storage: [Vector<S, T>; 2],
-}
-
 impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
-    lasting!(T; part carried, part ladder, part monitor, parts leaps);
+    lasting!(T; part carried, part ladder, part monitor);
 }
 
 impl<S: System, T: Real> Memory<T> for Carried<S, T> {
     lasting!(
         T;
-        numbers defect, flag defect_vanishes, numbers one_form, part history, part orientation, part rest,
+        numbers defect, flag defect_vanishes, numbers one_form, vectors before, part history,
+        part orientation, part rest,
     );
-}
-
-impl<S: System, T: Real> Memory<T> for Leaps<S, T> {
-    lasting!(T; numbers ahead);
 }
 
 impl<S: System, T: Real> SigmaMemory<S, T> {
@@ -180,13 +164,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
             .then(|| Product::new(system, q, t, Combination { a: sigma - one, b: sigma }));
         let symmetric = Combination { a: one, b: one };
         let reverses = S::AFFINE && Product::new(system, q, t, symmetric).vanishes(system);
-        let (leaps, product) = match product {
-            Some(product) if sigma == T::lift(0.0) => {
-                let leaps = Leaps { product, ahead: space.vector(), reverses, storage: space.vectors() };
-                (Some(leaps), None)
-            }
-            product => (None, product),
-        };
+        let before = (reverses && sigma == T::lift(0.0)).then(|| space.vector());
         let solver = if explicit { Solver::FixedPoint } else { method.solver.in_numbers::<T>() };
         let newton = || of_second_derivatives(system, q, &rest, t, solver.storing());
         system.one_form(q, t, &mut one_form);
@@ -201,7 +179,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         Ok(Self {
             ladder: Ladder::new(solver, newton),
             monitor: Monitor::new(system, limit, pace),
-            leaps,
             carried: Carried {
                 defect: space.vector(),
                 defect_vanishes: false,
@@ -210,6 +187,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
                 inverse,
                 scale,
                 product,
+                before,
                 l_d: OneNode::new(system, sigma),
                 orientation: FormOrientation::new(system, q, t),
                 rest: summation::Carried::new(system, method.summation),
@@ -220,15 +198,15 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
 
     /// Prepares the first step from `q` with the present defect, by about `work.increment`.
     fn aim(&mut self, system: &S, method: &Sigma<T>, q: &[T]) {
-        let Self { carried, leaps, .. } = self;
+        let carried = &mut self.carried;
         if S::AFFINE && method.sigma != T::lift(1.0) {
             carried.shift_by_defect(system);
             let Work { shift, increment, .. } = &mut carried.work;
             for i in 0..q.len() {
                 increment[i] -= shift[i];
             }
-            if let Some(Leaps { ahead, .. }) = leaps {
-                add(q, shift, ahead);
+            if let Some(before) = &mut carried.before {
+                add(q, shift, before);
             }
         }
         carried.history.begin_again(&carried.work.increment);

@@ -7,25 +7,24 @@
 //!
 //! KΔ = c0 − (1−σ)h∇H(q_σ)        c1 = K'Δ − σh∇H(q_σ)        K' = σ(Dα)ᵀ − (1−σ)Dα
 //!
-//! At σ = 1 no gradient of the unknown point occurs in the first: explicit, as at σ = 0, whose steps are
-//! [`leaps`](super::leapfrog). At σ = ½, K' = −K and c1 = −c0; with c0 = 0 the scheme is the implicit
-//! midpoint rule.
+//! At σ = 0 and 1 no gradient of the unknown point occurs in the first: explicit. Where Dα is antisymmetric,
+//! steps with σ = 0 are [`leaps`](super::leapfrog). At σ = ½, K' = −K and c1 = −c0; with c0 = 0 the scheme is
+//! the implicit midpoint rule.
 
 use super::Step;
 use super::affine::fixed_point;
 use super::memory::{Carried, SigmaMemory, Work, scaled_matrix};
-use crate::discrete::{DiscreteLagrangian, Ends, Span, solve_by_newton};
+use crate::discrete::{Departing, DiscreteLagrangian, Ends, Span};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
-use crate::solve::{Convergence, Guess, iterate, sizes};
+use crate::solve::{Guess, solve_by_fixed_point, solve_by_newton};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Linear, Real, Vector};
 
-/// A step with an equation to solve, or of σ = 1. Kept out of line, so that the leaps of σ = 0 do not set up
-/// a frame for it.
+/// A step that is no leap. Kept out of line, so that leaps do not set up a frame for it.
 #[inline(never)]
 pub(super) fn step<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
@@ -63,9 +62,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     fn fixed_point(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         if !S::AFFINE {
             self.frozen_fixed_point(statistics)
-        } else if self.step.method.sigma == T::lift(1.0) {
+        } else if self.step.method.is_end() {
             self.carried.work.increment.fill(T::lift(0.0));
-            self.evaluate_at_node(statistics)
+            self.evaluate_at_node(statistics)?;
+            let Carried { inverse, l_d, work, .. } = &mut *self.carried;
+            if self.step.method.sigma == T::lift(0.0) {
+                inverse.solve(self.step.system, &l_d.work.gradient, &mut work.increment);
+            }
+            Ok(())
         } else {
             fixed_point(self.step, self.q, self.carried, self.budget, statistics)
         }
@@ -82,10 +86,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         } else {
             history.extrapolate(increment);
         }
-        l_d.place(step.interval(), Ends { q0: q, delta: increment });
+        l_d.place(step.h, Ends { q0: q, delta: increment });
         let (_, matrix) = scaled_matrix::<S, T>(step.method, step.h);
         inverse.prepare(system, &l_d.work.point, step.node_time(), matrix, trial, statistics)?;
-        let mut correct = |delta: &mut [T], change: &mut [T], statistics: &mut Statistics| {
+        let criterion = (!is_linear).then_some((step.method.stopping, *budget));
+        let storage = [&mut increment[..], trial, weights];
+        solve_by_fixed_point((system, q), storage, criterion, statistics, |delta, change, statistics| {
             add(defect, one_form, residual);
             let span = Span { system, interval: step.interval(), ends: Ends { q0: q, delta } };
             l_d.derivatives(span, residual, sum, statistics)?;
@@ -94,18 +100,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
                 *delta += change;
             }
             Ok(())
-        };
-        if is_linear {
-            correct(increment, trial, statistics)?;
-        } else {
-            let convergence = Convergence::fixed_point(step.method.stopping, *budget);
-            iterate(convergence, statistics, |due, statistics| {
-                due.prepare(system, weights, q, increment);
-                correct(increment, trial, statistics)?;
-                Ok(sizes::largest(weights, trial))
-            })?;
-        }
-        norm::finite(increment)
+        })
     }
 
     /// Newton on Δ.
@@ -131,8 +126,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         }
         add(defect, one_form, p0);
         let (points, storage) = ([&***q, &**p0], (solver, [trial, weights]));
-        let (interval, stopping) = (step.interval(), method.stopping);
-        solve_by_newton(l_d, system, interval, points, increment, storage, stopping, statistics)?;
+        let departing = &mut Departing { l_d, system, interval: step.interval(), q0: q };
+        solve_by_newton(departing, system, points, increment, storage, method.stopping, statistics)?;
         if let Some(shift) = shift {
             increment.iter_mut().zip(shift.iter()).for_each(|(delta, &shift)| *delta -= shift);
         }
@@ -143,7 +138,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     fn evaluate_at_node(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { step, q, carried: Carried { l_d, work, .. }, .. } = self;
         add(&work.shift, &work.increment, &mut work.trial);
-        l_d.place(step.interval(), Ends { q0: q, delta: &work.trial });
+        l_d.place(step.h, Ends { q0: q, delta: &work.trial });
         let node = &mut l_d.work;
         step.system.hamiltonian_gradient(&node.point, step.node_time(), &mut node.gradient);
         statistics.gradients += 1;
@@ -200,7 +195,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
         let right_h = step.method.sigma * step.h;
         // At σ = 0 the node is q0, where the equations have been evaluated.
         if step.method.sigma != T::lift(0.0) {
-            l_d.place(step.interval(), Ends { q0: q, delta: increment });
+            l_d.place(step.h, Ends { q0: q, delta: increment });
             let node = &mut l_d.work;
             let [gradient, momentum] = [&mut node.gradient, &mut node.momentum];
             system.gradient(&node.point, &node.velocity, step.node_time(), gradient, momentum);

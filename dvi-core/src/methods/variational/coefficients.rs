@@ -8,37 +8,18 @@ use super::{Fitting, Variational};
 use crate::discrete::basis::{self, Bases, Basis};
 use crate::discrete::frequency::{self, FrequencyIn};
 use crate::discrete::quadrature::{NODES, Rule};
-use crate::discrete::{Ends, NodeWork, Span};
+use crate::discrete::{Ends, Node, NodeWork, Nodes, Span};
 use crate::error::StepFailure;
 use crate::methods::step::Kinetic;
 use crate::scalar::norm::reported;
-use crate::space::sink::Sink;
-use crate::{NondegenerateLagrangian, Real, Scalar, System, Weights};
-
-/// sin u and S count as zero below this.
-const RESONANCE: f64 = 1e-4;
-
-/// The ends of an interval.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
-    Left,
-    Right,
-}
-
-impl End {
-    /// b and B, or b̄ and B̄.
-    fn of<V>(self, [left, right]: [V; 2]) -> V {
-        match self {
-            Self::Left => left,
-            Self::Right => right,
-        }
-    }
-}
+use crate::{NondegenerateLagrangian, Real, Scalar};
 
 /// The coefficients of all nodes of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coefficients<T> {
     u: T,
+    len: usize,
+    times: [T; NODES],
     pub(super) weights: [T; NODES],
     /// b, b̄, B and B̄.
     pub(super) bases: [Basis<T>; NODES],
@@ -53,12 +34,13 @@ impl<T: Real> Coefficients<T> {
     pub(super) fn linear(rule: &impl Rule) -> Self {
         let zero = T::lift(0.0);
         let nodes = Bases::new(zero);
-        let mut weights = [zero; NODES];
+        let (mut times, mut weights) = ([zero; NODES], [zero; NODES]);
         let mut bases = [nodes.basis(0.0, nodes.pairs(0.0)); NODES];
         for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
-            (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
+            (times[j], weights[j], bases[j]) = (T::lift(c), T::lift(w), nodes.basis(c, nodes.pairs(c)));
         }
-        Self { u: zero, weights, bases, sums: Kinetic::of_mean_velocity() }
+        let (len, sums) = (rule.nodes().len(), Kinetic::of_mean_velocity());
+        Self { u: zero, len, times, weights, bases, sums }
     }
 
     /// Makes these the coefficients for u = ωh.
@@ -81,19 +63,9 @@ impl<T: Real> Coefficients<T> {
         }
         let sinc = nodes.sinc();
         let cosine_sum = mixed + u * u * inner;
-        let small = T::lift(RESONANCE);
-        let determined = Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small;
-        if !determined {
-            // Not the coefficients of any step.
-            self.u = T::lift(f64::NAN);
-            frequency::defined(u)?;
-            let u = reported(u);
-            return Err(StepFailure::Resonance {
-                u,
-                sine: u * reported(sinc),
-                cosine_sum: reported(cosine_sum),
-            });
-        }
+        // Unless there are some, these are not the coefficients of any step.
+        self.u = T::lift(f64::NAN);
+        frequency::determined(u, sinc, cosine_sum)?;
         let mut factor = nodes.reciprocal() * nodes.reciprocal();
         if fitting == Fitting::PhaseAndMomentum {
             let fitted = sinc / cosine_sum;
@@ -154,36 +126,6 @@ impl<T: Real> Coefficients<T> {
         }
     }
 
-    /// Sets `point` to qʲ and `velocity` to q̇ʲ of a node.
-    pub(super) fn place<S: System>(&self, node: usize, h: T, ends: Ends<'_, T>, at: &mut NodeWork<S, T>) {
-        let (Ends { q0, delta }, per_h) = (ends, T::lift(1.0) / h);
-        let Basis { b, b_bar, d, d_bar } = self.bases[node];
-        for i in 0..q0.len() {
-            at.point[i] = (b + b_bar) * q0[i] + b_bar * delta[i];
-            at.velocity[i] = ((d + d_bar) * q0[i] + d_bar * delta[i]) * per_h;
-        }
-    }
-
-    /// Adds what a node, at which `work` stands, contributes to the second derivative of L_d by these two
-    /// ends; sets ∂L/∂q and ∂L/∂v in `work`.
-    #[inline]
-    pub(super) fn add_second<S: NondegenerateLagrangian<T>, K: Sink<T>>(
-        &self,
-        node: usize,
-        ends: [End; 2],
-        system: &S,
-        [t, h]: [T; 2],
-        NodeWork { point, velocity, gradient, momentum }: &mut NodeWork<S, T>,
-        sink: &mut K,
-    ) {
-        let (w, Basis { b, b_bar, d, d_bar }) = (self.weights[node], self.bases[node]);
-        let at_ends = [[b, d], [b_bar, d_bar]];
-        let ([r, r_dot], [c, c_dot]) = (ends[0].of(at_ends), ends[1].of(at_ends));
-        let weights =
-            Weights { qq: w * h * r * c, qv: w * r * c_dot, vq: w * r_dot * c, vv: w * r_dot * c_dot / h };
-        system.linearize(point, velocity, t, weights, gradient, momentum, sink);
-    }
-
     /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
     pub(super) fn slope<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule>(
         &self,
@@ -199,8 +141,8 @@ impl<T: Real> Coefficients<T> {
         let per_h = T::lift(1.0) / h;
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {
-            self.place(node, h, ends, work);
             let NodeWork { point, velocity, gradient, momentum } = &mut *work;
+            self.place(node, h, ends, [point, velocity]);
             let (t, Ends { q0, delta }) = (interval.time(T::lift(c)), ends);
             system.gradient(point, velocity, t, gradient, momentum);
             let Basis { b, b_bar, d, d_bar } = slopes[node];
@@ -218,5 +160,16 @@ impl<T: Real> Coefficients<T> {
         }
         // z = ω²h², and ℓ = h Σ w L.
         h * by_z * twice_omega * h * h
+    }
+}
+
+impl<T: Real> Nodes<T> for Coefficients<T> {
+    fn count(&self) -> usize {
+        self.len
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn node(&self, j: usize) -> Node<T> {
+        Node::new(self.times[j], self.weights[j], self.bases[j])
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! E_d = −∂L_d/∂h = Σⱼ wⱼ E(qʲ, Δ/h) with linear interpolation.
 
-use super::{Variational, VariationalMemory};
+use super::Variational;
 use crate::discrete::frequency::{Frequency, Unfitted};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{Ends, Span};
@@ -38,8 +38,7 @@ impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Varia
     const HAS_ENERGY: bool = true;
 
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.validate::<S, T>(system)?;
-        VariationalMemory::new(system, self, q, v, t, h)
+        self.depart_from(system, (q, v, t), h)
     }
     fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         self.take(step, memory)

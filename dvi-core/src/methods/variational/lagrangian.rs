@@ -1,18 +1,14 @@
-//! The discrete Lagrangian of a rule and an interpolation, for any L and any frequency.
-//!
-//! D₁L_d = Σ w (h b ∂L/∂q + B ∂L/∂v)      D₂L_d = Σ w (h b̄ ∂L/∂q + B̄ ∂L/∂v)
-//! D₁D₂L_d = Σ w (h b b̄ L_qq + b B̄ L_qv + B b̄ L_vq + B B̄ L_vv/h),
-//! and D₁D₁L_d, D₂D₂L_d with b, B or b̄, B̄ twice
+//! The [discrete Lagrangian](crate::discrete) of a rule and an interpolation, for any L and any frequency.
 //!
 //! With a variational frequency, L_d = ℓ(q0, q1, ω(q0, q1)) and D₁L_d = ∂ℓ/∂q0 + ∂ℓ/∂ω ∂ω/∂q0: the first
 //! derivatives are exact, and D₁D₂L_d is that of ω held constant.
 
 use super::Variational;
-use super::coefficients::{Coefficients, End};
+use super::coefficients::Coefficients;
 use crate::discrete::basis::Basis;
-use crate::discrete::frequency::{Frequency, FrequencyIn, GivenFrequency, Local};
+use crate::discrete::frequency::{FrequencyIn, GivenFrequency, Local};
 use crate::discrete::quadrature::Rule;
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, NodeWork, Span, TwiceDifferentiable};
+use crate::discrete::{Ends, Interval, Node, NodeWork, Nodes, Span, SumOverNodes, linearize};
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::{Begin, Equations, Kinetic, Share, set_force};
 use crate::methods::{InnerScheme, VariationalMethod};
@@ -167,13 +163,11 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
                 Share::Both { force } => ([b + b_bar, d + d_bar], Some(force)),
             };
             if !S::SEPARABLE {
-                coefficients.place(j, h, ends, node);
                 let NodeWork { point, velocity, gradient, momentum } = &mut *node;
+                coefficients.place(j, h, ends, [point, velocity]);
                 system.gradient(point, velocity, time, gradient, momentum);
                 statistics.gradients += 1;
-                for (to, (&l_q, &l_v)) in to.iter_mut().zip(gradient.iter().zip(momentum.iter())) {
-                    *to += weight * (h * by_point * l_q + by_velocity * l_v);
-                }
+                node.add(weight, h, [by_point, by_velocity], to);
                 continue;
             }
             let force: &[T] = match at_end {
@@ -206,7 +200,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
         self.read_both_ends(begin, delta, Share::Left, (coefficients, node), statistics)?;
         let &Begin { system, interval, q: q0, .. } = begin;
         let span = Span { system, interval, ends: Ends { q0, delta } };
-        add_linearized(self.method, span, coefficients, node, d1, sink);
+        linearize(coefficients, span, node, d1, sink);
         self.vary_frequency(begin, delta, Share::Left, (coefficients, node), d1);
         Ok(())
     }
@@ -223,113 +217,22 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
     }
 }
 
-/// The discrete Lagrangian of a rule and of an interpolation that is linear or fitted to a frequency that is
-/// given, with the storage that it needs.
+/// The nodes of a rule, with an interpolation that is linear or fitted to a frequency that is given.
 #[derive(Debug)]
-pub struct QuadratureLagrangian<S: System, F, R, T: Real = f64> {
+pub struct RuleNodes<F, R, T> {
     method: Variational<F, R>,
     coefficients: Coefficients<T>,
-    node: NodeWork<S, T>,
 }
 
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> QuadratureLagrangian<S, F, R, T> {
-    pub(super) fn new(system: &S, method: Variational<F, R>) -> Self {
-        let coefficients = Coefficients::linear(&method.rule);
-        Self { method, coefficients, node: NodeWork::new(system) }
+impl<F: FrequencyIn<T>, R: Rule, T: Real> Nodes<T> for RuleNodes<F, R, T> {
+    fn fit(&mut self, h: T) -> Result<(), StepFailure> {
+        self.coefficients.fix(&self.method, h)
     }
-}
-
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> DiscreteLagrangian<S, T>
-    for QuadratureLagrangian<S, F, R, T>
-{
-    fn derivatives(
-        &mut self,
-        span: Span<'_, S, T>,
-        d1: &mut [T],
-        sum: &mut [T],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let Self { method, coefficients, node } = self;
-        let Span { system, interval: interval @ Interval { h, .. }, ends } = span;
-        coefficients.fix(method, h)?;
-        for (j, &c) in method.rule.nodes().iter().enumerate() {
-            coefficients.place(j, h, ends, node);
-            let NodeWork { point, velocity, gradient, momentum } = &mut *node;
-            system.gradient(point, velocity, interval.time(T::lift(c)), gradient, momentum);
-            statistics.gradients += 1;
-            let (weight, Basis { b, b_bar, d, d_bar }) = (coefficients.weights[j], coefficients.bases[j]);
-            for (i, sum) in sum.iter_mut().enumerate() {
-                *sum += weight * (h * (b + b_bar) * gradient[i] + (d + d_bar) * momentum[i]);
-            }
-            add_first(coefficients, j, h, node, d1);
-        }
-        Ok(())
+    fn count(&self) -> usize {
+        self.coefficients.count()
     }
-
-    fn linearize<K: Sink<T>>(
-        &mut self,
-        span: Span<'_, S, T>,
-        d1: &mut [T],
-        sink: &mut K,
-        _statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let Self { method, coefficients, node } = self;
-        coefficients.fix(method, span.interval.h)?;
-        add_linearized(method, span, coefficients, node, d1, sink);
-        Ok(())
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> TwiceDifferentiable<S, T>
-    for QuadratureLagrangian<S, F, R, T>
-{
-    fn hessian<K: Sink<T>>(
-        &mut self,
-        Span { system, interval, ends }: Span<'_, S, T>,
-        [d11, d12, d21, d22]: [&mut K; 4],
-    ) -> Result<(), StepFailure> {
-        let Self { method, coefficients, node } = self;
-        coefficients.fix(method, interval.h)?;
-        for (j, &c) in method.rule.nodes().iter().enumerate() {
-            coefficients.place(j, interval.h, ends, node);
-            let at = [interval.time(T::lift(c)), interval.h];
-            coefficients.add_second(j, [End::Left, End::Left], system, at, node, d11);
-            coefficients.add_second(j, [End::Left, End::Right], system, at, node, d12);
-            coefficients.add_second(j, [End::Right, End::Left], system, at, node, d21);
-            coefficients.add_second(j, [End::Right, End::Right], system, at, node, d22);
-        }
-        Ok(())
-    }
-}
-
-/// Adds D₁ℓ and D₁D₂ℓ.
-fn add_linearized<S: NondegenerateLagrangian<T>, F, R: Rule, T: Real, K: Sink<T>>(
-    Variational { rule, .. }: &Variational<F, R>,
-    Span { system, interval, ends }: Span<'_, S, T>,
-    coefficients: &Coefficients<T>,
-    node: &mut NodeWork<S, T>,
-    d1: &mut [T],
-    sink: &mut K,
-) {
-    for (j, &c) in rule.nodes().iter().enumerate() {
-        coefficients.place(j, interval.h, ends, node);
-        let at = [interval.time(T::lift(c)), interval.h];
-        coefficients.add_second(j, [End::Left, End::Right], system, at, node, sink);
-        add_first(coefficients, j, interval.h, node, d1);
-    }
-}
-
-/// Adds the part of D₁ℓ that a node has, from the derivatives of L there.
-fn add_first<S: NondegenerateLagrangian<T>, T: Real>(
-    coefficients: &Coefficients<T>,
-    node: usize,
-    h: T,
-    NodeWork { gradient, momentum, .. }: &NodeWork<S, T>,
-    d1: &mut [T],
-) {
-    let (weight, Basis { b, d, .. }) = (coefficients.weights[node], coefficients.bases[node]);
-    for (i, d1) in d1.iter_mut().enumerate() {
-        *d1 += weight * (h * b * gradient[i] + d * momentum[i]);
+    fn node(&self, j: usize) -> Node<T> {
+        self.coefficients.node(j)
     }
 }
 
@@ -340,26 +243,31 @@ where
     R: Rule + Clone,
     T: Real,
 {
-    type DiscreteLagrangian = QuadratureLagrangian<S, F, R, T>;
+    type DiscreteLagrangian = SumOverNodes<S, RuleNodes<F, R, T>, T>;
 
     fn admit(&self, system: &S) -> Result<(), StartError> {
         self.validate::<S, T>(system)
     }
 
-    fn discrete_lagrangian(&self, system: &S) -> QuadratureLagrangian<S, F, R, T> {
-        QuadratureLagrangian::new(system, self.clone())
+    fn discrete_lagrangian(&self, system: &S) -> SumOverNodes<S, RuleNodes<F, R, T>, T> {
+        let coefficients = Coefficients::linear(&self.rule);
+        SumOverNodes::of(system, RuleNodes { method: self.clone(), coefficients })
     }
 }
 
-impl<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> InnerScheme<S, T> for Variational<F, R>
+impl<S, F, R, T> InnerScheme<S, T> for Variational<F, R>
 where
-    Self: VariationalMethod<S, T>,
+    S: NondegenerateLagrangian<T>,
+    F: FrequencyIn<T> + GivenFrequency + Clone,
+    R: Rule + Clone,
+    T: Real,
 {
     type Suited<X> = X;
+    type Inside = SumOverNodes<S, RuleNodes<F, R, T>, T>;
 
     const IS_VERLET: bool = S::SEPARABLE && F::UNFITTED && R::TRAPEZOIDAL;
 
-    fn admit_inside(&self) -> Result<(), StartError> {
+    fn inside(&self, system: &S) -> Result<Self::Inside, StartError> {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         if self.summation != Summation::default() {
             return unsupported(
@@ -379,6 +287,6 @@ where
                 "`Constrained` has one of its own, which counts",
             );
         }
-        Ok(())
+        Ok(self.discrete_lagrangian(system))
     }
 }

@@ -11,7 +11,6 @@ use crate::methods::walk::BLOCK;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::read_lane;
 use crate::scalar::simd::{Task, widest};
-use crate::state::summation::Summation;
 use crate::system::Packable;
 use crate::{NondegenerateLagrangian, RegularLagrangian, Space, System, Vector};
 
@@ -51,7 +50,7 @@ where
         count: u64,
     ) -> u64 {
         let is_separable = <S as NondegenerateLagrangian<f64>>::SEPARABLE;
-        if !(self.is_verlet() && is_separable && self.summation == Summation::Plain) {
+        if !(self.is_verlet() && is_separable) {
             return 0;
         }
         let Packs { now, kept, reciprocals, one } = packs;

@@ -1,22 +1,19 @@
 //! The trapezoidal rule with linear interpolation on L = ½ v·M v − V(q, t): Störmer–Verlet, in the form
-//! kick–drift–kick. One ∂L/∂q a step, no iteration, no factorisation.
+//! kick–drift–kick, with plain sums. One ∂L/∂q a step, no iteration, no factorisation.
 //!
 //! p½ = p0 + (h/2) F(q0, t)    q1 = q0 + h M⁻¹p½    p1 = p½ + (h/2) F(q1, t + h)
 //!
 //! Source: Hairer, Lubich & Wanner 2003, "Geometric numerical integration illustrated by the Störmer–Verlet
 //! method".
 
-use crate::discrete::Interval;
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
-use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
+use crate::mechanics::phase::{Arrival, Inertial, PhasePoint};
 use crate::methods::Clock;
-use crate::methods::step::{Carried, Work, set_force};
+use crate::methods::step::Carried;
 use crate::methods::walk::{Walk, walk};
 use crate::scalar::norm;
 use crate::space::scratch;
-use crate::state::Statistics;
-use crate::state::summation::Summation;
 use crate::{NondegenerateLagrangian, Real, Vector};
 
 /// Takes `count` steps, or as many as succeed, and returns how many; `q` and `memory` are then at the last
@@ -38,52 +35,6 @@ pub(super) fn steps<S: NondegenerateLagrangian<T>, T: Real>(
     f1.copy_from_slice(&phase.force);
     let half = T::lift(0.5) * clock.step_size();
     walk(Kicks { system, mass, clock, half, q, phase, q1, p1, f1, v, owed: false }, 0, count)
-}
-
-/// One step, with sums of either kind.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(in crate::methods) fn step<S: NondegenerateLagrangian<T>, T: Real>(
-    system: &S,
-    carried: &mut Carried<S, T>,
-    q: &mut Vector<S, T>,
-    (interval, summation): (Interval<T>, Summation),
-    statistics: &mut Statistics,
-) -> Result<(), StepFailure> {
-    if summation == Summation::Compensated {
-        statistics.gradients += 1;
-        return compensated(system, carried, q, interval);
-    }
-    let (taken, result) = steps(system, carried, q, Clock::new(interval.t, interval.h), 1);
-    statistics.gradients += taken;
-    result
-}
-
-/// One step with compensated sums, forces being evaluated at these.
-#[inline(never)]
-fn compensated<S: NondegenerateLagrangian<T>, T: Real>(
-    system: &S,
-    Carried { phase, inertial: Inertial { mass, .. }, work }: &mut Carried<S, T>,
-    q: &mut Vector<S, T>,
-    interval: Interval<T>,
-) -> Result<(), StepFailure> {
-    let Work { node, increment, next, trial: force, sum, .. } = work;
-    let half = T::lift(0.5) * interval.h;
-    for (impulse, &f) in sum.iter_mut().zip(phase.force.iter()) {
-        *impulse = half * f;
-    }
-    phase.kick(sum, &mut node.momentum);
-    mass.solve(&node.momentum, increment);
-    for delta in increment.iter_mut() {
-        *delta *= interval.h;
-    }
-    phase.reach(q, increment, next);
-    set_force(system, next, interval.time(T::lift(1.0)), force);
-    for (impulse, &f) in sum.iter_mut().zip(force.iter()) {
-        *impulse += half * f;
-    }
-    phase.kick(sum, &mut node.momentum);
-    let by = Increments { q: increment, p: sum };
-    phase.advance(q, &Arrival { q: next, p: &node.momentum, force }, by, interval.h)
 }
 
 /// The present point, momentum and force, and where they are kept.

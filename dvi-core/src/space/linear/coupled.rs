@@ -100,27 +100,37 @@ impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SIN
         vectors: &mut [V; NODES],
     ) -> Result<(), StepFailure> {
         let Self { rows, second, permutation } = self;
-        rows[M::FIRST..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
-        for j in 0..NODES {
-            matrix.place(j);
-            let [qq, qv, vv, vq] = &mut *second;
-            for derivative in [&mut *qq, &mut *qv, &mut *vv] {
-                derivative.fill(T::lift(0.0));
-            }
-            matrix.second_derivatives(qq, qv, vv);
-            if !M::MIXED_ARE_TRANSPOSED {
-                vq.fill(T::lift(0.0));
-                matrix.momentum_by_position(vq);
-            }
-            for (r, row) in rows.iter_mut().enumerate().skip(M::FIRST) {
-                for (k, block) in row.iter_mut().enumerate().skip(M::FIRST) {
-                    let (w, n) = (matrix.weights(r, k), Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION);
-                    add_transposed::<_, _, M, NODES>(w, second, n, block);
-                }
-            }
-        }
+        assemble(matrix, second, rows, permutation.len(), M::FIRST);
         let scales = &mut second[0][..permutation.len()];
         blocks::eliminate(rows, permutation, (weights, scales), vectors, M::FIRST..NODES)
+    }
+}
+
+/// Sets `rows`, of blocks that are stored transposed, from the row and the column `first` on; `second` is
+/// room for L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
+pub(crate) fn assemble<const NODES: usize, T: Real, M: NodeSum<NODES, T>, D>(
+    matrix: &mut M,
+    second: &mut [D; 4],
+    rows: &mut [[D; NODES]; NODES],
+    n: usize,
+    first: usize,
+) where
+    D: DerefMut<Target = [T]> + Sink<T>,
+{
+    rows[first..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
+    for j in 0..NODES {
+        matrix.place(j);
+        second.iter_mut().for_each(|derivative| derivative.fill(T::lift(0.0)));
+        let [qq, qv, vv, vq] = &mut *second;
+        matrix.second_derivatives(qq, qv, vv);
+        if !M::MIXED_ARE_TRANSPOSED {
+            matrix.momentum_by_position(vq);
+        }
+        for (r, row) in rows.iter_mut().enumerate().skip(first) {
+            for (k, block) in row.iter_mut().enumerate().skip(first) {
+                add_transposed::<_, _, M, NODES>(matrix.weights(r, k), second, n, block);
+            }
+        }
     }
 }
 
