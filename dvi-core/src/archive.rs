@@ -80,8 +80,8 @@ use std::time::{Duration, Instant};
 use std::vec::Vec;
 
 use crate::ensemble::facts::{self, Facts};
-use crate::ensemble::fingerprint::Fingerprint;
 use crate::run::{Resume, Run};
+use crate::state::fingerprint::Fingerprint;
 use file::File;
 
 pub use error::{ArchiveError, Difference};
