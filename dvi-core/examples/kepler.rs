@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The pericentre of an orbit of semi-major axis 1 and period 2π.
     let start = KeplerState { x: 0.05, y: 0.0, dot_x: 0.0, dot_y: 39.0_f64.sqrt() };
     let method = Variational::trapezoid();
-    let mut run = ControlledIntegrator::new(&kepler, method, Reversible::power(0.02, 1.5), start)?;
+    let mut run = Integrator::controlled(&kepler, method, Reversible::power(0.02, 1.5), start)?;
     let energy = run.energy();
 
     let (mut recorder, mut steps) = (Recorder::new(&kepler), Vec::new());

@@ -1,39 +1,6 @@
 //! A long run in one file: a checkpoint every so many steps or seconds, from which each state of the run is
 //! computed again, bit for bit.
 //!
-//! ```
-//! use dvi_core::archive::{Archive, Every};
-//! use dvi_core::prelude::*;
-//!
-//! #[lagrangian(coordinates(angle), lagrangian = dot(angle).powi(2) / 2.0 + angle.cos())]
-//! struct Pendulum;
-//!
-//! # let folder = std::env::temp_dir();
-//! # let path = folder.join(format!("dvi-archive-{}", std::process::id()));
-//! # let _ = std::fs::remove_file(&path);
-//! let begin = || {
-//!     let start = PendulumState { angle: 1.0, dot_angle: 0.0 };
-//!     Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)
-//! };
-//! let mut archive = Archive::new(&path, begin()?, Every::Steps(10_000))?;
-//! archive.take_steps(100_000)?;
-//!
-//! // Later, perhaps in another process: the run goes on where its archive ends.
-//! # drop(archive);
-//! let mut archive = Archive::new(&path, begin()?, Every::Steps(10_000))?;
-//! assert_eq!(archive.run().steps(), 100_000);
-//! archive.take_steps(1000)?;
-//!
-//! // What it was at t = 345.67, as a run of its own.
-//! let then = archive.run_at(345.67)?;
-//! let mut alone = begin()?;
-//! alone.take_steps(34_567)?;
-//! assert_eq!(then.state(), alone.state());
-//! # drop(archive);
-//! # std::fs::remove_file(&path)?;
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
 //! # What is in the file
 //!
 //! What tells this run from others, and checkpoints in a row, each with its length and a fingerprint, in a
@@ -42,46 +9,20 @@
 //! process that is killed, or a disk that is full, leaves what was complete: the rest of a checkpoint is cut
 //! off when the file is opened again. A file that has changed before its last checkpoint is an error, and
 //! so is that of another system, method, control or start; it is left as it is then.
-//!
-//! # A checkpoint alone
-//!
-//! A [`Checkpoint`](crate::run::Checkpoint) is data for `serde`. Its text has a checksum, so that one that
-//! has changed is an error:
-//!
-//! ```
-//! use dvi_core::prelude::*;
-//! # #[lagrangian(coordinates(angle), lagrangian = dot(angle).powi(2) / 2.0 + angle.cos())]
-//! # struct Pendulum;
-//! # let start = PendulumState { angle: 1.0, dot_angle: 0.0 };
-//! # let path = std::env::temp_dir().join(format!("dvi-checkpoint-{}", std::process::id()));
-//!
-//! let mut run = Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start)?;
-//! run.take_steps(1000)?;
-//! std::fs::write(&path, serde_json::to_string(&run.checkpoint())?)?;
-//!
-//! let checkpoint: Checkpoint = serde_json::from_str(&std::fs::read_to_string(&path)?)?;
-//! let mut again = Integrator::resume(&Pendulum, Variational::trapezoid(), &checkpoint)?;
-//! again.take_steps(1000)?;
-//! run.take_steps(1000)?;
-//! assert_eq!(again.state(), run.state());
-//! # std::fs::remove_file(&path)?;
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! [A checkpoint alone](crate::guide::recipes#save-and-resume) is data for `serde`.
 
 mod error;
 mod file;
 
 use std::any::type_name;
-use std::fmt::Debug;
-use std::format;
 use std::path::Path;
 use std::string::ToString;
 use std::time::{Duration, Instant};
 use std::vec::Vec;
 
 use crate::ensemble::facts::{self, Facts};
-use crate::ensemble::fingerprint::Fingerprint;
-use crate::run::{Resume, Run};
+use crate::run::Resume;
+use crate::state::fingerprint::Fingerprint;
 use file::File;
 
 pub use error::{ArchiveError, Difference};
@@ -117,15 +58,23 @@ pub enum Every {
 #[doc = include_str!("../docs/hidden/pendulum.txt")]
 /// use dvi_core::archive::{Archive, Every};
 ///
-/// # let path = std::env::temp_dir().join(format!("dvi-kept-{}", std::process::id()));
+/// # let path = std::env::temp_dir().join(format!("dvi-archive-{}", std::process::id()));
 /// # let _ = std::fs::remove_file(&path);
 /// let begin = || Integrator::new(&Pendulum, Variational::trapezoid(), 0.01, start.clone());
-/// let mut archive = Archive::new(&path, begin()?, Every::Steps(1000))?;
-/// archive.take_steps(2500)?;
-/// // The state after 1234 steps, from the checkpoint before.
+/// let mut archive = Archive::new(&path, begin()?, Every::Steps(10_000))?;
+/// archive.take_steps(100_000)?;
+///
+/// // Later, perhaps in another process: the run goes on where its archive ends.
+/// # drop(archive);
+/// let mut archive = Archive::new(&path, begin()?, Every::Steps(10_000))?;
+/// assert_eq!(archive.run().steps(), 100_000);
+/// archive.take_steps(1000)?;
+///
+/// // What it was at t = 345.67, as a run of its own.
+/// let then = archive.run_at(345.67)?;
 /// let mut alone = begin()?;
-/// alone.take_steps(1234)?;
-/// assert_eq!(archive.run_after(1234)?.state(), alone.state());
+/// alone.take_steps(34_567)?;
+/// assert_eq!(then.state(), alone.state());
 /// # drop(archive);
 /// # std::fs::remove_file(&path)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -140,11 +89,7 @@ pub struct Archive<R> {
     written: Instant,
 }
 
-impl<R> Archive<R>
-where
-    R: Resume + Run<Scalar = f64>,
-    R::Method: Debug,
-{
+impl<R: Resume<Scalar = f64>> Archive<R> {
     /// The archive of `run` in the file at `path`. If there is none, it is made, with `run` as it is; else
     /// `run` has to be as it was then, and the run goes on where the archive ends. No other process can have
     /// the file at the same time.
@@ -252,26 +197,21 @@ where
         let Some(kept) = kept.filter(|_| is_past(self.run.time())) else {
             return Err(ArchiveError::Time { t, reached: self.run.time() });
         };
-        let checkpoint = self.file.read(*kept)?;
-        let [mut run, mut ahead] = [self.run.resumed(&checkpoint)?, self.run.resumed(&checkpoint)?];
-        while ahead.steps() < self.run.steps() {
+        let (mut ahead, mut steps) = (self.run.resumed(&self.file.read(*kept)?)?, kept.step);
+        while steps < self.run.steps() {
             ahead.advance()?;
             if !is_reached(ahead.time()) {
                 break;
             }
-            run.advance()?;
+            steps = ahead.steps();
         }
-        Ok(run)
+        self.run_after(steps)
     }
 }
 
 /// What tells the archive of `run` from others.
-fn facts_of<R>(run: &R) -> Facts
-where
-    R: Resume + Run<Scalar = f64>,
-    R::Method: Debug,
-{
-    let system = run.system();
+fn facts_of<R: Resume<Scalar = f64>>(run: &R) -> Facts {
+    let (system, [method, control]) = (run.system(), run.taken_by());
     let mut parameters = Fingerprint::new();
     facts::parameters(&mut parameters, system, run.q(), &run.v(), run.time());
     let names: Vec<_> = crate::System::names(system).map(|name| name.to_string()).collect();
@@ -281,8 +221,8 @@ where
         ("list of coordinates", names.join(" ")),
         ("fingerprint of the formulas", facts::formulas::<R::System>()),
         ("fingerprint of the parameters and the start", parameters.to_string()),
-        ("method", format!("{} {:?}", type_name::<R::Method>(), run.method())),
-        ("step control", format!("{:?}", run.chosen_by())),
+        ("method", method),
+        ("step control", control),
     ];
     facts.into_iter().map(|(what, value)| (what.to_string(), value)).collect()
 }

@@ -66,7 +66,6 @@ mod draws;
 pub(crate) mod error;
 pub(crate) mod facts;
 mod file;
-pub(crate) mod fingerprint;
 mod group;
 mod growth;
 mod lanes;

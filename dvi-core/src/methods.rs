@@ -84,9 +84,10 @@ mod variable_step;
 mod variational;
 mod walk;
 
-use crate::discrete::{DiscreteLagrangian, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
 use crate::memory::Memory;
+use crate::state::Statistics;
 use crate::system::Same;
 use crate::{Lagrangian, Real, System, Vector};
 
@@ -105,7 +106,6 @@ pub use newmark::Newmark;
 pub use one_step::{OneStep, OneStepGauss};
 pub use projected::Projected;
 pub use runge_kutta::RungeKutta;
-pub(crate) use sigma_family::SigmaMemory;
 pub use sigma_family::{BeginsBetween, ParasiticMode, Sigma, Start};
 pub use tabulated::Tabulated;
 #[cfg(feature = "alloc")]
@@ -313,6 +313,41 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     #[inline]
     fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         steps.one_by_one(self, memory)
+    }
+
+    /// Whether [`discrete_energy`](Self::discrete_energy) is known.
+    fn has_discrete_energy(&self) -> bool {
+        false
+    }
+
+    /// The discrete energy E_d = −∂L_d/∂h of a step, for L that does not depend on time (Marsden & West
+    /// 2001, section 4.2); not a number if it is not known. `work` is storage for a point and a velocity.
+    fn discrete_energy(&self, _span: Span<'_, S, T>, _work: &mut [Vector<S, T>; 2]) -> T {
+        T::lift(f64::NAN)
+    }
+
+    /// Whether [`local_error`](Self::local_error) is known.
+    fn estimates_local_error(&self) -> bool {
+        false
+    }
+
+    /// An estimate of the error of the last step, which was taken from time `t` with length `h`, in units of
+    /// `tolerance`, without allocation; infinite if the method has none. It is of the order h<sup>p+1</sup>
+    /// of the error, with the [order](Scheme::order) p. `usual` is the length that steps had before: a step
+    /// that begins at rest may have the error that is allowed in what its force makes in that time.
+    ///
+    /// # Errors
+    /// [`StepFailure`] if the equations of motion cannot be evaluated where the step began.
+    fn local_error(
+        &self,
+        _system: &S,
+        _memory: &mut Self::Memory,
+        _t: T,
+        [_h, _usual]: [T; 2],
+        _tolerance: Tolerance,
+        _statistics: &mut Statistics,
+    ) -> Result<T, StepFailure> {
+        Ok(T::lift(f64::INFINITY))
     }
 }
 

@@ -84,10 +84,8 @@
 //!
 //! | name | what it is |
 //! |---|---|
-//! | [`Integrator`] | a run with steps of one length |
-//! | [`ControlledIntegrator`] | a run with steps of a control |
-//! | [`Run`] | what both can do |
-//! | [`WithMethod`] | what a run says of its method, where that is known when the program is compiled |
+//! | [`Integrator`] | a run with steps of one length, or of a control |
+//! | [`Run`] | what every run can do |
 //! | [`StepControl`] | what a control is to a run |
 //! | [`Reversible`] | steps that follow the motion, and lead back |
 //! | [`Density`] | where they are short |
@@ -139,8 +137,8 @@ pub use crate::methods::{
 #[cfg(feature = "records")]
 pub use crate::record::Recorded;
 pub use crate::run::{
-    CentreSpeed, ControlledIntegrator, Dense, Density, Direction, EnergyMomentum, ErrorControl, Event,
-    Events, Integrator, Osculating, Power, Reversible, Run, StepControl, Watch, WithMethod,
+    CentreSpeed, Dense, Density, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator,
+    Osculating, Power, Reversible, Run, StepControl, Watch,
 };
 #[cfg(feature = "alloc")]
 pub use crate::run::{Checkpoint, Together};

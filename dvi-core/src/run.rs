@@ -1,10 +1,13 @@
 //! A run: a system, a method, and where they have got to, whatever chooses the lengths of the steps.
 
+mod begun;
 mod between;
 mod borrowed;
 #[cfg(feature = "alloc")]
 mod checkpoint;
+mod clock;
 mod dense;
+mod discrete_momentum;
 mod events;
 mod integrator;
 mod kept;
@@ -15,7 +18,8 @@ mod step_control;
 mod stepper;
 #[cfg(feature = "alloc")]
 mod together;
-mod with_method;
+
+use core::iter::FusedIterator;
 
 use crate::error::{StartError, StepError};
 use crate::mechanics::motion::Rates;
@@ -27,29 +31,27 @@ use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed
 use between::Between;
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
-pub use dense::{Dense, StatesAt};
-pub use events::{Declared, Direction, Event, Events, Watch};
+pub use dense::Dense;
+use events::{Conditions, Declared};
+pub use events::{Direction, Event, Events, Watch};
 pub use integrator::Integrator;
 #[cfg(feature = "alloc")]
 pub use resume::Resume;
 pub use step_control::{
-    CentreSpeed, ControlledIntegrator, ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys,
-    Osculating, Power, Reversible, StepControl,
+    CentreSpeed, ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, OneLength, Osculating, Power,
+    Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;
 
 #[cfg(feature = "alloc")]
 pub use together::Together;
-pub use with_method::WithMethod;
 
-/// A run of a method on a system: what [`Integrator`], with a fixed step, and
-/// [`ControlledIntegrator`], with steps of a control, can both do. States at given times,
-/// [events](Events) and exponents are those of either.
+/// A run of a method on a system: what an [`Integrator`] can do.
 ///
 /// `dyn Run<System = S, Scalar = f64>` is a run of any method:
 /// [a method that is chosen at run
 /// time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time) is one line. In a `Box` or
-/// behind `&mut` it is a run too. What belongs to one method is in [`WithMethod`].
+/// behind `&mut` it is a run too.
 ///
 /// ```
 #[doc = include_str!("../docs/hidden/kepler.txt")]
@@ -139,7 +141,7 @@ pub trait Run {
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    fn states_at<I>(&mut self, times: I) -> Result<StatesAt<&mut Self, I::IntoIter>, StartError>
+    fn states_at<I>(&mut self, times: I) -> Result<impl FusedIterator<Item = dense::Timed<Self>>, StartError>
     where
         Self: Sized,
         I: IntoIterator<Item = Self::Scalar>,
@@ -202,7 +204,7 @@ pub trait Run {
     fn declared_events<const N: usize>(
         &mut self,
         directions: [Direction; N],
-    ) -> Result<Events<&mut Self, Declared, N>, StartError>
+    ) -> Result<Events<&mut Self, impl Conditions<Self::System, Self::Scalar, N>, N>, StartError>
     where
         Self: Sized,
     {

@@ -36,7 +36,7 @@ macro_rules! assert_none {
 macro_rules! assert_none_controlled {
     ($system:expr, $start:expr, $control:expr, $($method:expr),+ $(,)?) => {$(
         let mut run =
-            ControlledIntegrator::new(&$system, $method, $control, $start.clone()).expect("starts");
+            Integrator::controlled(&$system, $method, $control, $start.clone()).expect("starts");
         let blocks = of_steps(|| run.advance().expect("steps"));
         assert_eq!(blocks, 0, "{} by {:?}", stringify!($method), $control);
     )+};

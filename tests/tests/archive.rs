@@ -43,7 +43,7 @@ fn alone<R: Run<Scalar = f64>>(mut run: R, steps: u64) -> Result<(Vec<u64>, Chec
 /// The number of steps of each checkpoint.
 fn kept<R>(archive: &Archive<R>) -> Vec<u64>
 where
-    R: Resume<Scalar = f64, Method: core::fmt::Debug>,
+    R: Resume<Scalar = f64>,
 {
     archive.checkpoints().map(|(steps, _)| steps).collect()
 }

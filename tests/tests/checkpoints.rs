@@ -29,10 +29,11 @@ where
     C: StepControl<Kepler, f64> + Clone,
 {
     for before in [0, 1, 200] {
-        let mut run = ControlledIntegrator::new(&KEPLER, method.clone(), control.clone(), start)?;
+        let mut run = Integrator::controlled(&KEPLER, method.clone(), control.clone(), start)?;
         run.take_steps(before)?;
         let checkpoint = written_and_read(&run.checkpoint())?;
-        let mut again = ControlledIntegrator::resume(&KEPLER, method.clone(), control.clone(), &checkpoint)?;
+        let mut again =
+            Integrator::resume_controlled(&KEPLER, method.clone(), control.clone(), &checkpoint)?;
         for _ in 0..3 {
             assert_eq!(asked(&run), asked(&again), "after {before} steps and some more");
             assert_eq!(run.step_size().to_bits(), again.step_size().to_bits());
@@ -104,11 +105,11 @@ fn controlled_runs_go_on() -> Outcome {
 fn controlled_runs_go_on_from_everywhere() -> Outcome {
     let start = KeplerState { x: 1.95, y: 0.0, dot_x: 0.0, dot_y: (0.05_f64 / 1.95).sqrt() };
     let control = Reversible { start: Some(1.95_f64.powf(-1.5)), ..Reversible::power(0.02, 1.5) };
-    let mut run = ControlledIntegrator::new(&KEPLER, Variational::trapezoid(), control, start)?;
+    let mut run = Integrator::controlled(&KEPLER, Variational::trapezoid(), control, start)?;
     for step in 0..600 {
         run.advance()?;
         let mut again =
-            ControlledIntegrator::resume(&KEPLER, Variational::trapezoid(), control, &run.checkpoint())
+            Integrator::resume_controlled(&KEPLER, Variational::trapezoid(), control, &run.checkpoint())
                 .map_err(|error| format!("after step {step}: {error}"))?;
         again.advance()?;
     }
@@ -327,10 +328,10 @@ fn a_damaged_checkpoint_is_no_panic() -> Outcome {
     check_damaged(&KEPLER, Variational::simpson(), planet)?;
     let control = Osculating::new(1e-3, 0.01);
     let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
-    let mut run = ControlledIntegrator::new(&KEPLER, Variational::trapezoid(), control, start)?;
+    let mut run = Integrator::controlled(&KEPLER, Variational::trapezoid(), control, start)?;
     run.take_steps(50)?;
     let [tried, refused] = damaged(&run.checkpoint(), |checkpoint| {
-        let mut run = ControlledIntegrator::resume(&KEPLER, Variational::trapezoid(), control, checkpoint)?;
+        let mut run = Integrator::resume_controlled(&KEPLER, Variational::trapezoid(), control, checkpoint)?;
         run.take_steps(30).ok();
         Ok(())
     })?;

@@ -222,7 +222,7 @@ fn a_matrix_that_is_no_number_is_not_called_singular() -> Outcome {
 fn a_step_control_keeps_to_the_domain() -> Outcome {
     let start = FallingState { x: 0.5, dot_x: -0.3 };
     let control = ErrorControl::new(1e-6, 0.1);
-    let mut run = ControlledIntegrator::new(&Falling, Gauss::<2>::new(), control, start)?;
+    let mut run = Integrator::controlled(&Falling, Gauss::<2>::new(), control, start)?;
     let error = (0..100_000).find_map(|_| {
         let advanced = run.advance().err();
         assert!(f64::is_finite(run.energy()) && run.q()[0] > 0.0, "{:?}", run.q());
@@ -230,7 +230,7 @@ fn a_step_control_keeps_to_the_domain() -> Outcome {
     });
     assert_eq!(error.ok_or("no error")?.step, run.steps());
     let control = Reversible::new(0.1, Power { exponent: 0.0 });
-    let mut run = ControlledIntegrator::new(&Falling, Variational::trapezoid(), control, start)?;
+    let mut run = Integrator::controlled(&Falling, Variational::trapezoid(), control, start)?;
     let error = (0..100).find_map(|_| {
         let advanced = run.advance().err();
         assert!(f64::is_finite(run.energy()) && run.q()[0] > 0.0, "{:?}", run.q());

@@ -46,7 +46,7 @@ fn discrete_energy_and_momentum_are_conserved_to_rounding() -> Outcome {
     for rule in [Quadrature::gauss(1)?, Quadrature::gauss(2)?] {
         for h in [0.1, -0.05] {
             let mut run =
-                ControlledIntegrator::new(&Spring, Variational::new(rule), EnergyMomentum::new(h), SPRING)?;
+                Integrator::controlled(&Spring, Variational::new(rule), EnergyMomentum::new(h), SPRING)?;
             let momentum = run.momentum(0).ok_or("a momentum")?;
             let (mut first, mut lengths, mut worst, mut ratio) =
                 (None, [f64::INFINITY, 0.0_f64], 0.0, 1.0_f64);
@@ -76,7 +76,7 @@ fn discrete_energy_and_momentum_are_conserved_to_rounding() -> Outcome {
 
 #[test]
 fn steps_of_any_lagrangian_keep_their_discrete_energy() -> Outcome {
-    let mut run = ControlledIntegrator::new(
+    let mut run = Integrator::controlled(
         &DoublePendulum,
         Variational::midpoint(),
         EnergyMomentum::new(0.05),
@@ -98,7 +98,7 @@ fn an_oscillator_is_stepped_by_steps_of_one_length() -> Outcome {
     struct Oscillator;
     let start = OscillatorState { x: 1.0, dot_x: 0.2 };
     let mut run =
-        ControlledIntegrator::new(&Oscillator, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
+        Integrator::controlled(&Oscillator, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
     for _ in 0..200 {
         run.advance()?;
         assert!(abs_diff_eq!(run.step_size(), 0.1, epsilon = 1e-10), "{}", run.step_size());
@@ -111,7 +111,7 @@ fn it_is_of_second_order_in_the_time() -> Outcome {
     let mut errors = Vec::new();
     for h in [0.04, 0.03, 0.02, 0.015] {
         let mut run =
-            ControlledIntegrator::new(&Spring, Variational::midpoint(), EnergyMomentum::new(h), SPRING)?;
+            Integrator::controlled(&Spring, Variational::midpoint(), EnergyMomentum::new(h), SPRING)?;
         while run.time() < 2.0 {
             run.advance()?;
         }
@@ -136,7 +136,7 @@ fn of_trapezoid(h: f64, q: [f64; 2], p: [f64; 2]) -> f64 {
 #[test]
 fn where_no_length_keeps_the_energy_the_run_ends_at_the_last_good_state() -> Outcome {
     let mut run =
-        ControlledIntegrator::new(&Spring, Variational::trapezoid(), EnergyMomentum::new(0.1), SPRING)?;
+        Integrator::controlled(&Spring, Variational::trapezoid(), EnergyMomentum::new(0.1), SPRING)?;
     let (before, error) = loop {
         let before = run.state();
         if let Err(error) = run.advance() {
@@ -172,20 +172,20 @@ fn what_has_no_conserved_energy_is_refused() {
     let driven = DrivenState { x: 1.0, dot_x: 0.0 };
     let unsupported = |error: Option<StartError>| matches!(error, Some(StartError::Unsupported { .. }));
     assert!(unsupported(
-        ControlledIntegrator::new(&Friction, Variational::midpoint(), control, friction).err()
+        Integrator::controlled(&Friction, Variational::midpoint(), control, friction).err()
     ));
-    assert!(unsupported(ControlledIntegrator::new(&Driven, Variational::midpoint(), control, driven).err()));
+    assert!(unsupported(Integrator::controlled(&Driven, Variational::midpoint(), control, driven).err()));
     let fitted = Variational::midpoint().phase_fitted(Constant(1.0));
-    assert!(unsupported(ControlledIntegrator::new(&Spring, fitted, control, SPRING).err()));
-    assert!(unsupported(ControlledIntegrator::new(&Spring, RungeKutta::classical(), control, SPRING).err()));
+    assert!(unsupported(Integrator::controlled(&Spring, fitted, control, SPRING).err()));
+    assert!(unsupported(Integrator::controlled(&Spring, RungeKutta::classical(), control, SPRING).err()));
     for first_step in [0.0, f64::NAN] {
         let control = EnergyMomentum::new(first_step);
-        let error = ControlledIntegrator::new(&Spring, Variational::midpoint(), control, SPRING).err();
+        let error = Integrator::controlled(&Spring, Variational::midpoint(), control, SPRING).err();
         assert!(matches!(error, Some(StartError::Step { .. })));
     }
     for tolerance in [0.0, -1.0, f64::NAN] {
         let control = EnergyMomentum { tolerance, ..control };
-        let error = ControlledIntegrator::new(&Spring, Variational::midpoint(), control, SPRING).err();
+        let error = Integrator::controlled(&Spring, Variational::midpoint(), control, SPRING).err();
         assert!(matches!(error, Some(StartError::Parameter { name: "tolerance", .. })));
     }
 }
@@ -201,7 +201,7 @@ struct Particle {
 /// The smallest and the largest of `steps` lengths over the first one.
 fn lengths(system: &Particle, [x, dot_x, h]: [f64; 3], steps: usize) -> Outcome<[f64; 2]> {
     let start = ParticleState { x, dot_x };
-    let mut run = ControlledIntegrator::new(system, Variational::midpoint(), EnergyMomentum::new(h), start)?;
+    let mut run = Integrator::controlled(system, Variational::midpoint(), EnergyMomentum::new(h), start)?;
     let mut found = [1.0_f64; 2];
     for _ in 0..steps {
         run.advance()?;

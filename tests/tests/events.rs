@@ -78,7 +78,7 @@ fn crossings_of_long_steps_are_as_accurate_as_the_run() -> Outcome {
     let method = Gauss::<8>::new();
     for (tolerance, most) in [(1e-12, 1e-10), (1e-9, 1e-7), (1e-6, 1e-4)] {
         let control = ErrorControl::new(tolerance, 0.1);
-        let error = largest_error(ControlledIntegrator::new(&PLANE, method, control, PLANAR)?, 50)?;
+        let error = largest_error(Integrator::controlled(&PLANE, method, control, PLANAR)?, 50)?;
         assert!(error < most, "{tolerance:e}: {error:e}");
     }
     for (h, most) in [(0.6, 1e-12), (2.0, 1e-10)] {
@@ -101,7 +101,7 @@ fn crossings_of_long_steps_are_as_accurate_as_the_run() -> Outcome {
 fn crossings_of_an_eccentric_orbit_are_at_its_pericentre() -> Outcome {
     let start = KeplerState { x: 0.4, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
     let control = ErrorControl::new(1e-8, 0.1);
-    let mut run = ControlledIntegrator::new(&Kepler { mu: 1.0 }, Gauss::<8>::new(), control, start)?;
+    let mut run = Integrator::controlled(&Kepler { mu: 1.0 }, Gauss::<8>::new(), control, start)?;
     for (k, event) in run.events([Direction::Rising], |_, state| [state.y])?.take(3).enumerate() {
         let Event { time, state, .. } = event?;
         assert!(abs_diff_eq!(time, TAU * (k + 1) as f64, epsilon = 1e-6), "{time}");
@@ -165,7 +165,7 @@ fn the_points_of_a_run_stay_as_they_are() -> Outcome {
     let limited = EnergyLimit { method: Galerkin::<3>::new(), limit: 1.0 };
     check(|| Ok(Integrator::new(&PLANE, limited, 0.1, PLANAR)?), |state| state.x)?;
     let (method, control) = (Gauss::<4>::new().in_lanes(), ErrorControl::new(1e-9, 0.1));
-    check(|| Ok(ControlledIntegrator::new(&PLANE, method, control, PLANAR)?), |state| state.x)
+    check(|| Ok(Integrator::controlled(&PLANE, method, control, PLANAR)?), |state| state.x)
 }
 
 /// Every kind of method: events are within the error of the run, and g vanishes there.
@@ -288,7 +288,7 @@ fn crossings_of_a_regular_system_have_velocities() -> Outcome {
 /// Of steps that vary by more than two to one.
 #[test]
 fn crossings_of_a_run_with_controlled_steps_lie_on_its_orbit() -> Outcome {
-    let mut run = ControlledIntegrator::new(&PLANE, exact(), Reversible::power(0.05, 1.5), PLANAR)?;
+    let mut run = Integrator::controlled(&PLANE, exact(), Reversible::power(0.05, 1.5), PLANAR)?;
     let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
     for _ in 0..200 {
         run.advance()?;

@@ -78,8 +78,8 @@ fn so_is_a_controlled_run() -> Outcome {
         method: impl VariableStep<Kepler, f64, Memory: Send> + Clone + Send + 'static,
         control: C,
     ) -> Outcome {
-        let borrowed = ControlledIntegrator::new(&KEPLER, method.clone(), control.clone(), START)?;
-        let own = ControlledIntegrator::new(KEPLER, method, control, START)?;
+        let borrowed = Integrator::controlled(&KEPLER, method.clone(), control.clone(), START)?;
+        let own = Integrator::controlled(KEPLER, method, control, START)?;
         assert_eq!(thread::spawn(move || end(own)).join().expect("no panic")?, end(borrowed)?);
         Ok(())
     }
@@ -133,9 +133,9 @@ macro_rules! of_many_methods {
             Ok(Integrator::new(KEPLER, Composition::kahan_li_8(Variational::midpoint()), 0.1, START)?)
         })?;
         let control = Reversible::power(0.05, 1.5);
-        $check(|| Ok(ControlledIntegrator::new(KEPLER, Variational::trapezoid(), control, START)?))?;
+        $check(|| Ok(Integrator::controlled(KEPLER, Variational::trapezoid(), control, START)?))?;
         $check(|| {
-            Ok(ControlledIntegrator::new(KEPLER, Gauss::<3>::new(), ErrorControl::new(1e-8, 0.01), START)?)
+            Ok(Integrator::controlled(KEPLER, Gauss::<3>::new(), ErrorControl::new(1e-8, 0.01), START)?)
         })
     }};
 }

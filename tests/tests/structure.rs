@@ -251,7 +251,7 @@ fn an_alternating_component_is_measured_and_a_smooth_one_is_not() -> Outcome {
     let method = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::midpoint() };
     for (method, alternates) in [(method, true), (Sigma::midpoint(), false)] {
         let mut run = Integrator::new(&system, method, 0.02, start)?;
-        let first = run.parasitic_amplitude();
+        let first = run.memory().parasitic_amplitude();
         let mut filter = AlternatingComponent::new(&system);
         let mut amplitudes = Vec::new();
         for _ in 0..200 {
@@ -259,7 +259,7 @@ fn an_alternating_component_is_measured_and_a_smooth_one_is_not() -> Outcome {
             run.advance()?;
         }
         assert_eq!(amplitudes.len(), 196);
-        assert_abs_diff_eq!(run.parasitic_amplitude(), first, epsilon = 1e-18);
+        assert_abs_diff_eq!(run.memory().parasitic_amplitude(), first, epsilon = 1e-18);
         assert_eq!(first > 0.0, alternates);
         // Γ = 1: p = α + c, and an alternating part a of q has |c| = |a|, up to the smooth remainder.
         let smooth = 1e-6;

@@ -6,13 +6,11 @@
 use super::TangentMap;
 use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepError;
-use crate::methods::VariationalMethod;
-#[cfg(doc)]
-use crate::run::Run;
-use crate::run::WithMethod;
+use crate::methods::{Method, VariationalMethod};
+use crate::run::{Integrator, Run, StepControl};
 use crate::space::sink::Product;
 use crate::system::start::step_error;
-use crate::{Lagrangian, Real, Scalar, Space, System, Vector, Weights};
+use crate::{Held, Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// The growth of a perturbation along a run, accumulated step by step.
 ///
@@ -44,9 +42,9 @@ pub struct LyapunovExponent<S: System, L, T: Real = f64> {
 impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L, T> {
     /// The exponent of the given run, from its current state on. The first perturbation has a direction of
     /// no significance, and that of a degenerate system keeps p = α(q).
-    pub fn new<R: WithMethod<System = S, Scalar = T>>(run: &R) -> Self
+    pub fn new<H: Held<System = S>, M, C: StepControl<S, T>>(run: &Integrator<H, M, T, C>) -> Self
     where
-        R::Method: VariationalMethod<S, T, DiscreteLagrangian = L>,
+        M: Method<S, T> + VariationalMethod<S, T, DiscreteLagrangian = L>,
     {
         let (system, space) = (run.system(), run.system().space());
         let direction = |offset: usize| {
@@ -87,9 +85,12 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S
     /// # Errors
     /// As [`Run::advance`], and [`Singular`](crate::error::StepFailure::Singular) if the step has no
     /// tangent map; the run has then completed its step.
-    pub fn advance<R: WithMethod<System = S, Scalar = T>>(&mut self, run: &mut R) -> Result<(), StepError>
+    pub fn advance<H: Held<System = S>, M, C: StepControl<S, T>>(
+        &mut self,
+        run: &mut Integrator<H, M, T, C>,
+    ) -> Result<(), StepError>
     where
-        R::Method: VariationalMethod<S, T, DiscreteLagrangian = L>,
+        M: Method<S, T> + VariationalMethod<S, T, DiscreteLagrangian = L>,
     {
         let (t, step) = (run.time(), run.steps());
         self.origin.copy_from_slice(run.q());

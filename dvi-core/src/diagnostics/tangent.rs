@@ -5,6 +5,9 @@
 //! δq1 = −(D₁D₂)⁻¹(δp0 + D₁D₁δq0)
 //! δp1 = D₂D₁δq0 + D₂D₂δq1
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+
 use super::DiscreteHessian;
 use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
@@ -91,29 +94,39 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T
     /// act.
     #[cfg(feature = "alloc")]
     pub fn symplectic_defect(&mut self, system: &S) -> T {
-        let n = system.space().dimension();
-        let columns: alloc::vec::Vec<_> = (0..2 * n)
-            .map(|a| {
-                let mut column: [Vector<S, T>; 2] = [system.space().vector(), system.space().vector()];
-                column[a / n][a % n] = T::lift(1.0);
-                let [dq, dp] = &mut column;
-                self.apply(dq, dp);
-                column
-            })
-            .collect();
+        let images = images(system, |dq, dp| self.apply(dq, dp));
         let dot = |x: &[T], y: &[T]| x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y);
-        let mut defect = T::lift(0.0);
-        for (a, [uq, up]) in columns.iter().enumerate() {
-            for (b, [wq, wp]) in columns.iter().enumerate() {
-                let canonical = match (a + n == b, b + n == a) {
-                    (true, _) => 1.0,
-                    (_, true) => -1.0,
-                    _ => 0.0,
-                };
-                let pulled_back = dot(uq, wp) - dot(up, wq);
-                defect = defect.max(crate::Scalar::abs(pulled_back - T::lift(canonical)));
-            }
-        }
-        defect
+        let form = |[u, w]: [&[Vector<S, T>; 2]; 2]| dot(&u[0], &w[1]) - dot(&u[1], &w[0]);
+        defect(&images, form, form)
     }
+}
+
+/// The unit vectors of pairs, and where a map leads them.
+#[cfg(feature = "alloc")]
+pub(super) fn images<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    mut map: impl FnMut(&mut Vector<S, T>, &mut Vector<S, T>),
+) -> Vec<[[Vector<S, T>; 2]; 2]> {
+    let n = system.space().dimension();
+    let image = |place: usize| {
+        let mut pairs = [(); 2].map(|()| [(); 2].map(|()| system.space().vector()));
+        pairs.iter_mut().for_each(|pair| pair[place / n][place % n] = T::lift(1.0));
+        let [dq, dp] = &mut pairs[1];
+        map(dq, dp);
+        pairs
+    };
+    (0..2 * n).map(image).collect()
+}
+
+/// The largest difference of a two-form on pairs and of another one on their images.
+#[cfg(feature = "alloc")]
+pub(super) fn defect<V, T: Real>(
+    images: &[[V; 2]],
+    form: impl Fn([&V; 2]) -> T,
+    on_images: impl Fn([&V; 2]) -> T,
+) -> T {
+    let pairs = images.iter().flat_map(|a| images.iter().map(move |b| (a, b)));
+    pairs.fold(T::lift(0.0), |defect, ([u, u1], [w, w1])| {
+        defect.max(crate::Scalar::abs(on_images([u1, w1]) - form([u, w])))
+    })
 }

@@ -4,7 +4,7 @@ use std::string::{String, ToString};
 use std::vec::Vec;
 
 use super::error::Difference;
-use super::fingerprint::Fingerprint;
+use crate::state::fingerprint::Fingerprint;
 use crate::{Lagrangian, Space};
 
 /// Each fact with what it is.

@@ -14,7 +14,7 @@ use super::plan::Plan;
 use super::sealed::{self, HEAD};
 
 /// Begins each file; after it stands the content, sealed.
-const MARK: &[u8] = b"dvi ensemble checkpoint 5\n";
+const MARK: &[u8] = b"dvi ensemble checkpoint 6\n";
 /// The bytes before the content.
 const BEFORE: usize = MARK.len() + HEAD;
 

@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{Difference, EnsembleError};
 use super::facts::{self, Facts};
-use super::fingerprint::Fingerprint;
 use super::member::plain;
 use super::settings::{Settings, Swept, Systems};
 use crate::methods::Method;
+use crate::state::fingerprint::Fingerprint;
 use crate::{Lagrangian, Space, State};
 
 /// A fact that not every ensemble knows: then it is empty, and belongs to all.

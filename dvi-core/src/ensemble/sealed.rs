@@ -9,7 +9,7 @@ use std::path::Path;
 use std::path::PathBuf;
 use std::vec::Vec;
 
-use super::fingerprint::Fingerprint;
+use crate::state::fingerprint::Fingerprint;
 
 /// The bytes of the length and the fingerprint.
 pub(crate) const HEAD: usize = 16;

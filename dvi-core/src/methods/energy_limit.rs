@@ -149,13 +149,6 @@ where
     ) -> Result<(), StepFailure> {
         self.method.velocity(here, &memory.inner, v)
     }
-}
-
-impl<S: Lagrangian<T>, T: Real, M> VariableStep<S, T> for EnergyLimit<M>
-where
-    Itself<M>: VariableStep<S, T>,
-{
-    type SuitedToAnyStep<X> = <M as VariableStep<S, T>>::SuitedToAnyStep<X>;
 
     fn estimates_local_error(&self) -> bool {
         self.method.estimates_local_error()
@@ -169,9 +162,16 @@ where
         lengths: [T; 2],
         tolerance: Tolerance,
         statistics: &mut Statistics,
-    ) -> Result<Option<T>, StepFailure> {
+    ) -> Result<T, StepFailure> {
         self.method.local_error(system, &mut memory.inner, t, lengths, tolerance, statistics)
     }
+}
+
+impl<S: Lagrangian<T>, T: Real, M> VariableStep<S, T> for EnergyLimit<M>
+where
+    Itself<M>: VariableStep<S, T>,
+{
+    type SuitedToAnyStep<X> = <M as VariableStep<S, T>>::SuitedToAnyStep<X>;
 }
 
 impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {

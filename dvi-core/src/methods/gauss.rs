@@ -215,17 +215,6 @@ where
         }
         Some(*c)
     }
-}
-
-/// From so many stages on a step may lead over more than one turn of a motion.
-const LONG: usize = 6;
-
-impl<const STAGES: usize, E, S, T: Real> VariableStep<S, T> for Gauss<STAGES, E>
-where
-    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
-    E: StageEvaluation<STAGES, S, T>,
-{
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 
     fn estimates_local_error(&self) -> bool {
         true
@@ -239,9 +228,20 @@ where
         lengths: [T; 2],
         tolerance: Tolerance,
         statistics: &mut Statistics,
-    ) -> Result<Option<T>, StepFailure> {
-        memory.path.local_error::<E>(system, t, lengths, tolerance, statistics).map(Some)
+    ) -> Result<T, StepFailure> {
+        memory.path.local_error::<E>(system, t, lengths, tolerance, statistics)
     }
+}
+
+/// From so many stages on a step may lead over more than one turn of a motion.
+const LONG: usize = 6;
+
+impl<const STAGES: usize, E, S, T: Real> VariableStep<S, T> for Gauss<STAGES, E>
+where
+    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
+    E: StageEvaluation<STAGES, S, T>,
+{
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }
 
 impl<const STAGES: usize, E> Gauss<STAGES, E> {

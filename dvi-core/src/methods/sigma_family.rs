@@ -73,7 +73,7 @@ pub use start::{BeginsBetween, Start};
 /// systems.
 ///
 /// The mode is measured while a run goes on ([`ParasiticMode`];
-/// [`Integrator::parasitic_mode`](crate::run::Integrator) reads it), and a run in which it has taken over
+/// `run.memory().parasitic_mode()` reads it), and a run in which it has taken over
 /// ends with [`StepFailure::ParasiticMode`](crate::error::StepFailure): see
 /// [`parasitic_limit`](Self::parasitic_limit). On a linear oscillation of frequency ω the scheme is stable
 /// for |ωh| < 1/|1 − 2σ|; for |ωh| above 1.4 the second point of [`Start::Consistent`] is not found, and a
@@ -87,7 +87,7 @@ pub use start::{BeginsBetween, Start};
 /// let angular = run.momentum(0).unwrap();
 /// run.take_steps(100_000)?;
 /// assert!((run.momentum(0).unwrap() - angular).abs() < 1e-13);
-/// assert!(run.parasitic_amplitude() < 1e-14);
+/// assert!(run.memory().parasitic_amplitude() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,7 +16,7 @@ use crate::{Real, Scalar};
 /// let end = |relative| -> Result<PendulumState, Box<dyn std::error::Error>> {
 ///     let tolerance = Tolerance { relative, absolute: 1e-3 * relative };
 ///     let control = ErrorControl { tolerance, ..ErrorControl::new(1e-9, 0.1) };
-///     let mut run = ControlledIntegrator::new(&Pendulum, Gauss::<4>::new(), control, start.clone())?;
+///     let mut run = Integrator::controlled(&Pendulum, Gauss::<4>::new(), control, start.clone())?;
 ///     run.advance_to(10.0)?;
 ///     Ok(run.state())
 /// };

@@ -295,16 +295,16 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
             steps.one_by_one(self, memory)
         }
     }
-}
-
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 
     fn has_discrete_energy(&self) -> bool {
         F::UNFITTED
     }
 
-    fn discrete_energy(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> Option<T> {
-        F::UNFITTED.then(|| self.energy_of(span, work))
+    fn discrete_energy(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> T {
+        if F::UNFITTED { self.energy_of(span, work) } else { T::lift(f64::NAN) }
     }
+}
+
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }

@@ -2,10 +2,10 @@
 
 #[cfg(feature = "alloc")]
 use super::Checkpoint;
+use super::Run;
 use super::between::Between;
-use super::{Run, WithMethod};
 use crate::error::{StartError, StepError};
-use crate::methods::{Carries, Clock};
+use crate::methods::Clock;
 use crate::state::Statistics;
 use crate::{System, Vector};
 
@@ -72,20 +72,6 @@ macro_rules! run {
             #[cfg(feature = "alloc")]
             fn checkpoint(&self) -> Checkpoint<R::Scalar> {
                 (**self).checkpoint()
-            }
-        }
-
-        impl<R: WithMethod + ?Sized> WithMethod for $Borrowed {
-            type Method = R::Method;
-
-            #[inline]
-            fn method(&self) -> &R::Method {
-                (**self).method()
-            }
-
-            #[inline]
-            fn memory(&self) -> &<R::Method as Carries<R::System, R::Scalar>>::Memory {
-                (**self).memory()
             }
         }
     };

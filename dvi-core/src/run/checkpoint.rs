@@ -4,15 +4,14 @@ use alloc::vec::Vec;
 
 use crate::error::{CheckpointError, StartError};
 use crate::memory::{Memory, Reader, Record};
-use crate::methods::{Carries, Clock, Method};
+use crate::methods::Method;
 use crate::run::Stepper;
 use crate::state::Statistics;
 use crate::state::fingerprint::Fingerprint;
 use crate::system::start::{finite, velocities};
 use crate::{Lagrangian, Real, Space, Vector};
 
-/// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) and
-/// [`ControlledIntegrator::resume`](crate::run::ControlledIntegrator::resume) go on, bit by bit as if the
+/// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) goes on, bit by bit as if the
 /// run had not stopped: on a system with the same parameters, and with the same method and options. That
 /// they are the same is not checked beyond the amount of what they carry.
 ///
@@ -177,42 +176,14 @@ impl<T: Real> Checkpoint<T> {
     }
 
     /// Loads what has been saved into `memory`, and the rest by `load`.
-    pub(crate) fn load<S: Lagrangian<T>, M: Carries<S, T>>(
+    pub(crate) fn load(
         &self,
-        memory: &mut M::Memory,
+        memory: &mut impl Memory<T>,
         load: impl FnOnce(&mut Reader<'_, T>) -> Result<(), CheckpointError>,
     ) -> Result<(), StartError> {
         let mut reader = self.0.record.reader();
         memory.load(&mut reader)?;
         load(&mut reader)?;
         Ok(reader.end()?)
-    }
-}
-
-impl<T: Real> Clock<T> {
-    /// The clock of a checkpoint, saved at the start of the run.
-    pub(crate) fn save(self, record: &mut Record<T>) {
-        record.numbers(&[self.start, self.h]);
-        record.count(self.step);
-    }
-
-    /// The clock of a run that goes on from a checkpoint, from the present time if the step is another one.
-    pub(crate) fn load(
-        checkpoint: &Checkpoint<T>,
-        reader: &mut Reader<'_, T>,
-    ) -> Result<Self, CheckpointError> {
-        let mut numbers = [T::lift(0.0); 2];
-        reader.numbers(&mut numbers)?;
-        let ([start, h], step) = (numbers, reader.count()?);
-        let clock = Self { start, h, step };
-        if clock.after(checkpoint.0.statistics.steps).time() != checkpoint.time() {
-            return Err(CheckpointError::Damaged);
-        }
-        if h == checkpoint.step_size() {
-            return Ok(clock);
-        }
-        // No steps have been taken with this one.
-        let step = 0_u64.wrapping_sub(checkpoint.0.statistics.steps);
-        Ok(Self { start: checkpoint.time(), h: checkpoint.step_size(), step })
     }
 }

@@ -1,12 +1,8 @@
 //! The state at any time within the last step of a run: that step, taken again in part, by the run's own
-//! method.
-//!
-//! So a state between two points has the error of the run at the point before it and that of one step more,
-//! whatever the length of that step. The run does not notice: what is moved is a copy.
-
-mod states_at;
+//! method. The run does not notice: what is moved is a copy.
 
 use core::fmt;
+use core::iter::FusedIterator;
 use core::ops::Deref;
 
 use crate::error::{StartError, StepError, StepFailure};
@@ -17,8 +13,6 @@ use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::system::start::step_error;
 use crate::{Real, Scalar as _, Space, State, System, Vector};
-
-pub use states_at::StatesAt;
 
 /// A run with its continuous extension: the state at any time of its last step.
 ///
@@ -55,8 +49,6 @@ pub struct Dense<R: Run> {
     taken: u64,
     /// How many there may be before the next point is kept.
     most: u64,
-    /// When a part of the last step has ended.
-    reached: R::Scalar,
     /// How many places within a step are known when it has been taken.
     places: usize,
     v: Vector<R::System, R::Scalar>,
@@ -85,6 +77,8 @@ impl<S: System, T: Real> Flat<'_, S, T> {
 type FlatOf<'a, R> = Flat<'a, <R as Run>::System, <R as Run>::Scalar>;
 /// A state of the system of a run `R`.
 pub(crate) type StateOf<R> = <<R as Run>::System as System>::State<<R as Run>::Scalar>;
+/// A time, and the state of a run there.
+pub(super) type Timed<R> = Result<(<R as Run>::Scalar, StateOf<R>), StepError>;
 
 /// The places within a step that are looked at, at most.
 pub(super) const PLACES: usize = 8;
@@ -101,12 +95,7 @@ impl<R: Run> Dense<R> {
         let (t, h, v) = (run.time(), run.step_size(), run.system().space().vector());
         let (system, between) = run.between();
         let places = between.begin(system, t, h)?.min(PLACES);
-        Ok(Self { run, begun: t, taken: 0, most: 1, reached: t, places, v })
-    }
-
-    /// The run, at the end of its last step.
-    pub fn into_run(self) -> R {
-        self.run
+        Ok(Self { run, begun: t, taken: 0, most: 1, places, v })
     }
 
     /// Takes one step.
@@ -180,8 +169,20 @@ impl<R: Run> Dense<R> {
 
     /// The times, one after the other, with the states there: an iterator, which takes steps as it must. It
     /// ends with the first error.
-    pub fn states_at<I: IntoIterator<Item = R::Scalar>>(self, times: I) -> StatesAt<R, I::IntoIter> {
-        StatesAt { dense: self, times: times.into_iter(), failed: false }
+    pub fn states_at<I: IntoIterator<Item = R::Scalar>>(
+        mut self,
+        times: I,
+    ) -> impl FusedIterator<Item = Timed<R>> {
+        let mut failed = false;
+        let state_at = move |t| {
+            if failed {
+                return None;
+            }
+            let state = self.state_at(t).map(|state| (t, state));
+            failed = state.is_err();
+            Some(state)
+        };
+        times.into_iter().map_while(state_at).fuse()
     }
 
     /// Begins anew as [`Run::set_state`] does.
@@ -196,7 +197,7 @@ impl<R: Run> Dense<R> {
 
     fn keep(&mut self) {
         self.begun = self.run.time();
-        self.run.between().1.keep();
+        self.run.between().1.keep_begun();
         self.taken = 0;
     }
 
@@ -258,20 +259,19 @@ impl<R: Run> Dense<R> {
 
     fn state_within(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepFailure> {
         self.settle()?;
-        self.reach(t - self.begun)?;
-        self.reached().map(Flat::state)
+        self.reach(t - self.begun).map(|(_, at)| at.state())
     }
 
-    /// Moves a time `h` on from where the last step began, within this step. Where it began is
+    /// The time `h` after the last step began, within this step, and the state there. Where it began is
     /// [settled](Self::settle).
     ///
     /// # Errors
-    /// As [`Method::step`]; [`StepFailure::LeftDomain`].
-    pub(super) fn reach(&mut self, h: R::Scalar) -> Result<(), StepFailure> {
-        self.reached = self.begun + h;
+    /// As [`Method::step`] and [`Method::velocity`]; [`StepFailure::LeftDomain`].
+    pub(super) fn reach(&mut self, h: R::Scalar) -> Result<(R::Scalar, FlatOf<'_, R>), StepFailure> {
         let whole = self.run.step_size();
         let (system, between) = self.run.between();
-        between.reach(system, self.begun, [h, whole])
+        let q = between.reach(system, self.begun, [h, whole], &mut self.v)?;
+        Ok((self.begun + h, Flat { system, q, v: &self.v }))
     }
 
     /// How many places within the last step are known.
@@ -296,20 +296,6 @@ impl<R: Run> Dense<R> {
         let t = self.run.time();
         let (system, between) = self.run.between();
         Ok(Flat { system, q: between.end(system, t, &mut self.v)?, v: &self.v })
-    }
-
-    /// The time that has been reached.
-    pub(super) fn reached_time(&self) -> R::Scalar {
-        self.reached
-    }
-
-    /// The place that has been reached.
-    ///
-    /// # Errors
-    /// As [`Method::velocity`].
-    pub(super) fn reached(&mut self) -> Result<FlatOf<'_, R>, StepFailure> {
-        let (system, between) = self.run.between();
-        Ok(Flat { system, q: between.reached(system, self.reached, &mut self.v)?, v: &self.v })
     }
 
     /// What has failed in the last step.

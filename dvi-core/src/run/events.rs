@@ -20,9 +20,9 @@ use super::dense::{Dense, StateOf};
 use crate::error::StepFailure;
 use crate::error::{StartError, StepError};
 use crate::run::Run;
-use conditions::Conditions;
+pub(super) use conditions::Conditions;
 
-pub use conditions::Declared;
+pub(super) use conditions::Declared;
 pub use search::Direction;
 pub use watch::Watch;
 
@@ -215,7 +215,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
     fn step(&mut self) -> Result<(), StepError> {
         self.watch.check_known()?;
         self.dense.advance()?;
-        self.watch.search_next(&mut self.dense)
+        self.watch.search(&mut self.dense)
     }
 }
 

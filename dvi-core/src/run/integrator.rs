@@ -1,23 +1,26 @@
-//! A run: a system, a method, a step, and where they have got to.
+//! A run: a system, a method, what sets the lengths of its steps, and where they have got to.
 
 use core::fmt;
 
-use crate::error::{StartError, StepError, StepFailure};
-use crate::mechanics::VectorField;
-use crate::memory::Aside;
-use crate::methods::{BeginsBetween, Carries, Clock, Method, Suits};
-use crate::methods::{ParasiticMode, Sigma, SigmaMemory};
 #[cfg(feature = "alloc")]
-use crate::run::Checkpoint;
-use crate::run::kept::Kept;
-use crate::run::{Between, Run, Stepper, WithMethod};
-use crate::scalar::norm::reported;
+use super::Checkpoint;
+#[cfg(feature = "alloc")]
+use super::begun::resumed;
+use super::begun::{Begun, BegunOf, begun, carried, point};
+use super::clock::Time;
+use super::{Between, ControlledRun, Obeys, OneLength, Run, StepControl, Stepper};
+use crate::error::{StartError, StepError, StepFailure};
+#[cfg(feature = "alloc")]
+use crate::memory::Memory;
+#[cfg(doc)]
+use crate::methods::Sigma;
+use crate::methods::{BeginsBetween, Carries, Clock, Method, Suits, SuitsAnyStep};
 use crate::state::Statistics;
 use crate::system::StateOf;
-use crate::system::start::{consistent, evaluate, flatten, named, validate_step, velocities};
-use crate::{DegenerateLagrangian, Held, Lagrangian, Real, Space, System, Vector};
+use crate::system::start::{evaluate, flatten};
+use crate::{Held, Lagrangian, Real, Vector};
 
-/// A run of a method on a system with a fixed step.
+/// A run of a method on a system: with steps of one length, or of those that a [`StepControl`] `C` chooses.
 ///
 /// As an iterator it yields the state after each step, for ever, or up to the first failure; after that
 /// it yields `None`, and [`state`](Run::state) is the last good one: no step ends outside of the domain of
@@ -34,13 +37,33 @@ use crate::{DegenerateLagrangian, Held, Lagrangian, Real, Space, System, Vector}
 /// assert!((run.energy() + 1_f64.cos()).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Integrator<H: Held, M: Carries<H::System, T>, T: Real = f64> {
+///
+/// A control reads the velocity; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/kepler.txt")]
+/// // An orbit of eccentricity 0.9, from its pericentre.
+/// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
+/// let control = Reversible::power(0.02, 1.5);
+/// let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start)?;
+/// let (energy, first) = (run.energy(), run.step_size());
+/// run.take_steps(200)?;
+/// assert!(run.step_size() > 10.0 * first); // further out steps are longer
+/// assert!((run.energy() - energy).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Integrator<H, M, T = f64, C = OneLength<T>>
+where
+    H: Held,
+    M: Carries<H::System, T>,
+    T: Real,
+    C: Carries<H::System, T>,
+{
     pub(super) system: H,
     pub(super) stepper: Stepper<H::System, M, T>,
-    /// At the start of the run.
-    clock: Clock<T>,
-    /// If steps are looked at: where those at hand have begun.
-    kept: Option<Aside<Kept<H::System, M, T>>>,
+    pub(super) control: C,
+    pub(super) control_memory: C::Memory,
+    time: Time<T>,
 }
 
 impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrator<H, M, T> {
@@ -66,15 +89,9 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
     where
         X: Suits<H::System, T, M>,
     {
-        let (held, method) = (system.held(), method.suited());
-        let steps = X::steps(&method);
-        let [q, v] = checked(held, t, h, &start)?;
-        let begin = || {
-            let begun = steps.begin(held, &q, &v[..velocities(held)], t, h);
-            begun.map_err(|error| named(held, [&q, &v], t, error))
-        };
-        let (memory, kept) = (begin()?, Kept::if_looked_at(&q, begin)?);
-        Ok(Self { system, stepper: Stepper::new(method, memory, q), clock: Clock::new(t, h), kept })
+        let (method, length) = (method.suited(), OneLength(h));
+        let begun = begun(system.held(), X::steps(&method), &length, t, &start)?;
+        Ok(Self::of(system, method, length, begun))
     }
 
     /// A run of [`Sigma`] that starts at `first`, time 0, and whose first step leads to `second`.
@@ -92,19 +109,13 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
         X: BeginsBetween<H::System, T, M>,
     {
         let (held, t) = (system.held(), T::lift(0.0));
-        validate(held, t, h)?;
-        let ([q0, _], [q1, _]) = (flatten(held, &first)?, flatten(held, &second)?);
-        let rest = held.space().vector();
-        evaluate(held, &q0, &rest, t)?;
-        consistent(held, &q0, t)?;
+        let (at, [q1, rest]) = (point(held, t, &first)?, flatten(held, &second)?);
         evaluate(held, &q1, &rest, t + h)?;
-        let begin = || {
-            let begun = method.begin_between(held, &q0, &q1, t, h);
-            begun.map_err(|error| named(held, [&q0, &rest], t, error))
-        };
-        let (memory, kept) = (begin()?, Kept::if_looked_at(&q0, begin)?);
-        let stepper = Stepper::new(method.suited(), memory, q0);
-        Ok(Self { system, stepper, clock: Clock::new(t, h), kept })
+        let begin = |q0: &_, _: &_, h| method.begin_between(held, q0, &q1, t, h);
+        let length = OneLength(h);
+        let begun =
+            carried::<_, OneLength<T>, _, _>(held, at, t, |q, v| length.begin(held, q, v, t), begin)?;
+        Ok(Self::of(system, method.suited(), length, begun))
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
@@ -118,29 +129,133 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
     where
         X: Suits<H::System, T, M>,
     {
-        let (t, h) = (checkpoint.time(), checkpoint.step_size());
-        let (held, method) = (system.held(), method.suited());
-        let steps = X::steps(&method);
-        crate::system::start::validate(held, t)?;
-        validate_step(t, h)?;
-        let [q, v] = checkpoint.point(held)?;
-        let begin = || {
-            let begun = steps.begin_again(held, &q, &v[..velocities(held)], t, h);
-            begun.map_err(|error| named(held, [&q, &v], t, error))
-        };
-        let (mut memory, kept) = (begin()?, Kept::if_looked_at(&q, begin)?);
-        let mut clock = Clock::new(t, h);
-        checkpoint.load::<H::System, M>(&mut memory, |reader| {
-            clock = Clock::load(checkpoint, reader)?;
-            Ok(())
-        })?;
-        let mut run = Self { system, stepper: Stepper::new(method, memory, q), clock, kept };
-        run.stepper.statistics = checkpoint.statistics();
-        Ok(run)
+        let (method, length) = (method.suited(), OneLength(checkpoint.step_size()));
+        let begun = resumed(system.held(), X::steps(&method), &length, checkpoint)?;
+        Ok(Self::of(system, method, length, begun))
     }
 }
 
-impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Run for Integrator<H, M, T> {
+impl<H, M, T: Real, C> Integrator<H, M, T, C>
+where
+    H: Held<System: Lagrangian<T>>,
+    M: Carries<H::System, T>,
+    C: Carries<H::System, T>,
+{
+    /// A run from `start` at time 0 with steps that `control` chooses.
+    ///
+    /// # Errors
+    /// As [`new`](Integrator::new), and [`StartError`] if an option of the control is out of range, or it
+    /// does not go with the system or with the method.
+    pub fn controlled<X, Y>(
+        system: H,
+        method: X,
+        control: Y,
+        start: StateOf<H, T>,
+    ) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
+        Self::controlled_at(system, method, control, T::lift(0.0), start)
+    }
+
+    /// A run from `start` at time `t`; else as [`controlled`](Self::controlled).
+    ///
+    /// # Errors
+    /// As [`controlled`](Self::controlled), and [`StartError::Parameter`] if `t` is not finite.
+    pub fn controlled_at<X, Y>(
+        system: H,
+        method: X,
+        control: Y,
+        t: T,
+        start: StateOf<H, T>,
+    ) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
+        let (method, control) = (method.suited(), M::suited(control));
+        let begun = begun(system.held(), X::steps(&method), M::lengths(&control), t, &start)?;
+        Ok(Self::of(system, method, control, begun))
+    }
+
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped. What a control
+    /// carries from step to step, the length and the direction of the next step among it, is that of the
+    /// checkpoint.
+    ///
+    /// # Errors
+    /// As [`controlled_at`](Self::controlled_at), and [`StartError::Checkpoint`] if it has more or less than
+    /// method and control carry on this system, or numbers that no run has.
+    #[cfg(feature = "alloc")]
+    pub fn resume_controlled<X, Y>(
+        system: H,
+        method: X,
+        control: Y,
+        checkpoint: &Checkpoint<T>,
+    ) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
+        let (method, control) = (method.suited(), M::suited(control));
+        let begun = resumed(system.held(), X::steps(&method), M::lengths(&control), checkpoint)?;
+        Ok(Self::of(system, method, control, begun))
+    }
+
+    pub(super) fn of(system: H, method: M, control: C, begun: BegunOf<H::System, M::Memory, C, T>) -> Self {
+        let Begun { q, memory, kept, control_memory, time, statistics } = begun;
+        let stepper = Stepper { method, memory, q, statistics, failed: false, kept, points: None };
+        Self { system, stepper, control, control_memory, time }
+    }
+
+    /// The method that takes the steps.
+    #[inline]
+    pub fn method(&self) -> &M {
+        &self.stepper.method
+    }
+
+    /// What the method carries from step to step. Of this can be read:
+    ///
+    /// | method | functions of its memory |
+    /// |---|---|
+    /// | `Variational`, `Galerkin`, `Newmark`, `Geodesic`, `Langevin` | `p()`: the momenta ∂L/∂v, with a place for each coordinate; of a rotation the first three are the angular momentum in the body |
+    /// | `Rattle`, `Constrained` | `p()`; `multipliers()`: λ of the last step, one for each constraint; `impulses()` at its two ends |
+    /// | `Impacts` | `impacts()` of the last step, each an [`Impact`](crate::methods::Impact); how many there were, in `total()` and `grazing()` |
+    /// | `Sigma` | `defect()`: p − α(q); `parasitic_mode()`, as it was measured last, and `parasitic_amplitude()` |
+    /// | `Impacts`, `Composition`, `EnergyLimit` | `inner()`: the memory of the method inside |
+    ///
+    /// ```
+    #[doc = include_str!("../../docs/hidden/kepler.txt")]
+    /// let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
+    /// run.take_steps(1000)?;
+    /// let ([x, y], [p_x, p_y]) = (run.q(), run.memory().p()) else { panic!("a plane") };
+    /// assert!((x * p_y - y * p_x - 1.2).abs() < 1e-12); // the area law, in momenta
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn memory(&self) -> &M::Memory {
+        &self.stepper.memory
+    }
+
+    /// The step control.
+    pub fn control(&self) -> &C {
+        &self.control
+    }
+
+    /// What the step control carries from step to step. Of [`EnergyMomentum`](super::EnergyMomentum) one
+    /// reads here `discrete_energy()`, and its `defect()` in the last step; of
+    /// [`ErrorControl`](super::ErrorControl) the `error()` of the last step in units of the tolerance.
+    pub fn control_memory(&self) -> &C::Memory {
+        &self.control_memory
+    }
+}
+
+impl<H, M, T: Real, C> Run for Integrator<H, M, T, C>
+where
+    H: Held<System: Lagrangian<T>>,
+    M: Method<H::System, T>,
+    C: StepControl<H::System, T>,
+{
     type System = H::System;
     type Scalar = T;
 
@@ -168,79 +283,64 @@ impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> Run for I
         self.stepper.statistics
     }
 
-    /// Takes `count` steps, as so many calls of [`advance`](Run::advance) would. It is faster than
-    /// these where a method can keep its state in registers.
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-        let (system, clock) = (self.system.held(), self.clock.after(self.stepper.statistics.steps));
-        // One of the two is not compiled.
-        let taken = if Self::System::TIME_TRANSFORMED || Self::System::HAS_DOMAIN {
-            let kept = self.kept.as_mut().map(|kept| -> &mut Kept<H::System, M, T> { kept });
-            self.stepper.steps_looked_at(system, clock, count, kept)
-        } else {
-            self.stepper.steps(system, clock, count)
-        };
-        taken.map_err(|failure| self.error(failure))
+        let Self { system, stepper, control, control_memory, time } = self;
+        let mut run = ControlledRun { system: system.held(), stepper, time };
+        control.steps(control_memory, &mut run, count).map_err(|failure| self.error(failure))
     }
 
     #[cfg(feature = "alloc")]
     fn checkpoint(&self) -> Checkpoint<T> {
-        let at = [self.time(), self.step_size()];
-        Checkpoint::of(self.system(), &self.stepper, at, |record| self.clock.save(record))
+        Checkpoint::of(self.system(), &self.stepper, [self.time(), self.step_size()], |record| {
+            self.control_memory.save(record);
+            self.time.save(record);
+        })
     }
 
-    /// t₀ + steps · h, which does not accumulate rounding errors.
+    /// Of steps of one length t₀ + steps · h, of others their sum, compensated: rounding errors do not add
+    /// up.
     #[inline]
     fn time(&self) -> T {
-        self.clock.after(self.stepper.statistics.steps).time()
+        self.present().time()
     }
 
     #[inline]
     fn step_size(&self) -> T {
-        self.clock.step_size()
+        self.time.h
     }
 
     #[inline]
     fn clock(&self) -> Option<Clock<T>> {
-        Some(self.present())
+        C::ONE_LENGTH.then(|| self.present())
     }
 
     fn set_state(&mut self, t: T, state: StateOf<H, T>) -> Result<(), StartError> {
-        let (system, h) = (self.system.held(), self.step_size());
-        let Stepper { method, memory, statistics, .. } = &self.stepper;
-        let [q, v] = checked(system, t, h, &state)?;
-        let begun = method.begin(system, &q, &v[..velocities(system)], t, h);
-        let memory = method.begun_anew(memory, begun.map_err(|error| named(system, [&q, &v], t, error))?);
-        self.clock = Clock::new(t, h).after(statistics.steps.wrapping_neg());
-        self.stepper.move_to(memory, q);
+        let Self { system, stepper: Stepper { method, memory, statistics, .. }, control, .. } = &*self;
+        let Begun { q, memory: begun, kept, control_memory, time, .. } =
+            begun(system.held(), method, control, t, &state)?;
+        let (memory, steps) = (method.begun_anew(memory, begun), statistics.steps);
+        let stepper = &mut self.stepper;
+        (stepper.q, stepper.memory, stepper.kept, stepper.failed) = (q, memory, kept, false);
+        (self.control_memory, self.time) = (control_memory, Time::new(t, time.h, steps));
         Ok(())
     }
 }
 
-impl<H: Held<System: Lagrangian<T>>, M: Method<H::System, T>, T: Real> WithMethod for Integrator<H, M, T> {
-    type Method = M;
-
-    #[inline]
-    fn method(&self) -> &M {
-        &self.stepper.method
-    }
-
-    #[inline]
-    fn memory(&self) -> &M::Memory {
-        &self.stepper.memory
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator<H, M, T> {
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Integrator<H, M, T, C>
+where
+    C: StepControl<S, T>,
+{
     /// The clock at the present time.
+    #[inline]
     pub(super) fn present(&self) -> Clock<T> {
-        self.clock.after(self.stepper.statistics.steps)
+        self.time.after(self.stepper.statistics.steps)
     }
 
     /// Whether steps may be taken many at once, without a look at the end of each.
     #[cfg(feature = "alloc")]
     pub(super) fn is_unwatched(&self) -> bool {
-        self.kept.is_none()
+        self.stepper.kept.is_none()
     }
 
     #[cold]
@@ -250,40 +350,10 @@ impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> Integrator
     }
 }
 
-impl<H: Held<System = S>, S: DegenerateLagrangian<T>, T: Real> Integrator<H, Sigma<T>, T> {
-    /// The discrete momentum J_d = J(q) + c·ξ(q), ξ = B⁻¹∇J, of declared momentum `index`.
-    ///
-    /// By the discrete Noether theorem D₂L_d·ξ − f is conserved, where f is defined by
-    /// L_ξ α = df (Marsden & West 2001, section 1.3.3). As D₂L_d = p = α + c and df = d(α·ξ − J), this is
-    /// J_d up to a constant. Exact if ξ is affine in q and f affine, or quadratic with σ = ½.
-    ///
-    /// # Errors
-    /// [`StepFailure::Singular`] if Ω is singular at the current point. `Ok(None)` if there is no such
-    /// momentum.
-    pub fn discrete_momentum(&self, index: usize) -> Result<Option<T>, StepFailure> {
-        let Some(momentum) = self.momentum(index) else { return Ok(None) };
-        let (system, q, t) = (self.system(), &self.stepper.q, self.time());
-        let mut field = VectorField::new(system, q, t)?;
-        let mut xi = system.space().vector();
-        field.generator(system, index, q, t, &mut xi)?;
-        let along = self.stepper.memory.defect().iter().zip(xi.iter());
-        Ok(Some(along.fold(momentum, |sum, (&c, &xi)| sum + c * xi)))
-    }
-
-    /// The parasitic mode as it was measured last: see [`ParasiticMode`].
-    pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
-        self.stepper.memory.parasitic_mode()
-    }
-
-    /// max |p − α(q)|. If σ = ½ and α is affine, this is the amplitude of the parasitic mode in p. Elsewhere
-    /// it is of order h(1 − 2σ) on an orbit without such a mode and does not tell whether a run can be
-    /// trusted; take [`parasitic_mode`](Self::parasitic_mode).
-    pub fn parasitic_amplitude(&self) -> T {
-        SigmaMemory::parasitic_amplitude(&self.stepper.memory)
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> Iterator for Integrator<H, M, T> {
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Iterator for Integrator<H, M, T, C>
+where
+    C: StepControl<S, T>,
+{
     type Item = Result<S::State<T>, StepError>;
 
     #[inline]
@@ -305,42 +375,25 @@ impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> Iterator f
     }
 }
 
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real> core::iter::FusedIterator
-    for Integrator<H, M, T>
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C: StepControl<S, T>>
+    core::iter::FusedIterator for Integrator<H, M, T, C>
 {
 }
 
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug
-    for Integrator<H, M, T>
+impl<H: Held<System = S>, S: Lagrangian<T>, M, T: Real, C> fmt::Debug for Integrator<H, M, T, C>
+where
+    M: Method<S, T> + fmt::Debug,
+    C: StepControl<S, T>,
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Integrator")
             .field("system", &S::REPORT.system)
             .field("method", &self.stepper.method)
+            .field("control", &self.control)
             .field("time", &self.time())
             .field("step_size", &self.step_size())
             .field("state", &self.state())
             .field("statistics", &self.stepper.statistics)
             .finish_non_exhaustive()
     }
-}
-
-/// The coordinates and velocities of a state that a run can begin from.
-fn checked<S: Lagrangian<T>, T: Real>(
-    system: &S,
-    t: T,
-    h: T,
-    start: &S::State<T>,
-) -> Result<[Vector<S, T>; 2], StartError> {
-    validate(system, t, h)?;
-    let [q, v] = flatten(system, start)?;
-    evaluate(system, &q, &v, t)?;
-    consistent(system, &q, t)?;
-    Ok([q, v])
-}
-
-fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T, h: T) -> Result<(), StartError> {
-    crate::system::start::validate(system, t)?;
-    validate_step(t, h)?;
-    if t + h == t { Err(StartError::Step { h: reported(h) }) } else { Ok(()) }
 }

@@ -10,48 +10,35 @@
 //! length. A step that ends where ρ is not positive is taken back, and one in which the physical time runs
 //! backwards because ρ was negative in between.
 
-use crate::error::{StartError, StepFailure};
-use crate::memory::{Aside, Memory};
-use crate::methods::{Carries, Clock, Method, Step};
+use core::ops::DerefMut;
+
+use crate::error::StepFailure;
+use crate::memory::Memory;
+use crate::methods::{Clock, Method, Step};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
 use crate::system::start::extended;
-use crate::{Lagrangian, Real, System, Vector};
+use crate::{Lagrangian, Real};
 
-/// Where the steps at hand have begun.
-pub(super) struct Kept<S: System, M: Carries<S, T>, T: Real> {
-    pub(super) q: Vector<S, T>,
-    pub(super) memory: M::Memory,
+/// A point of a run with coordinates `Q`, and what its method carries there.
+pub(super) struct Kept<Q, K> {
+    pub(super) q: Q,
+    pub(super) memory: K,
 }
 
 /// How many steps are taken before the next point is kept.
 const BLOCK: u64 = 64;
 
-impl<S: Lagrangian<T>, M: Carries<S, T>, T: Real> Kept<S, M, T> {
-    /// For a run from `q` whose memory `begin` makes.
-    ///
-    /// # Errors
-    /// Those of `begin`.
-    pub(super) fn new(
-        q: &Vector<S, T>,
-        begin: impl FnOnce() -> Result<M::Memory, StartError>,
-    ) -> Result<Self, StartError> {
-        Ok(Self { q: q.clone(), memory: begin()? })
-    }
-
-    /// The same, if the steps of its system are looked at.
-    ///
-    /// # Errors
-    /// Those of `begin`.
-    #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
-    pub(super) fn if_looked_at(
-        q: &Vector<S, T>,
-        begin: impl FnOnce() -> Result<M::Memory, StartError>,
-    ) -> Result<Option<Aside<Self>>, StartError> {
-        if !(S::TIME_TRANSFORMED || S::HAS_DOMAIN) {
-            return Ok(None);
-        }
-        Ok(Some(Self::new(q, begin)?.into()))
+impl<Q, K> Kept<Q, K> {
+    /// Takes over where a run is.
+    #[inline]
+    pub(super) fn take<T: Real>(&mut self, q: &Q, memory: &K)
+    where
+        Q: DerefMut<Target = [T]>,
+        K: Memory<T>,
+    {
+        self.q.copy_from_slice(q);
+        self.memory.restore(memory);
     }
 }
 
@@ -62,16 +49,13 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
         system: &S,
         clock: Clock<T>,
         count: u64,
-        mut kept: Option<&mut Kept<S, M, T>>,
     ) -> Result<(), StepFailure> {
         // The physical time is compared with that at the start of each step.
         let block = if S::TIME_TRANSFORMED { 1 } else { BLOCK };
         let (mut taken, mut end, mut lost) = (0, count, None);
         while taken < end {
             let (begun, before) = (taken, self.statistics);
-            if let Some(kept) = &mut kept {
-                self.keep(kept);
-            }
+            self.keep();
             let last = end.min(begun + block);
             while taken < last {
                 // At one place, where it is put in line.
@@ -80,10 +64,9 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
                 method.step(Step { system, q, t, h, statistics }, memory)?;
                 statistics.steps += 1;
                 taken += 1;
-                if let Err(failure) = self.look(system, clock.after(taken), kept.as_deref()) {
-                    let Some(kept) = &kept else { return Err(failure) };
+                if let Err(failure) = self.look(system, clock.after(taken)) {
                     // Up to there steps have succeeded, and are taken once more.
-                    self.return_to(kept);
+                    self.go_back();
                     self.statistics = before;
                     (lost, end, taken) = (Some(failure), taken - 1, begun);
                     break;
@@ -93,29 +76,30 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
         lost.map_or(Ok(()), Err)
     }
 
-    pub(super) fn keep(&self, kept: &mut Kept<S, M, T>) {
-        kept.q.copy_from_slice(&self.q);
-        kept.memory.restore(&self.memory);
+    /// Keeps the present point, if steps may be taken back.
+    #[inline]
+    pub(super) fn keep(&mut self) {
+        if let Some(kept) = &mut self.kept {
+            kept.take(&self.q, &self.memory);
+        }
     }
 
-    pub(super) fn return_to(&mut self, kept: &Kept<S, M, T>) {
-        self.q.copy_from_slice(&kept.q);
-        self.memory.restore(&kept.memory);
+    /// Goes back to the point that was kept last, without allocation.
+    pub(super) fn go_back(&mut self) {
+        if let Some(kept) = &self.kept {
+            self.q.copy_from_slice(&kept.q);
+            self.memory.restore(&kept.memory);
+        }
     }
 
-    /// Whether a step may end at the present state, at the time of `clock`, where it has begun at `kept`.
+    /// Whether a step may end at the present state, at the time of `clock`.
     ///
     /// # Errors
     /// [`StepFailure::TimeRate`] and [`StepFailure::LeftDomain`].
     #[inline]
-    pub(super) fn look(
-        &self,
-        system: &S,
-        clock: Clock<T>,
-        kept: Option<&Kept<S, M, T>>,
-    ) -> Result<(), StepFailure> {
+    pub(super) fn look(&self, system: &S, clock: Clock<T>) -> Result<(), StepFailure> {
         if S::TIME_TRANSFORMED
-            && let Some(kept) = kept
+            && let Some(kept) = &self.kept
         {
             let [time, _] = extended(system);
             let mean = (self.q[time] - kept.q[time]) / clock.step_size();

@@ -70,36 +70,35 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     fn outside(&self, system: &S, t: T, h: T) -> Option<OutsideError> {
         let is_flat = S::REPORT.coordinates.iter().all(|block| block.factor == Factor::Line);
         let parts = if is_flat { &PARTS[..] } else { &PARTS[..1] };
-        let motion = self.motion(system, t, h);
+        let [velocity, acceleration] = self.motion(system, t, h);
         parts.iter().find_map(|&part| {
             let elapsed = T::lift(part) * h;
-            let (mut q, mut v) = (self.q.clone(), motion.velocity.clone());
+            let (mut q, mut v) = (self.q.clone(), velocity.clone());
             if part > 0.0 {
                 let half = T::lift(0.5) * elapsed * elapsed;
                 for i in 0..q.len() {
-                    q[i] += elapsed * motion.velocity[i] + half * motion.acceleration[i];
-                    v[i] += elapsed * motion.acceleration[i];
+                    q[i] += elapsed * velocity[i] + half * acceleration[i];
+                    v[i] += elapsed * acceleration[i];
                 }
             }
             system.outside(&q, &v, t + elapsed).filter(|outside| outside.value.is_finite())
         })
     }
 
-    /// The motion from the current point; zero where it is not determined.
-    fn motion(&self, system: &S, t: T, h: T) -> Motion<Vector<S, T>> {
+    /// Velocity and acceleration at the current point; zero where they are not determined.
+    fn motion(&self, system: &S, t: T, h: T) -> [Vector<S, T>; 2] {
         let space = system.space();
-        let mut motion = Motion { velocity: space.vector(), acceleration: space.vector() };
+        let [mut velocity, nothing, rest]: [Vector<S, T>; 3] = space.vectors();
         let [zero, one] = [0.0, 1.0].map(T::lift);
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
-        let (rest, mut matrix) = (space.vector(), space.matrix());
+        let mut matrix = space.matrix();
         if S::REGULAR {
-            if self.velocity(system, t, &mut motion.velocity).is_err() {
-                motion.velocity.fill(zero);
+            if self.velocity(system, t, &mut velocity).is_err() {
+                velocity.fill(zero);
             }
             // M a = ∂L/∂q, but for what velocities add.
             let (force, _) = linearized(system, [&self.q, &rest], t, Weights::mass(), &mut matrix);
-            motion.acceleration = solved(matrix, force);
-            return motion;
+            return [velocity, solved(matrix, force)];
         }
         // ∂²L/∂qⁱ∂vʲ is ∂ᵢαⱼ, ∂L/∂q at rest is −∇H, and ∂L/∂v is α.
         let weights = Weights { qv: one, vq: -one, ..none };
@@ -109,8 +108,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
         for i in 0..source.len() {
             source[i] = (later[i] - now[i]) / short - source[i];
         }
-        motion.velocity = solved(matrix, source);
-        motion
+        [solved(matrix, source), nothing]
     }
 }
 
@@ -125,11 +123,6 @@ fn linearized<S: Lagrangian<T>, T: Real>(
     let (mut l_q, mut l_v) = (system.space().vector(), system.space().vector());
     system.linearize(q, v, t, weights, &mut l_q, &mut l_v, matrix);
     (l_q, l_v)
-}
-
-struct Motion<V> {
-    velocity: V,
-    acceleration: V,
 }
 
 /// The solution of matrix · x = b, or zero.

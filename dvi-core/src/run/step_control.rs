@@ -7,11 +7,10 @@
 //! unknown of its equations.
 
 mod breaks;
-mod clock;
 mod controlled;
 mod energy_momentum;
 mod error_control;
-mod integrator;
+mod one_length;
 mod osculating;
 mod rejection;
 mod reversible;
@@ -22,7 +21,7 @@ use core::fmt::Debug;
 use crate::error::{StartError, StepFailure};
 #[cfg(doc)]
 use crate::memory::Memory;
-use crate::methods::{Carries, VariableStep};
+use crate::methods::{Carries, Method};
 use crate::system::Same;
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real};
@@ -30,11 +29,11 @@ use crate::{Lagrangian, Real};
 pub use controlled::ControlledRun;
 pub use energy_momentum::EnergyMomentum;
 pub use error_control::ErrorControl;
-pub use integrator::ControlledIntegrator;
+pub use one_length::OneLength;
 pub use osculating::{CentreSpeed, Osculating};
 pub use reversible::{Density, Power, Reversible};
 
-/// A rule for the length of each step of a run on `S`.
+/// A rule for the length of each step of a run on `S`; [`OneLength`] for all of them is one.
 ///
 /// The control takes the steps itself, so that it sees the run before and after each, and may take one back.
 ///
@@ -43,7 +42,7 @@ pub use reversible::{Density, Power, Reversible};
 /// /// How far 50 steps lead, under any control.
 /// fn reached(control: impl StepControl<Kepler, f64>) -> Result<f64, Box<dyn std::error::Error>> {
 ///     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
-///     let mut run = ControlledIntegrator::new(&Kepler, Gauss::<4>::new(), control, start)?;
+///     let mut run = Integrator::controlled(&Kepler, Gauss::<4>::new(), control, start)?;
 ///     run.take_steps(50)?;
 ///     Ok(run.time())
 /// }
@@ -57,6 +56,9 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
 
     /// Whether steps may be taken back, so that the run has to keep what it takes.
     const REJECTS: bool = false;
+
+    /// Whether all steps have the length of the first, so that their times are known.
+    const ONE_LENGTH: bool = false;
 
     /// Prepares a run from (`q`, `t`) with velocity `v`, which is empty for degenerate systems. Returns the
     /// length of the first step too. Everything that needs memory is allocated here.
@@ -79,20 +81,34 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
     ///
     /// # Errors
     /// [`StartError::Unsupported`].
-    fn admit<M: VariableStep<S, T>>(&self, _method: &M) -> Result<(), StartError> {
+    fn admit<M: Method<S, T>>(&self, _method: &M) -> Result<(), StartError> {
         Ok(())
     }
 
     /// Takes `run` one step on from time `t`, without allocation, and returns the length of the step.
     ///
     /// # Errors
-    /// Any [`StepFailure`]; `run` and `memory` are then as they were before.
-    fn step<M: VariableStep<S, T>>(
+    /// Any [`StepFailure`]; `memory` is then as it was before, and `run` goes back.
+    fn step<M: Method<S, T>>(
         &self,
         memory: &mut Self::Memory,
         run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure>;
+
+    /// Takes `count` steps, one after the other, or as many as succeed.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step), from the first step that fails.
+    #[inline]
+    fn steps<M: Method<S, T>>(
+        &self,
+        memory: &mut Self::Memory,
+        run: &mut ControlledRun<'_, S, M, T>,
+        count: u64,
+    ) -> Result<(), StepFailure> {
+        (0..count).try_for_each(|_| run.step_by(|run, t| self.step(memory, run, t)))
+    }
 }
 
 /// A method under the [`StepControl`] `X` for `S`, which is `C`, as a method

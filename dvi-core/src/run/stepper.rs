@@ -5,7 +5,7 @@ use core::fmt;
 use crate::error::{StepError, StepFailure};
 use crate::memory::Aside;
 use crate::methods::{Carries, Clock, Here, Method, Steps};
-use crate::run::between::Points;
+use crate::run::kept::Kept;
 use crate::state::Statistics;
 use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Space as _, State as _, System, Vector};
@@ -18,9 +18,14 @@ pub(crate) struct Stepper<S: System, M: Carries<S, T>, T: Real> {
     pub(crate) q: Vector<S, T>,
     pub(crate) statistics: Statistics,
     pub(crate) failed: bool,
-    /// If states in between are asked for.
-    pub(super) points: Option<Aside<Points<S, M, T>>>,
+    /// Where the steps at hand have begun, if they may be taken back.
+    pub(super) kept: Option<Aside<PointOf<S, M, T>>>,
+    /// If states in between are asked for: where steps have begun, and where a part of the last one leads.
+    pub(super) points: Option<Aside<[PointOf<S, M, T>; 2]>>,
 }
+
+/// A point of a run of a method on a system.
+pub(super) type PointOf<S, M, T> = Kept<Vector<S, T>, <M as Carries<S, T>>::Memory>;
 
 impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<S, M, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -33,18 +38,7 @@ impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<S
     }
 }
 
-impl<S: System, M: Carries<S, T>, T: Real> Stepper<S, M, T> {
-    pub(crate) fn new(method: M, memory: M::Memory, q: Vector<S, T>) -> Self {
-        Self { method, memory, q, statistics: Statistics::default(), failed: false, points: None }
-    }
-}
-
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
-    /// Goes on from another point, whose memory has just begun.
-    pub(crate) fn move_to(&mut self, memory: M::Memory, q: Vector<S, T>) {
-        (self.memory, self.q, self.failed) = (memory, q, false);
-    }
-
     /// Sets `v` to the velocity at the current point, which is reached at time `t`.
     #[inline]
     pub(crate) fn velocity(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Integrator, Run, Stepper, WithMethod};
+use super::{Integrator, Run, Stepper};
 use crate::error::StepError;
 use crate::methods::{Companion, InStep};
 #[cfg(doc)]

@@ -41,6 +41,27 @@ impl Fingerprint {
     }
 }
 
+#[cfg(feature = "ensembles")]
+impl Fingerprint {
+    pub(crate) fn text(&mut self, text: &str) {
+        self.bytes(text.as_bytes());
+        // No text has this byte, so that two of them are told from one.
+        self.bytes(&[0xff]);
+    }
+
+    /// A number; which of those that are none an operation yields differs from instruction to instruction.
+    pub(crate) fn number(&mut self, x: f64) {
+        self.word(if x.is_nan() { f64::NAN } else { x }.to_bits());
+    }
+}
+
+#[cfg(feature = "ensembles")]
+impl fmt::Display for Fingerprint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
 impl Write for Fingerprint {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         self.bytes(text.as_bytes());

@@ -46,7 +46,7 @@ impl<S: RegularLagrangian<f64>> Motion<'_, S> {
         let begin = || self.start.clone();
         let plain = |h: f64, steps| self.steps(job, Integrator::new(self.system, rule, h, begin())?, steps);
         let kept = each(first, |h| {
-            let run = ControlledIntegrator::new(self.system, rule, EnergyMomentum::new(h), begin())?;
+            let run = Integrator::controlled(self.system, rule, EnergyMomentum::new(h), begin())?;
             self.steps(job, run, steps)
         })?;
         let mean = each(kept.each_ref(), |kept| plain(kept.length, steps))?;
@@ -116,7 +116,7 @@ pub struct NoStep {
 impl NoStep {
     pub fn new() -> Result<Self> {
         let (rule, control) = (Variational::trapezoid(), EnergyMomentum::new(ON_SPRING[0]));
-        let mut run = ControlledIntegrator::new(&StiffeningSpring {}, rule, control, START)?;
+        let mut run = Integrator::controlled(&StiffeningSpring {}, rule, control, START)?;
         let mut before = None;
         let ended = (0..1000).try_for_each(|_| {
             let sought = (run.state(), run.step_size());

@@ -67,15 +67,15 @@ pub fn fixed(method: impl Method<Kepler, f64>, orbit: Orbit, steps: f64) -> Resu
 
 pub fn osculating(method: impl KeplerMethod, orbit: Orbit, tolerance: f64) -> Result<impl KeplerRun> {
     let control = Osculating { tolerance, first_step: 1e-4, centre: CentreSpeed::AsPrinted };
-    Ok(ControlledIntegrator::new(Kepler {}, method, control, orbit.pericentre())?)
+    Ok(Integrator::controlled(Kepler {}, method, control, orbit.pericentre())?)
 }
 
 /// A run with steps by (23), v_o read per unit of arc length.
 pub fn per_arc_length(method: impl KeplerMethod, orbit: Orbit, tolerance: f64) -> Result<impl KeplerRun> {
-    Ok(ControlledIntegrator::new(Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())?)
+    Ok(Integrator::controlled(Kepler {}, method, Osculating::new(tolerance, 1e-4), orbit.pericentre())?)
 }
 
 /// A run with steps in proportion to r^(3/2), about 1/ε of them per radian of the motion in the mean.
 pub fn reversible(method: impl KeplerMethod, orbit: Orbit, epsilon: f64) -> Result<impl KeplerRun> {
-    Ok(ControlledIntegrator::new(Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())?)
+    Ok(Integrator::controlled(Kepler {}, method, Reversible::power(epsilon, 1.5), orbit.pericentre())?)
 }

@@ -226,7 +226,7 @@ impl MassMatrix {
             }
         };
         let encounters = "Where bodies meet, L has a pole, and steps of one length lose the energy in \
-                          close encounters: `ControlledIntegrator` makes them shorter there, with \
+                          close encounters: `Integrator::controlled` makes them shorter there, with \
                           `Reversible` symmetrically in time, or with `ErrorControl` and `Gauss` to a \
                           given error.";
         let encounters = (constrained.is_none() && self.pole).then(|| encounters.to_string());

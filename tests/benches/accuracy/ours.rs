@@ -59,7 +59,7 @@ impl<S: Lagrangian + 'static> Setting<S> {
     fn alone_to<M: VariableStep<S, f64>>(self, method: M, tolerance: f64) -> Option<f64> {
         let (system, start) = (self.begin)();
         let control = ErrorControl::new(tolerance, self.end / FIRST);
-        let mut run = ControlledIntegrator::new(&system, method, control, start).ok()?;
+        let mut run = Integrator::controlled(&system, method, control, start).ok()?;
         run.advance_to(self.end).ok()?;
         Some(std::hint::black_box(run.q()[0]))
     }
@@ -67,7 +67,7 @@ impl<S: Lagrangian + 'static> Setting<S> {
     fn watched_to<M: VariableStep<S, f64>>(self, method: M, tolerance: f64) -> Option<Seen> {
         let (system, start) = (self.begin)();
         let control = ErrorControl::new(tolerance, self.end / FIRST);
-        let mut run = ControlledIntegrator::new(&system, method, control, start).ok()?;
+        let mut run = Integrator::controlled(&system, method, control, start).ok()?;
         let mut watch = Watch::new(run.energy(), self.scale);
         while run.time() < self.end {
             run.advance().ok()?;

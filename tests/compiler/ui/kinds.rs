@@ -74,12 +74,12 @@ fn owned_with_a_method_of_another_kind() {
 fn both_do_not_fit() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
     let control = Reversible::power(0.1, 1.5);
-    let _ = ControlledIntegrator::new(&Degenerate, Variational::midpoint(), control, state);
+    let _ = Integrator::controlled(&Degenerate, Variational::midpoint(), control, state);
 }
 
 fn a_control_of_another_kind() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
-    let _ = ControlledIntegrator::new(&Degenerate, Gauss::<2>::new(), EnergyMomentum::new(0.1), state);
+    let _ = Integrator::controlled(&Degenerate, Gauss::<2>::new(), EnergyMomentum::new(0.1), state);
 }
 
 fn more_stages_than_there_are() {

@@ -97,7 +97,7 @@ fn without_constraints() -> Outcome {
 
 fn controlled() -> Outcome {
     let control = ErrorControl::new(1e-9, 0.1);
-    let mut run = ControlledIntegrator::new(&Rod, Gauss::<4>::new(), control, ROD)?;
+    let mut run = Integrator::controlled(&Rod, Gauss::<4>::new(), control, ROD)?;
     run.advance_to(10.0)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -105,7 +105,7 @@ fn controlled() -> Outcome {
 
 fn a_control_of_another_kind() -> Outcome {
     let control = EnergyMomentum::new(0.1);
-    let mut run = ControlledIntegrator::new(&Vortex, Gauss::<2>::new(), control, VORTEX)?;
+    let mut run = Integrator::controlled(&Vortex, Gauss::<2>::new(), control, VORTEX)?;
     run.take_steps(100)?;
     println!("{:?} {} {}", run.state(), run.energy(), run.control_memory().defect());
     Ok(())
@@ -127,7 +127,7 @@ fn composed_of_one_length() -> Outcome {
 
 fn controlled_of_one_length() -> Outcome {
     let control = ErrorControl::new(1e-9, 0.1);
-    let mut run = ControlledIntegrator::new(&Vortex, Sigma::midpoint(), control, VORTEX)?;
+    let mut run = Integrator::controlled(&Vortex, Sigma::midpoint(), control, VORTEX)?;
     run.advance_to(10.0)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -135,7 +135,7 @@ fn controlled_of_one_length() -> Outcome {
 
 fn resumed(checkpoint: &Checkpoint) -> Outcome {
     let control = ErrorControl::new(1e-9, 0.1);
-    let mut run = ControlledIntegrator::resume(&Bead, Newmark::new(0.25), control, checkpoint)?;
+    let mut run = Integrator::resume_controlled(&Bead, Newmark::new(0.25), control, checkpoint)?;
     run.advance_to(10.0)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -176,7 +176,7 @@ fn limited_in_place() -> Outcome {
 
 fn neither_method_nor_control() -> Outcome {
     let control = Reversible::power(0.02, 1.5);
-    let mut run = ControlledIntegrator::new(&Vortex, Sigma::midpoint(), control, VORTEX)?;
+    let mut run = Integrator::controlled(&Vortex, Sigma::midpoint(), control, VORTEX)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -185,7 +185,7 @@ fn neither_method_nor_control() -> Outcome {
 fn limited_under_a_control() -> Outcome {
     let method = EnergyLimit { method: Newmark::new(0.25), limit: 1e-3 };
     let control = Reversible::power(0.02, 1.5);
-    let mut run = ControlledIntegrator::new(&Vortex, method, control, VORTEX)?;
+    let mut run = Integrator::controlled(&Vortex, method, control, VORTEX)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -224,8 +224,8 @@ fn written(bead: &Bead) -> Result<Written<'_>, StartError> {
 
 fn written_under_a_control(
     rod: &Rod,
-) -> Result<ControlledIntegrator<&Rod, OneStep, ErrorControl<'_>>, StartError> {
-    ControlledIntegrator::new(rod, OneStep::midpoint(), ErrorControl::new(1e-9, 0.1), ROD)
+) -> Result<Integrator<&Rod, OneStep, f64, ErrorControl<'_>>, StartError> {
+    Integrator::controlled(rod, OneStep::midpoint(), ErrorControl::new(1e-9, 0.1), ROD)
 }
 
 fn in_a_box() -> Result<Box<Integrator<Vortex, Variational<Unfitted, Trapezoid>>>, StartError> {

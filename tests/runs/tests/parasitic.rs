@@ -251,7 +251,7 @@ fn the_last_state_is_kept_and_the_limit_can_be_moved_or_switched_off() -> Outcom
         return Err(format!("{error:?}").into());
     };
     assert_eq!((step, time, limit), (steps, run.time(), 0.5));
-    let mode = run.parasitic_mode().ok_or("measured")?;
+    let mode = run.memory().parasitic_mode().ok_or("measured")?;
     assert_eq!(mode, ParasiticMode { amplitude, relative, is_significant: true });
     // The step fails again.
     assert_eq!((run.advance().err(), run.state(), run.steps()), (error, state, steps));

@@ -16,7 +16,7 @@ fn lobatto4() -> Result<Variational<Radial>, StartError> {
 
 /// Steps a period and max |ΔE| of 100 periods at e = 0.95 with ε = 0.02.
 fn hundred_periods<M: VariableStep<Kepler, f64>>(method: M) -> Result<[f64; 2], StepError> {
-    let mut run = ControlledIntegrator::new(&KEPLER, method, Reversible::power(0.02, 1.5), pericentre(0.95))
+    let mut run = Integrator::controlled(&KEPLER, method, Reversible::power(0.02, 1.5), pericentre(0.95))
         .expect("starts");
     let (initial, mut largest) = (run.energy(), 0.0_f64);
     while run.time() < 100.0 * TAU {
@@ -59,7 +59,7 @@ fn the_number_of_steps_is_the_integral_of_the_density() -> Outcome {
         let integral: f64 = (0..nodes).map(|k| density(TAU * f64::from(k) / f64::from(nodes))).sum();
         let expected = integral * TAU / f64::from(nodes) / 0.001;
         let control = Reversible::power(0.001, exponent);
-        let mut run = ControlledIntegrator::new(&KEPLER, Variational::trapezoid(), control, pericentre(e))?;
+        let mut run = Integrator::controlled(&KEPLER, Variational::trapezoid(), control, pericentre(e))?;
         while run.time() < TAU {
             run.advance()?;
         }
@@ -88,14 +88,14 @@ where
     M: VariableStep<S, f64> + Copy,
     D: Density<f64> + Copy,
 {
-    let mut there = ControlledIntegrator::new(system, method, control, start.clone())?;
+    let mut there = Integrator::controlled(system, method, control, start.clone())?;
     let mut lengths = Vec::new();
     for _ in 0..steps {
         there.advance()?;
         lengths.push(there.step_size());
     }
     let control = Reversible { start: Some(there.density()), ..control };
-    let mut back = ControlledIntegrator::new(system, method, control, turn(there.state()))?;
+    let mut back = Integrator::controlled(system, method, control, turn(there.state()))?;
     let mut ratio = 0.0_f64;
     for length in lengths.iter().rev() {
         back.advance()?;
@@ -153,7 +153,7 @@ fn a_density_of_ones_own_on_a_system_that_is_not_separable() -> Outcome {
     let control = Reversible::new(0.05, FarOut);
     let [distance, ratio] = there_and_back(&system, Variational::midpoint(), control, &start, turn, 1000)?;
     assert!(distance < 1e-9 && ratio < 1e-9, "{distance:e} {ratio:e}");
-    let mut run = ControlledIntegrator::new(&system, Variational::midpoint(), control, start)?;
+    let mut run = Integrator::controlled(&system, Variational::midpoint(), control, start)?;
     for _ in 0..10_000 {
         run.advance()?;
         // The density that is carried along stays that of the position, up to O(ε²).
@@ -166,10 +166,10 @@ fn a_density_of_ones_own_on_a_system_that_is_not_separable() -> Outcome {
 #[test]
 fn negative_epsilon_runs_back_in_time() -> Outcome {
     let forward = Reversible::power(0.02, 1.5);
-    let mut there = ControlledIntegrator::new(&KEPLER, lobatto4()?, forward, pericentre(0.8))?;
+    let mut there = Integrator::controlled(&KEPLER, lobatto4()?, forward, pericentre(0.8))?;
     there.take_steps(500)?;
     let control = Reversible { epsilon: -0.02, start: Some(there.density()), ..forward };
-    let mut back = ControlledIntegrator::new_at(&KEPLER, lobatto4()?, control, there.time(), there.state())?;
+    let mut back = Integrator::controlled_at(&KEPLER, lobatto4()?, control, there.time(), there.state())?;
     back.take_steps(500)?;
     assert!(back.time().abs() < 1e-10 && (back.q()[0] - 0.2).abs() < 1e-9 && back.q()[1].abs() < 1e-9);
     Ok(())
@@ -191,7 +191,7 @@ fn steps_by_osculating_circles_keep_to_the_tolerance_in_both_readings() -> Outco
         for (steps, tolerance) in steps.iter_mut().zip([1e-3, 1e-5]) {
             let control = Osculating { centre, ..Osculating::new(tolerance, 1.0) };
             let mut run =
-                ControlledIntegrator::new(&KEPLER, Variational::trapezoid(), control, pericentre(0.5))?;
+                Integrator::controlled(&KEPLER, Variational::trapezoid(), control, pericentre(0.5))?;
             let mut near = 0;
             while run.time() < TAU {
                 let [radius, rate, speed] = osculating_circle(&run.state());
@@ -224,7 +224,7 @@ fn steps_that_are_undone_leave_no_trace() -> Outcome {
     fn check<M: VariableStep<Kepler, f64> + Copy>(method: M) -> Outcome {
         let run = |first_step, steps| -> Outcome<_> {
             let control = Osculating::new(1e-3, first_step);
-            let mut run = ControlledIntegrator::new(&KEPLER, method, control, pericentre(0.5))?;
+            let mut run = Integrator::controlled(&KEPLER, method, control, pericentre(0.5))?;
             run.advance()?;
             let length = run.step_size();
             run.take_steps(steps)?;
@@ -243,7 +243,7 @@ fn steps_that_are_undone_leave_no_trace() -> Outcome {
 
 /// What a run that cannot start says.
 fn refusal<C: StepControl<Kepler, f64>>(control: C, start: KeplerState) -> Option<StartError> {
-    ControlledIntegrator::new(&KEPLER, Variational::trapezoid(), control, start).err()
+    Integrator::controlled(&KEPLER, Variational::trapezoid(), control, start).err()
 }
 
 #[test]
@@ -277,7 +277,7 @@ fn options_out_of_range_are_refused() {
     assert!(matches!(error, Some(StartError::Unsupported { option: "Osculating", .. })), "{error:?}");
     let relativistic = RelativisticState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.5 };
     let (system, control) = (Relativistic { m: 1.0 }, Osculating::new(1e-3, 0.1));
-    let error = ControlledIntegrator::new(&system, Variational::midpoint(), control, relativistic).err();
+    let error = Integrator::controlled(&system, Variational::midpoint(), control, relativistic).err();
     assert!(matches!(error, Some(StartError::Unsupported { option: "Osculating", .. })), "{error:?}");
 }
 
@@ -285,7 +285,7 @@ fn options_out_of_range_are_refused() {
 fn a_fall_into_the_sun_ends_with_an_error_at_the_last_good_state() -> Outcome {
     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
     let averaged = Variational::simpson().phase_fitted(Radial(Reading::Averaged));
-    let mut run = ControlledIntegrator::new(&KEPLER, averaged, Reversible::power(0.02, 1.5), start)?;
+    let mut run = Integrator::controlled(&KEPLER, averaged, Reversible::power(0.02, 1.5), start)?;
     let mut last = run.state();
     let error = loop {
         match run.next().ok_or("an error comes first")? {
@@ -307,7 +307,7 @@ fn a_fall_into_the_sun_ends_with_an_error_at_the_last_good_state() -> Outcome {
 fn a_density_that_does_not_stay_positive_is_an_error() -> Outcome {
     let start = KeplerState { dot_x: 0.4, ..pericentre(0.5) };
     let mut run =
-        ControlledIntegrator::new(&KEPLER, Variational::trapezoid(), Reversible::power(1.0, 1.5), start)?;
+        Integrator::controlled(&KEPLER, Variational::trapezoid(), Reversible::power(1.0, 1.5), start)?;
     let error = run.take_steps(1000).err().ok_or("fails")?;
     assert!(matches!(error.failure, StepFailure::Density { density } if density <= 0.0), "{error}");
     assert!(run.q().iter().all(|q| q.is_finite()) && run.energy().is_finite());

@@ -93,7 +93,7 @@ fn what_changes_later_is_seen() -> Outcome {
 fn another_run_is_told_from_this_one() -> Outcome {
     fn differs<R>(path: &std::path::Path, run: Result<R, StartError>, what: &str) -> Outcome
     where
-        R: Resume<Scalar = f64, Method: core::fmt::Debug>,
+        R: Resume<Scalar = f64>,
     {
         match Archive::new(path, run?, EVERY).err() {
             Some(ArchiveError::Foreign { difference, .. }) if difference.what == what => Ok(()),
@@ -116,7 +116,7 @@ fn another_run_is_told_from_this_one() -> Outcome {
     differs(&path, Integrator::new(&one, verlet, 0.06, start), "start")?;
     differs(&path, Integrator::new_at(&one, verlet, 0.1, 0.05, start), "start")?;
     let control = Reversible::power(0.05, 1.5);
-    differs(&path, ControlledIntegrator::new(&one, verlet, control, start), "step control")?;
+    differs(&path, Integrator::controlled(&one, verlet, control, start), "step control")?;
     let (vortices, start) = dvi_tests::configurations::leapfrogging();
     differs(&path, Integrator::new(vortices, Sigma::midpoint(), 0.05, start), "system")?;
     assert!(std::fs::read(&path)? == whole, "it is left as it is");

@@ -12,7 +12,7 @@ use super::*;
 /// numbers of steps.
 fn check<R>(name: &str, every: Every, steps: u64, begin: impl Fn() -> Result<R, StartError>) -> Outcome
 where
-    R: Resume<Scalar = f64, Method: core::fmt::Debug>,
+    R: Resume<Scalar = f64>,
 {
     let path = file(name)?;
     Archive::new(&path, begin()?, every)?.take_steps(steps / 3)?;
@@ -68,16 +68,16 @@ fn so_are_those_of_controlled_steps() -> Outcome {
     let start = KeplerState { x: 0.2, y: 0.0, dot_x: 0.0, dot_y: 3.0 };
     let reversible = Reversible::power(0.05, 1.5);
     check("reversible", Every::Steps(50), 400, || {
-        ControlledIntegrator::new(Kepler { mu: 1.0 }, Variational::trapezoid(), reversible, start)
+        Integrator::controlled(Kepler { mu: 1.0 }, Variational::trapezoid(), reversible, start)
     })?;
     let control = EnergyMomentum::new(0.05);
     let planet = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.8 };
     check("energy-momentum", Every::Steps(40), 170, || {
-        ControlledIntegrator::new(Kepler { mu: 1.0 }, Variational::midpoint(), control, planet)
+        Integrator::controlled(Kepler { mu: 1.0 }, Variational::midpoint(), control, planet)
     })?;
     let control = ErrorControl::new(1e-8, 0.01);
     check("error-control", Every::Steps(33), 200, || {
-        ControlledIntegrator::new(Kepler { mu: 1.0 }, Gauss::<3>::new(), control, start)
+        Integrator::controlled(Kepler { mu: 1.0 }, Gauss::<3>::new(), control, start)
     })
 }
 

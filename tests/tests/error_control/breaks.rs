@@ -23,7 +23,7 @@ fn is_near(a: f64, b: f64) -> bool {
 /// The ends of the steps up to `end`, by an iteration that knows of no end.
 fn ends(breaks: &[f64], first_step: f64, end: f64) -> Outcome<Vec<f64>> {
     let control = ErrorControl { breaks, ..ErrorControl::new(1e-9, first_step) };
-    let mut run = ControlledIntegrator::new(&KEPLER, Gauss::<4>::new(), control, pericentre(0.5))?;
+    let mut run = Integrator::controlled(&KEPLER, Gauss::<4>::new(), control, pericentre(0.5))?;
     let mut ends = Vec::new();
     while run.time().abs() < end {
         run.advance()?;
@@ -62,7 +62,7 @@ fn steps_at_breaks_do_not_see_the_jump() -> Outcome {
         for tolerance in [1e-6, 1e-9, 1e-12] {
             let breaks = [on, off];
             let control = ErrorControl { breaks: &breaks, ..ErrorControl::new(tolerance, 0.01) };
-            let mut run = ControlledIntegrator::new(&system, Gauss::<8>::new(), control, start(0.0, 0.0))?;
+            let mut run = Integrator::controlled(&system, Gauss::<8>::new(), control, start(0.0, 0.0))?;
             run.advance_to(on + 100.0)?;
             let error = (run.state().x - after).abs();
             assert!(error < 30.0 * tolerance * (1.0 + after), "{on}, {tolerance:e}: {error:e}");
@@ -70,7 +70,7 @@ fn steps_at_breaks_do_not_see_the_jump() -> Outcome {
             // And back.
             let control = ErrorControl { breaks: &breaks, ..ErrorControl::new(tolerance, -0.01) };
             let (t, state) = (run.time(), run.state());
-            let mut back = ControlledIntegrator::new_at(&system, Gauss::<8>::new(), control, t, state)?;
+            let mut back = Integrator::controlled_at(&system, Gauss::<8>::new(), control, t, state)?;
             back.advance_to(on - 1.0)?;
             let error = back.state().x.abs();
             assert!(error < 60.0 * tolerance * (1.0 + after), "{on}, {tolerance:e}: {error:e}");
@@ -84,11 +84,11 @@ fn steps_at_breaks_do_not_see_the_jump() -> Outcome {
 fn breaks_are_met_after_a_checkpoint() -> Outcome {
     let breaks = [0.2, 0.25, 1.0, 1.5];
     let control = ErrorControl { breaks: &breaks, ..ErrorControl::new(1e-9, 0.1) };
-    let mut run = ControlledIntegrator::new(&KEPLER, Gauss::<4>::new(), control, pericentre(0.5))?;
+    let mut run = Integrator::controlled(&KEPLER, Gauss::<4>::new(), control, pericentre(0.5))?;
     // Before, at and between breaks.
     while run.time() < 2.0 {
         let checkpoint = run.checkpoint();
-        let mut again = ControlledIntegrator::resume(&KEPLER, Gauss::<4>::new(), control, &checkpoint)?;
+        let mut again = Integrator::resume_controlled(&KEPLER, Gauss::<4>::new(), control, &checkpoint)?;
         run.advance()?;
         again.advance()?;
         assert_eq!((run.time(), run.state()), (again.time(), again.state()));
@@ -100,7 +100,7 @@ fn breaks_are_met_after_a_checkpoint() -> Outcome {
 fn breaks_that_are_not_in_order_are_refused() {
     let refusal = |breaks: &[f64]| {
         let control = ErrorControl { breaks, ..ErrorControl::new(1e-9, 0.1) };
-        let run = ControlledIntegrator::new(&KEPLER, Gauss::<4>::new(), control, pericentre(0.5));
+        let run = Integrator::controlled(&KEPLER, Gauss::<4>::new(), control, pericentre(0.5));
         match run.err() {
             Some(StartError::Parameter { name: "breaks", value, .. }) => Some(value),
             _ => None,

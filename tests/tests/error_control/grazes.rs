@@ -27,7 +27,7 @@ fn a_seam_that_is_crossed_twice_within_a_step_is_found() -> Outcome {
         let control = ErrorControl::new(tolerance, 0.01);
         // Up to the wall with v = √(v₀² + x₀), back from it at once, and down.
         let start = WalledState { x: -3.99688, dot_x: 2.0 };
-        let mut run = ControlledIntegrator::new(&Walled, Gauss::<4>::new(), control, start)?;
+        let mut run = Integrator::controlled(&Walled, Gauss::<4>::new(), control, start)?;
         run.advance_to(4.89)?;
         let at_wall = (4.0 + start.x).sqrt();
         let since = 4.89 - 2.0 * (2.0 - at_wall) - 2.0 * at_wall / (1e6 + 0.5);
@@ -38,7 +38,7 @@ fn a_seam_that_is_crossed_twice_within_a_step_is_found() -> Outcome {
         // is 2 arctan(v/2) later and not 2 arctan(v).
         let (velocity, end) = (1.000_001_f64, 3.0);
         let start = ReachingState { x: 0.0, dot_x: velocity };
-        let mut run = ControlledIntegrator::new(&Reaching, Gauss::<8>::new(), control, start)?;
+        let mut run = Integrator::controlled(&Reaching, Gauss::<8>::new(), control, start)?;
         run.advance_to(end)?;
         let at_seam = (velocity * velocity - 1.0).sqrt();
         let since = end - (1.0 / velocity).asin() - 2.0 * (at_seam / 2.0).atan();
@@ -63,7 +63,7 @@ fn seams_that_are_touched_are_no_obstacle() -> Outcome {
         for tolerance in [1e-6, 1e-9, 1e-12] {
             for first_step in [0.01, 0.9, 1.0] {
                 let control = ErrorControl::new(tolerance, first_step);
-                let mut run = ControlledIntegrator::new(&Touching, Gauss::<8>::new(), control, start)?;
+                let mut run = Integrator::controlled(&Touching, Gauss::<8>::new(), control, start)?;
                 run.advance_to(2.0)?;
                 // To the height above and back again.
                 assert_abs_diff_eq!(run.state().x, start.x, epsilon = tolerance);
@@ -86,7 +86,7 @@ fn many_seams_in_a_step_are_met_one_by_one() -> Outcome {
     struct Shaken;
     let control = ErrorControl::new(1e-9, 0.01);
     let start = ShakenState { x: 0.0, dot_x: 0.0 };
-    let mut run = ControlledIntegrator::new(&Shaken, Gauss::<4>::new(), control, start)?;
+    let mut run = Integrator::controlled(&Shaken, Gauss::<4>::new(), control, start)?;
     // Whole periods, in each of which it moves by the square of a half.
     let half = PI / 1000.0;
     run.advance_to(100.0 * half)?;
@@ -116,8 +116,7 @@ fn pulses_are_not_passed_over() -> Outcome {
         {
             let (end, system) = (60.0, Pulsed { k, w, c });
             let start = PulsedState { x: 1.0, dot_x: 0.0 };
-            let mut run =
-                ControlledIntegrator::new(&system, method, ErrorControl::new(tolerance, 0.1), start)?;
+            let mut run = Integrator::controlled(&system, method, ErrorControl::new(tolerance, 0.1), start)?;
             run.advance_to(end)?;
             // What a push up to time t adds to x at the end.
             let pushed = |t: f64| if k == 0.0 { -(end - t).powi(2) / 2.0 } else { (end - t).cos() };

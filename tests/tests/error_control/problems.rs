@@ -34,7 +34,7 @@ fn error<S: Lagrangian, M: VariableStep<S, f64>>(
     (method, control): (M, ErrorControl<'_>),
     (end, exact): (f64, &[f64]),
 ) -> Outcome<f64> {
-    let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+    let mut run = Integrator::controlled(system, method, control, start.clone())?;
     run.advance_to(end)?;
     let state: Vec<f64> = system.values(&run.state())?.collect();
     assert_eq!(state.len(), exact.len());

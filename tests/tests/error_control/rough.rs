@@ -43,12 +43,12 @@ fn forces_are_switched_on_at_rest() -> Outcome {
                 tolerances.iter().flat_map(|tolerance| [0.01, 0.1, 1.0].map(|h| (tolerance, h)))
             {
                 let mut run =
-                    ControlledIntegrator::new(&system, method, ErrorControl::new(tolerance, h), start)?;
+                    Integrator::controlled(&system, method, ErrorControl::new(tolerance, h), start)?;
                 run.advance_to(t0 + 2.0)?;
                 let error = (run.state().x - fine.state().x).abs();
                 assert!(error < 30.0 * tolerance, "{system:?}, {method:?}, {tolerance:e}, {h}: {error:e}");
                 let mut run =
-                    ControlledIntegrator::new(&system, method, ErrorControl::new(tolerance, h), start)?;
+                    Integrator::controlled(&system, method, ErrorControl::new(tolerance, h), start)?;
                 run.advance_to(t0)?;
                 run.advance_to(t0 + 2.0)?;
                 let error = (run.state().x - fine.state().x).abs();
@@ -115,7 +115,7 @@ where
         end: f64,
         exact: &[f64],
     ) -> Outcome<f64> {
-        let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+        let mut run = Integrator::controlled(system, method, control, start.clone())?;
         while run.time() + control.longest_step < end {
             run.advance()?;
             assert!(run.step_size() <= control.longest_step);
@@ -197,7 +197,7 @@ fn rough_motions_end_where_another_program_has_them_end() -> Outcome {
     {
         for (tolerance, most) in [(1e-9, 1e-7), (1e-11, 4e-9)] {
             let control = ErrorControl::new(tolerance, 0.01);
-            let mut run = ControlledIntegrator::new(system, Gauss::<8>::new(), control, start.clone())?;
+            let mut run = Integrator::controlled(system, Gauss::<8>::new(), control, start.clone())?;
             run.advance_to(end)?;
             let error = apart(run.q(), exact);
             assert!(error < most, "{}, {tolerance:e}: {error:e}", S::REPORT.system);

@@ -96,7 +96,7 @@ fn measured<S: Lagrangian, M: VariableStep<S, f64>>(
     (method, control): (M, ErrorControl<'_>),
     (end, exact): (f64, f64),
 ) -> Outcome<(f64, u64, u64)> {
-    let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+    let mut run = Integrator::controlled(system, method, control, start.clone())?;
     run.advance_to(end)?;
     let statistics = run.statistics();
     let error = (run.q()[0] - exact).abs() / control.tolerance.relative;
@@ -134,11 +134,11 @@ fn a_long_motion_over_a_kink_takes_few_steps() -> Outcome {
         compare(Gauss::<4>::new(), control, starts)?;
         compare(Gauss::<8>::new().in_lanes(), control, starts)?;
         // And back.
-        let mut run = ControlledIntegrator::new(&Well, Gauss::<8>::new(), control, start)?;
+        let mut run = Integrator::controlled(&Well, Gauss::<8>::new(), control, start)?;
         run.advance_to(50.0)?;
         let control = ErrorControl::new(tolerance, -0.01);
         let mut back =
-            ControlledIntegrator::new_at(&Well, Gauss::<8>::new(), control, run.time(), run.state())?;
+            Integrator::controlled_at(&Well, Gauss::<8>::new(), control, run.time(), run.state())?;
         back.advance_to(0.0)?;
         assert_abs_diff_eq!(back.state().x, 1.0, epsilon = 30.0 * tolerance);
         assert!(back.steps() < 80, "{}", back.steps());
@@ -207,7 +207,7 @@ fn forces_by_if_are_met_where_they_change() -> Outcome {
         check(measured(motion, (method, control), (100.0, 9.98))?, 20);
         let with_breaks = ErrorControl { breaks: &[50.0, 60.0], ..control };
         check(measured(motion, (method, with_breaks), (100.0, 9.98))?, 24);
-        let mut run = ControlledIntegrator::new(motion.0, method, control, *motion.1)?;
+        let mut run = Integrator::controlled(motion.0, method, control, *motion.1)?;
         for end in [50.0, 50.2, 100.0] {
             run.advance_to(end)?;
         }
@@ -228,7 +228,7 @@ fn no_step_sees_both_sides() -> Outcome {
         sides: impl Fn(f64, S::State<f64>) -> Vec<bool>,
     ) -> Outcome {
         let control = ErrorControl::new(1e-9, first_step);
-        let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+        let mut run = Integrator::controlled(system, method, control, start.clone())?;
         let (mut dense, mut changes) = (run.dense()?, 0);
         let mut before = Vec::new();
         while dense.time().abs() < end {
@@ -279,9 +279,9 @@ fn a_run_over_seams_goes_on_from_a_checkpoint() -> Outcome {
         Gauss<4>: VariableStep<S, f64>,
     {
         let method = Gauss::<4>::new();
-        let mut run = ControlledIntegrator::new(system, method, control, start.clone())?;
+        let mut run = Integrator::controlled(system, method, control, start.clone())?;
         while run.time() < end {
-            let mut again = ControlledIntegrator::resume(system, method, control, &run.checkpoint())?;
+            let mut again = Integrator::resume_controlled(system, method, control, &run.checkpoint())?;
             let (one, other) = (run.advance(), again.advance());
             assert_eq!(one, other);
             assert_eq!((run.time(), run.state()), (again.time(), again.state()));
@@ -336,7 +336,7 @@ fn motions_that_do_not_leave_a_seam_end_soon() -> Outcome {
         stops: f64,
     ) -> Outcome {
         let control = ErrorControl::new(tolerance, 0.01);
-        let mut run = ControlledIntegrator::new(system, method, control, start)?;
+        let mut run = Integrator::controlled(system, method, control, start)?;
         let error = run.advance_to(10.0).err().ok_or("it does not leave the seam")?;
         let (name, statistics) = (S::REPORT.system, run.statistics());
         println!("{name}, {tolerance:e}: {} + {}, {error}", statistics.steps, statistics.rejected);
@@ -375,12 +375,12 @@ fn seams_are_met_in_other_numbers() -> Outcome {
     use num_dual::Dual64;
     let control = ErrorControl::new(1e-5, 0.01);
     let start = WellStateOf { x: 1.0_f32, dot_x: 0.0 };
-    let mut run = ControlledIntegrator::new(&Well, Gauss::<4>::new(), control, start)?;
+    let mut run = Integrator::controlled(&Well, Gauss::<4>::new(), control, start)?;
     run.advance_to(20.0)?;
     assert!((run.state().x - well(1.0, 20.0) as f32).abs() < 1e-3 && run.steps() < 60, "{}", run.steps());
     let start = WellStateOf { x: Dual64::new(1.0, 1.0), dot_x: Dual64::from(0.0) };
     let control = ErrorControl::new(1e-9, 0.01);
-    let mut run = ControlledIntegrator::new(&Well, Gauss::<4>::new(), control, start)?;
+    let mut run = Integrator::controlled(&Well, Gauss::<4>::new(), control, start)?;
     run.advance_to(Dual64::from(4.0))?;
     // x = (t − 2q)²/2 − a with q = √(2a) and dq/da = 1/q.
     let slope = -2.0 * (4.0 - 2.0 * SQRT_2) / SQRT_2 - 1.0;

@@ -66,7 +66,7 @@ fn state_at<S: Lagrangian, M: VariableStep<S, f64>>(
     tolerance: f64,
     end: f64,
 ) -> Outcome<Vec<f64>> {
-    let mut run = ControlledIntegrator::new(system, method, ErrorControl::new(tolerance, 0.01), start)?;
+    let mut run = Integrator::controlled(system, method, ErrorControl::new(tolerance, 0.01), start)?;
     run.advance_to(end)?;
     Ok(system.values(&run.state())?.collect())
 }

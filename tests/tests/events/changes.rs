@@ -35,7 +35,7 @@ fn a_run_goes_on_from_another_state() -> Outcome {
     let fixed = |t, at| Ok(Integrator::new_at(&PLANE, verlet, t, 0.1, at)?);
     check(fixed(0.0, PLANAR)?, fixed)?;
     let (gauss, control) = (Gauss::<4>::new(), ErrorControl::new(1e-9, 0.1));
-    let controlled = |t, at| Ok(ControlledIntegrator::new_at(&PLANE, gauss, control, t, at)?);
+    let controlled = |t, at| Ok(Integrator::controlled_at(&PLANE, gauss, control, t, at)?);
     check(controlled(0.0, PLANAR)?, controlled)
 }
 

@@ -99,7 +99,7 @@ fn directions_are_along_a_run_back_in_time() -> Outcome {
 fn events_before_a_failed_step_are_handed_out() -> Outcome {
     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
     let control = ErrorControl::new(1e-9, 0.1);
-    let mut run = ControlledIntegrator::new(&Kepler { mu: 1.0 }, Gauss::<8>::new(), control, start)?;
+    let mut run = Integrator::controlled(&Kepler { mu: 1.0 }, Gauss::<8>::new(), control, start)?;
     let levels = [0.9, 0.5, 0.01, 1e-5_f64];
     let mut events = run.events([Direction::Falling; 4], |_, state| levels.map(|level| state.x - level))?;
     for (index, level) in levels.into_iter().enumerate() {
@@ -169,7 +169,7 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
     for sign in [1.0, -1.0] {
         check(Integrator::new(&PLANE, method, 0.1 * sign, PLANAR)?, sign)?;
         let control = ErrorControl::new(1e-9, 0.1 * sign);
-        check(ControlledIntegrator::new(&PLANE, method, control, PLANAR)?, sign)?;
+        check(Integrator::controlled(&PLANE, method, control, PLANAR)?, sign)?;
     }
     Ok(())
 }

@@ -33,7 +33,7 @@ fn a_record_has_what_the_run_says() -> Checked {
 #[test]
 fn controlled_runs_are_recorded_too() -> Checked {
     let control = Reversible::power(0.02, 1.5);
-    let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, START)?;
+    let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, START)?;
     let [first, second] = [run.record(3, 10)?, run.record(3, 10)?];
     let [first, second] = [first.numbers("time")?, second.numbers("time")?];
     assert_eq!(first[10].to_bits(), second[0].to_bits());

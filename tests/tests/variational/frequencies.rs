@@ -96,7 +96,7 @@ fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
         fn begin(&self, _system: &Pair, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
             Ok(((), 0.1))
         }
-        fn step<M: dvi_core::methods::VariableStep<Pair, f64>>(
+        fn step<M: Method<Pair, f64>>(
             &self,
             _memory: &mut (),
             run: &mut dvi_core::run::ControlledRun<'_, Pair, M, f64>,
@@ -111,7 +111,7 @@ fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
         }
     }
     let end = |tries| -> Outcome<[f64; 2]> {
-        let mut run = ControlledIntegrator::new(&Pair, method, Trying { tries }, start)?;
+        let mut run = Integrator::controlled(&Pair, method, Trying { tries }, start)?;
         run.take_steps(200)?;
         Ok([run.q()[0], run.q()[1]])
     };

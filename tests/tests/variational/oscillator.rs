@@ -117,7 +117,7 @@ fn steps_of_different_lengths_are_exact_where_momenta_are_fitted_too() -> Outcom
         let mut errors = [0.0; 2];
         for (method, error) in [phase, both].into_iter().zip(&mut errors) {
             let start = PairState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.5 };
-            let mut run = ControlledIntegrator::new(&system, method, Reversible::power(0.3, 1.0), start)?;
+            let mut run = Integrator::controlled(&system, method, Reversible::power(0.3, 1.0), start)?;
             while run.steps() < 1000 {
                 run.advance()?;
                 let (sin, cos) = run.time().sin_cos();

@@ -77,11 +77,12 @@ fn second_derivatives_agree_with_hyper_dual_numbers() -> Outcome {
 }
 
 /// With fixed and with controlled steps.
-fn tangent_matches_runs<R: WithMethod<System = Kepler, Scalar = f64>>(
-    begin: impl Fn(KeplerState) -> Result<R, StartError>,
+fn tangent_matches_runs<'s, M, C: StepControl<Kepler, f64>>(
+    begin: impl Fn(KeplerState) -> Result<Integrator<&'s Kepler, M, f64, C>, StartError>,
 ) -> Outcome
 where
-    R::Method: VariationalMethod<Kepler, f64, DiscreteLagrangian: TwiceDifferentiable<Kepler, f64>> + Clone,
+    M: Method<Kepler, f64> + Clone,
+    M: VariationalMethod<Kepler, f64, DiscreteLagrangian: TwiceDifferentiable<Kepler, f64>>,
 {
     let system = Kepler { mu: 1.0 };
     let start = [0.8, 0.1, -0.1, 1.2];
@@ -128,7 +129,7 @@ fn tangent_maps_agree_with_differences_of_steps() -> Outcome {
     tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, Galerkin::<3>::new(), 0.1, start))?;
     tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, Galerkin::<5>::new(), 0.1, start))?;
     let control = Reversible::power(0.1, 1.5);
-    tangent_matches_runs(|start| ControlledIntegrator::new(&Kepler { mu: 1.0 }, method, control, start))
+    tangent_matches_runs(|start| Integrator::controlled(&Kepler { mu: 1.0 }, method, control, start))
 }
 
 /// A pendulum on its head.

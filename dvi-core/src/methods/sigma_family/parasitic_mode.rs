@@ -70,7 +70,7 @@ const RADIANS: f64 = 4.0;
 #[doc = include_str!("../../../docs/hidden/vortices.txt")]
 /// let mut run = Integrator::new(&Vortices, Sigma::leapfrog(), 0.1, start)?;
 /// run.take_steps(10_000)?;
-/// let ParasiticMode { amplitude, relative, .. } = run.parasitic_mode().unwrap();
+/// let ParasiticMode { amplitude, relative, .. } = run.memory().parasitic_mode().unwrap();
 /// // What a smooth motion of frequency ω = 1/π shows: (ωh/2)².
 /// assert!((relative - 2.5e-4).abs() < 2e-5 && amplitude < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

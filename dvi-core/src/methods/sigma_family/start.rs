@@ -20,8 +20,8 @@ use crate::{DegenerateLagrangian, Real, System, Vector};
 /// let mut heun = Integrator::new(&Vortices, heun, 0.5, start)?;
 /// consistent.take_steps(1000)?;
 /// heun.take_steps(1000)?;
-/// assert!(consistent.parasitic_amplitude() < 1e-14);
-/// assert!(heun.parasitic_amplitude() > 1e-6); // what the start has left stays
+/// assert!(consistent.memory().parasitic_amplitude() < 1e-14);
+/// assert!(heun.memory().parasitic_amplitude() > 1e-6); // what the start has left stays
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -20,7 +20,7 @@ impl<S: System, T: Real, const N: usize, G: FnMut(T, &S::State<T>) -> [T; N]> Co
 
 /// The events that a system declares, all in their order.
 #[derive(Clone, Copy, Debug)]
-pub struct Declared;
+pub(crate) struct Declared;
 
 impl<S: Lagrangian<T>, T: Real, const N: usize> Conditions<S, T, N> for Declared {
     #[inline]

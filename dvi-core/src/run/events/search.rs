@@ -170,9 +170,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
 
     /// The condition at a part of the step.
     pub(super) fn look(&mut self, part: R::Scalar) -> Result<R::Scalar, StepFailure> {
-        self.run.reach(part * self.run.step_size())?;
-        let t = self.run.reached_time();
-        Ok(numbers(self.g.values(t, self.run.reached()?, self.state))?[self.index])
+        let (t, at) = self.run.reach(part * self.run.step_size())?;
+        Ok(numbers(self.g.values(t, at, self.state))?[self.index])
     }
 }
 

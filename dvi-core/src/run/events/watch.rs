@@ -10,7 +10,7 @@ use crate::error::{StartError, StepError, StepFailure};
 use crate::run::Run;
 use crate::run::dense::{Dense, PLACES, StateOf};
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::{larger, reported};
+use crate::scalar::norm::{larger, reported, smaller};
 use crate::{Real, Scalar};
 
 /// Conditions that are watched on a run: [`Events`](super::Events) for those who take the steps themselves.
@@ -42,7 +42,6 @@ pub struct Watch<R: Run, G, const N: usize> {
     found: [[Option<R::Scalar>; FOUND]; N],
     /// How many of each condition have been found in it.
     count: [usize; N],
-    has_found: bool,
     /// Where states that are looked at are read to.
     state: StateOf<R>,
     /// When it has looked last.
@@ -99,7 +98,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         let watched = values.map(|g| Watched { g, course: None });
         let (found, count) = ([[None; FOUND]; N], [0; N]);
         Ok(Self {
-            has_found: false,
             g,
             directions,
             watched,
@@ -125,15 +123,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             return Err(run.unreachable(self.time));
         }
         self.time = run.time();
-        self.search_next(run)
-    }
-
-    /// The same where each step has been searched.
-    ///
-    /// # Errors
-    /// As [`search`](Self::search).
-    #[inline]
-    pub(super) fn search_next(&mut self, run: &mut Dense<R>) -> Result<(), StepError> {
         self.find(run).map_err(|failure| {
             let error = run.error(failure);
             self.lost = Some(error);
@@ -185,9 +174,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     /// [`StepFailure::UndefinedEvent`], and those of parts of the step.
     #[inline]
     fn find(&mut self, run: &mut Dense<R>) -> Result<(), StepFailure> {
-        if self.has_found {
-            self.forget();
-        }
+        self.forget();
         self.steps += 1;
         let end = self.at_end(run)?;
         let [mut from, one] = [0.0, 1.0].map(R::Scalar::lift);
@@ -276,7 +263,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             for part in within.events(ends)?.into_iter().flatten() {
                 self.found[index][self.count[index]] = Some(part);
                 self.count[index] += 1;
-                self.has_found = true;
             }
         }
         Ok(())
@@ -305,10 +291,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             let rounding = watched.course.map_or(zero, |course| left * course.rate * h);
             let is_zero = Scalar::abs(g) <= rounding;
             let is_now = |part| self.last.is_some_and(|(_, last)| part <= last + left);
-            self.has_found |= is_zero;
-            let is_due = is_zero && found.iter().flatten().any(|&part| is_now(part));
-            (*found, *count) = ([None; FOUND], usize::from(is_due));
-            found[0] = is_due.then_some(zero);
+            let is_due = is_zero && found[..*count].iter().flatten().any(|&part| is_now(part));
+            (found[0], *count) = (Some(zero), usize::from(is_due));
             watched.g = if is_zero { zero } else { g };
         }
         (self.steps, self.lost) = (0, None);
@@ -331,7 +315,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
 
     /// Forgets the events of the last step.
     fn forget(&mut self) {
-        (self.found, self.count, self.has_found) = ([[None; FOUND]; N], [0; N], false);
+        self.count = [0; N];
     }
 
     /// The next event of the last step, if one is left that is not after `end`.
@@ -352,14 +336,9 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     /// and which of two it is. Of those at one time but for rounding it is the first in the array.
     #[inline]
     fn first(&self) -> Option<(R::Scalar, usize, usize)> {
-        if self.has_found { self.first_found() } else { None }
-    }
-
-    fn first_found(&self) -> Option<(R::Scalar, usize, usize)> {
-        let all = self.found.iter().zip(self.count).flat_map(|(found, count)| &found[..count]);
-        let least =
-            all.filter_map(|part| *part).reduce(|least, part| if part < least { part } else { least })?;
-        self.found.iter().enumerate().find_map(|(index, found)| {
+        let all = || self.found.iter().zip(self.count).map(|(found, count)| &found[..count]);
+        let least = all().flatten().copied().flatten().reduce(smaller)?;
+        all().enumerate().find_map(|(index, found)| {
             let which = found.iter().position(|part| part.is_some_and(|part| are_one(least, part)))?;
             found[which].map(|part| (part, index, which))
         })
@@ -372,8 +351,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         index: usize,
     ) -> Result<EventOf<R>, StepFailure> {
         run.settle()?;
-        run.reach(part * run.step_size())?;
-        let time = run.reached_time();
+        let (time, at) = run.reach(part * run.step_size())?;
         // What happens where the state has been set is part of that event.
         if part > R::Scalar::lift(0.0) {
             let is_shorter = self.last.is_some_and(|(last, hop)| last == index && part < hop);
@@ -384,7 +362,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         if self.hops > HOPS {
             return Err(StepFailure::Hops { event: index, count: HOPS, time: reported(time) });
         }
-        Ok(Event { index, time, state: run.reached()?.state() })
+        Ok(Event { index, time, state: at.state() })
     }
 }
 

@@ -2,11 +2,10 @@
 
 use core::fmt;
 
-use crate::error::{StartError, StepFailure};
-use crate::memory::Aside;
-use crate::methods::{Carries, Clock, Step, Tolerance, VariableStep};
+use crate::error::StepFailure;
+use crate::methods::{Carries, Clock, Method, Step, Tolerance};
 use crate::run::Stepper;
-use crate::run::kept::Kept;
+use crate::run::clock::Time;
 use crate::scalar::norm::reported;
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real, System, Vector};
@@ -14,40 +13,12 @@ use crate::{Lagrangian, Real, System, Vector};
 /// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the
 /// control [rejects](super::StepControl::REJECTS) steps, back.
 pub struct ControlledRun<'a, S: System, M: Carries<S, T>, T: Real> {
-    system: &'a S,
-    pub(super) stepper: &'a mut Stepper<S, M, T>,
-    kept: &'a mut KeptSteps<S, M, T>,
+    pub(in crate::run) system: &'a S,
+    pub(in crate::run) stepper: &'a mut Stepper<S, M, T>,
+    pub(in crate::run) time: &'a mut Time<T>,
 }
 
-/// What a run keeps of the steps that it may take back.
-pub(super) struct KeptSteps<S: System, M: Carries<S, T>, T: Real> {
-    /// What the control can go back to.
-    by_control: Option<Kept<S, M, T>>,
-    /// If steps are looked at: where the one at hand has begun.
-    looked_at: Option<Aside<Kept<S, M, T>>>,
-}
-
-impl<S: Lagrangian<T>, M: Carries<S, T>, T: Real> KeptSteps<S, M, T> {
-    pub(super) fn new(
-        q: &Vector<S, T>,
-        rejects: bool,
-        begin: impl Fn() -> Result<M::Memory, StartError>,
-    ) -> Result<Self, StartError> {
-        let by_control = rejects.then(|| Kept::new(q, &begin)).transpose()?;
-        Ok(Self { by_control, looked_at: Kept::if_looked_at(q, begin)? })
-    }
-}
-
-impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, M, T> {
-    #[inline]
-    pub(super) fn new(
-        system: &'a S,
-        stepper: &'a mut Stepper<S, M, T>,
-        kept: &'a mut KeptSteps<S, M, T>,
-    ) -> Self {
-        Self { system, stepper, kept }
-    }
-
+impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> {
     /// The system.
     pub fn system(&self) -> &'a S {
         self.system
@@ -62,7 +33,7 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
     /// none, and `v` stays as it is.
     ///
     /// # Errors
-    /// As [`Method::velocity`](crate::methods::Method::velocity).
+    /// As [`Method::velocity`].
     #[inline]
     pub fn velocity(&self, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
         self.stepper.velocity(self.system, t, v)
@@ -72,71 +43,55 @@ impl<'a, S: Lagrangian<T>, M: VariableStep<S, T>, T: Real> ControlledRun<'a, S, 
     ///
     /// # Errors
     /// [`StepFailure::StepLength`] if `t + h` is `t`, or not finite, or `h` is below the smallest number
-    /// that has all digits; [`StepFailure::LeftDomain`]; else as
-    /// [`Method::step`](crate::methods::Method::step). Nothing has moved then.
+    /// that has all digits; else as [`Method::step`]. Nothing has moved then.
+    /// [`StepFailure::LeftDomain`]: a control that takes another step [goes back](Self::go_back) first.
     #[inline]
     pub fn step(&mut self, t: T, h: T) -> Result<(), StepFailure> {
         let end = t + h;
         if end == t || !end.is_finite() || !is_length(h) {
             return Err(StepFailure::StepLength { h: reported(h) });
         }
-        // Not compiled where steps are not looked at.
-        if S::HAS_DOMAIN
-            && let Some(kept) = &mut self.kept.looked_at
-        {
-            self.stepper.keep(kept);
-        }
         let Stepper { method, memory, q, statistics, .. } = &mut *self.stepper;
         method.step(Step { system: self.system, q, t, h, statistics }, memory)?;
-        if S::HAS_DOMAIN
-            && let Some(kept) = &self.kept.looked_at
-            && let Err(failure) = self.stepper.look(self.system, Clock::new(t, h).after(1), Some(kept))
-        {
-            self.stepper.return_to(kept);
-            return Err(failure);
-        }
-        Ok(())
+        self.stepper.look(self.system, Clock::new(t, h).after(1))
     }
 
     /// An estimate of the error of the last step, from time `t` of length `h` where steps usually have
-    /// another, in units of `tolerance`, without allocation; `None` if the method has none.
+    /// another, in units of `tolerance`, without allocation; infinite if the method has none.
     ///
     /// # Errors
-    /// As [`VariableStep::local_error`].
-    pub fn local_error(
-        &mut self,
-        t: T,
-        [h, usual]: [T; 2],
-        tolerance: Tolerance,
-    ) -> Result<Option<T>, StepFailure> {
+    /// As [`Method::local_error`].
+    pub fn local_error(&mut self, t: T, [h, usual]: [T; 2], tolerance: Tolerance) -> Result<T, StepFailure> {
         let Stepper { method, memory, statistics, .. } = &mut *self.stepper;
         method.local_error(self.system, memory, t, [h, usual], tolerance, statistics)
     }
 
-    /// Keeps the present point, to [go back](Self::go_back) to it. Nothing happens if the control does not
-    /// reject steps.
-    pub fn keep(&mut self) {
-        if let Some(kept) = &mut self.kept.by_control {
-            self.stepper.keep(kept);
-        }
+    /// Goes back to where the step of the control has begun, without allocation, if the control
+    /// [rejects](super::StepControl::REJECTS) steps.
+    pub fn go_back(&mut self) {
+        self.stepper.go_back();
     }
 
-    /// Goes back to the point that was kept, without allocation.
-    pub fn go_back(&mut self) {
-        if let Some(kept) = &self.kept.by_control {
-            self.stepper.return_to(kept);
-        }
+    /// Takes a step of a control, which returns its length.
+    ///
+    /// # Errors
+    /// Those of `step`; the run is then as it was before.
+    #[inline]
+    pub(super) fn step_by(
+        &mut self,
+        step: impl FnOnce(&mut Self, T) -> Result<T, StepFailure>,
+    ) -> Result<(), StepFailure> {
+        let t = self.time.after(self.stepper.statistics.steps).time();
+        self.stepper.keep();
+        let h = step(self, t).inspect_err(|_| self.stepper.go_back())?;
+        self.stepper.statistics.steps += 1;
+        self.time.advance(h, self.stepper.statistics.steps);
+        Ok(())
     }
 }
 
-impl<S: Lagrangian<T>, M: VariableStep<S, T> + fmt::Debug, T: Real> fmt::Debug
-    for ControlledRun<'_, S, M, T>
-{
+impl<S: Lagrangian<T>, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for ControlledRun<'_, S, M, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ControlledRun")
-            .field("system", &S::REPORT.system)
-            .field("method", &self.stepper.method)
-            .field("q", &self.stepper.q)
-            .finish_non_exhaustive()
+        f.debug_struct("ControlledRun").field("stepper", &self.stepper).finish_non_exhaustive()
     }
 }

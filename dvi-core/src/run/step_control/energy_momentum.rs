@@ -11,8 +11,8 @@ use super::{ControlledRun, StepControl};
 use crate::discrete::{Ends, Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, VariableStep};
-use crate::scalar::norm::reported;
+use crate::methods::{Carries, Method};
+use crate::scalar::norm::{larger, reported};
 use crate::solve::crossing::zero;
 use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector};
 
@@ -68,7 +68,7 @@ const REACH: f64 = 4.0;
 /// struct Spring;
 ///
 /// let start = SpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
-/// let mut run = ControlledIntegrator::new(&Spring, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
+/// let mut run = Integrator::controlled(&Spring, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
 /// run.take_steps(1000)?;
 /// assert!(run.control_memory().defect().abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -156,7 +156,7 @@ impl<T: Real> Trial<T> {
 }
 
 /// A step whose length is sought, from the point that `run` has kept.
-struct Search<'a, 'b, S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> {
+struct Search<'a, 'b, S: RegularLagrangian<T>, M: Method<S, T>, T: Real> {
     run: &'a mut ControlledRun<'b, S, M, T>,
     memory: &'a mut EnergyMomentumMemory<S, T>,
     t: T,
@@ -166,7 +166,7 @@ struct Search<'a, 'b, S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> {
     best: Result<Trial<T>, StepFailure>,
 }
 
-impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, M, T> {
+impl<S: RegularLagrangian<T>, M: Method<S, T>, T: Real> Search<'_, '_, S, M, T> {
     /// Takes a step of length `h`, and returns its discrete energy.
     fn energy(&mut self, h: T) -> Result<T, StepFailure> {
         self.run.step(self.t, h)?;
@@ -179,7 +179,7 @@ impl<S: RegularLagrangian<T>, M: VariableStep<S, T>, T: Real> Search<'_, '_, S, 
             Span { system: run.system(), interval: Interval { t: *t, h }, ends: Ends { q0: start, delta } };
         let energy = run.stepper.method.discrete_energy(span, node);
         let missing = StepFailure::EnergyStep { h: reported(h), defect: f64::NAN };
-        energy.filter(|energy| energy.is_finite()).ok_or(missing)
+        if energy.is_finite() { Ok(energy) } else { Err(missing) }
     }
 
     /// The trial of a length, from which the run has gone back; `None` if there is no such step.
@@ -302,12 +302,11 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
             let reason = "energy is not conserved: forces act on the system, or L depends on the time";
             return Err(StartError::Unsupported { option: "EnergyMomentum", reason });
         }
-        let vector = || system.space().vector();
-        let (mut l_q, mut l_v): (Vector<S, T>, Vector<S, T>) = (vector(), vector());
-        system.gradient(q, v, t, &mut l_q, &mut l_v);
+        let [mut force, mut momentum, start, delta, velocity]: [Vector<S, T>; 5] = system.space().vectors();
+        system.gradient(q, v, t, &mut force, &mut momentum);
         let energy = Scalar::abs(system.energy(q, v, t));
-        let action = v.iter().zip(l_v.iter()).fold(T::lift(0.0), |sum, (&v, &p)| sum + v * p);
-        let scale = if action > energy { action } else { energy };
+        let action = v.iter().zip(momentum.iter()).fold(T::lift(0.0), |sum, (&v, &p)| sum + v * p);
+        let scale = larger(energy, action);
         let h = T::lift(self.first_step);
         let memory = EnergyMomentumMemory {
             h,
@@ -317,17 +316,17 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
             defect: T::lift(0.0),
             scale,
             rounding: T::lift(0.0),
-            start: vector(),
-            delta: vector(),
-            node: [vector(), vector()],
-            velocity: vector(),
-            momentum: l_v,
-            force: l_q,
+            start,
+            delta,
+            node: system.space().vectors(),
+            velocity,
+            momentum,
+            force,
         };
         Ok((memory, h))
     }
 
-    fn admit<M: VariableStep<S, T>>(&self, method: &M) -> Result<(), StartError> {
+    fn admit<M: Method<S, T>>(&self, method: &M) -> Result<(), StartError> {
         if method.has_discrete_energy() {
             return Ok(());
         }
@@ -335,13 +334,12 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
         Err(StartError::Unsupported { option: "EnergyMomentum", reason })
     }
 
-    fn step<M: VariableStep<S, T>>(
+    fn step<M: Method<S, T>>(
         &self,
         memory: &mut Self::Memory,
         run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure> {
-        run.keep();
         memory.start.copy_from_slice(run.q());
         run.velocity(t, &mut memory.velocity)?;
         memory.set_rounding(run.system(), t);
@@ -350,12 +348,12 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
         let best = Err(StepFailure::StepLength { h: reported(h) });
         let mut search = Search { run, memory, t, tolerance, best };
         if !search.memory.has_begun {
-            let energy = search.energy(h).inspect_err(|_| search.run.go_back())?;
+            let energy = search.energy(h)?;
             (memory.energy, memory.has_begun) = (energy, true);
             return Ok(h);
         }
         let h = search.solve()?;
-        let energy = search.energy(h).inspect_err(|_| search.run.go_back())?;
+        let energy = search.energy(h)?;
         memory.defect = energy - memory.energy;
         (memory.before, memory.h) = (memory.h, h);
         Ok(h)

@@ -9,15 +9,16 @@
 
 use core::fmt;
 
-use super::rejection::{Accepted, Verdict, step_of_at_most};
+use super::rejection::{Accepted, Verdict, step_of_at_most, within};
 use super::seams::{AtSeam, Seams};
 use super::{ControlledRun, StepControl, breaks};
-use crate::error::{StartError, StepFailure};
+use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, Tolerance, VariableStep};
+use crate::methods::{Carries, Method, Tolerance};
+use crate::run::{Integrator, Run};
 use crate::scalar::norm::{larger, reported};
-use crate::system::start::is_length;
-use crate::{Lagrangian, Real, Scalar, System};
+use crate::system::start::{is_length, step_error};
+use crate::{Held, Lagrangian, Real, Scalar, System};
 
 /// a: the part of the tolerance that the next step aims at, for each number of stages the same.
 const AIM: f64 = 0.02;
@@ -85,7 +86,7 @@ const STRETCH: f64 = 1.01;
 /// // An orbit of eccentricity 0.9 at its pericentre.
 /// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
 /// let control = ErrorControl::new(1e-10, 0.01);
-/// let mut run = ControlledIntegrator::new(&Kepler, Gauss::<8>::new().in_lanes(), control, start)?;
+/// let mut run = Integrator::controlled(&Kepler, Gauss::<8>::new().in_lanes(), control, start)?;
 /// run.advance_to(TAU)?;
 /// assert!((run.state().x - 0.1).abs() < 1e-8);
 /// assert!(run.steps() < 40);
@@ -129,7 +130,7 @@ pub struct ErrorControl<'a> {
     ///
     /// let control = ErrorControl { breaks: &[50.0, 50.2], ..ErrorControl::new(1e-9, 0.01) };
     /// let start = PushedState { x: 0.0, dot_x: 0.0 };
-    /// let mut run = ControlledIntegrator::new(&Pushed, Gauss::<8>::new(), control, start)?;
+    /// let mut run = Integrator::controlled(&Pushed, Gauss::<8>::new(), control, start)?;
     /// run.advance_to(100.0)?;
     /// assert!((run.state().x - 9.98).abs() < 1e-11 && run.steps() < 20);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -147,14 +148,7 @@ impl ErrorControl<'_> {
     /// A step of length `h`, or the longest there may be.
     fn at_most_longest<T: Real>(&self, h: T) -> T {
         let longest = T::lift(self.longest_step);
-        let [backward, forward] = [h < -longest, h > longest];
-        if forward {
-            longest
-        } else if backward {
-            -longest
-        } else {
-            h
-        }
+        larger(-longest, -larger(-longest, -h))
     }
 }
 
@@ -197,26 +191,51 @@ impl<S: System, T: Real> ErrorControlMemory<S, T> {
         self.error
     }
 
-    /// The length of the step that is tried next.
-    pub fn next_step(&self) -> T {
-        self.h
-    }
-
-    /// No step goes beyond this time, if there is one.
-    pub(super) fn set_end(&mut self, end: Option<T>) {
-        self.end = end;
-    }
-
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         self.h != T::lift(0.0) && self.excess > T::lift(0.0)
     }
 }
 
-/// A factor for the length of a step within bounds; the least one where it is not a number.
-fn within<T: Real>(factor: T, least: f64, most: f64) -> T {
-    let [least, most] = [least, most].map(T::lift);
-    if factor > most { most } else { larger(least, factor) }
+impl<H, S: Lagrangian<T>, M, T: Real> Integrator<H, M, T, ErrorControl<'_>>
+where
+    H: Held<System = S>,
+    M: Method<S, T>,
+{
+    /// Takes steps up to time `t`, of which the last one is as long as it takes to get there, to the
+    /// rounding of the time. Nothing is allocated. The present time takes no step.
+    ///
+    /// # Errors
+    /// [`StepFailure::Unreachable`] if `t` is past, in the direction of the next
+    /// step, or not finite; the run can go on to another time.
+    /// [`StepError`] of the first step that fails; the run stays at the last good state.
+    pub fn advance_to(&mut self, t: T) -> Result<(), StepError> {
+        let now = self.time();
+        // A run that has come to a time may have passed it by rounding.
+        let rounding =
+            T::lift(2.0) * T::default_epsilon() * (Scalar::abs(t) + Scalar::abs(self.step_size()));
+        if !t.is_finite() || !(self.is_before(t) || Scalar::abs(now - t) <= rounding) {
+            let failure = StepFailure::Unreachable { now: reported(now), target: reported(t) };
+            return Err(step_error(self.system(), self.steps(), now, failure));
+        }
+        self.control_memory.end = Some(t);
+        let result = self.steps_to(t);
+        self.control_memory.end = None;
+        result
+    }
+
+    /// Whether time `t` lies ahead, in the direction of the run.
+    fn is_before(&self, t: T) -> bool {
+        let now = self.time();
+        if self.control_memory.h > T::lift(0.0) { now < t } else { now > t }
+    }
+
+    fn steps_to(&mut self, t: T) -> Result<(), StepError> {
+        while self.is_before(t) && self.time() + (t - self.time()) != self.time() {
+            self.advance()?;
+        }
+        Ok(())
+    }
 }
 
 impl<S: System, T: Real> Carries<S, T> for ErrorControl<'_> {
@@ -246,7 +265,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         Ok((ErrorControlMemory { h, error: one, excess: one, usual: h, end: None, seams }, h))
     }
 
-    fn admit<M: VariableStep<S, T>>(&self, method: &M) -> Result<(), StartError> {
+    fn admit<M: Method<S, T>>(&self, method: &M) -> Result<(), StartError> {
         if method.estimates_local_error() {
             return Ok(());
         }
@@ -254,7 +273,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         Err(StartError::Unsupported { option: "ErrorControl", reason })
     }
 
-    fn step<M: VariableStep<S, T>>(
+    fn step<M: Method<S, T>>(
         &self,
         memory: &mut Self::Memory,
         run: &mut ControlledRun<'_, S, M, T>,
@@ -289,11 +308,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
                 let error = match at_seam {
                     // A step that begins there and crosses it is too short to have one.
                     Some(AtSeam { before, .. }) if t + before == t => T::lift(0.0),
-                    _ => {
-                        let error = run.local_error(start, [length, usual], self.tolerance)?;
-                        // A method without an estimate has not been admitted.
-                        error.unwrap_or(T::lift(f64::NAN))
-                    }
+                    _ => run.local_error(start, [length, usual], self.tolerance)?,
                 };
                 if error <= one {
                     if let Some(AtSeam { behind, .. }) = at_seam {
@@ -310,11 +325,8 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
                 Ok(Verdict::TooLong { factor, failure: Some(failure) })
             })?;
         let h = at_seam.map_or(tried, |AtSeam { behind, .. }| behind);
-        if let Some(seams) = seams
-            && let Err(failure) = seams.count(run, [h, usual])
-        {
-            run.go_back();
-            return Err(failure);
+        if let Some(seams) = seams {
+            seams.count(run, [h, usual])?;
         }
         let (e, [now, before]) = (excess(error), EXPONENTS.map(T::lift));
         let factor = Scalar::powf(e, now) * Scalar::powf(memory.excess, before);

@@ -9,13 +9,12 @@
 //! centre moves is v_o |v| h; with d = |v| h, e is the remainder of a Taylor series, of second order.
 //! Neither bounds the error of a step: on a circle e = 0 whatever the method does.
 
-use super::rejection::{Accepted, Verdict, step_of_at_most};
+use super::rejection::{Accepted, Verdict, step_of_at_most, within};
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, VariableStep};
-use crate::scalar::norm::larger;
+use crate::methods::{Carries, Method};
 use crate::space::sink::Product;
 use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
@@ -25,7 +24,7 @@ use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 #[doc = include_str!("../../../docs/hidden/kepler.txt")]
 /// let reached = |centre| -> Result<f64, Box<dyn std::error::Error>> {
 ///     let control = Osculating { centre, ..Osculating::new(1e-3, 0.01) };
-///     let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start.clone())?;
+///     let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start.clone())?;
 ///     run.take_steps(100)?;
 ///     Ok(run.time())
 /// };
@@ -67,7 +66,7 @@ impl CentreSpeed {
 /// ```
 #[doc = include_str!("../../../docs/hidden/kepler.txt")]
 /// let control = Osculating::new(1e-3, 0.01);
-/// let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
+/// let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start)?;
 /// let energy = run.energy();
 /// run.take_steps(1000)?;
 /// assert!((run.energy() - energy).abs() < 1e-2);
@@ -171,9 +170,7 @@ impl Osculating {
     /// What h is multiplied with after a step with estimate `e`.
     fn factor<T: Real>(&self, e: T) -> T {
         let ratio = Scalar::powf(T::lift(self.tolerance) / e, T::lift(1.0 / self.centre.order()));
-        let (wanted, most) = (T::lift(0.9) * ratio, T::lift(5.0));
-        // Also where the estimate is not a number, the step becomes smaller.
-        if wanted > most { most } else { larger(T::lift(AFTER_FAILURE), wanted) }
+        within(T::lift(0.9) * ratio, AFTER_FAILURE, 5.0)
     }
 }
 
@@ -193,27 +190,19 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Osculating {
                 "it needs L = ½ v·M v − V(q) with a constant matrix M, and forces without velocities";
             return Err(StartError::Unsupported { option: "Osculating", reason });
         }
-        let space = system.space();
-        let vector = || space.vector();
         let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
-        let mut work = Work {
-            acceleration: vector(),
-            jerk: vector(),
-            l_q: vector(),
-            l_v: vector(),
-            force_rate: space.vector(),
-        };
+        let [acceleration, jerk, l_q, l_v, force_rate] = system.space().vectors();
+        let mut work = Work { acceleration, jerk, l_q, l_v, force_rate };
         let circle = work.circle(system, &mass, q, v, t);
         if !(circle.radius + circle.rate).is_finite() {
             let reason = "the start has no osculating circle: it is at rest, or its path is straight";
             return Err(StartError::Unsupported { option: "Osculating", reason });
         }
         let h = T::lift(self.first_step);
-        let memory = OsculatingMemory { h, circle, mass, v: vector(), work };
-        Ok((memory, h))
+        Ok((OsculatingMemory { h, circle, mass, v: system.space().vector(), work }, h))
     }
 
-    fn step<M: VariableStep<S, T>>(
+    fn step<M: Method<S, T>>(
         &self,
         memory: &mut Self::Memory,
         run: &mut ControlledRun<'_, S, M, T>,

@@ -2,7 +2,8 @@
 
 use super::ControlledRun;
 use crate::error::StepFailure;
-use crate::methods::VariableStep;
+use crate::methods::Method;
+use crate::scalar::norm::larger;
 use crate::{Lagrangian, Real};
 
 /// What a control says of a step that it has taken.
@@ -29,15 +30,14 @@ pub(super) struct Accepted<A, T> {
 /// a step that fails is shorter by the factor `after_failure`.
 ///
 /// # Errors
-/// The last failure, when the steps have become too short; `run` is then as it was before.
-pub(super) fn step_of_at_most<S: Lagrangian<T>, M: VariableStep<S, T>, T: Real, A>(
+/// The last failure, when the steps have become too short.
+pub(super) fn step_of_at_most<S: Lagrangian<T>, M: Method<S, T>, T: Real, A>(
     run: &mut ControlledRun<'_, S, M, T>,
     t: T,
     mut h: T,
     after_failure: f64,
     mut judge: impl FnMut(&mut ControlledRun<'_, S, M, T>, T) -> Result<Verdict<A, T>, StepFailure>,
 ) -> Result<Accepted<A, T>, StepFailure> {
-    run.keep();
     let (mut is_first, mut failed) = (true, None);
     loop {
         let (factor, failure) = match run.step(t, h).and_then(|()| judge(run, h)) {
@@ -53,4 +53,10 @@ pub(super) fn step_of_at_most<S: Lagrangian<T>, M: VariableStep<S, T>, T: Real, 
         failed = failure.or(failed);
         h *= factor;
     }
+}
+
+/// A factor for the length of a step within bounds; the least one where it is not a number.
+pub(super) fn within<T: Real>(factor: T, least: f64, most: f64) -> T {
+    let [least, most] = [least, most].map(T::lift);
+    if factor > most { most } else { larger(least, factor) }
 }

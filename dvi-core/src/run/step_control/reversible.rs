@@ -13,9 +13,10 @@ use core::fmt::Debug;
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, VariableStep};
+use crate::methods::{Carries, Method};
+use crate::run::{Integrator, Run};
 use crate::scalar::norm::reported;
-use crate::{Real, RegularLagrangian, Space, System, Vector};
+use crate::{Held, Real, RegularLagrangian, Space, System, Vector};
 
 /// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position
 /// alone: then G is odd in v, and the control reversible.
@@ -36,7 +37,7 @@ use crate::{Real, RegularLagrangian, Space, System, Vector};
 ///     }
 /// }
 /// let control = Reversible::new(0.02, Near);
-/// let run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
+/// let run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start)?;
 /// assert!((run.step_size() - 0.01).abs() < 1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -94,7 +95,7 @@ impl<T: Real> Density<T> for Power {
 /// // An orbit of eccentricity 0.9, from its pericentre, over some 100 revolutions.
 /// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
 /// let control = Reversible::power(0.02, 1.5);
-/// let mut run = ControlledIntegrator::new(&Kepler, Variational::trapezoid(), control, start)?;
+/// let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start)?;
 /// let energy = run.energy();
 /// run.take_steps(20_000)?;
 /// assert!((run.energy() - energy).abs() < 1e-3);
@@ -107,7 +108,7 @@ pub struct Reversible<D = Power> {
     /// ρ.
     pub density: D,
     /// ρ at the start of the run, to go on from another run
-    /// ([`ControlledIntegrator::density`](super::ControlledIntegrator::density)). Default: that of the
+    /// ([`Integrator::density`]). Default: that of the
     /// start.
     pub start: Option<f64>,
 }
@@ -117,18 +118,20 @@ impl<D> Reversible<D> {
     pub fn new(epsilon: f64, density: D) -> Self {
         Self { epsilon, density, start: None }
     }
+}
 
-    /// ρ at the point (`q`, `v`) that the control has reached.
-    pub(super) fn density_at<S: RegularLagrangian<T>, T: Real>(
-        &self,
-        memory: &ReversibleMemory<S, T>,
-        q: &[T],
-        v: &[T],
-    ) -> T
-    where
-        D: Density<T>,
-    {
-        memory.density + T::lift(0.5 * self.epsilon) * self.density.growth(q, v)
+impl<H, S: RegularLagrangian<T>, M, D, T: Real> Integrator<H, M, T, Reversible<D>>
+where
+    H: Held<System = S>,
+    M: Method<S, T>,
+    D: Density<T>,
+{
+    /// ρ at the current point, as the control has carried it along: a run from here with
+    /// [`Reversible::start`] at this value goes on with the same steps, and with the velocity reversed it
+    /// comes back by the same steps. Not a number where the momenta have no velocity.
+    pub fn density(&self) -> T {
+        let Reversible { epsilon, density, .. } = &self.control;
+        self.control_memory.density + T::lift(0.5 * epsilon) * density.growth(self.q(), &self.v())
     }
 }
 
@@ -201,7 +204,7 @@ impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reve
     }
 
     #[inline]
-    fn step<M: VariableStep<S, T>>(
+    fn step<M: Method<S, T>>(
         &self,
         memory: &mut Self::Memory,
         run: &mut ControlledRun<'_, S, M, T>,

@@ -14,7 +14,7 @@
 use super::ControlledRun;
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
-use crate::methods::VariableStep;
+use crate::methods::Method;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported};
 use crate::solve::crossing::{Sample, dip, zero};
@@ -81,7 +81,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     }
 
     /// Keeps the present point, at time `t`, where steps begin.
-    pub(super) fn keep<M: VariableStep<S, T>>(
+    pub(super) fn keep<M: Method<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,
         t: T,
@@ -97,7 +97,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     ///
     /// # Errors
     /// Those of the steps to that place.
-    pub(super) fn end<M: VariableStep<S, T>>(
+    pub(super) fn end<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
         h: T,
@@ -164,7 +164,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     /// second time: [`end`](Self::end) sees one turn. As far as the cubic path between its ends tells; a seam
     /// that is farther from zero than it changes may turn as it likes. To be asked behind [`end`](Self::end),
     /// which knows the velocity there.
-    pub(super) fn second_turn<M: VariableStep<S, T>>(
+    pub(super) fn second_turn<M: Method<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,
         h: T,
@@ -194,7 +194,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     }
 
     /// What rounding may change a seam by at the end of a step of length `h`.
-    fn noise<M: VariableStep<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, seam: usize, h: T) -> T {
+    fn noise<M: Method<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, seam: usize, h: T) -> T {
         let rounded = T::lift(1.0) + T::lift(TOUCHING) * T::default_epsilon();
         let [near_q, near_v] = &mut self.near;
         for (k, &q) in run.q().iter().enumerate() {
@@ -207,7 +207,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     }
 
     /// Sets the point near by to a place of a step of length `h`, on the cubic path between its ends.
-    fn set_near<M: VariableStep<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, [x, h]: [T; 2]) {
+    fn set_near<M: Method<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, [x, h]: [T; 2]) {
         let [one, two, three, six] = [1.0, 2.0, 3.0, 6.0].map(T::lift);
         let [near_q, near_v] = &mut self.near;
         for (k, &end) in run.q().iter().enumerate() {
@@ -223,7 +223,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
 
     /// A part of a step of length `h`, which has been taken, at which a seam has been crossed that is ahead
     /// at its end. The run is moved to it, if there is one.
-    fn dip<M: VariableStep<S, T>>(
+    fn dip<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
         h: T,
@@ -255,7 +255,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     /// How far ahead a seam is at a place of a step of length `h`, where the run is, or where the step
     /// begins, and how that changes with the place: along the velocity, which changes evenly from the
     /// beginning.
-    fn sample<M: VariableStep<S, T>>(
+    fn sample<M: Method<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,
         seam: usize,
@@ -279,7 +279,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
 
     /// The length of this `part` of a step, if it leads away from a seam on which the step begins: there a
     /// formula has the value of neither side, or of the wrong one.
-    fn leave<M: VariableStep<S, T>>(
+    fn leave<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
         h: T,
@@ -304,7 +304,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::Seam`]: nothing is counted then.
-    pub(super) fn count<M: VariableStep<S, T>>(
+    pub(super) fn count<M: Method<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,
         [h, usual]: [T; 2],
@@ -337,7 +337,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     }
 
     /// Moves the run from where the step begins by a length `h`, and looks ahead there.
-    fn look<M: VariableStep<S, T>>(
+    fn look<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
         h: T,
@@ -351,7 +351,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
 
     /// How far ahead the nearest seam is after a step of length `h`, negative if it has been crossed, and
     /// which one that is. A step that begins on a seam, and stays there at first, is on neither side of it.
-    fn ahead<M: VariableStep<S, T>>(
+    fn ahead<M: Method<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,
         h: T,

@@ -82,9 +82,10 @@ fn the_amplitude_is_that_of_the_alternating_part() -> Outcome {
         let second = OscillatorState { x: h.cos() - 2.0 * a, y: h.sin() };
         let method = Sigma { parasitic_limit: None, ..Sigma::new(sigma) };
         let mut run = Integrator::from_two_points(&system, method, h, start, second)?;
-        assert_eq!(run.parasitic_mode(), None);
+        assert_eq!(run.memory().parasitic_mode(), None);
         run.take_steps(257)?;
-        let Some(ParasiticMode { amplitude, relative, is_significant }) = run.parasitic_mode() else {
+        let Some(ParasiticMode { amplitude, relative, is_significant }) = run.memory().parasitic_mode()
+        else {
             return Err("measured after 256 steps".into());
         };
         // The mode turns too, at (1 − 2σ)² times the rate of the motion; its norm is that of the second

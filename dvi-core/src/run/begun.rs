@@ -1,0 +1,114 @@
+//! What a run carries when it begins.
+
+#[cfg(feature = "alloc")]
+use super::Checkpoint;
+use super::StepControl;
+use super::clock::Time;
+use super::kept::Kept;
+#[cfg(feature = "alloc")]
+use crate::error::CheckpointError;
+use crate::error::StartError;
+use crate::memory::Aside;
+#[cfg(feature = "alloc")]
+use crate::memory::Memory;
+use crate::methods::{Carries, Method};
+use crate::state::Statistics;
+use crate::system::start::{consistent, evaluate, flatten, named, validate, velocities};
+use crate::{Lagrangian, Real, Vector};
+
+/// What a run carries from a point with coordinates `Q` on: that of its method, and of its control.
+pub(super) struct Begun<Q, K, L, T> {
+    pub(super) q: Q,
+    pub(super) memory: K,
+    pub(super) kept: Option<Aside<Kept<Q, K>>>,
+    pub(super) control_memory: L,
+    pub(super) time: Time<T>,
+    pub(super) statistics: Statistics,
+}
+
+/// The same under a control.
+pub(super) type BegunOf<S, K, C, T> = Begun<Vector<S, T>, K, <C as Carries<S, T>>::Memory, T>;
+
+/// The coordinates and velocities of a state that a run can begin from.
+pub(super) fn point<S: Lagrangian<T>, T: Real>(
+    system: &S,
+    t: T,
+    start: &S::State<T>,
+) -> Result<[Vector<S, T>; 2], StartError> {
+    validate(system, t)?;
+    let [q, v] = flatten(system, start)?;
+    evaluate(system, &q, &v, t)?;
+    consistent(system, &q, t)?;
+    Ok([q, v])
+}
+
+/// From a point with velocities, by what `control` and `method` begin with there, the latter with steps of a
+/// length.
+#[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
+pub(super) fn carried<S: Lagrangian<T>, C: StepControl<S, T>, K, T: Real>(
+    system: &S,
+    [q, all]: [Vector<S, T>; 2],
+    t: T,
+    control: impl FnOnce(&[T], &[T]) -> Result<(C::Memory, T), StartError>,
+    method: impl Fn(&Vector<S, T>, &[T], T) -> Result<K, StartError>,
+) -> Result<BegunOf<S, K, C, T>, StartError> {
+    if S::TIME_TRANSFORMED && !C::ONE_LENGTH {
+        let reason = "the time of the system is transformed, which sets the lengths of its steps";
+        return Err(StartError::Unsupported { option: "a step control", reason });
+    }
+    let v = &all[..velocities(system)];
+    let explained = |error| named(system, [&q, &all], t, error);
+    let (control_memory, h) = control(&q, v).map_err(explained)?;
+    let begin = || method(&q, v, h).map_err(explained);
+    let memory = begin()?;
+    let is_kept = S::TIME_TRANSFORMED || S::HAS_DOMAIN || C::REJECTS;
+    let kept = is_kept.then(|| begin().map(|memory| Kept { q: q.clone(), memory }.into())).transpose()?;
+    let time = Time::new(t, h, 0);
+    Ok(Begun { q, memory, kept, control_memory, time, statistics: Statistics::default() })
+}
+
+/// From a state.
+pub(super) fn begun<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: Real>(
+    system: &S,
+    method: &M,
+    control: &C,
+    t: T,
+    start: &S::State<T>,
+) -> Result<BegunOf<S, M::Memory, C, T>, StartError> {
+    let at = point(system, t, start)?;
+    control.admit(method)?;
+    let lengths = |q: &_, v: &_| control.begin(system, q, v, t);
+    carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin(system, q, v, t, h))
+}
+
+/// From a checkpoint.
+#[cfg(feature = "alloc")]
+pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: Real>(
+    system: &S,
+    method: &M,
+    control: &C,
+    checkpoint: &Checkpoint<T>,
+) -> Result<BegunOf<S, M::Memory, C, T>, StartError> {
+    let (t, h, statistics) = (checkpoint.time(), checkpoint.step_size(), checkpoint.statistics());
+    validate(system, t)?;
+    let at = checkpoint.point(system)?;
+    control.admit(method)?;
+    let lengths = |q: &_, v: &_| Ok((control.begin_again(system, q, v, t)?, h));
+    let mut begun =
+        carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;
+    let Begun { memory, control_memory, time, .. } = &mut begun;
+    checkpoint.load(memory, |reader| {
+        control_memory.load(reader)?;
+        time.load(reader)?;
+        let is_length = C::ONE_LENGTH || (time.h == h && h != T::lift(0.0));
+        if time.after(statistics.steps).time() != t || !is_length {
+            return Err(CheckpointError::Damaged);
+        }
+        if time.h != h {
+            // No steps have been taken with this one.
+            *time = Time::new(t, h, statistics.steps);
+        }
+        Ok(())
+    })?;
+    Ok(Begun { statistics, ..begun })
+}
