@@ -22,7 +22,7 @@ pub(crate) mod quadrature;
 
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
-use crate::solve::{Linearize, Stopping};
+use crate::solve::{Convergence, Linearize, Stopping};
 use crate::space::sink::Sink;
 use crate::space::{LinearEquations, Storing};
 use crate::state::Statistics;
@@ -151,5 +151,6 @@ pub(crate) fn solve_by_newton<S: Lagrangian<T>, T: Real>(
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
     let equations = &mut Departing { l_d, system, interval, q0 };
-    crate::solve::solve_by_newton(equations, system, [q0, p0], delta, storage, stopping, statistics)
+    let judge = Convergence::new(stopping, stopping.max_iterations);
+    crate::solve::solve_by_newton(equations, system, [q0, p0], delta, storage, judge, statistics)
 }

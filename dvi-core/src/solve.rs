@@ -16,7 +16,7 @@ use crate::state::Statistics;
 
 pub(crate) use crate::state::history::Guess;
 pub(crate) use coupled::{CoupledEquations, solve_coupled};
-pub(crate) use newton::{Linearize, solve_by_newton};
+pub(crate) use newton::{Linearize, residual, solve_by_newton};
 pub(crate) use sizes::Due;
 pub use stopping::Stopping;
 pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdict};
