@@ -13,6 +13,7 @@
 
 pub(super) mod lobatto;
 pub(super) mod packs;
+pub(super) mod stages;
 
 /// The largest number of stages.
 pub(super) const MOST: usize = 8;

@@ -174,7 +174,7 @@ where
                         }
                     },
                     |(path, q), newton, guess, statistics| {
-                        newton.solve(system, path, (q, [t, h]), guess, self.stopping, statistics)?;
+                        newton::solve(newton, system, path, (q, [t, h]), guess, self.stopping, statistics)?;
                         path.arrive(0, self.summation, system, q, [t, h])
                     },
                 )

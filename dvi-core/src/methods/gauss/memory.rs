@@ -3,13 +3,13 @@
 use core::fmt;
 
 use super::coefficients::Coefficients;
-use super::newton::NewtonStages;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
     AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, StageEvaluation, StageWork, weigh,
 };
 use crate::memory::{Aside, Memory, lasting};
 use crate::methods::collocation::packs::{combine, replace, sum};
+use crate::methods::collocation::stages::NewtonStages;
 use crate::scalar::Lanes;
 use crate::solve::{Due, Ladder};
 use crate::state::Statistics;
