@@ -178,7 +178,14 @@ pub(crate) fn newton<T: Real>(
 pub(crate) fn from_either_guess(
     mut attempt: impl FnMut(Guess) -> Result<(), StepFailure>,
 ) -> Result<(), StepFailure> {
-    attempt(Guess::Extrapolated).or_else(|_| attempt(Guess::Zero))
+    // In a loop, as there is one copy of the attempt in the code then.
+    let mut guess = Guess::Extrapolated;
+    loop {
+        match attempt(guess) {
+            Err(_) if guess == Guess::Extrapolated => guess = Guess::Zero,
+            result => return result,
+        }
+    }
 }
 
 /// How the implicit steps of a run are solved, decided when it begins: by the fixed point, by Newton, or by

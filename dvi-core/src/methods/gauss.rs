@@ -27,14 +27,14 @@ use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvalu
 use crate::methods::{
     Carries, Here, Method, PreservedForm, Scheme, Step, Tabulated, Tolerance, VariableStep,
 };
-use crate::solve::{Convergence, Due, Iteration, Ladder, Solver, Stopping, repeat};
+use crate::solve::{
+    Convergence, Due, Guess, Iteration, Ladder, Solver, Stopping, from_either_guess, repeat,
+};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, System, Vector};
 
-use memory::{Guess, Path};
-
-use memory::GaussMemory;
+use memory::{GaussMemory, Path};
 
 /// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 8, of order 2`S`, on the equations of motion y' = X(y, t).
 ///
@@ -49,7 +49,7 @@ use memory::GaussMemory;
 /// are bilinear in q and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all
 /// quadratic momenta. The stages are found by a fixed point, which contracts if h is small against the
 /// fastest time scale only. It begins on the polynomial through the stages of the last step and, where that
-/// does not lead to a step, once more from the slope at the start. Where neither does, Newton's method
+/// does not lead to a step, once more where the step begins. Where neither does, Newton's method
 /// solves for the velocities of all stages at once, with the second derivatives of L: `S`² n² numbers stand
 /// by for n coordinates. Where n is known when compiled, and they would take more than 128 kilobytes of the
 /// stack, and for a fast sum over pairs, [`Solver::Automatic`] is [`Solver::FixedPoint`].
@@ -163,15 +163,10 @@ where
                     statistics,
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     |(path, q), statistics| {
-                        let mut guess = Guess::Continued;
-                        loop {
-                            match self.attempt(system, path, q, [t, h], (guess, budget), statistics) {
-                                Err(_) if guess == Guess::Continued && !path.is_first() => {
-                                    guess = Guess::Constant;
-                                }
-                                result => return result,
-                            }
-                        }
+                        from_either_guess(
+                            #[cfg_attr(not(debug_assertions), inline(always))]
+                            |guess| self.attempt(system, path, q, [t, h], (guess, budget), statistics),
+                        )
                     },
                     |(path, q), newton, guess, statistics| {
                         newton::solve(newton, system, path, (q, [t, h]), guess, self.stopping, statistics)?;
@@ -262,10 +257,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
     {
         let Self { stopping, summation, .. } = *self;
         S::Kind::gather(&mut path.equations, q, &mut path.y);
-        match guess {
-            Guess::Continued => path.guess_continued(h),
-            Guess::Constant => path.guess_constant(system, t, h, statistics)?,
-        }
+        path.guess(guess, h);
         // Where equations are of second order, this sets the positions that are guessed.
         path.place(h);
         let convergence = Convergence::fixed_point(stopping, budget);

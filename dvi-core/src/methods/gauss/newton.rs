@@ -65,11 +65,9 @@ where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
 {
     S::Kind::gather(&mut path.equations, q, &mut path.y);
+    path.guess(guess, h);
     match guess {
-        Guess::Extrapolated => {
-            path.guess_continued(h);
-            path.set_velocities();
-        }
+        Guess::Extrapolated => path.set_velocities(),
         Guess::Zero => path.slopes[0].fill(Lanes::all(T::lift(0.0))),
     }
     for (stage, increment) in newton.increments.iter_mut().enumerate() {
