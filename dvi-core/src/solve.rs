@@ -18,7 +18,7 @@ use crate::state::Statistics;
 pub(crate) use crate::state::history::Guess;
 pub(crate) use coupled::{CoupledEquations, solve_coupled};
 pub(crate) use fixed_point::solve_by_fixed_point;
-pub(crate) use newton::{AtIncrement, Linearize, solve_by_newton};
+pub(crate) use newton::{AtIncrement, Linearize, residual, solve_by_newton};
 pub(crate) use sizes::Due;
 pub use stopping::Stopping;
 pub(crate) use stopping::{Convergence, Convergences, Course, Judge, Quick, Verdict};
@@ -180,7 +180,14 @@ pub(crate) fn newton<T: Real>(
 pub(crate) fn from_either_guess(
     mut attempt: impl FnMut(Guess) -> Result<(), StepFailure>,
 ) -> Result<(), StepFailure> {
-    attempt(Guess::Extrapolated).or_else(|_| attempt(Guess::Zero))
+    // In a loop, as there is one copy of the attempt in the code then.
+    let mut guess = Guess::Extrapolated;
+    loop {
+        match attempt(guess) {
+            Err(_) if guess == Guess::Extrapolated => guess = Guess::Zero,
+            result => return result,
+        }
+    }
 }
 
 /// How the implicit steps of a run are solved, decided when it begins: by the fixed point, by Newton, or by

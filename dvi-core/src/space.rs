@@ -53,7 +53,7 @@ pub trait Space: Copy + Debug + PartialEq {
     /// A square matrix that is solved with, in the storage that its pattern needs.
     type Square<T: Real>: SquareMatrix<T>;
     /// What solves linear equations whose matrix comes entry by entry.
-    type Linear<T: Real>: LinearSolver<T>;
+    type Linear<T: Real>: LinearSolver<T> + Debug;
     /// What solves linear equations for several vectors at once.
     type Coupled<const NODES: usize, T: Real>: CoupledSolver<NODES, T>;
     /// Something for each coordinate.

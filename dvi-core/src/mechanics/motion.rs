@@ -16,8 +16,8 @@ use crate::memory::Memory;
 #[cfg(feature = "alloc")]
 use crate::memory::{Reader, Record};
 use crate::state::Statistics;
-use crate::system::{Kind, Same};
-use crate::{Real, Scalar, Sink, System, Vector, Weights};
+use crate::system::{Kind, Regular, Same};
+use crate::{Lagrangian, Real, Scalar, Sink, System, Vector, Weights};
 
 use stages::FirstOrderInLanes;
 pub use stages::InLanes;
@@ -103,6 +103,53 @@ pub(crate) type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point<T>;
 /// The same in packs of type `P`, of numbers of type `T`.
 pub(crate) type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point<P>;
 
+/// The equations of the stages of a collocation step, as Newton's method for the velocities solves them: with
+/// momenta unless they are others, ∂L/∂v(Qᵢ, Vᵢ) = p + h Σⱼ aᵢⱼ ∂L/∂q(Qⱼ, Vⱼ).
+pub trait StageEquations<S: System, T: Real> {
+    /// Sets `residual` to what vanishes where `v` is the velocity at (`q`, `t`), and `force` to what drives
+    /// the motion there: ∂L/∂v, from which p is still to be subtracted, and p'; of a degenerate system on Q
+    /// Ωv − ∇H − ∂α/∂t, and ∇H + ∂α/∂t.
+    fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T])
+    where
+        S: Lagrangian<T>,
+    {
+        system.gradient(q, v, t, force, residual);
+    }
+    /// The weights of the second derivatives at stage j in that of the residual of stage r along h times the
+    /// velocity of stage k, where each stage has its own p: for whether r = j and j = k, aᵣⱼ and aⱼₖ, and h
+    /// and 1/h. That of L_vv is the weight of [`newton_matrix`](Self::newton_matrix).
+    fn newton_weights(
+        [of_row, of_column]: [bool; 2],
+        [before, after]: [T; 2],
+        [h, per_h]: [T; 2],
+    ) -> Weights<T> {
+        let if_so = |is: bool, weight: T| if is { weight } else { T::lift(0.0) };
+        Weights {
+            qq: -h * before * after,
+            qv: if_so(of_column, -before),
+            vq: if_so(of_row, after),
+            vv: if_so(of_row && of_column, per_h),
+        }
+    }
+    /// Adds what stands beside L_qq, L_qv and L_vq in that derivative, at (q, v), t of a step of length h:
+    /// L_vv, or the rate of Dα.
+    fn newton_matrix<K: Sink<T>>(
+        system: &S,
+        [q, v]: [&[T]; 2],
+        [t, _h]: [T; 2],
+        [l_q, l_v]: [&mut [T]; 2],
+        sink: &mut K,
+    ) where
+        S: Lagrangian<T>,
+    {
+        if S::REGULAR {
+            system.linearize(q, v, t, Weights::mass(), l_q, l_v, sink);
+        }
+    }
+}
+
+impl<S: System, T: Real> StageEquations<S, T> for Regular {}
+
 /// The equations of motion of a system `S`, y' = X(y, t), in the arithmetic of `T`: of a regular one
 /// Hamilton's in terms of L (Marsden & Ratiu 1999, section 7.2).
 ///
@@ -119,7 +166,7 @@ pub(crate) type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point
     note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
     note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
-pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
+pub trait FirstOrder<S: System, T: Real>: Motion<S, T> + StageEquations<S, T> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
     type Suited<M>: Same<M, As = M>;
 
@@ -173,23 +220,6 @@ pub trait FirstOrder<S: System, T: Real>: Motion<S, T> {
     fn reciprocal_masses(_equations: &Self::Equations) -> Option<&[T]> {
         None
     }
-    /// Sets `residual` to what vanishes where `v` is the velocity at (`q`, `t`), and `force` to what drives
-    /// the motion there: ∂L/∂v, from which p is still to be subtracted, and p'; of a degenerate system Ωv −
-    /// ∇H − ∂α/∂t, and ∇H + ∂α/∂t.
-    fn residual(system: &S, at: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]);
-    /// The weights of the second derivatives at stage j in that of the residual of stage r along h times the
-    /// velocity of stage k, where each stage has its own p: for whether r = j and j = k, aᵣⱼ and aⱼₖ, and h
-    /// and 1/h. That of L_vv is the weight of [`newton_matrix`](Self::newton_matrix).
-    fn newton_weights(is: [bool; 2], by: [T; 2], lengths: [T; 2]) -> Weights<T>;
-    /// Adds what stands beside L_qq, L_qv and L_vq in that derivative, at (q, v), t of a step of length h:
-    /// L_vv, or the rate of Dα.
-    fn newton_matrix<K: Sink<T>>(
-        system: &S,
-        at: [&[T]; 2],
-        interval: [T; 2],
-        work: [&mut [T]; 2],
-        sink: &mut K,
-    );
     /// Whether Ω, of a degenerate system, has kept its orientation at a point within a step.
     ///
     /// # Errors

@@ -13,6 +13,7 @@
 
 pub(super) mod lobatto;
 pub(super) mod packs;
+pub(super) mod stages;
 
 /// The largest number of stages.
 pub(super) const MOST: usize = 8;
@@ -112,19 +113,14 @@ impl<const S: usize> Collocation<S> {
         core::array::from_fn(|k| core::array::from_fn(|j| self.b[j] * (2 * k + 1) as f64 * within[j][k]))
     }
 
-    /// Entries (i, j): the j-th Lagrange polynomial at point i, and its integral from 0 to there.
-    pub(super) fn at<const N: usize>(&self, points: [f64; N]) -> [[[f64; S]; N]; 2] {
-        let (lagrange, p) = (self.lagrange(), points.map(legendre));
-        let sum = |j: usize, terms: &dyn Fn(usize) -> f64| (0..S).map(|k| lagrange[k][j] * terms(k)).sum();
-        let values = |i: usize| core::array::from_fn(|j| sum(j, &|k| p[i][k]));
-        let integrals = |i: usize| {
-            let integral = |k: usize| match k {
-                0 => points[i],
-                k => (p[i][k + 1] - p[i][k - 1]) / (4 * k + 2) as f64,
-            };
-            core::array::from_fn(|j| sum(j, &integral))
-        };
-        [core::array::from_fn(values), core::array::from_fn(integrals)]
+    /// Entry (i, j): the integral of the j-th Lagrange polynomial from 0 to point i.
+    pub(super) fn integrals<const N: usize>(&self, points: [f64; N]) -> [[f64; S]; N] {
+        let lagrange = self.lagrange();
+        points.map(|x| {
+            let p = legendre(x);
+            let integral = |k: usize| if k == 0 { x } else { (p[k + 1] - p[k - 1]) / (4 * k + 2) as f64 };
+            core::array::from_fn(|j| (0..S).map(|k| lagrange[k][j] * integral(k)).sum())
+        })
     }
 }
 

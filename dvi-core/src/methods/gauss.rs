@@ -20,21 +20,17 @@ mod memory;
 mod newton;
 mod second_order;
 
-use core::marker::PhantomData;
-
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvaluation};
 use crate::methods::{
     Carries, Here, Method, PreservedForm, Scheme, Step, Tabulated, Tolerance, VariableStep,
 };
-use crate::solve::{Convergence, Due, Iteration, Ladder, Solver, Stopping, repeat};
+use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, from_either_guess, iterate};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, System, Vector};
 
-use memory::{Guess, Path};
-
-use memory::GaussMemory;
+use memory::{GaussMemory, Path};
 
 /// Gauss collocation with `S` stages, 1 ≤ `S` ≤ 8, of order 2`S`, on the equations of motion y' = X(y, t).
 ///
@@ -49,7 +45,7 @@ use memory::GaussMemory;
 /// are bilinear in q and p. On q' = X(q) of a degenerate system it preserves Ω if α is affine, and then all
 /// quadratic momenta. The stages are found by a fixed point, which contracts if h is small against the
 /// fastest time scale only. It begins on the polynomial through the stages of the last step and, where that
-/// does not lead to a step, once more from the slope at the start. Where neither does, Newton's method
+/// does not lead to a step, once more where the step begins. Where neither does, Newton's method
 /// solves for the velocities of all stages at once, with the second derivatives of L: `S`² n² numbers stand
 /// by for n coordinates. Where n is known when compiled, and they would take more than 128 kilobytes of the
 /// stack, and for a fast sum over pairs, [`Solver::Automatic`] is [`Solver::FixedPoint`].
@@ -163,18 +159,13 @@ where
                     statistics,
                     #[cfg_attr(not(debug_assertions), inline(always))]
                     |(path, q), statistics| {
-                        let mut guess = Guess::Continued;
-                        loop {
-                            match self.attempt(system, path, q, [t, h], (guess, budget), statistics) {
-                                Err(_) if guess == Guess::Continued && !path.is_first() => {
-                                    guess = Guess::Constant;
-                                }
-                                result => return result,
-                            }
-                        }
+                        from_either_guess(
+                            #[cfg_attr(not(debug_assertions), inline(always))]
+                            |guess| self.attempt(system, path, q, [t, h], (guess, budget), statistics),
+                        )
                     },
                     |(path, q), newton, guess, statistics| {
-                        newton.solve(system, path, (q, [t, h]), guess, self.stopping, statistics)?;
+                        newton::solve(newton, system, path, (q, [t, h]), guess, self.stopping, statistics)?;
                         path.arrive(0, self.summation, system, q, [t, h])
                     },
                 )
@@ -262,15 +253,32 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
     {
         let Self { stopping, summation, .. } = *self;
         S::Kind::gather(&mut path.equations, q, &mut path.y);
-        match guess {
-            Guess::Continued => path.guess_continued(h),
-            Guess::Constant => path.guess_constant(system, t, h, statistics)?,
-        }
+        path.guess(guess, h);
         // Where equations are of second order, this sets the positions that are guessed.
         path.place(h);
         let convergence = Convergence::fixed_point(stopping, budget);
-        let stages: Stages<'_, STAGES, E, S, T> = Stages { system, path, q, t, h, evaluation: PhantomData };
-        repeat(convergence, statistics, stages)?;
+        // Corrections are those of h times a velocity, or of positions: the momenta follow from these.
+        iterate(
+            convergence,
+            statistics,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |due, statistics| {
+                path.prepare(system, due, q, h);
+                // Forces depend on coordinates and velocities, velocities on momenta and, as these, on
+                // coordinates that are in place.
+                for part in (1..path.y.len()).rev() {
+                    if !S::Kind::OF_SECOND_ORDER {
+                        path.reach((part + 1) % path.y.len());
+                    }
+                    path.evaluate_part::<E>(part, system, [t, h], statistics)?;
+                }
+                if let Some(change) = path.place(h) {
+                    return Ok(change);
+                }
+                path.reach(1 % path.y.len());
+                path.evaluate_part::<E>(0, system, [t, h], statistics)
+            },
+        )?;
         if S::Kind::HAS_VELOCITY_FORCES {
             // Those of the last iteration belong to the velocities before it.
             path.reach(0);
@@ -278,46 +286,5 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         }
         path.displace(h);
         path.arrive(memory::first_part::<S, T>(&path.equations), summation, system, q, [t, h])
-    }
-}
-
-/// The stages of a step as they are iterated.
-struct Stages<'a, const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> {
-    system: &'a S,
-    path: &'a mut Path<STAGES, S, T>,
-    q: &'a [T],
-    t: T,
-    h: T,
-    evaluation: PhantomData<E>,
-}
-
-impl<const STAGES: usize, E, S, T: Real> Iteration<T> for Stages<'_, STAGES, E, S, T>
-where
-    S: System<Kind: FirstOrder<S, T>>,
-    E: StageEvaluation<STAGES, S, T>,
-{
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn prepare(&mut self, due: &mut Due) {
-        self.path.prepare(self.system, due, self.q, self.h);
-    }
-
-    /// Evaluates all stages once, momenta before coordinates, and returns the largest change of h times a
-    /// velocity, in units of the coordinates: the momenta follow from the velocities.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Self { system, path, t, h, .. } = self;
-        // Forces depend on coordinates and velocities, velocities on momenta and, as these, on coordinates
-        // that are in place.
-        for part in (1..path.y.len()).rev() {
-            if !S::Kind::OF_SECOND_ORDER {
-                path.reach((part + 1) % path.y.len());
-            }
-            path.evaluate_part::<E>(part, system, [*t, *h], statistics)?;
-        }
-        if let Some(change) = path.place(*h) {
-            return Ok(change);
-        }
-        path.reach(1 % path.y.len());
-        path.evaluate_part::<E>(0, system, [*t, *h], statistics)
     }
 }

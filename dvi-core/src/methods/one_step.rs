@@ -231,7 +231,7 @@ impl OneStep {
         let Step { system, q, t, h, .. } = *step;
         let half = T::lift(0.5);
         let until_y = if self.is_symmetric() { half } else { T::lift(1.0) };
-        begin(point, step, guess, until_y, [&mut work.stage.unknown, &mut work.turn]);
+        begin(point, step, guess, [step.part(), until_y], [&mut work.stage.unknown, &mut work.turn]);
         copy_x(system, &point.p, &mut work.stage.momentum);
         let begin = if self.is_symmetric() { t } else { self.depart(step, point, work, statistics) };
         let from = if self.is_symmetric() { q } else { &work.next };
@@ -328,7 +328,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
         let stage = &mut self.stage;
         for i in 0..q.len() {
             let unknown = stage.unknown[i];
-            stage.rates[i] = if is_x(system, i) { unknown } else { (unknown - q[i]) / half } / h;
+            stage.rates[i] =
+                if is_x(system, i) { unknown / step.part() } else { (unknown - q[i]) / half } / h;
         }
         // From ȳ on, as far again, and what the last steps have added; from there, if that is too far.
         self.solve_y::<J>(step, 1.0, stopping, statistics)
@@ -356,7 +357,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
         for i in 0..q.len() {
             let unknown = stage.unknown[i];
             next[i] = if is_x(*system, i) {
-                q[i] + unknown
+                q[i] + unknown / step.part()
             } else {
                 unknown + again * ((unknown - q[i]) + half * turn[i])
             };
@@ -372,17 +373,17 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     }
 }
 
-/// Sets `unknown` to the guess: Δ along x, and along y the place after the part `c` of the step.
+/// Sets `unknown` to the guess: a `part` of Δ along x, and along y the place after the part `c` of the step.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn begin<S: ProperlyDegenerate<T>, T: Real>(
     point: &Point<S, T>,
     &Step { system, q, h, .. }: &Step<'_, S, T>,
     guess: Guess,
-    c: T,
+    [part, c]: [T; 2],
     [unknown, turn]: [&mut Vector<S, T>; 2],
 ) {
     point.rates.guess(h, guess, [unknown, turn]);
     for (i, unknown) in unknown.iter_mut().enumerate() {
-        *unknown = if is_x(system, i) { h * *unknown } else { q[i] + c * h * *unknown };
+        *unknown = if is_x(system, i) { part * h * *unknown } else { q[i] + c * h * *unknown };
     }
 }

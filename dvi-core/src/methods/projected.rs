@@ -70,35 +70,21 @@ use crate::{Coupled, DegenerateLagrangian, Real, Space, System, Vector, Weights}
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projected {
-    projection: Projection,
+    /// a and b.
+    factors: [f64; 2],
     /// The criterion by which a step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Projection {
-    Standard,
-    Symmetric,
 }
 
 impl Projected {
     /// Order 2, symmetric: both ends are moved.
     pub fn symmetric() -> Self {
-        Self { projection: Projection::Symmetric, stopping: Stopping::default() }
+        Self { factors: [1.0, 1.0], stopping: Stopping::default() }
     }
 
     /// Order 2, not symmetric: the end is moved.
     pub fn standard() -> Self {
-        Self { projection: Projection::Standard, stopping: Stopping::default() }
-    }
-
-    /// a and b.
-    fn factors<T: Real>(self) -> [T; 2] {
-        match self.projection {
-            Projection::Symmetric => [1.0, 1.0],
-            Projection::Standard => [0.0, -1.0],
-        }
-        .map(T::lift)
+        Self { factors: [0.0, -1.0], stopping: Stopping::default() }
     }
 }
 
@@ -107,7 +93,7 @@ impl Scheme for Projected {
         2
     }
     fn is_symmetric(&self) -> bool {
-        self.projection == Projection::Symmetric
+        self.factors == [1.0, 1.0]
     }
     fn preserved_form(&self) -> PreservedForm {
         PreservedForm::OmegaIfAffine
@@ -182,7 +168,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
 
     fn step(&self, step: methods::Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let methods::Step { system, q, t, h, statistics } = step;
-        let [a, b] = self.factors();
+        let [a, b] = self.factors.map(T::lift);
         let ProjectedMemory { point, solver, unknowns, residuals, weights, work } = memory;
         from_either_guess(|guess| {
             let OnePoint { p, rates, orientation } = &mut *point;

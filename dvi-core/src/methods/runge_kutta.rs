@@ -10,53 +10,31 @@ use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::{Lagrangian, Real, System, Vector};
 
+/// The largest number of stages.
 const STAGES: usize = 4;
 
-/// The coefficients of an explicit method, in rows of up to four stages.
+/// The coefficients of an explicit method.
 #[derive(Debug, PartialEq)]
 struct Tableau {
-    name: &'static str,
     order: usize,
-    stages: usize,
-    a: [[f64; STAGES]; STAGES],
-    b: [f64; STAGES],
-    c: [f64; STAGES],
+    /// Row i: the weights of the stages before stage i.
+    a: &'static [&'static [f64]],
+    b: &'static [f64],
+    c: &'static [f64],
 }
 
 const THIRD: f64 = 1.0 / 3.0;
 const SIXTH: f64 = 1.0 / 6.0;
 
-#[rustfmt::skip]
-static MIDPOINT: Tableau = Tableau {
-    name: "midpoint", order: 2, stages: 2,
-    a: [[0.0, 0.0, 0.0, 0.0],
-        [0.5, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0]],
-    b:  [0.0, 1.0, 0.0, 0.0],
-    c:  [0.0, 0.5, 0.0, 0.0],
-};
+static MIDPOINT: Tableau = Tableau { order: 2, a: &[&[], &[0.5]], b: &[0.0, 1.0], c: &[0.0, 0.5] };
 
-#[rustfmt::skip]
-static HEUN: Tableau = Tableau {
-    name: "Heun", order: 2, stages: 2,
-    a: [[0.0, 0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0]],
-    b:  [0.5, 0.5, 0.0, 0.0],
-    c:  [0.0, 1.0, 0.0, 0.0],
-};
+static HEUN: Tableau = Tableau { order: 2, a: &[&[], &[1.0]], b: &[0.5, 0.5], c: &[0.0, 1.0] };
 
-#[rustfmt::skip]
 static CLASSICAL: Tableau = Tableau {
-    name: "classical", order: 4, stages: 4,
-    a: [[0.0, 0.0, 0.0, 0.0],
-        [0.5, 0.0, 0.0, 0.0],
-        [0.0, 0.5, 0.0, 0.0],
-        [0.0, 0.0, 1.0, 0.0]],
-    b:  [SIXTH, THIRD, THIRD, SIXTH],
-    c:  [0.0, 0.5, 0.5, 1.0],
+    order: 4,
+    a: &[&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]],
+    b: &[SIXTH, THIRD, THIRD, SIXTH],
+    c: &[0.0, 0.5, 0.5, 1.0],
 };
 
 /// An explicit Runge–Kutta method on the equations of motion y' = X(y, t).
@@ -97,11 +75,6 @@ impl RungeKutta {
     /// Order 4: "the" Runge–Kutta method (Kutta 1901).
     pub fn classical() -> Self {
         Self { tableau: &CLASSICAL }
-    }
-
-    /// The name of the tableau.
-    pub fn name(&self) -> &'static str {
-        self.tableau.name
     }
 }
 
@@ -155,18 +128,18 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> fo
     #[inline]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
-        let Tableau { stages, a, b, c, .. } = self.tableau;
+        let Tableau { a, b, c, .. } = self.tableau;
         let RungeKuttaMemory { equations, slopes, y, stage } = memory;
         S::Kind::gather(equations, q, y);
-        for i in 0..(*stages).min(STAGES) {
-            combine::<S, T>(y, h, &a[i], &slopes[..i], stage);
-            let time = t + T::lift(c[i]) * h;
+        for (i, (a, &c)) in a.iter().zip(*c).enumerate() {
+            combine::<S, T>(y, h, a, slopes, stage);
+            let time = t + T::lift(c) * h;
             if i > 0 {
                 S::Kind::compare(equations, system, stage, time)?;
             }
             S::Kind::evaluate(equations, system, stage, time, &mut slopes[i], statistics)?;
         }
-        combine::<S, T>(y, h, b, &slopes[..*stages], stage);
+        combine::<S, T>(y, h, b, slopes, stage);
         S::Kind::arrive(equations, system, stage, q, t + h)
     }
 
@@ -189,7 +162,7 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S,
 fn combine<S: System<Kind: Motion<S, T>>, T: Real>(
     y: &PointOf<S, T>,
     h: T,
-    weights: &[f64; STAGES],
+    weights: &[f64],
     slopes: &[PointOf<S, T>],
     out: &mut PointOf<S, T>,
 ) {
@@ -209,13 +182,14 @@ fn combine<S: System<Kind: Motion<S, T>>, T: Real>(
 #[cfg(test)]
 mod tests {
     use super::{CLASSICAL, HEUN, MIDPOINT, STAGES, Tableau};
+    use alloc::vec::Vec;
 
     /// The eight trees up to order four: order, elementary weight, density (Butcher 1963).
     fn conditions(table: &Tableau) -> [(usize, f64, f64); 8] {
         let Tableau { a, b, c, .. } = table;
-        let dot = |x: &[f64; STAGES], y: &[f64; STAGES]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-        let times = |x: &[f64; STAGES], y: &[f64; STAGES]| core::array::from_fn(|i| x[i] * y[i]);
-        let apply = |x: &[f64; STAGES]| -> [f64; STAGES] { core::array::from_fn(|i| dot(&a[i], x)) };
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let times = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).collect::<Vec<_>>();
+        let apply = |x: &[f64]| a.iter().map(|row| dot(row, x)).collect::<Vec<_>>();
         let (cc, ac) = (times(c, c), apply(c));
         [
             (1, b.iter().sum(), 1.0),
@@ -233,21 +207,21 @@ mod tests {
     fn tableaus_meet_the_conditions_of_their_order_and_not_of_the_next() {
         for table in [&MIDPOINT, &HEUN, &CLASSICAL] {
             let met = |(_, weight, density): &(usize, f64, f64)| (weight * density - 1.0).abs() < 1e-15;
-            let (upto, beyond): (alloc::vec::Vec<_>, alloc::vec::Vec<_>) =
+            let (upto, beyond): (Vec<_>, Vec<_>) =
                 conditions(table).into_iter().partition(|condition| condition.0 <= table.order);
-            assert!(upto.iter().all(met), "{}: {upto:?}", table.name);
-            assert!(beyond.is_empty() || !beyond.iter().all(met), "{}", table.name);
+            assert!(upto.iter().all(met), "{table:?}: {upto:?}");
+            assert!(beyond.is_empty() || !beyond.iter().all(met), "{table:?}");
         }
     }
 
     #[test]
-    fn tableaus_are_consistent_explicit_and_use_their_stages_only() {
+    fn tableaus_are_consistent_and_explicit() {
         for table in [&MIDPOINT, &HEUN, &CLASSICAL] {
-            for i in 0..STAGES {
-                assert_eq!(table.a[i].iter().sum::<f64>(), table.c[i], "{} row {i}", table.name);
-                assert!(table.a[i][i..].iter().all(|&a| a == 0.0), "{} row {i}", table.name);
+            let Tableau { a, b, c, .. } = table;
+            assert!(a.len() == c.len() && b.len() == c.len() && c.len() <= STAGES, "{table:?}");
+            for (i, (a, c)) in a.iter().zip(*c).enumerate() {
+                assert!(a.len() == i && a.iter().sum::<f64>() == *c, "{table:?} row {i}");
             }
-            assert!(table.b[table.stages..].iter().all(|&b| b == 0.0), "{}", table.name);
         }
     }
 }

@@ -22,7 +22,8 @@ use crate::methods::Here;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
 use crate::scalar::simd::widest_if;
-use crate::solve::{Guess, Ladder, Linearize, Solver, Stopping, solve_by_fixed_point, solve_by_newton};
+use crate::solve::{Convergence, Guess, Ladder, Linearize, Solver, Stopping};
+use crate::solve::{solve_by_fixed_point, solve_by_newton};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -237,7 +238,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         guess.begin(increment, |increment| phase.guess(mass, &phase.p, interval.h, increment));
         let mut posed = Posed { equations, coefficients, begin: &begin, node };
         let (points, storage) = ([&***q, &phase.p], (solver, [trial, weights]));
-        solve_by_newton(&mut posed, *system, points, increment, storage, *stopping, statistics)?;
+        let judge = Convergence::new(*stopping, stopping.max_iterations);
+        solve_by_newton(&mut posed, *system, points, increment, storage, judge, statistics)?;
         arrive::<false, _, _, _>(
             (equations, coefficients),
             (*system, *interval),

@@ -1,11 +1,11 @@
 //! Newton's method for the increment of a step.
 
-use super::{Due, Stopping, newton, sizes};
+use super::{Due, Iteration, Judge, repeat, sizes};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::{LinearEquations, LinearSolver, Sink, linear};
 use crate::state::Statistics;
-use crate::{Linear, Real, Scalar, System, Vector};
+use crate::{Real, Scalar, System, Vector};
 
 /// Equations p0 + r(Δ) = 0.
 pub(crate) trait Linearize<T> {
@@ -20,6 +20,23 @@ pub(crate) trait Linearize<T> {
         sink: &mut K,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
+
+    /// How often L is linearised for that, and a matrix factored.
+    fn cost(&self) -> [u64; 2] {
+        [1, 1]
+    }
+
+    /// As [`residual`]. What another function sees has no place in registers: it may be a copy of `self`.
+    ///
+    /// # Errors
+    /// As [`linearize`](Self::linearize).
+    fn residual(&mut self, at: [&[T]; 3], storage: [&mut [T]; 2]) -> Result<T, StepFailure>
+    where
+        Self: Sized,
+        T: Real,
+    {
+        residual(self, at, storage)
+    }
 }
 
 /// Equations at an increment, whose solution is to be taken from it.
@@ -38,32 +55,76 @@ impl<T: Real, E: Linearize<T>> LinearEquations<T> for AtIncrement<'_, T, E> {
     }
 }
 
-/// Improves the increment `delta` of `q0` until `p0` + r = 0. What comes with `solver` is storage.
+/// The residual at an increment `delta` of `q0`, relative to what it is made of. No correction is left in
+/// `correction`.
+///
+/// # Errors
+/// Those of the equations.
+#[cold]
+pub(crate) fn residual<T: Real>(
+    equations: &mut impl Linearize<T>,
+    [q0, p0, delta]: [&[T]; 3],
+    [correction, sums]: [&mut [T]; 2],
+) -> Result<T, StepFailure> {
+    let size = |j: usize| Scalar::abs(q0[j]) + Scalar::abs(delta[j]);
+    let mut at = AtIncrement { equations, p0, delta, statistics: &mut Statistics::default() };
+    let residual = linear::residual(&mut at, size, |i| p0[i], [&mut *correction, sums]);
+    correction.fill(T::lift(0.0));
+    residual
+}
+
+/// Improves the increment `delta` of `q0` until `p0` + r = 0. What comes with `solver` is storage; there the
+/// last correction is left, of which nothing has been left where the residual was asked for at last.
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`], or those of the
 /// equations.
-#[inline]
-pub(crate) fn solve_by_newton<S: System, T: Real>(
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn solve_by_newton<S: System, T: Real, J: Judge<T>>(
     equations: &mut impl Linearize<T>,
     system: &S,
     [q0, p0]: [&[T]; 2],
     delta: &mut [T],
-    (solver, [residual, weights]): (&mut Linear<S, T>, [&mut Vector<S, T>; 2]),
-    stopping: Stopping,
+    (solver, [correction, weights]): (&mut impl LinearSolver<T>, [&mut Vector<S, T>; 2]),
+    judge: J,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    newton(stopping, statistics, |due, statistics| {
-        due.prepare(system, weights, q0, delta);
-        statistics.linearizations += 1;
-        statistics.factorisations += 1;
-        let mut at = AtIncrement { equations, p0, delta, statistics };
+    repeat(judge, statistics, Newton { equations, system, q0, p0, delta, solver, correction, weights })?;
+    if J::NAMES { norm::finite(delta) } else { Ok(()) }
+}
+
+struct Newton<'a, S, T, E, L> {
+    equations: &'a mut E,
+    system: &'a S,
+    q0: &'a [T],
+    p0: &'a [T],
+    delta: &'a mut [T],
+    solver: &'a mut L,
+    correction: &'a mut [T],
+    weights: &'a mut [T],
+}
+
+impl<S: System, T: Real, E: Linearize<T>, L: LinearSolver<T>> Iteration<T> for Newton<'_, S, T, E, L> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn prepare(&mut self, due: &mut Due) {
+        due.prepare(self.system, self.weights, self.q0, self.delta);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
+        let Self { equations, system, q0, p0, delta, solver, correction, weights } = self;
         if *due == Due::Residual {
-            let size = |j: usize| Scalar::abs(q0[j]) + Scalar::abs(at.delta[j]);
-            return linear::residual(&mut at, size, |i| p0[i], [residual, weights]);
+            return equations.residual([q0, p0, delta], [correction, weights]);
         }
-        solver.solve(&mut at, weights, residual)?;
-        Ok(sizes::reduce(system, weights, delta, residual))
-    })?;
-    norm::finite(delta)
+        let mut at = AtIncrement { equations: &mut **equations, p0, delta, statistics };
+        solver.solve(&mut at, weights, correction)?;
+        Ok(sizes::reduce(*system, weights, delta, correction))
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn count(&self, times: u64, statistics: &mut Statistics) {
+        let [linearizations, factorisations] = self.equations.cost();
+        statistics.linearizations += times * linearizations;
+        statistics.factorisations += times * factorisations;
+    }
 }

@@ -123,7 +123,7 @@ pub(crate) fn residual_of_nodes<
 }
 
 /// What solves linear equations, with the storage that it needs.
-pub trait LinearSolver<T: Real>: Debug {
+pub trait LinearSolver<T: Real> {
     /// Sets `x` to the solution, whose entries have the sizes one over `weights`.
     ///
     /// # Errors

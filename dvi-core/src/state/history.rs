@@ -22,14 +22,14 @@ pub(crate) enum Guess {
 impl Guess {
     /// Sets `increment` to it, by what extrapolates.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn begin<V: DerefMut<Target = [T]>, T: Real>(
+    pub(crate) fn begin<V: DerefMut<Target = [P]>, P: Scalar>(
         self,
         increment: &mut V,
         extrapolate: impl FnOnce(&mut V),
     ) {
         match self {
             Self::Extrapolated => extrapolate(increment),
-            Self::Zero => increment.fill(T::lift(0.0)),
+            Self::Zero => increment.fill(P::lift(0.0)),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Ω q' = ∇H + ∂α/∂t, on Q.
 
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageWork};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageEquations, StageWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
@@ -55,6 +55,30 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         equations.field.evaluate(system, &y.0[0], t, &mut slope.0[0], statistics)
     }
+    fn compare(
+        equations: &mut FlowOnQ<S, T>,
+        system: &S,
+        y: &Self::Point<T>,
+        t: T,
+    ) -> Result<(), StepFailure> {
+        equations.orientation.compare(system, &y.0[0], t).map(drop)
+    }
+    fn arrive(
+        equations: &mut FlowOnQ<S, T>,
+        system: &S,
+        y: &Self::Point<T>,
+        q: &mut Vector<S, T>,
+        t: T,
+    ) -> Result<(), StepFailure> {
+        let [arrival] = &y.0;
+        norm::finite(arrival)?;
+        equations.orientation.pass(system, &[], (arrival, t))?;
+        q.copy_from_slice(arrival);
+        Ok(())
+    }
+}
+
+impl<S: DegenerateLagrangian<T>, T: Real> StageEquations<S, T> for Degenerate {
     fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]) {
         let one = T::lift(1.0);
         system.flow_source(q, t, force);
@@ -91,27 +115,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         }
         system.one_form_jacobian(q, t, -per_time, zero, sink);
         system.one_form_jacobian(later, t + difference, per_time, zero, sink);
-    }
-    fn compare(
-        equations: &mut FlowOnQ<S, T>,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-    ) -> Result<(), StepFailure> {
-        equations.orientation.compare(system, &y.0[0], t).map(drop)
-    }
-    fn arrive(
-        equations: &mut FlowOnQ<S, T>,
-        system: &S,
-        y: &Self::Point<T>,
-        q: &mut Vector<S, T>,
-        t: T,
-    ) -> Result<(), StepFailure> {
-        let [arrival] = &y.0;
-        norm::finite(arrival)?;
-        equations.orientation.pass(system, &[], (arrival, t))?;
-        q.copy_from_slice(arrival);
-        Ok(())
     }
 }
 

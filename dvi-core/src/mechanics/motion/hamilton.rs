@@ -139,31 +139,6 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn reciprocal_masses(equations: &HamiltonsEquations<S, T>) -> Option<&[T]> {
         if S::SEPARABLE { equations.mass.reciprocals() } else { None }
     }
-    fn residual(system: &S, [q, v]: [&[T]; 2], t: T, force: &mut [T], residual: &mut [T]) {
-        system.gradient(q, v, t, force, residual);
-    }
-    fn newton_weights(
-        [of_row, of_column]: [bool; 2],
-        [before, after]: [T; 2],
-        [h, per_h]: [T; 2],
-    ) -> Weights<T> {
-        let if_so = |is: bool, weight: T| if is { weight } else { T::lift(0.0) };
-        Weights {
-            qq: -h * before * after,
-            qv: if_so(of_column, -before),
-            vq: if_so(of_row, after),
-            vv: if_so(of_row && of_column, per_h),
-        }
-    }
-    fn newton_matrix<K: Sink<T>>(
-        system: &S,
-        [q, v]: [&[T]; 2],
-        [t, _]: [T; 2],
-        [l_q, l_v]: [&mut [T]; 2],
-        sink: &mut K,
-    ) {
-        system.linearize(q, v, t, Weights::mass(), l_q, l_v, sink);
-    }
     fn arrive(
         equations: &mut HamiltonsEquations<S, T>,
         system: &S,

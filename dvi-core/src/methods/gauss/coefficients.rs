@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::methods::collocation::lobatto::extrema;
-use crate::methods::collocation::packs::{Nystrom, continuation};
+use crate::methods::collocation::packs::{Nystrom, continuation, lagrange_at};
 use crate::methods::collocation::{Collocation, legendre};
 use crate::scalar::Lanes;
 
@@ -44,19 +44,19 @@ impl<const STAGES: usize, T: Real> Extrema<STAGES, T> {
     fn new(tableau: &Collocation<STAGES>) -> Self {
         let extrema = extrema::<STAGES>();
         let c = extrema.map(|[c, _]| c);
-        let [values, integrals] = tableau.at(c).map(columns);
-        let [[at_start], _] = tableau.at([0.0]);
+        let lagrange = tableau.lagrange().map(|row| row.map(T::lift));
         let share = STAGES as f64 / (2 * STAGES + 1) as f64;
         let contributions = extrema.map(|[c, b]| legendre(c).map(|p| share * b * p));
         // The start is the mirror image of the end, where all Legendre polynomials are 1.
         let of_start =
             |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 } * contributions[STAGES - 1][k];
         let lanes = |number: &dyn Fn(usize) -> f64| Lanes(core::array::from_fn(|k| T::lift(number(k))));
+        let points = lanes(&|i| c[i]);
         Self {
-            c: lanes(&|i| c[i]),
-            values,
-            integrals,
-            at_start: lanes(&|j| at_start[j]),
+            c: points,
+            values: lagrange_at(&lagrange, points),
+            integrals: columns(tableau.integrals(c)),
+            at_start: Lanes(lagrange_at::<1, _, _>(&lagrange, Lanes::all(T::lift(0.0))).map(|l| l.0[0])),
             moments: core::array::from_fn(|i| lanes(&|k| contributions[i][k])),
             moments_of_start: lanes(&of_start),
             last_moment: (lanes(&|i| contributions[i][STAGES]), T::lift(of_start(STAGES))),

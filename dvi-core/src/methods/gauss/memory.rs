@@ -3,28 +3,18 @@
 use core::fmt;
 
 use super::coefficients::Coefficients;
-use super::newton::NewtonStages;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
     AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, StageEvaluation, StageWork, weigh,
 };
 use crate::memory::{Aside, Memory, lasting};
 use crate::methods::collocation::packs::{combine, replace, sum};
+use crate::methods::collocation::stages::NewtonStages;
 use crate::scalar::Lanes;
-use crate::solve::{Due, Ladder};
+use crate::solve::{Due, Guess, Ladder};
 use crate::state::Statistics;
 use crate::state::summation::{Summation, left_out};
 use crate::{Real, Space, System, Vector};
-
-/// The slopes of all stages before the first iteration of the fixed point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Guess {
-    /// On the polynomial through those of the last step. Where they have a kink it leads far away, out of
-    /// the domain of L too.
-    Continued,
-    /// That at the start of the step.
-    Constant,
-}
 
 /// The stages of a Gauss step, and those of the step before.
 pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
@@ -84,7 +74,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         S::Kind::evaluate(&mut equations, system, &y, t, &mut slope, &mut Statistics::default())
             .map_err(StartError::Starter)?;
         for (packs, numbers) in completed.iter_mut().zip(slope.iter()) {
-            set_all(packs, numbers);
+            packs.iter_mut().zip(numbers.iter()).for_each(|(pack, &number)| *pack = Lanes::all(number));
         }
         Ok(Self {
             equations,
@@ -105,35 +95,10 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         })
     }
 
-    /// Whether there is no step that could be continued: the slopes of all its stages are that at the start.
-    pub(super) fn is_first(&self) -> bool {
-        self.last == T::lift(0.0)
-    }
-
-    /// The slope at the start of the step for all stages.
-    ///
-    /// # Errors
-    /// [`StepFailure`] where there is none.
-    pub(super) fn guess_constant(
-        &mut self,
-        system: &S,
-        t: T,
-        h: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let Self { equations, coefficients, slopes, terms, y, next, .. } = self;
-        S::Kind::evaluate(equations, system, y, t, next, statistics)?;
-        let weights = Lanes::all(h) * coefficients.b;
-        for part in first_part::<S, T>(equations)..y.len() {
-            set_all(&mut slopes[part], &next[part]);
-            weigh(|_| weights, &slopes[part], &mut terms[part]);
-        }
-        Ok(())
-    }
-
-    /// Continues the polynomial through the completed stages into the next step.
+    /// Sets the slopes and terms to those of the polynomial through the completed stages, continued into the
+    /// next step, or to zero: where they have a kink it leads far away, out of the domain of L too.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn guess_continued(&mut self, h: T) {
+    pub(super) fn guess(&mut self, guess: Guess, h: T) {
         let Self { equations, coefficients, completed, last, slopes, terms, y, .. } = self;
         let weights = Lanes::all(h) * coefficients.b;
         let continued;
@@ -145,7 +110,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         };
         for part in first_part::<S, T>(equations)..y.len() {
             let nothing = |_| (T::lift(0.0), Lanes::all(T::lift(0.0)));
-            combine(continuation, &completed[part], nothing, &mut slopes[part]);
+            guess
+                .begin(&mut slopes[part], |slopes| combine(continuation, &completed[part], nothing, slopes));
             weigh(|_| weights, &slopes[part], &mut terms[part]);
         }
     }
@@ -250,13 +216,6 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         }
         *last = h;
         Ok(())
-    }
-}
-
-/// Sets each pack to its number in all lanes.
-fn set_all<const W: usize, T: Real>(packs: &mut [Lanes<W, T>], numbers: &[T]) {
-    for (pack, &number) in packs.iter_mut().zip(numbers) {
-        *pack = Lanes::all(number);
     }
 }
 

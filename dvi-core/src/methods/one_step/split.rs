@@ -1,23 +1,26 @@
-//! The two halves of the coordinates, α = ϑ(x, y)·dx, and the equation ϑ(x, y) = p for y.
+//! The two halves of the coordinates, α = ϑ(x, y)·dx, and the end of a step, where ϑ(x1, y1) = p1.
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::solve::{Course, Due, Iteration, Judge, Stopping, repeat};
+use crate::solve::{Course, Judge, Linearize, Stopping, residual, solve_by_newton};
 use crate::space::sink::Places;
-use crate::space::{elimination, linear, scratch};
+use crate::space::{LinearEquations, LinearSolver, Sink, elimination, linear};
 use crate::state::Statistics;
-use crate::{Matrix, ProperlyDegenerate, Real, Scalar, Space, System, Vector};
+use crate::{Matrix, ProperlyDegenerate, Real, Space, System, Vector};
 
 /// Storage for equations in y.
 #[derive(Debug)]
 pub(super) struct Split<S: System, T: Real> {
     /// ∂ϑ/∂y, the first (n/2)² entries.
     block: Matrix<S, T>,
-    /// ϑ − p, of which an elimination leaves nothing, and the change of y in its order.
-    form: Vector<S, T>,
+    /// What an elimination takes: the change of y in its order, and scales.
     change: Vector<S, T>,
-    /// In which the iteration judges coordinates.
+    scales: Vector<S, T>,
+    form: Vector<S, T>,
+    correction: Vector<S, T>,
+    /// In which the iteration judges coordinates, from zero on.
     weights: Vector<S, T>,
+    zero: Vector<S, T>,
 }
 
 /// Whether α has a component along coordinate `i`: the compiler knows it where sizes are literals.
@@ -38,10 +41,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
-        Self { block: space.matrix(), form: space.vector(), change: space.vector(), weights: space.vector() }
+        let [change, scales, form, correction, weights, zero] = space.vectors();
+        Self { block: space.matrix(), change, scales, form, correction, weights, zero }
     }
 
-    /// Improves y in `q` until ϑ(q, t) = `p`.
+    /// Improves y in `q` until ϑ(q, t) = `p`, which is zero along y.
     ///
     /// # Errors
     /// [`StepFailure::Singular`] where ∂ϑ/∂y is, [`StepFailure::NotConverged`].
@@ -55,145 +59,113 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        repeat(
-            J::of(Course::new(stopping, stopping.max_iterations)),
-            statistics,
-            Newton { split: self, system, q, t, p, names: J::NAMES },
-        )
-    }
-
-    /// Sets `change` to (∂ϑ/∂y)⁻¹`form`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve_once(
-        &mut self,
-        system: &S,
-        q: &[T],
-        t: T,
-        names: bool,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let half = q.len() / 2;
-        if S::CANONICAL {
-            return self.divide(system, q, t, names);
-        }
-        self.eliminate(system, q, t, half, statistics)?;
-        norm::finite(&self.change[..half])
-    }
-
-    /// The same where each row has one entry.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn divide(&mut self, system: &S, q: &[T], t: T, names: bool) -> Result<(), StepFailure> {
-        let half = q.len() / 2;
-        scratch!(entries = system, self.block[..q.len()]);
-        system.conjugate_entries(q, t, T::lift(1.0), T::lift(0.0), entries);
-        let rows = || (0..q.len()).filter(|&i| is_x(system, i)).map(|i| (i, system.conjugate(i)));
-        for (i, column) in rows() {
-            self.change[system.place(column) - half] = self.form[i] * (T::lift(1.0) / entries[i]);
-        }
-        if !names {
-            return Ok(());
-        }
-        let finite = norm::finite(&self.change[..half]);
-        // A quotient by a number without a reciprocal is not finite, unless its numerator is as small as
-        // that.
-        if finite.is_err() {
-            for (i, column) in rows() {
-                norm::reciprocal(entries[i], column)?;
-            }
-        }
-        finite
-    }
-
-    /// The same by elimination.
-    #[inline(never)]
-    fn eliminate(
-        &mut self,
-        system: &S,
-        q: &[T],
-        t: T,
-        half: usize,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let Self { block, form, change, weights } = self;
-        let block = &mut block[..half * half];
-        block.fill(T::lift(0.0));
-        let mut sink = Places(|row: usize, column: usize, entry: T| {
-            let (row, column) = (system.place(row), system.place(column));
-            if row < half && column >= half {
-                block[row * half + (column - half)] += entry;
-            }
-        });
-        system.one_form_jacobian(q, t, T::lift(1.0), T::lift(0.0), &mut sink);
-        statistics.factorisations += 1;
-        for (i, &form) in form.iter().enumerate() {
-            if system.place(i) < half {
-                change[system.place(i)] = form;
-            }
-        }
-        // A row has the unit of the action over that of its x.
-        let (scales, of_rows) = form.split_at_mut(half);
-        for (i, &weight) in weights.iter().enumerate() {
-            if let Some(of_row) = of_rows.get_mut(system.place(i)) {
-                *of_row = weight;
-            }
-        }
-        linear::set_scales(scales, of_rows);
-        elimination::eliminate(block, scales, &mut change[..half])
+        let Self { block, change, scales, form, correction, weights, zero } = self;
+        let judge = J::of(Course::new(stopping, stopping.max_iterations));
+        let mut by_halves = ByHalves { system, block, work: [change, scales], names: J::NAMES };
+        let storage = (&mut by_halves, [correction, weights]);
+        solve_by_newton(&mut End { system, t, form }, system, [zero, p], q, storage, judge, statistics)
     }
 }
 
-impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
-    /// The residual ϑ − p, which is in `form`, relative to |pᵢ| + Σⱼ |∂ϑᵢ/∂yⱼ yⱼ| (Oettli & Prager 1964).
-    #[cold]
-    fn residual(&mut self, system: &S, q: &[T], t: T, p: &[T]) -> Result<T, StepFailure> {
-        let sums = &mut self.change;
-        sums.iter_mut().zip(p).for_each(|(sum, &p)| *sum = Scalar::abs(p));
-        let mut sink = Places(|row: usize, column: usize, entry: T| {
-            if !is_x(system, column) {
-                sums[row] += Scalar::abs(entry * q[column]);
-            }
-        });
-        system.one_form_jacobian(q, t, T::lift(1.0), T::lift(0.0), &mut sink);
-        let rows = self.form.iter().copied().zip(self.change.iter().copied()).enumerate();
-        linear::relative(rows.filter(|&(i, _)| is_x(system, i)).map(|(_, row)| row))
-    }
-}
-
-/// Newton's method for y.
-struct Newton<'a, S: System, T: Real> {
-    split: &'a mut Split<S, T>,
+/// p − ϑ(q, t) = 0.
+struct End<'a, S, T> {
     system: &'a S,
-    q: &'a mut Vector<S, T>,
     t: T,
-    p: &'a Vector<S, T>,
+    form: &'a mut [T],
+}
+
+impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for End<'_, S, T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn linearize<K: Sink<T>>(
+        &mut self,
+        q: &[T],
+        r: &mut [T],
+        sink: &mut K,
+        _statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let Self { system, t, form } = self;
+        system.one_form(q, *t, form);
+        r.iter_mut().zip(form.iter()).for_each(|(r, &form)| *r -= form);
+        system.one_form_jacobian(q, *t, T::lift(-1.0), T::lift(0.0), sink);
+        Ok(())
+    }
+
+    fn residual(&mut self, at: [&[T]; 3], storage: [&mut [T]; 2]) -> Result<T, StepFailure> {
+        residual(&mut End { form: &mut *self.form, ..*self }, at, storage)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn cost(&self) -> [u64; 2] {
+        [0, u64::from(!S::CANONICAL)]
+    }
+}
+
+/// Solves for y alone.
+struct ByHalves<'a, S, T> {
+    system: &'a S,
+    block: &'a mut [T],
+    work: [&'a mut [T]; 2],
     /// [`Judge::NAMES`].
     names: bool,
 }
 
-impl<S: ProperlyDegenerate<T>, T: Real> Iteration<T> for Newton<'_, S, T> {
+impl<S: ProperlyDegenerate<T>, T: Real> LinearSolver<T> for ByHalves<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn prepare(&mut self, due: &mut Due) {
-        due.prepare_alone(self.system, &mut self.split.weights, self.q);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Self { split, system, q, t, p, names } = self;
-        system.one_form(q, *t, &mut split.form);
-        for (form, &p) in split.form.iter_mut().zip(p.iter()) {
-            *form -= p;
+    fn solve(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        weights: &[T],
+        x: &mut [T],
+    ) -> Result<(), StepFailure> {
+        if !S::CANONICAL {
+            return self.eliminate(equations, weights, x);
         }
-        if *due == Due::Residual {
-            return split.residual(system, q, *t, p);
-        }
-        split.solve_once(system, q, *t, *names, statistics)?;
-        let (half, mut size) = (q.len() / 2, T::lift(0.0));
-        for (i, q) in q.iter_mut().enumerate() {
-            if let Some(y) = system.place(i).checked_sub(half) {
-                *q -= split.change[y];
-                size = norm::larger(size, Scalar::abs(split.change[y]) * split.weights[i]);
+        // Each row has one entry.
+        let Self { system, work: [entries, _], names, .. } = self;
+        entries.fill(T::lift(-0.0));
+        let in_row = Places(|row: usize, column: usize, entry: T| {
+            if !is_x(*system, column) {
+                entries[row] += entry;
             }
+        });
+        equations.evaluate(x, &mut { in_row })?;
+        for i in (0..x.len()).filter(|&i| is_x(*system, i)) {
+            let (y, pivot) = (system.conjugate(i), entries[i]);
+            let reciprocal = if *names { norm::reciprocal(pivot, y)? } else { T::lift(1.0) / pivot };
+            (x[i], x[y]) = (T::lift(0.0), x[i] * reciprocal);
         }
-        Ok(size)
+        Ok(())
+    }
+}
+
+impl<S: ProperlyDegenerate<T>, T: Real> ByHalves<'_, S, T> {
+    #[inline(never)]
+    fn eliminate(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        weights: &[T],
+        x: &mut [T],
+    ) -> Result<(), StepFailure> {
+        let Self { system, block, work: [change, scales], .. } = self;
+        let half = x.len() / 2;
+        let (block, change) = (&mut block[..half * half], &mut change[..half]);
+        block.fill(T::lift(0.0));
+        let mut places = Places(|row: usize, column: usize, entry: T| {
+            if let Some(column) = system.place(column).checked_sub(half) {
+                block[system.place(row) * half + column] += entry;
+            }
+        });
+        equations.evaluate(x, &mut places)?;
+        // A row has the unit of the action over that of its x.
+        let (scales, of_rows) = scales.split_at_mut(half);
+        for i in (0..x.len()).filter(|&i| is_x(*system, i)) {
+            (change[system.place(i)], of_rows[system.place(i)]) = (x[i], weights[i]);
+        }
+        linear::set_scales(scales, of_rows);
+        elimination::eliminate(block, scales, change)?;
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = system.place(i).checked_sub(half).map_or(T::lift(0.0), |y| change[y]);
+        }
+        norm::finite(change)
     }
 }

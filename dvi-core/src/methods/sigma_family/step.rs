@@ -18,7 +18,7 @@ use crate::discrete::{Departing, DiscreteLagrangian, Ends, Span};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
-use crate::solve::{Guess, solve_by_fixed_point, solve_by_newton};
+use crate::solve::{Convergence, Guess, solve_by_fixed_point, solve_by_newton};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -127,7 +127,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         add(defect, one_form, p0);
         let (points, storage) = ([&***q, &**p0], (solver, [trial, weights]));
         let departing = &mut Departing { l_d, system, interval: step.interval(), q0: q };
-        solve_by_newton(departing, system, points, increment, storage, method.stopping, statistics)?;
+        let judge = Convergence::new(method.stopping, method.stopping.max_iterations);
+        solve_by_newton(departing, system, points, increment, storage, judge, statistics)?;
         if let Some(shift) = shift {
             increment.iter_mut().zip(shift.iter()).for_each(|(delta, &shift)| *delta -= shift);
         }
