@@ -27,10 +27,6 @@ const _: fn() = || stepped(Nothing, NothingState { x: 1.0, y: 0.0 });
 pub struct LagrangianAndOneForm;
 const _: fn() = || stepped(LagrangianAndOneForm, LagrangianAndOneFormState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x, one_form = x * d(y), hamiltonian = x)]
-pub struct AllThree;
-const _: fn() = || stepped(AllThree, AllThreeState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonain = x * y)]
 pub struct MisspeltArgument;
 const _: fn() = || stepped(MisspeltArgument, MisspeltArgumentState { x: 1.0, y: 0.0 });
@@ -46,10 +42,6 @@ const _: fn() = || stepped(ArgumentTwice, ArgumentTwiceState { x: 1.0, y: 0.0 })
 #[degenerate_lagrangian(coordinates = (x, y), one_form = x * d(y), hamiltonian = x * y)]
 pub struct CoordinatesAssigned;
 const _: fn() = || stepped(CoordinatesAssigned, CoordinatesAssignedState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian(x * y))]
-pub struct HamiltonianAsAList;
-const _: fn() = || stepped(HamiltonianAsAList, HamiltonianAsAListState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = )]
 pub struct HamiltonianIsEmpty;
@@ -86,10 +78,6 @@ const _: fn() = || stepped(ColonForEquals, ColonForEqualsState { x: 1.0, y: 0.0 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, crate = 3)]
 pub struct CrateIsNoPath;
 const _: fn() = || stepped(CrateIsNoPath, CrateIsNoPathState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, crate = "dvi_core")]
-pub struct CrateIsText;
-const _: fn() = || stepped(CrateIsText, CrateIsTextState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = |x, y| x * d(y), hamiltonian = x)]
 pub struct ClosureForAOneForm;

@@ -39,10 +39,6 @@ const _: fn() = || stepped(LetElse, LetElseState { x: 1.0, y: 0.0 });
 pub struct TuplePattern;
 const _: fn() = || stepped(TuplePattern, TuplePatternState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { println!(); x })]
-pub struct MacroStatement;
-const _: fn() = || stepped(MacroStatement, MacroStatementState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { fn f() {} x })]
 pub struct ItemInABlock;
 const _: fn() = || stepped(ItemInABlock, ItemInABlockState { x: 1.0, y: 0.0 });
@@ -58,10 +54,6 @@ const _: fn() = || stepped(ConditionThatIsANumber, ConditionThatIsANumberState {
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let a = { let b = x; b }; a + b })]
 pub struct ValueUsedAfterItsBlock;
 const _: fn() = || stepped(ValueUsedAfterItsBlock, ValueUsedAfterItsBlockState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = if x < y { let a = x; } else { y })]
-pub struct BranchWithoutValue;
-const _: fn() = || stepped(BranchWithoutValue, BranchWithoutValueState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let unused = z; x * y })]
 pub struct UnusedAndWrong;

@@ -72,34 +72,9 @@ const _: fn() = || used(&EmptyList);
 #[lagrangian(
     coordinates(x, y),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    constraint =,
-)]
-struct Empty;
-const _: fn() = || used(&Empty);
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
     constraint,
 )]
 struct WithoutValueS;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    constraint(x * x + y * y - 1.0),
-)]
-struct WithoutValueT;
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 0..n),
-)]
-struct WithoutValueU {
-    n: usize,
-    rods: Vec<f64>,
-}
 
 #[lagrangian(
     coordinates(x, y),
@@ -121,46 +96,6 @@ struct HeadsS {
 #[lagrangian(
     coordinates(x[n]),
     lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(0..n) = x[0],
-)]
-struct HeadsT {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i: 0..n) = x[i],
-)]
-struct HeadsU {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i = 0..n) = x[i],
-)]
-struct HeadsV {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(|i| 0..n) = x[i],
-)]
-struct HeadsW {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
     constraint(i in 0..n, j in 0..n, k in 0..n) = x[i] - x[j] + x[k],
 )]
 struct HeadsX {
@@ -171,89 +106,9 @@ struct HeadsX {
 #[lagrangian(
     coordinates(x[n]),
     lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(_ in 0..n) = x[0],
-)]
-struct HeadsY {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(for i in 0..n) = x[i],
-)]
-struct HeadsZ {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in n) = x[i],
-)]
-struct RangesS {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 0..) = x[i],
-)]
-struct RangesT {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 3..2) = x[i],
-)]
-struct RangesU {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
     constraint(i in 0..m) = x[i],
 )]
 struct RangesV {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 0..i) = x[i],
-)]
-struct RangesW {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 0..n / 2) = x[i],
-)]
-struct RangesX {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in rods) = x[i],
-)]
-struct RangesY {
     n: usize,
     rods: Vec<f64>,
 }
@@ -284,30 +139,6 @@ struct ClosuresT {
     constraint = x * x + y * y == 1.0,
 )]
 struct EquationsS;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    constraint = x * x + y * y = t + 1.0,
-)]
-struct EquationsT;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    constraint = (x == 0),
-)]
-struct EquationsU;
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 0..n) = x[i] == rods[i],
-)]
-struct EquationsV {
-    n: usize,
-    rods: Vec<f64>,
-}
 
 #[lagrangian(
     coordinates(x, y),
@@ -348,48 +179,11 @@ struct ListsT {
 }
 
 #[lagrangian(
-    coordinates(x[3]),
-    lagrangian = sum(0..3, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 0..3) = x[i + 1] - x[i],
-)]
-struct OutOfRange;
-
-#[lagrangian(
     coordinates(x[n]),
     lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
     constraint(i in 0..n) = x - rods[i],
 )]
 struct IndicesS {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 0..n) = x[i] - i,
-)]
-struct IndicesT {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint(i in 0..n) = x[j] - rods[i],
-)]
-struct IndicesU {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    constraint = x[i] - rods[i],
-)]
-struct IndicesV {
     n: usize,
     rods: Vec<f64>,
 }
@@ -423,20 +217,6 @@ const _: fn() = || used(&NamesS);
     holonomic = [x - y],
 )]
 struct NamesT;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    contraint = x - y,
-)]
-struct NamesU;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    constraint = x - z,
-)]
-struct NamesV;
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, constraint = x - y)]
 struct DegenerateS;

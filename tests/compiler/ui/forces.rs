@@ -20,12 +20,6 @@ mod too_few_components {
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force = -dot(x))]
 struct NoList;
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x))]
-struct WithoutValue;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) =)]
-struct Empty;
-
 #[lagrangian(
     coordinates(theta),
     lagrangian = dot(theta).powi(2) / 2.0,
@@ -89,9 +83,6 @@ struct VelocitiesOfADegenerateSystem;
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -d(x))]
 struct DifferentialOfARegularSystemS;
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -dot_x)]
-struct DifferentialOfARegularSystemT;
-
 #[degenerate_lagrangian(
     coordinates(x, y),
     one_form = y * d(x),
@@ -100,15 +91,6 @@ struct DifferentialOfARegularSystemT;
     force(x) = -y,
 )]
 struct WithTransformedTime;
-
-#[lagrangian(
-    coordinates(x[3]),
-    lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0),
-    force(x) = |i| -gama * dot(x[i]) + x[i + 3],
-)]
-struct UnknownNames {
-    gamma: f64,
-}
 
 mod explicit_methods {
     use super::*;
@@ -135,12 +117,5 @@ struct IndicesOfOtherFormulasS;
     force(x) = |i| x[i] * j - sum(0..3, |j| x[j]),
 )]
 struct IndicesOfOtherFormulasT;
-
-#[degenerate_lagrangian(
-    coordinates(x[3], y[3]),
-    one_form = [|i| y[i] + sum(0..3, |k| x[k]), |i| k],
-    hamiltonian = x[0],
-)]
-struct IndicesOfOtherFormulasU;
 
 fn main() {}

@@ -16,42 +16,17 @@ fn moved<S: RegularLagrangian>(system: S, state: S::State<f64>) {
 pub struct PowerWithStars;
 const _: fn() = || stepped(PowerWithStars, PowerWithStarsState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 3.0 * (x + y)**3)]
-pub struct PowerWithStarsOfAProduct;
-const _: fn() = || stepped(PowerWithStarsOfAProduct, PowerWithStarsOfAProductState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x^2)]
-pub struct PowerWithACaret;
-const _: fn() = || stepped(PowerWithACaret, PowerWithACaretState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 2x + y)]
 pub struct ProductWithoutASign;
 const _: fn() = || stepped(ProductWithoutASign, ProductWithoutASignState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 0.5y + x)]
-pub struct ProductWithoutASignOfADecimal;
-const _: fn() =
-    || stepped(ProductWithoutASignOfADecimal, ProductWithoutASignOfADecimalState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log() + y)]
 pub struct Logarithm;
 const _: fn() = || stepped(Logarithm, LogarithmState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.pow(2) + y)]
-pub struct PowerByName;
-const _: fn() = || stepped(PowerByName, PowerByNameState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.arcsin() + y)]
 pub struct ArcSine;
 const _: fn() = || stepped(ArcSine, ArcSineState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = potential(x) + y)]
-pub struct UndeclaredFunction;
-const _: fn() = || stepped(UndeclaredFunction, UndeclaredFunctionState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.bessel() + y)]
-pub struct UndeclaredMethod;
-const _: fn() = || stepped(UndeclaredMethod, UndeclaredMethodState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (3 / 2) as f64 * x + y)]
 pub struct IntegersThatAreDivided;
@@ -73,10 +48,6 @@ const _: fn() =
 #[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum(0..4, |k| (k / 2) as f64 * x[k]))]
 pub struct IndexThatIsDivided;
 const _: fn() = || stepped(IndexThatIsDivided, IndexThatIsDividedState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (n / 2) as f64 * x)]
-pub struct SizeThatIsDivided { pub n: usize }
-const _: fn() = || stepped(SizeThatIsDivided { n: 1 }, SizeThatIsDividedState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x[N], y[N]), one_form = sum(0..N, |j| x[j] * d(y[j])), hamiltonian = sum(0..N, |j| x[j] * y[j]))]
 pub struct SizeThatIsNotDeclared;
@@ -108,20 +79,6 @@ mod quotient_under_a_name {
     use dvi_core::degenerate_lagrangian;
 
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let a = 3; (a / 2) as f64 * y })]
-    pub struct System;
-}
-
-mod named_quotient {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let a = 7 / 2; a as f64 * y })]
-    pub struct System;
-}
-
-mod quotient_in_a_block {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ({ 7 / 2 }) as f64 * y)]
     pub struct System;
 }
 
@@ -201,24 +158,10 @@ mod bounds_by_one_name {
     pub struct System;
 }
 
-mod function_of_two_numbers {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = max(x, 2.0 * y))]
-    pub struct System;
-}
-
 mod function_by_another_name_as_in_c {
     use dvi_core::degenerate_lagrangian;
 
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = pow(x, 2) + y)]
-    pub struct System;
-}
-
-mod condition_of_equality {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = if x == 1.0 { x } else { y })]
     pub struct System;
 }
 

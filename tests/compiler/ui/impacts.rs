@@ -48,9 +48,6 @@ struct FamiliesU;
 #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3) = [x[i], 1.0 - x[i]])]
 struct FamiliesV;
 
-#[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3))]
-struct FamiliesW;
-
 #[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0, impact = [x - y, y - x])]
 struct TwiceS;
 

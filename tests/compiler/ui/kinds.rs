@@ -8,24 +8,6 @@ pub struct Degenerate;
 #[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0 - x * x)]
 pub struct Regular;
 
-fn degenerate_method_on_a_regular_system() {
-    let state = RegularState { x: 1.0, dot_x: 0.0 };
-    let _ = Integrator::new(&Regular, Sigma::midpoint(), 0.1, state);
-}
-
-fn regular_method_on_a_degenerate_system() {
-    let state = DegenerateState { x: 1.0, y: 0.0 };
-    let _ = Integrator::new(&Degenerate, Variational::midpoint(), 0.1, state);
-}
-
-#[lagrangian(coordinates(x), lagrangian = (1.0 + x * x) * dot(x) * dot(x) / 2.0 - x * x)]
-pub struct NotSeparable;
-
-fn newmark_on_a_system_that_is_not_separable() {
-    let state = NotSeparableState { x: 1.0, dot_x: 0.0 };
-    let _ = Integrator::new(&NotSeparable, Newmark::new(0.25), 0.1, state);
-}
-
 fn exponent_of_steps_without_a_discrete_lagrangian() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
     let run = Integrator::new(&Degenerate, RungeKutta::classical(), 0.1, state).unwrap();
@@ -64,22 +46,6 @@ fn integer_step() {
 fn integers_in_a_state() {
     let state = DegenerateState { x: 1, y: 0 };
     let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 0.1, state);
-}
-
-fn owned_with_a_method_of_another_kind() {
-    let state = RegularState { x: 1.0, dot_x: 0.0 };
-    let _ = Integrator::new(Regular, Sigma::midpoint(), 0.1, state);
-}
-
-fn both_do_not_fit() {
-    let state = DegenerateState { x: 1.0, y: 0.0 };
-    let control = Reversible::power(0.1, 1.5);
-    let _ = ControlledIntegrator::new(&Degenerate, Variational::midpoint(), control, state);
-}
-
-fn a_control_of_another_kind() {
-    let state = DegenerateState { x: 1.0, y: 0.0 };
-    let _ = ControlledIntegrator::new(&Degenerate, Gauss::<2>::new(), EnergyMomentum::new(0.1), state);
 }
 
 fn more_stages_than_there_are() {

@@ -19,31 +19,12 @@ pub struct Rod;
 #[degenerate_lagrangian(coordinates(s: S2), one_form = area(s), hamiltonian = s[2])]
 pub struct Spin;
 
-#[lagrangian(coordinates(s: S2), lagrangian = dot(s).norm_squared() / 2.0 - s[2])]
-pub struct Pendulum;
-
 const VORTEX: VortexState = VortexState { x: 1.0, y: 0.0 };
 const BEAD: BeadState = BeadState { x: 1.0, dot_x: 0.0 };
 const SPIN: SpinState = SpinState { s: [0.0, 0.0, 1.0] };
-const PENDULUM: PendulumState = PendulumState { s: [0.0, 0.0, 1.0], dot_s: [0.0; 3] };
 const ROD: RodState = RodState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
-
-fn another_kind() -> Outcome {
-    let mut run = Integrator::new(&Bead, Sigma::midpoint(), 0.1, BEAD)?;
-    run.take_steps(100)?;
-    for state in run.by_ref().take(3) {
-        println!("{:?}", state?);
-    }
-    for state in run.states_at([20.0, 21.0])? {
-        println!("{:?}", state?);
-    }
-    println!("{:?} {} {}", run.state(), run.energy(), run.statistics().steps);
-    let boxed: Box<dyn Run<System = Bead, Scalar = f64>> = Box::new(run);
-    println!("{}", boxed.energy());
-    Ok(())
-}
 
 fn owned() -> Outcome {
     let mut run = Integrator::new(Vortex, Variational::trapezoid(), 0.1, VORTEX)?;
@@ -54,13 +35,6 @@ fn owned() -> Outcome {
 
 fn not_separable() -> Outcome {
     let mut run = Integrator::new(&Bead, Newmark::new(0.25), 0.1, BEAD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn constrained_and_separable() -> Outcome {
-    let mut run = Integrator::new(&Rod, Newmark::new(0.25), 0.1, ROD)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -103,14 +77,6 @@ fn controlled() -> Outcome {
     Ok(())
 }
 
-fn a_control_of_another_kind() -> Outcome {
-    let control = EnergyMomentum::new(0.1);
-    let mut run = ControlledIntegrator::new(&Vortex, Gauss::<2>::new(), control, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {} {}", run.state(), run.energy(), run.control_memory().defect());
-    Ok(())
-}
-
 fn two_points() -> Outcome {
     let mut run = Integrator::from_two_points(&Bead, Sigma::midpoint(), 0.1, BEAD, BEAD)?;
     run.take_steps(100)?;
@@ -121,14 +87,6 @@ fn two_points() -> Outcome {
 fn composed_of_one_length() -> Outcome {
     let mut run = Integrator::new(&Vortex, Composition::yoshida(Sigma::midpoint()), 0.1, VORTEX)?;
     run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn controlled_of_one_length() -> Outcome {
-    let control = ErrorControl::new(1e-9, 0.1);
-    let mut run = ControlledIntegrator::new(&Vortex, Sigma::midpoint(), control, VORTEX)?;
-    run.advance_to(10.0)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
 }
@@ -148,13 +106,6 @@ fn a_spin_is_degenerate() -> Outcome {
     Ok(())
 }
 
-fn unit_vectors() -> Outcome {
-    let mut run = Integrator::new(&Pendulum, Sigma::midpoint(), 0.1, PENDULUM)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
 fn two_points_of_another_method() -> Outcome {
     let mut run = Integrator::from_two_points(&Bead, Newmark::new(0.25), 0.1, BEAD, BEAD)?;
     run.take_steps(100)?;
@@ -169,31 +120,6 @@ fn limited_in_place() -> Outcome {
         0.1,
         BEAD,
     )?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn neither_method_nor_control() -> Outcome {
-    let control = Reversible::power(0.02, 1.5);
-    let mut run = ControlledIntegrator::new(&Vortex, Sigma::midpoint(), control, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn limited_under_a_control() -> Outcome {
-    let method = EnergyLimit { method: Newmark::new(0.25), limit: 1e-3 };
-    let control = Reversible::power(0.02, 1.5);
-    let mut run = ControlledIntegrator::new(&Vortex, method, control, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn another_kind_inside_and_outside() -> Outcome {
-    let method = Constrained::new(Newmark::new(0.25));
-    let mut run = Integrator::new(&Bead, EnergyLimit { method, limit: 1e-3 }, 0.1, BEAD)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -230,10 +156,6 @@ fn written_under_a_control(
 
 fn in_a_box() -> Result<Box<Integrator<Vortex, Variational<Unfitted, Trapezoid>>>, StartError> {
     Ok(Box::new(Integrator::new(Vortex, Variational::trapezoid(), 0.1, VORTEX)?))
-}
-
-fn two_points_written(bead: &Bead) -> Result<Integrator<&Bead, Sigma>, StartError> {
-    Integrator::from_two_points(bead, Sigma::midpoint(), 0.1, BEAD, BEAD)
 }
 
 fn in_a_local() -> Outcome {

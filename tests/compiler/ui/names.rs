@@ -29,10 +29,6 @@ pub struct UnknownFieldOfSelf {
 }
 const _: fn() = || stepped(UnknownFieldOfSelf { omega: 1.0 }, UnknownFieldOfSelfState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.sqr() + y)]
-pub struct UnknownMethod;
-const _: fn() = || stepped(UnknownMethod, UnknownMethodState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = bessel(x) + y)]
 pub struct UnknownFunction;
 const _: fn() = || stepped(UnknownFunction, UnknownFunctionState { x: 1.0, y: 0.0 });
@@ -76,10 +72,6 @@ pub struct ExponentThatIsNoLiteral {
 }
 const _: fn() =
     || stepped(ExponentThatIsNoLiteral { n: 2 }, ExponentThatIsNoLiteralState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.powi(-2147483648) + y)]
-pub struct ExponentBeyondReason;
-const _: fn() = || stepped(ExponentBeyondReason, ExponentBeyondReasonState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x / 0.0 + y)]
 pub struct DividedByZero;

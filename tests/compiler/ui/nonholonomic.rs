@@ -23,16 +23,6 @@ struct WithoutVelocitiesS;
 const _: fn() = || used(&WithoutVelocitiesS);
 
 #[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..n) = t * rods[i],
-)]
-struct WithoutVelocitiesT {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
     coordinates(x, y),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
     nonholonomic = [dot(x) - dot(x) + y, dot(y)],
@@ -46,20 +36,6 @@ struct WithoutVelocitiesU;
 )]
 struct NotAffineS;
 const _: fn() = || used(&NotAffineS);
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x) * y - x * dot(x) * dot(y),
-)]
-struct NotAffineT;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(y) - dot(x).tanh(),
-)]
-struct NotAffineU;
 
 #[lagrangian(
     coordinates(x, y),
@@ -137,50 +113,9 @@ struct BothT;
 #[lagrangian(
     coordinates(x, y),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic,
-)]
-struct HeadsS;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = [],
-)]
-struct HeadsT;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
     nonholonomic(x) = dot(x) - y,
 )]
 struct HeadsU;
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic() = dot(x[0]),
-)]
-struct HeadsV {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..n),
-)]
-struct HeadsW {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..n) - dot(x[i]),
-)]
-struct HeadsX {
-    n: usize,
-}
 
 #[lagrangian(
     coordinates(x, y),
@@ -188,15 +123,6 @@ struct HeadsX {
     nonholonomic = dot(x) == y * dot(y),
 )]
 struct FormulasS;
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 1..n) = dot(x[i]) == dot(x[i - 1]) + t,
-)]
-struct FormulasT {
-    n: usize,
-}
 
 #[lagrangian(
     coordinates(x, y),
@@ -208,36 +134,11 @@ struct FormulasU;
 #[lagrangian(
     coordinates(x[n]),
     lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic = |i| dot(x[i]),
-)]
-struct FormulasV {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
     nonholonomic(i in 0..n) = dot(x[0]),
 )]
 struct FormulasW {
     n: usize,
 }
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic = dot(x[i]),
-)]
-struct FormulasX {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x[3]),
-    lagrangian = sum(0..3, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..3) = dot(x[i + 1]),
-)]
-struct FormulasY;
 
 #[lagrangian(
     coordinates(x, y),
@@ -268,27 +169,6 @@ const _: fn() = || used(&NamesS);
     rolling = dot(x) - y,
 )]
 struct NamesT;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    velocity_constraint = [dot(x) - y],
-)]
-struct NamesU;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomc = dot(x) - y,
-)]
-struct NamesV;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x) - z,
-)]
-struct NamesW;
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, nonholonomic = d(x) - y)]
 struct DegenerateS;

@@ -14,12 +14,6 @@ struct DeclarationsS;
 #[lagrangian(coordinates(R[2]: SO3), lagrangian = omega(R)[0].powi(2))]
 struct DeclarationsT;
 
-#[lagrangian(coordinates(R: ), lagrangian = omega(R)[0].powi(2))]
-struct DeclarationsU;
-
-#[lagrangian(coordinates(R: SO3 x), lagrangian = omega(R)[0].powi(2))]
-struct DeclarationsV;
-
 #[degenerate_lagrangian(coordinates(R: SO3, x), one_form = R[0][0] * d(x), hamiltonian = x)]
 struct DeclarationsW;
 

@@ -87,15 +87,6 @@ const _: NotCalledState = NotCalledState { x: 1.0, y: 2.0 };
     coordinates(x, y),
     one_form = x * d(y),
     hamiltonian = psi(x, y),
-    functions(psi = super::Flat, psi = super::Flat),
-)]
-struct DeclaredTwice;
-const _: DeclaredTwiceState = DeclaredTwiceState { x: 1.0, y: 2.0 };
-
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = x * d(y),
-    hamiltonian = psi(x, y),
     functions(psi = super::Flat),
 )]
 struct AFieldAndAPath {
@@ -117,11 +108,5 @@ struct AFieldCalledAsAMethod {
     psi: Flat,
 }
 const _: AFieldCalledAsAMethodState = AFieldCalledAsAMethodState { x: 1.0, y: 2.0 };
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y))]
-struct NotThere {
-    phi_of: Flat,
-}
-const _: NotThereState = NotThereState { x: 1.0, y: 2.0 };
 
 fn main() {}

@@ -94,9 +94,6 @@ struct Once {
 )]
 struct NoDefinitions;
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - r2, let r2 = x * x)]
-struct NoBlock;
-
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - r2, let = x * x)]
 struct NoNames;
 

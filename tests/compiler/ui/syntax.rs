@@ -19,10 +19,6 @@ const _: fn() = || stepped(Loop, LoopState { x: 1.0, y: 0.0 });
 pub struct For;
 const _: fn() = || stepped(For, ForState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x + while true { y })]
-pub struct While;
-const _: fn() = || stepped(While, WhileState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x + square!(y))]
 pub struct MacroCall;
 const _: fn() = || stepped(MacroCall, MacroCallState { x: 1.0, y: 0.0 });
@@ -66,10 +62,6 @@ const _: fn() = || stepped(Logic, LogicState { x: 1.0, y: 0.0 });
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x | y)]
 pub struct BitOr;
 const _: fn() = || stepped(BitOr, BitOrState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x << 2)]
-pub struct Shift;
-const _: fn() = || stepped(Shift, ShiftState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x + Point { x: x, y: y })]
 pub struct StructLiteral;
@@ -162,10 +154,6 @@ const _: fn() = || stepped(LetCondition, LetConditionState { x: 1.0, y: 0.0 });
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x + _)]
 pub struct Infer;
 const _: fn() = || stepped(Infer, InferState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x + 2.0i)]
-pub struct Imaginary;
-const _: fn() = || stepped(Imaginary, ImaginaryState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x + <f64 as Real>::ONE)]
 pub struct Qualified;

@@ -11,10 +11,6 @@ fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
 pub struct QuadraticOneForm;
 const _: fn() = || stepped(QuadraticOneForm, QuadraticOneFormState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y).sin(), hamiltonian = x * y)]
-pub struct FunctionOfAVelocity;
-const _: fn() = || stepped(FunctionOfAVelocity, FunctionOfAVelocityState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(
     coordinates(x, y),
     one_form = f(d(y)),
@@ -80,10 +76,6 @@ const _: fn() = || stepped(TermWithoutD, TermWithoutDState { x: 1.0, y: 0.0 });
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * y, hamiltonian = x * y)]
 pub struct NothingWithD;
 const _: fn() = || stepped(NothingWithD, NothingWithDState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(2.0 * y), hamiltonian = x * y)]
-pub struct DOfAnExpression;
-const _: fn() = || stepped(DOfAnExpression, DOfAnExpressionState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) + x * d(a), hamiltonian = x * y)]
 pub struct DOfAParameter {
