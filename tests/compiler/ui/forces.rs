@@ -32,14 +32,16 @@ struct OnNoCoordinateT {
     gamma: f64,
 }
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force() = -dot(x))]
-struct OnNothingS;
+macro_rules! on_a_line {
+    ($name:ident: $($arguments:tt)*) => {
+        #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, $($arguments)*)]
+        struct $name;
+    };
+}
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x): -dot(x))]
-struct OnNothingT;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, friction(x) = -dot(x))]
-struct OnNothingU;
+on_a_line! { OnNothingS: force() = -dot(x) }
+on_a_line! { OnNothingT: force(x): -dot(x) }
+on_a_line! { OnNothingU: friction(x) = -dot(x) }
 
 #[lagrangian(
     coordinates(x[2]),
@@ -56,21 +58,8 @@ struct OnAnEntry;
 )]
 struct WithoutAnIndex;
 
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0,
-    force(x) = -dot(x),
-    force(x) = t.cos(),
-)]
-struct TwiceS;
-
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0,
-    force = [-dot(x)],
-    force(x) = t.cos(),
-)]
-struct TwiceT;
+on_a_line! { TwiceS: force(x) = -dot(x), force(x) = t.cos() }
+on_a_line! { TwiceT: force = [-dot(x)], force(x) = t.cos() }
 
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -80,8 +69,7 @@ struct TwiceT;
 )]
 struct VelocitiesOfADegenerateSystem;
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -d(x))]
-struct DifferentialOfARegularSystemS;
+on_a_line! { DifferentialOfARegularSystemS: force(x) = -d(x) }
 
 #[degenerate_lagrangian(
     coordinates(x, y),
