@@ -14,10 +14,6 @@ fn exponent_of_steps_without_a_discrete_lagrangian() {
     let _ = dvi_core::diagnostics::LyapunovExponent::new(&run);
 }
 
-fn tangent_map_of_newmark() {
-    let _ = TangentMap::new(&Regular, &Newmark::new(0.25));
-}
-
 #[degenerate_lagrangian(
     coordinates(z[3], w),
     one_form = z[0] * d(z[1]) + z[1] * z[2] * d(w) + w * d(z[2]),
@@ -28,14 +24,6 @@ pub struct OutOfClass;
 fn one_step_scheme_out_of_class() {
     let state = OutOfClassState { z: [1.0; 3], w: 0.0 };
     let _ = Integrator::new(&OutOfClass, OneStep::midpoint(), 0.1, state);
-}
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) - y * d(x), hamiltonian = x * x + y * y)]
-pub struct Symmetric;
-
-fn one_step_scheme_in_the_symmetric_gauge() {
-    let state = SymmetricState { x: 1.0, y: 0.0 };
-    let _ = Integrator::new(&Symmetric, OneStepGauss::<2>::new(), 0.1, state);
 }
 
 fn integer_step() {
@@ -53,10 +41,6 @@ fn more_stages_than_there_are() {
     let mut run = Integrator::new(&Regular, Gauss::<9>::new(), 0.1, state).unwrap();
     run.take_steps(100).unwrap();
     println!("{:?} {}", run.state(), run.energy());
-}
-
-fn fewer_nodes_than_there_are() {
-    let _ = (Galerkin::<2>::new(), OneStepGauss::<5>::new());
 }
 
 fn main() {}

@@ -54,25 +54,9 @@ fn out_of_class() -> Outcome {
     Ok(())
 }
 
-fn composed() -> Outcome {
-    let method = Composition::yoshida(Variational::midpoint());
-    let mut run = Integrator::new(&Vortex, EnergyLimit { method, limit: 1e-3 }, 0.1, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
 fn without_constraints() -> Outcome {
     let mut run = Integrator::new(&Bead, Constrained::new(Variational::midpoint()), 0.1, BEAD)?;
     run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn controlled() -> Outcome {
-    let control = ErrorControl::new(1e-9, 0.1);
-    let mut run = ControlledIntegrator::new(&Rod, Gauss::<4>::new(), control, ROD)?;
-    run.advance_to(10.0)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
 }
@@ -113,18 +97,6 @@ fn two_points_of_another_method() -> Outcome {
     Ok(())
 }
 
-fn limited_in_place() -> Outcome {
-    let mut run = Integrator::new(
-        &Bead,
-        EnergyLimit { method: Composition::yoshida(Newmark::new(0.25)), limit: 1e-3 },
-        0.1,
-        BEAD,
-    )?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
 fn no_impacts() -> Outcome {
     let mut run = Integrator::new(&Vortex, Impacts::reflecting(Sigma::midpoint()), 0.1, VORTEX)?;
     run.take_steps(100)?;
@@ -152,21 +124,6 @@ fn written_under_a_control(
     rod: &Rod,
 ) -> Result<ControlledIntegrator<&Rod, OneStep, ErrorControl<'_>>, StartError> {
     ControlledIntegrator::new(rod, OneStep::midpoint(), ErrorControl::new(1e-9, 0.1), ROD)
-}
-
-fn in_a_box() -> Result<Box<Integrator<Vortex, Variational<Unfitted, Trapezoid>>>, StartError> {
-    Ok(Box::new(Integrator::new(Vortex, Variational::trapezoid(), 0.1, VORTEX)?))
-}
-
-fn in_a_local() -> Outcome {
-    let run: Integrator<_, Sigma> = Integrator::new(&Bead, Sigma::midpoint(), 0.1, BEAD)?;
-    println!("{:?}", run.state());
-    Ok(())
-}
-
-fn as_an_argument(run: &mut Integrator<&Bead, Sigma>) -> Outcome {
-    run.take_steps(100)?;
-    Ok(())
 }
 
 fn main() {}
