@@ -7,10 +7,6 @@ fn run<S: RegularLagrangian>(system: &S, state: S::State<f64>) {
 }
 
 #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-pub struct TupleStruct(pub f64);
-const _: fn() = || run(&TupleStruct(1.0), TupleStructState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
 pub enum Enumeration {
     One,
 }
@@ -24,13 +20,6 @@ const _: fn() =
 #[lagrangian(coordinates(dot_y[2], y[2]), lagrangian = sum(0..2, |j| dot(y[j]).powi(2) + dot(dot_y[j]).powi(2)))]
 pub struct TheOtherWayRound;
 const _: fn() = || run(&TheOtherWayRound, TheOtherWayRoundState { y: [1.0; 2], dot_y: [0.0; 2] });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y * name)]
-pub struct FieldIsNoNumber {
-    pub name: &'static str,
-}
-const _: fn() =
-    || run(&FieldIsNoNumber { name: "x" }, FieldIsNoNumberState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
 /// No mistakes: names like those of velocities, without the coordinate that they would be of.
 #[lagrangian(coordinates(dot_x, r#type), lagrangian = dot(dot_x).powi(2) + dot(r#type).powi(2))]

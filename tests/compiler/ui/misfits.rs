@@ -16,12 +16,8 @@ pub struct Bead;
 )]
 pub struct Rod;
 
-#[degenerate_lagrangian(coordinates(s: S2), one_form = area(s), hamiltonian = s[2])]
-pub struct Spin;
-
 const VORTEX: VortexState = VortexState { x: 1.0, y: 0.0 };
 const BEAD: BeadState = BeadState { x: 1.0, dot_x: 0.0 };
-const SPIN: SpinState = SpinState { s: [0.0, 0.0, 1.0] };
 const ROD: RodState = RodState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -35,13 +31,6 @@ fn owned() -> Outcome {
 
 fn not_separable() -> Outcome {
     let mut run = Integrator::new(&Bead, Newmark::new(0.25), 0.1, BEAD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn constrained() -> Outcome {
-    let mut run = Integrator::new(&Rod, Gauss::<2>::new(), 0.1, ROD)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -83,22 +72,8 @@ fn resumed(checkpoint: &Checkpoint) -> Outcome {
     Ok(())
 }
 
-fn a_spin_is_degenerate() -> Outcome {
-    let mut run = Integrator::new(&Spin, Geodesic::midpoint(), 0.1, SPIN)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
 fn two_points_of_another_method() -> Outcome {
     let mut run = Integrator::from_two_points(&Bead, Newmark::new(0.25), 0.1, BEAD, BEAD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn no_impacts() -> Outcome {
-    let mut run = Integrator::new(&Vortex, Impacts::reflecting(Sigma::midpoint()), 0.1, VORTEX)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
