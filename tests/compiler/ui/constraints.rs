@@ -65,13 +65,8 @@ in_the_plane! { TwiceT: constraint = [x, y, x * y - t] }
 in_the_plane! { NamesS: constraints = x - y }
 const _: fn() = || used(&NamesS);
 
-in_the_plane! { NamesT: holonomic = [x - y] }
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, constraint = x - y)]
 struct DegenerateS;
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, constraint(i in 0..2) = x, constraints = [x, y])]
-struct DegenerateT;
 
 #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) / 2.0, constraint = x - y)]
 struct Massless;

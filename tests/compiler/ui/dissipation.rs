@@ -48,9 +48,6 @@ struct OtherWords;
 )]
 struct DegenerateS;
 
-#[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0, rayleigh = p * p)]
-struct DegenerateT;
-
 #[lagrangian(
     coordinates(R: SO3),
     lagrangian = omega(R).norm_squared(),

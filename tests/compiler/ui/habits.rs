@@ -74,19 +74,11 @@ degenerate! { CastOfABlock CastOfABlockState: hamiltonian = ({ let a = 7; a / 2 
 degenerate! { MutableName MutableNameState: hamiltonian = { let mut s = y; s } }
 degenerate! { ConstantOfOneName ConstantOfOneNameState: hamiltonian = E * x + y }
 
-mod quotient_in_a_choice {
-    use dvi_core::degenerate_lagrangian;
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (if n > 2 { n / 2 } else { n }) as f64 * y)]
+pub struct QuotientInAChoice { pub n: i32 }
 
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (if n > 2 { n / 2 } else { n }) as f64 * y)]
-    pub struct System { pub n: i32 }
-}
-
-mod quotient_behind_a_method {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ((n % 3) / 2).min(3) as f64 * y)]
-    pub struct System { pub n: i32 }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ((n % 3) / 2).min(3) as f64 * y)]
+pub struct QuotientBehindAMethod { pub n: i32 }
 
 mod quotient_of_a_constant {
     use dvi_core::degenerate_lagrangian;

@@ -64,7 +64,6 @@ struct TwiceT;
 struct TwiceU;
 
 on_a_line! { OtherWordsS: wall = x }
-on_a_line! { OtherWordsT: impacts = [x, 1.0 - x] }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + y * y, impact = x)]
 struct OtherWordsU;

@@ -104,13 +104,8 @@ struct TwiceT;
 in_the_plane! { NamesS: non_holonomic = dot(x) - y }
 const _: fn() = || used(&NamesS);
 
-in_the_plane! { NamesT: rolling = dot(x) - y }
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, nonholonomic = d(x) - y)]
 struct DegenerateS;
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, rolling = d(x) - y, nonholonomic(i in 0..2) = x)]
-struct DegenerateT;
 
 // A method that keeps no constraints.
 in_the_plane! { WithoutConstraints: nonholonomic = dot(x) - y * dot(y) }

@@ -26,13 +26,11 @@ degenerate! { Tuple TupleState: hamiltonian = x + (x, y) }
 degenerate! { Remainder RemainderState: hamiltonian = x % y }
 degenerate! { Caret CaretState: hamiltonian = x ^ 2 }
 degenerate! { Equality EqualityState: hamiltonian = x == y }
-degenerate! { Comparison ComparisonState: hamiltonian = x < y }
 degenerate! { Logic LogicState: hamiltonian = x && y }
 degenerate! { BitOr BitOrState: hamiltonian = x | y }
 degenerate! { StructLiteral StructLiteralState: hamiltonian = x + Point { x: x, y: y } }
 degenerate! { QuestionMark QuestionMarkState: hamiltonian = x? + y }
 degenerate! { Assignment AssignmentState: hamiltonian = x = y }
-degenerate! { CompoundAssignment CompoundAssignmentState: hamiltonian = x += y }
 degenerate! { List ListState: hamiltonian = x + [x, y] }
 degenerate! { Repeated RepeatedState: hamiltonian = x + [y; 2] }
 degenerate! { Range RangeState: hamiltonian = x + (0..4) }
@@ -44,7 +42,6 @@ degenerate! { Await AwaitState: hamiltonian = x.await + y }
 degenerate! { Not NotState: hamiltonian = x + !y }
 degenerate! { StringSystem StringSystemState: hamiltonian = x + "y" }
 degenerate! { Boolean BooleanState: hamiltonian = x + true }
-degenerate! { Character CharacterState: hamiltonian = x + 'y' }
 degenerate! { FieldOfField FieldOfFieldState: hamiltonian = x + y.re }
 degenerate! { TupleField TupleFieldState: hamiltonian = x + y.0 }
 degenerate! { Turbofish TurbofishState: hamiltonian = x + y.powi::<i32>(2) }
