@@ -40,9 +40,7 @@ macro_rules! in_a_row {
     };
 }
 
-in_a_row! { WithoutCoordinatesT: constraint(i in 0..n) = rods[i] }
 in_a_row! { WithoutItsIndexS: constraint(i in 0..n - 1) = x[0] - x[1] }
-in_a_row! { WithoutItsIndexT: constraint(i in 0..n) = sum(0..n, |i| x[i]) }
 in_the_plane! { EmptyList: constraint = [] }
 const _: fn() = || used(&EmptyList);
 
@@ -52,9 +50,7 @@ in_a_row! { HeadsS: constraint() = x[0] }
 in_a_row! { HeadsX: constraint(i in 0..n, j in 0..n, k in 0..n) = x[i] - x[j] + x[k] }
 in_a_row! { RangesV: constraint(i in 0..m) = x[i] }
 in_a_row! { ClosuresS: constraint = |i| x[i] - rods[i] }
-in_a_row! { ClosuresT: constraint = [x[0], |i| x[i]] }
 in_the_plane! { EquationsS: constraint = x * x + y * y == 1.0 }
-in_the_plane! { EquationsW: constraint = [x == y, y - 1.0] }
 in_the_plane! { EquationsX: constraint == x - y }
 in_the_plane! { Inequalities: constraint = x * x + y * y <= 1.0 }
 in_the_plane! { ListsS: constraint = [[x, y]] }

@@ -77,9 +77,6 @@ degenerate! { ConstantOfOneName ConstantOfOneNameState: hamiltonian = E * x + y 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (if n > 2 { n / 2 } else { n }) as f64 * y)]
 pub struct QuotientInAChoice { pub n: i32 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ((n % 3) / 2).min(3) as f64 * y)]
-pub struct QuotientBehindAMethod { pub n: i32 }
-
 mod quotient_of_a_constant {
     use dvi_core::degenerate_lagrangian;
 
@@ -87,15 +84,6 @@ mod quotient_of_a_constant {
 
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (self::K / 2) as f64 * y)]
     pub struct System;
-}
-
-mod quotient_of_a_field_of_a_field {
-    use dvi_core::degenerate_lagrangian;
-
-    pub struct Material { pub n: i32 }
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (m.n / 2) as f64 * y)]
-    pub struct System { pub m: Material }
 }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log(2.0) + y)]

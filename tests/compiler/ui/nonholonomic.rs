@@ -32,17 +32,7 @@ in_the_plane! { WithoutVelocitiesU: nonholonomic = [dot(x) - dot(x) + y, dot(y)]
 in_the_plane! { NotAffineS: nonholonomic = dot(x).powi(2) + dot(y).powi(2) - 1.0 }
 const _: fn() = || used(&NotAffineS);
 
-in_the_plane! { NotAffineV: nonholonomic = dot(y) / dot(x) - x }
 in_the_plane! { NotAffineW: nonholonomic = if dot(x) > 0.0 { dot(y) } else { dot(y) - dot(x) } }
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 1..n) = dot(x[i]) * sum(0..i, |j| dot(x[j])),
-)]
-struct NotAffineX {
-    n: usize,
-}
 
 in_the_plane! { NotAffineY: nonholonomic = dot(y) - dot(x).max(0.0) }
 
