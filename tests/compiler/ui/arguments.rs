@@ -7,9 +7,15 @@ fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
     let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y))]
-pub struct NoHamiltonian;
-const _: fn() = || stepped(NoHamiltonian, NoHamiltonianState { x: 1.0, y: 0.0 });
+macro_rules! degenerate {
+    ($name:ident $state:ident: $($arguments:tt)*) => {
+        #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), $($arguments)*)]
+        pub struct $name;
+        const _: fn() = || stepped($name, $state { x: 1.0, y: 0.0 });
+    };
+}
+
+degenerate! { NoHamiltonian NoHamiltonianState: }
 
 #[degenerate_lagrangian(coordinates(x, y), hamiltonian = x * y)]
 pub struct NoOneForm;
@@ -27,41 +33,17 @@ const _: fn() = || stepped(Nothing, NothingState { x: 1.0, y: 0.0 });
 pub struct LagrangianAndOneForm;
 const _: fn() = || stepped(LagrangianAndOneForm, LagrangianAndOneFormState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x, one_form = x * d(y), hamiltonian = x)]
-pub struct AllThree;
-const _: fn() = || stepped(AllThree, AllThreeState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonain = x * y)]
-pub struct MisspeltArgument;
-const _: fn() = || stepped(MisspeltArgument, MisspeltArgumentState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, damping = x)]
-pub struct UnknownArgument;
-const _: fn() = || stepped(UnknownArgument, UnknownArgumentState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, hamiltonian = x)]
-pub struct ArgumentTwice;
-const _: fn() = || stepped(ArgumentTwice, ArgumentTwiceState { x: 1.0, y: 0.0 });
+degenerate! { MisspeltArgument MisspeltArgumentState: hamiltonain = x * y }
+degenerate! { UnknownArgument UnknownArgumentState: hamiltonian = x * y, damping = x }
+degenerate! { ArgumentTwice ArgumentTwiceState: hamiltonian = x * y, hamiltonian = x }
 
 #[degenerate_lagrangian(coordinates = (x, y), one_form = x * d(y), hamiltonian = x * y)]
 pub struct CoordinatesAssigned;
 const _: fn() = || stepped(CoordinatesAssigned, CoordinatesAssignedState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian(x * y))]
-pub struct HamiltonianAsAList;
-const _: fn() = || stepped(HamiltonianAsAList, HamiltonianAsAListState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = )]
-pub struct HamiltonianIsEmpty;
-const _: fn() = || stepped(HamiltonianIsEmpty, HamiltonianIsEmptyState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * )]
-pub struct HalfAnExpression;
-const _: fn() = || stepped(HalfAnExpression, HalfAnExpressionState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x y)]
-pub struct TwoExpressions;
-const _: fn() = || stepped(TwoExpressions, TwoExpressionsState { x: 1.0, y: 0.0 });
+degenerate! { HamiltonianIsEmpty HamiltonianIsEmptyState: hamiltonian = }
+degenerate! { HalfAnExpression HalfAnExpressionState: hamiltonian = x * }
+degenerate! { TwoExpressions TwoExpressionsState: hamiltonian = x y }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) hamiltonian = x)]
 pub struct CommaIsMissing;
@@ -71,36 +53,20 @@ const _: fn() = || stepped(CommaIsMissing, CommaIsMissingState { x: 1.0, y: 0.0 
 pub struct CommaAfterAListIsMissing;
 const _: fn() = || stepped(CommaAfterAListIsMissing, CommaAfterAListIsMissingState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, "x")]
-pub struct LiteralArgument;
-const _: fn() = || stepped(LiteralArgument, LiteralArgumentState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, momenta)]
-pub struct ArgumentWithoutValue;
-const _: fn() = || stepped(ArgumentWithoutValue, ArgumentWithoutValueState { x: 1.0, y: 0.0 });
+degenerate! { LiteralArgument LiteralArgumentState: hamiltonian = x * y, "x" }
+degenerate! { ArgumentWithoutValue ArgumentWithoutValueState: hamiltonian = x * y, momenta }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form: x * d(y), hamiltonian = x)]
 pub struct ColonForEquals;
 const _: fn() = || stepped(ColonForEquals, ColonForEqualsState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, crate = 3)]
-pub struct CrateIsNoPath;
-const _: fn() = || stepped(CrateIsNoPath, CrateIsNoPathState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, crate = "dvi_core")]
-pub struct CrateIsText;
-const _: fn() = || stepped(CrateIsText, CrateIsTextState { x: 1.0, y: 0.0 });
+degenerate! { CrateIsNoPath CrateIsNoPathState: hamiltonian = x * y, crate = 3 }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = |x, y| x * d(y), hamiltonian = x)]
 pub struct ClosureForAOneForm;
 const _: fn() = || stepped(ClosureForAOneForm, ClosureForAOneFormState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x | y, momenta(p = x))]
-pub struct BarBeforeAnotherArgument;
-const _: fn() = || stepped(BarBeforeAnotherArgument, BarBeforeAnotherArgumentState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, momenta[p = x])]
-pub struct MomentumInBrackets;
-const _: fn() = || stepped(MomentumInBrackets, MomentumInBracketsState { x: 1.0, y: 0.0 });
+degenerate! { BarBeforeAnotherArgument BarBeforeAnotherArgumentState: hamiltonian = x | y, momenta(p = x) }
+degenerate! { MomentumInBrackets MomentumInBracketsState: hamiltonian = x * y, momenta[p = x] }
 
 fn main() {}

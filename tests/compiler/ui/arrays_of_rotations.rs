@@ -8,9 +8,6 @@ struct DeclarationsS<const N: usize>;
 #[lagrangian(coordinates(s[]: S2), lagrangian = sum(0..2, |i| dot(s[i]).norm_squared()))]
 struct DeclarationsT;
 
-#[lagrangian(coordinates(R[M]: SO3), lagrangian = sum(0..M, |i| omega(R[i]).norm_squared()))]
-struct DeclarationsU<const N: usize>;
-
 #[lagrangian(coordinates(R[2]: SO3, omega_R), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared()) + dot(omega_R).powi(2))]
 struct DeclarationsV;
 
@@ -20,23 +17,11 @@ struct UnitVectorsS;
 #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| dot(s[i]).norm_squared()) - s[0][3])]
 struct UnitVectorsT;
 
-#[lagrangian(coordinates(s[3]: S2), lagrangian = dot(s).norm_squared())]
-struct UnitVectorsU;
-
 #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| dot(s[i]).norm_squared()) - s[0])]
 struct UnitVectorsV;
 
-#[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| dot(s[i]).norm_squared()) - s[0] * s[1])]
-struct UnitVectorsW;
-
 #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| d(s[i]).norm_squared()))]
 struct UnitVectorsX;
-
-#[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| sum(0..N, |k| dot(s[i][k]).powi(2))))]
-struct UnitVectorsY<const N: usize>;
-
-#[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| dot(s[i]).norm_squared() - dot_s[i][0]))]
-struct UnitVectorsZ;
 
 #[lagrangian(coordinates(R[2]: SO3), lagrangian = omega(R).norm_squared())]
 struct RotationsS;
@@ -44,23 +29,11 @@ struct RotationsS;
 #[lagrangian(coordinates(R[2]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared()) - R[0][2])]
 struct RotationsT;
 
-#[lagrangian(coordinates(R[2]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared()) - R[0].column(3)[2])]
-struct RotationsU;
-
-#[lagrangian(coordinates(R[2]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared()) - R.column(0)[2])]
-struct RotationsV;
-
 #[lagrangian(coordinates(R[2]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared()) - R[2][0][0])]
 struct RotationsW;
 
 #[lagrangian(coordinates(R[2]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared() - dot(R[i][0][0])))]
 struct RotationsX;
-
-#[lagrangian(coordinates(R[2]: SO3, s[2]: S2), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared() + omega(s[i]).norm_squared()))]
-struct RotationsY;
-
-#[lagrangian(coordinates(R[2]: SO3), lagrangian = sum(0..2, |i| omega_R[i].norm_squared()) + R[0][0][0][0])]
-struct RotationsZ;
 
 #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..2, |i| dot(s[i]).norm_squared()))]
 struct MassesS;
@@ -82,12 +55,5 @@ struct MassesV;
     constraint = s[0][2] - 0.5,
 )]
 struct BesideS<const N: usize>;
-
-#[lagrangian(
-    coordinates(s[N]: S2),
-    lagrangian = sum(0..N, |i| dot(s[i]).norm_squared()),
-    force(s) = |i| -dot(s[i]),
-)]
-struct BesideT<const N: usize>;
 
 fn main() {}

@@ -33,10 +33,6 @@ pub struct ComponentWithTwoIndices;
 const _: fn() =
     || stepped(ComponentWithTwoIndices, ComponentWithTwoIndicesState { x: [1.0, 2.0, 3.0], y: [0.0; 3] });
 
-#[degenerate_lagrangian(coordinates(x, y, z), one_form = x * d(y) + y * d(z), hamiltonian = x * y)]
-pub struct OddDimension;
-const _: fn() = || stepped(OddDimension, OddDimensionState { x: 1.0, y: 0.0, z: 0.0 });
-
 #[degenerate_lagrangian(
     coordinates(z[3]),
     one_form = sum(0..3, |i| z[(i + 1) % 3] * d(z[i])),
@@ -48,10 +44,6 @@ const _: fn() = || stepped(OddArray, OddArrayState { z: [1.0; 3] });
 #[degenerate_lagrangian(coordinates(x, y), one_form = [0.0, 0.0], hamiltonian = x * y)]
 pub struct ZeroOneForm;
 const _: fn() = || stepped(ZeroOneForm, ZeroOneFormState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = 0.0, hamiltonian = x * y)]
-pub struct ZeroOneFormAsANumber;
-const _: fn() = || stepped(ZeroOneFormAsANumber, ZeroOneFormAsANumberState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) + y * d(x), hamiltonian = x * y)]
 pub struct ExactOneForm;

@@ -7,13 +7,6 @@ fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
     let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
-pub struct FieldShadowsACoordinate {
-    pub x: f64,
-}
-const _: fn() =
-    || stepped(FieldShadowsACoordinate { x: 1.0 }, FieldShadowsACoordinateState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y, x), one_form = x * d(y), hamiltonian = x * y)]
 pub struct CoordinateTwice;
 const _: fn() = || stepped(CoordinateTwice, CoordinateTwiceState { x: 1.0, y: 0.0 });
@@ -22,17 +15,9 @@ const _: fn() = || stepped(CoordinateTwice, CoordinateTwiceState { x: 1.0, y: 0.
 pub struct CoordinateIsAConstant;
 const _: fn() = || stepped(CoordinateIsAConstant, CoordinateIsAConstantState { x: 1.0, PI: 0.0 });
 
-#[degenerate_lagrangian(one_form = x * d(y), hamiltonian = x * y)]
-pub struct NoCoordinates;
-const _: fn() = || stepped(NoCoordinates, NoCoordinatesState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(), one_form = x * d(y), hamiltonian = x * y)]
 pub struct EmptyCoordinates;
 const _: fn() = || stepped(EmptyCoordinates, EmptyCoordinatesState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x[4][4][4], y), one_form = x * d(y), hamiltonian = x * y)]
-pub struct ThreeSizes;
-const _: fn() = || stepped(ThreeSizes, ThreeSizesState { x: [[[1.0; 4]; 4]; 4], y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x: f64, y), one_form = x * d(y), hamiltonian = x * y)]
 pub struct TypedCoordinate;
@@ -75,14 +60,6 @@ const _: fn() = || stepped(SizeIsMissing, SizeIsMissingState { x: [1.0; 4], y: [
 #[degenerate_lagrangian(coordinates(x[0], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
 pub struct SizeIsZero;
 const _: fn() = || stepped(SizeIsZero, SizeIsZeroState { x: [], y: [0.0; 4] });
-
-#[degenerate_lagrangian(coordinates(x[-4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-pub struct SizeIsNegative;
-const _: fn() = || stepped(SizeIsNegative, SizeIsNegativeState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(coordinates(x[4.0], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-pub struct SizeIsAFloat;
-const _: fn() = || stepped(SizeIsAFloat, SizeIsAFloatState { x: [1.0; 4], y: [0.0; 4] });
 
 #[degenerate_lagrangian(coordinates(x[1_000_000_000_000], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
 pub struct SizeIsHuge;
@@ -128,10 +105,6 @@ mod function_without_list {
     const _: fn() = || stepped(System, SystemState { x: 1.0, y: 0.0 });
 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [|x| x, |x| 1.0, |x| 0.0]))]
-pub struct FunctionIsAClosure;
-const _: fn() = || stepped(FunctionIsAClosure, FunctionIsAClosureState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [f, g, h], f = [f, g, h]))]
 pub struct FunctionTwice;
 const _: fn() = || stepped(FunctionTwice, FunctionTwiceState { x: 1.0, y: 0.0 });
@@ -147,10 +120,6 @@ const _: fn() = || stepped(MomentumTwice, MomentumTwiceState { x: 1.0, y: 0.0 })
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x, momenta(p))]
 pub struct MomentumWithoutFormula;
 const _: fn() = || stepped(MomentumWithoutFormula, MomentumWithoutFormulaState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x, momenta(p = ))]
-pub struct MomentumIsEmpty;
-const _: fn() = || stepped(MomentumIsEmpty, MomentumIsEmptyState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
 pub struct TupleStruct(pub f64);
@@ -176,9 +145,5 @@ mod function {
         system();
     }
 }
-
-#[degenerate_lagrangian(coordinates(x[N], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-pub struct SizeOfAnotherType<const N: bool>;
-const _: fn() = || stepped(SizeOfAnotherType::<true>, SizeOfAnotherTypeState { x: [1.0; 4], y: [0.0; 4] });
 
 fn main() {}

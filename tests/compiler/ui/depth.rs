@@ -7,33 +7,24 @@ fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
     let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = x * d(y),
-    hamiltonian = - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - x,
-)]
-pub struct Signs;
-const _: fn() = || stepped(Signs, SignsState { x: 1.0, y: 0.0 });
+macro_rules! degenerate {
+    ($name:ident $state:ident: $($arguments:tt)*) => {
+        #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), $($arguments)*)]
+        pub struct $name;
+        const _: fn() = || stepped($name, $state { x: 1.0, y: 0.0 });
+    };
+}
 
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = x * d(y),
-    hamiltonian = x.sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin(),
-)]
-pub struct FunctionsOfFunctions;
-const _: fn() = || stepped(FunctionsOfFunctions, FunctionsOfFunctionsState { x: 1.0, y: 0.0 });
+degenerate! { Signs SignsState:
+    hamiltonian = - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - - x
+}
 
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = x * d(y),
-    hamiltonian = x.powi(4096).powi(2),
-)]
-pub struct PowersOfPowers;
-const _: fn() = || stepped(PowersOfPowers, PowersOfPowersState { x: 1.0, y: 0.0 });
+degenerate! { FunctionsOfFunctions FunctionsOfFunctionsState:
+    hamiltonian = x.sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin().sin()
+}
 
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = x * d(y),
+degenerate! { PowersOfPowers PowersOfPowersState: hamiltonian = x.powi(4096).powi(2) }
+degenerate! { SquaresOfNames SquaresOfNamesState:
     hamiltonian = {
         let a = x * x;
         let a = a * a;
@@ -49,9 +40,7 @@ const _: fn() = || stepped(PowersOfPowers, PowersOfPowersState { x: 1.0, y: 0.0 
         let a = a * a;
         let a = a * a;
         a
-    },
-)]
-pub struct SquaresOfNames;
-const _: fn() = || stepped(SquaresOfNames, SquaresOfNamesState { x: 1.0, y: 0.0 });
+    }
+}
 
 fn main() {}

@@ -22,18 +22,12 @@ struct VelocitiesOfOtherNamesS;
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = d(x).powi(2))]
 struct VelocitiesOfOtherNamesT;
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation(x) = dot(x).powi(2))]
-struct OnACoordinate;
-
 #[lagrangian(
     coordinates(r[2]),
     lagrangian = dot(r).norm_squared() / 2.0,
     dissipation = dot(r),
 )]
 struct NoNumber;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation =)]
-struct Empty;
 
 #[lagrangian(
     coordinates(x, y),
@@ -53,9 +47,6 @@ struct OtherWords;
     dissipation = dot(x).powi(2),
 )]
 struct DegenerateS;
-
-#[degenerate_lagrangian(coordinates(x, p), one_form = p * d(x), hamiltonian = p * p / 2.0, rayleigh = p * p)]
-struct DegenerateT;
 
 #[lagrangian(
     coordinates(R: SO3),

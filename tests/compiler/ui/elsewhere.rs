@@ -36,17 +36,13 @@ hamiltonian! { function_of_a_module: np.sin(x) + y }
 hamiltonian! { function_of_a_path: Math::atan2(y, x) }
 hamiltonian! { too_few_arguments: atan2(x) + y }
 hamiltonian! { distance: norm(x, y) }
-hamiltonian! { size_of_a_number: x.norm() + y }
 hamiltonian! { size_of_a_list: norm([x, y, x]) }
 hamiltonian! { copy: x.clone() + y }
-hamiltonian! { scalar_product: x.dot(y) }
 hamiltonian! { special_function: bessel_j0(x) + y }
 
 // Functions that jump.
 hamiltonian! { step: heaviside(x) + y }
 hamiltonian! { floor: x.floor() + y }
-hamiltonian! { rounded: x.round() + y }
-hamiltonian! { fraction: x.fract() + y }
 hamiltonian! { remainder: mod(x, 2.0) + y }
 
 // Powers.
@@ -68,14 +64,11 @@ hamiltonian! { factor_of_brackets: 2(x + y) }
 // Absolute values and choices.
 hamiltonian! { absolute_value: |x| + y }
 hamiltonian! { absolute_value_at_the_end: y + |x| }
-hamiltonian! { absolute_value_of_a_difference: |x - y| }
-hamiltonian! { absolute_value_as_a_factor: |x| * y }
 hamiltonian! { absolute_value_inside: (1.0 + |x|).sqrt() * y }
 hamiltonian! { choice_of_python: x if x > 0.0 else y }
 hamiltonian! { choice_of_c: x > 0.0 ? x : y }
 hamiltonian! { choice_of_numpy: where(x > 0.0, x, y) }
 hamiltonian! { choice_of_fortran: if x > 0.0 then x else y }
-hamiltonian! { formula_in_quotes: "x * y" }
 
 macro_rules! lagrangian {
     ($name:ident: $($arguments:tt)*) => {
@@ -98,7 +91,6 @@ lagrangian! { product_of_velocities: coordinates(x), lagrangian = dot(x, x) }
 // Arguments.
 lagrangian! { momentum_without_a_name: coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2),
     momenta(x * dot(y) - y * dot(x)) }
-lagrangian! { type_of_a_coordinate: coordinates(x: f64), lagrangian = dot(x).powi(2) }
 lagrangian! { type_of_an_array: coordinates(x: [f64; 3]), lagrangian = dot(x[0]).powi(2) }
 lagrangian! { letter_of_the_lagrangian: coordinates(x), L = dot(x).powi(2) }
 lagrangian! { short_word_for_coordinates: coords(x), lagrangian = dot(x).powi(2) }

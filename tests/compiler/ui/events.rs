@@ -68,8 +68,4 @@ const _: fn() =
 pub struct AnotherWord;
 const _: fn() = || moved(AnotherWord, AnotherWordState { x: 1.0, dot_x: 0.0 });
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events = x)]
-pub struct NotAList;
-const _: fn() = || moved(NotAList, NotAListState { x: 1.0, dot_x: 0.0 });
-
 fn main() {}

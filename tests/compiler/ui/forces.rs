@@ -20,12 +20,6 @@ mod too_few_components {
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force = -dot(x))]
 struct NoList;
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x))]
-struct WithoutValue;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) =)]
-struct Empty;
-
 #[lagrangian(
     coordinates(theta),
     lagrangian = dot(theta).powi(2) / 2.0,
@@ -38,14 +32,16 @@ struct OnNoCoordinateT {
     gamma: f64,
 }
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force() = -dot(x))]
-struct OnNothingS;
+macro_rules! on_a_line {
+    ($name:ident: $($arguments:tt)*) => {
+        #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, $($arguments)*)]
+        struct $name;
+    };
+}
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x): -dot(x))]
-struct OnNothingT;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, friction(x) = -dot(x))]
-struct OnNothingU;
+on_a_line! { OnNothingS: force() = -dot(x) }
+on_a_line! { OnNothingT: force(x): -dot(x) }
+on_a_line! { OnNothingU: friction(x) = -dot(x) }
 
 #[lagrangian(
     coordinates(x[2]),
@@ -62,21 +58,8 @@ struct OnAnEntry;
 )]
 struct WithoutAnIndex;
 
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0,
-    force(x) = -dot(x),
-    force(x) = t.cos(),
-)]
-struct TwiceS;
-
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0,
-    force = [-dot(x)],
-    force(x) = t.cos(),
-)]
-struct TwiceT;
+on_a_line! { TwiceS: force(x) = -dot(x), force(x) = t.cos() }
+on_a_line! { TwiceT: force = [-dot(x)], force(x) = t.cos() }
 
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -86,11 +69,7 @@ struct TwiceT;
 )]
 struct VelocitiesOfADegenerateSystem;
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -d(x))]
-struct DifferentialOfARegularSystemS;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -dot_x)]
-struct DifferentialOfARegularSystemT;
+on_a_line! { DifferentialOfARegularSystemS: force(x) = -d(x) }
 
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -100,15 +79,6 @@ struct DifferentialOfARegularSystemT;
     force(x) = -y,
 )]
 struct WithTransformedTime;
-
-#[lagrangian(
-    coordinates(x[3]),
-    lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0),
-    force(x) = |i| -gama * dot(x[i]) + x[i + 3],
-)]
-struct UnknownNames {
-    gamma: f64,
-}
 
 mod explicit_methods {
     use super::*;
@@ -135,12 +105,5 @@ struct IndicesOfOtherFormulasS;
     force(x) = |i| x[i] * j - sum(0..3, |j| x[j]),
 )]
 struct IndicesOfOtherFormulasT;
-
-#[degenerate_lagrangian(
-    coordinates(x[3], y[3]),
-    one_form = [|i| y[i] + sum(0..3, |k| x[k]), |i| k],
-    hamiltonian = x[0],
-)]
-struct IndicesOfOtherFormulasU;
 
 fn main() {}

@@ -35,12 +35,4 @@ mod function_of_two {
     pub struct System;
 }
 
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form    = x * d(y),
-    hamiltonian = f(x) + f(y),
-    functions(f = [any, any, second]),
-)]
-pub struct FunctionThatDoesNotExist;
-
 fn main() {}

@@ -2,9 +2,6 @@
 
 use dvi_core::prelude::*;
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge =)]
-pub struct WithoutValue;
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = 2.0 * t)]
 pub struct WithoutCoordinates;
 
@@ -13,9 +10,6 @@ pub struct WithAVelocity;
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * z)]
 pub struct WithAnUnknownName;
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge(x * y))]
-pub struct AsAList;
 
 mod with_two_derivatives {
     use super::*;

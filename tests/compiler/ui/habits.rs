@@ -12,50 +12,19 @@ fn moved<S: RegularLagrangian>(system: S, state: S::State<f64>) {
     let _ = Integrator::new(&system, Variational::midpoint(), 0.1, state);
 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x**2 + y)]
-pub struct PowerWithStars;
-const _: fn() = || stepped(PowerWithStars, PowerWithStarsState { x: 1.0, y: 0.0 });
+macro_rules! degenerate {
+    ($name:ident $state:ident: $($arguments:tt)*) => {
+        #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), $($arguments)*)]
+        pub struct $name;
+        const _: fn() = || stepped($name, $state { x: 1.0, y: 0.0 });
+    };
+}
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 3.0 * (x + y)**3)]
-pub struct PowerWithStarsOfAProduct;
-const _: fn() = || stepped(PowerWithStarsOfAProduct, PowerWithStarsOfAProductState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x^2)]
-pub struct PowerWithACaret;
-const _: fn() = || stepped(PowerWithACaret, PowerWithACaretState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 2x + y)]
-pub struct ProductWithoutASign;
-const _: fn() = || stepped(ProductWithoutASign, ProductWithoutASignState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = 0.5y + x)]
-pub struct ProductWithoutASignOfADecimal;
-const _: fn() =
-    || stepped(ProductWithoutASignOfADecimal, ProductWithoutASignOfADecimalState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log() + y)]
-pub struct Logarithm;
-const _: fn() = || stepped(Logarithm, LogarithmState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.pow(2) + y)]
-pub struct PowerByName;
-const _: fn() = || stepped(PowerByName, PowerByNameState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.arcsin() + y)]
-pub struct ArcSine;
-const _: fn() = || stepped(ArcSine, ArcSineState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = potential(x) + y)]
-pub struct UndeclaredFunction;
-const _: fn() = || stepped(UndeclaredFunction, UndeclaredFunctionState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.bessel() + y)]
-pub struct UndeclaredMethod;
-const _: fn() = || stepped(UndeclaredMethod, UndeclaredMethodState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (3 / 2) as f64 * x + y)]
-pub struct IntegersThatAreDivided;
-const _: fn() = || stepped(IntegersThatAreDivided, IntegersThatAreDividedState { x: 1.0, y: 0.0 });
+degenerate! { PowerWithStars PowerWithStarsState: hamiltonian = x**2 + y }
+degenerate! { ProductWithoutASign ProductWithoutASignState: hamiltonian = 2x + y }
+degenerate! { Logarithm LogarithmState: hamiltonian = x.log() + y }
+degenerate! { ArcSine ArcSineState: hamiltonian = x.arcsin() + y }
+degenerate! { IntegersThatAreDivided IntegersThatAreDividedState: hamiltonian = (3 / 2) as f64 * x + y }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * dy, hamiltonian = x + y)]
 pub struct DifferentialAsAName;
@@ -73,10 +42,6 @@ const _: fn() =
 #[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum(0..4, |k| (k / 2) as f64 * x[k]))]
 pub struct IndexThatIsDivided;
 const _: fn() = || stepped(IndexThatIsDivided, IndexThatIsDividedState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (n / 2) as f64 * x)]
-pub struct SizeThatIsDivided { pub n: usize }
-const _: fn() = || stepped(SizeThatIsDivided { n: 1 }, SizeThatIsDividedState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x[N], y[N]), one_form = sum(0..N, |j| x[j] * d(y[j])), hamiltonian = sum(0..N, |j| x[j] * y[j]))]
 pub struct SizeThatIsNotDeclared;
@@ -104,63 +69,13 @@ const _: fn() = || moved(VelocityWithAnUnderscore, VelocityWithAnUnderscoreState
 pub struct VelocityWithD;
 const _: fn() = || moved(VelocityWithD, VelocityWithDState { x: 1.0, dot_x: 0.0 });
 
-mod quotient_under_a_name {
-    use dvi_core::degenerate_lagrangian;
+degenerate! { QuotientUnderAName QuotientUnderANameState: hamiltonian = { let a = 3; (a / 2) as f64 * y } }
+degenerate! { CastOfABlock CastOfABlockState: hamiltonian = ({ let a = 7; a / 2 }) as f64 * y }
+degenerate! { MutableName MutableNameState: hamiltonian = { let mut s = y; s } }
+degenerate! { ConstantOfOneName ConstantOfOneNameState: hamiltonian = E * x + y }
 
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let a = 3; (a / 2) as f64 * y })]
-    pub struct System;
-}
-
-mod named_quotient {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let a = 7 / 2; a as f64 * y })]
-    pub struct System;
-}
-
-mod quotient_in_a_block {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ({ 7 / 2 }) as f64 * y)]
-    pub struct System;
-}
-
-mod cast_of_a_block {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ({ let a = 7; a / 2 }) as f64 * y)]
-    pub struct System;
-}
-
-mod mutable_name {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = { let mut s = y; s })]
-    pub struct System;
-}
-
-mod constant_of_one_name {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = E * x + y)]
-    pub struct System;
-}
-
-fn main() {}
-
-mod quotient_in_a_choice {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (if n > 2 { n / 2 } else { n }) as f64 * y)]
-    pub struct System { pub n: i32 }
-}
-
-mod quotient_behind_a_method {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = ((n % 3) / 2).min(3) as f64 * y)]
-    pub struct System { pub n: i32 }
-}
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (if n > 2 { n / 2 } else { n }) as f64 * y)]
+pub struct QuotientInAChoice { pub n: i32 }
 
 mod quotient_of_a_constant {
     use dvi_core::degenerate_lagrangian;
@@ -171,60 +86,16 @@ mod quotient_of_a_constant {
     pub struct System;
 }
 
-mod quotient_of_a_field_of_a_field {
-    use dvi_core::degenerate_lagrangian;
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log(2.0) + y)]
+pub struct LogarithmToABase;
+const _: fn() = || stepped(LogarithmToABase, LogarithmToABaseState { x: 1.0, y: 0.0 });
 
-    pub struct Material { pub n: i32 }
+degenerate! { PowerWithAnArgument PowerWithAnArgumentState: hamiltonian = (x + y).pow(3) }
+degenerate! { BoundsByOneName BoundsByOneNameState: hamiltonian = x.clamp(0.0, 1.0) + y }
+degenerate! { FunctionByAnotherNameAsInC FunctionByAnotherNameAsInCState: hamiltonian = pow(x, 2) + y }
 
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (m.n / 2) as f64 * y)]
-    pub struct System { pub m: Material }
-}
+#[lagrangian(coordinates(x), lagrangian = x.dot().powi(2) / 2.0 - x * x)]
+pub struct VelocityAsAMethod;
+const _: fn() = || moved(VelocityAsAMethod, VelocityAsAMethodState { x: 1.0, dot_x: 0.0 });
 
-mod logarithm_to_a_base {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log(2.0) + y)]
-    pub struct System;
-}
-
-mod power_with_an_argument {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (x + y).pow(3))]
-    pub struct System;
-}
-
-mod bounds_by_one_name {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.clamp(0.0, 1.0) + y)]
-    pub struct System;
-}
-
-mod function_of_two_numbers {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = max(x, 2.0 * y))]
-    pub struct System;
-}
-
-mod function_by_another_name_as_in_c {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = pow(x, 2) + y)]
-    pub struct System;
-}
-
-mod condition_of_equality {
-    use dvi_core::degenerate_lagrangian;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = if x == 1.0 { x } else { y })]
-    pub struct System;
-}
-
-mod velocity_as_a_method {
-    use dvi_core::lagrangian;
-
-    #[lagrangian(coordinates(x), lagrangian = x.dot().powi(2) / 2.0 - x * x)]
-    pub struct System;
-}
+fn main() {}

@@ -9,32 +9,28 @@ fn used<S: UnilateralLagrangian>(system: &S) {
     let _ = system.multipliers();
 }
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = dot(x))]
-struct NotAGapS;
+macro_rules! on_a_line {
+    ($name:ident: $($arguments:tt)*) => {
+        #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, $($arguments)*)]
+        struct $name;
+    };
+}
+
+on_a_line! { NotAGapS: impact = dot(x) }
 const _: fn() = || used(&NotAGapS);
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x_dot + x)]
-struct NotAGapT;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = 1.0 - t)]
-struct NotAGapU;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [])]
-struct NotAGapV;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x > 0.0)]
-struct ConditionsS;
+on_a_line! { NotAGapT: impact = x_dot + x }
+on_a_line! { NotAGapU: impact = 1.0 - t }
+on_a_line! { NotAGapV: impact = [] }
+on_a_line! { ConditionsS: impact = x > 0.0 }
 
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x <= l)]
 struct ConditionsT {
     l: f64,
 }
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = [x != 0.0, x == 1.0])]
-struct ConditionsU;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, constraint = x >= 0.0)]
-struct ConditionsV;
+on_a_line! { ConditionsU: impact = [x != 0.0, x == 1.0] }
+on_a_line! { ConditionsV: constraint = x >= 0.0 }
 
 #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i) = x[i])]
 struct FamiliesS;
@@ -47,9 +43,6 @@ struct FamiliesU;
 
 #[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3) = [x[i], 1.0 - x[i]])]
 struct FamiliesV;
-
-#[lagrangian(coordinates(x[3]), lagrangian = sum(0..3, |i| dot(x[i]).powi(2) / 2.0), impact(i in 0..3))]
-struct FamiliesW;
 
 #[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0, impact = [x - y, y - x])]
 struct TwiceS;
@@ -70,11 +63,7 @@ struct TwiceT;
 )]
 struct TwiceU;
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, wall = x)]
-struct OtherWordsS;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impacts = [x, 1.0 - x])]
-struct OtherWordsT;
+on_a_line! { OtherWordsS: wall = x }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + y * y, impact = x)]
 struct OtherWordsU;

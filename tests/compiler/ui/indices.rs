@@ -7,45 +7,28 @@ fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
     let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = x[0] * x[4] + y[0],
-)]
-pub struct LiteralIndex;
-const _: fn() = || stepped(LiteralIndex, LiteralIndexState { x: [1.0; 4], y: [0.0; 4] });
+macro_rules! of_four_pairs {
+    ($name:ident $state:ident: $($arguments:tt)*) => {
+        #[degenerate_lagrangian(
+            coordinates(x[4], y[4]),
+            one_form = sum(0..4, |j| x[j] * d(y[j])),
+            $($arguments)*
+        )]
+        pub struct $name;
+        const _: fn() = || stepped($name, $state { x: [1.0; 4], y: [0.0; 4] });
+    };
+}
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = x[-1] + y[0],
-)]
-pub struct NegativeIndex;
-const _: fn() = || stepped(NegativeIndex, NegativeIndexState { x: [1.0; 4], y: [0.0; 4] });
+of_four_pairs! { LiteralIndex LiteralIndexState: hamiltonian = x[0] * x[4] + y[0] }
+of_four_pairs! { NegativeIndex NegativeIndexState: hamiltonian = x[-1] + y[0] }
+of_four_pairs! { HugeIndex HugeIndexState: hamiltonian = x[18446744073709551615] + y[0] }
+of_four_pairs! { NeighbourOfTheLast NeighbourOfTheLastState:
+    hamiltonian = sum(0..4, |j| (x[j + 1] - x[j]).powi(2))
+}
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = x[18446744073709551615] + y[0],
-)]
-pub struct HugeIndex;
-const _: fn() = || stepped(HugeIndex, HugeIndexState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |j| (x[j + 1] - x[j]).powi(2)),
-)]
-pub struct NeighbourOfTheLast;
-const _: fn() = || stepped(NeighbourOfTheLast, NeighbourOfTheLastState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..=3, |j| x[j - 1] * x[j]),
-)]
-pub struct NeighbourOfTheFirst;
-const _: fn() = || stepped(NeighbourOfTheFirst, NeighbourOfTheFirstState { x: [1.0; 4], y: [0.0; 4] });
+of_four_pairs! { NeighbourOfTheFirst NeighbourOfTheFirstState:
+    hamiltonian = sum(0..=3, |j| x[j - 1] * x[j])
+}
 
 #[degenerate_lagrangian(
     coordinates(x[4], y[4]),
@@ -91,21 +74,11 @@ pub struct TwoIndicesForAList {
 const _: fn() =
     || stepped(TwoIndicesForAList { a: [1.0; 3] }, TwoIndicesForAListState { x: [1.0; 4], y: [0.0; 4] });
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |j| x[j] * x[j]) + y[j],
-)]
-pub struct IndexOutsideOfItsSum;
-const _: fn() = || stepped(IndexOutsideOfItsSum, IndexOutsideOfItsSumState { x: [1.0; 4], y: [0.0; 4] });
+of_four_pairs! { IndexOutsideOfItsSum IndexOutsideOfItsSumState:
+    hamiltonian = sum(0..4, |j| x[j] * x[j]) + y[j]
+}
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |j| j * x[j]) + y[0],
-)]
-pub struct IndexAsANumber;
-const _: fn() = || stepped(IndexAsANumber, IndexAsANumberState { x: [1.0; 4], y: [0.0; 4] });
+of_four_pairs! { IndexAsANumber IndexAsANumberState: hamiltonian = sum(0..4, |j| j * x[j]) + y[0] }
 
 #[degenerate_lagrangian(
     coordinates(x[4], y[4]),
@@ -117,21 +90,8 @@ pub struct NumberAsAnIndex {
 }
 const _: fn() = || stepped(NumberAsAnIndex { a: 1.0 }, NumberAsAnIndexState { x: [1.0; 4], y: [0.0; 4] });
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |site| x[site] * y[sit]),
-)]
-pub struct MisspeltIndex;
-const _: fn() = || stepped(MisspeltIndex, MisspeltIndexState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = x * x + y[0],
-)]
-pub struct ArrayWithoutIndex;
-const _: fn() = || stepped(ArrayWithoutIndex, ArrayWithoutIndexState { x: [1.0; 4], y: [0.0; 4] });
+of_four_pairs! { MisspeltIndex MisspeltIndexState: hamiltonian = sum(0..4, |site| x[site] * y[sit]) }
+of_four_pairs! { ArrayWithoutIndex ArrayWithoutIndexState: hamiltonian = x * x + y[0] }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = a * x + y)]
 pub struct ParameterArrayWithoutIndex {
@@ -160,101 +120,24 @@ pub struct TwoIndicesForACoordinate;
 const _: fn() =
     || stepped(TwoIndicesForACoordinate, TwoIndicesForACoordinateState { x: [1.0; 4], y: [0.0; 4] });
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = (x[0] + y[0])[0],
-)]
-pub struct IndexOfAnExpression;
-const _: fn() = || stepped(IndexOfAnExpression, IndexOfAnExpressionState { x: [1.0; 4], y: [0.0; 4] });
+of_four_pairs! { IndexOfAnExpression IndexOfAnExpressionState: hamiltonian = (x[0] + y[0])[0] }
+of_four_pairs! { ProductOfIndices ProductOfIndicesState:
+    hamiltonian = sum_pairs(0..2, |j, k| x[j * k] * y[j])
+}
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum_pairs(0..2, |j, k| x[j * k] * y[j]),
-)]
-pub struct ProductOfIndices;
-const _: fn() = || stepped(ProductOfIndices, ProductOfIndicesState { x: [1.0; 4], y: [0.0; 4] });
+of_four_pairs! { QuotientOfIndices QuotientOfIndicesState: hamiltonian = sum(0..4, |j| x[j / 2] * y[j]) }
+of_four_pairs! { RemainderByZero RemainderByZeroState: hamiltonian = sum(0..4, |j| x[j % 0] * y[j]) }
+of_four_pairs! { RangeWithoutEnd RangeWithoutEndState: hamiltonian = sum(0.., |j| x[j] * y[j]) }
+of_four_pairs! { RangeThatIsNone RangeThatIsNoneState: hamiltonian = sum(4, |j| x[j] * y[j]) }
+of_four_pairs! { SumWithoutClosure SumWithoutClosureState: hamiltonian = sum(0..4, x[0] * y[0]) }
+of_four_pairs! { SumOverTwoIndices SumOverTwoIndicesState: hamiltonian = sum(0..4, |j, k| x[j] * y[k]) }
+of_four_pairs! { PairsOverOneIndex PairsOverOneIndexState: hamiltonian = sum_pairs(0..4, |j| x[j] * y[j]) }
+of_four_pairs! { IndexThatIsAPattern IndexThatIsAPatternState:
+    hamiltonian = sum(0..4, |(j, k)| x[j] * y[j])
+}
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |j| x[j / 2] * y[j]),
-)]
-pub struct QuotientOfIndices;
-const _: fn() = || stepped(QuotientOfIndices, QuotientOfIndicesState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |j| x[j % 0] * y[j]),
-)]
-pub struct RemainderByZero;
-const _: fn() = || stepped(RemainderByZero, RemainderByZeroState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0.., |j| x[j] * y[j]),
-)]
-pub struct RangeWithoutEnd;
-const _: fn() = || stepped(RangeWithoutEnd, RangeWithoutEndState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(4, |j| x[j] * y[j]),
-)]
-pub struct RangeThatIsNone;
-const _: fn() = || stepped(RangeThatIsNone, RangeThatIsNoneState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, x[0] * y[0]),
-)]
-pub struct SumWithoutClosure;
-const _: fn() = || stepped(SumWithoutClosure, SumWithoutClosureState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |j, k| x[j] * y[k]),
-)]
-pub struct SumOverTwoIndices;
-const _: fn() = || stepped(SumOverTwoIndices, SumOverTwoIndicesState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum_pairs(0..4, |j| x[j] * y[j]),
-)]
-pub struct PairsOverOneIndex;
-const _: fn() = || stepped(PairsOverOneIndex, PairsOverOneIndexState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |(j, k)| x[j] * y[j]),
-)]
-pub struct IndexThatIsAPattern;
-const _: fn() = || stepped(IndexThatIsAPattern, IndexThatIsAPatternState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(4..0, |j| x[j] * y[j]) + x[0],
-)]
-pub struct RangeThatIsEmpty;
-const _: fn() = || stepped(RangeThatIsEmpty, RangeThatIsEmptyState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |j| j as u32 * x[j]) + y[0],
-)]
-pub struct CastToAnInteger;
-const _: fn() = || stepped(CastToAnInteger, CastToAnIntegerState { x: [1.0; 4], y: [0.0; 4] });
+of_four_pairs! { RangeThatIsEmpty RangeThatIsEmptyState: hamiltonian = sum(4..0, |j| x[j] * y[j]) + x[0] }
+of_four_pairs! { CastToAnInteger CastToAnIntegerState: hamiltonian = sum(0..4, |j| j as u32 * x[j]) + y[0] }
 
 #[lagrangian(
     coordinates(q[n][n]),

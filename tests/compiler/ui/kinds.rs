@@ -8,32 +8,10 @@ pub struct Degenerate;
 #[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0 - x * x)]
 pub struct Regular;
 
-fn degenerate_method_on_a_regular_system() {
-    let state = RegularState { x: 1.0, dot_x: 0.0 };
-    let _ = Integrator::new(&Regular, Sigma::midpoint(), 0.1, state);
-}
-
-fn regular_method_on_a_degenerate_system() {
-    let state = DegenerateState { x: 1.0, y: 0.0 };
-    let _ = Integrator::new(&Degenerate, Variational::midpoint(), 0.1, state);
-}
-
-#[lagrangian(coordinates(x), lagrangian = (1.0 + x * x) * dot(x) * dot(x) / 2.0 - x * x)]
-pub struct NotSeparable;
-
-fn newmark_on_a_system_that_is_not_separable() {
-    let state = NotSeparableState { x: 1.0, dot_x: 0.0 };
-    let _ = Integrator::new(&NotSeparable, Newmark::new(0.25), 0.1, state);
-}
-
 fn exponent_of_steps_without_a_discrete_lagrangian() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
     let run = Integrator::new(&Degenerate, RungeKutta::classical(), 0.1, state).unwrap();
     let _ = dvi_core::diagnostics::LyapunovExponent::new(&run);
-}
-
-fn tangent_map_of_newmark() {
-    let _ = TangentMap::new(&Regular, &Newmark::new(0.25));
 }
 
 #[degenerate_lagrangian(
@@ -48,14 +26,6 @@ fn one_step_scheme_out_of_class() {
     let _ = Integrator::new(&OutOfClass, OneStep::midpoint(), 0.1, state);
 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) - y * d(x), hamiltonian = x * x + y * y)]
-pub struct Symmetric;
-
-fn one_step_scheme_in_the_symmetric_gauge() {
-    let state = SymmetricState { x: 1.0, y: 0.0 };
-    let _ = Integrator::new(&Symmetric, OneStepGauss::<2>::new(), 0.1, state);
-}
-
 fn integer_step() {
     let state = DegenerateState { x: 1.0, y: 0.0 };
     let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 1, state);
@@ -66,31 +36,11 @@ fn integers_in_a_state() {
     let _ = Integrator::new(&Degenerate, Sigma::midpoint(), 0.1, state);
 }
 
-fn owned_with_a_method_of_another_kind() {
-    let state = RegularState { x: 1.0, dot_x: 0.0 };
-    let _ = Integrator::new(Regular, Sigma::midpoint(), 0.1, state);
-}
-
-fn both_do_not_fit() {
-    let state = DegenerateState { x: 1.0, y: 0.0 };
-    let control = Reversible::power(0.1, 1.5);
-    let _ = Integrator::controlled(&Degenerate, Variational::midpoint(), control, state);
-}
-
-fn a_control_of_another_kind() {
-    let state = DegenerateState { x: 1.0, y: 0.0 };
-    let _ = Integrator::controlled(&Degenerate, Gauss::<2>::new(), EnergyMomentum::new(0.1), state);
-}
-
 fn more_stages_than_there_are() {
     let state = RegularState { x: 1.0, dot_x: 0.0 };
     let mut run = Integrator::new(&Regular, Gauss::<9>::new(), 0.1, state).unwrap();
     run.take_steps(100).unwrap();
     println!("{:?} {}", run.state(), run.energy());
-}
-
-fn fewer_nodes_than_there_are() {
-    let _ = (Galerkin::<2>::new(), OneStepGauss::<5>::new());
 }
 
 fn main() {}

@@ -11,11 +11,6 @@ pub struct OneFormAndHamiltonian;
 const _: fn() =
     || run(&OneFormAndHamiltonian, OneFormAndHamiltonianState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y, hamiltonian = x * y)]
-pub struct HamiltonianBesideALagrangian;
-const _: fn() =
-    || run(&HamiltonianBesideALagrangian, HamiltonianBesideALagrangianState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
 #[lagrangian(coordinates(x, y), one_form(x), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
 pub struct ListOfAOneForm;
 const _: fn() = || run(&ListOfAOneForm, ListOfAOneFormState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
@@ -28,35 +23,6 @@ const _: fn() = || run(&NoLagrangian, NoLagrangianState { x: 1.0, y: 0.0, dot_x:
 pub struct MomentaWithoutALagrangian;
 const _: fn() =
     || run(&MomentaWithoutALagrangian, MomentaWithoutALagrangianState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian =)]
-pub struct EmptyLagrangian;
-const _: fn() = || run(&EmptyLagrangian, EmptyLagrangianState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian()]
-pub struct NoArguments;
-const _: fn() = || run(&NoArguments, NoArgumentsState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-pub struct NoCoordinates;
-const _: fn() = || run(&NoCoordinates, NoCoordinatesState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangan = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-pub struct Misspelt;
-const _: fn() = || run(&Misspelt, MisspeltState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y, gauge = x)]
-pub struct Unknown;
-const _: fn() = || run(&Unknown, UnknownState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y, 3)]
-pub struct NoArgument;
-const _: fn() = || run(&NoArgument, NoArgumentState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian(x))]
-pub struct LagrangianInBrackets;
-const _: fn() =
-    || run(&LagrangianInBrackets, LagrangianInBracketsState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
 #[lagrangian(coordinates(x, y), lagrangian = d(x) * d(y))]
 pub struct DInALagrangian;
@@ -75,10 +41,6 @@ const _: fn() =
 pub struct VelocityWithoutAnIndex;
 const _: fn() =
     || run(&VelocityWithoutAnIndex, VelocityWithoutAnIndexState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y + z)]
-pub struct UnknownName;
-const _: fn() = || run(&UnknownName, UnknownNameState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
 #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y + dot_x)]
 pub struct FieldOfTheVelocity;

@@ -7,20 +7,10 @@ fn run<S: RegularLagrangian>(system: &S, state: S::State<f64>) {
 }
 
 #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-pub struct TupleStruct(pub f64);
-const _: fn() = || run(&TupleStruct(1.0), TupleStructState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
 pub enum Enumeration {
     One,
 }
 const _: fn() = || run(&Enumeration::One, EnumerationState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-pub union Union {
-    pub a: f64,
-}
-const _: fn() = || run(&Union { a: 1.0 }, UnionState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
 #[lagrangian(coordinates(x, dot_x), lagrangian = dot(x).powi(2) + dot(dot_x).powi(2))]
 pub struct CoordinateIsCalledAsAVelocity;
@@ -30,33 +20,6 @@ const _: fn() =
 #[lagrangian(coordinates(dot_y[2], y[2]), lagrangian = sum(0..2, |j| dot(y[j]).powi(2) + dot(dot_y[j]).powi(2)))]
 pub struct TheOtherWayRound;
 const _: fn() = || run(&TheOtherWayRound, TheOtherWayRoundState { y: [1.0; 2], dot_y: [0.0; 2] });
-
-#[lagrangian(coordinates(x, y, x), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-pub struct CoordinateTwice;
-const _: fn() = || run(&CoordinateTwice, CoordinateTwiceState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-pub struct FieldShadowsACoordinate {
-    pub x: f64,
-}
-const _: fn() =
-    || run(&FieldShadowsACoordinate { x: 1.0 }, FieldShadowsACoordinateState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y * name)]
-pub struct FieldIsNoNumber {
-    pub name: &'static str,
-}
-const _: fn() =
-    || run(&FieldIsNoNumber { name: "x" }, FieldIsNoNumberState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-mod function {
-    use super::*;
-    #[lagrangian(coordinates(x, y), lagrangian = dot(x) * dot(y))]
-    pub fn system() {}
-    pub fn go() {
-        system();
-    }
-}
 
 /// No mistakes: names like those of velocities, without the coordinate that they would be of.
 #[lagrangian(coordinates(dot_x, r#type), lagrangian = dot(dot_x).powi(2) + dot(r#type).powi(2))]

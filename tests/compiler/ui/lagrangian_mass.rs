@@ -10,11 +10,6 @@ fn run<S: RegularLagrangian>(system: &S, state: S::State<f64>) {
 pub struct Affine;
 const _: fn() = || run(&Affine, AffineState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-#[lagrangian(coordinates(x, y), lagrangian = x.sin() * dot(y) + y * dot(x) - x * y)]
-pub struct AffineWithFunctions;
-const _: fn() =
-    || run(&AffineWithFunctions, AffineWithFunctionsState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
 #[lagrangian(coordinates(x, y), lagrangian = x * y)]
 pub struct NoVelocity;
 const _: fn() = || run(&NoVelocity, NoVelocityState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
@@ -36,11 +31,6 @@ const _: fn() = || run(&Unmentioned, UnmentionedState { x: 1.0, y: 0.0, dot_x: 0
 pub struct UnmentionedArray;
 const _: fn() =
     || run(&UnmentionedArray, UnmentionedArrayState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y, z), lagrangian = dot(y).powi(2) / 2.0 - x * y * z)]
-pub struct TwoUnmentioned;
-const _: fn() =
-    || run(&TwoUnmentioned, TwoUnmentionedState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
 
 #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) / 2.0 + x * dot(y) - x * y)]
 pub struct Linear;
@@ -85,11 +75,6 @@ pub struct SquareOfASumWithAMass {
 }
 const _: fn() =
     || run(&SquareOfASumWithAMass { m: 1.0 }, SquareOfASumWithAMassState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y, z), lagrangian = (dot(x) - dot(y)).powi(2) + (dot(y) - dot(z)).powi(2) - x * y * z)]
-pub struct TwoSquaresOfThree;
-const _: fn() =
-    || run(&TwoSquaresOfThree, TwoSquaresOfThreeState { x: 1.0, y: 0.0, z: 0.0, dot_x: 0.0, dot_y: 1.0, dot_z: 0.0 });
 
 /// No mistakes: an indefinite matrix, and numbers of very different size.
 #[lagrangian(coordinates(x, y), lagrangian = dot(x) * dot(y) - x * y)]

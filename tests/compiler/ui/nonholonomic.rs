@@ -14,82 +14,27 @@ fn used<S: NonholonomicLagrangian>(system: &S) {
     let _ = system.multipliers();
 }
 
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = x * x + y * y - 1.0,
-)]
-struct WithoutVelocitiesS;
+macro_rules! in_the_plane {
+    ($name:ident: $($arguments:tt)*) => {
+        #[lagrangian(
+            coordinates(x, y),
+            lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
+            $($arguments)*
+        )]
+        struct $name;
+    };
+}
+
+in_the_plane! { WithoutVelocitiesS: nonholonomic = x * x + y * y - 1.0 }
 const _: fn() = || used(&WithoutVelocitiesS);
 
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..n) = t * rods[i],
-)]
-struct WithoutVelocitiesT {
-    n: usize,
-    rods: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = [dot(x) - dot(x) + y, dot(y)],
-)]
-struct WithoutVelocitiesU;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x).powi(2) + dot(y).powi(2) - 1.0,
-)]
-struct NotAffineS;
+in_the_plane! { WithoutVelocitiesU: nonholonomic = [dot(x) - dot(x) + y, dot(y)] }
+in_the_plane! { NotAffineS: nonholonomic = dot(x).powi(2) + dot(y).powi(2) - 1.0 }
 const _: fn() = || used(&NotAffineS);
 
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x) * y - x * dot(x) * dot(y),
-)]
-struct NotAffineT;
+in_the_plane! { NotAffineW: nonholonomic = if dot(x) > 0.0 { dot(y) } else { dot(y) - dot(x) } }
 
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(y) - dot(x).tanh(),
-)]
-struct NotAffineU;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(y) / dot(x) - x,
-)]
-struct NotAffineV;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = if dot(x) > 0.0 { dot(y) } else { dot(y) - dot(x) },
-)]
-struct NotAffineW;
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 1..n) = dot(x[i]) * sum(0..i, |j| dot(x[j])),
-)]
-struct NotAffineX {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(y) - dot(x).max(0.0),
-)]
-struct NotAffineY;
+in_the_plane! { NotAffineY: nonholonomic = dot(y) - dot(x).max(0.0) }
 
 #[lagrangian(
     coordinates(x, y),
@@ -101,19 +46,8 @@ struct NotAffineZ<F> {
     slope: F,
 }
 
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = xdot - y,
-)]
-struct VelocitiesS;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = d(x) - y,
-)]
-struct VelocitiesT;
+in_the_plane! { VelocitiesS: nonholonomic = xdot - y }
+in_the_plane! { VelocitiesT: nonholonomic = d(x) - y }
 
 /// Constraints of both kinds.
 #[lagrangian(
@@ -134,85 +68,9 @@ const _: fn() = || used(&BothS);
 )]
 struct BothT;
 
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic,
-)]
-struct HeadsS;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = [],
-)]
-struct HeadsT;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic(x) = dot(x) - y,
-)]
-struct HeadsU;
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic() = dot(x[0]),
-)]
-struct HeadsV {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..n),
-)]
-struct HeadsW {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..n) - dot(x[i]),
-)]
-struct HeadsX {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x) == y * dot(y),
-)]
-struct FormulasS;
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 1..n) = dot(x[i]) == dot(x[i - 1]) + t,
-)]
-struct FormulasT {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x) >= 0.0,
-)]
-struct FormulasU;
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic = |i| dot(x[i]),
-)]
-struct FormulasV {
-    n: usize,
-}
+in_the_plane! { HeadsU: nonholonomic(x) = dot(x) - y }
+in_the_plane! { FormulasS: nonholonomic = dot(x) == y * dot(y) }
+in_the_plane! { FormulasU: nonholonomic = dot(x) >= 0.0 }
 
 #[lagrangian(
     coordinates(x[n]),
@@ -223,28 +81,7 @@ struct FormulasW {
     n: usize,
 }
 
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic = dot(x[i]),
-)]
-struct FormulasX {
-    n: usize,
-}
-
-#[lagrangian(
-    coordinates(x[3]),
-    lagrangian = sum(0..3, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..3) = dot(x[i + 1]),
-)]
-struct FormulasY;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = [dot(x) - y * dot(y), 2.0 * (y * dot(y) - dot(x))],
-)]
-struct TwiceS;
+in_the_plane! { TwiceS: nonholonomic = [dot(x) - y * dot(y), 2.0 * (y * dot(y) - dot(x))] }
 
 #[lagrangian(
     coordinates(x),
@@ -254,55 +91,14 @@ struct TwiceS;
 )]
 struct TwiceT;
 
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    non_holonomic = dot(x) - y,
-)]
-struct NamesS;
+in_the_plane! { NamesS: non_holonomic = dot(x) - y }
 const _: fn() = || used(&NamesS);
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    rolling = dot(x) - y,
-)]
-struct NamesT;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    velocity_constraint = [dot(x) - y],
-)]
-struct NamesU;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomc = dot(x) - y,
-)]
-struct NamesV;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x) - z,
-)]
-struct NamesW;
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, nonholonomic = d(x) - y)]
 struct DegenerateS;
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x, rolling = d(x) - y, nonholonomic(i in 0..2) = x)]
-struct DegenerateT;
-
-/// A method that keeps no constraints.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x) - y * dot(y),
-)]
-struct WithoutConstraints;
+// A method that keeps no constraints.
+in_the_plane! { WithoutConstraints: nonholonomic = dot(x) - y * dot(y) }
 const _: fn() =
     || moved(WithoutConstraints, WithoutConstraintsState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 

@@ -14,12 +14,6 @@ struct DeclarationsS;
 #[lagrangian(coordinates(R[2]: SO3), lagrangian = omega(R)[0].powi(2))]
 struct DeclarationsT;
 
-#[lagrangian(coordinates(R: ), lagrangian = omega(R)[0].powi(2))]
-struct DeclarationsU;
-
-#[lagrangian(coordinates(R: SO3 x), lagrangian = omega(R)[0].powi(2))]
-struct DeclarationsV;
-
 #[degenerate_lagrangian(coordinates(R: SO3, x), one_form = R[0][0] * d(x), hamiltonian = x)]
 struct DeclarationsW;
 
@@ -39,22 +33,16 @@ const _: fn() = || used(&EntriesS);
 )]
 struct EntriesT;
 
-#[lagrangian(coordinates(R: SO3), lagrangian = sum(0..3, |k| omega(R)[k].powi(2)))]
-struct EntriesU;
-
 #[lagrangian(coordinates(R: SO3), lagrangian = dot(R[0][0]).powi(2) + dot(R[8]).powi(2))]
 struct EntriesV;
 
 #[lagrangian(coordinates(R: SO3), lagrangian = omega(R).powi(2) + omega_R[0])]
 struct EntriesW;
 
-#[lagrangian(coordinates(R: SO3), lagrangian = (dot(R[0][1]) + dot((R[2][2]))).powi(2))]
-struct EntriesX;
-
 #[lagrangian(coordinates(R: SO3, s: S2), lagrangian = (omega(R))[0].powi(2) * (R)[0][0] - R[0][1][2] + omega(s)[0])]
 struct EntriesY;
 
-#[lagrangian(coordinates(R: SO3), lagrangian = { let row = R[0]; dot(R) + (R * 2.0) + R.sqrt() + row })]
+#[lagrangian(coordinates(R: SO3), lagrangian = dot(R) + R.sqrt())]
 struct EntriesZ;
 
 #[lagrangian(coordinates(R: SO3), lagrangian = omega(R)[0].powi(2) + omega(R)[2].powi(2) - R[2][2])]

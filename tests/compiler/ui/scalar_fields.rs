@@ -19,22 +19,22 @@ struct ANumberThatIsCalled {
 }
 const _: ANumberThatIsCalledState = ANumberThatIsCalledState { x: 1.0, y: 2.0 };
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y + psi())]
-struct NoArguments {
-    psi: Flat,
+macro_rules! of_a_function {
+    ($name:ident: $($arguments:tt)*) => {
+        #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), $($arguments)*)]
+        struct $name {
+            psi: Flat,
+        }
+    };
 }
+
+of_a_function! { NoArguments: hamiltonian = x * y + psi() }
 const _: NoArgumentsState = NoArgumentsState { x: 1.0, y: 2.0 };
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y) + psi(x, y, 1.0))]
-struct TwoArgumentsAndThree {
-    psi: Flat,
-}
+of_a_function! { TwoArgumentsAndThree: hamiltonian = psi(x, y) + psi(x, y, 1.0) }
 const _: TwoArgumentsAndThreeState = TwoArgumentsAndThreeState { x: 1.0, y: 2.0 };
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y, 1.0))]
-struct AnotherNumberOfArguments {
-    psi: Flat,
-}
+of_a_function! { AnotherNumberOfArguments: hamiltonian = psi(x, y, 1.0) }
 const _: AnotherNumberOfArgumentsState = AnotherNumberOfArgumentsState { x: 1.0, y: 2.0 };
 
 struct Plain;
@@ -71,36 +71,13 @@ struct InAGauge {
 }
 const _: InAGaugeState = InAGaugeState { x: 1.0, y: 2.0 };
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = self.psi(x, y))]
-struct AMethodOfSelf {
-    psi: Flat,
-}
+of_a_function! { AMethodOfSelf: hamiltonian = self.psi(x, y) }
 const _: AMethodOfSelfState = AMethodOfSelfState { x: 1.0, y: 2.0 };
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi * x)]
-struct NotCalled {
-    psi: Flat,
-}
+of_a_function! { NotCalled: hamiltonian = psi * x }
 const _: NotCalledState = NotCalledState { x: 1.0, y: 2.0 };
 
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = x * d(y),
-    hamiltonian = psi(x, y),
-    functions(psi = super::Flat, psi = super::Flat),
-)]
-struct DeclaredTwice;
-const _: DeclaredTwiceState = DeclaredTwiceState { x: 1.0, y: 2.0 };
-
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = x * d(y),
-    hamiltonian = psi(x, y),
-    functions(psi = super::Flat),
-)]
-struct AFieldAndAPath {
-    psi: Flat,
-}
+of_a_function! { AFieldAndAPath: hamiltonian = psi(x, y), functions(psi = super::Flat) }
 const _: AFieldAndAPathState = AFieldAndAPathState { x: 1.0, y: 2.0 };
 
 #[degenerate_lagrangian(
@@ -112,16 +89,7 @@ const _: AFieldAndAPathState = AFieldAndAPathState { x: 1.0, y: 2.0 };
 struct ANameOfTheLanguage;
 const _: ANameOfTheLanguageState = ANameOfTheLanguageState { x: 1.0, y: 2.0 };
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.psi(y))]
-struct AFieldCalledAsAMethod {
-    psi: Flat,
-}
+of_a_function! { AFieldCalledAsAMethod: hamiltonian = x.psi(y) }
 const _: AFieldCalledAsAMethodState = AFieldCalledAsAMethodState { x: 1.0, y: 2.0 };
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = psi(x, y))]
-struct NotThere {
-    phi_of: Flat,
-}
-const _: NotThereState = NotThereState { x: 1.0, y: 2.0 };
 
 fn main() {}

@@ -83,27 +83,17 @@ struct Once {
     stiffness: f64,
 }
 
-/// Where a definition was lost, no name is unknown.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0 - r2 - well(x),
-    let = {
-        r2 = x * x;
-        x + 1.0
-    },
-)]
-struct NoDefinitions;
+macro_rules! one {
+    ($name:ident: $($arguments:tt)*) => {
+        #[lagrangian(coordinates(x), $($arguments)*)]
+        struct $name;
+    };
+}
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - r2, let r2 = x * x)]
-struct NoBlock;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - r2, let = x * x)]
-struct NoNames;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, let = {})]
-struct Nothing;
-
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - r2, where = { let r2 = x * x; })]
-struct OtherWord;
+// Where a definition was lost, no name is unknown.
+one! { NoDefinitions: lagrangian = dot(x).powi(2) / 2.0 - r2 - well(x), let = { r2 = x * x; x + 1.0 } }
+one! { NoNames: lagrangian = dot(x).powi(2) / 2.0 - r2, let = x * x }
+one! { Nothing: lagrangian = dot(x).powi(2) / 2.0, let = {} }
+one! { OtherWord: lagrangian = dot(x).powi(2) / 2.0 - r2, where = { let r2 = x * x; } }
 
 fn main() {}

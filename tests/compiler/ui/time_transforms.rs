@@ -67,10 +67,6 @@ mod not_transformed {
     }
 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = x * y, time_transform(x))]
-struct NoValue;
-const _: NoValueState = NoValueState { x: 1.0, y: 2.0 };
-
 mod begun_with_a_mistake {
     use super::*;
 

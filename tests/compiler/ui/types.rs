@@ -38,18 +38,4 @@ mod field_is_of_a_type_of_the_user {
     }
 }
 
-mod entry_is_of_a_type_of_the_user {
-    use super::*;
-    pub struct Charge;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = a[0] * x + a[1] * y)]
-    pub struct System {
-        pub a: [Charge; 2],
-    }
-    pub fn run() {
-        let state = SystemState { x: 1.0, y: 0.0 };
-        let _ = Integrator::new(&System { a: [Charge, Charge] }, Sigma::midpoint(), 0.1, state);
-    }
-}
-
 fn main() {}

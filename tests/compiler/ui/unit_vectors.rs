@@ -52,13 +52,6 @@ struct StrengthThatVaries<const N: usize>;
 
 #[degenerate_lagrangian(
     coordinates(s: S2, x, p),
-    one_form = x.mul_add(area(s), p * d(x)),
-    hamiltonian = s[2] + p * p,
-)]
-struct StrengthInAFunction;
-
-#[degenerate_lagrangian(
-    coordinates(s: S2, x, p),
     one_form = [0.0, p, 0.0],
     hamiltonian = s[2] + p * p,
     force(s) = [1.0, 0.0, 0.0],

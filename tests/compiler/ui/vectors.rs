@@ -29,7 +29,7 @@ struct VectorForLagrangian;
 
 #[lagrangian(
     coordinates(r[3]),
-    lagrangian = dot(r).norm_squared() - r.sin() - r.abs() - r.powi(2) - r.length() - r.normalize()[0] - r.dot(),
+    lagrangian = dot(r).norm_squared() - r.sin() - r.powi(2) - r.length() - r.normalize()[0] - r.dot(),
 )]
 struct MethodsOfNumbers;
 
@@ -56,7 +56,7 @@ struct WholeArray<const N: usize>;
 
 #[lagrangian(
     coordinates(r[3]),
-    lagrangian = dot(r).norm_squared() - [r, r][0] - [1.0][0] - product(0..2, |i| r) - dot(r, r) - dot(2.0 * r)[0],
+    lagrangian = dot(r).norm_squared() - [1.0][0] - product(0..2, |i| r) - dot(r, r) - dot(2.0 * r)[0],
 )]
 struct ListsAndProducts;
 

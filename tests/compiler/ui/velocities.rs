@@ -7,13 +7,15 @@ fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
     let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) + y * d(x) * d(x), hamiltonian = x)]
-pub struct QuadraticOneForm;
-const _: fn() = || stepped(QuadraticOneForm, QuadraticOneFormState { x: 1.0, y: 0.0 });
+macro_rules! two {
+    ($name:ident $state:ident: $($arguments:tt)*) => {
+        #[degenerate_lagrangian(coordinates(x, y), $($arguments)*)]
+        pub struct $name;
+        const _: fn() = || stepped($name, $state { x: 1.0, y: 0.0 });
+    };
+}
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y).sin(), hamiltonian = x * y)]
-pub struct FunctionOfAVelocity;
-const _: fn() = || stepped(FunctionOfAVelocity, FunctionOfAVelocityState { x: 1.0, y: 0.0 });
+two! { QuadraticOneForm QuadraticOneFormState: one_form = x * d(y) + y * d(x) * d(x), hamiltonian = x }
 
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -24,9 +26,7 @@ const _: fn() = || stepped(FunctionOfAVelocity, FunctionOfAVelocityState { x: 1.
 pub struct OwnFunctionOfAVelocity;
 const _: fn() = || stepped(OwnFunctionOfAVelocity, OwnFunctionOfAVelocityState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x / d(y), hamiltonian = x * y)]
-pub struct DividedByAVelocity;
-const _: fn() = || stepped(DividedByAVelocity, DividedByAVelocityState { x: 1.0, y: 0.0 });
+two! { DividedByAVelocity DividedByAVelocityState: one_form = x / d(y), hamiltonian = x * y }
 
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -37,16 +37,8 @@ pub struct RegularLagrangian {
 }
 const _: fn() = || stepped(RegularLagrangian { mu: 1.0 }, RegularLagrangianState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), lagrangian = x * dot(y) - dot(x) * dot(y) - x * y)]
-pub struct ProductOfVelocities;
-const _: fn() = || stepped(ProductOfVelocities, ProductOfVelocitiesState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    lagrangian = x * dot(y) - if dot(x) < 0.0 { x } else { y },
-)]
-pub struct ChoiceByAVelocity;
-const _: fn() = || stepped(ChoiceByAVelocity, ChoiceByAVelocityState { x: 1.0, y: 0.0 });
+two! { ProductOfVelocities ProductOfVelocitiesState: lagrangian = x * dot(y) - dot(x) * dot(y) - x * y }
+two! { ChoiceByAVelocity ChoiceByAVelocityState: lagrangian = x * dot(y) - if dot(x) < 0.0 { x } else { y } }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + d(y) * y)]
 pub struct VelocityInTheHamiltonian;
@@ -61,29 +53,11 @@ const _: fn() = || stepped(VelocityInTheHamiltonian, VelocityInTheHamiltonianSta
 pub struct VelocityInAMomentum;
 const _: fn() = || stepped(VelocityInAMomentum, VelocityInAMomentumState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = [0.0, x * d(y)], hamiltonian = x * y)]
-pub struct VelocityInAComponent;
-const _: fn() = || stepped(VelocityInAComponent, VelocityInAComponentState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * dot(y), hamiltonian = x * y)]
-pub struct DotInAOneForm;
-const _: fn() = || stepped(DotInAOneForm, DotInAOneFormState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), lagrangian = x * d(y) - x * y)]
-pub struct DInALagrangian;
-const _: fn() = || stepped(DInALagrangian, DInALagrangianState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) - y * x, hamiltonian = x * y)]
-pub struct TermWithoutD;
-const _: fn() = || stepped(TermWithoutD, TermWithoutDState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * y, hamiltonian = x * y)]
-pub struct NothingWithD;
-const _: fn() = || stepped(NothingWithD, NothingWithDState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(2.0 * y), hamiltonian = x * y)]
-pub struct DOfAnExpression;
-const _: fn() = || stepped(DOfAnExpression, DOfAnExpressionState { x: 1.0, y: 0.0 });
+two! { VelocityInAComponent VelocityInAComponentState: one_form = [0.0, x * d(y)], hamiltonian = x * y }
+two! { DotInAOneForm DotInAOneFormState: one_form = x * dot(y), hamiltonian = x * y }
+two! { DInALagrangian DInALagrangianState: lagrangian = x * d(y) - x * y }
+two! { TermWithoutD TermWithoutDState: one_form = x * d(y) - y * x, hamiltonian = x * y }
+two! { NothingWithD NothingWithDState: one_form = x * y, hamiltonian = x * y }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) + x * d(a), hamiltonian = x * y)]
 pub struct DOfAParameter {
@@ -91,8 +65,6 @@ pub struct DOfAParameter {
 }
 const _: fn() = || stepped(DOfAParameter { a: 1.0 }, DOfAParameterState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(x, y), hamiltonian = x * y)]
-pub struct DOfTwo;
-const _: fn() = || stepped(DOfTwo, DOfTwoState { x: 1.0, y: 0.0 });
+two! { DOfTwo DOfTwoState: one_form = x * d(x, y), hamiltonian = x * y }
 
 fn main() {}
