@@ -80,7 +80,6 @@ use std::time::{Duration, Instant};
 use std::vec::Vec;
 
 use crate::ensemble::facts::{self, Facts};
-use crate::ensemble::fingerprint::Fingerprint;
 use crate::run::{Resume, Run};
 use file::File;
 
@@ -272,7 +271,7 @@ where
     R::Method: Debug,
 {
     let system = run.system();
-    let mut parameters = Fingerprint::new();
+    let mut parameters = facts::Fingerprint::new();
     facts::parameters(&mut parameters, system, run.q(), &run.v(), run.time());
     let names: Vec<_> = crate::System::names(system).map(|name| name.to_string()).collect();
     let facts = [
@@ -280,7 +279,7 @@ where
         ("system", type_name::<R::System>().to_string()),
         ("list of coordinates", names.join(" ")),
         ("fingerprint of the formulas", facts::formulas::<R::System>()),
-        ("fingerprint of the parameters and the start", parameters.to_string()),
+        ("fingerprint of the parameters and the start", facts::text(&parameters)),
         ("method", format!("{} {:?}", type_name::<R::Method>(), run.method())),
         ("step control", format!("{:?}", run.chosen_by())),
     ];

@@ -12,7 +12,7 @@ use crate::ensemble::sealed::{self, HEAD};
 use crate::run::Checkpoint;
 
 /// Begins each file; after it stand the facts, and then the checkpoints, each of them sealed.
-const MARK: &[u8] = b"dvi run archive 1\n";
+const MARK: &[u8] = b"dvi run archive 2\n";
 
 const CHANGED: &str = "a checkpoint has changed since it was written";
 

@@ -3,14 +3,14 @@
 use std::any::type_name;
 use std::fmt;
 use std::format;
+use std::hash::Hash;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
 use serde::{Deserialize, Serialize};
 
 use super::error::{Difference, EnsembleError};
-use super::facts::{self, Facts};
-use super::fingerprint::Fingerprint;
+use super::facts::{self, Facts, Fingerprint};
 use super::member::plain;
 use super::settings::{Settings, Swept, Systems};
 use crate::methods::Method;
@@ -57,14 +57,15 @@ impl Plan {
         let parameters = parameters(settings);
         let mut swept = Fingerprint::new();
         for (name, values) in &parameters {
-            swept.text(name);
-            values.iter().for_each(|&value| swept.number(value));
+            name.hash(&mut swept);
+            facts::add(&mut swept, values);
         }
         // What a method says of itself need not say the number of its stages, which its type does.
         let method_text = |method: &M| format!("{} {method:?}", type_name::<M>());
         let mut varied = Fingerprint::new();
         if settings.vary.is_some() {
-            (0..states.len() as u64).for_each(|number| varied.text(&method_text(&settings.method(number))));
+            let texts = (0..states.len() as u64).map(|number| method_text(&settings.method(number)));
+            texts.for_each(|text| text.hash(&mut varied));
         }
         let reasons = settings.limits.as_ref().map_or(&[][..], |(reasons, _)| reasons);
         let direction = section.as_ref().map(|(direction, _)| direction);
@@ -78,12 +79,12 @@ impl Plan {
             (TEXTS, texts),
             ("fingerprint of the initial states", starts),
             ("method", method_text(&settings.method)),
-            ("fingerprint of the methods of members", varied.to_string()),
+            ("fingerprint of the methods of members", facts::text(&varied)),
             ("step h", format!("{h:?}")),
             ("number of steps", steps.to_string()),
             ("stride", stride.to_string()),
             ("exit condition", format!("{reasons:?}")),
-            ("fingerprint of the parameters in the table", swept.to_string()),
+            ("fingerprint of the parameters in the table", facts::text(&swept)),
             ("section", format!("{direction:?}")),
             ("Lyapunov exponent", settings.growth.is_some().to_string()),
         ];
@@ -151,22 +152,22 @@ fn parameters<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>) -
 /// Those of the initial states, of what the parameters of the systems do there, and of what the systems say
 /// of themselves, if they are asked.
 fn fingerprints<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>) -> [String; 3] {
-    let [mut starts, mut systems, mut texts] = [const { Fingerprint::new() }; 3];
+    let [mut starts, mut systems, mut texts] = [Fingerprint::new(); 3];
     for (member, state) in settings.states.iter().enumerate() {
         let system = settings.system(member);
         let (mut q, mut v) = (system.space().vector(), system.space().vector());
         match state.write(|block| system.block_len(block), &mut q, &mut v) {
-            Ok(()) => [&q, &v].into_iter().flat_map(|half| half.iter()).for_each(|&x| starts.number(x)),
-            Err(error) => starts.text(&error.to_string()),
+            Ok(()) => facts::add(&mut starts, q.iter().chain(v.iter())),
+            Err(error) => error.to_string().hash(&mut starts),
         }
         if member > 0 && matches!(settings.systems, Systems::Same(_)) {
             continue;
         }
         if let Some(text) = settings.texts {
-            texts.text(&text(system));
+            text(system).hash(&mut texts);
         }
         facts::parameters(&mut systems, system, &q, &v, 0.0);
     }
-    let texts = settings.texts.map_or_else(String::new, |_| texts.to_string());
-    [starts.to_string(), systems.to_string(), texts]
+    let texts = settings.texts.map_or_else(String::new, |_| facts::text(&texts));
+    [facts::text(&starts), facts::text(&systems), texts]
 }

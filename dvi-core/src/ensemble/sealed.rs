@@ -9,7 +9,7 @@ use std::path::Path;
 use std::path::PathBuf;
 use std::vec::Vec;
 
-use super::fingerprint::Fingerprint;
+use super::facts::Fingerprint;
 
 /// The bytes of the length and the fingerprint.
 pub(crate) const HEAD: usize = 16;
@@ -26,9 +26,7 @@ pub(crate) fn head(bytes: &[u8]) -> Option<(u64, [u8; 8])> {
 }
 
 pub(crate) fn fingerprint(content: &[u8]) -> [u8; 8] {
-    let mut fingerprint = Fingerprint::new();
-    fingerprint.bytes(content);
-    fingerprint.value().to_le_bytes()
+    Fingerprint::new().hash(content).to_le_bytes()
 }
 
 /// Opens a file and tells its length; `None` if there is none.
