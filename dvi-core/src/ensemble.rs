@@ -68,7 +68,6 @@ pub(crate) mod facts;
 mod file;
 mod group;
 mod growth;
-mod lanes;
 mod limits;
 mod member;
 mod plan;
@@ -323,7 +322,10 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         M: InStep<W, S, Packs: 'a> + PartialEq + 'a,
     {
         const { assert!(W > 0, "a pack has at least one lane") };
-        self.settings.packs = Some((W, |run| Box::new(Together::<W, S, M>::new(run))));
+        self.settings.packs = Some((W, |run| {
+            let mut together = Together::<W, S, M>::new(run);
+            Box::new(move |runs, count| together.take_steps(runs, count))
+        }));
         self
     }
 

@@ -86,11 +86,8 @@ mod matrix;
 mod moments;
 mod neighbours;
 mod packs;
-mod polynomials;
 mod quantity;
-mod refinement;
 mod shares;
-mod singular;
 mod spot_check;
 mod subspace;
 mod system;
@@ -106,9 +103,10 @@ use thiserror::Error;
 
 use self::expansion::Expansion;
 use self::packs::Pack;
-use self::quantity::{Gradient, Potential};
+use self::quantity::{Gradient, Potential, Quantity};
 use self::transfer::larger;
-use self::work::{Operations, Work};
+use self::tree::NotFinite;
+use self::work::{Operations, Terms, Work};
 use crate::error::{IndexError, LengthError};
 use crate::{PairSum, Space, State};
 
@@ -279,9 +277,9 @@ where
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
     pub fn operations(&self, state: &S::State<f64>) -> Result<Operations, LengthError> {
         let q = self.point(state)?;
-        let mut inner = self.inner.borrow_mut();
-        let (expansion, work) = &mut *inner;
-        Ok(work.operations(expansion, self.system, self.places(&q)).unwrap_or_default())
+        let has_numbers = self.pair_gradient(&q, |_, _| ());
+        let (expansion, work) = &*self.inner.borrow();
+        Ok(if has_numbers { work.operations(expansion) } else { Operations::default() })
     }
 
     /// The coordinates of a state.
@@ -327,30 +325,48 @@ where
         })
     }
 
-    /// H̃, or no number where a coordinate is none.
-    fn pair_energy(&self, q: &[f64]) -> f64 {
+    /// Calls `each` with each body, its weight, and the sums of Q over all others, of which `factor` is what
+    /// depends on the squared distance.
+    fn sums<Q: Quantity<D>>(
+        &self,
+        q: &[f64],
+        factor: impl Fn(Pack) -> Pack + Sync,
+        mut each: impl FnMut(usize, f64, [f64; D]),
+    ) -> Result<(), NotFinite> {
         let mut inner = self.inner.borrow_mut();
         let (expansion, work) = &mut *inner;
-        let mut sum = 0.0;
-        let add = |body: usize, sums: [f64; D]| {
-            sum += 0.5 * PairSum::<f64, D>::weight(self.system, body) * sums[0];
-        };
-        let found = work.evaluate(expansion, self.system, &Potential(self.system), self.places(q), add);
-        if found.is_ok() { sum } else { f64::NAN }
+        let weight = |body: usize| PairSum::<f64, D>::weight(self.system, body);
+        let terms = Terms { weight: &weight, kernel: &|r2: Pack| self.system.kernel(r2) };
+        let found = work.evaluate::<Q>(expansion, terms, &factor, self.places(q))?;
+        found.for_each(|(body, sums)| each(body, weight(body), sums));
+        Ok(())
     }
 
-    /// Calls `each` with each body and its part of ∇H̃.
-    fn pair_gradient(&self, q: &[f64], mut each: impl FnMut(usize, [f64; D])) {
-        let mut inner = self.inner.borrow_mut();
-        let (expansion, work) = &mut *inner;
-        let scaled = |body: usize, sums: [f64; D]| {
-            let factor = 2.0 * PairSum::<f64, D>::weight(self.system, body);
-            each(body, sums.map(|sum| factor * sum));
-        };
-        let found = work.evaluate(expansion, self.system, &Gradient(self.system), self.places(q), scaled);
+    /// H̃, or no number where a coordinate is none.
+    fn pair_energy(&self, q: &[f64]) -> f64 {
+        let mut energy = 0.0;
+        let found = self.sums::<Potential>(
+            q,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |r2| self.system.kernel(r2),
+            |_, weight, sums| energy += 0.5 * weight * sums[0],
+        );
+        if found.is_ok() { energy } else { f64::NAN }
+    }
+
+    /// Calls `each` with each body and its part of ∇H̃. Without numbers where a coordinate is none, and
+    /// returns whether there are some.
+    fn pair_gradient(&self, q: &[f64], mut each: impl FnMut(usize, [f64; D])) -> bool {
+        let found = self.sums::<Gradient>(
+            q,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            |r2| self.system.kernel_slope(r2),
+            |body, weight, sums| each(body, sums.map(|sum| 2.0 * weight * sum)),
+        );
         if found.is_err() {
             (0..PairSum::<f64, D>::bodies(self.system)).for_each(|body| each(body, [f64::NAN; D]));
         }
+        found.is_ok()
     }
 }
 

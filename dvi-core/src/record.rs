@@ -84,5 +84,5 @@ mod table;
 pub use body::Body;
 pub use column::{Column, Quantity, Values};
 pub use error::RecordError;
-pub use recorder::{Moment, Recorded, Recorder};
+pub use recorder::{Recorded, Recorder};
 pub use table::Record;

@@ -5,8 +5,6 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::vec::Vec;
 
-use serde::{Deserialize, Serialize};
-
 use super::Shard;
 use super::error::EnsembleError;
 use super::group::Slot;
@@ -19,27 +17,7 @@ const MARK: &[u8] = b"dvi ensemble checkpoint 6\n";
 const BEFORE: usize = MARK.len() + HEAD;
 
 /// What a file holds, in the binary format of the crate postcard, in which each number keeps its bits.
-#[derive(Deserialize)]
-pub(super) struct Saved {
-    pub(super) plan: Plan,
-    shard: [u64; 2],
-    pub(super) slots: Vec<Slot>,
-}
-
-/// The same, to be written.
-#[derive(Serialize)]
-struct Borrowed<'a> {
-    plan: &'a Plan,
-    shard: [u64; 2],
-    slots: &'a [Slot],
-}
-
-impl Saved {
-    pub(super) fn shard(&self) -> Shard {
-        let [index, of] = self.shard;
-        Shard { index, of }
-    }
-}
+pub(super) type Saved = (Plan, Shard, Vec<Slot>);
 
 /// Writes the file anew.
 pub(super) fn write(path: &Path, plan: &Plan, shard: Shard, slots: &[Slot]) -> Result<(), EnsembleError> {
@@ -49,8 +27,7 @@ pub(super) fn write(path: &Path, plan: &Plan, shard: Shard, slots: &[Slot]) -> R
 
 /// The bytes of a file.
 pub(super) fn encode(plan: &Plan, shard: Shard, slots: &[Slot]) -> io::Result<Vec<u8>> {
-    let saved = Borrowed { plan, shard: [shard.index, shard.of], slots };
-    let content = postcard::to_allocvec(&saved).map_err(io::Error::other)?;
+    let content = postcard::to_allocvec(&(plan, shard, slots)).map_err(io::Error::other)?;
     Ok([MARK, &sealed::sealed(&content)].concat())
 }
 
@@ -91,9 +68,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Saved, &'static str> {
         return Err("its content has changed since it was written");
     }
     let saved: Saved = postcard::from_bytes(content).map_err(|_| "it is one of another version")?;
-    let shard = Shard::new(saved.shard[0], saved.shard[1]).map_err(|_| "there is no such shard")?;
-    let expected = (0..saved.plan.members).filter(|&member| shard.contains(member));
-    if !saved.slots.iter().map(|slot| slot.number).eq(expected) {
+    let (plan, Shard { index, of }, slots) = &saved;
+    let shard = Shard::new(*index, *of).map_err(|_| "there is no such shard")?;
+    let expected = (0..plan.members).filter(|&member| shard.contains(member));
+    if !slots.iter().map(|slot| slot.number).eq(expected) {
         return Err("its members are not those of its shard");
     }
     Ok(saved)

@@ -98,7 +98,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             let results = match &mut packs {
                 Some(packs) => {
                     let runs = behind.iter_mut().filter_map(Runner::free).collect();
-                    packs.take_steps(runs, steps).into_iter().map(|taken| taken.map(|()| None)).collect()
+                    packs(runs, steps).into_iter().map(|taken| taken.map(|()| None)).collect()
                 }
                 None => behind.iter_mut().map(|runner| runner.take_steps(steps)).collect::<Vec<_>>(),
             };

@@ -102,7 +102,9 @@ impl<S: Lagrangian, M: Method<S, f64>> Ensemble<'_, S, M> {
         let received: Vec<_> =
             (1..of).map(|rank| (rank, receive(world, rank, lengths[rank as usize]))).collect();
         let others = received.into_iter().map(|(rank, bytes)| {
-            file::decode(&bytes).map(Results::of_file).map_err(|reason| RanksError::Damaged { rank, reason })
+            let (plan, shard, slots) =
+                file::decode(&bytes).map_err(|reason| RanksError::Damaged { rank, reason })?;
+            Ok(Results::of(plan, shard, slots))
         });
         let shards: Vec<Results> = [Ok(own)].into_iter().chain(others).collect::<Result<_, _>>()?;
         Ok(Some(Results::merge(shards)?))

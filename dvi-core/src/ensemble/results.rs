@@ -9,7 +9,7 @@ use std::vec::Vec;
 
 use super::Shard;
 use super::error::{EnsembleError, MergeError};
-use super::file::{self, Saved};
+use super::file;
 use super::group::{Place, Slot};
 use super::member::Member;
 use super::plan::Plan;
@@ -45,12 +45,6 @@ impl Results {
         Self { plan, shard, members: members.collect() }
     }
 
-    /// The results in a file.
-    pub(super) fn of_file(saved: Saved) -> Self {
-        let shard = saved.shard();
-        Self::of(saved.plan, shard, saved.slots)
-    }
-
     /// The bytes of the file of these results.
     ///
     /// # Errors
@@ -70,12 +64,12 @@ impl Results {
     /// [`EnsembleError::Damaged`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, EnsembleError> {
         let path = path.as_ref();
-        let Some(saved) = file::read(path)? else {
+        let Some((plan, shard, slots)) = file::read(path)? else {
             let source = io::Error::from(io::ErrorKind::NotFound);
             return Err(EnsembleError::File { path: path.to_owned(), source });
         };
-        let members = saved.slots.len();
-        let results = Self::of_file(saved);
+        let members = slots.len();
+        let results = Self::of(plan, shard, slots);
         let ended = results.members.len();
         if ended < members {
             return Err(EnsembleError::UnderWay { path: path.to_owned(), ended, members });

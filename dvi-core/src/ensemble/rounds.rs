@@ -48,7 +48,7 @@ impl Rounds {
         checkpoints: Option<&Checkpoints>,
     ) -> Result<Self, EnsembleError> {
         let saved = checkpoints.map(|Checkpoints { path, .. }| Ok((path, file::read(path)?))).transpose()?;
-        let Some((path, Some(saved))) = saved else {
+        let Some((path, Some((saved_plan, saved_shard, slots)))) = saved else {
             let slots =
                 (0..plan.members).filter(|&member| shard.contains(member)).map(Slot::waiting).collect();
             return Ok(Self { plan, shard, slots });
@@ -56,12 +56,12 @@ impl Rounds {
         let of_shard = super::error::Difference {
             what: "shard".into(),
             expected: std::format!("{shard}"),
-            found: std::format!("{}", saved.shard()),
+            found: std::format!("{}", saved_shard),
         };
-        let other_shard = (saved.shard() != shard).then_some(of_shard);
-        match plan.difference(&saved.plan).or(other_shard) {
+        let other_shard = (saved_shard != shard).then_some(of_shard);
+        match plan.difference(&saved_plan).or(other_shard) {
             Some(difference) => Err(EnsembleError::Foreign { path: path.clone(), difference }),
-            None => Ok(Self { plan, shard, slots: saved.slots }),
+            None => Ok(Self { plan, shard, slots }),
         }
     }
 

@@ -5,9 +5,9 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::growth::Growth;
-use super::lanes::Packs;
 use super::limits::Conditions;
 use crate::Lagrangian;
+use crate::error::StepError;
 use crate::methods::Method;
 use crate::run::Direction;
 use crate::run::Integrator;
@@ -18,8 +18,10 @@ pub(super) type AnyConditions<'a, S, M> = Box<dyn Conditions<'a, S, M> + 'a>;
 pub(super) type Swept<'a, S, Q> = (String, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
 /// What is special to the method of one member.
 pub(super) type Vary<'a, M> = Box<dyn Fn(u64, &mut M) + Send + Sync + 'a>;
-/// Room for runs that are taken together.
-pub(super) type NewPacks<'a, S, M> = fn(&Integrator<&'a S, M>) -> Box<dyn Packs<'a, S, M> + 'a>;
+/// Takes steps of several runs together. It hides the number of lanes.
+pub(super) type Packs<'a, S, M> =
+    Box<dyn FnMut(Vec<&mut Integrator<&'a S, M>>, u64) -> Vec<Result<(), StepError>> + 'a>;
+pub(super) type NewPacks<'a, S, M> = fn(&Integrator<&'a S, M>) -> Packs<'a, S, M>;
 /// The growth of a perturbation from the current state of a run on.
 pub(super) type NewGrowth<'a, S, M> = fn(&Integrator<&'a S, M>) -> AnyGrowth<'a, S, M>;
 /// It hides the discrete Lagrangian of the method.

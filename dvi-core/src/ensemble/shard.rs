@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::string::String;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 crate::error::said!(ShardError);
@@ -22,7 +23,7 @@ crate::error::said!(ShardError);
 /// assert!("8/8".parse::<Shard>().is_err());
 /// # Ok::<(), dvi_core::ensemble::ShardError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     pub(super) index: u64,
     pub(super) of: u64,

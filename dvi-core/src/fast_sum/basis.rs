@@ -73,6 +73,11 @@ impl<const D: usize> Basis<D> {
     pub(super) fn len(&self) -> usize {
         self.degrees.len()
     }
+
+    /// Where the function of these degrees stands.
+    pub(super) fn place(&self, degrees: [usize; D]) -> usize {
+        self.degrees.partition_point(|other| *other < degrees)
+    }
 }
 
 /// T_m((c + side)/2) = Σ_n a_{mn} T_n(c), by the recurrence in m.

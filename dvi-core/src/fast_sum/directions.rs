@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use super::basis::Basis;
-use super::singular::singular;
 
 /// Combinations of the basis, of which each is odd or even along each axis.
 #[derive(Clone, Debug)]
@@ -23,13 +22,8 @@ impl Directions {
         Self { functions: DMatrix::zeros(size, 0), weights: Vec::new(), parities: Vec::new() }
     }
 
-    /// The singular vectors of columns and of their reflections, of values above a bound; none if they are
-    /// not found.
-    pub(super) fn of_parities<const D: usize>(
-        basis: &Basis<D>,
-        columns: &DMatrix<f64>,
-        least: f64,
-    ) -> Option<Self> {
+    /// Those that columns and their reflections are made of, as far as there is more of them than a bound.
+    pub(super) fn of_parities<const D: usize>(basis: &Basis<D>, columns: &DMatrix<f64>, least: f64) -> Self {
         let mut found = Self::none(basis.len());
         for parity in 0..1_usize << D {
             let is_odd = |axis: usize| parity >> axis & 1 == 1;
@@ -39,7 +33,7 @@ impl Directions {
             if functions.is_empty() || columns.ncols() == 0 {
                 continue;
             }
-            let (vectors, weights) = singular(&columns.select_rows(&functions), least)?;
+            let (vectors, weights) = leading(&columns.select_rows(&functions), least);
             let mut all = DMatrix::zeros(basis.len(), weights.len());
             for (row, function) in functions.iter().enumerate() {
                 all.row_mut(*function).copy_from(&vectors.row(row));
@@ -47,7 +41,7 @@ impl Directions {
             let parities = alloc::vec![parity; weights.len()];
             found.extend(Self { functions: all, weights, parities });
         }
-        Some(found)
+        found
     }
 
     /// Adds others, which are orthogonal to these.
@@ -67,5 +61,54 @@ impl Directions {
             if odd % 2 == 0 { 1.0 } else { -1.0 }
         };
         self.parities.iter().map(sign).collect()
+    }
+}
+
+/// Orthonormal vectors that columns are made of, and how much there is of each, if it is more than a bound:
+/// nearly the left singular vectors and their values, by two decompositions with pivots (Stewart 1999).
+///
+/// The matrices of kernels such as r² have an exact rank far below their size. For such matrices the
+/// iteration of a bidiagonal matrix in `nalgebra` was found to lose a direction.
+fn leading(columns: &DMatrix<f64>, least: f64) -> (DMatrix<f64>, Vec<f64>) {
+    // No more columns than rows, with the same vectors and values: A = P Rᵀ Qᵀ, of which P Rᵀ is kept.
+    let decomposed = columns.transpose().col_piv_qr();
+    let mut few = decomposed.r().transpose();
+    decomposed.p().inv_permute_rows(&mut few);
+    let decomposed = few.col_piv_qr();
+    let norms: Vec<f64> = decomposed.r().row_iter().map(|row| row.norm()).collect();
+    let kept: Vec<usize> = (0..norms.len()).filter(|place| norms[*place] > least).collect();
+    (decomposed.q().select_columns(&kept), kept.iter().map(|place| norms[*place]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::leading;
+
+    /// Matrices of rank 3 with singular values far apart.
+    #[test]
+    fn directions_of_a_low_rank_are_found() {
+        let mut state = 5_u64;
+        let mut entry = |_, _| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
+        };
+        for (rows, columns) in [(10, 5), (5, 10), (40, 90), (3, 3), (1, 4)] {
+            let mut factor = DMatrix::from_fn(rows, 3, &mut entry);
+            factor.column_mut(1).scale_mut(1e-4);
+            factor.column_mut(2).scale_mut(1e-8);
+            let matrix = factor * DMatrix::from_fn(3, columns, &mut entry);
+            for least in [1e-2, 1e-6, 1e-11] {
+                let (vectors, values) = leading(&matrix, least);
+                assert!(values.iter().all(|value| *value > least));
+                assert!(values.len() <= rows.min(3), "{rows}×{columns}: {values:?}");
+                let gram = vectors.transpose() * &vectors;
+                let apart = (gram - DMatrix::identity(values.len(), values.len())).amax();
+                assert!(apart < 1e-13, "{rows}×{columns}: {apart:e}");
+                let lost = (&matrix - &vectors * (vectors.transpose() * &matrix)).norm();
+                assert!(lost < 3.0 * least, "{rows}×{columns}: {lost:e}");
+            }
+        }
     }
 }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::basis::Basis;
-use super::refinement::Refinement;
+use super::packs::Pack;
 use super::subspace::Subspace;
 use super::transfer::Transfer;
 
@@ -17,6 +17,23 @@ pub(super) struct Row<const D: usize> {
     pub(super) len: usize,
 }
 
+/// What stands in the rows of the cubes of one level, moments or local expansions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stage<'w> {
+    /// The functions of the level.
+    pub(super) subspace: &'w Subspace,
+    /// The first of its cubes.
+    pub(super) first: usize,
+    pub(super) rows: &'w [f64],
+}
+
+impl Stage<'_> {
+    /// Where the row of a cube begins.
+    pub(super) fn row(&self, cube: usize) -> usize {
+        (cube - self.first) * self.subspace.stride
+    }
+}
+
 /// Subspaces that are kept.
 const MOST_KEPT: usize = 64;
 
@@ -25,7 +42,6 @@ const MOST_KEPT: usize = 64;
 pub(super) struct Expansion<const D: usize> {
     pub(super) basis: Basis<D>,
     pub(super) rows: Vec<Row<D>>,
-    pub(super) refinement: Refinement,
     tolerance: f64,
     /// By the binary logarithm of the edge; none where bodies are to be summed one by one.
     transfers: Vec<(i32, Option<Transfer>)>,
@@ -37,8 +53,8 @@ pub(super) struct Expansion<const D: usize> {
 type Key = (Option<usize>, i32, bool);
 
 impl<const D: usize> Expansion<D> {
-    /// Functions with a total degree below `order`, and matrices without singular values below `tolerance`
-    /// times the largest.
+    /// Functions with a total degree below `order`, and matrices of functions of which there is more than
+    /// `tolerance` times the largest.
     pub(super) fn new(order: usize, tolerance: f64) -> Self {
         let basis = Basis::new(order);
         let firsts = basis.degrees.iter().enumerate().filter(|(_, degrees)| degrees[D - 1] == 0);
@@ -47,13 +63,12 @@ impl<const D: usize> Expansion<D> {
             Row { degrees: *degrees, first, len }
         };
         let rows: Vec<Row<D>> = firsts.map(row).collect();
-        let refinement = Refinement::new(&basis, &rows);
-        Self { basis, rows, refinement, tolerance, transfers: Vec::new(), subspaces: Vec::new() }
+        Self { basis, rows, tolerance, transfers: Vec::new(), subspaces: Vec::new() }
     }
 
     /// Where the matrices between cubes with this edge are, if there are any; they are computed where they
     /// are needed first.
-    pub(super) fn position(&mut self, edge: i32, kernel: impl Fn(f64) -> f64) -> Option<usize> {
+    pub(super) fn position(&mut self, edge: i32, kernel: &dyn Fn(Pack) -> Pack) -> Option<usize> {
         let known = self.transfers.iter().position(|(known, _)| *known == edge);
         let position = known.unwrap_or_else(|| {
             self.transfers.push((edge, Transfer::new(&self.basis, self.tolerance, edge, kernel)));
@@ -67,19 +82,18 @@ impl<const D: usize> Expansion<D> {
     }
 
     /// Where the functions are for cubes with this edge, within others with those at `above`, and with the
-    /// matrices at `own`; none if they are not found.
+    /// matrices at `own`.
     pub(super) fn subspace_position(
         &mut self,
         above: Option<usize>,
         edge: i32,
         own: Option<usize>,
-    ) -> Option<usize> {
+    ) -> usize {
         let key = (above, edge, own.is_some());
-        self.subspaces.iter().position(|(known, _)| *known == key).or_else(|| {
-            let parts = (&self.basis, &*self.rows, &self.refinement);
-            let found = Subspace::new(parts, self.subspace(above), self.transfer(own), self.tolerance)?;
+        self.subspaces.iter().position(|(known, _)| *known == key).unwrap_or_else(|| {
+            let found = Subspace::new(&self.basis, self.subspace(above), self.transfer(own), self.tolerance);
             self.subspaces.push((key, found));
-            Some(self.subspaces.len() - 1)
+            self.subspaces.len() - 1
         })
     }
 

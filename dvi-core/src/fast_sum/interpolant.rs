@@ -2,125 +2,65 @@
 
 use alloc::vec::Vec;
 
+use nalgebra::{DMatrix, Dyn};
+
 use super::basis::{self, Basis};
-use super::matrix::padded;
-use super::packs::LANES;
+use super::packs::{LANES, Pack};
 use super::transfer::larger;
-use crate::scalar::widest_if;
+use crate::scalar::Lanes;
 
-/// The coefficients of K(|u − v + 2t|²).
-#[derive(Clone, Debug)]
-pub(super) struct Interpolant {
-    order: usize,
-    size: usize,
-    /// For all degrees below the order along each axis: where the function stands in the basis, if it does.
-    places: Vec<usize>,
-    coefficients: Vec<f64>,
-    /// The largest |K| at the nodes.
-    largest: f64,
-}
+/// Nodes of the target that are taken at once, so that little memory is needed.
+const AT_ONCE: usize = 128;
 
-impl Interpolant {
-    pub(super) fn new<const D: usize>(basis: &Basis<D>, t: [i32; D], kernel: impl Fn(f64) -> f64) -> Self {
-        let (order, size) = (basis.order, basis.len());
-        let transform = Transform { order, axes: D, matrix: basis::coefficients(order) };
-        let nodes = basis::nodes(order);
-        let all = order.pow(D as u32);
-        let coordinate = |place: usize, axis: usize| nodes[place / order.pow((D - 1 - axis) as u32) % order];
-        let place = |degrees: &[usize; D]| degrees.iter().fold(0, |place, degree| place * order + degree);
-        let functions: Vec<usize> = basis.degrees.iter().map(place).collect();
-        let mut places = alloc::vec![usize::MAX; all];
-        functions.iter().enumerate().for_each(|(function, place)| places[*place] = function);
-        // First for each node of the target in the functions of the source, then these functions in those of
-        // the target.
-        let [mut values, mut room] = [alloc::vec![0.0; all * LANES], alloc::vec![0.0; all * LANES]];
-        let mut half = alloc::vec![0.0; all * padded(size)];
-        let mut largest = 0.0;
-        for first in (0..all).step_by(LANES) {
-            for (source, values) in values.chunks_exact_mut(LANES).enumerate() {
-                for (target, value) in (first..all).zip(values) {
-                    let square = |axis: usize| {
-                        let steps = 2.0 * f64::from(t[axis]);
-                        (coordinate(target, axis) - coordinate(source, axis) + steps).powi(2)
-                    };
-                    *value = kernel((0..D).map(square).sum());
-                    largest = larger(largest, value.abs());
-                }
-            }
-            transform.apply(&mut values, &mut room);
-            for (function, place) in functions.iter().enumerate() {
-                for (target, value) in (first..all).zip(&values[place * LANES..(place + 1) * LANES]) {
-                    half[(function / LANES * all + target) * LANES + function % LANES] = *value;
-                }
+/// The coefficients κ of K(|u − v + 2t|²), and the largest |K| at the nodes, which is no number if K is none
+/// somewhere.
+pub(super) fn interpolant<const D: usize>(
+    basis: &Basis<D>,
+    t: [i32; D],
+    kernel: &dyn Fn(Pack) -> Pack,
+) -> (DMatrix<f64>, f64) {
+    let order = basis.order;
+    let line = basis::nodes(order);
+    let part = |place: usize, axis: usize| place / order.pow((D - 1 - axis) as u32) % order;
+    let nodes: Vec<[f64; D]> =
+        (0..order.pow(D as u32)).map(|place| core::array::from_fn(|axis| line[part(place, axis)])).collect();
+    let matrix = DMatrix::from_row_slice(order, order, &basis::coefficients(order));
+    let mut largest = 0.0;
+    // First for each node of the target in the functions of the source, then these functions in those of the
+    // target.
+    let mut half = DMatrix::zeros(nodes.len(), basis.len());
+    for (first, targets) in (0..).step_by(AT_ONCE).zip(nodes.chunks(AT_ONCE)) {
+        let mut values = DMatrix::zeros(nodes.len(), targets.len());
+        for (target, mut values) in targets.iter().zip(values.column_iter_mut()) {
+            let chunks = values.as_mut_slice().chunks_mut(LANES);
+            for (values, sources) in chunks.zip(nodes.chunks(LANES)) {
+                let square = |source: &[f64; D], axis: usize| {
+                    (target[axis] - source[axis] + 2.0 * f64::from(t[axis])).powi(2)
+                };
+                let r2 = |source: &[f64; D]| (0..D).map(|axis| square(source, axis)).sum();
+                let r2 = core::array::from_fn(|lane| r2(&sources[lane.min(sources.len() - 1)]));
+                values.copy_from_slice(&kernel(Lanes(r2)).0[..values.len()]);
+                largest = values.iter().fold(largest, |largest, value| larger(largest, value.abs()));
             }
         }
-        let mut coefficients = alloc::vec![0.0; size * size];
-        for (first, columns) in (0..size).step_by(LANES).zip(half.chunks_exact_mut(all * LANES)) {
-            transform.apply(columns, &mut room);
-            for (m, place) in functions.iter().enumerate() {
-                for (n, value) in (first..size).zip(&columns[place * LANES..(place + 1) * LANES]) {
-                    coefficients[m * size + n] = *value;
-                }
-            }
-        }
-        Self { order, size, places, coefficients, largest }
+        half.rows_mut(first, targets.len()).copy_from(&transformed(basis, &matrix, values));
     }
-
-    /// Where the function of these degrees stands.
-    pub(super) fn place<const D: usize>(&self, degrees: [usize; D]) -> usize {
-        self.places[degrees.iter().fold(0, |place, degree| place * self.order + degree)]
-    }
-
-    /// The largest |K|; no number if K is none somewhere.
-    pub(super) fn size(&self) -> f64 {
-        self.largest
-    }
-
-    /// The largest coefficient but that of the constant function.
-    pub(super) fn varying(&self) -> f64 {
-        self.coefficients[1..].iter().map(|entry| entry.abs()).fold(0.0, larger)
-    }
-
-    /// κ_{mn}
-    pub(super) fn coefficient(&self, m: usize, n: usize) -> f64 {
-        self.coefficients[m * self.size + n]
-    }
+    (transformed(basis, &matrix, half).transpose(), largest)
 }
 
-/// From values at the nodes of a cube to coefficients, several functions at once: the same matrix along each
-/// axis.
-struct Transform {
-    order: usize,
-    axes: usize,
-    matrix: Vec<f64>,
-}
-
-impl Transform {
-    /// Replaces the values; `room` is as long.
-    fn apply(&self, values: &mut [f64], room: &mut [f64]) {
-        for axis in 0..self.axes {
-            self.along(axis, values, room);
-            values.copy_from_slice(room);
-        }
+/// From values at all nodes, one function a column, to coefficients in the basis, one function a row.
+fn transformed<const D: usize>(
+    basis: &Basis<D>,
+    matrix: &DMatrix<f64>,
+    mut values: DMatrix<f64>,
+) -> DMatrix<f64> {
+    let (order, all, count) = (basis.order, values.nrows(), values.ncols());
+    // Each time the last of the axes becomes the first one.
+    for _ in 0..D {
+        let others = values.len() / order;
+        values = (matrix * values.reshape_generic(Dyn(order), Dyn(others))).transpose();
     }
-
-    fn along(&self, axis: usize, from: &[f64], to: &mut [f64]) {
-        let Self { order, axes, matrix } = self;
-        let inner = order.pow((axes - 1 - axis) as u32) * LANES;
-        widest_if(
-            true,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || {
-                to.fill(0.0);
-                let blocks = from.chunks_exact(inner * order).zip(to.chunks_exact_mut(inner * order));
-                for (from, to) in blocks {
-                    for (row, to) in matrix.chunks_exact(*order).zip(to.chunks_exact_mut(inner)) {
-                        for (factor, from) in row.iter().zip(from.chunks_exact(inner)) {
-                            to.iter_mut().zip(from).for_each(|(to, from)| *to += factor * from);
-                        }
-                    }
-                }
-            },
-        );
-    }
+    let place = |degrees: &[usize; D]| degrees.iter().fold(0, |place, degree| place * order + degree);
+    let kept: Vec<usize> = basis.degrees.iter().map(place).collect();
+    values.reshape_generic(Dyn(count), Dyn(all)).select_columns(&kept)
 }

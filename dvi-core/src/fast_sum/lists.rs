@@ -108,6 +108,13 @@ impl Lists {
     }
 }
 
+impl Lists {
+    /// The packs that the sources of the near pairs of earlier cubes fill.
+    pub(super) fn packs_before(&self, cube: usize) -> usize {
+        self.packs[self.firsts[cube]]
+    }
+}
+
 /// Those of a list whose targets are in a range.
 pub(super) fn on(list: &[Pair], targets: &Range<usize>) -> Range<usize> {
     let place = |end: usize| list.partition_point(|pair| (pair.target as usize) < end);

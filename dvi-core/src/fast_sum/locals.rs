@@ -5,133 +5,81 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::basis::{Chebyshev, set_polynomials};
-use super::expansion::{Expansion, Row};
-use super::lists::{Lists, Pair, on};
+use super::expansion::{Expansion, Row, Stage};
+use super::lists::{Pair, on};
 use super::matrix::{Batch, Ends, VECTORS, padded};
 use super::neighbours::add_reactions;
-use super::packs::{LANES, Pack, add_before};
-use super::polynomials::coordinates;
+use super::packs::{LANES, NOTHING, Pack, add_before, coordinates};
 use super::quantity::Quantity;
-use super::shares::Part;
+use super::shares::Piece;
 use super::subspace::{Subspace, number};
 use super::transfer::Transfer;
-use super::tree::Tree;
+use super::work::Sorted;
 use crate::scalar::widest_if;
 
 /// What acts on the cubes of a level.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Actions<'w, const D: usize> {
     pub(super) expansion: &'w Expansion<D>,
-    pub(super) tree: &'w Tree<D>,
-    pub(super) places: &'w [Vec<f64>; D],
+    pub(super) bodies: &'w Sorted<D>,
     /// For each offset, the cubes of the level that act on others as wholes.
     pub(super) far: &'w [Vec<Pair>],
-    pub(super) lists: &'w Lists,
+    pub(super) transfer: Option<&'w Transfer>,
     /// What bodies of earlier cubes do one by one.
     pub(super) reactions: &'w [Pack],
-    pub(super) transfer: Option<&'w Transfer>,
-    /// The functions of the level, if cubes of this level or larger ones act as wholes.
-    pub(super) subspace: Option<&'w Subspace>,
-    /// The moments of all cubes of the level, and the first of these cubes.
-    pub(super) moments: &'w [f64],
-    pub(super) first: usize,
-    /// The functions of the level before, if they are there; its local expansions, and the first of its
-    /// cubes.
-    pub(super) subspace_above: Option<&'w Subspace>,
-    pub(super) above: &'w [f64],
-    pub(super) first_above: usize,
+    /// The moments of the level, if cubes of this level or larger ones act as wholes.
+    pub(super) moments: Option<Stage<'w>>,
+    /// The local expansions of the level above, if they are there.
+    pub(super) above: Option<Stage<'w>>,
 }
 
-/// What is summed for some cubes of one level.
-#[derive(Debug)]
-pub(super) struct Locals<'w, const D: usize> {
-    pub(super) by: Actions<'w, D>,
-    pub(super) cubes: Range<usize>,
-    /// For each cube the potential of far cubes in it.
-    pub(super) locals: &'w mut [f64],
-    /// Room for that of one cube in the basis.
-    pub(super) room: &'w mut [f64],
-    /// For the bodies of these cubes, from the first one on.
-    pub(super) sums: [&'w mut [f64]; D],
-}
-
-impl<const D: usize> Part for Locals<'_, D> {
-    fn size(&self) -> usize {
-        self.sums[0].len()
-    }
-    fn halves(self) -> (Self, Option<Self>) {
-        let Self { by, cubes, locals, room, mut sums } = self;
-        let count = cubes.len() / 2;
-        if count == 0 {
-            return (Self { by, cubes, locals, room, sums }, None);
+impl<const D: usize> Actions<'_, D> {
+    /// Sets the local expansions of some cubes, and adds to the sums what acts on their bodies.
+    pub(super) fn distribute<Q: Quantity<D>>(&self, mut piece: Piece<'_, f64, D>) {
+        if let Some(moments) = self.moments {
+            piece.rows.fill(0.0);
+            self.inherit(moments.subspace, &piece.cubes, piece.rows);
+            self.exchange(moments, &piece.cubes, piece.rows);
+            self.evaluate::<Q>(moments.subspace, &mut piece);
         }
-        let middle = cubes.start + count;
-        let bodies = by.tree.cubes[middle].first - by.tree.cubes[cubes.start].first;
-        let stride = by.subspace.map_or(0, |subspace| subspace.stride);
-        let (locals, other_locals) = locals.split_at_mut(count * stride);
-        let size = by.subspace.map_or(0, |_| padded(by.expansion.basis.len()));
-        let (room, other_room) = room.split_at_mut(count * size);
-        let other_sums = sums.each_mut().map(|sums| {
-            let (own, other) = core::mem::take(sums).split_at_mut(bodies);
-            *sums = own;
-            other
-        });
-        let other =
-            Self { by, cubes: middle..cubes.end, locals: other_locals, room: other_room, sums: other_sums };
-        (Self { by, cubes: cubes.start..middle, locals, room, sums }, Some(other))
-    }
-}
-
-impl<const D: usize> Locals<'_, D> {
-    pub(super) fn distribute<Q: Quantity<D>>(mut self) {
-        if let Some(subspace) = self.by.subspace {
-            self.locals.fill(0.0);
-            self.inherit(subspace);
-            self.exchange(subspace);
-            self.evaluate::<Q>(subspace);
-        }
-        let Self { by, cubes, mut sums, .. } = self;
-        add_reactions(by.tree, by.lists, &cubes, by.reactions, &mut sums);
+        add_reactions(self.bodies, &piece.cubes, self.reactions, &mut piece.sums);
     }
 
     /// What acts on the cubes around these.
-    fn inherit(&mut self, subspace: &Subspace) {
-        let Self { by, cubes, locals, .. } = self;
-        let Some(above) = by.subspace_above else { return };
+    fn inherit(&self, subspace: &Subspace, cubes: &Range<usize>, locals: &mut [f64]) {
+        let Some(above) = self.above else { return };
         for (side, matrix) in subspace.narrow.iter().enumerate() {
             let mut batch = Batch::new();
-            for (place, cube) in by.tree.cubes[cubes.clone()].iter().enumerate() {
+            for (place, cube) in self.bodies.tree.cubes[cubes.clone()].iter().enumerate() {
                 if number(cube.side()) == side {
-                    let from = (cube.whole - by.first_above) * above.stride;
-                    batch.push(Ends { from, to: place * subspace.stride }, matrix, by.above, locals);
+                    let ends = Ends { from: above.row(cube.whole), to: place * subspace.stride };
+                    batch.push(ends, matrix, above.rows, locals);
                 }
             }
-            batch.finish(matrix, by.above, locals);
+            batch.finish(matrix, above.rows, locals);
         }
     }
 
     /// What other cubes of the level do as wholes.
-    fn exchange(&mut self, subspace: &Subspace) {
-        let Self { by, cubes, locals, .. } = self;
-        let Some(transfer) = by.transfer else { return };
-        for (list, matrix) in by.far.iter().zip(&transfer.matrices) {
+    fn exchange(&self, moments: Stage<'_>, cubes: &Range<usize>, locals: &mut [f64]) {
+        let Some(transfer) = self.transfer else { return };
+        for (list, matrix) in self.far.iter().zip(&transfer.matrices) {
             let mut batch = Batch::new();
             for Pair { target, source } in &list[on(list, cubes)] {
-                let from = (*source as usize - by.first) * subspace.stride;
-                let to = (*target as usize - cubes.start) * subspace.stride;
-                batch.push(Ends { from, to }, matrix, by.moments, locals);
+                let to = (*target as usize - cubes.start) * moments.subspace.stride;
+                batch.push(Ends { from: moments.row(*source as usize), to }, matrix, moments.rows, locals);
             }
-            batch.finish(matrix, by.moments, locals);
+            batch.finish(matrix, moments.rows, locals);
         }
     }
 
     /// What the expansions are at the bodies of the cubes that are not divided.
-    fn evaluate<Q: Quantity<D>>(&mut self, subspace: &Subspace) {
-        let Self { by, cubes, locals, room, sums } = self;
-        let Expansion { basis, rows, .. } = by.expansion;
+    fn evaluate<Q: Quantity<D>>(&self, subspace: &Subspace, piece: &mut Piece<'_, f64, D>) {
+        let Piece { cubes, rows: locals, room, sums } = piece;
+        let (Expansion { basis, rows, .. }, Sorted { tree, places, .. }) = (self.expansion, self.bodies);
         let size = padded(basis.len());
-        let first = by.tree.cubes[cubes.start].first;
-        let all = by.tree.cubes[cubes.clone()].iter().enumerate();
+        let first = tree.cubes[cubes.start].first;
+        let all = tree.cubes[cubes.clone()].iter().enumerate();
         let mut leaves = all.filter(|(_, cube)| !cube.is_divided());
         let mut at = [[Chebyshev::none(); D]; TOGETHER];
         loop {
@@ -153,12 +101,12 @@ impl<const D: usize> Locals<'_, D> {
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 || {
                     for (cube, local) in some.iter().flatten().zip(room.chunks_exact(size)) {
-                        let frame = by.tree.frame(cube);
+                        let frame = tree.frame(cube);
                         for body in cube.bodies().step_by(TOGETHER * LANES) {
                             // Packs without a body are in the middle of the cube.
                             for (pack, at) in at.iter_mut().enumerate() {
                                 let u = coordinates(
-                                    by.places,
+                                    places,
                                     frame,
                                     (body + pack * LANES).min(cube.past),
                                     cube.past,
@@ -188,9 +136,9 @@ fn evaluated<const D: usize, Q: Quantity<D>>(
     at: &[[Chebyshev<Pack>; D]; TOGETHER],
     scale: f64,
 ) -> [Q::Sums; TOGETHER] {
-    let mut found = [Q::none(); TOGETHER];
+    let mut found = [Q::NONE; TOGETHER];
     for Row { degrees, first, len } in rows {
-        let mut sums = [[Pack::all(0.0); 2]; TOGETHER];
+        let mut sums = [[NOTHING; 2]; TOGETHER];
         for (degree, &coefficient) in local[*first..first + len].iter().enumerate() {
             let coefficient = Pack::all(coefficient);
             for pack in 0..TOGETHER {

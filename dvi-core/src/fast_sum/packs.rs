@@ -1,10 +1,13 @@
 //! Several bodies, or several cubes, in lanes.
 
+use alloc::vec::Vec;
+
 use crate::scalar::Lanes;
 
 /// Bodies, or cubes, that are computed at once.
 pub(super) const LANES: usize = 8;
 pub(super) type Pack = Lanes<LANES>;
+pub(super) const NOTHING: Pack = Lanes([0.0; LANES]);
 
 /// Some numbers.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -24,6 +27,66 @@ pub(super) fn load_before(past: usize, from: &[f64], first: usize) -> Pack {
         }
     }
     pack
+}
+
+/// The places of some bodies, one in each lane.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn load_places<const D: usize>(places: &[Vec<f64>; D], first: usize) -> [Pack; D] {
+    let mut found = [NOTHING; D];
+    for axis in 0..D {
+        found[axis] = load(&places[axis], first);
+    }
+    found
+}
+
+/// The same for those before `past`, and the place of the last one for the others.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn load_places_before<const D: usize>(
+    past: usize,
+    places: &[Vec<f64>; D],
+    first: usize,
+) -> [Pack; D] {
+    if first + LANES <= past {
+        return load_places(places, first);
+    }
+    let mut found = [NOTHING; D];
+    for axis in 0..D {
+        for lane in 0..LANES {
+            found[axis].0[lane] = places[axis][(first + lane).min(past - 1)];
+        }
+    }
+    found
+}
+
+/// The place of a body in all lanes.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn repeat_place<const D: usize>(places: &[Vec<f64>; D], body: usize) -> [Pack; D] {
+    let mut found = [NOTHING; D];
+    for axis in 0..D {
+        found[axis] = Pack::all(places[axis][body]);
+    }
+    found
+}
+
+/// Where some bodies of a cube are in it, from −1 to 1 along each axis; those from `past` on count as in its
+/// middle.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn coordinates<const D: usize>(
+    places: &[Vec<f64>; D],
+    (middle, half): ([f64; D], f64),
+    first: usize,
+    past: usize,
+) -> [Pack; D] {
+    // A power of two.
+    let scale = Pack::all(1.0 / half);
+    let mut u = [NOTHING; D];
+    for axis in 0..D {
+        u[axis] = (load(&places[axis], first) - Pack::all(middle[axis])) * scale;
+        for lane in 0..LANES {
+            u[axis].0[lane] = if first + lane < past { u[axis].0[lane] } else { 0.0 };
+        }
+    }
+    u
 }
 
 /// Adds the components of what was found for some bodies, those before `past`.

@@ -1,26 +1,18 @@
 //! What is summed for each body: the potential of all others, or its gradient.
 
 use super::basis::Chebyshev;
-use super::packs::Pack;
-use crate::PairSum;
+use super::packs::{NOTHING, Pack};
 
-/// What is summed for each body.
+/// What is summed for each body: Σ w f over all others, where f is a factor of a pair, K or K', times what
+/// depends on the direction of the other.
 pub(super) trait Quantity<const D: usize>: Sync {
     /// Its components.
     type Sums: Copy + AsRef<[Pack]> + AsMut<[Pack]>;
-    fn none() -> Self::Sums;
-    /// Adds that of a body with `weight` at a squared distance `r2`, seen in the direction `difference`.
-    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: &[Pack; D], r2: Pack);
-    /// Adds that of bodies with the first of the weights, and to the `reactions` on them that of the bodies
-    /// in the lanes of `sums`, with the other.
-    fn add_both(
-        &self,
-        sums: &mut Self::Sums,
-        reactions: &mut [Pack],
-        weights: [Pack; 2],
-        difference: &[Pack; D],
-        r2: Pack,
-    );
+    const NONE: Self::Sums;
+    /// What f becomes where two bodies are exchanged, as a part of it.
+    const EXCHANGED: f64;
+    /// f, for bodies seen in the direction `difference`.
+    fn of_pair(factor: Pack, difference: &[Pack; D]) -> Self::Sums;
     /// Adds that of one row of a local expansion: the polynomials at the place and the degrees of the row in
     /// all coordinates but the last, the sums of coefficients times T and times T' over the degrees of the
     /// last, and du/dx.
@@ -34,32 +26,17 @@ pub(super) trait Quantity<const D: usize>: Sync {
 }
 
 /// Σ w K.
-pub(super) struct Potential<'s, S>(pub(super) &'s S);
+pub(super) enum Potential {}
 /// Half its gradient, Σ w K' (xᵢ − xⱼ).
-pub(super) struct Gradient<'s, S>(pub(super) &'s S);
+pub(super) enum Gradient {}
 
-impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Potential<'_, S> {
+impl<const D: usize> Quantity<D> for Potential {
     type Sums = [Pack; 1];
+    const NONE: Self::Sums = [NOTHING; 1];
+    const EXCHANGED: f64 = 1.0;
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn none() -> Self::Sums {
-        [Pack::all(0.0)]
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, _difference: &[Pack; D], r2: Pack) {
-        sums[0] += weight * self.0.kernel(r2);
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_both(
-        &self,
-        sums: &mut Self::Sums,
-        reactions: &mut [Pack],
-        weights: [Pack; 2],
-        _difference: &[Pack; D],
-        r2: Pack,
-    ) {
-        let kernel = self.0.kernel(r2);
-        sums[0] += weights[0] * kernel;
-        reactions[0] += weights[1] * kernel;
+    fn of_pair(factor: Pack, _difference: &[Pack; D]) -> Self::Sums {
+        [factor]
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_row(
@@ -77,34 +54,17 @@ impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Potential<'_, S
     }
 }
 
-impl<const D: usize, S: PairSum<Pack, D> + Sync> Quantity<D> for Gradient<'_, S> {
+impl<const D: usize> Quantity<D> for Gradient {
     type Sums = [Pack; D];
+    const NONE: Self::Sums = [NOTHING; D];
+    const EXCHANGED: f64 = -1.0;
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn none() -> Self::Sums {
-        [Pack::all(0.0); D]
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_pair(&self, sums: &mut Self::Sums, weight: Pack, difference: &[Pack; D], r2: Pack) {
-        let slope = weight * self.0.kernel_slope(r2);
+    fn of_pair(factor: Pack, difference: &[Pack; D]) -> Self::Sums {
+        let mut parts = *difference;
         for axis in 0..D {
-            sums[axis] += slope * difference[axis];
+            parts[axis] = factor * difference[axis];
         }
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_both(
-        &self,
-        sums: &mut Self::Sums,
-        reactions: &mut [Pack],
-        weights: [Pack; 2],
-        difference: &[Pack; D],
-        r2: Pack,
-    ) {
-        let slope = self.0.kernel_slope(r2);
-        let slopes = [weights[0] * slope, weights[1] * slope];
-        for (axis, reaction) in reactions.iter_mut().enumerate() {
-            sums[axis] += slopes[0] * difference[axis];
-            *reaction -= slopes[1] * difference[axis];
-        }
+        parts
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_row(

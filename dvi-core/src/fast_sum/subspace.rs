@@ -7,11 +7,11 @@
 
 use alloc::vec::Vec;
 
-use super::basis::Basis;
+use nalgebra::DMatrix;
+
+use super::basis::{Basis, half};
 use super::directions::Directions;
-use super::expansion::Row;
 use super::matrix::{Matrix, padded};
-use super::refinement::Refinement;
 use super::transfer::Transfer;
 
 /// The functions for cubes of one size below others.
@@ -36,23 +36,18 @@ const SLACK: f64 = 0.1;
 
 impl Subspace {
     /// For cubes in larger ones, if these have expansions, that act on others of their size by a matrix, if
-    /// they do. None if there are no singular vectors.
+    /// they do.
     pub(super) fn new<const D: usize>(
-        (basis, rows, refinement): (&Basis<D>, &[Row<D>], &Refinement),
+        basis: &Basis<D>,
         above: Option<&Self>,
         own: Option<&Transfer>,
         tolerance: f64,
-    ) -> Option<Self> {
+    ) -> Self {
         let size = basis.len();
         let mut directions = own.map_or_else(|| Directions::none(size), |own| own.directions.clone());
         // The functions of larger cubes in a part on some side.
-        let narrowed = |above: &Self, number: usize| {
-            let mut functions = above.directions.functions.clone();
-            for mut column in functions.column_iter_mut() {
-                refinement.narrow(rows, side(number), column.as_mut_slice());
-            }
-            functions
-        };
+        let narrowed =
+            |above: &Self, number: usize| narrowing(basis, side(number)) * &above.directions.functions;
         if let Some(above) = above {
             // A force is a slope, and the cubes are half as large. Constants make none, and have a column of
             // their own.
@@ -68,22 +63,32 @@ impl Subspace {
                 let known = directions.functions.transpose() * &fields;
                 fields -= &directions.functions * known;
             }
-            directions.extend(Directions::of_parities(basis, &fields, SLACK * tolerance)?);
+            directions.extend(Directions::of_parities(basis, &fields, SLACK * tolerance));
         }
         let functions = &directions.functions;
         let sides = 0..above.map_or(0, |_| 1_usize << D);
         let links =
             sides.filter_map(|side| above.map(|above| functions.transpose() * narrowed(above, side)));
         let links: Vec<_> = links.collect();
-        Some(Self {
+        Self {
             stride: padded(functions.ncols()),
             compress: Matrix::new(&functions.transpose()),
             expand: Matrix::new(functions),
             widen: links.iter().map(|link| Matrix::new(&link.transpose())).collect(),
             narrow: links.iter().map(Matrix::new).collect(),
             directions,
-        })
+        }
     }
+}
+
+/// From the local expansion of a cube to that of its part on a side: Aᵀ, where B_m(u) = Σ_n A_{mn} B_n(c)
+/// with u = (c ± 1)/2. It is exact, because the degree of a term does not grow.
+fn narrowing<const D: usize>(basis: &Basis<D>, side: [bool; D]) -> DMatrix<f64> {
+    let halves = side.map(|is_upper| half(basis.order, if is_upper { 1.0 } else { -1.0 }));
+    DMatrix::from_fn(basis.len(), basis.len(), |n, m| {
+        let [n, m] = [basis.degrees[n], basis.degrees[m]];
+        (0..D).map(|axis| halves[axis][m[axis]][n[axis]]).product()
+    })
 }
 
 /// The side with a number.

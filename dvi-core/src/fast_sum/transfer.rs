@@ -12,8 +12,9 @@ use nalgebra::DMatrix;
 
 use super::basis::Basis;
 use super::directions::Directions;
-use super::interpolant::Interpolant;
+use super::interpolant::interpolant;
 use super::matrix::Matrix;
+use super::packs::Pack;
 use super::tree::exp2;
 
 /// Two cubes of one level that are no further apart than this, and do not touch.
@@ -56,15 +57,20 @@ impl Transfer {
         basis: &Basis<D>,
         tolerance: f64,
         edge: i32,
-        kernel: impl Fn(f64) -> f64,
+        kernel: &dyn Fn(Pack) -> Pack,
     ) -> Option<Self> {
-        let half = exp2(edge - 1);
+        let half = Pack::all(exp2(edge - 1));
         let ordered = |t: &[i32; D]| !touch(*t) && t.is_sorted_by(|a, b| a >= b) && t[D - 1] >= 0;
         let all = || (0..offsets::<D>()).map(offset::<D>);
-        let of = |t| (t, Interpolant::new(basis, t, |r2| kernel(r2 * half * half)));
-        let known: Vec<([i32; D], Interpolant)> = all().filter(ordered).map(of).collect();
-        let most = |of: fn(&Interpolant) -> f64| known.iter().map(|(_, found)| of(found)).fold(0.0, larger);
-        let [varying, size] = [most(Interpolant::varying), most(Interpolant::size)];
+        let (mut known, mut varying, mut size) = (Vec::new(), 0.0, 0.0);
+        for t in all().filter(ordered) {
+            let (coefficients, largest) = interpolant(basis, t, &|r2| kernel(r2 * half * half));
+            // All but that of the constant function.
+            varying =
+                coefficients.iter().skip(1).fold(varying, |varying, entry| larger(varying, entry.abs()));
+            size = larger(size, largest);
+            known.push((t, coefficients));
+        }
         if size == 0.0 {
             let (directions, matrices) = (Directions::none(basis.len()), Vec::new());
             return Some(Self { directions, matrices });
@@ -105,44 +111,32 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }
 
-/// κ for any t, from those with t₁ ≥ … ≥ t_D ≥ 0; none for cubes that touch. K(|u − v + 2t|) is the same
-/// with coordinates exchanged and reflected, and T_m is odd or even.
+/// κ for any t without negative steps, from those with t₁ ≥ … ≥ t_D; none for cubes that touch. K(|u − v +
+/// 2t|) is the same with coordinates exchanged.
 fn matrix<const D: usize>(
     basis: &Basis<D>,
-    known: &[([i32; D], Interpolant)],
+    known: &[([i32; D], DMatrix<f64>)],
     t: [i32; D],
 ) -> Option<DMatrix<f64>> {
     let mut from: [usize; D] = core::array::from_fn(|axis| axis);
-    from.sort_by_key(|&axis| -t[axis].abs());
-    let representative = from.map(|axis| t[axis].abs());
-    let (_, interpolant) = known.iter().find(|(known, _)| *known == representative)?;
-    let functions: Vec<(usize, f64)> = basis
-        .degrees
-        .iter()
-        .map(|degrees| {
-            let odd = (0..D).filter(|&axis| t[axis] < 0 && degrees[axis] % 2 == 1).count();
-            let sign = if odd % 2 == 0 { 1.0 } else { -1.0 };
-            (interpolant.place(from.map(|axis| degrees[axis])), sign)
-        })
-        .collect();
-    let entry = |m: usize, n: usize| {
-        let [(m, one), (n, other)] = [functions[m], functions[n]];
-        one * other * interpolant.coefficient(m, n)
-    };
-    Some(DMatrix::from_fn(basis.len(), basis.len(), entry))
+    from.sort_by_key(|&axis| -t[axis]);
+    let (_, coefficients) = known.iter().find(|(known, _)| *known == from.map(|axis| t[axis]))?;
+    let exchanged = |degrees: &[usize; D]| basis.place(from.map(|axis| degrees[axis]));
+    let functions: Vec<usize> = basis.degrees.iter().map(exchanged).collect();
+    Some(coefficients.select_rows(&functions).select_columns(&functions))
 }
 
 /// Columns that a matrix is sampled by.
 const SAMPLES: usize = 8;
 
-/// An orthonormal basis of the columns of all matrices, as far as they are not below the tolerance, by the
-/// singular values of the products with a few vectors that look random (Halko, Martinsson & Tropp 2011).
+/// An orthonormal basis of the columns of all matrices, as far as they are not below the tolerance, by their
+/// products with a few vectors that look random (Halko, Martinsson & Tropp 2011).
 /// With each κ comes its transpose, that of −t, so the columns are the rows as well. With each t come its
 /// reflections: so the functions that are odd along the same axes are taken by themselves, for t without
 /// negative steps.
 ///
 /// Columns are measured by what varies: the constant part of a kernel makes no forces. `scale` is about the
-/// size of that. None if there are no singular values.
+/// size of that. None if there is no such basis.
 fn range<const D: usize>(
     basis: &Basis<D>,
     offsets: impl Iterator<Item = [i32; D]>,
@@ -170,7 +164,7 @@ fn range<const D: usize>(
         samples.push(matrix * vectors);
     }
     let all: Vec<_> = samples.iter().flat_map(|sample| sample.column_iter()).collect();
-    let mut directions = Directions::of_parities(basis, &DMatrix::from_columns(&all), tolerance * largest)?;
+    let mut directions = Directions::of_parities(basis, &DMatrix::from_columns(&all), tolerance * largest);
     directions.weights.iter_mut().for_each(|weight| *weight /= largest);
     (!directions.weights.is_empty()).then_some(directions)
 }

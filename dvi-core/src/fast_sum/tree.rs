@@ -3,7 +3,6 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::packs::LANES;
 use super::shares;
 
 /// Bits of a place along each axis: 2^LEVELS cubes along an edge of the largest.
@@ -189,28 +188,14 @@ impl<const D: usize> Tree<D> {
 
 /// The least and the largest of some places.
 fn interval(places: &[f64]) -> Result<(f64, f64), NotFinite> {
-    let mut lowest = [f64::INFINITY; LANES];
-    let mut highest = [f64::NEG_INFINITY; LANES];
-    let mut sum = [0.0; LANES];
-    let mut add = |places: &[f64]| {
-        for (lane, &place) in places.iter().enumerate().take(LANES) {
-            lowest[lane] = if place < lowest[lane] { place } else { lowest[lane] };
-            highest[lane] = if place > highest[lane] { place } else { highest[lane] };
-            sum[lane] += place.abs();
+    let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for &place in places {
+        if !place.is_finite() {
+            return Err(NotFinite);
         }
-    };
-    let packs = places.chunks_exact(LANES);
-    let rest = packs.remainder();
-    packs.for_each(&mut add);
-    add(rest);
-    // The sum is not finite if a place is not.
-    if !sum.iter().sum::<f64>().is_finite() {
-        return Err(NotFinite);
+        (lowest, highest) = (lowest.min(place), highest.max(place));
     }
-    Ok((
-        lowest.into_iter().fold(f64::INFINITY, f64::min),
-        highest.into_iter().fold(f64::NEG_INFINITY, f64::max),
-    ))
+    Ok(if places.is_empty() { (0.0, 0.0) } else { (lowest, highest) })
 }
 
 /// Bit b of coordinate a becomes bit D b + a.

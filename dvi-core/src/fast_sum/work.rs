@@ -2,20 +2,20 @@
 //! one by one (Greengard & Rokhlin 1987; with interpolation of the kernel, Fong & Darve 2009).
 
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
-use super::expansion::Expansion;
-use super::lists::{Lists, on, pairs};
-use super::locals::{Actions, Locals};
+use super::expansion::{Expansion, Stage};
+use super::lists::{Lists, pairs};
+use super::locals::Actions;
 use super::matrix::padded;
-use super::moments::{Moments, Sources};
-use super::neighbours::{Nearby, Neighbours};
-use super::packs::{LANES, Pack};
-use super::quantity::{Gradient, Quantity};
-use super::shares::share;
+use super::moments::Sources;
+use super::neighbours::Nearby;
+use super::packs::{LANES, NOTHING, Pack};
+use super::quantity::Quantity;
+use super::shares::{Piece, share};
 use super::spot_check;
 use super::transfer::{Transfer, offsets};
 use super::tree::{NotFinite, Tree};
-use crate::PairSum;
 
 /// What an evaluation of the forces takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,8 +37,10 @@ const FEW_IN_SPACE: usize = 2;
 const ALLOWED: f64 = 10.0;
 
 /// Where to find what belongs to the cubes of one level.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Level {
+    /// The first of them.
+    first: usize,
     /// The matrices between those that act on others as wholes, if there are such.
     transfer: Option<usize>,
     /// The functions of their expansions, if these or larger cubes act on others as wholes.
@@ -48,36 +50,59 @@ struct Level {
     past: usize,
 }
 
+impl Level {
+    /// Expansions of the cubes, in rows one after the other, if there are any.
+    fn stage<'w, const D: usize>(&self, expansion: &'w Expansion<D>, rows: &'w [f64]) -> Option<Stage<'w>> {
+        expansion.subspace(self.subspace).map(|subspace| Stage { subspace, first: self.first, rows })
+    }
+}
+
+/// The bodies in the order of the tree, and which act on which.
+#[derive(Clone, Debug)]
+pub(super) struct Sorted<const D: usize> {
+    pub(super) tree: Tree<D>,
+    pub(super) lists: Lists,
+    /// With room behind them for the lanes of the last bodies.
+    pub(super) places: [Vec<f64>; D],
+    pub(super) weights: Vec<f64>,
+}
+
 /// The numbers of one evaluation, kept from one to the next.
 #[derive(Clone, Debug)]
 pub(super) struct Work<const D: usize> {
     tolerance: f64,
-    tree: Tree<D>,
-    lists: Lists,
-    /// Places and weights in the order of the tree, with room behind them for the lanes of the last bodies.
-    places: [Vec<f64>; D],
-    weights: Vec<f64>,
+    bodies: Sorted<D>,
     sums: [Vec<f64>; D],
     levels: Vec<Level>,
-    /// Of each cube, by the functions of its level: see [`Moments`] and [`Locals`].
+    /// Of each cube, by the functions of its level: see [`Sources`] and [`Actions`].
     moments: Vec<f64>,
     locals: Vec<f64>,
     /// For cubes of one level, by the functions of the basis.
     room: Vec<f64>,
-    /// What bodies do to those of later cubes: see [`Neighbours`].
+    /// What bodies do to those of later cubes: see [`Nearby`].
     reactions: Vec<Pack>,
+}
+
+/// What is to be summed: weights and K of a system.
+#[derive(Clone, Copy)]
+pub(super) struct Terms<'s> {
+    pub(super) weight: &'s dyn Fn(usize) -> f64,
+    pub(super) kernel: &'s dyn Fn(Pack) -> Pack,
 }
 
 impl<const D: usize> Work<D> {
     /// For forces with relative errors of about `tolerance`.
     pub(super) fn new(tolerance: f64) -> Self {
+        let none = || core::array::from_fn(|_| Vec::new());
         Self {
             tolerance,
-            tree: Tree::new(),
-            lists: Lists::default(),
-            places: core::array::from_fn(|_| Vec::new()),
-            weights: Vec::new(),
-            sums: core::array::from_fn(|_| Vec::new()),
+            bodies: Sorted {
+                tree: Tree::new(),
+                lists: Lists::default(),
+                places: none(),
+                weights: Vec::new(),
+            },
+            sums: none(),
             levels: Vec::new(),
             moments: Vec::new(),
             locals: Vec::new(),
@@ -86,210 +111,161 @@ impl<const D: usize> Work<D> {
         }
     }
 
-    /// Calls `each` with each body and the sums of `quantity` for it, for bodies at these places.
-    pub(super) fn evaluate<S, Q>(
+    /// Sums the quantity Q, of which `factor` is what depends on the squared distance, for bodies at these
+    /// places. Returns each body with its sums.
+    pub(super) fn evaluate<Q: Quantity<D>>(
         &mut self,
         expansion: &mut Expansion<D>,
-        system: &S,
-        quantity: &Q,
+        terms: Terms<'_>,
+        factor: &(impl Fn(Pack) -> Pack + Sync),
         places: [&[f64]; D],
-        mut each: impl FnMut(usize, [f64; D]),
-    ) -> Result<(), NotFinite>
-    where
-        S: PairSum<f64, D>,
-        Q: Quantity<D>,
-    {
-        self.sum_up(expansion, system, quantity, places)?;
-        for (place, &(_, body)) in self.tree.order.iter().enumerate() {
-            each(body as usize, core::array::from_fn(|axis| self.sums[axis][place]));
+    ) -> Result<impl Iterator<Item = (usize, [f64; D])>, NotFinite> {
+        self.sort(expansion, terms.weight, places)?;
+        self.plan(expansion, terms.kernel);
+        self.pass::<Q>(expansion, factor);
+        let has_expansions = self.levels.iter().any(|level| level.transfer.is_some());
+        let part = ALLOWED * self.tolerance;
+        if has_expansions && !spot_check::holds::<Q, D>(&self.bodies, factor, &self.sums, part) {
+            self.plan_without_expansions();
+            self.pass::<Q>(expansion, factor);
         }
-        Ok(())
+        let sums = |place: usize| core::array::from_fn(|axis| self.sums[axis][place]);
+        let order = self.bodies.tree.order.iter().enumerate();
+        Ok(order.map(move |(place, &(_, body))| (body as usize, sums(place))))
     }
 
-    /// What an evaluation of the forces takes for bodies at these places.
-    pub(super) fn operations<S>(
-        &mut self,
-        expansion: &mut Expansion<D>,
-        system: &S,
-        places: [&[f64]; D],
-    ) -> Result<Operations, NotFinite>
-    where
-        S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
-    {
-        self.sum_up(expansion, system, &Gradient(system), places)?;
-        let cube = |number: u32| &self.tree.cubes[number as usize];
-        let near = self.lists.near.iter().map(|pair| pairs(cube(pair.target), cube(pair.source)) as u64);
+    /// What the last evaluation has taken.
+    pub(super) fn operations(&self, expansion: &Expansion<D>) -> Operations {
+        let Sorted { tree, lists, .. } = &self.bodies;
+        let cube = |number: u32| &tree.cubes[number as usize];
+        let near = lists.near.iter().map(|pair| pairs(cube(pair.target), cube(pair.source)) as u64);
         // A body is beside itself in the list of its own cube.
-        let pairs = near.sum::<u64>() - self.tree.order.len() as u64;
-        let levels = self.levels.iter().zip(self.lists.far.chunks(offsets::<D>()));
+        let pairs = near.sum::<u64>() - tree.order.len() as u64;
+        let levels = self.levels.iter().zip(lists.far.chunks(offsets::<D>()));
         let products = levels.map(|(level, lists)| {
             let rank = expansion.transfer(level.transfer).map_or(0, Transfer::rank) as u64;
             rank * rank * lists.iter().map(|list| list.len() as u64).sum::<u64>()
         });
-        Ok(Operations { pairs, products: products.sum() })
-    }
-
-    /// Sets the sums, in the order of the tree.
-    fn sum_up<S: PairSum<f64, D>, Q: Quantity<D>>(
-        &mut self,
-        expansion: &mut Expansion<D>,
-        system: &S,
-        quantity: &Q,
-        places: [&[f64]; D],
-    ) -> Result<(), NotFinite> {
-        self.sort(expansion, system, places)?;
-        if self.plan(expansion, system).is_none() {
-            self.plan_without_expansions();
-        }
-        self.pass(expansion, quantity);
-        let sorted = (&self.places, &*self.weights);
-        let has_expansions = self.levels.iter().any(|level| level.transfer.is_some());
-        let part = ALLOWED * self.tolerance;
-        if has_expansions && !spot_check::holds(quantity, sorted, &self.sums, self.tree.order.len(), part) {
-            self.plan_without_expansions();
-            self.pass(expansion, quantity);
-        }
-        Ok(())
+        Operations { pairs, products: products.sum() }
     }
 
     /// Bodies in their order.
-    fn sort<S: PairSum<f64, D>>(
+    fn sort(
         &mut self,
         expansion: &Expansion<D>,
-        system: &S,
+        weight: &dyn Fn(usize) -> f64,
         places: [&[f64]; D],
     ) -> Result<(), NotFinite> {
         let few = if D > 2 { FEW_IN_SPACE * expansion.basis.len() } else { FEW };
-        self.tree.sort(places, few)?;
+        let Sorted { tree, places: sorted, weights, .. } = &mut self.bodies;
+        tree.sort(places, few)?;
         let room = places[0].len() + LANES;
-        let Self { places: sorted, weights, sums, .. } = self;
-        sorted.iter_mut().chain(sums).chain([weights]).for_each(|numbers| numbers.resize(room, 0.0));
-        for (place, &(_, body)) in self.tree.order.iter().enumerate() {
+        let all = sorted.iter_mut().chain(&mut self.sums).chain([&mut *weights]);
+        all.for_each(|numbers| numbers.resize(room, 0.0));
+        for (place, &(_, body)) in tree.order.iter().enumerate() {
             for axis in 0..D {
-                self.places[axis][place] = places[axis][body as usize];
+                sorted[axis][place] = places[axis][body as usize];
             }
-            self.weights[place] = system.weight(body as usize);
+            weights[place] = weight(body as usize);
         }
         Ok(())
     }
 
-    /// Which cubes act as wholes, and the matrices for them; none if there are no functions for their
-    /// expansions.
-    fn plan<S: PairSum<f64, D>>(&mut self, expansion: &mut Expansion<D>, system: &S) -> Option<()> {
-        self.lists.fill(&self.tree, expansion.basis.len());
-        let levels = self.tree.levels.len();
-        expansion.keep(self.tree.edge(levels as u32)..self.tree.edge(0));
+    /// Which cubes act as wholes, and the matrices for them.
+    fn plan(&mut self, expansion: &mut Expansion<D>, kernel: &dyn Fn(Pack) -> Pack) {
+        let Sorted { tree, lists, .. } = &mut self.bodies;
+        lists.fill(tree, expansion.basis.len());
+        let levels = tree.levels.len();
+        expansion.keep(tree.edge(levels as u32)..tree.edge(0));
         self.levels.clear();
         let (mut subspace, mut past) = (None, 0);
         for level in 0..levels {
-            let lists = &self.lists.far[level * offsets::<D>()..][..offsets::<D>()];
-            let has_any = lists.iter().any(|list| !list.is_empty());
-            let edge = self.tree.edge(level as u32);
-            let transfer = if has_any { expansion.position(edge, |r2| system.kernel(r2)) } else { None };
+            let far = &lists.far[level * offsets::<D>()..][..offsets::<D>()];
+            let has_any = far.iter().any(|list| !list.is_empty());
+            let edge = tree.edge(level as u32);
+            let transfer = if has_any { expansion.position(edge, kernel) } else { None };
             if has_any && transfer.is_none() {
-                self.lists.approach::<D>(level);
+                lists.approach::<D>(level);
             }
             if subspace.is_some() || transfer.is_some() {
-                subspace = Some(expansion.subspace_position(subspace, edge, transfer)?);
+                subspace = Some(expansion.subspace_position(subspace, edge, transfer));
             }
             let start = past;
-            past +=
-                self.tree.levels[level].len() * expansion.subspace(subspace).map_or(0, |found| found.stride);
-            self.levels.push(Level { transfer, subspace, start, past });
+            past += tree.levels[level].len() * expansion.subspace(subspace).map_or(0, |found| found.stride);
+            let first = tree.levels[level].start;
+            self.levels.push(Level { first, transfer, subspace, start, past });
         }
-        self.lists.oppose(&self.tree);
+        lists.oppose(tree);
         [&mut self.moments, &mut self.locals].iter_mut().for_each(|numbers| numbers.resize(past, 0.0));
-        let widest = self.tree.levels.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+        let widest = tree.levels.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
         let size = if subspace.is_some() { padded(expansion.basis.len()) } else { 0 };
         self.room.resize(widest * size, 0.0);
-        Some(())
     }
 
     /// All bodies act one by one.
     fn plan_without_expansions(&mut self) {
-        let levels = self.tree.levels.len();
-        (0..levels).for_each(|level| self.lists.approach::<D>(level));
-        self.lists.oppose(&self.tree);
-        self.levels.clear();
-        self.levels.resize(levels, Level { transfer: None, subspace: None, start: 0, past: 0 });
+        let Sorted { tree, lists, .. } = &mut self.bodies;
+        (0..tree.levels.len()).for_each(|level| lists.approach::<D>(level));
+        lists.oppose(tree);
+        self.levels.iter_mut().for_each(|level| *level = Level { first: level.first, ..Level::default() });
     }
 
     /// All passes, as they are planned.
-    fn pass<Q: Quantity<D>>(&mut self, expansion: &Expansion<D>, quantity: &Q) {
+    fn pass<Q: Quantity<D>>(&mut self, expansion: &Expansion<D>, factor: &(impl Fn(Pack) -> Pack + Sync)) {
         self.sums.iter_mut().for_each(|sums| sums.fill(0.0));
         self.collect(expansion);
-        self.act(quantity);
+        self.act::<Q>(factor);
         self.distribute::<Q>(expansion);
     }
 
     /// The moments of all cubes, level by level from below.
     fn collect(&mut self, expansion: &Expansion<D>) {
-        let Self { tree, levels, places, weights, moments, room, .. } = self;
-        for (level, cubes) in tree.levels.iter().enumerate().rev() {
-            let Level { subspace, start, past, .. } = levels[level];
-            let Some(subspace) = expansion.subspace(subspace) else { return };
-            let (own, below) = moments[start..].split_at_mut(past - start);
-            let from = Sources {
-                expansion,
-                tree,
-                places,
-                weights,
-                subspace,
-                subspace_below: levels.get(level + 1).and_then(|level| expansion.subspace(level.subspace)),
-                below,
-                first_below: cubes.end,
-            };
-            share(Moments { from, cubes: cubes.clone(), moments: own, room }, &Moments::collect);
+        let Self { bodies, levels, moments, room, sums, .. } = self;
+        for (number, level) in levels.iter().enumerate().rev() {
+            let Some(subspace) = expansion.subspace(level.subspace) else { return };
+            let (own, below) = moments[level.start..].split_at_mut(level.past - level.start);
+            let below = levels.get(number + 1).and_then(|next| next.stage(expansion, below));
+            let sources = Sources { expansion, bodies, subspace, below };
+            let begin = |cube: usize| [cube * subspace.stride, cube * padded(expansion.basis.len())];
+            let whole = Piece::new(&bodies.tree, number, sums, own, room);
+            share(whole, &bodies.tree, &begin, &|piece| sources.collect(piece));
         }
     }
 
     /// What bodies nearby do, but for the reactions.
-    fn act<Q: Quantity<D>>(&mut self, quantity: &Q) {
-        let Self { tree, lists, places, weights, sums, reactions, .. } = self;
-        reactions.resize(D * lists.packs.last().copied().unwrap_or(0), Pack::all(0.0));
-        let by = Nearby { quantity, tree, lists, places, weights };
-        for cubes in &tree.levels {
-            let near = on(&lists.near, cubes);
-            let bodies = tree.cubes[cubes.start].first..tree.cubes[cubes.end - 1].past;
-            let sums = sums.each_mut().map(|sums| &mut sums[bodies.clone()]);
-            let packs = D * lists.packs[near.start]..D * lists.packs[near.end];
-            share(Neighbours::new(by, cubes.clone(), sums, &mut reactions[packs]), &Neighbours::act);
+    fn act<Q: Quantity<D>>(&mut self, factor: &(impl Fn(Pack) -> Pack + Sync)) {
+        let Self { bodies, sums, reactions, .. } = self;
+        let Sorted { tree, lists, .. } = &*bodies;
+        let begin = |cube: usize| [D * lists.packs_before(cube), 0];
+        reactions.resize(begin(tree.cubes.len())[0], NOTHING);
+        let nearby = Nearby::<Q, _, D> { bodies, factor, quantity: PhantomData };
+        for (number, cubes) in tree.levels.iter().enumerate() {
+            let rows = &mut reactions[begin(cubes.start)[0]..begin(cubes.end)[0]];
+            share(Piece::new(tree, number, sums, rows, &mut []), tree, &begin, &|piece| nearby.act(piece));
         }
     }
 
     /// What far cubes do, level by level from above, and the reactions on their bodies.
     fn distribute<Q: Quantity<D>>(&mut self, expansion: &Expansion<D>) {
-        let Self { tree, lists, levels, places, sums, moments, locals, room, reactions, .. } = self;
-        let (mut subspace_above, mut start_above, mut first_above) = (None, 0, 0);
-        for ((cubes, far), level) in tree.levels.iter().zip(lists.far.chunks(offsets::<D>())).zip(levels) {
-            let Level { transfer, subspace, start, past } = *level;
-            let (above, own) = locals.split_at_mut(start);
-            let subspace = expansion.subspace(subspace);
-            let by = Actions {
+        let Self { bodies, levels, sums, moments, locals, room, reactions, .. } = self;
+        for (number, level) in levels.iter().enumerate() {
+            let (before, own) = locals.split_at_mut(level.start);
+            let above = number.checked_sub(1).map(|above| &levels[above]);
+            let actions = Actions {
                 expansion,
-                tree,
-                places,
-                far,
-                lists,
+                bodies,
+                far: &bodies.lists.far[number * offsets::<D>()..][..offsets::<D>()],
+                transfer: expansion.transfer(level.transfer),
                 reactions,
-                transfer: expansion.transfer(transfer),
-                subspace,
-                moments: &moments[start..past],
-                first: cubes.start,
-                subspace_above,
-                above: &above[start_above..],
-                first_above,
+                moments: level.stage(expansion, &moments[level.start..level.past]),
+                above: above.and_then(|above| above.stage(expansion, &before[above.start..])),
             };
-            let bodies = tree.cubes[cubes.start].first..tree.cubes[cubes.end - 1].past;
-            let whole = Locals {
-                by,
-                cubes: cubes.clone(),
-                locals: &mut own[..past - start],
-                room,
-                sums: sums.each_mut().map(|sums| &mut sums[bodies.clone()]),
-            };
-            share(whole, &Locals::distribute::<Q>);
-            (subspace_above, start_above, first_above) = (subspace, start, cubes.start);
+            let stride = actions.moments.map_or(0, |moments| moments.subspace.stride);
+            let size = actions.moments.map_or(0, |_| padded(expansion.basis.len()));
+            let own = &mut own[..level.past - level.start];
+            let whole = Piece::new(&bodies.tree, number, sums, own, room);
+            let begin = |cube: usize| [cube * stride, cube * size];
+            share(whole, &bodies.tree, &begin, &|piece| actions.distribute::<Q>(piece));
         }
     }
 }

@@ -5,6 +5,8 @@ use std::format;
 use std::string::String;
 use std::vec::Vec;
 
+use serde::Serialize;
+
 use super::column::{Column, Quantity, Values};
 
 /// A body: its name, and the names of the two or three columns in which its position is.
@@ -21,7 +23,7 @@ use super::column::{Column, Quantity, Values};
 /// assert_eq!(bodies[0].position, ["sun_x", "sun_y"]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Body {
     /// The name; empty if `x` and `y` have none in common.

@@ -4,6 +4,8 @@ use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
+use serde::Serialize;
+
 /// A named column of a record.
 ///
 /// ```
@@ -16,7 +18,7 @@ use std::vec::Vec;
 /// assert_eq!(record.column("speed")?.unit(), "m/s");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Column {
     name: String,
     quantity: Quantity,
@@ -36,7 +38,8 @@ pub struct Column {
 /// assert_eq!(record.column("angular")?.quantity(), Quantity::Momentum);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Quantity {
     /// The time: rows are states of a motion, one after the other.
@@ -65,7 +68,8 @@ pub enum Quantity {
 /// let Values::Counts(steps) = column.values() else { panic!("counts") };
 /// assert_eq!(steps.iter().sum::<u64>(), 300);
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 #[non_exhaustive]
 pub enum Values {
     /// Numbers.
@@ -74,21 +78,6 @@ pub enum Values {
     Counts(Vec<u64>),
     /// Texts.
     Texts(Vec<String>),
-}
-
-impl Quantity {
-    /// The word that stands for it on a page.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Time => "time",
-            Self::Coordinate => "coordinate",
-            Self::Velocity => "velocity",
-            Self::Energy => "energy",
-            Self::Momentum => "momentum",
-            Self::Parameter => "parameter",
-            Self::Other => "other",
-        }
-    }
 }
 
 impl Column {

@@ -1,9 +1,13 @@
 //! A page that shows a record: one file of HTML with the data, the plotting library and what draws.
 
 use std::io::{self, BufWriter, Write};
+use std::string::String;
+use std::vec::Vec;
 
-use super::Record;
+use serde::Serialize;
+
 use super::column::{Column, Values};
+use super::{Body, Record};
 
 const TEMPLATE: &str = include_str!("page/page.html");
 const STYLES: [&str; 2] = [include_str!("page/uplot.css"), include_str!("page/page.css")];
@@ -28,7 +32,7 @@ pub(super) fn write(record: &Record, to: impl Write) -> io::Result<()> {
             "title" => escaped(record.title(), &mut to)?,
             "style" => STYLES.iter().try_for_each(|style| to.write_all(style.as_bytes()))?,
             "script" => SCRIPTS.iter().try_for_each(|script| to.write_all(script.as_bytes()))?,
-            _ => data(record, &mut to)?,
+            _ => to.write_all(data(record)?.as_bytes())?,
         }
         rest = after;
     }
@@ -48,65 +52,16 @@ fn escaped(text: &str, to: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The columns of numbers and the bodies, in JSON.
-fn data(record: &Record, to: &mut impl Write) -> io::Result<()> {
-    to.write_all(b"{\"columns\":[")?;
+/// The columns of numbers and the bodies, in JSON that does not end the element of HTML that it stands in.
+/// Numbers that are none are `null` there.
+fn data(record: &Record) -> io::Result<String> {
+    #[derive(Serialize)]
+    struct Data<'r> {
+        columns: Vec<&'r Column>,
+        bodies: Vec<Body>,
+    }
+
     let columns = record.columns().iter().filter(|column| !matches!(column.values(), Values::Texts(_)));
-    list(columns, to, |column, to| {
-        to.write_all(b"\n{\"name\":")?;
-        string(column.name(), to)?;
-        to.write_all(b",\"unit\":")?;
-        string(column.unit(), to)?;
-        write!(to, ",\"quantity\":\"{}\",\"values\":[", column.quantity().name())?;
-        values(column, to)?;
-        to.write_all(b"]}")
-    })?;
-    to.write_all(b"],\n\"bodies\":[")?;
-    list(record.bodies().iter(), to, |body, to| {
-        to.write_all(b"{\"name\":")?;
-        string(&body.name, to)?;
-        write!(to, ",\"is_arm\":{},\"position\":[", body.is_arm)?;
-        list(body.position.iter(), to, |name, to| string(name, to))?;
-        to.write_all(b"]}")
-    })?;
-    to.write_all(b"]}")
-}
-
-fn values(column: &Column, to: &mut impl Write) -> io::Result<()> {
-    match column.values() {
-        // There are no other numbers in JSON than finite ones.
-        Values::Numbers(numbers) => list(numbers.iter(), to, |number, to| {
-            if number.is_finite() { write!(to, "{number:?}") } else { to.write_all(b"null") }
-        }),
-        Values::Counts(counts) => list(counts.iter(), to, |count, to| write!(to, "{count}")),
-        Values::Texts(_) => Ok(()),
-    }
-}
-
-/// What `item` writes, with commas between.
-fn list<T, W: Write>(
-    items: impl Iterator<Item = T>,
-    to: &mut W,
-    mut item: impl FnMut(T, &mut W) -> io::Result<()>,
-) -> io::Result<()> {
-    for (place, each) in items.enumerate() {
-        if place > 0 {
-            to.write_all(b",")?;
-        }
-        item(each, to)?;
-    }
-    Ok(())
-}
-
-/// A text in JSON that does not end the element of HTML that it stands in.
-fn string(text: &str, to: &mut impl Write) -> io::Result<()> {
-    to.write_all(b"\"")?;
-    for letter in text.chars() {
-        match letter {
-            '"' | '\\' => write!(to, "\\{letter}")?,
-            '<' | '\0'..='\x1f' => write!(to, "\\u{:04x}", u32::from(letter))?,
-            _ => write!(to, "{letter}")?,
-        }
-    }
-    to.write_all(b"\"")
+    let text = serde_json::to_string(&Data { columns: columns.collect(), bodies: record.bodies() })?;
+    Ok(text.replace('<', "\\u003c"))
 }

@@ -9,7 +9,7 @@ use super::body::Body;
 use super::column::{Column, Quantity, Values};
 use super::{Record, RecordError};
 use crate::error::{LengthError, StepError};
-use crate::run::{Event, Run};
+use crate::run::Run;
 use crate::system::{Factor, Name};
 use crate::{Lagrangian, Space, State};
 
@@ -61,45 +61,6 @@ pub trait Recorded: Run<Scalar = f64> + Sized {
 }
 
 impl<R: Run<Scalar = f64>> Recorded for R {}
-
-/// A state with its time: what iterators over parts of a run yield.
-///
-/// ```
-#[doc = include_str!("../../docs/hidden/kepler.txt")]
-/// use dvi_core::record::Recorder;
-///
-/// // Pairs of a time and a state, as `states_at` yields them.
-/// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
-/// let record = Recorder::new(&Kepler).points(&Kepler, run.states_at([0.5, 2.0, 7.25])?)?;
-/// assert_eq!(record.numbers("time")?, [0.5, 2.0, 7.25]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub trait Moment<Q> {
-    /// The time.
-    fn time(&self) -> f64;
-    /// The state.
-    fn state(&self) -> &Q;
-}
-
-impl<Q> Moment<Q> for (f64, Q) {
-    fn time(&self) -> f64 {
-        self.0
-    }
-
-    fn state(&self) -> &Q {
-        &self.1
-    }
-}
-
-impl<Q> Moment<Q> for Event<Q, f64> {
-    fn time(&self) -> f64 {
-        self.time
-    }
-
-    fn state(&self) -> &Q {
-        &self.state
-    }
-}
 
 impl<'f, S: Lagrangian> Recorder<'f, S> {
     /// A recorder without rows, for states of systems whose arrays are as long as those of `system`.
@@ -198,12 +159,13 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         Ok(self.record)
     }
 
-    /// Adds a row for each of the `points`: events, or pairs of a time and a state.
+    /// Adds a row for each of the `points`: events, or pairs of a time and a state, as
+    /// [`states_at`](Run::states_at) yields them.
     ///
     /// # Errors
     /// [`RecordError::Step`] with the record up to the first point that is an error; [`RecordError::State`]
     /// and [`RecordError::Index`] as of [`push`](Self::push).
-    pub fn points<P: Moment<S::State<f64>>>(
+    pub fn points<P: Into<(f64, S::State<f64>)>>(
         mut self,
         system: &S,
         points: impl IntoIterator<Item = Result<P, StepError>>,
@@ -211,7 +173,10 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         system.check()?;
         for point in points {
             match point {
-                Ok(point) => self.add(system, point.time(), point.state())?,
+                Ok(point) => {
+                    let (time, state) = point.into();
+                    self.add(system, time, &state)?;
+                }
                 Err(error) => return Err(self.record.until(error)),
             }
         }

@@ -6,74 +6,36 @@ use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
 use dvi_core::{DegenerateLagrangian, DegeneratePairSum, PairSum};
 
-use crate::{Blobs, Gravity, blobs, compare, numbers};
+use crate::{Blobs, BlobsState, Gravity, blobs, compare, numbers};
 
-/// Beads on springs that do not get longer than `length`.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| x[j] * d(y[j])),
-    hamiltonian = -sum_pairs(0..n, |j, k|
-        (1.0 - ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)) / length.powi(2)).ln()),
-)]
-struct Springs {
-    n: usize,
-    length: f64,
-}
-
-/// Hard discs of diameter 1.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| x[j] * d(y[j])),
-    hamiltonian = strength * sum_pairs(0..n, |j, k| ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) - 1.0).ln()),
-)]
-struct Discs {
-    n: usize,
-    strength: f64,
-}
-
-/// Pairs on harmonic springs: a kernel of exactly four products.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| x[j] * d(y[j])),
-    hamiltonian = sum_pairs(0..n, |j, k| (x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)),
-)]
-struct Harmonic {
-    n: usize,
-}
-
-/// Kernels that fall off like a Gaussian.
+/// Kernels that fall off like a Gaussian, and harmonic springs: a kernel of exactly four products.
 #[degenerate_lagrangian(
     coordinates(x[n], y[n]),
     one_form = sum(0..n, |j| x[j] * d(y[j])),
     hamiltonian = sum_pairs(0..n, |j, k|
-        (-((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)) / length.powi(2)).exp()),
+        height * (-((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)) / length.powi(2)).exp()
+            + stiffness * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2))),
 )]
 struct Gaussian {
     n: usize,
     length: f64,
+    height: f64,
+    stiffness: f64,
 }
 
-/// A pole of one over the distance to a circle around each body.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| x[j] * d(y[j])),
-    hamiltonian = sum_pairs(0..n, |j, k| 1.0 / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) - radius.powi(2))),
-)]
-struct Poles {
-    n: usize,
-    radius: f64,
-}
-
-/// A ring around each body, by the logarithm of the distance to it.
+/// A ring around each body: by the logarithm of the distance to it, and a pole of one over the distance.
 #[degenerate_lagrangian(
     coordinates(x[n], y[n]),
     one_form = sum(0..n, |j| x[j] * d(y[j])),
     hamiltonian = sum_pairs(0..n, |j, k|
-        ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) - radius.powi(2)).powi(2).ln()),
+        soft * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) - radius.powi(2)).powi(2).ln()
+            + hard / ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2) - radius.powi(2))),
 )]
 struct Rings {
     n: usize,
     radius: f64,
+    soft: f64,
+    hard: f64,
 }
 
 /// Waves, shorter or longer than cubes are wide.
@@ -96,18 +58,26 @@ fn lattice(n: usize) -> Vec<f64> {
     x.into_iter().chain(y).zip(numbers(31)).map(|(place, number)| place + 0.05 * number).collect()
 }
 
+/// Beads on springs that do not get longer than 3.
 #[test]
 fn bodies_are_summed_one_by_one_where_the_kernel_has_no_numbers() {
     let n = 700;
     let q: Vec<f64> = numbers(30).take(2 * n).collect();
-    let (force, energy) = compare::<_, 2>(&Springs { n, length: 3.0 }, &q, 1e-8);
+    let springs = Blobs { gamma: vec![1.0; n], core: 1.0, scale: -1.0 / 9.0, shear: 0.0 };
+    let (force, energy) = compare::<_, 2>(&springs, &q, 1e-8);
     assert!(force < 1e-8 && energy < 1e-8, "{force:e}, {energy:e}");
+}
+
+/// Hard discs of diameter 1.
+fn discs(n: usize, strength: f64) -> Blobs {
+    let gamma = vec![(4.0 * std::f64::consts::PI * strength).sqrt(); n];
+    Blobs { gamma, core: -1.0, scale: 1.0, shear: 0.0 }
 }
 
 #[test]
 fn the_kernel_need_not_have_a_number_at_any_place_without_a_body() {
     let n = 500;
-    let (force, energy) = compare::<_, 2>(&Discs { n, strength: 1.0 }, &lattice(n), 1e-8);
+    let (force, energy) = compare::<_, 2>(&discs(n, 1.0), &lattice(n), 1e-8);
     assert!(force < 1e-8 && energy < 1e-8, "{force:e}, {energy:e}");
 }
 
@@ -115,7 +85,7 @@ fn the_kernel_need_not_have_a_number_at_any_place_without_a_body() {
 fn strong_and_weak_forces() {
     let n = 500;
     for strength in [1e155, 1e-160] {
-        let discs = Discs { n, strength };
+        let discs = discs(n, strength);
         let q = lattice(n);
         let fast = FastSum::<_, 2>::new(&discs, 1e-6).unwrap();
         let [mut found, mut expected] = [vec![0.0; 2 * n], vec![0.0; 2 * n]];
@@ -128,7 +98,7 @@ fn strong_and_weak_forces() {
                 "{strength:e}: {found:e}, {expected:e}"
             );
         }
-        let state = DiscsState { x: q[..n].to_vec(), y: q[n..].to_vec() };
+        let state = BlobsState { x: q[..n].to_vec(), y: q[n..].to_vec() };
         let error = fast.measured_error(&state, n).unwrap();
         assert!(error > 1e-12 && error < 1e-6, "{strength:e}: {error:e}");
     }
@@ -175,7 +145,11 @@ fn kernels_of_a_low_rank() {
     let y = (0..n).map(|j| place(j, 0.37).1 + 0.01 * (2.9 * j as f64).cos());
     let q: Vec<f64> = x.chain(y).collect();
     for tolerance in [1e-3, 1e-4, 1e-5, 3e-6, 1e-7, 2e-10] {
-        let (force, energy) = compare::<_, 2>(&Harmonic { n }, &q, 0.9999999 * tolerance);
+        let (force, energy) = compare::<_, 2>(
+            &Gaussian { n, length: 1.0, height: 0.0, stiffness: 1.0 },
+            &q,
+            0.9999999 * tolerance,
+        );
         assert!(force < tolerance && energy < tolerance, "tolerance {tolerance:e}: {force:e}, {energy:e}");
     }
 }
@@ -189,7 +163,8 @@ fn a_spiral_into_the_middle_of_a_gaussian() {
     let y = (0..n).map(|j| radius(j) * (2.4 * j as f64).sin());
     let q: Vec<f64> = x.chain(y).collect();
     for tolerance in [1e-2, 1e-3, 1e-4, 1e-5] {
-        let (force, energy) = compare::<_, 2>(&Gaussian { n, length: 0.3 }, &q, tolerance);
+        let (force, energy) =
+            compare::<_, 2>(&Gaussian { n, length: 0.3, height: 1.0, stiffness: 0.0 }, &q, tolerance);
         assert!(force < tolerance && energy < tolerance, "tolerance {tolerance:e}: {force:e}, {energy:e}");
     }
 }
@@ -208,8 +183,10 @@ fn kernels_that_interpolation_does_not_resolve() {
     let q: Vec<f64> = numbers(34).take(2 * n).collect();
     for tolerance in [1e-3, 1e-6, 1e-8] {
         for radius in [0.3, 0.7, 1.1, 2.0] {
-            is_right(&Poles { n, radius }, &q, tolerance, &format!("pole at {radius}"));
-            is_right(&Rings { n, radius }, &q, tolerance, &format!("ring at {radius}"));
+            for [soft, hard] in [[1.0, 0.0], [0.0, 1.0]] {
+                let rings = Rings { n, radius, soft, hard };
+                is_right(&rings, &q, tolerance, &format!("{soft} and {hard} of a ring at {radius}"));
+            }
         }
         for number in [1.0, 3.0, 10.0, 30.0, 100.0, 1000.0] {
             let waves = Waves { n, number };
@@ -228,11 +205,11 @@ fn systems_that_are_not_whole_are_errors() {
     let short = Gravity { n: 10, g: 1.0, mass: vec![1.0; 9], core: 0.1 };
     let error = FastSum::<_, 3>::new(&short, 1e-3).unwrap_err();
     assert!(matches!(error, FastSumError::Index(_)), "{error}");
-    let huge = Discs { n: usize::MAX / 4, strength: 1.0 };
+    let huge = Waves { n: usize::MAX / 4, number: 1.0 };
     assert!(matches!(FastSum::<_, 2>::new(&huge, 1e-6), Err(FastSumError::Index(_))));
-    let large = Discs { n: 1 << 40, strength: 1.0 };
+    let large = Waves { n: 1 << 40, number: 1.0 };
     let fast = FastSum::<_, 2>::new(&large, 1e-6).unwrap();
-    let state = DiscsState { x: vec![0.0; 3], y: vec![0.0; 3] };
+    let state = WavesState { x: vec![0.0; 3], y: vec![0.0; 3] };
     let error = fast.measured_error(&state, 3).unwrap_err();
     assert_eq!((error.array, error.expected, error.found), ("x", 1 << 40, 3));
     assert!(fast.operations(&state).is_err());

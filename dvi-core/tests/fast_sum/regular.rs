@@ -123,53 +123,39 @@ fn start(n: usize) -> StarsState {
     StarsState { x: some(5), y: some(6), z: some(7), dot_x: slow(8), dot_y: slow(9), dot_z: slow(10) }
 }
 
-/// Where the stars are after some steps, by the fast sum and by the sum over all pairs.
-fn same_course<'s, M>(fast: &'s FastSum<'s, Stars, 3>, method: M)
+/// Where the stars of a disc are after some steps, by the fast sum and by the sum over all pairs.
+fn same_course<'s, M>(fast: &'s FastSum<'s, Disc, 2>, method: M)
 where
-    M: Method<FastSum<'s, Stars, 3>, f64> + Method<Stars, f64> + Copy,
+    M: Method<FastSum<'s, Disc, 2>, f64> + Method<Disc, f64> + Copy,
 {
-    let n = fast.system().mass.len();
-    let mut run = Integrator::new(fast, method, 0.05, start(n)).unwrap();
-    let mut exact = Integrator::new(fast.system(), method, 0.05, start(n)).unwrap();
+    let n = fast.system().n;
+    let some = |seed| numbers(seed).take(n).collect();
+    let start = DiscState { x: some(5), y: some(6), dot_x: some(7), dot_y: some(8) };
+    let mut run = Integrator::new(fast, method, 0.02, start.clone()).unwrap();
+    let mut exact = Integrator::new(fast.system(), method, 0.02, start).unwrap();
     run.take_steps(10).unwrap();
     exact.take_steps(10).unwrap();
     let (found, expected) = (run.state(), exact.state());
     for (found, expected) in [(&found.x, &expected.x), (&found.dot_y, &expected.dot_y)] {
         let apart = apart(found, expected);
-        assert!(apart < 1e-5, "{apart:e}");
+        assert!(apart < 1e-8 && (n < 100 || apart > 0.0), "{apart:e}");
     }
 }
 
 #[test]
 fn methods_for_regular_systems_take_them() {
-    let [many, few] = [300, 60].map(|n| Stars { friction: 0.0, ..stars(n) });
-    let fast = FastSum::new(&many, 1e-6).unwrap();
-    let stopping = Stopping { tolerance: 1e-9, ..Stopping::default() };
+    let [many, few] = [300, 60].map(|n| Disc { n, g: 1.0 / n as f64 });
+    let fast = FastSum::new(&many, 1e-8).unwrap();
+    let stopping = Stopping { tolerance: 1e-10, ..Stopping::default() };
     same_course(&fast, Composition::kahan_li_8(Variational::trapezoid()));
     same_course(&fast, Gauss::<2> { stopping, ..Gauss::new() });
     same_course(&fast, RungeKutta::classical());
-    // By Newton's method.
-    let fast = FastSum::new(&few, 1e-6).unwrap();
-    same_course(&fast, Galerkin::<3> { stopping, ..Galerkin::new() });
-}
-
-#[test]
-fn newmark_steps() {
-    let n = 300;
-    let disc = Disc { n, g: 1.0 / n as f64 };
-    let some = |seed| numbers(seed).take(n).collect();
-    let start = DiscState { x: some(5), y: some(6), dot_x: some(7), dot_y: some(8) };
-    let fast = FastSum::<_, 2>::new(&disc, 1e-8).unwrap();
     for beta in [0.0, 0.25] {
-        let stopping = Stopping { tolerance: 1e-10, ..Stopping::default() };
-        let method = Newmark { stopping, ..Newmark::new(beta) };
-        let mut run = Integrator::new(&fast, method, 0.02, start.clone()).unwrap();
-        let mut exact = Integrator::new(&disc, method, 0.02, start.clone()).unwrap();
-        run.take_steps(10).unwrap();
-        exact.take_steps(10).unwrap();
-        let apart = apart(&run.state().x, &exact.state().x);
-        assert!(apart > 0.0 && apart < 1e-8, "{beta}: {apart:e}");
+        same_course(&fast, Newmark { stopping, ..Newmark::new(beta) });
     }
+    // By Newton's method.
+    let fast = FastSum::new(&few, 1e-8).unwrap();
+    same_course(&fast, Galerkin::<3> { stopping, ..Galerkin::new() });
 }
 
 /// With all second derivatives: those of the sum over all pairs.
@@ -180,8 +166,8 @@ fn newton_steps_of_systems_without_a_constant_mass() {
     let some = |seed| numbers(seed).take(n).collect();
     let start = ChargesState { x: some(5), y: some(6), dot_x: some(7), dot_y: some(8) };
     let fast = FastSum::<_, 2>::new(&charges, 1e-8).unwrap();
-    let method =
-        Galerkin::<3> { stopping: Stopping { tolerance: 1e-10, ..Stopping::default() }, ..Galerkin::new() };
+    let stopping = Stopping { tolerance: 1e-10, ..Stopping::default() };
+    let method = Variational { stopping, ..Variational::midpoint() };
     let mut run = Integrator::new(&fast, method, 0.02, start.clone()).unwrap();
     let mut exact = Integrator::new(&charges, method, 0.02, start).unwrap();
     run.take_steps(3).unwrap();
@@ -200,7 +186,7 @@ fn verlet_steps_of_many_stars_keep_the_energy() {
     let drift = |step: f64| {
         let mut run = Integrator::new(&fast, Variational::trapezoid(), step, start(n)).unwrap();
         let energy = run.energy();
-        run.take_steps((0.5 / step) as u64).unwrap();
+        run.take_steps((0.2 / step) as u64).unwrap();
         (run.energy() / energy - 1.0).abs()
     };
     // Of second order, as far as the tolerance.
