@@ -209,7 +209,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             statistics.factorisations += 1;
             let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
             let upper = discrete::Equations { l_d, span, p0: p, statistics };
-            let lower = Lower::OfStep(span, [next, work]);
+            let lower = Lower::Step(span, [next, work]);
             let forces = Some(At { q, t: interval.t });
             let (multipliers, active) = (&**impulse, impulse.len());
             let equations = &mut Bordered { system, upper, lower, multipliers, forces, active };
