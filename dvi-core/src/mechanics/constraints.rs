@@ -96,25 +96,25 @@ pub(crate) struct At<'a, T> {
 /// What the lower rows of the equations say.
 pub(crate) enum Lower<'a, S, T> {
     /// What vanishes at a position, of constraints of positions.
-    OfPosition(At<'a, T>),
+    Position(At<'a, T>),
     /// What vanishes at the end of a step. The slices are work space.
-    OfStep(Span<'a, S, T>, [&'a mut [T]; 2]),
+    Step(Span<'a, S, T>, [&'a mut [T]; 2]),
     /// What vanishes with a velocity.
-    OfVelocity(At<'a, T>, &'a [T]),
+    Velocity(At<'a, T>, &'a [T]),
     /// What the acceleration with a velocity is to be.
-    OfAcceleration(At<'a, T>, &'a [T]),
+    Acceleration(At<'a, T>, &'a [T]),
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Lower<'_, S, T> {
     #[inline]
     fn evaluate<K: Sink<T>>(&mut self, system: &S, c: &mut [T], sink: &mut K) {
         match self {
-            Self::OfPosition(At { q, t }) => S::Kind::forces(system, q, *t, c, sink),
-            Self::OfStep(span, [point, velocity]) => {
+            Self::Position(At { q, t }) => S::Kind::forces(system, q, *t, c, sink),
+            Self::Step(span, [point, velocity]) => {
                 S::Kind::of_step(system, *span, [point, velocity], c, sink);
             }
-            Self::OfVelocity(At { q, t }, v) => S::Kind::of_velocity(system, q, v, *t, c, sink),
-            Self::OfAcceleration(At { q, t }, v) => S::Kind::of_acceleration(system, q, v, *t, c, sink),
+            Self::Velocity(At { q, t }, v) => S::Kind::of_velocity(system, q, v, *t, c, sink),
+            Self::Acceleration(At { q, t }, v) => S::Kind::of_acceleration(system, q, v, *t, c, sink),
         }
     }
 }
@@ -235,7 +235,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     ) -> Result<T, StepFailure> {
         let n = v.len();
         let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };
-        let lower = Lower::OfVelocity(at, v);
+        let lower = Lower::Velocity(at, v);
         let (multipliers, active) = (&*impulse, impulse.len());
         let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
         if due == Due::Residual {

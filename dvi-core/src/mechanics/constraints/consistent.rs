@@ -117,7 +117,7 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     }
     // A redundant constraint is named by these equations.
     let mut projection = Projection::new(system, q, v, t);
-    let determined = projection.change([q, v], Lower::OfVelocity(at, v)).map(|_| ());
+    let determined = projection.change([q, v], Lower::Velocity(at, v)).map(|_| ());
     let residuals = &mut projection.solver.residuals;
     residuals.evaluate(system, at, v, |j| sizes[j]);
     match residuals.worst(system, at, v) {
@@ -155,7 +155,7 @@ fn align<S: ConstrainedLagrangian<T>, T: Real>(
 ) -> Result<(), StartError> {
     let (system, at) = (projection.system, At { q, t: projection.t });
     loop {
-        let change = projection.change([q, v], Lower::OfVelocity(at, v)).map_err(StartError::Projection)?;
+        let change = projection.change([q, v], Lower::Velocity(at, v)).map_err(StartError::Projection)?;
         v.iter_mut().zip(change).for_each(|(v, &change)| *v -= change);
         let residuals = &mut projection.solver.residuals;
         residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]));
@@ -187,7 +187,7 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
     let (mut off, mut kept) = (None, 0);
     for _ in 0..MOVES {
         projection.solver.balance(system, At { q, t }, v);
-        let change = match (projection.change([q, v], Lower::OfPosition(At { q, t })), off) {
+        let change = match (projection.change([q, v], Lower::Position(At { q, t })), off) {
             (Ok(change), _) => change,
             // The way there has ended where the equations have no solution, which says nothing of the
             // constraints.

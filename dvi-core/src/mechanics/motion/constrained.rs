@@ -11,6 +11,9 @@ use crate::scalar::norm;
 use crate::system::{Holonomic, Nonholonomic};
 use crate::{HolonomicLagrangian, NonholonomicLagrangian, Real, Space, Vector};
 
+/// An acceleration, and λ.
+type Accelerated<S, T> = (Vector<S, T>, Multipliers<S, T>);
+
 /// Returns the acceleration of the motion through (`q`, `v`, `t`), and λ.
 ///
 /// # Errors
@@ -19,12 +22,12 @@ pub(crate) fn acceleration<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
     t: T,
-) -> Result<(Vector<S, T>, Multipliers<S, T>), StepFailure> {
+) -> Result<Accelerated<S, T>, StepFailure> {
     let [mut acceleration, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
     let mut multipliers: Multipliers<S, T> = system.multipliers().vector();
     let mut solver = ConstraintSolver::new(system, q, v, t);
     let upper = SecondOrder { system, q, v, t, l_v: &mut l_v };
-    let (lower, active) = (Lower::OfAcceleration(At { q, t }, v), multipliers.len());
+    let (lower, active) = (Lower::Acceleration(At { q, t }, v), multipliers.len());
     let equations = &mut Bordered { system, upper, lower, multipliers: &multipliers, forces: None, active };
     solver.solve(equations, T::lift(1.0))?;
     let (found, of_constraints) = solver.parts(q.len());

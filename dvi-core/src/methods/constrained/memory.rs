@@ -210,7 +210,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
             let departing = &mut Departing { l_d, system, interval, q0: q };
             let upper = AtIncrement { equations: departing, p0: p, delta: increment, statistics };
-            let lower = Lower::OfStep(span, [next, work]);
+            let lower = Lower::Step(span, [next, work]);
             let forces = Some(At { q, t: interval.t });
             let (multipliers, active) = (&**impulse, impulse.len());
             let equations = &mut Bordered { system, upper, lower, multipliers, forces, active };

@@ -119,7 +119,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
             let (mut at, mut from, mut work) = (q.clone(), Place::new(system), Arrival::new(system));
             from.restore(here);
             from.impulses[0].iter_mut().for_each(|impulse| *impulse *= ratio);
-            let walked = walk.along::<false>((&mut at, &mut from, &mut work), T::lift(1.0));
+            let walked = walk.along::<false>(&mut at, &mut from, &mut work, T::lift(1.0));
             if walked.0 > 0 {
                 norm::finite(&from.p).and(norm::finite(&at)).ok()?;
                 q.copy_from_slice(&at);
@@ -127,7 +127,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
             }
             walked
         } else {
-            walk.along::<true>((q, here, work), ratio)
+            walk.along::<true>(q, here, work, ratio)
         };
         if taken > 0 {
             *last = h;
@@ -153,7 +153,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Walk<'_, S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn along<const CHECKS: bool>(
         &self,
-        (at, from, work): (&mut Vector<S, T>, &mut Place<S, T>, &mut Arrival<S, T>),
+        at: &mut Vector<S, T>,
+        from: &mut Place<S, T>,
+        work: &mut Arrival<S, T>,
         mut ratio: T,
     ) -> (u64, u64) {
         let Self { system, mass, is_positive, stopping, clock, count } = *self;
