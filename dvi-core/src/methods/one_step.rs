@@ -25,7 +25,7 @@ use crate::solve::{Convergence, Guess, Judge, Quick, Stopping, from_either_guess
 use crate::state::Statistics;
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
 pub use gauss::OneStepGauss;
-use split::{Split, copy_x, is_x};
+use split::{Split, is_x};
 use stage::{Rule, Stage, Step};
 
 /// A one-step scheme for degenerate systems in class: [`ProperlyDegenerate`].
@@ -232,7 +232,7 @@ impl OneStep {
         let half = T::lift(0.5);
         let until_y = if self.is_symmetric() { half } else { T::lift(1.0) };
         begin(point, step, guess, [step.part(), until_y], [&mut work.stage.unknown, &mut work.turn]);
-        copy_x(system, &point.p, &mut work.stage.momentum);
+        work.stage.momentum.copy_from_slice(&point.p);
         let begin = if self.is_symmetric() { t } else { self.depart(step, point, work, statistics) };
         let from = if self.is_symmetric() { q } else { &work.next };
         work.stage.solve::<J>(&Step { q: from, t: begin, ..*step }, self.stopping, statistics)?;
@@ -323,7 +323,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let Step { system, q, h, .. } = *step;
+        let Step { system, q, t, h, .. } = *step;
         let half = T::lift(0.5);
         let stage = &mut self.stage;
         for i in 0..q.len() {
@@ -332,37 +332,29 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
                 if is_x(system, i) { unknown / step.part() } else { (unknown - q[i]) / half } / h;
         }
         // From ȳ on, as far again, and what the last steps have added; from there, if that is too far.
-        self.solve_y::<J>(step, 1.0, stopping, statistics)
-            .or_else(|_| self.solve_y::<J>(step, 0.0, stopping, statistics))?;
-        let Self { stage, next, turn, .. } = self;
+        let Self { stage, split, next, turn } = self;
+        let mut again = T::lift(1.0);
+        loop {
+            for i in 0..q.len() {
+                let unknown = stage.unknown[i];
+                next[i] = if is_x(system, i) {
+                    q[i] + unknown / step.part()
+                } else {
+                    unknown + again * ((unknown - q[i]) + half * h * turn[i])
+                };
+            }
+            match split.solve_y::<J>(system, next, t + h, &stage.momentum, stopping, statistics) {
+                Err(_) if again > T::lift(0.0) => again = T::lift(0.0),
+                Err(failure) => return Err(failure),
+                Ok(()) => break,
+            }
+        }
         for i in 0..q.len() {
             let rate = stage.rates[i];
             turn[i] =
                 if is_x(system, i) { T::lift(0.0) } else { (next[i] - stage.unknown[i]) / half / h - rate };
         }
         Ok(())
-    }
-
-    /// Sets `next` to the end of the step, with y from `again` times as far as to ȳ beyond it.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn solve_y<J: Judge<T>>(
-        &mut self,
-        step: &Step<'_, S, T>,
-        again: f64,
-        stopping: Stopping,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let (Self { stage, split, next, turn }, Step { system, q, t, h, .. }) = (self, step);
-        let (again, half) = (T::lift(again), T::lift(0.5) * *h);
-        for i in 0..q.len() {
-            let unknown = stage.unknown[i];
-            next[i] = if is_x(*system, i) {
-                q[i] + unknown / step.part()
-            } else {
-                unknown + again * ((unknown - q[i]) + half * turn[i])
-            };
-        }
-        split.solve_y::<J>(system, next, *t + *h, &stage.momentum, stopping, statistics)
     }
 
     /// Moves `q` and `point` to the end of the step.

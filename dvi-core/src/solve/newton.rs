@@ -1,6 +1,6 @@
 //! Newton's method for the increment of a step.
 
-use super::{Due, Iteration, Judge, repeat, sizes};
+use super::{Due, Judge, iterate, sizes};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::{LinearEquations, LinearSolver, Sink, linear};
@@ -89,42 +89,22 @@ pub(crate) fn solve_by_newton<S: System, T: Real, J: Judge<T>>(
     judge: J,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    repeat(judge, statistics, Newton { equations, system, q0, p0, delta, solver, correction, weights })?;
+    iterate(
+        judge,
+        statistics,
+        #[cfg_attr(not(debug_assertions), inline(always))]
+        |due, statistics| {
+            due.prepare(system, weights, q0, delta);
+            let [linearizations, factorisations] = equations.cost();
+            statistics.linearizations += linearizations;
+            statistics.factorisations += factorisations;
+            if *due == Due::Residual {
+                return equations.residual([q0, p0, delta], [correction, weights]);
+            }
+            let mut at = AtIncrement { equations: &mut *equations, p0, delta, statistics };
+            solver.solve(&mut at, weights, correction)?;
+            Ok(sizes::reduce(system, weights, delta, correction))
+        },
+    )?;
     if J::NAMES { norm::finite(delta) } else { Ok(()) }
-}
-
-struct Newton<'a, S, T, E, L> {
-    equations: &'a mut E,
-    system: &'a S,
-    q0: &'a [T],
-    p0: &'a [T],
-    delta: &'a mut [T],
-    solver: &'a mut L,
-    correction: &'a mut [T],
-    weights: &'a mut [T],
-}
-
-impl<S: System, T: Real, E: Linearize<T>, L: LinearSolver<T>> Iteration<T> for Newton<'_, S, T, E, L> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn prepare(&mut self, due: &mut Due) {
-        due.prepare(self.system, self.weights, self.q0, self.delta);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        let Self { equations, system, q0, p0, delta, solver, correction, weights } = self;
-        if *due == Due::Residual {
-            return equations.residual([q0, p0, delta], [correction, weights]);
-        }
-        let mut at = AtIncrement { equations: &mut **equations, p0, delta, statistics };
-        solver.solve(&mut at, weights, correction)?;
-        Ok(sizes::reduce(*system, weights, delta, correction))
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn count(&self, times: u64, statistics: &mut Statistics) {
-        let [linearizations, factorisations] = self.equations.cost();
-        statistics.linearizations += times * linearizations;
-        statistics.factorisations += times * factorisations;
-    }
 }

@@ -29,14 +29,6 @@ pub(super) fn is_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, i: usize) -> b
     2 * system.place(i) < system.space().dimension()
 }
 
-/// Sets `to` to `from` along x, and to zero along y.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn copy_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, from: &[T], to: &mut [T]) {
-    for (i, (&from, to)) in from.iter().zip(to).enumerate() {
-        *to = if is_x(system, i) { from } else { T::lift(0.0) };
-    }
-}
-
 impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {

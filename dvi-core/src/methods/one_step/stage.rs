@@ -89,20 +89,10 @@ pub(super) struct Stage<S: System, T: Real> {
 impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
-        let vector = || system.space().vector();
-        let rest: Vector<S, T> = vector();
-        Self {
-            unknown: vector(),
-            momentum: vector(),
-            rates: vector(),
-            gradient: vector(),
-            one_form: vector(),
-            point: vector(),
-            velocity: vector(),
-            solver: of_second_derivatives(system, q, &rest, t, Storing::Always),
-            correction: vector(),
-            weights: vector(),
-        }
+        let [unknown, momentum, rates, gradient, one_form, point, velocity, correction, weights] =
+            system.space().vectors();
+        let solver = of_second_derivatives(system, q, &velocity, t, Storing::Always);
+        Self { unknown, momentum, rates, gradient, one_form, point, velocity, solver, correction, weights }
     }
 
     /// Improves the guess `unknown` until the equations hold for `momentum`.
