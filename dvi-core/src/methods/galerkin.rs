@@ -12,7 +12,6 @@
 mod attempt;
 mod coefficients;
 mod displaced;
-mod evaluation;
 mod interior;
 mod lagrangian;
 mod memory;
@@ -23,7 +22,7 @@ use crate::mechanics::motion::{InLanes, OneByOne};
 use crate::methods::Tabulated;
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
-use evaluation::NodeEvaluation;
+use interior::NodeEvaluation;
 
 /// The discrete Lagrangian of the Lobatto rule with `S` nodes, 3 ≤ `S` ≤ 9, stationary in displacements of
 /// the interior nodes.

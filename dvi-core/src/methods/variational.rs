@@ -9,22 +9,22 @@
 mod coefficients;
 mod flight;
 mod lagrangian;
-mod memory;
 mod together;
 mod verlet;
 
-use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
+use crate::discrete::frequency::{self, Frequency, FrequencyIn, Local, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
+use crate::memory::{Memory, lasting};
 use crate::methods::step::{Attempt, PhaseMemory};
 use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
+use coefficients::Coefficients;
 use lagrangian::{Interpolated, read};
-use memory::Interpolation;
 
 /// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
 ///
@@ -228,6 +228,34 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         }
     }
 
+    /// The memory of a run from (`q`, `v`, `t`) whose steps have the length `h`.
+    fn depart_from<S: NondegenerateLagrangian<T>, T: Real>(
+        &self,
+        system: &S,
+        (q, v, t): (&[T], &[T], T),
+        h: T,
+    ) -> Result<PhaseMemory<S, T, Interpolation<S, T>>, StartError>
+    where
+        F: FrequencyIn<T>,
+    {
+        self.validate::<S, T>(system)?;
+        let reading = self.frequency.reading();
+        let solver = match self.solver.in_numbers::<T>() {
+            _ if S::SEPARABLE && self.is_explicit() => Solver::FixedPoint,
+            // Without a constant M there is no fixed point, and a variational frequency is stiff in Δ.
+            Solver::Automatic if !S::CONSTANT_MASS || reading == Some(Reading::Variational) => {
+                Solver::Newton
+            }
+            solver => solver,
+        };
+        let mut given = Coefficients::linear(&self.rule);
+        if reading.is_none() {
+            given.fix(self, h).map_err(StartError::Starter)?;
+        }
+        let own = Interpolation { given, ends: [Local::new(system), Local::new(system)] };
+        PhaseMemory::new(system, (q, v, t), (solver, self.summation), own)
+    }
+
     fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
     where
         F: FrequencyIn<T>,
@@ -240,6 +268,19 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         }
         self.stopping.validate()
     }
+}
+
+/// The interpolation of a run.
+#[derive(Debug)]
+pub struct Interpolation<S: System, T: Real> {
+    /// The coefficients for a frequency that is given.
+    given: Coefficients<T>,
+    /// The frequencies at both ends of the step.
+    ends: [Local<S, T>; 2],
+}
+
+impl<S: System, T: Real> Memory<T> for Interpolation<S, T> {
+    lasting!(T;);
 }
 
 impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {

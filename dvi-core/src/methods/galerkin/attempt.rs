@@ -2,13 +2,13 @@
 //! it ends.
 
 use super::displaced::{Displaced, Fitted};
-use super::interior::{Departure, InteriorNodes};
+use super::interior::InteriorNodes;
 use super::memory::Path;
 use crate::discrete::frequency::FrequencyIn;
 use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
 use crate::mechanics::phase::{Arrival, Increments};
-use crate::methods::step::{Carried, Work};
+use crate::methods::step::{Begin, Carried, Work};
 use crate::scalar::norm;
 use crate::solve::{CoupledEquations, Guess, Stopping, solve_coupled};
 use crate::state::Statistics;
@@ -50,7 +50,7 @@ where
         let (system, interval, mass, limits) = (*system, *interval, &inertial.mass, (*stopping, budget));
         match interior {
             Some(interior) if F::UNFITTED => {
-                let at = Departure { system, interval, q, phase, mass };
+                let at = Begin { system, interval, q, phase, mass };
                 let increments = [&mut unknowns[NODES - 1], &mut residuals[0]];
                 interior.solve(&at, limits, increments, statistics)
             }

@@ -15,15 +15,13 @@
 
 use core::marker::PhantomData;
 
-use super::evaluation::NodeForces;
 use crate::discrete::{Interval, Rule as _};
 use crate::error::StepFailure;
-use crate::mechanics::mass::Mass;
-use crate::mechanics::motion::weigh;
-use crate::mechanics::phase::PhasePoint;
+use crate::mechanics::motion::{Evaluation, InLanes, OneByOne, weigh};
 use crate::memory::{Memory, lasting};
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::collocation::packs::{Nystrom, combine, continuation, sum};
+use crate::methods::step::Begin;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::{Lanes, norm};
 use crate::solve::{Convergence, Stopping, iterate};
@@ -67,16 +65,6 @@ impl<const NODES: usize, const W: usize, S: System, T: Real, E> Memory<T> for In
     lasting!(T; packs completed, numbers first, number last);
 }
 
-/// Where a step begins, and how long it is.
-#[derive(Debug)]
-pub struct Departure<'a, S: System, T: Real> {
-    pub(super) system: &'a S,
-    pub(super) interval: Interval<T>,
-    pub(super) q: &'a [T],
-    pub(super) phase: &'a PhasePoint<S, T>,
-    pub(super) mass: &'a Mass<S, T>,
-}
-
 /// The interior nodes of a step.
 pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Sized {
     /// Of the Lobatto rule.
@@ -91,7 +79,7 @@ pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Siz
     /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`].
     fn solve(
         &mut self,
-        at: &Departure<'_, S, T>,
+        at: &Begin<'_, S, T>,
         limits: (Stopping, usize),
         increments: [&mut Vector<S, T>; 2],
         statistics: &mut Statistics,
@@ -151,7 +139,7 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(
         &mut self,
-        at: &Departure<'_, S, T>,
+        at: &Begin<'_, S, T>,
         (stopping, budget): (Stopping, usize),
         [delta, impulse]: [&mut Vector<S, T>; 2],
         statistics: &mut Statistics,
@@ -186,8 +174,8 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
 
     /// Continues the forces of the step before, and moves the nodes by them.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn depart(&mut self, at: &Departure<'_, S, T>) {
-        let Departure { interval: Interval { h, .. }, phase, mass, .. } = *at;
+    fn depart(&mut self, at: &Begin<'_, S, T>) {
+        let Begin { interval: Interval { h, .. }, phase, mass, .. } = *at;
         self.continue_forces(&phase.force, h);
         self.start.copy_from_slice(&phase.force);
         mass.displace(h, &phase.p, &mut self.drift);
@@ -201,7 +189,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
 
     /// Evaluates the forces at the nodes.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate(&mut self, at: &Departure<'_, S, T>, statistics: &mut Statistics)
+    fn evaluate(&mut self, at: &Begin<'_, S, T>, statistics: &mut Statistics)
     where
         E: NodeForces<W, S, T>,
     {
@@ -270,8 +258,8 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
     /// Moves the nodes by the forces, and returns the largest change of a position in units of the
     /// coordinates.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn place(&mut self, at: &Departure<'_, S, T>) -> T {
-        let Departure { interval: Interval { h, .. }, q, phase, mass, .. } = *at;
+    fn place(&mut self, at: &Begin<'_, S, T>) -> T {
+        let Begin { interval: Interval { h, .. }, q, phase, mass, .. } = *at;
         let Self { nystrom, terms, displacements, places, renewed, drift, kick, work, sizes, .. } = self;
         if let Some(reciprocals) = mass.reciprocals() {
             weigh(|k| Lanes::all(h * reciprocals[k]), terms, displacements);
@@ -295,5 +283,74 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             sizes,
             [places, renewed],
         )
+    }
+}
+
+/// In which packs the interior nodes of a step stand.
+#[diagnostic::on_unimplemented(
+    message = "the forces of {NODES} nodes cannot be evaluated in lanes",
+    label = "lanes are for 4 to 9 nodes"
+)]
+pub trait NodeEvaluation<const NODES: usize, S: System, T: Real>: Evaluation {
+    /// The interior nodes.
+    type Interior: Memory<T>;
+}
+
+impl<const NODES: usize, S: System, T: Real> NodeEvaluation<NODES, S, T> for OneByOne {
+    type Interior = Interior<NODES, NODES, S, T, Self>;
+}
+
+macro_rules! in_lanes {
+    ($($nodes:literal $lanes:literal),*) => {$(
+        impl<S: System, T: Real> NodeEvaluation<$nodes, S, T> for InLanes {
+            type Interior = Interior<$nodes, $lanes, S, T, Self>;
+        }
+    )*};
+}
+
+in_lanes!(4 2, 5 4, 6 4, 7 8, 8 8, 9 8);
+
+/// How the forces at up to `W` nodes are evaluated.
+pub trait NodeForces<const W: usize, S: System, T: Real> {
+    /// Sets the first `count` lanes of `forces` to those at `places` and `times`; `work` is storage.
+    fn evaluate(
+        system: &S,
+        count: usize,
+        places: &[Lanes<W, T>],
+        times: Lanes<W, T>,
+        forces: &mut [Lanes<W, T>],
+        work: [&mut Vector<S, T>; 2],
+    );
+}
+
+impl<const W: usize, S: NondegenerateLagrangian<T>, T: Real> NodeForces<W, S, T> for OneByOne {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluate(
+        system: &S,
+        count: usize,
+        places: &[Lanes<W, T>],
+        times: Lanes<W, T>,
+        forces: &mut [Lanes<W, T>],
+        [place, force]: [&mut Vector<S, T>; 2],
+    ) {
+        for lane in 0..count {
+            read_lane(lane, places, place);
+            system.force(place, &[], times.0[lane], force);
+            write_lane(lane, force, forces);
+        }
+    }
+}
+
+impl<const W: usize, S: NondegenerateLagrangian<Lanes<W, T>>, T: Real> NodeForces<W, S, T> for InLanes {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluate(
+        system: &S,
+        _count: usize,
+        places: &[Lanes<W, T>],
+        times: Lanes<W, T>,
+        forces: &mut [Lanes<W, T>],
+        _work: [&mut Vector<S, T>; 2],
+    ) {
+        system.force(places, &[], times, forces);
     }
 }

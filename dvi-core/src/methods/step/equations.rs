@@ -11,7 +11,8 @@ use crate::state::Statistics;
 use crate::{Lagrangian, NondegenerateLagrangian, Real, Space, System};
 
 /// Where a step begins.
-pub(in crate::methods) struct Begin<'a, S: System, T: Real> {
+#[derive(Debug)]
+pub struct Begin<'a, S: System, T: Real> {
     pub(in crate::methods) system: &'a S,
     pub(in crate::methods) interval: Interval<T>,
     pub(in crate::methods) q: &'a [T],
