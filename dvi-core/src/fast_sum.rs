@@ -104,7 +104,6 @@ use thiserror::Error;
 use self::expansion::Expansion;
 use self::packs::Pack;
 use self::quantity::{Gradient, Potential, Quantity};
-use self::transfer::larger;
 use self::tree::NotFinite;
 use self::work::{Operations, Terms, Work};
 use crate::error::{IndexError, LengthError};
@@ -240,33 +239,15 @@ where
     }
 
     /// The relative error of the forces at a state, ‖∇H̃ − ∇H‖/‖∇H‖ of the sums over pairs, over some
-    /// `bodies` of equal distance in their order, against sums over all pairs of each.
+    /// `bodies` from all regions, against sums over all pairs of each. No number where a coordinate is none.
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
     pub fn measured_error(&self, state: &S::State<f64>, bodies: usize) -> Result<f64, LengthError> {
-        let q = self.point(state)?;
-        let all = PairSum::<f64, D>::bodies(self.system);
-        let mut fast: Vec<[f64; D]> = alloc::vec![[f64::NAN; D]; all];
-        self.pair_gradient(&q, |body, gradient| fast[body] = gradient);
-        let places = self.places(&q);
-        let compared = (0..all).step_by((all / bodies.max(1)).max(1));
-        let exact: Vec<(usize, [f64; D])> =
-            compared.map(|body| (body, self.direct_gradient(places, body))).collect();
-        // Squares of the largest numbers are none.
-        let largest = exact.iter().flat_map(|(_, exact)| exact).fold(0.0, |a, b| larger(a, b.abs()));
-        let (mut error, mut size) = (0.0, 0.0);
-        for (body, exact) in exact {
-            for axis in 0..D {
-                error += (fast[body][axis] / largest - exact[axis] / largest).powi(2);
-                size += (exact[axis] / largest).powi(2);
-            }
-        }
-        Ok(if largest == 0.0 && fast.iter().flatten().all(|entry| *entry == 0.0) {
-            0.0
-        } else {
-            (error / size).sqrt()
-        })
+        let has_numbers = self.pair_gradient(&self.point(state)?, |_, _| ());
+        let (_, work) = &*self.inner.borrow();
+        let error = || work.error::<Gradient>(&|r2| self.system.kernel_slope(r2), bodies);
+        Ok(if has_numbers { error() } else { f64::NAN })
     }
 
     /// What an evaluation of the forces takes at a state: the `pairs` of bodies that are summed one by one,
@@ -276,8 +257,7 @@ where
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
     pub fn operations(&self, state: &S::State<f64>) -> Result<Operations, LengthError> {
-        let q = self.point(state)?;
-        let has_numbers = self.pair_gradient(&q, |_, _| ());
+        let has_numbers = self.pair_gradient(&self.point(state)?, |_, _| ());
         let (expansion, work) = &*self.inner.borrow();
         Ok(if has_numbers { work.operations(expansion) } else { Operations::default() })
     }
@@ -302,19 +282,6 @@ where
         }
         q.truncate(dimension);
         Ok(q)
-    }
-
-    fn direct_gradient(&self, places: [&[f64]; D], body: usize) -> [f64; D] {
-        let weight = |body: usize| PairSum::<f64, D>::weight(self.system, body);
-        let mut gradient = [0.0; D];
-        for other in (0..places[0].len()).filter(|other| *other != body) {
-            let difference: [f64; D] = core::array::from_fn(|axis| places[axis][body] - places[axis][other]);
-            let r2: f64 = difference.iter().map(|part| part * part).sum();
-            let slope = PairSum::<f64, D>::kernel_slope(self.system, r2);
-            let factor = 2.0 * weight(body) * weight(other) * slope;
-            (0..D).for_each(|axis| gradient[axis] += factor * difference[axis]);
-        }
-        gradient
     }
 
     fn places<'q>(&self, q: &'q [f64]) -> [&'q [f64]; D] {

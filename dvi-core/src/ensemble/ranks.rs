@@ -104,7 +104,7 @@ impl<S: Lagrangian, M: Method<S, f64>> Ensemble<'_, S, M> {
         let others = received.into_iter().map(|(rank, bytes)| {
             let (plan, shard, slots) =
                 file::decode(&bytes).map_err(|reason| RanksError::Damaged { rank, reason })?;
-            Ok(Results::of(plan, shard, slots))
+            Ok::<_, RanksError>(Results::of(plan, shard, slots))
         });
         let shards: Vec<Results> = [Ok(own)].into_iter().chain(others).collect::<Result<_, _>>()?;
         Ok(Some(Results::merge(shards)?))

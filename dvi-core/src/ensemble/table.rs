@@ -29,15 +29,9 @@ crate::error::said!(TableError);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Table {
+    text: Vec<u8>,
     names: Vec<String>,
-    rows: Vec<Row>,
-}
-
-#[derive(Clone, Debug)]
-struct Row {
-    /// Counted from 1.
-    line: u64,
-    entries: csv::StringRecord,
+    rows: Vec<csv::StringRecord>,
 }
 
 /// A table that cannot be read, or does not have what is asked for.
@@ -102,13 +96,8 @@ impl Table {
                 return Err(TableError::Duplicate { name: name.clone(), first, second });
             }
         }
-        let (mut rows, mut lines) = (Vec::new(), Lines { text: &text, at: 0, line: 1 });
-        for entries in reader.records() {
-            let entries = entries?;
-            let line = entries.position().map_or(0, |position| lines.of(position.byte() as usize));
-            rows.push(Row { line, entries });
-        }
-        Ok(Self { names, rows })
+        let rows = reader.into_records().collect::<Result<_, _>>()?;
+        Ok(Self { text, names, rows })
     }
 
     /// The number of members.
@@ -152,32 +141,19 @@ impl Table {
             .ok_or_else(|| TableError::Missing { name: name.to_owned(), columns: self.names.join(", ") })
     }
 
-    fn number(&self, row: &Row, place: usize) -> Result<f64, TableError> {
-        let text = &row.entries[place];
+    fn number(&self, row: &csv::StringRecord, place: usize) -> Result<f64, TableError> {
+        let text = &row[place];
         text.parse().map_err(|_| TableError::Number {
-            line: row.line,
+            line: self.line(row),
             column: self.names[place].clone(),
             text: text.to_owned(),
         })
     }
-}
 
-/// Counts the lines of a text, from its beginning to its end.
-struct Lines<'t> {
-    text: &'t [u8],
-    at: usize,
-    line: u64,
-}
-
-impl Lines<'_> {
-    /// The line of the first entry that begins at `byte` or after ends of lines there.
-    fn of(&mut self, byte: usize) -> u64 {
-        while let Some(&next) =
-            self.text.get(self.at).filter(|&&c| self.at < byte || matches!(c, b'\r' | b'\n'))
-        {
-            self.line += u64::from(next == b'\n');
-            self.at += 1;
-        }
-        self.line
+    /// The line in which a row begins, behind empty ones.
+    fn line(&self, row: &csv::StringRecord) -> u64 {
+        let (before, rest) = self.text.split_at(row.position().map_or(0, |at| at.byte() as usize));
+        let empty = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
+        1 + before.iter().chain(empty).filter(|&&byte| byte == b'\n').count() as u64
     }
 }

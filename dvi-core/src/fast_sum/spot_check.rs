@@ -39,6 +39,35 @@ pub(super) fn holds<Q: Quantity<D>, const D: usize>(
     apart <= part * largest
 }
 
+/// The difference of the sums of some bodies, times their weights, from those over all others, relative to
+/// these.
+pub(super) fn error<Q: Quantity<D>, const D: usize>(
+    bodies: &Sorted<D>,
+    factor: &impl Fn(Pack) -> Pack,
+    sums: &[Vec<f64>; D],
+    count: usize,
+) -> f64 {
+    let all = bodies.tree.order.len();
+    let mut pairs = Vec::new();
+    for body in (0..all).step_by((all / count.max(1)).max(1)) {
+        let [direct, _] = over_all::<Q, D>(bodies, factor, body);
+        for (sums, direct) in sums.iter().zip(direct.as_ref()) {
+            pairs.push([sums[body], total(direct)].map(|sum| bodies.weights[body] * sum));
+        }
+    }
+    if pairs.iter().flatten().all(|sum| *sum == 0.0) {
+        return 0.0;
+    }
+    // Squares of the largest numbers are none.
+    let largest = pairs.iter().fold(0.0, |largest, [_, direct]| larger(largest, direct.abs()));
+    let (mut error, mut size) = (0.0, 0.0);
+    for [found, direct] in pairs {
+        error += (found / largest - direct / largest).powi(2);
+        size += (direct / largest).powi(2);
+    }
+    (error / size).sqrt()
+}
+
 /// The sums for one body over all others, and those of the absolute values.
 fn over_all<Q: Quantity<D>, const D: usize>(
     Sorted { places, weights, tree, .. }: &Sorted<D>,

@@ -134,6 +134,11 @@ impl<const D: usize> Work<D> {
         Ok(order.map(move |(place, &(_, body))| (body as usize, sums(place))))
     }
 
+    /// The relative error of the sums of the last evaluation, of some bodies.
+    pub(super) fn error<Q: Quantity<D>>(&self, factor: &impl Fn(Pack) -> Pack, bodies: usize) -> f64 {
+        spot_check::error::<Q, D>(&self.bodies, factor, &self.sums, bodies)
+    }
+
     /// What the last evaluation has taken.
     pub(super) fn operations(&self, expansion: &Expansion<D>) -> Operations {
         let Sorted { tree, lists, .. } = &self.bodies;

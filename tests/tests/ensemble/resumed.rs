@@ -7,9 +7,8 @@ use std::time::Duration;
 
 use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
 use dvi_core::prelude::*;
-use dvi_tests::systems::{PointVortices, PointVorticesState};
 
-use crate::ensemble::{Checked, HenonHeiles, LEFT, Verlet, bytes, file, left, planets, wells};
+use crate::ensemble::{Checked, HenonHeiles, LEFT, Verlet, bytes, file, left, wells};
 
 const STEPS: u64 = 2000;
 
@@ -78,45 +77,6 @@ fn a_killed_process_goes_on_where_it_was() -> Checked {
     assert!(bytes(&Results::read(&path)?)? == bytes(&whole)?);
     let again = ensemble(&HenonHeiles).checkpoints(&path, Duration::from_secs(60)).take_steps(STEPS)?;
     assert!(bytes(&again)? == bytes(&whole)?);
-    Ok(())
-}
-
-/// Interrupted at every look, and resumed by the same process.
-#[test]
-fn interruptions_change_nothing() -> Checked {
-    let system = PointVortices { gamma: [1.0, 2.0, -0.5] };
-    let state = |k: u32| PointVorticesState { x: [-1.0, 0.01 * f64::from(k), 1.0], y: [0.0, 0.3, 0.1] };
-    for method in [Sigma::midpoint(), Sigma::leapfrog(), Sigma::new(0.3)] {
-        let ensemble = || Ensemble::new(&system, method, 0.05, (0..6).map(state)).stride(20);
-        let (plain, path) = (ensemble().take_steps(200)?, file("interrupted.ckpt"));
-        assert_eq!(bytes(&ensemble().checkpoints(&path, Duration::ZERO).take_steps(200)?)?, bytes(&plain)?);
-        let path = file("interrupted-in-lanes.ckpt");
-        let in_lanes = ensemble().in_lanes::<4>().checkpoints(&path, Duration::ZERO).take_steps(200)?;
-        assert_eq!(bytes(&in_lanes)?, bytes(&plain)?);
-    }
-    let (systems, states) = planets(9);
-    let gauss =
-        || Ensemble::with_systems(&systems, Gauss::<3>::new(), 0.01, states.iter().cloned()).stride(20);
-    let path = file("interrupted-gauss.ckpt");
-    let interrupted = gauss().checkpoints(&path, Duration::ZERO).take_steps(200)?;
-    assert_eq!(bytes(&interrupted)?, bytes(&gauss().take_steps(200)?)?);
-    Ok(())
-}
-
-/// Noise comes from the seed of each member.
-#[test]
-fn noise_is_that_of_the_member() -> Checked {
-    let method = Langevin { friction: 1.0, temperature: 0.01, seed: 0 };
-    let ensemble = || {
-        let ensemble = Ensemble::new(&HenonHeiles, method, 0.05, [wells(1)[0]; 6]).stride(10);
-        ensemble.vary_method(|number, method| method.seed = number)
-    };
-    let (plain, path) = (ensemble().take_steps(100)?, file("noise.ckpt"));
-    assert!(bytes(&ensemble().checkpoints(&path, Duration::ZERO).take_steps(100)?)? == bytes(&plain)?);
-    assert_ne!(plain.members()[0].state, plain.members()[1].state);
-    let others =
-        ensemble().vary_method(|number, method| method.seed = number + 1).checkpoints(&path, Duration::ZERO);
-    assert!(matches!(others.take_steps(100), Err(EnsembleError::Foreign { .. })));
     Ok(())
 }
 

@@ -1,69 +1,91 @@
-//! The same results, bit for bit, for every number of threads, of lanes and of shards.
+//! The same results, bit for bit, for every number of threads, of lanes and of shards, and with an
+//! interruption at each look.
 
-use dvi_core::ensemble::{Ensemble, Results, Shard};
+use std::fmt::Debug;
+use std::time::Duration;
+
+use dvi_core::ensemble::{Draws, Ensemble, EnsembleError, Results, Shard};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
+use dvi_tests::zoo::regular::{SPRING, SpringState};
 
-use crate::ensemble::{Checked, HenonHeiles, LEFT, Verlet, bytes, left, planets, wells};
+use crate::ensemble::{Checked, HenonHeiles, LEFT, bytes, file, left, planets, wells};
 
-const STEPS: u64 = 1500;
+/// An ensemble, or the same in lanes.
+type Changed<'a, S, M> = fn(Ensemble<'a, S, M>) -> Ensemble<'a, S, M>;
 
-fn on_threads<T: Send>(
-    threads: usize,
-    of: impl FnOnce() -> T + Send,
-) -> Result<T, rayon::ThreadPoolBuildError> {
-    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(of))
-}
-
-/// Some members fall without end, and fail where numbers end.
-fn without_limits(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
-    Ensemble::new(system, Variational::trapezoid(), 0.05, wells(45)).stride(7)
-}
-
-fn ensemble(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
-    without_limits(system).until(LEFT, left)
-}
-
-#[test]
-fn for_every_number_of_threads() -> Checked {
-    let expected = bytes(&ensemble(&HenonHeiles).take_steps(STEPS)?)?;
-    assert!(String::from_utf8_lossy(&expected[0]).contains("left the well"));
-    for threads in [1, 2, 3, 7] {
-        assert_eq!(bytes(&on_threads(threads, || ensemble(&HenonHeiles).take_steps(STEPS))??)?, expected);
-        let in_lanes = on_threads(threads, || ensemble(&HenonHeiles).in_lanes::<4>().take_steps(STEPS))??;
-        assert_eq!(bytes(&in_lanes)?, expected);
+/// The results of an ensemble, which are the same however they are computed.
+fn same<'a, S, M>(
+    name: &str,
+    steps: u64,
+    ensemble: impl Fn() -> Ensemble<'a, S, M> + Sync,
+    in_lanes: &[Changed<'a, S, M>],
+) -> Result<Results, Box<dyn std::error::Error>>
+where
+    S: Lagrangian + Debug + Sync + 'a,
+    S::State<f64>: Sync,
+    M: Method<S, f64> + Clone + Debug + Sync,
+{
+    let whole = ensemble().take_steps(steps)?;
+    let expected = bytes(&whole)?;
+    let alone: Changed<'a, S, M> = |ensemble| ensemble;
+    for changed in [&[alone], in_lanes].concat() {
+        let is_same = |results: &Results| Ok::<_, Box<dyn std::error::Error>>(bytes(results)? == expected);
+        for threads in [1, 2, 3, 7] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+            let results = pool.install(|| changed(ensemble()).take_steps(steps))?;
+            assert!(is_same(&results)?, "{name}: {threads} threads");
+        }
+        for of in [1, 3, 50] {
+            let shard = |index| {
+                let shard = Shard::new(index, of)?;
+                let results = changed(ensemble()).shard(shard).take_steps(steps)?;
+                assert_eq!(results.shard(), shard);
+                Ok(results)
+            };
+            // In any order.
+            let shards = (0..of).rev().map(shard).collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;
+            assert!(is_same(&Results::merge(shards)?)?, "{name}: {of} shards");
+        }
+        let path = file(&format!("same-{name}.ckpt"));
+        let interrupted = changed(ensemble()).checkpoints(&path, Duration::ZERO).take_steps(steps)?;
+        assert!(is_same(&interrupted)?, "{name}: interrupted");
     }
-    let expected = bytes(&without_limits(&HenonHeiles).take_steps(STEPS)?)?;
-    assert!(String::from_utf8_lossy(&expected[0]).contains("failed"));
-    for threads in [1, 3] {
-        let in_lanes =
-            on_threads(threads, || without_limits(&HenonHeiles).in_lanes::<4>().take_steps(STEPS))??;
-        assert_eq!(bytes(&in_lanes)?, expected);
-    }
-    Ok(())
+    Ok(whole)
 }
 
+/// With limits members go alone, and without some fall without end, and fail where numbers end.
 #[test]
-fn for_every_number_of_lanes() -> Checked {
-    let expected = bytes(&without_limits(&HenonHeiles).take_steps(STEPS)?)?;
-    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<1>().take_steps(STEPS)?)?, expected);
-    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<2>().take_steps(STEPS)?)?, expected);
-    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<3>().take_steps(STEPS)?)?, expected);
-    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<8>().take_steps(STEPS)?)?, expected);
-    assert_eq!(bytes(&without_limits(&HenonHeiles).in_lanes::<16>().take_steps(STEPS)?)?, expected);
+fn of_wells_that_are_left() -> Checked {
+    let free = || Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(45)).stride(49);
+    let limited = same("limits", 1500, || free().until(LEFT, left), &[Ensemble::in_lanes::<4>])?;
+    assert!(String::from_utf8_lossy(&bytes(&limited)?[0]).contains("left the well"));
+    let lanes: [Changed<'_, _, _>; 5] = [
+        Ensemble::in_lanes::<1>,
+        Ensemble::in_lanes::<2>,
+        Ensemble::in_lanes::<3>,
+        Ensemble::in_lanes::<8>,
+        Ensemble::in_lanes::<16>,
+    ];
+    let failing = same("failures", 1500, free, &lanes)?;
+    assert!(String::from_utf8_lossy(&bytes(&failing)?[0]).contains("failed"));
     Ok(())
 }
 
 /// Implicit steps, with iterations that are counted.
 #[test]
-fn of_vortices_in_lanes() -> Checked {
+fn of_vortices() -> Checked {
     let system = PointVortices { gamma: [1.0, 2.0, -0.5] };
     let state = |k: u32| PointVorticesState { x: [-1.0, 0.01 * f64::from(k), 1.0], y: [0.0, 0.3, 0.1] };
-    let ensemble = || Ensemble::new(&system, Sigma::midpoint(), 0.05, (0..21).map(state)).stride(13);
-    let alone = ensemble().take_steps(300)?;
-    assert!(alone.members().iter().all(|member| member.iterations > 0 && member.momenta.len() == 3));
-    assert_eq!(bytes(&ensemble().in_lanes::<4>().take_steps(300)?)?, bytes(&alone)?);
-    assert_eq!(bytes(&ensemble().in_lanes::<8>().take_steps(300)?)?, bytes(&alone)?);
+    let lanes: [Changed<'_, _, _>; 2] = [Ensemble::in_lanes::<4>, Ensemble::in_lanes::<8>];
+    for method in [Sigma::midpoint(), Sigma::leapfrog(), Sigma::new(0.3)] {
+        let ensemble = || Ensemble::new(&system, method, 0.05, (0..21).map(state)).stride(13);
+        let results = same("vortices", 100, ensemble, &lanes)?;
+        assert!(results.members().iter().all(|member| member.momenta.len() == 3));
+        let is_implicit = method != Sigma::leapfrog();
+        assert!(results.members().iter().all(|member| (member.iterations > 0) == is_implicit));
+    }
     Ok(())
 }
 
@@ -75,15 +97,17 @@ fn beside_members_that_fail() -> Checked {
     equal.fill(systems[0].clone());
     let method = EnergyLimit { method: Variational::trapezoid(), limit: 0.1 };
     for systems in [&systems, &equal] {
-        let ensemble = || Ensemble::with_systems(systems, method, 0.01, states.iter().cloned());
-        let expected = bytes(&ensemble().take_steps(400)?)?;
-        let inner =
-            || Ensemble::with_systems(systems, Variational::trapezoid(), 0.01, states.iter().cloned());
-        let unlimited = bytes(&inner().take_steps(400)?)?;
-        assert_eq!(bytes(&on_threads(3, || ensemble().take_steps(400))??)?, expected);
-        assert_eq!(bytes(&on_threads(3, || inner().in_lanes::<8>().take_steps(400))??)?, unlimited);
+        let of = || states.iter().cloned();
+        let inner = || Ensemble::with_systems(systems, Variational::trapezoid(), 0.01, of());
+        same("without a limit", 400, inner, &[Ensemble::in_lanes::<8>])?;
+        same(
+            "gauss",
+            200,
+            || Ensemble::with_systems(systems, Gauss::<3>::new(), 0.01, of()).stride(20),
+            &[],
+        )?;
+        let all = same("energy limit", 400, || Ensemble::with_systems(systems, method, 0.01, of()), &[])?;
         // Without those that fail, the others are what they were.
-        let all = ensemble().take_steps(400)?;
         for (member, state) in all.members().iter().zip(&states).filter(|(_, state)| state.dot_y > 0.0) {
             let system = &systems[member.number as usize..][..1];
             let alone = Ensemble::with_systems(system, method, 0.01, [*state]).take_steps(400)?;
@@ -95,23 +119,39 @@ fn beside_members_that_fail() -> Checked {
     Ok(())
 }
 
+/// Crossings of a section, with long steps, with limits and exponents and without.
 #[test]
-fn from_shards() -> Checked {
-    for ensemble in [ensemble, without_limits] {
-        let whole = ensemble(&HenonHeiles).take_steps(STEPS)?;
-        for of in [1, 2, 3, 50] {
-            let shard = |index| {
-                let shard = Shard::new(index, of)?;
-                let results = ensemble(&HenonHeiles).shard(shard).in_lanes::<4>().take_steps(STEPS)?;
-                assert_eq!(results.shard(), shard);
-                Ok(results)
-            };
-            // In any order.
-            let shards = (0..of).rev().map(shard).collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;
-            let merged = Results::merge(shards)?;
-            assert_eq!(bytes(&merged)?, bytes(&whole)?);
-        }
-    }
+fn of_crossings() -> Checked {
+    let states = || {
+        let phases = Draws::new(6).take(7, |draw| draw.uniform(0.0, core::f64::consts::TAU));
+        phases.map(|phase| SpringState { x: phase.cos(), dot_x: -phase.sin() })
+    };
+    let ensemble = || {
+        Ensemble::new(&SPRING, Variational::trapezoid(), 0.6, states())
+            .section(Direction::Either, |_, state| state.x - 0.95)
+            .stride(9)
+    };
+    same("section", 60, ensemble, &[Ensemble::in_lanes::<4>])?;
+    let limited = || ensemble().until(["late"], |_, _, t| [t - 30.0]).exponents();
+    same("section and limit", 60, limited, &[Ensemble::in_lanes::<4>])?;
+    Ok(())
+}
+
+/// Noise comes from the seed of each member.
+#[test]
+fn of_noise() -> Checked {
+    let method = Langevin { friction: 1.0, temperature: 0.01, seed: 0 };
+    let ensemble = || {
+        let ensemble = Ensemble::new(&HenonHeiles, method, 0.05, [wells(1)[0]; 6]).stride(10);
+        ensemble.vary_method(|number, method| method.seed = number)
+    };
+    let results = same("noise", 100, ensemble, &[])?;
+    assert_ne!(results.members()[0].state, results.members()[1].state);
+    let path = file("same-noise.ckpt");
+    ensemble().checkpoints(&path, Duration::ZERO).take_steps(100)?;
+    let others =
+        ensemble().vary_method(|number, method| method.seed = number + 1).checkpoints(&path, Duration::ZERO);
+    assert!(matches!(others.take_steps(100), Err(EnsembleError::Foreign { .. })));
     Ok(())
 }
 

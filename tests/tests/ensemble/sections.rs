@@ -1,13 +1,12 @@
 //! Crossings of a section, beside closed forms: as accurate as the run, whatever the length of a step.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::time::Duration;
 
-use dvi_core::ensemble::{Draws, Ensemble, Outcome, Results, Shard};
+use dvi_core::ensemble::{Draws, Ensemble, Outcome};
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::{SPRING, SpringState};
 
-use crate::ensemble::{Checked, bytes, file};
+use crate::ensemble::Checked;
 
 /// cos(t + φ)
 fn spring(phase: f64) -> SpringState {
@@ -104,34 +103,5 @@ fn a_section_that_is_no_number_is_a_failure() -> Checked {
     assert!(matches!(member.outcome, Outcome::Failed { .. }), "{:?}", member.outcome);
     // cos(t + 0.5) is zero at 1.07.
     assert_eq!(member.steps, 11);
-    Ok(())
-}
-
-/// With long steps, with limits and exponents and without: on every number of threads, in shards, and with
-/// an interruption at each look.
-#[test]
-fn they_are_the_same_however_they_are_computed() -> Checked {
-    let phases: Vec<f64> = Draws::new(6).take(7, |draw| draw.uniform(0.0, TAU)).collect();
-    let ensemble = |limited: bool| {
-        let states = phases.iter().map(|&phase| spring(phase));
-        let ensemble = Ensemble::new(&SPRING, Variational::trapezoid(), LONG, states)
-            .section(Direction::Either, |_, state| state.x - 0.95)
-            .stride(9);
-        if limited { ensemble.until(["late"], |_, _, t| [t - 30.0]).exponents() } else { ensemble }
-    };
-    for limited in [false, true] {
-        let expected = bytes(&ensemble(limited).take_steps(60)?)?;
-        for threads in [1, 2, 3, 7] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-            let results = pool.install(|| ensemble(limited).in_lanes::<4>().take_steps(60))?;
-            assert!(bytes(&results)? == expected, "{threads}");
-        }
-        let shard = |index| Ok(ensemble(limited).shard(Shard::new(index, 3)?).take_steps(60)?);
-        let shards = (0..3).map(shard).collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;
-        assert!(bytes(&Results::merge(shards)?)? == expected);
-        let path = file(&format!("section-{limited}.ckpt"));
-        let interrupted = ensemble(limited).checkpoints(&path, Duration::ZERO).take_steps(60)?;
-        assert!(bytes(&interrupted)? == expected);
-    }
     Ok(())
 }
