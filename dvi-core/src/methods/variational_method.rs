@@ -1,0 +1,60 @@
+//! Schemes that are the discrete Euler–Lagrange equations of a discrete Lagrangian.
+
+use super::Scheme;
+#[cfg(doc)]
+use super::{Constrained, EnergyLimit, Method};
+use crate::discrete::{DiscreteLagrangian, TwiceDifferentiable};
+use crate::error::StartError;
+use crate::system::Same;
+use crate::{Lagrangian, Real};
+
+/// A scheme whose steps are the discrete Euler–Lagrange equations of a discrete Lagrangian.
+///
+/// Its [`TangentMap`](crate::diagnostics::TangentMap) and its
+/// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from its second derivatives.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no discrete Lagrangian",
+    label = "its steps are not variational, or it reads a frequency from the motion",
+    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, \
+            and `EnergyLimit` around any of them"
+)]
+pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
+    /// What one interval contributes.
+    type DiscreteLagrangian: TwiceDifferentiable<S, T>;
+
+    /// Checks the options of the method.
+    ///
+    /// # Errors
+    /// [`StartError::Parameter`] names the option that is out of range, [`StartError::Unsupported`] what
+    /// does not go with the system.
+    fn admit(&self, system: &S) -> Result<(), StartError>;
+
+    /// The discrete Lagrangian on `system`, with the storage that it needs.
+    fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
+}
+
+/// A variational method that [`Constrained`] takes steps of: all that this knows of it is its discrete
+/// Lagrangian.
+///
+/// [`EnergyLimit`] is none, because its limit would not be watched: it goes around `Constrained`, as in
+/// `EnergyLimit { method: Constrained::new(…), limit }`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no discrete Lagrangian that `Constrained` could take steps of",
+    label = "its steps are not variational, it reads a frequency from the motion, or it watches steps",
+    note = "such a method is `Variational`; `EnergyLimit` goes around `Constrained`"
+)]
+pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
+    /// As [`Method::Suited`].
+    type Suited<M>: Same<M, As = M>;
+    /// The discrete Lagrangian.
+    type Inside: DiscreteLagrangian<S, T>;
+
+    /// Whether the compiler knows that without constraints the steps would be those of Störmer and Verlet.
+    const IS_VERLET: bool;
+
+    /// The discrete Lagrangian on `system`, if no options are set that have no effect there.
+    ///
+    /// # Errors
+    /// [`StartError::Unsupported`] names the first that is not left at its default.
+    fn inside(&self, system: &S) -> Result<Self::Inside, StartError>;
+}
