@@ -169,8 +169,8 @@ impl<R: Resume<Scalar = f64>> Archive<R> {
         self.file.append(&self.run.checkpoint())
     }
 
-    /// The run as it was after `steps` steps, counted as [`Run::steps`] does: another one, bit for bit, from
-    /// the last checkpoint before.
+    /// The run as it was after `steps` steps, counted as [`Run::steps`](crate::run::Run::steps) does:
+    /// another one, bit for bit, from the last checkpoint before.
     ///
     /// # Errors
     /// [`ArchiveError::Steps`] if it has not come so far, or has begun later.

@@ -11,7 +11,8 @@ use crate::state::fingerprint::Fingerprint;
 use crate::system::start::{finite, velocities};
 use crate::{Lagrangian, Real, Space, Vector};
 
-/// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) goes on, bit by bit as if the
+/// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) and
+/// [`Integrator::resume_controlled`](crate::run::Integrator::resume_controlled) go on, bit by bit as if the
 /// run had not stopped: on a system with the same parameters, and with the same method and options. That
 /// they are the same is not checked beyond the amount of what they carry.
 ///
