@@ -59,11 +59,19 @@ pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     if let ([a], [b], [x]) = (rows[0], rows[1], &mut *x) {
         let pivot = dot(a, b);
         *x /= pivot;
-        return (Scalar::abs(pivot) > least()).then_some(());
+        return admit(pivot);
     }
     fill(gram, rows, squares);
     x.iter_mut().zip(squares).for_each(|(x, &square)| *x *= scale(square));
     gram.eliminate(&mut [], x).ok()
+}
+
+/// Whether the matrix of one equation can be divided by. Inlined, the compiler asks it too early, which takes
+/// a step on a sphere more instructions.
+#[cold]
+#[inline(never)]
+pub(super) fn admit<T: Real>(pivot: T) -> Option<()> {
+    (Scalar::abs(pivot) > least()).then_some(())
 }
 
 /// A pivot is larger.
