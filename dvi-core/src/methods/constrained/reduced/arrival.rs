@@ -1,6 +1,6 @@
 //! One step of RATTLE, and the storage that it needs.
 
-use super::rows::{NEUTRAL, admit, combine, dot, fill, least, solve};
+use super::rows::{NEUTRAL, combine, dot, fill, solve};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints, Multipliers};
@@ -209,8 +209,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
             mass.solve(p, v);
             S::Kind::of_velocity(system, q, v, t, values, &mut Places(|_, _, _: T| ()));
         }
-        // Of one constraint the matrix is its square. A quotient by what is no pivot goes no further than to
-        // the end of this.
+        // Of one constraint the matrix is its square. A quotient by zero is no number, which is seen where
+        // the stride ends.
         if let ([value], [square]) = (&mut values[..], &squares[..]) {
             *value /= *square;
         } else {
@@ -220,11 +220,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
             *impulse = -value;
         }
         combine(rows, &impulses[1], p);
-        match squares[..] {
-            [square] if square > least() => Some(()),
-            [square] => admit(square),
-            _ => Some(()),
-        }
+        Some(())
     }
 }
 
