@@ -159,6 +159,7 @@ where
         Ok(memory)
     }
 
+    #[inline]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         if IfConstrained::<S, M, T>::IS_VERLET && S::Kind::OF_POSITIONS {
@@ -170,6 +171,7 @@ where
         memory.take(Step { system, q, t, h, statistics }, self.stopping)
     }
 
+    #[inline]
     fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Steps { system, q, clock, count, statistics } = steps;
         let (mut taken, mut strides) = (0, true);

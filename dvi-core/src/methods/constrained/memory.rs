@@ -145,12 +145,13 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     }
 
     /// Takes steps for the impulses alone, as [`Reduced::stride`]; none if they are not reduced.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn stride(&mut self, steps: Steps<'_, S, T>, stopping: Stopping) -> Option<u64> {
         self.reduced.as_mut()?.stride(steps, stopping, &mut self.last_step)
     }
 
     /// Takes a step for all unknowns.
+    #[inline(never)]
     pub(super) fn take(&mut self, step: Step<'_, S, T>, stopping: Stopping) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let interval = Interval { t, h };

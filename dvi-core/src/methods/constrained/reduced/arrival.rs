@@ -1,6 +1,6 @@
 //! One step of RATTLE, and the storage that it needs.
 
-use super::rows::{NEUTRAL, combine, dot, fill, least, solve};
+use super::rows::{NEUTRAL, combine, dot, fill, solve};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints, Multipliers};
@@ -184,14 +184,6 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
         let Self { q: q1, place, vector, values, gram, .. } = self;
         place.constrain(system, q1, t + h, values);
         place.measure(mass);
-        // Of one constraint that is the pivot of ι1. Asked behind what may return, it takes 17 instructions
-        // more.
-        if let [square] = place.squares[..] {
-            let is_pivot = square > least();
-            if !is_pivot {
-                return None;
-            }
-        }
         let (reciprocal, Place { p, rows, impulses: [first, _], .. }) = (T::lift(1.0) / h, place);
         first.iter_mut().for_each(|impulse| *impulse *= reciprocal);
         combine(&here.rows, first, p);
@@ -217,7 +209,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
             mass.solve(p, v);
             S::Kind::of_velocity(system, q, v, t, values, &mut Places(|_, _, _: T| ()));
         }
-        // Of one constraint the matrix is its square.
+        // Of one constraint the matrix is its square. A quotient by zero is no number, which is seen where
+        // the stride ends.
         if let ([value], [square]) = (&mut values[..], &squares[..]) {
             *value /= *square;
         } else {

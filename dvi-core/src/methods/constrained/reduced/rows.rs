@@ -59,14 +59,9 @@ pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     if let ([a], [b], [x]) = (rows[0], rows[1], &mut *x) {
         let pivot = dot(a, b);
         *x /= pivot;
-        return (Scalar::abs(pivot) > least()).then_some(());
+        return (Scalar::abs(pivot) > T::default_epsilon() * T::lift(LEAST)).then_some(());
     }
     fill(gram, rows, squares);
     x.iter_mut().zip(squares).for_each(|(x, &square)| *x *= scale(square));
     gram.eliminate(&mut [], x).ok()
-}
-
-/// A pivot is larger.
-pub(super) fn least<T: Real>() -> T {
-    T::default_epsilon() * T::lift(LEAST)
 }
