@@ -59,7 +59,6 @@ mod splines;
 mod structure;
 mod time_transform;
 mod together;
-mod together_parameters;
 mod units;
 mod variational;
 mod vectors;
