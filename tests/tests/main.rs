@@ -30,7 +30,6 @@ mod grids;
 mod impacts;
 mod imports;
 mod lanes;
-mod lattices;
 mod local_functions;
 mod manifold;
 mod many_coordinates;
