@@ -1,6 +1,5 @@
 //! Runs taken together in lanes beside the same runs alone, and the stages of Gauss collocation and interior
-//! nodes of `Galerkin` in lanes beside the same one by one, of a rotating frame beside the same motion as p
-//! dq − H.
+//! nodes of `Galerkin` in lanes beside the same one by one.
 //!
 //! `cargo bench -p dvi-benches --bench lanes [-- --markdown]`. Times are those of 512 steps of eight
 //! runs, and of 64 steps of Gauss collocation or `Galerkin`. Ratios of neighbouring rows are what
@@ -13,10 +12,7 @@ use dvi_core::prelude::*;
 use dvi_core::run::Together;
 use dvi_examples::models::outer_solar_system;
 use dvi_tests::configurations::quasi_periodic;
-use dvi_tests::zoo::regular::{
-    Kepler, KeplerState, RestrictedThreeBody, RestrictedThreeBodyForm, RestrictedThreeBodyFormState,
-    RestrictedThreeBodyState,
-};
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use markdown::{Cell, Table};
 
 const RUNS: usize = 8;
@@ -95,29 +91,7 @@ fn stages(criterion: &mut Criterion) {
         )*};
     }
     gauss!(4 8);
-    // Arenstorf's start. L has terms linear in v, and the other form of the same motion has none to solve
-    // for.
-    let (mu, x, dot_y, method, h) =
-        (0.012_277_471, 0.994, -2.001_585_106_379_082_5, Gauss::<8>::new(), 2.5e-4);
-    let by_velocity =
-        || (RestrictedThreeBody { mu }, RestrictedThreeBodyState { x, y: 0.0, dot_x: 0.0, dot_y });
-    let by_momentum = || {
-        let start = RestrictedThreeBodyFormState { x, y: 0.0, p_x: 0.0, p_y: dot_y + x };
-        (RestrictedThreeBodyForm { mu }, start)
-    };
-    let name = |form: &str, how: &str| format!("rotating frame as {form}, Gauss, 8 stages/{how}");
-    long_steps(criterion, &name("L", "one by one"), (method, h), by_velocity());
-    long_steps(criterion, &name("p dq - H", "one by one"), (method, h), by_momentum());
-    long_steps(criterion, &name("L", "in lanes"), (method.in_lanes(), h), by_velocity());
-    long_steps(criterion, &name("p dq - H", "in lanes"), (method.in_lanes(), h), by_momentum());
-    galerkin!(4 5 6 7 8 9);
-    let gauss = Gauss::<8>::new().in_lanes();
-    long_steps(
-        criterion,
-        "outer solar system, Gauss, 8 stages/in lanes",
-        (gauss, 200.0),
-        outer_solar_system(),
-    );
+    galerkin!(4 9);
 }
 
 macro_rules! together {

@@ -142,10 +142,6 @@ fn fput_by_hand(criterion: &mut Criterion, n: usize, evaluations: u64) {
     assert!(force.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-15), "the forces differ");
     let mut group = criterion.benchmark_group(format!("FPUT, midpoint, fixed point, h = {H}"));
     group.throughput(Throughput::Elements(n as u64));
-    group.bench_function(BenchmarkId::new("as many forces by hand", n), |bencher| {
-        bencher
-            .iter(|| (0..evaluations).for_each(|_| fput_by_hand::force(ALPHA, black_box(&q), &mut force)));
-    });
     let mut midpoint = fput_by_hand::Midpoint::new(ALPHA, H, &q, &wave(n, 1.0));
     group.bench_function(BenchmarkId::new("as many iterations by hand", n), |bencher| {
         bencher.iter(|| (0..evaluations).map(|_| midpoint.improve()).fold(0.0, f64::max));

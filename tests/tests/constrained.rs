@@ -4,7 +4,6 @@ mod equations;
 mod failing;
 mod light;
 mod orders;
-mod redundant;
 mod starts;
 
 use dvi_tests::Outcome;

@@ -7,7 +7,7 @@ mod indices;
 mod language;
 mod lattices;
 mod limits;
-mod oracle;
+pub(crate) mod oracle;
 mod particles;
 mod regular;
 mod self_check;

@@ -2,13 +2,14 @@
 //! taken back.
 
 use dvi_core::Scalar;
-use dvi_core::methods::{InStep, Method};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::run::Together;
 use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::systems::{LotkaVolterra, PointVortices};
 use dvi_tests::zoo::regular::Kepler;
+
+use crate::together::same_as_alone;
 
 /// A fall into the end of the domain at x = 0, where the force is finite beyond it: 1/x is known where ln x
 /// is not.
@@ -243,27 +244,10 @@ fn a_step_control_keeps_to_the_domain() -> Outcome {
 
 #[test]
 fn runs_that_share_lanes_keep_to_the_domain() -> Outcome {
-    const RUNS: usize = 4;
-    fn each<S: Lagrangian + PartialEq, M: InStep<RUNS, S> + PartialEq + Copy>(
-        system: &S,
-        method: M,
-        starts: [S::State<f64>; RUNS],
-    ) -> Outcome {
-        let begin = |start: &S::State<f64>| Integrator::new(system, method, 0.1, start.clone());
-        let mut together = starts.iter().map(begin).collect::<Result<Vec<_>, _>>()?;
-        let taken = Together::<RUNS, _, _>::new(&together[0]).take_steps(&mut together, 12);
-        for ((start, run), taken) in starts.iter().zip(&together).zip(taken) {
-            let mut alone = begin(start)?;
-            let expected = alone.take_steps(12);
-            assert_eq!(format!("{taken:?}"), format!("{expected:?}"));
-            assert_eq!((bits(run.q()), run.steps()), (bits(alone.q()), alone.steps()));
-            assert!(run.energy().is_finite(), "{:?}", run.q());
-        }
-        Ok(())
-    }
-    let flow = |x| FlowState { x, p: -0.3 };
-    each(&Flow, Sigma::midpoint(), [flow(0.4), flow(3.0), flow(0.55), flow(2.0)])?;
-    each(&Flow, Sigma::leapfrog(), [flow(0.4), flow(3.0), flow(0.55), flow(2.0)])
+    let runs = [0.4, 3.0, 0.55, 2.0].map(|x| (&Flow, FlowState { x, p: -0.3 }));
+    same_as_alone::<4, _, _>(&runs, &Sigma::midpoint(), 0.1, &[12])?;
+    same_as_alone::<4, _, _>(&runs, &Sigma::leapfrog(), 0.1, &[12])?;
+    Ok(())
 }
 
 #[test]

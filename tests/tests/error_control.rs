@@ -347,33 +347,3 @@ fn an_energy_limit_lets_the_estimate_through() -> Outcome {
     assert!(run.steps() > 10 && run.statistics().rejected > 0);
     Ok(())
 }
-
-/// The largest errors of the energy in the first and in the last tenth of `periods`.
-fn energy_errors(mut run: impl Run<Scalar = f64>, periods: f64) -> Outcome<[f64; 2]> {
-    let initial = run.energy();
-    let mut largest = [0.0; 2];
-    while run.time() < periods * TAU {
-        run.advance()?;
-        let tenth = run.time() / (0.1 * periods * TAU);
-        let error = (run.energy() - initial).abs();
-        if tenth < 1.0 {
-            largest[0] = larger(largest[0], error);
-        } else if tenth > 9.0 {
-            largest[1] = larger(largest[1], error);
-        }
-    }
-    Ok(largest)
-}
-
-#[test]
-fn the_energy_drifts_as_it_does_not_with_steps_of_one_length() -> Outcome {
-    let (method, start, periods) = (Gauss::<2>::new(), pericentre(0.5), 1000.0);
-    let controlled = Integrator::controlled(&KEPLER, method, ErrorControl::new(1e-6, 0.1), start)?;
-    let [first, last] = energy_errors(controlled, periods)?;
-    println!("{first:e} {last:e}");
-    assert!(last > 5.0 * first, "{first:e} {last:e}");
-    let [first, last] = energy_errors(Integrator::new(&KEPLER, method, TAU / 100.0, start)?, periods)?;
-    println!("{first:e} {last:e}");
-    assert!(last < 1.1 * first, "{first:e} {last:e}");
-    Ok(())
-}

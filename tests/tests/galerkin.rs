@@ -2,7 +2,7 @@
 
 mod equations;
 mod failures;
-pub(crate) mod many_nodes;
+mod many_nodes;
 mod oscillator;
 mod structure;
 mod systems;

@@ -1,6 +1,6 @@
 //! Gauss collocation where no fixed point contracts, by Newton's method: against closed forms of its steps.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq, relative_eq};
+use approx::{abs_diff_eq, relative_eq};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, Real};
@@ -19,16 +19,12 @@ fn angle(stages: usize, z: f64) -> f64 {
     2.0 * f64::atan2(numerator[1], numerator[0])
 }
 
-/// With so many stages, one by one and in lanes.
+/// With so many stages.
 macro_rules! each {
-    ($($stages:literal)*; |$count:ident, $method:ident| $body:expr) => {$(
-        {
-            let ($count, $method) = ($stages, Gauss::<$stages>::new());
-            $body;
-            let $method = $method.in_lanes();
-            $body;
-        }
-    )*};
+    ($($stages:literal)*; |$count:ident, $method:ident| $body:expr) => {$({
+        let ($count, $method) = ($stages, Gauss::<$stages>::new());
+        $body;
+    })*};
 }
 
 /// An oscillator whose momentum has the unit of its mass.
@@ -84,19 +80,6 @@ fn planets_move_in_metres_and_seconds() -> Outcome {
             assert!(off < 1e-13, "{steps} steps a year, {stages} stages: {off:e}");
         });
     }
-    // On an ellipse the error is of second order, from the energy and the momentum that it keeps.
-    let start = PlanetState { dot_phi: 1.1 * rate, ..start };
-    let after = |steps: u32| -> Outcome<[f64; 2]> {
-        let mut run = Integrator::new(&system, Gauss::<1>::new(), 3.156e7 / f64::from(steps), start)?;
-        let (energy, momentum) = (run.energy(), r * r * start.dot_phi);
-        run.take_steps(3 * u64::from(steps))?;
-        let PlanetState { r, dot_phi, .. } = run.state();
-        assert_abs_diff_eq!(r * r * dot_phi / momentum, 1.0, epsilon = 1e-13);
-        Ok([(run.energy() / energy - 1.0).abs(), run.state().phi])
-    };
-    let ([coarse, a], [fine, b], [_, exact]) = (after(50)?, after(200)?, after(3200)?);
-    assert!((12.0..20.0).contains(&(coarse / fine)), "{coarse:e}, {fine:e}");
-    assert!((15.0..18.5).contains(&((a - exact) / (b - exact))), "{a}, {b}, {exact}");
     Ok(())
 }
 

@@ -1,38 +1,42 @@
-//! Systems whose number of coordinates is known at run time only: their matrices are banded, and a run is
-//! that of the same system of fixed size, whose matrices are dense.
+//! Systems whose number of coordinates is known at run time only: their matrices are banded, and Newton's method
+//! with these takes the steps of solvers that store none. Of two-forms with a band, a run is that of the same
+//! system of fixed size, whose matrix is dense.
 
-use dvi_core::methods::{Composition, Method};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_examples::models::{VortexBlobs, VortexBlobsState};
+
+use crate::networks::as_without_a_matrix;
 
 const N: usize = 24;
 
 /// Toda's ring with masses of their own.
-macro_rules! ring {
-    ($name:ident [$($generics:tt)*] $masses:ty, $($n:tt)+) => {
-        #[lagrangian(
-            coordinates(q[$($n)+]),
-            lagrangian = sum(0..$($n)+, |j| m[j] * dot(q[j]).powi(2) / 2.0
-                - (q[(j + 1) % ($($n)+)] - q[j]).exp() + (q[(j + 1) % ($($n)+)] - q[j])),
-        )]
-        #[derive(Clone, Debug)]
-        struct $name $($generics)* { m: $masses }
-    };
+#[lagrangian(
+    coordinates(q[m.len()]),
+    lagrangian = sum(0..m.len(), |j| m[j] * dot(q[j]).powi(2) / 2.0
+        - (q[(j + 1) % m.len()] - q[j]).exp() + (q[(j + 1) % m.len()] - q[j])),
+)]
+struct Ring {
+    m: Vec<f64>,
 }
 
 /// A chain whose neighbours' velocities are coupled, and depend on the positions where `bend` is not zero.
 macro_rules! chain {
-    ($name:ident [$($generics:tt)*] $masses:ty, $bend:literal, $($n:tt)+) => {
+    ($name:ident, $bend:literal) => {
         #[lagrangian(
-            coordinates(q[$($n)+]),
-            lagrangian = sum(0..$($n)+, |j| m[j] * dot(q[j]).powi(2) * (1.0 + $bend * q[j] * q[j]) / 2.0
+            coordinates(q[m.len()]),
+            lagrangian = sum(0..m.len(), |j| m[j] * dot(q[j]).powi(2) * (1.0 + $bend * q[j] * q[j]) / 2.0
                     - q[j].powi(4) / 4.0)
-                + sum(1..$($n)+, |j| 0.2 * dot(q[j]) * dot(q[j - 1]) - (q[j] - q[j - 1]).powi(2)),
+                + sum(1..m.len(), |j| 0.2 * dot(q[j]) * dot(q[j - 1]) - (q[j] - q[j - 1]).powi(2)),
         )]
-        #[derive(Clone, Debug)]
-        struct $name $($generics)* { m: $masses }
+        struct $name {
+            m: Vec<f64>,
+        }
     };
 }
+
+chain!(Chain, 0.0);
+chain!(Bent, 0.3);
 
 /// A lattice with two coordinates at each site, and a one-form that couples neighbours, with a term that is
 /// not affine where `bend` is not zero.
@@ -50,15 +54,8 @@ macro_rules! lattice {
     };
 }
 
-ring!(Ring [<const N: usize>] [f64; N], N);
-ring!(LongRing [] Vec<f64>, m.len());
-chain!(Chain [<const N: usize>] [f64; N], 0.0, N);
-chain!(LongChain [] Vec<f64>, 0.0, m.len());
-chain!(Bent [<const N: usize>] [f64; N], 0.3, N);
-chain!(LongBent [] Vec<f64>, 0.3, m.len());
 lattice!(Lattice [<const N: usize>] [f64; N], 0.0, N);
 lattice!(LongLattice [] Vec<f64>, 0.0, m.len());
-lattice!(BentLattice [<const N: usize>] [f64; N], 0.05, N);
 lattice!(LongBentLattice [] Vec<f64>, 0.05, m.len());
 
 fn masses() -> [f64; N] {
@@ -69,132 +66,62 @@ fn wave(phase: f64) -> [f64; N] {
     std::array::from_fn(|j| 0.4 * (0.7 * j as f64 + phase).sin())
 }
 
-/// Where a run is after some steps, and after how many iterations.
-fn end<S: Lagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: M,
-    h: f64,
-    start: S::State<f64>,
-) -> (Vec<f64>, u64) {
-    let mut run = Integrator::new(system, method, h, start).expect("starts");
-    run.take_steps(40).expect("steps");
-    (run.q().to_vec(), run.statistics().iterations)
-}
-
-macro_rules! same {
-    ($fixed:expr, $fixed_start:expr, $long:expr, $long_start:expr, $h:expr, $($method:expr),+ $(,)?) => {$({
-        let (expected, least) = end(&$fixed, $method, $h, $fixed_start);
-        let (found, iterations) = end(&$long, $method, $h, $long_start);
-        let distance = |(a, b): (&f64, &f64)| (a - b).abs();
-        let difference = expected.iter().zip(&found).map(distance).fold(0.0, dvi_tests::larger);
-        assert!(difference < 1e-11, "{}: {difference:e}", stringify!($method));
-        // With a wrong matrix the iteration would converge, but slowly.
-        assert!(iterations <= least + least / 10, "{}: {iterations} of {least}", stringify!($method));
-    })+};
-}
-
-const NEWTON: Solver = Solver::Newton;
-
 macro_rules! regular {
-    ($name:ident: $fixed:ident, $fixed_state:ident, $long:ident, $long_state:ident, $($method:expr),+ $(,)?) => {
-        #[test]
-        fn $name() {
-            same!(
-                $fixed { m: masses() },
-                $fixed_state { q: wave(0.0), dot_q: wave(1.0) },
-                $long { m: masses().to_vec() },
-                $long_state { q: wave(0.0).to_vec(), dot_q: wave(1.0).to_vec() },
-                0.3,
-                $($method),+
-            );
-        }
+    ($system:ident, $state:ident, $($method:expr),+ $(,)?) => {
+        as_without_a_matrix!(
+            0.3,
+            $system { m: masses().to_vec() },
+            $state { q: wave(0.0).to_vec(), dot_q: wave(1.0).to_vec() },
+            $($method),+
+        )
     };
 }
 
-regular!(
-    rings_are_those_of_fixed_size:
-    Ring,
-    RingState,
-    LongRing,
-    LongRingState,
-    Variational { solver: NEWTON, ..Variational::midpoint() },
-    Variational { solver: NEWTON, ..Variational::simpson() },
-    Variational { solver: NEWTON, ..Variational::midpoint().phase_fitted(Constant(0.7)) },
-    Newmark { solver: NEWTON, ..Newmark::new(0.25) },
-    Composition::triple_jump(Variational { solver: NEWTON, ..Variational::midpoint() }),
-);
-
-regular!(
-    chains_are_those_of_fixed_size:
-    Chain,
-    ChainState,
-    LongChain,
-    LongChainState,
-    Variational { solver: NEWTON, ..Variational::midpoint() },
-    Newmark { solver: NEWTON, ..Newmark::new(0.25) },
-);
-
-regular!(
-    chains_of_masses_that_vary_are_those_of_fixed_size:
-    Bent,
-    BentState,
-    LongBent,
-    LongBentState,
-    Variational::midpoint(),
-    Variational::trapezoid(),
-);
-
-// Of fixed size, their matrices fill a good part of the stack of a test.
-regular!(
-    rings_with_displacements_are_those_of_fixed_size:
-    Ring,
-    RingState,
-    LongRing,
-    LongRingState,
-    Galerkin { solver: NEWTON, ..Galerkin::<3>::new() },
-);
-
-regular!(
-    chains_with_displacements_are_those_of_fixed_size:
-    Bent,
-    BentState,
-    LongBent,
-    LongBentState,
-    Galerkin::<3>::new(),
-);
-
 #[test]
-fn degenerate_systems_are_those_of_fixed_size() {
-    let newton = Solver::Newton;
-    macro_rules! pair {
-        ($fixed:ident, $fixed_state:ident, $long:ident, $long_state:ident, $($method:expr),+ $(,)?) => {
-            same!(
-                $fixed { m: masses() },
-                $fixed_state { x: wave(0.0), y: wave(1.0) },
-                $long { m: masses().to_vec() },
-                $long_state { x: wave(0.0).to_vec(), y: wave(1.0).to_vec() },
-                0.1,
-                $($method),+
-            )
-        };
+fn banded_newton_steps_are_those_without_a_matrix() {
+    regular!(
+        Ring,
+        RingState,
+        Variational::midpoint(),
+        Variational::simpson(),
+        Variational::midpoint().phase_fitted(Constant(0.7)),
+        Newmark::new(0.25),
+        Galerkin::<3>::new(),
+    );
+    regular!(Chain, ChainState, Variational::midpoint(), Newmark::new(0.25));
+    regular!(Bent, BentState, Variational::midpoint(), Variational::trapezoid(), Galerkin::<3>::new());
+}
+
+/// Where a run on a lattice is.
+fn end<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, start: S::State<f64>) -> Vec<f64> {
+    let mut run = Integrator::new(system, method, 0.1, start).expect("starts");
+    run.take_steps(40).expect("steps");
+    run.q().to_vec()
+}
+
+/// A fixed point and explicit steps need the matrix of a two-form.
+#[test]
+fn two_forms_with_a_band_are_those_of_fixed_size() {
+    let [x, y] = [wave(0.0), wave(1.0)];
+    let (fixed, start) = (Lattice { m: masses() }, LatticeState { x, y });
+    let (long, same) =
+        (LongLattice { m: masses().to_vec() }, LongLatticeState { x: x.to_vec(), y: y.to_vec() });
+    let bent = LongBentLattice { m: masses().to_vec() };
+    let bent_start = LongBentLatticeState { x: x.to_vec(), y: y.to_vec() };
+    let by = |solver| Sigma { solver, ..Sigma::midpoint() };
+    let close = |a: &[f64], b: &[f64]| {
+        let difference = dvi_tests::apart(a, b);
+        assert!(difference < 1e-11, "{difference:e}");
+    };
+    let classical = RungeKutta::classical();
+    close(&end(&long, classical, same.clone()), &end(&fixed, classical, start));
+    let of_bent = end(&bent, by(Solver::FixedPoint), bent_start.clone());
+    for solver in [Solver::Newton, Solver::FixedPoint] {
+        close(&end(&long, by(solver), same.clone()), &end(&fixed, by(solver), start));
+        close(&of_bent, &end(&bent, by(solver), bent_start.clone()));
     }
-    pair!(
-        Lattice,
-        LatticeState,
-        LongLattice,
-        LongLatticeState,
-        Sigma { solver: newton, ..Sigma::midpoint() },
-        Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
-        RungeKutta::classical(),
-    );
-    pair!(
-        BentLattice,
-        BentLatticeState,
-        LongBentLattice,
-        LongBentLatticeState,
-        Sigma { solver: newton, ..Sigma::midpoint() },
-        Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
-    );
+    as_without_a_matrix!(0.1, long, same.clone(), Sigma::midpoint());
+    as_without_a_matrix!(0.1, bent, bent_start.clone(), Sigma::midpoint());
 }
 
 /// Bodies of different masses, each of which is bound to all others and to the centre.

@@ -1,10 +1,10 @@
 //! Systems on a tree, whose matrices are sparse and have no narrow band: Newton's method with their factors,
-//! against solvers that store no matrix, and rods against what they have to keep.
+//! against a solver that stores no matrix, and rods against what they have to keep.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::larger;
 use dvi_tests::zoo::constrained::{Mobile, MobileState};
-use dvi_tests::{apart, larger};
 
 /// Masses on springs between each and the two below it.
 #[lagrangian(
@@ -52,30 +52,37 @@ fn wave(phase: f64) -> Vec<f64> {
 }
 
 /// Where a run is after some steps, and after how many iterations.
-fn end<S: Lagrangian, M: Method<S, f64>>(system: &S, method: M, start: S::State<f64>) -> (Vec<f64>, u64) {
-    let mut run = Integrator::new(system, method, 0.1, start).expect("starts");
+pub(crate) fn end<S: Lagrangian, M: Method<S, f64>>(
+    system: &S,
+    method: M,
+    h: f64,
+    start: S::State<f64>,
+) -> (Vec<f64>, u64) {
+    let mut run = Integrator::new(system, method, h, start).expect("starts");
     run.take_steps(10).expect("steps");
     (run.q().to_vec(), run.statistics().iterations)
 }
 
-macro_rules! as_by {
-    ($solver:expr, $system:expr, $start:expr, $($method:expr),+ $(,)?) => {$({
-        let [(expected, _), (found, iterations)] = [$solver, Solver::Newton].map(|solver| {
+/// Compares steps by Newton's method with those of the same method by products with vectors.
+macro_rules! as_without_a_matrix {
+    ($h:expr, $system:expr, $start:expr, $($method:expr),+ $(,)?) => {$({
+        let [(expected, _), (found, iterations)] = [Solver::NewtonKrylov, Solver::Newton].map(|solver| {
             let mut method = $method;
             method.solver = solver;
-            end(&$system, method, $start)
+            $crate::networks::end(&$system, method, $h, $start)
         });
-        let difference = apart(&expected, &found);
+        let difference = dvi_tests::apart(&expected, &found);
         assert!(difference < 1e-13, "{}: {difference:e}", stringify!($method));
         // With a wrong matrix the iteration would converge, but slowly.
         assert!(iterations <= 40, "{}: {iterations}", stringify!($method));
     })+};
 }
+pub(crate) use as_without_a_matrix;
 
 #[test]
 fn sparse_newton_steps_are_those_without_a_matrix() {
-    as_by!(
-        Solver::FixedPoint,
+    as_without_a_matrix!(
+        0.1,
         Tree { half: N / 2, m: masses() },
         TreeState { q: wave(0.0), dot_q: wave(1.0) },
         Variational::midpoint(),
@@ -83,15 +90,15 @@ fn sparse_newton_steps_are_those_without_a_matrix() {
         Newmark::new(0.25),
         Galerkin::<3>::new(),
     );
-    as_by!(
-        Solver::NewtonKrylov,
+    as_without_a_matrix!(
+        0.1,
         BentTree { half: N / 2, m: masses() },
         BentTreeState { q: wave(0.0), dot_q: wave(1.0) },
         Variational::midpoint(),
         Variational::trapezoid(),
     );
-    as_by!(
-        Solver::FixedPoint,
+    as_without_a_matrix!(
+        0.1,
         Pairs { half: N / 2, m: masses() },
         PairsState { x: wave(0.0), y: wave(1.0) },
         Sigma::midpoint(),

@@ -2,7 +2,6 @@
 
 use dvi_tests::Outcome;
 
-mod drift;
 mod light;
 mod moving;
 mod steps;

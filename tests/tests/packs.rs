@@ -11,6 +11,8 @@ use dvi_core::{DegenerateLagrangian, Lagrangian, Varied};
 use dvi_examples::models::{VortexBlobs, VortexBlobsState};
 use dvi_tests::Outcome;
 
+use crate::together::same_as_alone;
+
 const SIZES: core::ops::Range<usize> = 1..45;
 const W: usize = 3;
 
@@ -272,16 +274,8 @@ fn runs_of_many_vortices() -> Outcome {
     let gamma = numbers(n, 1).into_iter().map(|gamma| 1.2 + gamma).collect();
     let system = VortexBlobs { gamma, core: 0.1 };
     let places = |seed| VortexBlobsState { x: numbers(n, seed), y: numbers(n, seed + 1) };
-    let method = Sigma::midpoint();
-    let mut alone: Vec<_> =
-        (0..W).map(|j| Integrator::new(&system, method, 0.01, places(10 * j))).collect::<Result<_, _>>()?;
-    let mut together: Vec<_> =
-        (0..W).map(|j| Integrator::new(&system, method, 0.01, places(10 * j))).collect::<Result<_, _>>()?;
-    let results = dvi_core::run::Together::<W, _, _>::new(&together[0]).take_steps(&mut together, 50);
-    assert!(results.iter().all(Result::is_ok));
-    for (alone, together) in alone.iter_mut().zip(&together) {
-        alone.take_steps(50)?;
-        assert_eq!(alone.state(), together.state());
-    }
+    let runs: Vec<_> = (0..W).map(|j| (&system, places(10 * j))).collect();
+    let errors = same_as_alone::<W, _, _>(&runs, &Sigma::midpoint(), 0.01, &[50])?;
+    assert!(errors.iter().all(Option::is_none), "{errors:?}");
     Ok(())
 }

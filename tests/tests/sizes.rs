@@ -116,12 +116,11 @@ fn none_and_one_of_a_degenerate_system() -> Checked {
         Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
         OneStep::midpoint(),
         Composition::triple_jump(OneStep::midpoint()),
-        OneStepGauss::<1>::new(),
-        OneStepGauss::<3>::new(),
+        OneStepGauss::<2>::new(),
         Projected::symmetric(),
         Projected::standard(),
         Gauss::<2>::new(),
-        Gauss::<8>::new().in_lanes(),
+        Gauss::<2>::new().in_lanes(),
         RungeKutta::classical(),
         EnergyLimit { method: Sigma::midpoint(), limit: 1.0 },
     );
@@ -143,10 +142,10 @@ fn none_and_one_of_a_regular_system() -> Checked {
         Newmark { solver: NEWTON, ..Newmark::new(0.25) },
         Galerkin::<3>::new(),
         Galerkin { solver: NEWTON, ..Galerkin::<3>::new() },
-        Galerkin::<8>::new().in_lanes(),
+        Galerkin::<4>::new().in_lanes(),
         Composition::kahan_li_8(Variational::trapezoid()),
         Gauss::<2>::new(),
-        Gauss::<8>::new().in_lanes(),
+        Gauss::<2>::new().in_lanes(),
         RungeKutta::classical(),
         Langevin { friction: 0.0, temperature: 0.0, seed: 1 },
     );
@@ -163,7 +162,7 @@ fn none_and_one_of_a_regular_system() -> Checked {
         Variational::midpoint(),
         Galerkin::<3>::new(),
         Gauss::<2>::new(),
-        Gauss::<4>::new().in_lanes(),
+        Gauss::<2>::new().in_lanes(),
         RungeKutta::classical(),
     );
     Ok(())
@@ -358,10 +357,8 @@ fn turns<const N: usize>(method: Sigma) -> Checked {
 #[test]
 fn vortices_of_every_number_fit_on_a_small_stack() -> Checked {
     turns::<4>(Sigma::midpoint())?;
-    turns::<5>(Sigma::midpoint())?;
     turns::<10>(Sigma::midpoint())?;
     turns::<60>(Sigma::midpoint())?;
-    turns::<200>(Sigma::midpoint())?;
     turns::<1000>(Sigma::midpoint())?;
     turns::<60>(Sigma::leapfrog())
 }

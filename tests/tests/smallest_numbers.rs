@@ -3,8 +3,9 @@
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::run::Together;
-use dvi_tests::bits;
+use dvi_tests::Outcome;
+
+use crate::together::same_as_alone;
 
 /// A mass on a spring in a fluid.
 #[lagrangian(
@@ -73,20 +74,10 @@ fn the_smallest_oscillations_go_on() {
 struct Flow;
 
 #[test]
-fn small_runs_share_lanes_with_large_ones() {
-    const RUNS: usize = 4;
-    let starts = [1e-310, 1.0, 3e-322, 1e-300].map(|x| FlowState { x, y: 0.0 });
+fn small_runs_share_lanes_with_large_ones() -> Outcome {
+    let runs = [1e-310, 1.0, 3e-322, 1e-300].map(|x| (&Flow, FlowState { x, y: 0.0 }));
     let method = Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() };
-    let begin = |start: &FlowState| {
-        Integrator::new(&Flow, method, 0.1, *start).unwrap_or_else(|error| panic!("{error}"))
-    };
-    let mut together: Vec<_> = starts.iter().map(begin).collect();
-    let taken = Together::<RUNS, _, _>::new(&together[0]).take_steps(&mut together, 3000);
-    assert!(taken.iter().all(Result::is_ok), "{taken:?}");
-    for (start, run) in starts.iter().zip(&together) {
-        let mut alone = begin(start);
-        alone.take_steps(3000).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(bits(run.q()), bits(alone.q()), "{start:?}");
-        assert_eq!(run.statistics(), alone.statistics(), "{start:?}");
-    }
+    let errors = same_as_alone::<4, _, _>(&runs, &method, 0.1, &[3000])?;
+    assert!(errors.iter().all(Option::is_none), "{errors:?}");
+    Ok(())
 }

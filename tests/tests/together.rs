@@ -1,5 +1,7 @@
 //! Runs taken together in lanes are the runs alone, bit for bit, whatever becomes of the others.
 
+mod parameters;
+
 use dvi_core::discrete::{Trapezoid, Unfitted};
 use dvi_core::methods::InStep;
 use dvi_core::prelude::*;
@@ -12,22 +14,26 @@ use dvi_tests::configurations::{chaotic, quasi_periodic};
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::*;
 
-/// Takes the steps of `strides` with runs from all `starts`, together in packs of `W` and alone. Returns the
-/// errors.
-fn check<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq + Clone>(
-    system: &S,
+/// Takes the steps of `strides` with a run on each system from each start, together in packs of `W` and alone.
+/// Returns the errors.
+pub(crate) fn same_as_alone<
+    const W: usize,
+    S: Lagrangian + PartialEq,
+    M: InStep<W, S> + PartialEq + Clone,
+>(
+    runs: &[(&S, S::State<f64>)],
     method: &M,
     h: f64,
-    starts: &[S::State<f64>],
     strides: &[u64],
 ) -> Outcome<Vec<Option<StepError>>> {
     let begin = || -> Outcome<Vec<_>> {
-        let runs = starts.iter().map(|start| Integrator::new(system, method.clone(), h, start.clone()));
+        let runs =
+            runs.iter().map(|(system, start)| Integrator::new(*system, method.clone(), h, start.clone()));
         Ok(runs.collect::<Result<_, _>>()?)
     };
     let (mut together, mut alone) = (begin()?, begin()?);
     let mut packs = Together::<W, _, _>::new(&together[0]);
-    let mut errors = vec![None; starts.len()];
+    let mut errors = vec![None; runs.len()];
     for &count in strides {
         let results = packs.take_steps(&mut together, count);
         for (j, (run, result)) in alone.iter_mut().zip(results).enumerate() {
@@ -36,23 +42,21 @@ fn check<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq 
             errors[j] = errors[j].or(result.err());
         }
         for (j, (one, other)) in alone.iter().zip(&together).enumerate() {
+            let name = S::REPORT.system;
             // A run that has ended holds points beyond its end, which it tried.
             if errors[j].is_none() {
-                assert_eq!(
-                    one.checkpoint(),
-                    other.checkpoint(),
-                    "{}, run {j} of {W} lanes",
-                    S::REPORT.system
-                );
+                assert_eq!(one.checkpoint(), other.checkpoint(), "{name}, run {j} of {W} lanes");
             }
-            assert_eq!(one.statistics(), other.statistics(), "run {j}");
-            assert_eq!(bits(one.q()), bits(other.q()), "run {j}");
+            assert_eq!(one.statistics(), other.statistics(), "{name}, run {j} of {W} lanes");
+            assert_eq!(bits(one.q()), bits(other.q()), "{name}, run {j} of {W} lanes");
         }
     }
     Ok(errors)
 }
 
-/// In packs of one, of three, and of four and eight, which fill registers.
+const STRIDES: [u64; 7] = [1, 2, 5, 300, 1, 150, 3];
+
+/// In packs that fill registers, and in such as do not.
 fn in_lanes<S: Lagrangian + PartialEq, M>(
     system: &S,
     method: &M,
@@ -60,14 +64,11 @@ fn in_lanes<S: Lagrangian + PartialEq, M>(
     starts: &[S::State<f64>],
 ) -> Outcome<Vec<Option<StepError>>>
 where
-    M: InStep<1, S> + InStep<3, S> + InStep<4, S> + InStep<8, S> + PartialEq + Clone,
+    M: InStep<3, S> + InStep<8, S> + PartialEq + Clone,
 {
-    let strides = [1, 2, 5, 300, 1, 150, 3];
-    let errors = check::<1, _, _>(system, method, h, starts, &strides)?;
-    check::<3, _, _>(system, method, h, starts, &strides)?;
-    check::<4, _, _>(system, method, h, starts, &strides)?;
-    check::<8, _, _>(system, method, h, starts, &strides)?;
-    Ok(errors)
+    let runs: Vec<_> = starts.iter().map(|start| (system, start.clone())).collect();
+    same_as_alone::<3, _, _>(&runs, method, h, &STRIDES)?;
+    same_as_alone::<8, _, _>(&runs, method, h, &STRIDES)
 }
 
 fn vortices(count: usize) -> Vec<PointVorticesState<4>> {
@@ -99,6 +100,12 @@ fn sigma_is_the_same_in_lanes() -> Outcome {
         Sigma::new(1.0),
     ] {
         in_lanes(&system, &method, 0.05, &starts)?;
+    }
+    // In packs of one, and of four.
+    let runs: Vec<_> = starts.iter().map(|start| (&system, *start)).collect();
+    for method in [Sigma::leapfrog(), Sigma::midpoint()] {
+        same_as_alone::<1, _, _>(&runs, &method, 0.05, &STRIDES)?;
+        same_as_alone::<4, _, _>(&runs, &method, 0.05, &STRIDES)?;
     }
     // A Newton step now and then, and a shift that is no reversal.
     in_lanes(&system, &Sigma::midpoint(), 0.9, &starts)?;
@@ -152,6 +159,9 @@ fn verlet_is_the_same_in_lanes() -> Outcome {
     let starts: Vec<KeplerState> = (0..9).map(planet).collect();
     let kepler = Kepler { mu: 1.0 };
     in_lanes(&kepler, &Variational::trapezoid(), 0.05, &starts)?;
+    let runs: Vec<_> = starts.iter().map(|start| (&kepler, *start)).collect();
+    same_as_alone::<1, _, _>(&runs, &Variational::trapezoid(), 0.05, &STRIDES)?;
+    same_as_alone::<4, _, _>(&runs, &Variational::trapezoid(), 0.05, &STRIDES)?;
     // Those without lanes.
     in_lanes(&kepler, &Variational::midpoint(), 0.05, &starts)?;
     let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };

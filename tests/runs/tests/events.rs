@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 use dvi_core::prelude::*;
-use dvi_tests::zoo::regular::{FREE, PLANE, PlanarState, SpringState};
+use dvi_tests::zoo::regular::{FREE, KEPLER, KeplerState, PLANE, PlanarState, SpringState};
 use dvi_tests::{Numbers, Outcome};
 
 /// A condition with `depth` dips a little below zero once in each period of x, `half_width` to each side of
@@ -89,5 +89,23 @@ fn turns_within_long_steps_are_seen() -> Outcome {
     }
     // Twenty steps of 4.75 on average are fifteen periods, with two in each.
     assert!((4000..8000).contains(&count), "{count}");
+    Ok(())
+}
+
+/// g is flat at most of the points, and steep where it crosses.
+#[test]
+fn a_condition_that_is_flat_before_is_not_missed() -> Outcome {
+    let start = KeplerState { x: 0.5, y: 0.0, dot_x: 0.0, dot_y: 3.0_f64.sqrt() };
+    for h in [0.1, 0.2, 0.3, 0.4] {
+        let mut run = Integrator::new(&KEPLER, Gauss::<8>::new(), h, start)?;
+        run.take_steps((1.5 / h) as u64)?;
+        let flat = |_, state: &KeplerState| [state.x.hypot(state.y).powi(-6) - 55.0];
+        let mut events = run.events([Direction::Rising], flat)?;
+        let mut count = 0;
+        while events.next_until(800.0 * PI + 3.0)?.is_some() {
+            count += 1;
+        }
+        assert_eq!(count, 400, "{h}");
+    }
     Ok(())
 }

@@ -5,14 +5,19 @@
 
 mod angular_momentum;
 mod constrained;
+mod drift;
+mod error_control;
 mod events;
+mod exponents;
 mod impacts;
+mod langevin;
 mod loop_integrals;
 mod manifold;
 mod nonholonomic;
 mod one_step;
 mod parasitic;
 mod projected;
+mod redundant;
 mod rotating_frame;
 mod round_off;
 mod second_order;

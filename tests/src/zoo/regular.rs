@@ -269,3 +269,12 @@ pub struct Springs {
 )]
 #[derive(Clone, Debug, PartialEq)]
 pub struct HenonHeiles;
+
+/// A body that comes to rest: dry friction pushes it back from either side.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0,
+    force(x) = if dot(x) > 0.0 { -0.3 } else { 0.1 },
+)]
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sliding;

@@ -5,11 +5,9 @@ use dvi_core::prelude::*;
 use dvi_core::{HolonomicLagrangian, NondegenerateLagrangian, Scalar};
 use dvi_tests::Outcome;
 use dvi_tests::zoo::constrained::Pendulum;
-use num_dual::{DualNum, HyperDual64};
+use num_dual::HyperDual64;
 
-/// `f64` and the dual numbers over it.
-pub(crate) trait Number: DualNum<Primitive = f64> + Copy {}
-impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
+pub(super) use crate::derivatives::oracle::Number;
 
 /// A system and its g, written a second time.
 pub(crate) trait ByHand: HolonomicLagrangian + NondegenerateLagrangian<HyperDual64> {

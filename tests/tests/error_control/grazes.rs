@@ -2,7 +2,6 @@
 
 use approx::assert_abs_diff_eq;
 use core::f64::consts::PI;
-use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
 
 use super::{Outcome, apart};
@@ -92,49 +91,5 @@ fn many_seams_in_a_step_are_met_one_by_one() -> Outcome {
     run.advance_to(100.0 * half)?;
     let error = apart(run.q(), &[50.0 * half * half]);
     assert!(error < 1e-9, "{error:e}");
-    Ok(())
-}
-
-/// A body, free or on a spring, that is pushed while a sine is above c: for parts of its period that are
-/// shorter than steps would be.
-#[test]
-fn pulses_are_not_passed_over() -> Outcome {
-    #[lagrangian(
-        coordinates(x),
-        lagrangian = dot(x).powi(2) / 2.0 - k * x * x / 2.0,
-        force(x) = if (w * t).sin() > c { 1.0 } else { 0.0 },
-    )]
-    #[derive(Debug)]
-    struct Pulsed {
-        k: f64,
-        w: f64,
-        c: f64,
-    }
-    fn check<M: VariableStep<Pulsed, f64> + Copy>(method: M, tolerance: f64) -> Outcome {
-        for (k, w, c) in
-            [(0.0, 1.0, 0.99), (0.0, 5.0, 0.9), (1.0, 7.0, 0.9), (1.0, 1.0, 0.9999), (1.0, 20.0, 0.5)]
-        {
-            let (end, system) = (60.0, Pulsed { k, w, c });
-            let start = PulsedState { x: 1.0, dot_x: 0.0 };
-            let mut run = Integrator::controlled(&system, method, ErrorControl::new(tolerance, 0.1), start)?;
-            run.advance_to(end)?;
-            // What a push up to time t adds to x at the end.
-            let pushed = |t: f64| if k == 0.0 { -(end - t).powi(2) / 2.0 } else { (end - t).cos() };
-            let mut exact = if k == 0.0 { 1.0 } else { end.cos() };
-            for turn in 0..200 {
-                let [on, off] = [c.asin(), PI - c.asin()]
-                    .map(|phase| ((phase + 2.0 * PI * f64::from(turn)) / w).min(end));
-                exact += pushed(off) - pushed(on);
-            }
-            let error = (run.state().x - exact).abs();
-            assert!(error < 100.0 * tolerance, "{system:?}, {tolerance:e}: {error:e}");
-        }
-        Ok(())
-    }
-    for tolerance in [1e-6, 1e-8, 1e-10] {
-        check(Gauss::<2>::new(), tolerance)?;
-        check(Gauss::<4>::new(), tolerance)?;
-        check(Gauss::<8>::new(), tolerance)?;
-    }
     Ok(())
 }

@@ -10,63 +10,6 @@ use dvi_core::prelude::*;
 use super::problems::{Splined, SplinedState};
 use super::{Outcome, apart};
 
-/// A body at rest, free or on a spring, that is pushed with (t − t₀)ⁿ from some time on. The first step from
-/// there makes all of the momentum, and is as wrong in it however short it is, where the power is beyond the
-/// degree of the stages.
-#[test]
-fn forces_are_switched_on_at_rest() -> Outcome {
-    #[lagrangian(
-        coordinates(x),
-        lagrangian = dot(x).powi(2) / 2.0 - w * x * x / 2.0,
-        force(x) = if t > t0 { (t - t0).powf(n) } else { 0.0 },
-    )]
-    #[derive(Debug)]
-    struct Pushed {
-        w: f64,
-        n: f64,
-        t0: f64,
-    }
-    fn check<M: VariableStep<Pushed, f64> + Copy + core::fmt::Debug>(
-        method: M,
-        tolerances: &[f64],
-    ) -> Outcome {
-        for (w, n, t0) in [0.0, 1.0].into_iter().flat_map(|w| {
-            [0.0, 1.0, 2.0, 3.0]
-                .into_iter()
-                .flat_map(move |n| [0.1, 0.77, 1.0, 3.2, 5.0].map(|t0| (w, n, t0)))
-        }) {
-            let system = Pushed { w, n, t0 };
-            let start = PushedState { x: 0.0, dot_x: 0.0 };
-            let mut fine = Integrator::new_at(&system, Gauss::<8>::new(), t0, 0.01, start)?;
-            fine.take_steps(200)?;
-            for (&tolerance, h) in
-                tolerances.iter().flat_map(|tolerance| [0.01, 0.1, 1.0].map(|h| (tolerance, h)))
-            {
-                let mut run =
-                    Integrator::controlled(&system, method, ErrorControl::new(tolerance, h), start)?;
-                run.advance_to(t0 + 2.0)?;
-                let error = (run.state().x - fine.state().x).abs();
-                assert!(error < 30.0 * tolerance, "{system:?}, {method:?}, {tolerance:e}, {h}: {error:e}");
-                let mut run =
-                    Integrator::controlled(&system, method, ErrorControl::new(tolerance, h), start)?;
-                run.advance_to(t0)?;
-                run.advance_to(t0 + 2.0)?;
-                let error = (run.state().x - fine.state().x).abs();
-                assert!(error < 30.0 * tolerance, "{system:?}, {method:?}, {tolerance:e}, {h}: {error:e}");
-                assert!(
-                    run.steps() + run.statistics().rejected < 6000,
-                    "{system:?}, {method:?}, {tolerance:e}, {h}"
-                );
-            }
-        }
-        Ok(())
-    }
-    check(Gauss::<1>::new(), &[1e-3, 1e-5])?;
-    check(Gauss::<2>::new(), &[1e-3, 1e-6, 1e-10])?;
-    check(Gauss::<3>::new(), &[1e-3, 1e-6, 1e-10])?;
-    check(Gauss::<8>::new(), &[1e-3, 1e-6, 1e-10])
-}
-
 /// Forces with jumps: at places, where the motion turns, and in time.
 #[lagrangian(
     coordinates(x),

@@ -7,6 +7,7 @@ use approx::assert_abs_diff_eq;
 use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, Scalar};
+use dvi_tests::zoo::regular::{Sliding, SlidingState};
 
 use super::Outcome;
 use super::rough::{CORNERS, CornersState};
@@ -297,74 +298,6 @@ fn a_run_over_seams_goes_on_from_a_checkpoint() -> Outcome {
     // The hops before a failure are those of the checkpoint too.
     let failure = check((&Sliding, &SlidingState { x: 0.0, dot_x: 1.0 }), control, 20.0)?;
     assert!(matches!(failure, Some(StepFailure::Seam { seam: 0, .. })), "{failure:?}");
-    Ok(())
-}
-
-/// A body that comes to rest: dry friction pushes it back from either side.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0,
-    force(x) = if dot(x) > 0.0 { -0.3 } else { 0.1 },
-)]
-struct Sliding;
-
-/// The same with a function without a value between.
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force(x) = -0.3 * dot(x).signum())]
-struct Rubbing;
-
-/// A force that pushes the velocity to ½ from both sides.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0,
-    force(x) = if dot(x) > 0.5 { -1.0 } else { 0.5 },
-)]
-struct Pushing;
-
-/// A groove, along which a spring moves the body.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) - y * y) / 2.0,
-    force(x) = if x > 0.0 { -1.0 } else { 1.0 },
-)]
-struct Groove;
-
-#[test]
-fn motions_that_do_not_leave_a_seam_end_soon() -> Outcome {
-    fn check<S: Lagrangian, M: VariableStep<S, f64>>(
-        (system, start): (&S, S::State<f64>),
-        (method, tolerance): (M, f64),
-        stops: f64,
-    ) -> Outcome {
-        let control = ErrorControl::new(tolerance, 0.01);
-        let mut run = Integrator::controlled(system, method, control, start)?;
-        let error = run.advance_to(10.0).err().ok_or("it does not leave the seam")?;
-        let (name, statistics) = (S::REPORT.system, run.statistics());
-        println!("{name}, {tolerance:e}: {} + {}, {error}", statistics.steps, statistics.rejected);
-        assert!(statistics.steps + statistics.rejected < 1200, "{name}: {statistics:?}");
-        assert!(matches!(error.failure, StepFailure::Seam { seam: 0, .. }), "{error}");
-        assert_abs_diff_eq!(run.time(), stops, epsilon = 100.0 * tolerance);
-        // It stays where it was.
-        let (steps, state) = (run.steps(), run.q().to_vec());
-        assert!(run.advance().is_err() && run.steps() == steps && run.q() == state);
-        Ok(())
-    }
-    for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
-        let pushing = (&Pushing, PushingState { x: 0.0, dot_x: 0.0 });
-        check(pushing, (Gauss::<4>::new(), tolerance), 1.0)?;
-        check(pushing, (Gauss::<8>::new(), tolerance), 1.0)?;
-        for dot_x in [1.0, 0.0] {
-            let stops = dot_x / 0.3;
-            let start = SlidingState { x: 0.0, dot_x };
-            check((&Sliding, start), (Gauss::<2>::new(), tolerance), stops)?;
-            check((&Sliding, start), (Gauss::<8>::new(), tolerance), stops)?;
-            let start = RubbingState { x: 0.0, dot_x };
-            check((&Rubbing, start), (Gauss::<4>::new(), tolerance), stops)?;
-            check((&Rubbing, start), (Gauss::<8>::new().in_lanes(), tolerance), stops)?;
-        }
-        let groove = GrooveState { x: 0.0, y: 1.0, dot_x: 0.0, dot_y: 0.0 };
-        check((&Groove, groove), (Gauss::<2>::new(), tolerance), 0.0)?;
-        check((&Groove, groove), (Gauss::<8>::new(), tolerance), 0.0)?;
-    }
     Ok(())
 }
 

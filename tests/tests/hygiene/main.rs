@@ -39,7 +39,7 @@ mod fields {
             + flat * x + at * y + rest * x + dimension * y + r#type * x + f64 * y + self.std * x,
         momenta(Some = T * x * y, fill = x, r#match = r#type * y),
     )]
-    #[derive(Clone, Debug)]
+    #[derive(Clone, Debug, Default)]
     #[allow(non_snake_case)]
     pub struct Fields {
         pub(super) self_: f64,
@@ -321,33 +321,7 @@ fn value<S: Lagrangian>(system: &S, dimension: usize) -> f64 {
 
 #[test]
 fn systems_with_unfriendly_names_run() {
-    let fields = fields::Fields {
-        self_: 1.0,
-        T: 1.0,
-        core: 1.0,
-        std: 1.0,
-        Ok: 1.0,
-        q: 1.0,
-        v: 1.0,
-        h: 1.0,
-        w: 1.0,
-        a: 1.0,
-        b: 1.0,
-        r1: 1.0,
-        i0: 1.0,
-        l_q: 1.0,
-        matrix: 1.0,
-        vector: 1.0,
-        len: 1.0,
-        index: 1.0,
-        flat: 1.0,
-        at: 1.0,
-        rest: 1.0,
-        dimension: 1.0,
-        f64: 1.0,
-        __q: 1.0,
-        r#type: 1.0,
-    };
+    let fields = fields::Fields { self_: 1.0, ..fields::Fields::default() };
     assert!(value(&fields, 2).is_finite());
     let start = fields::FieldsState { x: 1.0, y: 0.0 };
     assert!(Integrator::new(&fields, Sigma::midpoint(), 0.1, start).is_ok());

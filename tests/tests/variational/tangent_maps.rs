@@ -6,7 +6,7 @@ use approx::abs_diff_eq;
 use dvi_core::discrete::{Interval, Rule, TwiceDifferentiable};
 use dvi_core::methods::{Method, VariationalMethod};
 use dvi_core::prelude::*;
-use dvi_core::{Lagrangian, Space, State};
+use dvi_core::{Lagrangian, State};
 use dvi_laws::equations::Nodes;
 use dvi_tests::larger;
 use dvi_tests::systems::LotkaVolterra;
@@ -74,62 +74,6 @@ fn second_derivatives_agree_with_hyper_dual_numbers() -> Outcome {
     }
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     check(&prey, Sigma::new(0.3), &Nodes::new(&[0.3], &[1.0]), &(vec![1.3, 1.6], Vec::new()))
-}
-
-/// With fixed and with controlled steps.
-fn tangent_matches_runs<'s, M, C: StepControl<Kepler, f64>>(
-    begin: impl Fn(KeplerState) -> Result<Integrator<&'s Kepler, M, f64, C>, StartError>,
-) -> Outcome
-where
-    M: Method<Kepler, f64> + Clone,
-    M: VariationalMethod<Kepler, f64, DiscreteLagrangian: TwiceDifferentiable<Kepler, f64>>,
-{
-    let system = Kepler { mu: 1.0 };
-    let start = [0.8, 0.1, -0.1, 1.2];
-    let state = |z: [f64; 4]| KeplerState { x: z[0], y: z[1], dot_x: z[2], dot_y: z[3] };
-    let mut run = begin(state(start))?;
-    let method = run.method().clone();
-    let mut map = TangentMap::new(&system, &method);
-    let [t, q0] = [vec![run.time()], run.q().to_vec()];
-    run.advance()?;
-    let h = run.step_size();
-    map.evaluate(&system, Interval { t: t[0], h }, &q0, run.q())?;
-    let epsilon = 1e-6;
-    for direction in 0..4 {
-        let end = |sign: f64| -> Outcome<[f64; 4]> {
-            let mut z = start;
-            z[direction] += sign * epsilon;
-            let mut run = Integrator::new(&system, method.clone(), h, state(z))?;
-            run.advance()?;
-            let end = run.state();
-            Ok([end.x, end.y, end.dot_x, end.dot_y])
-        };
-        let (plus, minus) = (end(1.0)?, end(-1.0)?);
-        let [mut dq, mut dp] = [system.space().vector(), system.space().vector()];
-        if direction < 2 {
-            dq[direction] = 1.0;
-        } else {
-            dp[direction - 2] = 1.0;
-        }
-        map.apply(&mut dq, &mut dp);
-        for (k, &found) in dq.iter().chain(dp.iter()).enumerate() {
-            let expected = (plus[k] - minus[k]) / (2.0 * epsilon);
-            assert!(abs_diff_eq!(found, expected, epsilon = 1e-9), "({k}, {direction}): {found} {expected}");
-        }
-    }
-    let defect = map.symplectic_defect(&system);
-    assert!(defect < 1e-12, "{defect:e}");
-    Ok(())
-}
-
-#[test]
-fn tangent_maps_agree_with_differences_of_steps() -> Outcome {
-    let method = Variational::simpson();
-    tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, method, 0.1, start))?;
-    tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, Galerkin::<3>::new(), 0.1, start))?;
-    tangent_matches_runs(|start| Integrator::new(&Kepler { mu: 1.0 }, Galerkin::<5>::new(), 0.1, start))?;
-    let control = Reversible::power(0.1, 1.5);
-    tangent_matches_runs(|start| Integrator::controlled(&Kepler { mu: 1.0 }, method, control, start))
 }
 
 /// A pendulum on its head.

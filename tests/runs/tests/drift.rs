@@ -2,7 +2,7 @@
 
 use dvi_core::prelude::*;
 
-use super::Outcome;
+use dvi_tests::Outcome;
 
 /// A sleigh on a blade that stands off its axis, in a valley: the blade turns as it slides.
 #[lagrangian(

@@ -4,49 +4,24 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use dvi_tests::Outcome;
 
 use dvi_core::Scalar;
-use dvi_core::methods::InStep;
 use dvi_core::prelude::*;
 use dvi_core::run::Together;
 use dvi_tests::configurations::quasi_periodic;
 
-/// Takes steps of a run on each system, together in packs of `W` and alone, and returns how many have
-/// failed.
-fn same_as_alone<const W: usize, S, M>(
-    systems: &[(S, S::State<f64>)],
-    method: M,
-    h: f64,
-) -> Result<usize, StartError>
-where
-    S: Lagrangian + PartialEq,
-    M: InStep<W, S> + PartialEq + Clone,
-{
-    let begin =
-        || systems.iter().map(|(system, start)| Integrator::new(system, method.clone(), h, start.clone()));
-    let (mut together, mut alone): (Vec<_>, Vec<_>) =
-        (begin().collect::<Result<_, _>>()?, begin().collect::<Result<_, _>>()?);
-    let mut packs = Together::<W, _, _>::new(&together[0]);
-    let mut failed = 0;
-    for count in [1, 7, 300, 2, 61] {
-        let results = packs.take_steps(&mut together, count);
-        failed = results.iter().filter(|result| result.is_err()).count();
-        for ((one, other), result) in alone.iter_mut().zip(&together).zip(results) {
-            assert_eq!(format!("{:?}", one.take_steps(count)), format!("{result:?}"));
-            assert_eq!(one.statistics(), other.statistics());
-            if result.is_ok() {
-                assert_eq!(one.checkpoint(), other.checkpoint(), "{}", S::REPORT.system);
-            }
-        }
-    }
-    Ok(failed)
-}
+use super::same_as_alone;
 
+/// Holds runs together against the runs alone, and how many of them fail against what is expected.
 macro_rules! in_lanes {
     ($systems:expr, $method:expr, $h:expr, $failed:expr) => {{
-        let systems: &[_] = &$systems;
-        assert_eq!(same_as_alone::<1, _, _>(systems, $method, $h)?, $failed);
-        assert_eq!(same_as_alone::<3, _, _>(systems, $method, $h)?, $failed);
-        assert_eq!(same_as_alone::<4, _, _>(systems, $method, $h)?, $failed);
-        assert_eq!(same_as_alone::<8, _, _>(systems, $method, $h)?, $failed);
+        let systems = &$systems;
+        let runs: Vec<_> = systems.iter().map(|(system, start)| (system, start.clone())).collect();
+        let strides = [1, 7, 300, 2, 61];
+        for errors in [
+            same_as_alone::<3, _, _>(&runs, &$method, $h, &strides)?,
+            same_as_alone::<8, _, _>(&runs, &$method, $h, &strides)?,
+        ] {
+            assert_eq!(errors.iter().flatten().count(), $failed);
+        }
     }};
 }
 
