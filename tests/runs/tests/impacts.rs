@@ -122,9 +122,9 @@ fn no_state_is_beyond_a_surface_and_no_impact_off_it() -> Outcome {
                     posts.gap(run.q(), run.time(), &mut gaps);
                     assert!(gaps.iter().all(|&gap| gap > -1e-13), "{gaps:?} by {h}");
                     for impact in run.memory().impacts() {
-                        posts.gap(impact.q(), impact.time(), &mut gaps);
-                        assert!(gaps[impact.surface()].abs() < 1e-12, "{gaps:?} by {h}");
-                        assert!(impact.impulse() > 0.0, "{} by {h}", impact.impulse());
+                        posts.gap(&impact.q, impact.time, &mut gaps);
+                        assert!(gaps[impact.surface].abs() < 1e-12, "{gaps:?} by {h}");
+                        assert!(impact.impulse > 0.0, "{} by {h}", impact.impulse);
                     }
                 }
             }

@@ -60,8 +60,10 @@ pub(super) struct Coefficients<const NODES: usize, T> {
     /// ωh
     u: T,
     pub(super) weights: [T; NODES],
-    /// φ and ψ of each node and each unknown.
-    slopes: [[[T; 2]; NODES]; NODES],
+    /// φ
+    point: [[T; NODES]; NODES],
+    /// ψ
+    velocity: [[T; NODES]; NODES],
     /// b and B of each node.
     left: [[T; 2]; NODES],
     /// The inverse of Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − u² φ̂ⱼᵣ φⱼₖ), r and k from 1.
@@ -85,7 +87,8 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         let mut new = Self {
             u,
             weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
-            slopes: [[[zero; 2]; NODES]; NODES],
+            point: [[zero; NODES]; NODES],
+            velocity: [[zero; NODES]; NODES],
             left: [[zero; 2]; NODES],
             inverse: [[zero; NODES]; NODES],
         };
@@ -93,11 +96,11 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         for (j, &c) in rule.nodes().iter().enumerate().take(NODES) {
             let Basis { b, b_bar, d, d_bar } = nodes.basis(c, nodes.pairs(c));
             new.left[j] = [b, d];
-            new.slopes[j][0] = [b + b_bar, d + d_bar];
+            (new.point[j][0], new.velocity[j][0]) = (b + b_bar, d + d_bar);
             for k in 1..last {
-                new.slopes[j][k] = [if j == k { one } else { zero }, T::lift(a[j][k])];
+                (new.point[j][k], new.velocity[j][k]) = (if j == k { one } else { zero }, T::lift(a[j][k]));
             }
-            new.slopes[j][last] = [b_bar, d_bar];
+            (new.point[j][last], new.velocity[j][last]) = (b_bar, d_bar);
         }
         let sinc = nodes.sinc();
         let cosine_sum = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
@@ -112,23 +115,22 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         x: &[V; NODES],
         [point, velocity]: [&mut [T]; 2],
     ) {
-        let (per_h, [phi, psi]) =
-            (T::lift(1.0) / h, [0, 1].map(|of| self.slopes[j].map(|slopes| slopes[of])));
+        let per_h = T::lift(1.0) / h;
         for i in 0..point.len() {
-            point[i] = weighted(&phi, x, i);
-            velocity[i] = per_h * weighted(&psi, x, i);
+            point[i] = weighted(&self.point[j], x, i);
+            velocity[i] = per_h * weighted(&self.velocity[j], x, i);
         }
     }
 
     /// φ̂ and ψ̂ of direction `r` at node `j`, times the weight of the node.
     pub(super) fn weighted_direction(&self, j: usize, r: usize) -> [T; 2] {
-        let direction = if r == NODES - 1 { self.left[j] } else { self.slopes[j][r] };
+        let direction = if r == NODES - 1 { self.left[j] } else { self.slopes(j, r) };
         direction.map(|along| self.weights[j] * along)
     }
 
     /// φ and ψ of unknown `k` at node `j`.
     pub(super) fn slopes(&self, j: usize, k: usize) -> [T; 2] {
-        self.slopes[j][k]
+        [self.point[j][k], self.velocity[j][k]]
     }
 
     /// Sets `inverse`, and returns by what the equation for the new point multiplies it once the
@@ -140,7 +142,7 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
             for k in 0..n {
                 matrix[r * n + k] = (0..NODES).fold(zero, |sum, j| {
                     let ([left, left_dot], [right, right_dot]) =
-                        (self.weighted_direction(j, r + 1), self.slopes[j][k + 1]);
+                        (self.weighted_direction(j, r + 1), self.slopes(j, k + 1));
                     sum + left_dot * right_dot - self.u * self.u * left * right
                 });
             }

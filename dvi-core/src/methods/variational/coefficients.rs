@@ -18,8 +18,6 @@ use crate::{NondegenerateLagrangian, Real, Scalar};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coefficients<T> {
     u: T,
-    len: usize,
-    times: [T; NODES],
     pub(super) weights: [T; NODES],
     /// b, b̄, B and B̄.
     pub(super) bases: [Basis<T>; NODES],
@@ -34,13 +32,12 @@ impl<T: Real> Coefficients<T> {
     pub(super) fn linear(rule: &impl Rule) -> Self {
         let zero = T::lift(0.0);
         let nodes = Bases::new(zero);
-        let (mut times, mut weights) = ([zero; NODES], [zero; NODES]);
+        let mut weights = [zero; NODES];
         let mut bases = [nodes.basis(0.0, nodes.pairs(0.0)); NODES];
         for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
-            (times[j], weights[j], bases[j]) = (T::lift(c), T::lift(w), nodes.basis(c, nodes.pairs(c)));
+            (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
         }
-        let (len, sums) = (rule.nodes().len(), Kinetic::of_mean_velocity());
-        Self { u: zero, len, times, weights, bases, sums }
+        Self { u: zero, weights, bases, sums: Kinetic::of_mean_velocity() }
     }
 
     /// Makes these the coefficients for u = ωh.
@@ -63,9 +60,11 @@ impl<T: Real> Coefficients<T> {
         }
         let sinc = nodes.sinc();
         let cosine_sum = mixed + u * u * inner;
-        // Unless there are some, these are not the coefficients of any step.
-        self.u = T::lift(f64::NAN);
-        frequency::determined(u, sinc, cosine_sum)?;
+        if let Err(resonance) = frequency::determined(u, sinc, cosine_sum) {
+            // Not the coefficients of any step.
+            self.u = T::lift(f64::NAN);
+            return Err(resonance);
+        }
         let mut factor = nodes.reciprocal() * nodes.reciprocal();
         if fitting == Fitting::PhaseAndMomentum {
             let fitted = sinc / cosine_sum;
@@ -142,7 +141,7 @@ impl<T: Real> Coefficients<T> {
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {
             let NodeWork { point, velocity, gradient, momentum } = &mut *work;
-            self.place(node, h, ends, [point, velocity]);
+            Placed(rule, self).place(node, h, ends, [point, velocity]);
             let (t, Ends { q0, delta }) = (interval.time(T::lift(c)), ends);
             system.gradient(point, velocity, t, gradient, momentum);
             let Basis { b, b_bar, d, d_bar } = slopes[node];
@@ -163,13 +162,17 @@ impl<T: Real> Coefficients<T> {
     }
 }
 
-impl<T: Real> Nodes<T> for Coefficients<T> {
+/// The nodes of a rule, with their coefficients.
+pub(super) struct Placed<'a, R, T>(pub(super) &'a R, pub(super) &'a Coefficients<T>);
+
+impl<R: Rule, T: Real> Nodes<T> for Placed<'_, R, T> {
     fn count(&self) -> usize {
-        self.len
+        self.0.nodes().len()
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn node(&self, j: usize) -> Node<T> {
-        Node::new(self.times[j], self.weights[j], self.bases[j])
+        let Self(rule, Coefficients { weights, bases, .. }) = self;
+        Node::new(T::lift(rule.nodes()[j]), weights[j], bases[j])
     }
 }

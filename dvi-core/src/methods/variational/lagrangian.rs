@@ -4,7 +4,7 @@
 //! derivatives are exact, and D₁D₂L_d is that of ω held constant.
 
 use super::Variational;
-use super::coefficients::Coefficients;
+use super::coefficients::{Coefficients, Placed};
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{FrequencyIn, GivenFrequency, Local};
 use crate::discrete::quadrature::Rule;
@@ -164,7 +164,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
             };
             if !S::SEPARABLE {
                 let NodeWork { point, velocity, gradient, momentum } = &mut *node;
-                coefficients.place(j, h, ends, [point, velocity]);
+                Placed(&self.method.rule, coefficients).place(j, h, ends, [point, velocity]);
                 system.gradient(point, velocity, time, gradient, momentum);
                 statistics.gradients += 1;
                 node.add(weight, h, [by_point, by_velocity], to);
@@ -200,7 +200,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
         self.read_both_ends(begin, delta, Share::Left, (coefficients, node), statistics)?;
         let &Begin { system, interval, q: q0, .. } = begin;
         let span = Span { system, interval, ends: Ends { q0, delta } };
-        linearize(coefficients, span, node, d1, sink);
+        linearize(&Placed(&self.method.rule, coefficients), span, node, d1, sink);
         self.vary_frequency(begin, delta, Share::Left, (coefficients, node), d1);
         Ok(())
     }
@@ -229,10 +229,10 @@ impl<F: FrequencyIn<T>, R: Rule, T: Real> Nodes<T> for RuleNodes<F, R, T> {
         self.coefficients.fix(&self.method, h)
     }
     fn count(&self) -> usize {
-        self.coefficients.count()
+        self.method.rule.nodes().len()
     }
     fn node(&self, j: usize) -> Node<T> {
-        self.coefficients.node(j)
+        Placed(&self.method.rule, &self.coefficients).node(j)
     }
 }
 
