@@ -56,6 +56,6 @@ mod tests {
         let thinned = thin(&(0..1001).collect::<Vec<_>>(), 100);
         assert!(thinned.len() <= 100 && thinned.is_sorted() && thinned[0] == 0);
         assert_eq!(thin(&[1, 2, 3], 10), [1, 2, 3]);
-        assert_eq!(thin(&[] as &[u8], 10), []);
+        assert!(thin(&[] as &[u8], 10).is_empty());
     }
 }
