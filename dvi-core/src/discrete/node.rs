@@ -57,7 +57,6 @@ pub struct Node<T> {
 }
 
 impl<T: Real> Node<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(time: T, weight: T, Basis { b, b_bar, d, d_bar }: Basis<T>) -> Self {
         Self { time, weight, left: [b, d], right: [b_bar, d_bar], both: [b + b_bar, d + d_bar] }
     }
@@ -95,7 +94,6 @@ pub trait Nodes<T: Real> {
     fn node(&self, j: usize) -> Node<T>;
 
     /// Sets `point` and `velocity` to those of node `j`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&self, j: usize, h: T, Ends { q0, delta }: Ends<'_, T>, [point, velocity]: [&mut [T]; 2]) {
         let (Node { right: [b_bar, d_bar], both: [b, d], .. }, per_h) = (self.node(j), T::lift(1.0) / h);
         for i in 0..q0.len() {

@@ -170,7 +170,6 @@ impl<R: Rule, T: Real> Nodes<T> for Placed<'_, R, T> {
         self.0.nodes().len()
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn node(&self, j: usize) -> Node<T> {
         let Self(rule, Coefficients { weights, bases, .. }) = self;
         Node::new(T::lift(rule.nodes()[j]), weights[j], bases[j])
