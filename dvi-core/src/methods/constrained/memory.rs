@@ -145,7 +145,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
     }
 
     /// Takes steps for the impulses alone, as [`Reduced::stride`]; none if they are not reduced.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline(never)]
     pub(super) fn stride(&mut self, steps: Steps<'_, S, T>, stopping: Stopping) -> Option<u64> {
         self.reduced.as_mut()?.stride(steps, stopping, &mut self.last_step)
     }
