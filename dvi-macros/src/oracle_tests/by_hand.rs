@@ -5,8 +5,7 @@ use super::formula::Formula;
 use super::random::Random;
 use super::read::Reader;
 use super::summary::describe;
-use super::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
-use crate::syntax::{Constrained, Factor};
+use super::system::{Block, Container, Dynamics, Field, Size, SizeKind, System};
 
 const CONJUGATE: &str = "u * d(w) + sum(0..N, |j| x[j] * d(y[j]))";
 
@@ -21,6 +20,8 @@ const HAMILTONIANS: &[&str] = &[
     // Products of sums with the same factors.
     "sum(0..N, |i| g[i]) * sum_pairs(0..N, |i, j| x[j].powi(2)) + sum_pairs(0..N, |i, j| g[i] * x[j].powi(2))",
     "(sum(0..N, |i| g[i] * x[i]) - sum(0..N, |i| g[i]) * sum(0..N, |i| x[i])) * sum(0..N, |i| x[i].powi(2))",
+    // A root beside its own radicand, with a factor in it.
+    "w * (3 * w).sqrt()",
     // A bound on a function outside of its domain.
     "u + w.acos().max(1)",
     "w.max((u - 0.5).sqrt()) * w.min((u - 0.5).ln())",
@@ -98,25 +99,13 @@ fn declarations(kind: SizeKind, dynamics: Dynamics) -> System {
         field("s", Container::Scalar, vec![], vec![2.5]),
         field("g", Container::Vector, vec![0], vec![1.0, 2.0, 4.0]),
     ];
-    let block = |name, size| Block { name, size, axis: None, factor: Factor::Line };
-    let mut blocks = vec![block("u", None), block("w", None), block("x", Some(0)), block("y", Some(0))];
+    let sizes = [("u", None), ("w", None), ("x", Some(0)), ("y", Some(0))];
+    let mut blocks = Vec::from(sizes.map(|(name, size)| Block::line(name, size)));
     if matches!(dynamics, Dynamics::Regular(_)) {
         blocks.retain(|block| ["u", "x"].contains(&block.name));
     }
-    System {
-        sizes: vec![Size { kind, value: 3 }],
-        fields,
-        blocks,
-        width: 0,
-        dynamics,
-        gauge: Gauge::None,
-        time_transform: None,
-        forces: Vec::new(),
-        dissipation: None,
-        constraints: Vec::new(),
-        constrained: Constrained::Positions,
-        momenta: vec![Formula::Time],
-    }
+    let momenta = vec![Formula::Time];
+    System { fields, momenta, ..System::of(vec![Size { kind, value: 3 }], blocks, dynamics) }
 }
 
 /// The systems with a literal size, a const generic, and a size that the run knows.

@@ -2,8 +2,9 @@
 
 mod call;
 mod constraints;
+mod expected;
 
-use super::evaluate::{Oracle, Outside, Point};
+use super::evaluate::{Outside, Point};
 use super::expand::{environment, expand};
 use super::jet::{Jet, ROUNDING, Sized};
 use super::random::Random;
@@ -11,6 +12,9 @@ use super::rust::{Environment, Expansion, Machine, Value};
 use super::structure::{self, Claims};
 use super::system::{Gauge, System};
 use call::Call;
+pub(super) use expected::Expected;
+use expected::points;
+
 /// Rounding errors stay below this, relative to the size of the terms.
 pub(super) const TOLERANCE: f64 = 1e-10;
 /// Second derivatives of a gauge are no larger than this, or not by much.
@@ -18,45 +22,6 @@ const GAUGES: f64 = 10.0;
 
 /// A derivative that is a smaller part of its terms may be rounding.
 const MOVES: f64 = 1e-6;
-
-/// The number of points that a system is compared at, and of points that are drawn to find them.
-const POINTS: usize = 2;
-const DRAWN: usize = 40;
-
-/// The jets of a system at one point.
-pub(super) struct Expected {
-    pub(super) point: Point,
-    pub(super) lagrangian: Jet,
-    /// L at v = 0: −H of a degenerate system.
-    pub(super) at_rest: Jet,
-    /// The force on each coordinate.
-    pub(super) forces: Vec<Jet>,
-    pub(super) constraints: Vec<Jet>,
-    pub(super) momenta: Vec<Jet>,
-    /// At whose zeros L or a force is not smooth, as far as they do not stand in sums.
-    pub(super) seams: Vec<Jet>,
-    /// Whether other velocities leave ∂²L/∂v∂v as it is.
-    pub(super) is_quadratic: bool,
-}
-
-impl Expected {
-    /// ∂L/∂qⁱ + Fᵢ, or ∂L/∂vⁱ behind.
-    fn first(&self, i: usize) -> Sized {
-        let of_lagrangian = self.lagrangian.gradient(i);
-        self.forces.get(i).map_or(of_lagrangian, |force| of_lagrangian.plus(force.value))
-    }
-
-    /// The derivative of that by variable `j`.
-    fn second(&self, i: usize, j: usize) -> Sized {
-        let of_lagrangian = self.lagrangian.hessian(i, j);
-        self.forces.get(i).map_or(of_lagrangian, |force| of_lagrangian.plus(force.gradient(j)))
-    }
-
-    /// ∂H/∂qⁱ − Fᵢ
-    fn source(&self, i: usize) -> Sized {
-        self.at_rest.gradient(i).plus(self.forces[i].value).scaled(-1.0)
-    }
-}
 
 /// What came out.
 #[derive(Debug)]
@@ -123,47 +88,6 @@ pub(super) fn compare(system: &System, random: &mut Random) -> Verdict {
     }
 }
 
-/// Points in the domain with their jets.
-fn points(system: &System, random: &mut Random) -> Result<Vec<Expected>, Outside> {
-    let mut points = Vec::new();
-    for _ in 0..DRAWN {
-        let mut draw = || (0..system.dimension()).map(|_| random.between(-0.6, 1.8)).collect();
-        let (q, v) = (draw(), draw());
-        match expected(system, Point { q, v, t: random.between(-1.0, 2.0) }) {
-            Ok(point) => points.push(point),
-            Err(Outside::Index) => return Err(Outside::Index),
-            Err(Outside::Domain) => {}
-        }
-        if points.len() == POINTS {
-            break;
-        }
-    }
-    if points.is_empty() { Err(Outside::Domain) } else { Ok(points) }
-}
-
-fn expected(system: &System, point: Point) -> Result<Expected, Outside> {
-    let rest = Point { v: vec![0.0; point.v.len()], ..point.clone() };
-    let mut oracle = Oracle::new(system, &point);
-    let lagrangian = oracle.lagrangian()?;
-    let forces = oracle.forces()?;
-    let seams = oracle.seams;
-    let momenta = system.momenta.iter().map(|formula| Oracle::new(system, &point).value(formula));
-    let momenta = momenta.collect::<Result<_, _>>()?;
-    let constraints = Oracle::new(system, &point).constraints()?;
-    // A regular L need not exist at rest.
-    let at_rest =
-        if system.is_regular() { lagrangian.clone() } else { Oracle::new(system, &rest).lagrangian()? };
-    let n = system.dimension();
-    let other = Point { v: point.v.iter().map(|v| 0.3 - 0.7 * v).collect(), ..point.clone() };
-    let is_quadratic = match Oracle::new(system, &other).lagrangian() {
-        Ok(other) => (0..n).all(|i| {
-            (0..n).all(|j| structure::same(lagrangian.hessian(n + i, n + j), other.hessian(n + i, n + j)))
-        }),
-        Err(_) => true,
-    };
-    Ok(Expected { point, lagrangian, at_rest, forces, constraints, momenta, seams, is_quadratic })
-}
-
 /// A difference: the output and both numbers.
 pub(super) type Difference = (String, String);
 
@@ -181,6 +105,14 @@ impl<'a> Comparison<'a> {
 
     fn call(&self) -> Call<'a> {
         Call { machine: self.machine(), arguments: Vec::new() }
+    }
+
+    fn at_rest(&self, Point { q, t, .. }: &Point) -> Call<'a> {
+        self.call().slice(q).real(*t)
+    }
+
+    fn moving(&self, Point { q, v, t }: &Point) -> Call<'a> {
+        self.call().slice(q).slice(v).real(*t)
     }
 
     /// The conjugates of all coordinates, where the functions of degenerate systems are generated.
@@ -233,6 +165,26 @@ impl<'a> Comparison<'a> {
         })
     }
 
+    /// A function that returns a number.
+    fn returns(&mut self, name: &str, call: Call<'a>, expected: Sized) -> Result<(), Difference> {
+        let value = call.number(name)?;
+        self.same(name, &[], expected, value)
+    }
+
+    /// A function that sets a vector of so many entries, whatever they are before.
+    fn sets(
+        &mut self,
+        name: &str,
+        call: Call<'a>,
+        count: usize,
+        expected: impl Fn(usize) -> Sized,
+    ) -> Result<(), Difference> {
+        // Arrays of the function itself come behind it.
+        let set = call.machine.arrays.len();
+        let (_, slices) = call.slice(&vec![7.0; count]).run(name)?;
+        self.same_vector(name, &slices[set], expected)
+    }
+
     fn at(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {
         let compared = match (&self.system.gauge, self.system.is_regular()) {
             (Gauge::Auto, _) => self.motion(expected),
@@ -252,14 +204,13 @@ impl<'a> Comparison<'a> {
     /// the gauge that it has found.
     fn motion(&mut self, expected: &Expected) -> Result<(), Difference> {
         let n = self.system.dimension();
-        let Expected { point: Point { q, t, .. }, lagrangian: jet, .. } = expected;
-        let (_, slices) = self.call().slice(q).real(*t).slice(&vec![7.0; n]).run("flow_source")?;
+        let Expected { point, lagrangian: jet, .. } = expected;
         // Second derivatives of the gauge cancel in both, and leave their rounding errors.
         let cancelled = Sized { value: 0.0, size: ROUNDING * GAUGES };
-        self.same_vector("flow_source with a gauge", &slices[1], |i| {
+        self.sets("flow_source", self.at_rest(point), n, |i| {
             expected.source(i).plus(jet.hessian(n + i, 2 * n)).plus(cancelled)
         })?;
-        let call = self.call().slice(q).real(*t).real(1.0).real(-1.0).slice(&vec![0.0; n * n]);
+        let call = self.at_rest(point).real(1.0).real(-1.0).slice(&vec![0.0; n * n]);
         let (_, slices) = call.run("one_form_jacobian")?;
         self.same_matrix("Ω with a gauge", &slices[1], |i, j| {
             cancelled.plus(jet.hessian(n + i, j)).plus(jet.hessian(n + j, i).scaled(-1.0))
@@ -268,7 +219,7 @@ impl<'a> Comparison<'a> {
 
     fn common(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {
         let n = self.system.dimension();
-        let (jet, Point { q, v, t }) = (&expected.lagrangian, &expected.point);
+        let Expected { point: point @ Point { q, v, t }, lagrangian: jet, .. } = expected;
         for block in 0..self.system.blocks.len() {
             let (length, _) = self.call().index(block).run("block_len")?;
             let wanted = self.system.block_length(block);
@@ -279,19 +230,17 @@ impl<'a> Comparison<'a> {
                 ));
             }
         }
-        let value = self.call().slice(q).slice(v).real(*t).number("lagrangian")?;
-        self.same("lagrangian", &[], jet.value, value)?;
+        self.returns("lagrangian", self.moving(point), jet.value)?;
 
         // Slices hold something before: gradients are set, and the matrix is added to.
         let before = vec![7.0; n];
-        let call = self.call().slice(q).slice(v).real(*t).slice(&before).slice(&before);
-        let (_, slices) = call.run("gradient")?;
+        let (_, slices) = self.moving(point).slice(&before).slice(&before).run("gradient")?;
         self.same_vector("gradient, ∂L/∂q", &slices[2], |i| expected.first(i))?;
         self.same_vector("gradient, ∂L/∂v", &slices[3], |i| jet.gradient(n + i))?;
 
         let weights = [0; 4].map(|_| random.between(0.3, 1.7));
         let matrix: Vec<f64> = (0..n * n).map(|_| random.between(-1.0, 1.0)).collect();
-        let mut call = self.call().slice(q).slice(v).real(*t);
+        let mut call = self.moving(point);
         call.arguments.push(Value::Weights(weights));
         let (_, slices) = call.slice(&before).slice(&before).slice(&matrix).run("linearize")?;
         self.same_vector("linearize, ∂L/∂q", &slices[2], |i| expected.first(i))?;
@@ -304,23 +253,19 @@ impl<'a> Comparison<'a> {
                 .iter()
                 .fold(start, |sum, (weight, i, j)| sum.plus(expected.second(*i, *j).scaled(*weight)))
         })?;
-        let applied = if self.expansion.constants["FORCED"] {
-            let call = self.call().slice(q).slice(v).real(*t).slice(&before);
-            let (_, mut slices) = call.run("applied_force")?;
-            slices.remove(2)
-        } else {
+        let force = |i: usize| expected.forces[i].value;
+        match self.expansion.constants["FORCED"] {
+            true => self.sets("applied_force", self.moving(point), n, force)?,
             // Forces that cancel as they are written are none.
-            vec![0.0; n]
-        };
-        self.same_vector("applied_force", &applied, |i| expected.forces[i].value)?;
+            false => self.same_vector("applied_force", &vec![0.0; n], force)?,
+        }
 
         for (index, jet) in expected.momenta.iter().enumerate() {
-            let value = self.call().index(index).slice(q).slice(v).real(*t).number("momentum")?;
-            self.same(&format!("momentum {index}"), &[], jet.value, value)?;
-            let value = self.call().index(index).slice(q).slice(v).real(*t).number("event")?;
-            self.same(&format!("event {index}"), &[], jet.value, value)?;
-            let call = self.call().index(index).slice(q).slice(v).real(*t).slice(&before).slice(&before);
-            let (by_time, slices) = call.run("event_gradient")?;
+            let call = || self.call().index(index).slice(q).slice(v).real(*t);
+            let (momentum, event) = (call(), call());
+            let (by_time, slices) = call().slice(&before).slice(&before).run("event_gradient")?;
+            self.returns("momentum", momentum, jet.value)?;
+            self.returns("event", event, jet.value)?;
             self.same("event_gradient, ∂g/∂t", &[], jet.gradient(2 * n), by_time.real())?;
             self.same_vector("event_gradient, ∂g/∂q", &slices[2], |i| jet.gradient(i))?;
             self.same_vector("event_gradient, ∂g/∂v", &slices[3], |i| jet.gradient(n + i))?;
@@ -352,61 +297,42 @@ impl<'a> Comparison<'a> {
     }
 
     fn regular(&mut self, expected: &Expected) -> Result<(), Difference> {
-        let n = self.system.dimension();
-        let (jet, Point { q, v, t }) = (&expected.lagrangian, &expected.point);
-        let energy = self.call().slice(q).slice(v).real(*t).number("energy")?;
-        let kinetic = |sum: Sized, i: usize| sum.plus(jet.gradient(n + i).times(Sized::new(v[i])));
-        let wanted = (0..n).fold(jet.value.scaled(-1.0), kinetic);
-        self.same("energy", &[], wanted, energy)?;
-        let (_, slices) = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]).run("force")?;
-        self.same_vector("force", &slices[2], |i| expected.first(i))?;
-        let (_, slices) =
-            self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]).run("conjugate_momentum")?;
-        self.same_vector("conjugate_momentum", &slices[2], |i| jet.gradient(n + i))?;
-        let call = self.call().slice(q).slice(v).real(*t).slice(&vec![7.0; n]);
-        let (_, slices) = call.run("momentum_rate")?;
-        self.same_vector("momentum_rate", &slices[2], |i| jet.hessian(n + i, 2 * n))
+        let (n, point, jet) = (self.system.dimension(), &expected.point, &expected.lagrangian);
+        let kinetic = |sum: Sized, i: usize| sum.plus(jet.gradient(n + i).times(Sized::new(point.v[i])));
+        let energy = (0..n).fold(jet.value.scaled(-1.0), kinetic);
+        self.returns("energy", self.moving(point), energy)?;
+        self.sets("force", self.moving(point), n, |i| expected.first(i))?;
+        self.sets("conjugate_momentum", self.moving(point), n, |i| jet.gradient(n + i))?;
+        self.sets("momentum_rate", self.moving(point), n, |i| jet.hessian(n + i, 2 * n))
     }
 
     fn degenerate(&mut self, expected: &Expected, random: &mut Random) -> Result<(), Difference> {
         let n = self.system.dimension();
-        let Expected { point: Point { q, v, t }, lagrangian: jet, at_rest, momenta, .. } = expected;
-        let before = vec![7.0; n];
-        let minus = |value: Sized| value.scaled(-1.0);
-        let hamiltonian = self.call().slice(q).real(*t).number("hamiltonian")?;
-        self.same("hamiltonian", &[], minus(at_rest.value), hamiltonian)?;
-        let energy = self.call().slice(q).slice(v).real(*t).number("energy")?;
-        self.same("energy", &[], minus(at_rest.value), energy)?;
-        let vector = |name: &str| -> Result<Vec<f64>, Difference> {
-            let (_, mut slices) = self.call().slice(q).real(*t).slice(&before).run(name)?;
-            Ok(slices.remove(1))
-        };
-        let (gradient, one_form, source) =
-            (vector("hamiltonian_gradient")?, vector("one_form")?, vector("flow_source")?);
-        self.same_vector("hamiltonian_gradient", &gradient, |i| expected.source(i))?;
-        self.same_vector("one_form", &one_form, |i| jet.gradient(n + i))?;
-        self.same_vector("flow_source", &source, |i| expected.source(i).plus(jet.hessian(n + i, 2 * n)))?;
+        let Expected { point, lagrangian: jet, at_rest, momenta, .. } = expected;
+        let hamiltonian = at_rest.value.scaled(-1.0);
+        self.returns("hamiltonian", self.at_rest(point), hamiltonian)?;
+        self.returns("energy", self.moving(point), hamiltonian)?;
+        self.sets("hamiltonian_gradient", self.at_rest(point), n, |i| expected.source(i))?;
+        self.sets("one_form", self.at_rest(point), n, |i| jet.gradient(n + i))?;
+        let source = |i: usize| expected.source(i).plus(jet.hessian(n + i, 2 * n));
+        self.sets("flow_source", self.at_rest(point), n, source)?;
 
         let (a, b) = (random.between(0.3, 1.7), random.between(-1.7, -0.3));
         let combination =
             |i: usize, j: usize| jet.hessian(n + i, j).scaled(a).plus(jet.hessian(n + j, i).scaled(b));
         let matrix: Vec<f64> = (0..n * n).map(|_| random.between(-1.0, 1.0)).collect();
-        let call = self.call().slice(q).real(*t).real(a).real(b).slice(&matrix);
-        let (_, slices) = call.run("one_form_jacobian")?;
+        let (_, slices) = self.at_rest(point).real(a).real(b).slice(&matrix).run("one_form_jacobian")?;
         self.same_matrix("one_form_jacobian", &slices[1], |i, j| {
             Sized::new(matrix[i * n + j]).plus(combination(i, j))
         })?;
-        let call = self.call().slice(q).real(*t).real(a).real(b).slice(&before);
-        let (_, slices) = call.run("conjugate_entries")?;
         let (conjugates, canonical) = (self.conjugates(), self.expansion.constants["CANONICAL"]);
-        self.same_vector("conjugate_entries", &slices[1], |i| {
+        self.sets("conjugate_entries", self.at_rest(point).real(a).real(b), n, |i| {
             if canonical { combination(i, conjugates[i]) } else { Sized::default() }
         })?;
 
         for (index, jet) in momenta.iter().enumerate() {
-            let call = self.call().index(index).slice(q).real(*t).slice(&before);
-            let (_, slices) = call.run("momentum_gradient")?;
-            self.same_vector("momentum_gradient", &slices[1], |i| jet.gradient(i))?;
+            let call = self.call().index(index).slice(&point.q).real(point.t);
+            self.sets("momentum_gradient", call, n, |i| jet.gradient(i))?;
         }
         Ok(())
     }

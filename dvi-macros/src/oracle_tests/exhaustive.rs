@@ -10,7 +10,6 @@
 
 use super::formula::{Atom, Formula, Index, Loops};
 use super::system::{Block, Dynamics, Gauge, Size, SizeKind, System};
-use crate::syntax::{Constrained, Factor};
 
 /// The sums that a formula may still hold.
 const SUMS: usize = 2;
@@ -84,26 +83,12 @@ fn over_all(term: Formula) -> Formula {
 
 /// A formula as the Hamiltonian of x, y and u, w.
 pub(super) fn as_hamiltonian(number: usize, formula: Formula) -> System {
-    let block = |name, size| Block { name, size, axis: None, factor: Factor::Line };
     let entry = || Some(Index::bound(0));
-    let blocks = vec![block("x", Some(0)), block("u", None), block("y", Some(0)), block("w", None)];
+    let blocks = [("x", Some(0)), ("u", None), ("y", Some(0)), ("w", None)];
     let one_form = over_all(Formula::Coordinate(0, entry()).times(Formula::Velocity(2, entry())))
         .plus(Formula::Coordinate(1, None).times(Formula::Velocity(3, None)));
-    let dynamics = Dynamics::OneForm(one_form, formula);
-    System {
-        sizes: sizes(number),
-        fields: Vec::new(),
-        blocks,
-        width: 0,
-        dynamics,
-        gauge: Gauge::None,
-        time_transform: None,
-        forces: Vec::new(),
-        dissipation: None,
-        constraints: Vec::new(),
-        constrained: Constrained::Positions,
-        momenta: Vec::new(),
-    }
+    let blocks = blocks.map(|(name, size)| Block::line(name, size)).into();
+    System::of(sizes(number), blocks, Dynamics::OneForm(one_form, formula))
 }
 
 /// A formula as the gauge of a canonical system in x, y and u, w.
@@ -114,26 +99,11 @@ pub(super) fn as_gauge(number: usize, formula: Formula) -> System {
 
 /// A formula as a kinetic energy: of the velocities of x, and of u or its velocity.
 pub(super) fn as_kinetic_energy(number: usize, formula: Formula) -> System {
-    let block = |name, size| Block { name, size, axis: None, factor: Factor::Line };
     let moving = number.is_multiple_of(3);
     let squares = over_all(Formula::Velocity(0, Some(Index::bound(0))).power(2))
         .plus(Formula::Velocity(1, None).power(2));
     let dynamics = Dynamics::Regular(squares.plus(in_velocities(formula, moving)));
-    let blocks = vec![block("x", Some(0)), block("u", None)];
-    System {
-        sizes: sizes(number),
-        fields: Vec::new(),
-        blocks,
-        width: 0,
-        dynamics,
-        gauge: Gauge::None,
-        time_transform: None,
-        forces: Vec::new(),
-        dissipation: None,
-        constraints: Vec::new(),
-        constrained: Constrained::Positions,
-        momenta: Vec::new(),
-    }
+    System::of(sizes(number), vec![Block::line("x", Some(0)), Block::line("u", None)], dynamics)
 }
 
 fn in_velocities(mut formula: Formula, moving: bool) -> Formula {

@@ -11,19 +11,19 @@ use super::system::{Field, SizeKind, System};
 use super::write::ONE;
 use crate::expand::{degenerate_lagrangian, lagrangian};
 
-/// The expansion of a system, or the messages with which it is refused.
-pub(super) fn expand(system: &System) -> Result<Expansion, Vec<String>> {
+/// What the macro makes of a system.
+pub(super) fn tokens(system: &System) -> TokenStream {
     let parse = |text: String| match text.parse::<TokenStream>() {
         Ok(tokens) => tokens,
         Err(error) => panic!("{text} is no Rust: {error}"),
     };
-    let (attribute, item) = (parse(system.attribute()), parse(system.item()));
-    let tokens = if system.is_regular() {
-        lagrangian(attribute, item)
-    } else {
-        degenerate_lagrangian(attribute, item)
-    };
-    let mut messages = Vec::new();
+    let macro_of = if system.is_regular() { lagrangian } else { degenerate_lagrangian };
+    macro_of(parse(system.attribute()), parse(system.item()))
+}
+
+/// The expansion of a system, or the messages with which it is refused.
+pub(super) fn expand(system: &System) -> Result<Expansion, Vec<String>> {
+    let (tokens, mut messages) = (tokens(system), Vec::new());
     collect_messages(tokens.clone(), &mut messages);
     if messages.is_empty() { Ok(Expansion::new(tokens)) } else { Err(messages) }
 }

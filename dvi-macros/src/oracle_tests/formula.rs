@@ -54,6 +54,16 @@ pub(super) enum Loops {
     OrderedPairs,
 }
 
+impl Loops {
+    /// How many indices they bind.
+    pub(super) fn indices(self) -> usize {
+        match self {
+            Self::Single | Self::Product => 1,
+            Self::Pairs | Self::OrderedPairs => 2,
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Formula {
     /// A literal as it is written.

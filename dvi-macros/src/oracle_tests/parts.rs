@@ -4,43 +4,12 @@ use super::formula::{Atom, Condition, Formula, Index};
 
 impl Formula {
     /// The formulas directly inside, those of conditions included.
-    pub(super) fn parts(&self) -> Vec<&Formula> {
-        match self {
-            Self::Number(_)
-            | Self::Pi
-            | Self::Time
-            | Self::Coordinate(..)
-            | Self::Velocity(..)
-            | Self::Vector(..)
-            | Self::VectorVelocity(..)
-            | Self::Column(..)
-            | Self::Parameter(..)
-            | Self::VectorParameter(..)
-            | Self::Count(_)
-            | Self::Name(_)
-            | Self::VectorName(_) => Vec::new(),
-            Self::Negative(a)
-            | Self::Norm(a)
-            | Self::NormSquared(a)
-            | Self::Component(a, _)
-            | Self::Power(a, _)
-            | Self::Unary(_, a)
-            | Self::Own(_, a)
-            | Self::Sum(.., a) => vec![a],
-            Self::Add(a, b)
-            | Self::Subtract(a, b)
-            | Self::Multiply(a, b)
-            | Self::Divide(a, b)
-            | Self::Cross(a, b)
-            | Self::Dot(a, b)
-            | Self::Binary(_, a, b)
-            | Self::Let(_, a, b) => vec![a, b],
-            Self::MultiplyAdd(a, b, c) => vec![a, b, c],
-            Self::ScalarField(_, at) | Self::List(at) => at.iter().collect(),
-            Self::If(condition, a, b) => condition.parts().into_iter().chain([&**a, &**b]).collect(),
-        }
+    pub(super) fn parts(&self) -> Vec<Self> {
+        let mut copy = self.clone();
+        copy.parts_mut().into_iter().map(|part| std::mem::replace(part, Self::Pi)).collect()
     }
 
+    /// The same, to be changed.
     pub(super) fn parts_mut(&mut self) -> Vec<&mut Formula> {
         match self {
             Self::Number(_)
@@ -80,6 +49,11 @@ impl Formula {
         }
     }
 
+    /// The indices of the node itself.
+    pub(super) fn indices(&self) -> Vec<Index> {
+        self.clone().indices_mut().into_iter().map(|index| index.clone()).collect()
+    }
+
     fn indices_mut(&mut self) -> Vec<&mut Index> {
         match self {
             Self::Coordinate(_, Some(index))
@@ -99,18 +73,18 @@ impl Formula {
     /// Whether it calls this function of the user's.
     pub(super) fn calls(&self, function: usize) -> bool {
         matches!(self, Self::Own(own, _) if *own == function)
-            || self.parts().into_iter().any(|part| part.calls(function))
+            || self.parts().iter().any(|part| part.calls(function))
     }
 
     /// Whether it calls this function of several variables.
     pub(super) fn evaluates(&self, field: usize) -> bool {
         matches!(self, Self::ScalarField(known, _) if *known == field)
-            || self.parts().into_iter().any(|part| part.evaluates(field))
+            || self.parts().iter().any(|part| part.evaluates(field))
     }
 
     pub(super) fn has_velocities(&self) -> bool {
         let is_velocity = matches!(self, Self::Velocity(..) | Self::VectorVelocity(..));
-        is_velocity || self.parts().into_iter().any(Self::has_velocities)
+        is_velocity || self.parts().iter().any(Self::has_velocities)
     }
 
     /// Whether it is a vector.
@@ -153,7 +127,7 @@ impl Formula {
             Self::Number(_) => 1,
             _ => 2,
         };
-        own + self.parts().into_iter().map(Self::weight).sum::<usize>()
+        own + self.parts().iter().map(Self::weight).sum::<usize>()
     }
 
     /// The body of a sum as it is where the index of this level is zero.
@@ -173,14 +147,6 @@ impl Formula {
 }
 
 impl Condition {
-    fn parts(&self) -> Vec<&Formula> {
-        match self {
-            Self::Compare(left, _, right) => vec![left, right],
-            Self::And(a, b) | Self::Or(a, b) => a.parts().into_iter().chain(b.parts()).collect(),
-            Self::Not(of) => of.parts(),
-        }
-    }
-
     fn parts_mut(&mut self) -> Vec<&mut Formula> {
         match self {
             Self::Compare(left, _, right) => vec![left, right],

@@ -6,6 +6,7 @@
 mod arithmetic;
 mod code;
 mod functions;
+mod library;
 mod literals;
 mod parse;
 mod run;

@@ -68,10 +68,10 @@ fn smaller_formulas(formula: &Formula) -> Vec<Formula> {
                 Loops::Pairs | Loops::OrderedPairs => once.without_level(level + 1).without_level(*level),
             });
         }
-        other => variants.extend(other.parts().into_iter().cloned()),
+        other => variants.extend(other.parts()),
     }
-    for place in 0..formula.parts().len() {
-        for part in smaller_formulas(formula.parts()[place]) {
+    for (place, part) in formula.parts().iter().enumerate() {
+        for part in smaller_formulas(part) {
             let mut variant = formula.clone();
             *variant.parts_mut().remove(place) = part;
             variants.push(variant);

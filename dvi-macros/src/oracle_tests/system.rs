@@ -115,7 +115,32 @@ pub(super) struct System {
 /// The coordinates that a time transformation adds.
 const EXTENDED: [&str; 2] = ["t", "energy"];
 
+impl Block {
+    /// A number, or an array of numbers.
+    pub(super) fn line(name: &'static str, size: Option<usize>) -> Self {
+        Self { name, size, axis: None, factor: Factor::Line }
+    }
+}
+
 impl System {
+    /// With nothing but a motion.
+    pub(super) fn of(sizes: Vec<Size>, blocks: Vec<Block>, dynamics: Dynamics) -> Self {
+        Self {
+            sizes,
+            fields: Vec::new(),
+            blocks,
+            width: 0,
+            dynamics,
+            gauge: Gauge::None,
+            time_transform: None,
+            forces: Vec::new(),
+            dissipation: None,
+            constraints: Vec::new(),
+            constrained: Constrained::Positions,
+            momenta: Vec::new(),
+        }
+    }
+
     pub(super) fn size_values(&self) -> Vec<i64> {
         self.sizes.iter().map(|size| size.value).collect()
     }
@@ -168,12 +193,7 @@ impl System {
     }
 
     pub(super) fn with_time_transform(mut self, rate: Formula) -> Self {
-        self.blocks.extend(EXTENDED.map(|name| Block {
-            name,
-            size: None,
-            axis: None,
-            factor: Factor::Line,
-        }));
+        self.blocks.extend(EXTENDED.map(|name| Block::line(name, None)));
         Self { time_transform: Some(rate), ..self }
     }
 

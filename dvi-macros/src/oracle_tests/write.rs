@@ -283,14 +283,13 @@ impl<'a> Writer<'a> {
                 (format!("{{ {bound} {body} }}"), Block)
             }
             Formula::Sum(loops, level, lower, upper, body) => {
-                let (name, indices) = match loops {
-                    Loops::Single => ("sum", INDICES[*level].to_string()),
-                    Loops::Product => ("product", INDICES[*level].to_string()),
-                    Loops::Pairs => ("sum_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1])),
-                    Loops::OrderedPairs => {
-                        ("sum_ordered_pairs", format!("{}, {}", INDICES[*level], INDICES[level + 1]))
-                    }
+                let name = match loops {
+                    Loops::Single => "sum",
+                    Loops::Product => "product",
+                    Loops::Pairs => "sum_pairs",
+                    Loops::OrderedPairs => "sum_ordered_pairs",
                 };
+                let indices = INDICES[*level..level + loops.indices()].join(", ");
                 let (range, body) = (self.range(lower, upper), self.text(body));
                 let are_read = indices.split(", ").all(|index| is_in_brackets(&body, index));
                 if are_read && self.spelling.is_other() {

@@ -2,7 +2,7 @@
 
 use super::super::jet::{Jet, Sized};
 use super::super::random::Random;
-use super::{Comparison, Difference, Expected, Point};
+use super::{Comparison, Difference, Expected};
 use crate::syntax::Constrained;
 
 impl Comparison<'_> {
@@ -11,17 +11,16 @@ impl Comparison<'_> {
         expected: &Expected,
         random: &mut Random,
     ) -> Result<(), Difference> {
-        let Expected { point: Point { q, v, t }, constraints, .. } = expected;
+        let Expected { point, constraints, .. } = expected;
         let (n, m) = (self.system.dimension(), constraints.len());
         if m == 0 {
             return Ok(());
         }
-        let before = vec![7.0; m];
         // With room for more rows or columns than there are.
         let side = n.max(m);
         let matrix: Vec<f64> = (0..side * side).map(|_| random.between(-1.0, 1.0)).collect();
         if self.system.constrained == Constrained::Velocities {
-            return self.velocity_constraints(expected, random, &before, &matrix);
+            return self.velocity_constraints(expected, random, &matrix);
         }
         let [value, jacobian, rate] = match self.system.constrained {
             Constrained::Gaps => ["gap", "gap_jacobian", "gap_rate"],
@@ -29,25 +28,20 @@ impl Comparison<'_> {
                 ["constraint", "constraint_jacobian", "constraint_rate"]
             }
         };
-        let (_, slices) = self.call().slice(q).real(*t).slice(&before).run(value)?;
-        self.same_vector(value, &slices[1], |k| constraints[k].value)?;
-
-        let call = self.call().slice(q).real(*t).slice(&before).slice(&matrix);
-        let (_, slices) = call.run(jacobian)?;
+        self.sets(value, self.at_rest(point), m, |k| constraints[k].value)?;
+        let (_, slices) = self.at_rest(point).slice(&vec![7.0; m]).slice(&matrix).run(jacobian)?;
         self.same_vector(jacobian, &slices[1], |k| constraints[k].value)?;
         self.same_rows(jacobian, &slices[2], &matrix, constraints, |constraint, column| {
             constraint.gradient(column)
         })?;
 
-        self.constraint_rate(expected, rate, &before)?;
+        self.constraint_rate(expected, rate)?;
         if self.system.constrained == Constrained::Gaps {
             return Ok(());
         }
-        let along = |i: usize| Sized::new(if i < n { v[i] } else { 1.0 });
+        let along = |i: usize| Sized::new(if i < n { point.v[i] } else { 1.0 });
         let variables = || (0..n).chain([2 * n]);
-        let call = self.call().slice(q).slice(v).real(*t).slice(&before);
-        let (_, slices) = call.run("constraint_curvature")?;
-        self.same_vector("constraint_curvature", &slices[2], |k| {
+        self.sets("constraint_curvature", self.moving(point), m, |k| {
             let pairs = variables().flat_map(|i| variables().map(move |j| (i, j)));
             let terms = pairs.map(|(i, j)| constraints[k].hessian(i, j).times(along(i)).times(along(j)));
             terms.fold(Sized::default(), Sized::plus)
@@ -58,37 +52,29 @@ impl Comparison<'_> {
         &mut self,
         expected: &Expected,
         random: &mut Random,
-        before: &[f64],
         matrix: &[f64],
     ) -> Result<(), Difference> {
-        let Expected { point: Point { q, v, t }, constraints, .. } = expected;
-        let n = self.system.dimension();
-        let (_, slices) = self.call().slice(q).slice(v).real(*t).slice(before).run("velocity_constraint")?;
-        self.same_vector("velocity_constraint", &slices[2], |k| constraints[k].value)?;
+        let Expected { point, constraints, .. } = expected;
+        let (n, m) = (self.system.dimension(), constraints.len());
+        self.sets("velocity_constraint", self.moving(point), m, |k| constraints[k].value)?;
 
         let weights = [0; 2].map(|_| random.between(-1.7, 1.7));
-        let call = self.call().slice(q).slice(v).real(*t).slice(&weights).slice(before).slice(matrix);
+        let call = self.moving(point).slice(&weights).slice(&vec![7.0; m]).slice(matrix);
         let (_, slices) = call.run("velocity_constraint_jacobian")?;
         self.same_vector("velocity_constraint_jacobian, a", &slices[3], |k| constraints[k].value)?;
         let [by_q, by_v] = weights;
         self.same_rows("velocity_constraint_jacobian", &slices[4], matrix, constraints, |constraint, j| {
             constraint.gradient(j).scaled(by_q).plus(constraint.gradient(n + j).scaled(by_v))
         })?;
-        self.constraint_rate(expected, "velocity_constraint_rate", before)
+        self.constraint_rate(expected, "velocity_constraint_rate")
     }
 
     /// The rates of change of all constraints along (v, 1).
-    fn constraint_rate(
-        &mut self,
-        expected: &Expected,
-        function: &str,
-        before: &[f64],
-    ) -> Result<(), Difference> {
-        let Expected { point: Point { q, v, t }, constraints, .. } = expected;
+    fn constraint_rate(&mut self, expected: &Expected, function: &str) -> Result<(), Difference> {
+        let Expected { point, constraints, .. } = expected;
         let n = self.system.dimension();
-        let (_, slices) = self.call().slice(q).slice(v).real(*t).slice(before).run(function)?;
-        self.same_vector(function, &slices[2], |k| {
-            let terms = (0..n).map(|i| constraints[k].gradient(i).times(Sized::new(v[i])));
+        self.sets(function, self.moving(point), constraints.len(), |k| {
+            let terms = (0..n).map(|i| constraints[k].gradient(i).times(Sized::new(point.v[i])));
             terms.fold(constraints[k].gradient(2 * n), Sized::plus)
         })
     }

@@ -4,8 +4,8 @@ use crate::oracle_tests::formula::Formula;
 use crate::oracle_tests::random::Random;
 use crate::oracle_tests::rotations::{COMPONENTS, ENTRIES};
 use crate::oracle_tests::spinors::SPINOR;
-use crate::oracle_tests::system::{Block, Container, Dynamics, Field, Gauge, Size, SizeKind, System};
-use crate::syntax::{Constrained, Factor};
+use crate::oracle_tests::system::{Block, Container, Dynamics, Field, Size, SizeKind, System};
+use crate::syntax::Factor;
 
 /// How sizes are written.
 #[derive(Clone, Copy, PartialEq)]
@@ -34,24 +34,7 @@ pub(super) fn declarations(random: &mut Random, regular: bool) -> System {
         }
         width => vectors(random, regular, width, of),
     };
-    let dynamics = Dynamics::Regular(Formula::Time);
-    let (gauge, time_transform) = (Gauge::None, None);
-    let (forces, constraints, momenta) = (Vec::new(), Vec::new(), Vec::new());
-    let constrained = Constrained::Positions;
-    System {
-        sizes,
-        fields,
-        blocks,
-        width,
-        dynamics,
-        gauge,
-        time_transform,
-        forces,
-        dissipation: None,
-        constraints,
-        constrained,
-        momenta,
-    }
+    System { fields, width, ..System::of(sizes, blocks, Dynamics::Regular(Formula::Time)) }
 }
 
 /// Two sizes that are different from each other, and that of the field `g`.
@@ -130,10 +113,12 @@ fn fields(random: &mut Random, sizes: &[Size], width: usize) -> Vec<Field> {
 /// Coordinates with vectors among them; `of` is the size with their number of components.
 fn vectors(random: &mut Random, regular: bool, width: usize, of: usize) -> Vec<Block> {
     assert_ne!(width, SPINOR, "a block of so many components is a spinor");
-    let block = |name, size, axis| Block { name, size, axis, factor: Factor::Line };
-    let array = |name, size| (0..width).map(move |axis| block(name, Some(size), Some([axis, width])));
-    let whole = |name| block(name, Some(of), None);
-    let singles = [block("u", None, None), block("w", None, None)];
+    let array = |name, size| {
+        let component = move |axis| Block { axis: Some([axis, width]), ..Block::line(name, Some(size)) };
+        (0..width).map(component)
+    };
+    let whole = |name| Block::line(name, Some(of));
+    let singles = ["u", "w"].map(|name| Block::line(name, None));
     let spinors = |name, size| {
         let spinor = move |axis| Block { name, size, axis: Some([axis, SPINOR]), factor: Factor::Sphere };
         (0..SPINOR).map(spinor)
@@ -147,9 +132,9 @@ fn vectors(random: &mut Random, regular: bool, width: usize, of: usize) -> Vec<B
     }
     match (regular, random.below(4)) {
         (true, 0) => array("r", 0).collect(),
-        (true, 1) => array("r", 0).chain([whole("q"), block("u", None, None)]).collect(),
-        (true, 2) => vec![block("u", None, None), whole("q")],
-        (true, _) => [block("x", Some(0), None)].into_iter().chain(array("r", 1)).collect(),
+        (true, 1) => array("r", 0).chain([whole("q"), Block::line("u", None)]).collect(),
+        (true, 2) => vec![Block::line("u", None), whole("q")],
+        (true, _) => [Block::line("x", Some(0))].into_iter().chain(array("r", 1)).collect(),
         (false, 0) => array("r", 0).chain(array("z", 0)).collect(),
         (false, 1) => vec![whole("q"), whole("p")],
         (false, 2) => singles.into_iter().chain(array("r", 1)).chain(array("z", 1)).collect(),
@@ -166,7 +151,7 @@ fn on_manifolds(random: &mut Random, [of_vector, of_rotation]: [usize; 2]) -> Ve
     let array = |name, size, factor, of| {
         (0..of).map(move |axis| Block { name, size: Some(size), axis: Some([axis, of]), factor })
     };
-    let single = |name, size, factor| Block { name, size, axis: None, factor };
+    let single = |name, size, factor| Block { factor, ..Block::line(name, size) };
     let rotation = || single("R", Some(of_rotation), Factor::Rotation);
     let vector = || single("z", Some(of_vector), Factor::Sphere);
     let rotations = |size| array("R", size, Factor::Rotation, ENTRIES);
@@ -183,7 +168,7 @@ fn on_manifolds(random: &mut Random, [of_vector, of_rotation]: [usize; 2]) -> Ve
 }
 
 fn blocks(random: &mut Random, regular: bool, sizes: &[Size]) -> Vec<Block> {
-    let block = |name, size| Block { name, size, axis: None, factor: Factor::Line };
+    let block = Block::line;
     let square = sizes.iter().position(|size| matches!(size.kind, SizeKind::Product(..)));
     if square.is_some() && random.chance(60) {
         return vec![block("x", square), block("y", square)];

@@ -70,7 +70,7 @@ impl Scope {
                 }
             }
         }
-        let level = self.level + if matches!(loops, Loops::Single | Loops::Product) { 1 } else { 2 };
+        let level = self.level + loops.indices();
         let fits = !values.is_empty() && values.len() <= MOST_TERMS && level <= DEEPEST;
         fits.then_some(Self { values, level, names: self.names.clone() })
     }
@@ -107,7 +107,7 @@ impl Scope {
             }
             _ => true,
         };
-        here && formula.parts().into_iter().all(|part| self.admits_formula(part, system))
+        here && formula.parts().iter().all(|part| self.admits_formula(part, system))
     }
 
     /// Whether an index stays in 0..length.

@@ -3,6 +3,7 @@
 
 use super::super::functions::{bessel, erf};
 use super::code::Operator;
+use super::parse::TRAITS;
 
 #[derive(Clone, Debug)]
 pub(super) enum Callee {
@@ -12,23 +13,8 @@ pub(super) enum Callee {
     Binary(fn(f64, f64) -> f64),
     Power,
     Choose,
-    /// `__private::wrap` and `__private::remainder`
-    Wrap,
-    Remainder,
-    /// `__private::members_before`
-    MembersBefore,
-    CheckSizes,
-    CheckIndex,
-    CheckIndices,
-    /// `__private::whole`
-    Whole,
-    /// `__private::first_unturned` and `__private::past_unturned`
-    FirstUnturned,
-    PastUnturned,
-    /// `__private::Waiting`
-    Waiting,
-    /// `__private::are_many`
-    AreMany,
+    /// Another function of `__private`.
+    Library(String),
     /// `Sink::add`, of a dense matrix.
     AddEntry,
     Ok,
@@ -70,16 +56,6 @@ fn sign(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.signum() }
 }
 
-/// The traits whose functions are generated.
-const TRAITS: [&str; 6] = [
-    "Lagrangian",
-    "DegenerateLagrangian",
-    "NondegenerateLagrangian",
-    "HolonomicLagrangian",
-    "NonholonomicLagrangian",
-    "UnilateralLagrangian",
-];
-
 /// What a path calls, by its segments.
 pub(super) fn callee(path: &[String]) -> Callee {
     let segments: Vec<&str> = path.iter().map(String::as_str).collect();
@@ -90,17 +66,7 @@ pub(super) fn callee(path: &[String]) -> Callee {
         [.., "Scalar", "powi"] => Callee::Power,
         [.., "Scalar", "choose"] => Callee::Choose,
         [.., "Scalar", name] => scalar(name),
-        [.., "__private", "wrap"] => Callee::Wrap,
-        [.., "__private", "remainder"] => Callee::Remainder,
-        [.., "__private", "members_before"] => Callee::MembersBefore,
-        [.., "__private", "check_sizes"] => Callee::CheckSizes,
-        [.., "__private", "check_index"] => Callee::CheckIndex,
-        [.., "__private", "check_indices"] => Callee::CheckIndices,
-        [.., "__private", "whole"] => Callee::Whole,
-        [.., "__private", "first_unturned"] => Callee::FirstUnturned,
-        [.., "__private", "past_unturned"] => Callee::PastUnturned,
-        [.., "__private", "Waiting"] => Callee::Waiting,
-        [.., "__private", "are_many"] => Callee::AreMany,
+        [.., "__private", name] => Callee::Library((*name).into()),
         [.., "Sink", "add"] => Callee::AddEntry,
         ["core", "result", "Result", "Ok"] => Callee::Ok,
         [.., owner, name] if TRAITS.contains(owner) => Callee::Generated((*name).into()),
@@ -122,12 +88,13 @@ fn scalar(name: &str) -> Callee {
 
 /// The relation that a variant of `Comparison` names.
 pub(super) fn comparison(path: &[String]) -> Option<Operator> {
-    let segments: Vec<&str> = path.iter().map(String::as_str).collect();
-    match segments.as_slice() {
-        [.., "Comparison", "Less"] => Some(Operator::Less),
-        [.., "Comparison", "LessOrEqual"] => Some(Operator::LessOrEqual),
-        [.., "Comparison", "Greater"] => Some(Operator::Greater),
-        [.., "Comparison", "GreaterOrEqual"] => Some(Operator::GreaterOrEqual),
-        _ => None,
-    }
+    let [.., comparison, name] = path else { return None };
+    Some(match name.as_str() {
+        _ if comparison != "Comparison" => return None,
+        "Less" => Operator::Less,
+        "LessOrEqual" => Operator::LessOrEqual,
+        "Greater" => Operator::Greater,
+        "GreaterOrEqual" => Operator::GreaterOrEqual,
+        _ => return None,
+    })
 }

@@ -27,7 +27,8 @@ pub(crate) struct Expansion {
 /// Functions that are not interpreted.
 const UNREAD: [&str; 3] = ["space", "outside", "time_transform"];
 
-const TRAITS: [&str; 7] = [
+/// The traits whose functions are generated.
+pub(super) const TRAITS: [&str; 7] = [
     "System",
     "Lagrangian",
     "DegenerateLagrangian",

@@ -35,7 +35,7 @@ pub(super) enum Jump {
     Panic(String),
 }
 
-type Step = Result<Value, Jump>;
+pub(super) type Step = Result<Value, Jump>;
 
 pub(super) fn panicked(reason: impl Into<String>) -> Jump {
     Jump::Panic(reason.into())
@@ -111,22 +111,16 @@ impl Machine<'_> {
                 self.assign(place, value, slots)
             }
             Code::Call(callee, arguments) => {
-                let arguments: Result<Vec<Value>, Jump> =
-                    arguments.iter().map(|argument| self.run(argument, slots)).collect();
-                self.called(callee, arguments?)
+                let arguments = self.all(arguments, slots)?;
+                self.called(callee, arguments)
             }
             Code::Method(receiver, name, arguments) => {
                 let receiver = self.run(receiver, slots)?;
-                let arguments: Result<Vec<Value>, Jump> =
-                    arguments.iter().map(|argument| self.run(argument, slots)).collect();
-                self.method(&receiver, name, &arguments?)
+                let arguments = self.all(arguments, slots)?;
+                self.method(&receiver, name, &arguments)
             }
             Code::Cast(of, kind) => Ok(cast(&self.run(of, slots)?, *kind)),
-            Code::Tuple(parts) => {
-                let parts: Result<Vec<Value>, Jump> =
-                    parts.iter().map(|part| self.run(part, slots)).collect();
-                Ok(Value::Tuple(parts?))
-            }
+            Code::Tuple(parts) => Ok(Value::Tuple(self.all(parts, slots)?)),
             Code::Block(steps) => {
                 let mut value = Value::Unit;
                 for step in steps {
@@ -178,6 +172,10 @@ impl Machine<'_> {
                 value => Ok(value),
             },
         }
+    }
+
+    fn all(&mut self, codes: &[Code], slots: &mut Vec<Value>) -> Result<Vec<Value>, Jump> {
+        codes.iter().map(|code| self.run(code, slots)).collect()
     }
 
     /// The pairs of each body with those of the first half that come after it, and with those of the second.
@@ -306,44 +304,7 @@ impl Machine<'_> {
                 };
                 Ok(Value::Real(if holds { real(3) } else { real(4) }))
             }
-            Callee::Wrap | Callee::Remainder => {
-                let kind = if matches!(callee, Callee::Wrap) { Kind::Usize } else { Kind::I64 };
-                let remainder = integer(0).checked_rem_euclid(integer(1));
-                let remainder = remainder.ok_or_else(|| panicked("a remainder by zero"))?;
-                Ok(Value::Integer(remainder, kind))
-            }
-            Callee::MembersBefore => {
-                let rows = (0..integer(2)).map(|row| (integer(0) + integer(1) * row).max(0));
-                Ok(Value::Integer(rows.sum(), Kind::Usize))
-            }
-            // Chunks of two, so that short loops have some.
-            Callee::Whole => {
-                let left_over = (integer(1) - integer(0)).max(0) % 2;
-                Ok(Value::Integer(integer(1) - left_over, Kind::Usize))
-            }
-            Callee::FirstUnturned => {
-                Ok(Value::Integer(integer(0).max(integer(2)).min(integer(1)), Kind::Usize))
-            }
-            Callee::PastUnturned => {
-                Ok(Value::Integer((integer(1) - integer(2)).max(integer(0)), Kind::Usize))
-            }
-            Callee::Waiting => {
-                let Value::Tuple(terms) = &arguments[0] else { panic!("a list of terms") };
-                Ok(self.array(terms.iter().map(Value::real).collect()))
-            }
-            // Few enough that both ways are taken.
-            Callee::AreMany => Ok(Value::Bool(integer(0) >= 3)),
-            // Sizes of the tests are small.
-            Callee::CheckSizes => Ok(Value::Unit),
-            Callee::CheckIndex | Callee::CheckIndices => {
-                let length = arguments[arguments.len() - 1].integer();
-                let past = if let Callee::CheckIndices = callee { integer(2) } else { integer(1) + 1 };
-                let outside = (integer(1)..past).find(|index| !(0..length).contains(index));
-                Ok(outside.map_or(Value::Unit, |index| {
-                    let Value::Text(array) = &arguments[0] else { panic!("an array has a name") };
-                    Value::Failure(format!("index {index} of `{array}`, of length {length}"))
-                }))
-            }
+            Callee::Library(name) => self.library(name, &arguments),
             Callee::AddEntry => {
                 let Value::View { array, start, length } = arguments[0] else {
                     panic!("a matrix is a slice")

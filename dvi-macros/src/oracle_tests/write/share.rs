@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::{INDICES, Writer, is_in_brackets};
-use crate::oracle_tests::formula::{Atom, Formula, Index, Loops};
+use crate::oracle_tests::formula::{Atom, Formula, Index};
 
 /// What is defined so far, as (formula, name, definition).
 #[derive(Default)]
@@ -59,25 +59,14 @@ impl Formula {
         for part in self.parts() {
             levels.extend(part.open_levels()?);
         }
-        let own: Vec<&Index> = match self {
+        match self {
             Self::Name(_) | Self::VectorName(_) => return None,
-            Self::Coordinate(_, Some(index))
-            | Self::Velocity(_, Some(index))
-            | Self::Vector(_, Some(index))
-            | Self::VectorVelocity(_, Some(index))
-            | Self::Column(_, Some(index), _)
-            | Self::Count(index) => {
-                vec![index]
+            Self::Sum(loops, level, ..) => {
+                levels.retain(|open| !(*level..level + loops.indices()).contains(open));
             }
-            Self::Parameter(_, indices) | Self::VectorParameter(_, indices) => indices.iter().collect(),
-            Self::Sum(loops, level, lower, upper, _) => {
-                let bound = if matches!(loops, Loops::Single | Loops::Product) { 1 } else { 2 };
-                levels.retain(|open| !(*level..level + bound).contains(open));
-                vec![lower, upper]
-            }
-            _ => Vec::new(),
-        };
-        levels.extend(own.into_iter().flat_map(Index::levels));
+            _ => {}
+        }
+        levels.extend(self.indices().iter().flat_map(Index::levels));
         levels.sort_unstable();
         levels.dedup();
         Some(levels)
