@@ -255,6 +255,8 @@ impl Graph {
         if let Some(id) = self.known.get(&node) {
             return *id;
         }
+        #[cfg(test)]
+        assert!(super::tests::is_normal(self, &node), "{node:?}");
         let operands = node.operands();
         let inside = operands.iter().fold(Free::default(), |free, id| free.and(self.free(*id)));
         let highest = operands.iter().map(|id| self.height(*id)).max().unwrap_or(0);

@@ -1,26 +1,33 @@
-//! The symbolic core against arithmetic that knows nothing of it.
-//!
-//! A formula is written as a [`tree`], which is evaluated as it stands, without simplification, on
-//! numbers, on bounds of their rounding errors, and on dual numbers over these. The same formula goes
-//! through the constructors of the graph, which [`evaluate`] interprets on the same point.
+//! The functions and their derivatives, and the normal form. Formulas as a whole are left to the self-check
+//! and to the oracle.
 
-use proptest::test_runner::{Config, RngSeed};
+use super::{Coordinate, Graph, Id, Index, Node};
 
 mod evaluate;
-mod extremes;
-mod field;
-mod instructions;
-mod properties;
-mod rules;
-mod streams;
-mod tree;
+mod functions;
 
-/// The same cases every time. Those whose rounding errors cannot be bounded are rejected.
-fn configuration(cases: u32) -> Config {
-    Config {
-        max_global_rejects: 4 * cases,
-        rng_seed: RngSeed::Fixed(2002),
-        failure_persistence: None,
-        ..Config::with_cases(cases)
+fn coordinate(graph: &mut Graph, block: u32) -> Id {
+    graph.intern(Node::Coordinate(Coordinate { block, index: Index::literal(0) }))
+}
+
+/// What the constructors promise of each node, in all graphs of all tests.
+pub(super) fn is_normal(graph: &Graph, node: &Node) -> bool {
+    match node {
+        Node::Sum(terms) => {
+            let ordered = terms.windows(2).all(|pair| pair[0].node < pair[1].node);
+            terms.len() >= 2 && ordered && terms.iter().all(|term| !term.is_zero())
+        }
+        Node::Product(factors) => {
+            let ordered = factors.windows(2).all(|pair| pair[0].0 < pair[1].0);
+            let several = factors.len() > 1 || factors[0].1 > 1;
+            let is_one = factors.iter().any(|(id, _)| matches!(graph.node(*id), Node::One));
+            ordered && several && !is_one && factors.iter().all(|(_, exponent)| *exponent > 0)
+        }
+        Node::Reciprocal(of) => !matches!(graph.node(*of), Node::Reciprocal(_) | Node::One),
+        Node::Reduce { range, .. } => !range.is_empty(),
+        Node::Unary(_, of) => of.as_number().is_none(),
+        Node::Binary(_, a, b) => a.as_number().is_none() || b.as_number().is_none(),
+        Node::Choose { then, otherwise, .. } => then != otherwise,
+        _ => true,
     }
 }
