@@ -99,8 +99,9 @@ fn history<S: Lagrangian, M: Method<S, f64>>(
     Ok((passed, statistics))
 }
 
-/// Compares steps whose stages or nodes are evaluated one by one with steps in which these are in lanes, with
-/// so many of them: all numbers on one system, and on each system one that fills registers and one that does not.
+/// Compares steps whose stages or nodes are evaluated one by one with steps in which these are in lanes,
+/// with so many of them: all numbers on one system, and on each system one that fills registers and one that
+/// does not.
 macro_rules! stages {
     ($system:expr, $q:expr, $v:expr, $h:expr) => { stages!(@ $system, $q, $v, $h; Gauss<3> Gauss<8>) };
     (@ $system:expr, $q:expr, $v:expr, $h:expr; $($method:ident<$stages:literal>)*) => {{

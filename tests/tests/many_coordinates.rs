@@ -1,6 +1,6 @@
-//! Systems whose number of coordinates is known at run time only: their matrices are banded, and Newton's method
-//! with these takes the steps of solvers that store none. Of two-forms with a band, a run is that of the same
-//! system of fixed size, whose matrix is dense.
+//! Systems whose number of coordinates is known at run time only: their matrices are banded, and Newton's
+//! method with these takes the steps of solvers that store none. Of two-forms with a band, a run is that of
+//! the same system of fixed size, whose matrix is dense.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;

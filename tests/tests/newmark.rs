@@ -36,7 +36,8 @@ fn average_acceleration_is_stable_at_every_step() -> Outcome {
     Ok(())
 }
 
-/// The momentum map of rotations is preserved at q = x − βh² a, where a is the acceleration at x, and not at x.
+/// The momentum map of rotations is preserved at q = x − βh² a, where a is the acceleration at x, and not at
+/// x.
 #[test]
 fn the_angular_momentum_is_kept_in_conjugate_coordinates() -> Outcome {
     let (h, angular) = (0.1, |x: &[f64], p: &[f64]| x[0] * p[1] - x[1] * p[0]);

@@ -14,8 +14,8 @@ use dvi_tests::configurations::{chaotic, quasi_periodic};
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::*;
 
-/// Takes the steps of `strides` with a run on each system from each start, together in packs of `W` and alone.
-/// Returns the errors.
+/// Takes the steps of `strides` with a run on each system from each start, together in packs of `W` and
+/// alone. Returns the errors.
 pub(crate) fn same_as_alone<
     const W: usize,
     S: Lagrangian + PartialEq,

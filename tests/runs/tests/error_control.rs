@@ -1,5 +1,5 @@
-//! Steps chosen by their error, many of them: forces that are switched on, pulses, motions that do not leave a
-//! seam, and what becomes of the energy.
+//! Steps chosen by their error, many of them: forces that are switched on, pulses, motions that do not leave
+//! a seam, and what becomes of the energy.
 
 use core::f64::consts::{PI, TAU};
 

@@ -1,6 +1,6 @@
 //! Gauss collocation on q'' = f(q, t), where the velocities of the stages are eliminated: it is the method
-//! on (q, p), it keeps bilinear invariants to rounding errors, and its energy does not drift; nor does that of as
-//! many interior nodes, or where L has terms that are linear in the velocity.
+//! on (q, p), it keeps bilinear invariants to rounding errors, and its energy does not drift; nor does that
+//! of as many interior nodes, or where L has terms that are linear in the velocity.
 
 use core::f64::consts::TAU;
 use dvi_core::methods::Method;
@@ -133,7 +133,8 @@ fn terms_linear_in_the_velocity_do_not_matter() -> Outcome {
     Ok(())
 }
 
-/// The largest energy error of Kepler's orbit in `count` hundreds of steps, and the slope of it over the run.
+/// The largest energy error of Kepler's orbit in `count` hundreds of steps, and the slope of it over the
+/// run.
 fn energy_error<M: Method<Kepler, f64>>(method: M, count: u32) -> Outcome<[f64; 2]> {
     let mut run = Integrator::new(&KEPLER, method, 0.2, pericentre(0.3))?;
     let before = run.energy();

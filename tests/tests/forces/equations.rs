@@ -17,8 +17,9 @@ const DAMPED: Damped = Damped { gamma: 0.3 };
 const START: [f64; 4] = [1.2, 0.0, 0.1, 0.9];
 const H: f64 = 0.05;
 
-/// The tangent map of a step in (q, p), where p = v, by the second derivatives of the discrete Lagrangian and the
-/// derivatives of the forces, against the step in dual numbers. Returns by how much it changes dq ∧ dp.
+/// The tangent map of a step in (q, p), where p = v, by the second derivatives of the discrete Lagrangian
+/// and the derivatives of the forces, against the step in dual numbers. Returns by how much it changes dq ∧
+/// dp.
 fn tangent_map_is_right<S, M>(system: &S, method: M) -> Outcome<f64>
 where
     S: RegularLagrangian + RegularLagrangian<Dual64>,
