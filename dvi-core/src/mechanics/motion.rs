@@ -103,8 +103,8 @@ pub(crate) type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point<T>;
 /// The same in packs of type `P`, of numbers of type `T`.
 pub(crate) type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point<P>;
 
-/// The equations of the stages of a collocation step, as Newton's method for the velocities solves them: with
-/// momenta unless they are others, ∂L/∂v(Qᵢ, Vᵢ) = p + h Σⱼ aᵢⱼ ∂L/∂q(Qⱼ, Vⱼ).
+/// The equations of the stages of a collocation step, as Newton's method solves them for velocities: those
+/// with momenta, ∂L/∂v(Qᵢ, Vᵢ) = p + h Σⱼ aᵢⱼ ∂L/∂q(Qⱼ, Vⱼ), unless they are others.
 pub trait StageEquations<S: System, T: Real> {
     /// Sets `residual` to what vanishes where `v` is the velocity at (`q`, `t`), and `force` to what drives
     /// the motion there: ∂L/∂v, from which p is still to be subtracted, and p'; of a degenerate system on Q
