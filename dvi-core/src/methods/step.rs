@@ -207,7 +207,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
                 let begin = Begin { system: *system, interval: *interval, q, phase, mass: &inertial.mass };
                 let mut coefficients = equations.begin(&begin, &mut work.node)?;
                 let mut scheme = (equations, &mut coefficients);
-                iterate_by_mass(&mut scheme, &begin, work, criterion, statistics)?;
+                iterate_by_mass::<PLAIN, _, _, _>(&mut scheme, &begin, work, criterion, statistics)?;
                 arrive::<PLAIN, _, _, _>(
                     scheme,
                     (*system, *interval),
@@ -256,10 +256,10 @@ type WithCoefficients<'a, S, T, E> = (&'a mut E, &'a mut <E as Equations<S, T>>:
 
 /// Sets the increment by the fixed point Δ ← Δ + (h/κ)M⁻¹(p0 + r), where M is constant.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn iterate_by_mass<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>>(
+fn iterate_by_mass<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>>(
     (equations, coefficients): &mut WithCoefficients<'_, S, T, E>,
     begin: &Begin<'_, S, T>,
-    Work { node, increment, next, trial: impulse, weights, .. }: &mut Work<S, T>,
+    Work { node, increment, next, trial: impulse, weights, sum, .. }: &mut Work<S, T>,
     criterion: (Stopping, usize),
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
@@ -274,8 +274,14 @@ fn iterate_by_mass<S: NondegenerateLagrangian<T>, T: Real, E: Equations<S, T>>(
         statistics,
         #[cfg_attr(not(debug_assertions), inline(always))]
         |delta, change, statistics| {
-            impulse.copy_from_slice(&begin.phase.p);
-            equations.evaluate(begin, delta, Share::Left, (coefficients, node), impulse, statistics)?;
+            if PLAIN {
+                impulse.copy_from_slice(&begin.phase.p);
+                equations.evaluate(begin, delta, Share::Left, (coefficients, node), impulse, statistics)?;
+            } else {
+                sum.fill(T::lift(0.0));
+                equations.evaluate(begin, delta, Share::Left, (coefficients, node), sum, statistics)?;
+                begin.phase.kick(sum, impulse);
+            }
             begin.mass.solve(impulse, change);
             let Kinetic { mixed, left, per_stiffness, .. } = equations.kinetic(coefficients);
             for ((v, delta), &q) in change.iter_mut().zip(delta.iter_mut()).zip(begin.q) {
