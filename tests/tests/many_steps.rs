@@ -26,7 +26,8 @@ fn check<S: DegenerateLagrangian>(
         while pieces.steps() < steps && found.is_none() {
             found = pieces.take_steps(piece.min(steps - pieces.steps())).err();
         }
-        assert_eq!(found, failure, "in pieces of {piece}");
+        // As texts, in which all that are no number are one.
+        assert_eq!(format!("{found:?}"), format!("{failure:?}"), "in pieces of {piece}");
         assert_eq!(pieces.statistics(), single.statistics(), "in pieces of {piece}");
         assert_eq!(bits(pieces.q()), bits(single.q()), "in pieces of {piece}");
         assert_eq!(bits(pieces.memory().defect()), bits(single.memory().defect()), "in pieces of {piece}");

@@ -7,7 +7,7 @@ use super::{files, names, passed_on, read};
 /// Modules of which users open all pages, besides those of the prelude.
 const MODULES: [&str; 6] = ["archive", "diagnostics", "ensemble", "fast_sum", "field", "record"];
 /// What has a page of its own.
-const ITEMS: [&str; 4] = ["pub struct ", "pub enum ", "pub trait ", "pub fn "];
+const ITEMS: [&str; 5] = ["pub struct ", "pub enum ", "pub trait ", "pub fn ", "pub type "];
 
 /// Whether a documentation comment has an example that is compiled, and not a formula or a text only.
 fn has_example(comment: &[&str]) -> bool {
