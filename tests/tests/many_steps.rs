@@ -7,6 +7,16 @@ use dvi_tests::bits;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 
+/// The failure with zero for what is no number, which equals nothing, and no zero is reported.
+fn comparable(mut error: StepError) -> StepError {
+    if let StepFailure::NotFinite { value, .. } = &mut error.failure
+        && value.is_nan()
+    {
+        *value = 0.0;
+    }
+    error
+}
+
 /// Compares one run in pieces with one step by step, up to `steps` or the first failure.
 fn check<S: DegenerateLagrangian>(
     system: &S,
@@ -26,8 +36,7 @@ fn check<S: DegenerateLagrangian>(
         while pieces.steps() < steps && found.is_none() {
             found = pieces.take_steps(piece.min(steps - pieces.steps())).err();
         }
-        // As texts, in which all that are no number are one.
-        assert_eq!(format!("{found:?}"), format!("{failure:?}"), "in pieces of {piece}");
+        assert_eq!(found.map(comparable), failure.map(comparable), "in pieces of {piece}");
         assert_eq!(pieces.statistics(), single.statistics(), "in pieces of {piece}");
         assert_eq!(bits(pieces.q()), bits(single.q()), "in pieces of {piece}");
         assert_eq!(bits(pieces.memory().defect()), bits(single.memory().defect()), "in pieces of {piece}");

@@ -21,7 +21,7 @@ use crate::{Real, State};
 /// struct Pendulum;
 ///
 /// let state: PendulumState = Pendulum.projected(0.0, &PendulumState { x: 0.0, y: -1.1, dot_x: 2.0, dot_y: 0.3 })?;
-/// assert!((state.y + 1.0).abs() < 1e-15 && state.dot_y.abs() < 1e-15);
+/// assert_eq!((state.y, state.dot_y), (-1.0, 0.0));
 /// // The rod pulls by v² + 1 upwards, as the force 2λ(x, y).
 /// let multipliers = Pendulum.multipliers_at(0.0, &state)?;
 /// assert!((multipliers[0] + 2.5).abs() < 1e-14);
