@@ -28,7 +28,7 @@ pub(super) struct Oracle<'a> {
     sizes: Vec<i64>,
     pub(super) point: &'a Point,
     bound: Vec<i64>,
-    pub(super) names: Vec<(usize, Vec<Jet>)>,
+    names: Vec<(usize, Vec<Jet>)>,
     /// At whose zeros what has been evaluated is not smooth, outside of sums.
     pub(super) seams: Vec<Jet>,
 }
@@ -36,6 +36,19 @@ pub(super) struct Oracle<'a> {
 /// The only component of what is no vector.
 fn single(values: Vec<Jet>) -> Result<Jet, Outside> {
     <[Jet; 1]>::try_from(values).map(|[value]| value).map_err(|_| Outside::Index)
+}
+
+/// An operation on two vectors, component by component, or on a vector and a number.
+fn together(a: &[Jet], b: &[Jet], operation: fn(&Jet, &Jet) -> Jet) -> Vec<Jet> {
+    match (a, b) {
+        ([a], several) => several.iter().map(|b| operation(a, b)).collect(),
+        (several, [b]) => several.iter().map(|a| operation(a, b)).collect(),
+        (a, b) => a.iter().zip(b).map(|(a, b)| operation(a, b)).collect(),
+    }
+}
+
+pub(super) fn minus(a: &Jet, b: &Jet) -> Jet {
+    a.plus(&b.scaled(-1.0))
 }
 
 /// Conditions that are nearer to equality than this decide nothing.
@@ -126,12 +139,17 @@ impl<'a> Oracle<'a> {
     }
 
     pub(super) fn value(&mut self, formula: &Formula) -> Result<Jet, Outside> {
-        let jet = self.evaluate(formula)?;
-        if jet.is_moderate() { Ok(jet) } else { Err(Outside::Domain) }
+        single(self.values(formula)?)
     }
 
-    fn evaluate(&mut self, formula: &Formula) -> Result<Jet, Outside> {
-        Ok(match formula {
+    /// The components of a formula, one if it is a number.
+    pub(super) fn values(&mut self, formula: &Formula) -> Result<Vec<Jet>, Outside> {
+        let values = self.evaluate(formula)?;
+        if values.iter().all(Jet::is_moderate) { Ok(values) } else { Err(Outside::Domain) }
+    }
+
+    fn evaluate(&mut self, formula: &Formula) -> Result<Vec<Jet>, Outside> {
+        let number = match formula {
             Formula::Number(text) => Jet::constant(text.parse().expect("a number")),
             Formula::Pi => Jet::constant(std::f64::consts::PI),
             Formula::Time => {
@@ -141,9 +159,9 @@ impl<'a> Oracle<'a> {
                     None => Jet::variable(self.point.t, variables - 1, variables),
                 }
             }
-            Formula::Name(name) => {
+            Formula::Name(name) | Formula::VectorName(name) => {
                 let known = self.names.iter().rev().find(|(known, _)| known == name);
-                single(known.ok_or(Outside::Index)?.1.clone())?
+                return Ok(known.ok_or(Outside::Index)?.1.clone());
             }
             Formula::Coordinate(block, _) | Formula::Velocity(block, _) if self.system.is_spinor(*block) => {
                 self.of_spinor(formula)?
@@ -152,13 +170,14 @@ impl<'a> Oracle<'a> {
             Formula::Velocity(block, index) => self.variable(*block, index.as_ref(), true)?,
             Formula::Parameter(field, indices) => Jet::constant(self.parameter(*field, indices)?),
             Formula::Count(index) => Jet::constant(self.index(index)? as f64),
-            Formula::Negative(of) => self.value(of)?.scaled(-1.0),
-            Formula::Add(a, b) => self.value(a)?.plus(&self.value(b)?),
-            Formula::Subtract(a, b) => self.value(a)?.plus(&self.value(b)?.scaled(-1.0)),
-            Formula::Multiply(a, b) => self.value(a)?.times(&self.value(b)?),
+            Formula::Negative(of) => {
+                return Ok(self.values(of)?.iter().map(|part| part.scaled(-1.0)).collect());
+            }
+            Formula::Add(a, b) => return Ok(together(&self.values(a)?, &self.values(b)?, Jet::plus)),
+            Formula::Subtract(a, b) => return Ok(together(&self.values(a)?, &self.values(b)?, minus)),
+            Formula::Multiply(a, b) => return Ok(together(&self.values(a)?, &self.values(b)?, Jet::times)),
             Formula::Divide(a, b) => {
-                let (a, b) = (self.value(a)?, self.power(b, -1)?);
-                a.times(&b)
+                return Ok(together(&self.values(a)?, &[self.power(b, -1)?], Jet::times));
             }
             Formula::Power(of, exponent) => self.power(of, *exponent)?,
             Formula::Unary(function, of) => {
@@ -166,7 +185,7 @@ impl<'a> Oracle<'a> {
                 let of = self.value(of)?;
                 if is_sum && of.is_nothing() && ["sqrt", "cbrt"].contains(&function.name) {
                     // The root of a sum without terms is a constant.
-                    return Ok(Jet::constant(0.0));
+                    return Ok(vec![Jet::constant(0.0)]);
                 }
                 if !(function.domain)(of.value.value) {
                     return Err(Outside::Domain);
@@ -179,50 +198,55 @@ impl<'a> Oracle<'a> {
             Formula::Binary(function, a, b) => {
                 let (a, b) = (self.value(a)?, self.value(b)?);
                 if matches!(function, BinaryFunction::Min | BinaryFunction::Max) {
-                    self.note_seam(&a.plus(&b.scaled(-1.0)));
+                    self.note_seam(&minus(&a, &b));
                 }
                 a.binary(*function, &b).ok_or(Outside::Domain)?
             }
             Formula::MultiplyAdd(a, b, c) => self.value(a)?.times(&self.value(b)?).plus(&self.value(c)?),
             Formula::Own(function, of) => self.value(of)?.unary(&|x| own(*function, x)),
-            Formula::ScalarField(field, at) => {
-                let at: Result<Vec<Jet>, Outside> = at.iter().map(|argument| self.value(argument)).collect();
-                scalar_field(*field, &at?)
-            }
+            Formula::ScalarField(field, at) => scalar_field(*field, &self.each(at)?),
             Formula::If(condition, then, otherwise) => {
-                if self.holds(condition)? {
-                    self.value(then)?
-                } else {
-                    self.value(otherwise)?
-                }
+                let taken = if self.holds(condition)? { then } else { otherwise };
+                return self.values(taken);
             }
-            Formula::Let(name, value, body) => single(self.with_name(*name, value, body)?)?,
+            Formula::Let(name, value, body) => {
+                let value = self.values(value)?;
+                self.names.push((*name, value));
+                let body = self.values(body);
+                self.names.pop();
+                return body;
+            }
             Formula::Sum(Loops::Product, level, lower, upper, body) => {
-                let terms = self.terms(Loops::Product, *level, [lower, upper])?;
                 let mut product = Jet::constant(1.0);
-                for term in terms {
-                    product = product.times(&self.inside(&term, body)?);
+                for term in self.terms(Loops::Product, *level, [lower, upper])? {
+                    product = product.times(&single(self.inside(&term, body)?)?);
                 }
                 product
             }
             Formula::Sum(loops, level, lower, upper, body) => {
-                let mut sum = Jet::constant(0.0);
+                let components = if formula.is_vector() { self.system.width } else { 1 };
+                let mut sum = vec![Jet::constant(0.0); components];
                 for term in self.terms(*loops, *level, [lower, upper])? {
-                    sum = sum.plus(&self.inside(&term, body)?);
+                    sum = together(&sum, &self.inside(&term, body)?, Jet::plus);
                 }
-                sum
+                return Ok(sum);
             }
             Formula::Dot(..) | Formula::Norm(_) | Formula::NormSquared(_) | Formula::Component(..) => {
                 self.of_vectors(formula)?
             }
+            Formula::List(components) => return self.each(components),
             Formula::Vector(..)
             | Formula::VectorVelocity(..)
             | Formula::Column(..)
             | Formula::VectorParameter(..)
-            | Formula::VectorName(_)
-            | Formula::List(_)
-            | Formula::Cross(..) => return Err(Outside::Index),
-        })
+            | Formula::Cross(..) => return self.vector(formula),
+        };
+        Ok(vec![number])
+    }
+
+    /// Several numbers.
+    fn each(&mut self, formulas: &[Formula]) -> Result<Vec<Jet>, Outside> {
+        formulas.iter().map(|formula| self.value(formula)).collect()
     }
 
     fn note_seam(&mut self, seam: &Jet) {
@@ -231,22 +255,8 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// A body with a name for a value.
-    pub(super) fn with_name(
-        &mut self,
-        name: usize,
-        value: &Formula,
-        body: &Formula,
-    ) -> Result<Vec<Jet>, Outside> {
-        let value = self.values(value)?;
-        self.names.push((name, value));
-        let body = self.values(body);
-        self.names.pop();
-        body
-    }
-
     /// The indices of the terms of a sum.
-    pub(super) fn terms(
+    fn terms(
         &self,
         loops: Loops,
         level: usize,
@@ -303,11 +313,7 @@ impl<'a> Oracle<'a> {
     }
 
     /// A body with its indices at these values.
-    fn inside(&mut self, indices: &[i64], body: &Formula) -> Result<Jet, Outside> {
-        single(self.all_inside(indices, body)?)
-    }
-
-    pub(super) fn all_inside(&mut self, indices: &[i64], body: &Formula) -> Result<Vec<Jet>, Outside> {
+    pub(super) fn inside(&mut self, indices: &[i64], body: &Formula) -> Result<Vec<Jet>, Outside> {
         let outside = self.bound.len();
         self.bound.extend(indices);
         let values = self.values(body);
@@ -315,7 +321,7 @@ impl<'a> Oracle<'a> {
         values
     }
 
-    pub(super) fn power(&mut self, of: &Formula, exponent: i32) -> Result<Jet, Outside> {
+    fn power(&mut self, of: &Formula, exponent: i32) -> Result<Jet, Outside> {
         let of = self.value(of)?;
         if exponent < 0 && of.value.value.abs() < 1e-2 {
             return Err(Outside::Domain);
@@ -323,11 +329,11 @@ impl<'a> Oracle<'a> {
         Ok(of.power(exponent))
     }
 
-    pub(super) fn holds(&mut self, condition: &Condition) -> Result<bool, Outside> {
+    fn holds(&mut self, condition: &Condition) -> Result<bool, Outside> {
         Ok(match condition {
             Condition::Compare(left, relation, right) => {
                 let (left, right) = (self.value(left)?, self.value(right)?);
-                self.note_seam(&left.plus(&right.scaled(-1.0)));
+                self.note_seam(&minus(&left, &right));
                 let (left, right) = (left.value, right.value);
                 let difference = left.value - right.value;
                 if difference.abs() < NEAR * (1.0 + left.size + right.size) {

@@ -19,7 +19,7 @@ impl Oracle<'_> {
             for i in 0..length {
                 let is_array = self.system.blocks[*block].size.is_some();
                 let indices: &[i64] = if is_array { &[i as i64] } else { &[] };
-                let components = self.all_inside(indices, force)?;
+                let components = self.inside(indices, force)?;
                 components
                     .iter()
                     .enumerate()

@@ -1,6 +1,6 @@
 //! Vectors of the oracle: the values of their components.
 
-use super::evaluate::{Oracle, Outside};
+use super::evaluate::{Oracle, Outside, minus};
 use super::formula::{Formula, Index};
 use super::functions::UNARY;
 use super::jet::Jet;
@@ -8,10 +8,6 @@ use super::rotations::{COMPONENTS, ENTRIES};
 
 fn sum_of_products(a: &[Jet], b: &[Jet]) -> Jet {
     a.iter().zip(b).fold(Jet::constant(0.0), |sum, (a, b)| sum.plus(&a.times(b)))
-}
-
-fn minus(a: &[Jet], b: &[Jet]) -> Vec<Jet> {
-    a.iter().zip(b).map(|(a, b)| a.plus(&b.scaled(-1.0))).collect()
 }
 
 impl Oracle<'_> {
@@ -38,16 +34,8 @@ impl Oracle<'_> {
         })
     }
 
-    /// The components of a formula, one if it is a number.
-    pub(super) fn values(&mut self, formula: &Formula) -> Result<Vec<Jet>, Outside> {
-        if !formula.is_vector() {
-            return Ok(vec![self.value(formula)?]);
-        }
-        let values = self.components(formula)?;
-        if values.iter().all(Jet::is_moderate) { Ok(values) } else { Err(Outside::Domain) }
-    }
-
-    fn components(&mut self, formula: &Formula) -> Result<Vec<Jet>, Outside> {
+    /// A vector of the struct, or a cross product.
+    pub(super) fn vector(&mut self, formula: &Formula) -> Result<Vec<Jet>, Outside> {
         Ok(match formula {
             Formula::Vector(block, index) if self.system.is_spinor(*block) => {
                 self.unit_vector(*block, index.as_ref())?
@@ -74,57 +62,13 @@ impl Oracle<'_> {
                 };
                 (0..self.system.sizes[*size].value).map(entry).collect::<Result<_, _>>()?
             }
-            Formula::VectorName(name) => {
-                let known = self.names.iter().rev().find(|(known, _)| known == name);
-                known.ok_or(Outside::Index)?.1.clone()
-            }
-            Formula::List(components) => {
-                components.iter().map(|component| self.value(component)).collect::<Result<_, _>>()?
-            }
             Formula::Cross(a, b) => {
                 let (a, b) = (self.values(a)?, self.values(b)?);
-                let (Ok([a0, a1, a2]), Ok([b0, b1, b2])) =
-                    (<[Jet; 3]>::try_from(a), <[Jet; 3]>::try_from(b))
-                else {
+                let ([a0, a1, a2], [b0, b1, b2]) = (a.as_slice(), b.as_slice()) else {
                     return Err(Outside::Index);
                 };
-                minus(
-                    &[a1.times(&b2), a2.times(&b0), a0.times(&b1)],
-                    &[a2.times(&b1), a0.times(&b2), a1.times(&b0)],
-                )
-            }
-            Formula::Negative(of) => {
-                self.values(of)?.iter().map(|component| component.scaled(-1.0)).collect()
-            }
-            Formula::Add(a, b) => {
-                let (a, b) = (self.values(a)?, self.values(b)?);
-                a.iter().zip(&b).map(|(a, b)| a.plus(b)).collect()
-            }
-            Formula::Subtract(a, b) => minus(&self.values(a)?, &self.values(b)?),
-            Formula::Multiply(a, b) => {
-                let (factor, vector) = if a.is_vector() { (b, a) } else { (a, b) };
-                let (factor, vector) = (self.value(factor)?, self.values(vector)?);
-                vector.iter().map(|component| component.times(&factor)).collect()
-            }
-            Formula::Divide(a, b) => {
-                let (a, b) = (self.values(a)?, self.power(b, -1)?);
-                a.iter().map(|component| component.times(&b)).collect()
-            }
-            Formula::If(condition, then, otherwise) => {
-                let taken = if self.holds(condition)? { then } else { otherwise };
-                self.values(taken)?
-            }
-            Formula::Let(name, value, body) => self.with_name(*name, value, body)?,
-            Formula::Sum(loops, level, lower, upper, body) => {
-                let mut sum: Option<Vec<Jet>> = None;
-                for term in self.terms(*loops, *level, [lower, upper])? {
-                    let value = self.all_inside(&term, body)?;
-                    sum = Some(match sum {
-                        None => value,
-                        Some(sum) => sum.iter().zip(&value).map(|(a, b)| a.plus(b)).collect(),
-                    });
-                }
-                sum.unwrap_or_else(|| vec![Jet::constant(0.0); self.system.width])
+                let minor = |a: &Jet, b: &Jet, c: &Jet, d: &Jet| minus(&a.times(d), &b.times(c));
+                vec![minor(a1, a2, b1, b2), minor(a2, a0, b2, b0), minor(a0, a1, b0, b1)]
             }
             _ => return Err(Outside::Index),
         })

@@ -1,6 +1,9 @@
 //! The arithmetic of numbers and integers, which overflow where those of Rust do.
 
-use super::code::Operator;
+use quote::ToTokens as _;
+use syn::BinOp;
+
+use super::parse::unknown;
 use super::run::{Jump, panicked};
 use super::value::{Kind, Value};
 
@@ -24,31 +27,29 @@ pub(super) fn cast(value: &Value, kind: Kind) -> Value {
     Value::Integer((value - least).rem_euclid(turn) + least, kind)
 }
 
-pub(super) fn operation(operator: Operator, left: Value, right: Value) -> Result<Value, Jump> {
-    use Operator::{Add, Divide, Multiply, Remainder, Subtract};
+pub(super) fn operation(operator: BinOp, left: Value, right: Value) -> Result<Value, Jump> {
     let value = match (left, right) {
         (Value::Real(a), Value::Real(b)) => match operator {
-            Add => Value::Real(a + b),
-            Subtract => Value::Real(a - b),
-            Multiply => Value::Real(a * b),
-            Divide => Value::Real(a / b),
-            Remainder => panic!("the interpreter takes remainders of integers"),
+            BinOp::Add(_) => Value::Real(a + b),
+            BinOp::Sub(_) => Value::Real(a - b),
+            BinOp::Mul(_) => Value::Real(a * b),
+            BinOp::Div(_) => Value::Real(a / b),
             relation => Value::Bool(related(relation, &a, &b)),
         },
         (left, right) => {
             let kind = kind_of(&left).joined(kind_of(&right));
             let (a, b) = (left.integer(), right.integer());
             let value = match operator {
-                Add => a + b,
-                Subtract => a - b,
-                Multiply => a * b,
-                Divide | Remainder if b == 0 => return Err(panicked("a division by zero")),
-                Divide => a / b,
-                Remainder => a % b,
+                BinOp::Add(_) => a + b,
+                BinOp::Sub(_) => a - b,
+                BinOp::Mul(_) => a * b,
+                BinOp::Div(_) | BinOp::Rem(_) if b == 0 => return Err(panicked("a division by zero")),
+                BinOp::Div(_) => a / b,
+                BinOp::Rem(_) => a % b,
                 relation => return Ok(Value::Bool(related(relation, &a, &b))),
             };
             if !kind.holds(value) {
-                return Err(panicked(format!("{a} {operator:?} {b} overflows {kind:?}")));
+                return Err(panicked(format!("{a} {} {b} overflows {kind:?}", operator.to_token_stream())));
             }
             Value::Integer(value, kind)
         }
@@ -56,15 +57,15 @@ pub(super) fn operation(operator: Operator, left: Value, right: Value) -> Result
     Ok(value)
 }
 
-fn related<V: PartialOrd>(relation: Operator, a: &V, b: &V) -> bool {
+fn related<V: PartialOrd>(relation: BinOp, a: &V, b: &V) -> bool {
     match relation {
-        Operator::Equal => a == b,
-        Operator::NotEqual => a != b,
-        Operator::Less => a < b,
-        Operator::LessOrEqual => a <= b,
-        Operator::Greater => a > b,
-        Operator::GreaterOrEqual => a >= b,
-        other => panic!("the interpreter does not compare by {other:?}"),
+        BinOp::Eq(_) => a == b,
+        BinOp::Ne(_) => a != b,
+        BinOp::Lt(_) => a < b,
+        BinOp::Le(_) => a <= b,
+        BinOp::Gt(_) => a > b,
+        BinOp::Ge(_) => a >= b,
+        other => unknown("operator", &other),
     }
 }
 

@@ -1,24 +1,9 @@
 //! The tree that printed Rust is read into: names are resolved to slots.
 
+use syn::BinOp;
+
 use super::functions::Callee;
 use super::value::{Kind, Value};
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Operator {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Remainder,
-    Equal,
-    NotEqual,
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
-    And,
-    Or,
-}
 
 /// What a `let` binds: slots, or nothing for `_`.
 #[derive(Clone, Debug)]
@@ -38,9 +23,9 @@ pub(super) enum Code {
     Index(Box<Code>, Box<Code>),
     Negative(Box<Code>),
     Not(Box<Code>),
-    Binary(Operator, Box<Code>, Box<Code>),
+    Binary(BinOp, Box<Code>, Box<Code>),
     /// `place = value`, or `place ∘= value`.
-    Assign(Option<Operator>, Box<Code>, Box<Code>),
+    Assign(Option<BinOp>, Box<Code>, Box<Code>),
     Call(Callee, Vec<Code>),
     Method(Box<Code>, String, Vec<Code>),
     Cast(Box<Code>, Kind),

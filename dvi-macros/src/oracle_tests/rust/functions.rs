@@ -2,7 +2,6 @@
 //! the user's own.
 
 use super::super::functions::{bessel, erf};
-use super::code::Operator;
 use super::parse::TRAITS;
 
 #[derive(Clone, Debug)]
@@ -84,17 +83,4 @@ fn scalar(name: &str) -> Callee {
     unary
         .or(binary)
         .unwrap_or_else(|| panic!("the interpreter does not know the method `{name}` of a scalar"))
-}
-
-/// The relation that a variant of `Comparison` names.
-pub(super) fn comparison(path: &[String]) -> Option<Operator> {
-    let [.., comparison, name] = path else { return None };
-    Some(match name.as_str() {
-        _ if comparison != "Comparison" => return None,
-        "Less" => Operator::Less,
-        "LessOrEqual" => Operator::LessOrEqual,
-        "Greater" => Operator::Greater,
-        "GreaterOrEqual" => Operator::GreaterOrEqual,
-        _ => return None,
-    })
 }

@@ -6,8 +6,8 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{BinOp, Expr, FnArg, ImplItem, ItemImpl, Lit, Pat, RangeLimits, Stmt, UnOp};
 
-use super::code::{Code, Function, Operator, Pattern};
-use super::functions::{Callee, callee, comparison};
+use super::code::{Code, Function, Pattern};
+use super::functions::{Callee, callee};
 use super::literals::{arm_value, kind, literal_value};
 use super::value::Value;
 
@@ -296,10 +296,8 @@ impl Parser {
             let known = self.scope.iter().rev().find(|(known, _)| known == name);
             return known.map_or_else(|| Code::Named(name.clone()), |(_, slot)| Code::Slot(*slot));
         }
-        if let Some(relation) = comparison(&segments) {
-            return Code::Value(Value::Text(format!("{relation:?}")));
-        }
         match segments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+            [.., "Comparison", relation] => Code::Value(Value::Text((*relation).to_string())),
             [.., "f64", "NAN"] => Code::Value(Value::Real(f64::NAN)),
             [.., "f64", "INFINITY"] => Code::Value(Value::Real(f64::INFINITY)),
             _ => unknown("path", path),
@@ -307,32 +305,13 @@ impl Parser {
     }
 
     fn binary(&mut self, binary: &syn::ExprBinary) -> Code {
-        use Operator::{
-            Add, And, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Multiply, NotEqual, Or,
-            Remainder, Subtract,
-        };
         let (left, right) = (self.boxed(&binary.left), self.boxed(&binary.right));
         let operator = match binary.op {
-            BinOp::AddAssign(_) => return Code::Assign(Some(Add), left, right),
-            BinOp::SubAssign(_) => return Code::Assign(Some(Subtract), left, right),
-            BinOp::MulAssign(_) => return Code::Assign(Some(Multiply), left, right),
-            BinOp::DivAssign(_) => return Code::Assign(Some(Divide), left, right),
-            BinOp::Add(_) => Add,
-            BinOp::Sub(_) => Subtract,
-            BinOp::Mul(_) => Multiply,
-            BinOp::Div(_) => Divide,
-            BinOp::Rem(_) => Remainder,
-            BinOp::Eq(_) => Equal,
-            BinOp::Ne(_) => NotEqual,
-            BinOp::Lt(_) => Less,
-            BinOp::Le(_) => LessOrEqual,
-            BinOp::Gt(_) => Greater,
-            BinOp::Ge(_) => GreaterOrEqual,
-            BinOp::And(_) => And,
-            BinOp::Or(_) => Or,
-            _ => unknown("operator", binary),
+            BinOp::AddAssign(_) => plus(),
+            BinOp::SubAssign(_) => minus(),
+            operator => return Code::Binary(operator, left, right),
         };
-        Code::Binary(operator, left, right)
+        Code::Assign(Some(operator), left, right)
     }
 
     fn repeated(&mut self, repeated: &syn::ExprForLoop) -> Code {
@@ -359,6 +338,14 @@ impl Parser {
     }
 }
 
+fn plus() -> BinOp {
+    BinOp::Add(Default::default())
+}
+
+fn minus() -> BinOp {
+    BinOp::Sub(Default::default())
+}
+
 /// A call. Packs hold one term each, and so are numbers.
 fn called(path: &[String], arguments: Vec<Code>) -> Code {
     let mut given = arguments.clone().into_iter().map(Box::new);
@@ -368,7 +355,7 @@ fn called(path: &[String], arguments: Vec<Code>) -> Code {
         [.., "__private", "load"] => Code::Index(next(), next()),
         [.., "__private", "parameters"] => Code::Call(Callee::Number, vec![Code::Index(next(), next())]),
         [.., "__private", add @ ("add_to" | "subtract_from")] => {
-            let operator = if *add == "add_to" { Operator::Add } else { Operator::Subtract };
+            let operator = if *add == "add_to" { plus() } else { minus() };
             Code::Assign(Some(operator), Box::new(Code::Index(next(), next())), next())
         }
         [.., "Sums", "empty"] => Code::Value(Value::Real(-0.0)),
@@ -385,7 +372,7 @@ fn method(receiver: Box<Code>, name: String, mut arguments: Vec<Code>) -> Code {
     match name.as_str() {
         "add_terms" => {
             let terms = arguments.pop().unwrap_or_else(|| panic!("terms to add"));
-            Code::Assign(Some(Operator::Add), receiver, Box::new(terms))
+            Code::Assign(Some(plus()), receiver, Box::new(terms))
         }
         "total" => *receiver,
         _ => Code::Method(receiver, name, arguments),

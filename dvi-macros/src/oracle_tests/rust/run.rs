@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use syn::BinOp;
+
 use super::arithmetic::{cast, integer_method, kind_of, operation};
-use super::code::{Code, Function, Operator, Pattern, bind};
+use super::code::{Code, Function, Pattern, bind};
 use super::functions::Callee;
 use super::parse::Expansion;
 use super::value::{Kind, Nested, Value};
@@ -94,8 +96,8 @@ impl Machine<'_> {
             Code::Binary(operator, left, right) => {
                 let left = self.run(left, slots)?;
                 match (operator, &left) {
-                    (Operator::And, Value::Bool(false)) | (Operator::Or, Value::Bool(true)) => Ok(left),
-                    (Operator::And | Operator::Or, Value::Bool(_)) => self.run(right, slots),
+                    (BinOp::And(_), Value::Bool(false)) | (BinOp::Or(_), Value::Bool(true)) => Ok(left),
+                    (BinOp::And(_) | BinOp::Or(_), Value::Bool(_)) => self.run(right, slots),
                     _ => {
                         let right = self.run(right, slots)?;
                         operation(*operator, left, right)
