@@ -22,6 +22,7 @@ mod model;
 mod operations;
 #[cfg(test)]
 mod oracle_tests;
+mod print;
 mod program;
 mod routine;
 mod schedule;

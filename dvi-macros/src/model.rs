@@ -14,7 +14,6 @@ use crate::syntax::{Attribute, Declaration, Factor, Function, Kind, Named, Scala
 use crate::words::{self, reserved};
 
 mod grids;
-mod names;
 mod parameters;
 mod shape;
 mod sizes;
@@ -338,6 +337,17 @@ impl Model {
     /// Whether a function of the user's was declared with three derivatives, as a gauge needs them.
     pub(crate) fn has_third_derivative(&self, function: u32) -> bool {
         self.functions[function as usize].derivatives.len() > 3
+    }
+
+    /// Whether something is called so, or has a part that is.
+    pub(crate) fn is_taken(&self, name: &str) -> bool {
+        let parts =
+            |text: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == name);
+        self.blocks.iter().any(|block| block.name == name)
+            || self.parameters.iter().any(|parameter| parts(&parameter.text))
+            || self.sizes.iter().any(|size| parts(&size.text))
+            || self.functions.iter().any(|function| function.name == name)
+            || self.declared_scalar_fields.iter().any(|field| field.name == name)
     }
 
     /// Whether the compiler knows a size.

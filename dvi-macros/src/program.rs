@@ -17,7 +17,7 @@ mod regular;
 
 pub(crate) use constraints::Constraints;
 pub(crate) use degenerate::DegeneratePrograms;
-pub(crate) use pairs::{DegeneratePairs, PairPrograms, RegularPairs};
+pub(crate) use pairs::PairPrograms;
 pub(crate) use regular::RegularPrograms;
 
 /// What is generated for every system.

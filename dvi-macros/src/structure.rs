@@ -2,6 +2,7 @@
 //! degenerate system, of the mass matrix for a regular one.
 
 use crate::model::Model;
+use crate::symbolic::{Coordinate, Expr, Graph, Loop};
 
 mod class;
 pub(crate) mod gauge;
@@ -14,6 +15,30 @@ pub(crate) use class::{Class, Components};
 pub(crate) use mass::MassMatrix;
 pub(crate) use one_form::OneForm;
 pub(crate) use pairs::PairSum;
+
+/// An entry of M, or of Ω above its diagonal.
+struct Entry {
+    loops: Vec<Loop>,
+    row: Coordinate,
+    column: Coordinate,
+    value: Expr,
+}
+
+/// Each entry once, without those that cancel.
+fn collected(graph: &mut Graph, entries: impl IntoIterator<Item = Entry>) -> Vec<Entry> {
+    let mut collected: Vec<Entry> = Vec::new();
+    for entry in entries {
+        let same = |known: &&mut Entry| {
+            known.row == entry.row && known.column == entry.column && known.loops == entry.loops
+        };
+        match collected.iter_mut().find(same) {
+            Some(known) => known.value = graph.add(known.value, entry.value),
+            None => collected.push(entry),
+        }
+    }
+    collected.retain(|entry| !entry.value.is_zero());
+    collected
+}
 
 /// Whether each row of a symmetric matrix with entries at these places, and their mirror images, can have
 /// a column of its own, by augmenting paths. Among arrays this is not decided: true.

@@ -74,17 +74,17 @@ pub(crate) const ENERGY: &str = "energy";
 /// user, which the macro cannot see; only this is taken for what it says.
 pub(crate) const PI: &str = "PI";
 
-/// Those of `std::f64::consts`, by their full paths.
+/// Those of `std::f64::consts`, by their full paths, with their signs in LaTeX.
 #[rustfmt::skip]
-const CONSTANTS: [(&str, f64); 8] = [
-    (PI,            consts::PI),
-    ("TAU",         consts::TAU),
-    ("E",           consts::E),
-    ("SQRT_2",      consts::SQRT_2),
-    ("LN_2",        consts::LN_2),
-    ("LN_10",       consts::LN_10),
-    ("FRAC_PI_2",   consts::FRAC_PI_2),
-    ("FRAC_1_PI",   consts::FRAC_1_PI),
+const CONSTANTS: [(&str, f64, &str); 8] = [
+    (PI,            consts::PI,        r"\pi"),
+    ("TAU",         consts::TAU,       r"2\pi"),
+    ("E",           consts::E,         r"\mathrm{e}"),
+    ("SQRT_2",      consts::SQRT_2,    r"\sqrt{2}"),
+    ("LN_2",        consts::LN_2,      r"\ln 2"),
+    ("LN_10",       consts::LN_10,     r"\ln 10"),
+    ("FRAC_PI_2",   consts::FRAC_PI_2, r"\frac{\pi}{2}"),
+    ("FRAC_1_PI",   consts::FRAC_1_PI, r"\frac{1}{\pi}"),
 ];
 
 impl Method {
@@ -131,7 +131,7 @@ pub(crate) fn callable() -> impl Iterator<Item = &'static str> {
     unary_names().chain(binary_names()).chain(arithmetic).chain(reserved())
 }
 
-/// The constant of `std::f64::consts` with this name.
-pub(crate) fn constant(name: &str) -> Option<f64> {
-    CONSTANTS.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
+/// The constant of `std::f64::consts` with this name, and its sign in LaTeX.
+pub(crate) fn constant(name: &str) -> Option<(f64, &'static str)> {
+    CONSTANTS.iter().find(|(known, ..)| *known == name).map(|(_, value, sign)| (*value, *sign))
 }

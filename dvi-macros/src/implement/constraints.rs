@@ -84,13 +84,13 @@ fn system(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
 /// Of velocities there are two derivatives, which the Jacobian adds up with weights.
 fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let krate = emitter.krate();
-    let (name, function) = match constraints.of {
-        Constrained::Positions => (quote!(HolonomicLagrangian), "constraint"),
-        Constrained::Velocities => (quote!(NonholonomicLagrangian), "velocity_constraint"),
-        Constrained::Gaps => (quote!(UnilateralLagrangian), "gap"),
+    let name = match constraints.of {
+        Constrained::Positions => quote!(HolonomicLagrangian),
+        Constrained::Velocities => quote!(NonholonomicLagrangian),
+        Constrained::Gaps => quote!(UnilateralLagrangian),
     };
-    let [value_of, jacobian_of, rate_of, curvature_of] =
-        ["", "_jacobian", "_rate", "_curvature"].map(|part| format_ident!("{function}{part}"));
+    let [value_of, jacobian_of, rate_of] =
+        constraints.of.words().generated.map(|function| format_ident!("{function}"));
     let of_velocities = constraints.of == Constrained::Velocities;
     let (suited, velocity, weights) = match of_velocities {
         true => (None, Some(quote!(__v: &[__T],)), Some(quote!(__weights: [__T; 2],))),
@@ -102,7 +102,7 @@ fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let curvature = constraints.curvature.as_ref().map(for_constraints).map(|curvature| {
         quote! {
             #[inline]
-            fn #curvature_of(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #curvature }
+            fn constraint_curvature(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #curvature }
         }
     });
     let items = quote! {

@@ -4,16 +4,17 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::document::{Account, beside_force, in_tex, quantity};
-use super::pairs::degenerate_pairs;
+use super::pairs::pairs;
 use super::{in_numbers, over_numbers, suited};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
 use crate::errors::listed;
 use crate::formulas::{DegenerateFormulas, TimeTransform};
+use crate::print::print_coordinate;
 use crate::program::DegeneratePrograms;
 use crate::routine::Routine;
 use crate::structure::{Class, Components, OneForm};
-use crate::symbolic::{Expr, Index, Node, print_coordinate};
+use crate::symbolic::{Expr, Index, Node};
 use crate::syntax::Attribute;
 use crate::validate::Checked;
 
@@ -206,7 +207,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let lagrangian = in_numbers(emitter, &quote!(DegenerateLagrangian), &items);
     let proper = proper(emitter, &structure.class);
     let time_transformed = programs.time.as_ref().map(|time| time_transformed(emitter, time));
-    let pairs = programs.pairs.as_ref().map(|pairs| degenerate_pairs(emitter, pairs));
+    let pairs = programs.pairs.as_ref().map(|sum| pairs(emitter, sum));
     quote!(#lagrangian #affine #proper #time_transformed #pairs)
 }
 

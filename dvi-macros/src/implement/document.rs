@@ -9,13 +9,11 @@ use crate::errors::text;
 use crate::formulas::{Variable, variable};
 use crate::model::{Axis, Model};
 use crate::operations::Operations;
+use crate::print::{print_coordinate, print_expr, print_index, print_loops, print_velocity, write_expr};
 use crate::program::Programs;
 use crate::routine::Routine;
 use crate::statement::{Output, Place, Row, Statement};
-use crate::symbolic::{
-    Coordinate, Count, Expr, Index, Rows, print_coordinate, print_expr, print_index, print_loops,
-    print_velocity, write_expr,
-};
+use crate::symbolic::{Coordinate, Count, Expr, Index, Rows};
 use crate::syntax::{Attribute, Constrained, Factor, Force, closure, value};
 use crate::typeset::{Equation, Typesetter, block, declared, plain};
 

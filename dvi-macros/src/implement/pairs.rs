@@ -6,33 +6,33 @@ use quote::quote;
 use super::in_numbers_with;
 use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, local};
-use crate::program::{DegeneratePairs, PairPrograms, RegularPairs};
+use crate::program::PairPrograms;
 use crate::statement::Output;
 use crate::symbolic::Index;
 
-pub(super) fn degenerate_pairs(emitter: &Emitter<'_>, pairs: &DegeneratePairs) -> TokenStream {
-    let [gradient, source] =
-        [&pairs.hamiltonian_gradient, &pairs.flow_source].map(|routine| emitter.vector(routine));
-    let items = quote! {
-        fn rest_hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
-            #gradient
+pub(super) fn pairs(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
+    let vector = emitter.vector(&pairs.vector);
+    let axes = pairs.sum.blocks.len();
+    let (name, items) = match &pairs.flow_source {
+        Some(source) => {
+            let source = emitter.vector(source);
+            let items = quote! {
+                fn rest_hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
+                    #vector
+                }
+                fn rest_flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #source }
+            };
+            (quote!(DegeneratePairSum), items)
         }
-        fn rest_flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #source }
+        None => {
+            let items = quote! {
+                fn rest_force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #vector }
+            };
+            (quote!(RegularPairSum), items)
+        }
     };
-    let axes = pairs.shared.sum.blocks.len();
-    let special = in_numbers_with(emitter, &quote!(system::DegeneratePairSum<__T, #axes>), &items);
-    let shared = pair_sum(emitter, &pairs.shared);
-    quote!(#shared #special)
-}
-
-pub(super) fn regular_pairs(emitter: &Emitter<'_>, pairs: &RegularPairs) -> TokenStream {
-    let force = emitter.vector(&pairs.force);
-    let items = quote! {
-        fn rest_force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #force }
-    };
-    let axes = pairs.shared.sum.blocks.len();
-    let special = in_numbers_with(emitter, &quote!(system::RegularPairSum<__T, #axes>), &items);
-    let shared = pair_sum(emitter, &pairs.shared);
+    let special = in_numbers_with(emitter, &quote!(system::#name<__T, #axes>), &items);
+    let shared = pair_sum(emitter, pairs);
     quote!(#shared #special)
 }
 

@@ -6,15 +6,16 @@ use quote::quote;
 use super::constraints::constraints;
 use super::document::{Account, beside_force, in_tex, quantity};
 use super::manifold::manifold;
-use super::pairs::regular_pairs;
+use super::pairs::pairs;
 use super::{in_numbers, suited};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
 use crate::formulas::RegularFormulas;
+use crate::print::{print_coordinate, print_velocity};
 use crate::program::RegularPrograms;
 use crate::statement::Output;
 use crate::structure::MassMatrix;
-use crate::symbolic::{Expr, print_coordinate, print_velocity};
+use crate::symbolic::Expr;
 use crate::syntax::Attribute;
 use crate::validate::Checked;
 
@@ -117,6 +118,6 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
         None if emitter.model.is_on_manifold() => manifold(emitter),
         None => in_numbers(emitter, &quote!(RegularLagrangian), &suited()),
     };
-    let pairs = programs.pairs.as_ref().map(|pairs| regular_pairs(emitter, pairs));
+    let pairs = programs.pairs.as_ref().map(|sum| pairs(emitter, sum));
     quote!(#lagrangian #motion #separable #quadratic #pairs)
 }

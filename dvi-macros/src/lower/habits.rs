@@ -306,20 +306,10 @@ impl Lowering<'_> {
 
     /// What to write for `xdot`, `x_dot`, `dot_x`, `vx`, and `dy` of a coordinate.
     pub(super) fn velocity_called(&self, name: &str) -> Option<String> {
-        let written = match self.role {
-            Role::OneForm => "d",
-            Role::Lagrangian | Role::Dissipation => "dot",
-            Role::Shared => self.shared.velocity,
-            Role::Momentum | Role::Event | Role::Force if self.model.has_velocities() => "dot",
-            Role::Component
-            | Role::Hamiltonian
-            | Role::Gauge
-            | Role::TimeTransform
-            | Role::Force
-            | Role::Momentum
-            | Role::Event => return None,
-            Role::Constraint(Constrained::Velocities) => "dot",
-            Role::Constraint(Constrained::Positions | Constrained::Gaps) => "",
+        let written = match (self.velocity_word(), self.role) {
+            (Ok(word), _) => word,
+            (Err(_), Role::Constraint(_)) => "",
+            (Err(_), _) => return None,
         };
         let block = self.model.blocks.iter().find(|block| {
             let (dot, of) = (block.velocity_name(), &block.name);

@@ -365,7 +365,7 @@ impl Lowering<'_> {
 fn standard_constant(path: &Path) -> Option<f64> {
     let segments: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
     match segments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-        ["std" | "core", "f64", "consts", name] => words::constant(name),
+        ["std" | "core", "f64", "consts", name] => words::constant(name).map(|(value, _)| value),
         _ => None,
     }
 }

@@ -101,16 +101,16 @@ impl Walk<'_> {
     /// `None` if something is not known: a size, or a loop that was left out.
     fn passes(&mut self, depth: usize, values: &mut Vec<(u32, i64)>) -> Option<()> {
         let Some(Around { over, walked }) = self.loops.get(depth) else {
-            let value = self.index.value(values)?;
+            let value = self.index.value_in(values)?;
             let (least, largest) = self.reached.unwrap_or((value, value));
             self.reached = Some((least.min(value), largest.max(value)));
             self.left = self.left.saturating_sub(1);
             return Some(());
         };
         let (own, walked) = (over.depth, *walked);
-        let (lower, upper) = (over.range.lower.value(values)?, over.range.upper.value(values)?);
+        let (lower, upper) = (over.range.lower.value_in(values)?, over.range.upper.value_in(values)?);
         let except = match &over.range.except {
-            Some(except) => Some(except.value(values)?),
+            Some(except) => Some(except.value_in(values)?),
             None => None,
         };
         let whole = upper.saturating_sub(lower) <= WHOLE;

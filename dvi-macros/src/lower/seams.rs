@@ -8,18 +8,9 @@ impl Lowering<'_> {
     /// Notes that the formula is not smooth where `a` is `b`. What depends on an index differs from term to
     /// term of a sum, and is left out.
     pub(super) fn note_seam(&mut self, a: Expr, b: Expr) {
-        let is_of_motion = match self.role {
-            Role::OneForm
-            | Role::Component
-            | Role::Hamiltonian
-            | Role::TimeTransform
-            | Role::Lagrangian
-            | Role::Force
-            | Role::Dissipation
-            // A formula of the motion may use the name.
-            | Role::Shared => true,
-            Role::Gauge | Role::Constraint(_) | Role::Momentum | Role::Event => false,
-        };
+        // A formula of the motion may use a name that formulas share.
+        let is_of_motion =
+            !matches!(self.role, Role::Gauge | Role::Constraint(_) | Role::Momentum | Role::Event);
         let is_one = [a, b].iter().all(|side| self.graph.free(side.node) == Free::default());
         if is_of_motion && is_one && !self.seams.contains(&[a, b]) {
             self.seams.push([a, b]);

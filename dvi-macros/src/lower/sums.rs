@@ -337,19 +337,10 @@ impl Lowering<'_> {
                     "; an index is bound by the constraint, as in `{}(i in 0..n) = …`, or by a sum, as in `sum(0..n, |j| …)`",
                     of.words().word
                 ),
-                Role::OneForm
-                | Role::Component
-                | Role::Hamiltonian
-                | Role::Gauge
-                | Role::TimeTransform
-                | Role::Lagrangian
-                | Role::Force
-                | Role::Dissipation
-                | Role::Momentum
-                | Role::Event => "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
                 Role::Shared => format!(
                     "; what formulas share sees none of their indices: write a function of it, `let f = |{name}| …;`"
                 ),
+                _ => "; an index is bound by a sum, as in `sum(0..n, |j| …)`".to_string(),
             },
             |near| format!("; did you mean `{near}`?"),
         )

@@ -1,6 +1,6 @@
 //! What is special to L = α·v − H: the one-form, the Hamiltonian, the right side of the flow.
 
-use super::pairs::DegeneratePairs;
+use super::pairs::PairPrograms;
 use super::{Programs, first_derivatives, mirrored_pair, rates, result, statements};
 use crate::formulas::{DegenerateFormulas, Force, TimeTransform, dalpha};
 use crate::internal::internal;
@@ -23,7 +23,7 @@ pub(crate) struct DegeneratePrograms {
     pub(crate) conjugate_entries: Routine,
     pub(crate) momentum_gradients: Vec<Routine>,
     pub(crate) time: Option<TimeTransform<Routine>>,
-    pub(crate) pairs: Option<DegeneratePairs>,
+    pub(crate) pairs: Option<PairPrograms>,
 }
 
 impl DegeneratePrograms {
@@ -51,7 +51,7 @@ impl DegeneratePrograms {
             rate: Routine::new(graph, result(rate)),
             hamiltonian: Routine::new(graph, result(hamiltonian)),
         });
-        let pairs = pairs.map(|sum| DegeneratePairs::new(graph, formulas, sum, &one_form));
+        let pairs = pairs.map(|sum| PairPrograms::degenerate(graph, formulas, sum, &one_form));
         Self {
             shared,
             time,

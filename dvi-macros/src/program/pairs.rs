@@ -9,7 +9,7 @@ use crate::statement::{Output, Place, Statement};
 use crate::structure::PairSum;
 use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Index, Loop, Range};
 
-/// L = L_rest − Σ_{j<k} w_j w_k K(r²).
+/// L = L_rest − Σ_{j<k} w_j w_k K(r²), or H = H_rest + Σ_{j<k} w_j w_k K(r²).
 pub(crate) struct PairPrograms {
     pub(crate) sum: PairSum,
     /// K
@@ -22,55 +22,55 @@ pub(crate) struct PairPrograms {
     pub(crate) linearize: Routine,
     /// E_rest
     pub(crate) energy: Routine,
-    /// The energy put together of these parts, for the self-check alone.
+    /// ∇H_rest − F of a degenerate system, ∂L_rest/∂q + F of a regular one.
+    pub(crate) vector: Routine,
+    /// ∇H_rest − F + ∂α/∂t of a degenerate system.
+    pub(crate) flow_source: Option<Routine>,
+    /// The energy put together of these parts, and the vector, for the self-check alone.
     pub(crate) together: Routine,
+    pub(crate) together_vector: Routine,
 }
 
-/// H = H_rest + Σ_{j<k} w_j w_k K(r²).
-pub(crate) struct DegeneratePairs {
-    pub(crate) shared: PairPrograms,
-    pub(crate) hamiltonian_gradient: Routine,
-    pub(crate) flow_source: Routine,
-    /// ∇H − F put together of these parts, for the self-check alone.
-    pub(crate) together_gradient: Routine,
-}
-
-/// The same of a regular system.
-pub(crate) struct RegularPairs {
-    pub(crate) shared: PairPrograms,
-    pub(crate) force: Routine,
-    /// The force put together of these parts, for the self-check alone.
-    pub(crate) together_force: Routine,
-}
-
-/// L_rest and E_rest.
+/// What the sum leaves of a system.
 struct Rest {
     lagrangian: Expr,
     energy: Expr,
+    vector: Vec<Statement>,
+    flow_source: Option<Vec<Statement>>,
 }
 
 impl PairPrograms {
-    fn new(graph: &mut Graph, sum: &PairSum, rest: &Rest, slope: Expr, force: &Force) -> Self {
+    /// `slope` is what the kernel adds to the vector, times 2 w_j w_k (x_j − x_k).
+    fn new(
+        graph: &mut Graph,
+        sum: &PairSum,
+        rest: Rest,
+        [of_kernel, slope]: [Expr; 2],
+        force: &Force,
+    ) -> Self {
+        let of_pairs = pair_gradient(graph, sum, slope);
+        let together_vector = rest.vector.iter().cloned().chain(of_pairs).collect();
         let gradient = gradient(graph, rest.lagrangian, force);
         let [entries, by_forces] = [graph.hessian(rest.lagrangian), force_derivatives(graph, force)];
         let linearize = linearize(graph, &gradient, [&entries, &by_forces]);
         let together = together(graph, sum, rest.energy);
         Self {
             kernel: Routine::new(graph, result(sum.kernel)),
-            kernel_slope: Routine::new(graph, result(slope)),
+            kernel_slope: Routine::new(graph, result(of_kernel)),
             lagrangian: Routine::new(graph, result(rest.lagrangian)),
             gradient: Routine::new(graph, gradient),
             linearize: Routine::new(graph, linearize),
             energy: Routine::new(graph, result(rest.energy)),
             together: Routine::new(graph, result(together)),
+            vector: Routine::new(graph, rest.vector),
+            flow_source: rest.flow_source.map(|statements| Routine::new(graph, statements)),
+            together_vector: Routine::new(graph, together_vector),
             sum: sum.clone(),
         }
     }
-}
 
-impl DegeneratePairs {
     /// From the formulas, the sum that was found in H, and the components of α.
-    pub(super) fn new(
+    pub(super) fn degenerate(
         graph: &mut Graph,
         formulas: &DegenerateFormulas,
         sum: &PairSum,
@@ -78,35 +78,20 @@ impl DegeneratePairs {
     ) -> Self {
         let slope = graph.derivative(sum.kernel, sum.square);
         let lagrangian = graph.subtract(formulas.one_form, sum.rest);
-        let rest = Rest { lagrangian, energy: sum.rest };
-        let of_rest = hamiltonian_gradient(graph, sum.rest, &formulas.force);
-        let flow_source = flow_source(graph, &of_rest, one_form);
-        let of_pairs = pair_gradient(graph, sum, slope);
-        let together_gradient = of_rest.iter().cloned().chain(of_pairs).collect();
-        Self {
-            shared: PairPrograms::new(graph, sum, &rest, slope, &formulas.force),
-            hamiltonian_gradient: Routine::new(graph, of_rest),
-            flow_source: Routine::new(graph, flow_source),
-            together_gradient: Routine::new(graph, together_gradient),
-        }
+        let vector = hamiltonian_gradient(graph, sum.rest, &formulas.force);
+        let flow_source = Some(flow_source(graph, &vector, one_form));
+        let rest = Rest { lagrangian, energy: sum.rest, vector, flow_source };
+        Self::new(graph, sum, rest, [slope, slope], &formulas.force)
     }
-}
 
-impl RegularPairs {
     /// From the formulas and the sum that was found in L.
-    pub(super) fn new(graph: &mut Graph, formulas: &RegularFormulas, sum: &PairSum) -> Self {
+    pub(super) fn regular(graph: &mut Graph, formulas: &RegularFormulas, sum: &PairSum) -> Self {
         let slope = graph.derivative(sum.kernel, sum.square);
-        let rest = Rest { lagrangian: sum.rest, energy: graph.energy(sum.rest) };
+        let energy = graph.energy(sum.rest);
         let gradient = gradient(graph, sum.rest, &formulas.force);
-        let force: Vec<Statement> =
-            gradient.iter().filter_map(|statement| as_vector(statement, Output::Lq)).collect();
-        let of_pairs = pair_gradient(graph, sum, slope.negated());
-        let together_force = force.iter().cloned().chain(of_pairs).collect();
-        Self {
-            shared: PairPrograms::new(graph, sum, &rest, slope, &formulas.force),
-            force: Routine::new(graph, force),
-            together_force: Routine::new(graph, together_force),
-        }
+        let vector = gradient.iter().filter_map(|statement| as_vector(statement, Output::Lq)).collect();
+        let rest = Rest { lagrangian: sum.rest, energy, vector, flow_source: None };
+        Self::new(graph, sum, rest, [slope, slope.negated()], &formulas.force)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What is special to a regular L: the energy, the force, and the rate of the momentum.
 
-use super::pairs::RegularPairs;
+use super::pairs::PairPrograms;
 use super::{Programs, rates, result};
 use crate::formulas::RegularFormulas;
 use crate::routine::Routine;
@@ -19,7 +19,7 @@ pub(crate) struct RegularPrograms {
     pub(crate) momentum: Routine,
     /// ∂²L/∂t∂v
     pub(crate) momentum_rate: Routine,
-    pub(crate) pairs: Option<RegularPairs>,
+    pub(crate) pairs: Option<PairPrograms>,
 }
 
 impl RegularPrograms {
@@ -40,7 +40,7 @@ impl RegularPrograms {
         let rate = rates(graph, &momentum);
         let [energy, force, momentum, momentum_rate] =
             [energy, force, momentum, rate].map(|s| Routine::new(graph, s));
-        let pairs = pairs.map(|sum| RegularPairs::new(graph, formulas, sum));
+        let pairs = pairs.map(|sum| PairPrograms::regular(graph, formulas, sum));
         Self { shared, energy, force, momentum, momentum_rate, pairs }
     }
 }

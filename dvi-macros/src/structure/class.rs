@@ -175,11 +175,11 @@ fn visited(index: &Index, loops: &[Loop]) -> Option<Vec<i64>> {
 
 fn visit(index: &Index, loops: &[Loop], open: &mut Vec<(u32, i64)>, found: &mut Vec<i64>) -> Option<()> {
     let Some((outer, inner)) = loops.split_first() else {
-        found.push(index.value(open)?);
+        found.push(index.value_in(open)?);
         return (found.len() <= MOST).then_some(());
     };
-    let (lower, upper) = (outer.range.lower.value(open)?, outer.range.upper.value(open)?);
-    let left_out = outer.range.left_out().map(|index| index.value(open)).collect::<Option<Vec<i64>>>()?;
+    let (lower, upper) = (outer.range.lower.value_in(open)?, outer.range.upper.value_in(open)?);
+    let left_out = outer.range.left_out().map(|index| index.value_in(open)).collect::<Option<Vec<i64>>>()?;
     for at in (lower..upper).filter(|at| !left_out.contains(at)) {
         open.push((outer.depth, at));
         visit(index, inner, open, found)?;

@@ -12,9 +12,8 @@ use super::Class;
 use super::one_form::omega;
 use crate::errors::listed;
 use crate::model::Model;
-use crate::symbolic::{
-    Contribution, Expr, Graph, Id, Index, Node, Terms, print_expr, print_loops, write_expr,
-};
+use crate::print::{print_expr, print_loops, write_expr};
+use crate::symbolic::{Contribution, Expr, Graph, Id, Index, Node, Terms};
 
 /// A one-form of more nodes than these is not searched.
 const LONGEST: usize = 400;

@@ -2,13 +2,13 @@
 
 use syn::Expr as Syntax;
 
-use super::has_matching;
 use super::singular::{is_numerically_singular, skipped};
+use super::{Entry, collected, has_matching};
 use crate::errors::{Errors, listed};
 use crate::formulas::{RegularFormulas, Variable, variable};
 use crate::model::{Block, Grid, Model};
 use crate::symbolic::{
-    Binary, Contribution, Coordinate, Expr, Graph, Id, Index, Loop, Node, SecondContribution, Unary,
+    Binary, Contribution, Coordinate, Expr, Graph, Id, Index, Node, SecondContribution, Unary,
 };
 use crate::syntax::{Constrained, Factor, Kind};
 
@@ -39,14 +39,6 @@ pub(crate) struct MassMatrix {
     invertible: bool,
     /// Whether the entries are numbers times a common factor, and the numbers make a singular matrix.
     numerically_singular: bool,
-}
-
-/// An entry of M.
-pub(super) struct Entry {
-    pub(super) loops: Vec<Loop>,
-    pub(super) row: Coordinate,
-    pub(super) column: Coordinate,
-    pub(super) value: Expr,
 }
 
 impl MassMatrix {
@@ -274,25 +266,18 @@ fn kinetic_energy(model: &Model, block: usize) -> String {
     }
 }
 
-/// M entry by entry, on one side of its diagonal, without those that cancel.
+/// M entry by entry, on one side of its diagonal.
 fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry> {
-    let mut mass: Vec<Entry> = Vec::new();
-    for entry in entries {
-        let ((Variable::Velocity, i), (Variable::Velocity, j)) =
-            (variable(graph, entry.row), variable(graph, entry.column))
-        else {
-            continue;
+    let entry =
+        |entry: &SecondContribution| match (variable(graph, entry.row), variable(graph, entry.column)) {
+            ((Variable::Velocity, i), (Variable::Velocity, j)) => {
+                let (row, column) = if j < i { (j, i) } else { (i, j) };
+                Some(Entry { loops: entry.loops.clone(), row, column, value: entry.value })
+            }
+            _ => None,
         };
-        let (row, column) = if j < i { (j, i) } else { (i, j) };
-        let same =
-            |known: &&mut Entry| known.row == row && known.column == column && known.loops == entry.loops;
-        match mass.iter_mut().find(same) {
-            Some(known) => known.value = graph.add(known.value, entry.value),
-            None => mass.push(Entry { loops: entry.loops.clone(), row, column, value: entry.value }),
-        }
-    }
-    mass.retain(|entry| !entry.value.is_zero());
-    mass
+    let entries: Vec<Entry> = entries.iter().filter_map(entry).collect();
+    collected(graph, entries)
 }
 
 fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {

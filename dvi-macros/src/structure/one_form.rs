@@ -2,12 +2,12 @@
 
 use syn::Expr as Syntax;
 
-use super::{Class, has_matching};
+use super::{Class, Entry, collected, has_matching};
 use crate::errors::Errors;
 use crate::formulas::dalpha;
 use crate::lower::spinors::{STRENGTH, is_constant};
 use crate::model::Model;
-use crate::symbolic::{Coordinate, Expr, Graph, Index, Loop, Node, Range, SecondContribution};
+use crate::symbolic::{Coordinate, Expr, Graph, Index, Node, Range, SecondContribution};
 use crate::words::AREA;
 
 /// The structure of a one-form; see the constants of `dvi_core::DegenerateLagrangian`.
@@ -30,41 +30,20 @@ pub(crate) struct OneForm {
     bends_areas: bool,
 }
 
-/// An entry of Ω = (Dα)ᵀ − Dα above its diagonal.
-pub(super) struct FormEntry {
-    pub(super) row: Coordinate,
-    pub(super) column: Coordinate,
-    loops: Vec<Loop>,
-    pub(super) value: Expr,
-}
-
-/// Ω entry by entry: what (i, j) and (j, i) of Dα contribute, cancelled where they are the same formula.
-pub(super) fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<FormEntry> {
-    let mut omega: Vec<FormEntry> = Vec::new();
-    for (i, j, entry) in dalpha(graph, entries) {
-        if i == j {
-            continue;
-        }
+/// Ω = (Dα)ᵀ − Dα entry by entry: what (i, j) and (j, i) of Dα contribute, cancelled where they are the same
+/// formula.
+pub(super) fn omega(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry> {
+    let above = dalpha(graph, entries).into_iter().filter(|(i, j, _)| i != j).map(|(i, j, entry)| {
         let (row, column, value) = if i < j { (i, j, entry.value.negated()) } else { (j, i, entry.value) };
-        let same = |known: &&mut FormEntry| {
-            known.row == row && known.column == column && known.loops == entry.loops
-        };
-        match omega.iter_mut().find(same) {
-            Some(known) => known.value = graph.add(known.value, value),
-            None => omega.push(FormEntry { row, column, loops: entry.loops.clone(), value }),
-        }
-    }
-    omega.retain(|entry| !entry.value.is_zero());
-    omega
+        Entry { row, column, loops: entry.loops.clone(), value }
+    });
+    let above: Vec<Entry> = above.collect();
+    collected(graph, above)
 }
 
 /// The conjugate of each block, if Ω couples block to block, entry by entry, and Dα holds nothing else but
 /// entries on its diagonal.
-fn conjugates(
-    model: &Model,
-    omega: &[FormEntry],
-    dalpha: &[(Coordinate, Coordinate)],
-) -> Option<Vec<usize>> {
+fn conjugates(model: &Model, omega: &[Entry], dalpha: &[(Coordinate, Coordinate)]) -> Option<Vec<usize>> {
     let mut conjugates: Vec<Option<usize>> = vec![None; model.blocks.len()];
     for entry in omega {
         let (row, column) = (entry.row.block as usize, entry.column.block as usize);
@@ -87,7 +66,7 @@ fn conjugates(
 }
 
 /// Whether the loops of an entry visit each index of its blocks.
-fn covers(model: &Model, row: usize, column: usize, entry: &FormEntry) -> bool {
+fn covers(model: &Model, row: usize, column: usize, entry: &Entry) -> bool {
     match (entry.loops.as_slice(), &model.blocks[row].array, &model.blocks[column].array) {
         ([], None, None) => true,
         (loops, Some(_), Some(_)) => {

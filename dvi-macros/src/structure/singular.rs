@@ -1,6 +1,6 @@
 //! Mass matrices that are singular whatever the parameters: with an empty row in an array, or of numbers.
 
-use super::mass::Entry;
+use super::Entry;
 use crate::model::Model;
 use crate::symbolic::{Atom, Index, Loop};
 

@@ -113,7 +113,7 @@ impl Unary {
     }
 
     /// Whether a formula may use it.
-    pub(super) fn is_written(self) -> bool {
+    pub(crate) fn is_written(self) -> bool {
         !self.has(Property::Internal)
     }
 

@@ -215,17 +215,18 @@ impl Index {
         })
     }
 
-    /// The value where those of the loops at these depths are known; none if a size or a sum has a say.
-    pub(crate) fn value(&self, open: &[(u32, i64)]) -> Option<i64> {
+    /// The value where those of loops, sums and sizes are, as far as these are known.
+    pub(crate) fn value(&self, known: &impl Fn(&Atom) -> Option<i64>) -> Option<i64> {
         self.terms.iter().try_fold(self.constant, |sum, (atom, coefficient)| {
-            let value = match atom {
-                Atom::Open(depth) => open.iter().find(|(known, _)| known == depth)?.1,
-                Atom::Remainder(of, modulus) => of.value(open)?.checked_rem_euclid(modulus.value(open)?)?,
-                Atom::Row(row, length) => row.value(open)?.checked_mul(length.value(open)?)?,
-                // One of the factors of a product is a size.
-                Atom::Bound(_) | Atom::Size(_) | Atom::Product(_) => return None,
-            };
-            sum.checked_add(value.checked_mul(*coefficient)?)
+            sum.checked_add(atom.value(known)?.checked_mul(*coefficient)?)
+        })
+    }
+
+    /// The value where those of the loops at these depths are known; none if a size or a sum has a say.
+    pub(crate) fn value_in(&self, open: &[(u32, i64)]) -> Option<i64> {
+        self.value(&|atom| match atom {
+            Atom::Open(depth) => open.iter().find(|(known, _)| known == depth).map(|(_, value)| *value),
+            _ => None,
         })
     }
 
@@ -277,6 +278,17 @@ impl Atom {
             Self::Product(factors) => factors,
             Self::Open(_) | Self::Bound(_) | Self::Size(_) | Self::Remainder(..) | Self::Row(..) => {
                 std::slice::from_ref(self)
+            }
+        }
+    }
+
+    fn value(&self, known: &impl Fn(&Self) -> Option<i64>) -> Option<i64> {
+        match self {
+            Self::Open(_) | Self::Bound(_) | Self::Size(_) => known(self),
+            Self::Remainder(of, modulus) => of.value(known)?.checked_rem_euclid(modulus.value(known)?),
+            Self::Row(row, length) => row.value(known)?.checked_mul(length.value(known)?),
+            Self::Product(factors) => {
+                factors.iter().try_fold(1_i64, |product, factor| product.checked_mul(factor.value(known)?))
             }
         }
     }

@@ -19,7 +19,6 @@ mod motion;
 mod partial;
 mod polynomial;
 mod powers;
-mod print;
 mod rules;
 mod simplify;
 #[cfg(test)]
@@ -33,8 +32,5 @@ pub(crate) use functions::{Unary, unary_by_name, unary_names};
 pub(crate) use graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Parameter, Relation, Weight};
 pub(crate) use index::{Atom, Free, Index, Loop, Range, Renaming, Size};
 pub(crate) use partial::Partial;
-pub(crate) use print::{
-    Names, print_coordinate, print_expr, print_index, print_loops, print_velocity, write_expr,
-};
 pub(crate) use rules::{binary_by_name, binary_names};
 pub(crate) use simplify::signed_exponent;

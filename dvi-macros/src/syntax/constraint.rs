@@ -40,6 +40,8 @@ pub(crate) struct Words {
     pub(crate) function: &'static str,
     /// What it is to be.
     pub(crate) relation: &'static str,
+    /// The generated functions of it: its value, its Jacobian, and its rate.
+    pub(crate) generated: [&'static str; 3],
 }
 
 /// In the order of the variants.
@@ -51,6 +53,7 @@ const WORDS: [Words; 3] = [
             "rods"],
         adjective: "holonomic", nouns: ["constraint", "constraints"], plural: "holonomic constraints",
         letter: "g", function: "g(q, t)", relation: "= 0",
+        generated: ["constraint", "constraint_jacobian", "constraint_rate"],
     },
     Words {
         word: "nonholonomic",
@@ -58,6 +61,7 @@ const WORDS: [Words; 3] = [
             "rolling", "slip", "velocity_constraint", "velocity_constraints", "without_slip"],
         adjective: "nonholonomic", nouns: ["constraint", "constraints"], plural: "nonholonomic constraints",
         letter: "a", function: "a(q, v, t)", relation: "= 0",
+        generated: ["velocity_constraint", "velocity_constraint_jacobian", "velocity_constraint_rate"],
     },
     Words {
         word: "impact",
@@ -65,6 +69,7 @@ const WORDS: [Words; 3] = [
             "inequality", "obstacle", "unilateral", "wall", "walls"],
         adjective: "unilateral", nouns: ["gap function", "gap functions"], plural: "impacts",
         letter: "g", function: "g(q, t)", relation: "≥ 0",
+        generated: ["gap", "gap_jacobian", "gap_rate"],
     },
 ];
 

@@ -6,7 +6,7 @@ use syn::{Expr, ExprField, ExprIndex, Member};
 
 use super::{Strength, Typesetter};
 use crate::errors::text;
-use crate::words::VELOCITIES;
+use crate::words::{VELOCITIES, constant};
 
 /// The names of Greek letters, as LaTeX has them; `lambda_` is a name of Rust's, too.
 #[rustfmt::skip]
@@ -74,21 +74,6 @@ pub(super) fn number(digits: &str) -> String {
     }
 }
 
-/// A constant of the standard library, if a path leads to one or is one's name.
-fn constant(name: &str) -> Option<&'static str> {
-    Some(match name {
-        "PI" => r"\pi",
-        "TAU" => r"2\pi",
-        "E" => r"\mathrm{e}",
-        "SQRT_2" => r"\sqrt{2}",
-        "LN_2" => r"\ln 2",
-        "LN_10" => r"\ln 10",
-        "FRAC_PI_2" => r"\frac{\pi}{2}",
-        "FRAC_1_PI" => r"\frac{1}{\pi}",
-        _ => return None,
-    })
-}
-
 impl Typesetter {
     /// A name on paper.
     pub(super) fn symbol(&self, name: &str) -> String {
@@ -149,7 +134,7 @@ impl Typesetter {
                 None => {
                     let last =
                         path.path.segments.last().map(|last| last.ident.to_string()).unwrap_or_default();
-                    constant(&last).map_or_else(|| plain(&text(path)), str::to_owned)
+                    constant(&last).map_or_else(|| plain(&text(path)), |(_, sign)| sign.to_owned())
                 }
             },
             Expr::Field(field) => {

@@ -8,7 +8,6 @@ use crate::program::{DegeneratePrograms, Programs, RegularPrograms};
 use crate::routine::Routine;
 use crate::statement;
 use crate::symbolic::{Count, Graph};
-use crate::syntax::Constrained;
 
 /// The generated functions.
 pub(super) enum Functions<'a> {
@@ -71,29 +70,14 @@ impl Functions<'_> {
         }
         if let Some(constraints) = &shared.constraints {
             let along = |routine: &Routine| machine.run(routine).constraints;
-            let (value, rate) = (along(&constraints.value), along(&constraints.rate));
-            let jacobian = machine.run(&constraints.jacobian);
-            match (constraints.of, &constraints.curvature) {
-                (Constrained::Gaps, _) => {
-                    add("gap", Quantity::Constraint, value);
-                    add("gap_jacobian", Quantity::Constraint, jacobian.constraints);
-                    add("gap_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
-                    add("gap_rate", Quantity::ConstraintRate, rate);
-                }
-                (_, Some(curvature)) => {
-                    add("constraint", Quantity::Constraint, value);
-                    add("constraint_jacobian", Quantity::Constraint, jacobian.constraints);
-                    add("constraint_jacobian", Quantity::ConstraintJacobian, jacobian.matrix);
-                    add("constraint_rate", Quantity::ConstraintRate, rate);
-                    add("constraint_curvature", Quantity::ConstraintCurvature, along(curvature));
-                }
-                (_, None) => {
-                    let function = "velocity_constraint_jacobian";
-                    add("velocity_constraint", Quantity::VelocityConstraint, value);
-                    add(function, Quantity::VelocityConstraint, jacobian.constraints);
-                    add(function, Quantity::VelocityConstraintJacobian, jacobian.matrix);
-                    add("velocity_constraint_rate", Quantity::VelocityConstraintRate, rate);
-                }
+            let (of, jacobian) = (constraints.of, machine.run(&constraints.jacobian));
+            let [value_of, jacobian_of, rate_of] = of.words().generated;
+            add(value_of, Quantity::Constraint(of), along(&constraints.value));
+            add(jacobian_of, Quantity::Constraint(of), jacobian.constraints);
+            add(jacobian_of, Quantity::ConstraintJacobian(of), jacobian.matrix);
+            add(rate_of, Quantity::ConstraintRate(of), along(&constraints.rate));
+            if let Some(curvature) = &constraints.curvature {
+                add("constraint_curvature", Quantity::ConstraintCurvature, along(curvature));
             }
         }
         for (number, momentum) in shared.momenta.iter().enumerate() {
@@ -120,8 +104,8 @@ impl Functions<'_> {
                     add("time_transform", Quantity::Untransformed, value(&time.hamiltonian));
                 }
                 if let Some(pairs) = &programs.pairs {
-                    add("rest_energy", Quantity::Hamiltonian, value(&pairs.shared.together));
-                    let gradient = vector(&pairs.together_gradient);
+                    add("rest_energy", Quantity::Hamiltonian, value(&pairs.together));
+                    let gradient = vector(&pairs.together_vector);
                     add("rest_hamiltonian_gradient", Quantity::HamiltonianGradient, gradient);
                 }
                 let jacobian = machine.run(&programs.one_form_jacobian).matrix;
@@ -137,8 +121,8 @@ impl Functions<'_> {
                 let rate = machine.run(&programs.momentum_rate).along_second(statement::Output::Vector);
                 add("momentum_rate", Quantity::MomentumRate, rate);
                 if let Some(pairs) = &programs.pairs {
-                    add("rest_energy", Quantity::Energy, value(&pairs.shared.together));
-                    add("rest_force", Quantity::Force, vector(&pairs.together_force));
+                    add("rest_energy", Quantity::Energy, value(&pairs.together));
+                    add("rest_force", Quantity::Force, vector(&pairs.together_vector));
                 }
             }
         }

@@ -231,27 +231,14 @@ impl Run<'_> {
         }
     }
 
+    /// The value of an index; −1, which is in no array, where a remainder is taken by zero.
     fn index(&self, index: &Index) -> i64 {
-        index
-            .terms
-            .iter()
-            .fold(index.constant, |sum, (atom, coefficient)| sum + coefficient * self.atom(atom))
-    }
-
-    fn atom(&self, atom: &Atom) -> i64 {
-        match atom {
-            Atom::Open(depth) => self.indices[*depth as usize],
-            Atom::Bound(_) => internal("an index outside of its sum"),
-            Atom::Size(size) => match self.machine.point.size(size.0 as usize) {
-                Some(size) => size,
-                None => internal("a size without a value"),
-            },
-            Atom::Remainder(value, modulus) => {
-                self.index(value).checked_rem_euclid(self.index(modulus)).unwrap_or(-1)
-            }
-            Atom::Product(factors) => factors.iter().map(|factor| self.atom(factor)).product(),
-            Atom::Row(row, length) => self.index(row) * self.index(length),
-        }
+        let known = |atom: &Atom| match atom {
+            Atom::Open(depth) => Some(self.indices[*depth as usize]),
+            Atom::Size(size) => self.machine.point.size(size.0 as usize),
+            _ => internal("an index outside of its sum"),
+        };
+        index.value(&known).unwrap_or(-1)
     }
 }
 

@@ -1,5 +1,7 @@
 //! What is compared, and how it is called in a message.
 
+use crate::syntax::Constrained;
+
 /// What is compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Quantity {
@@ -27,13 +29,10 @@ pub(super) enum Quantity {
     EventLq(usize),
     EventLv(usize),
     EventByTime(usize),
-    Constraint,
-    ConstraintJacobian,
-    ConstraintRate,
+    Constraint(Constrained),
+    ConstraintJacobian(Constrained),
+    ConstraintRate(Constrained),
     ConstraintCurvature,
-    VelocityConstraint,
-    VelocityConstraintJacobian,
-    VelocityConstraintRate,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,10 +46,7 @@ impl Output {
     pub(super) fn new(function: &'static str, quantity: Quantity) -> Self {
         let is_matrix = matches!(
             quantity,
-            Quantity::Hessian
-                | Quantity::OneFormJacobian
-                | Quantity::ConstraintJacobian
-                | Quantity::VelocityConstraintJacobian
+            Quantity::Hessian | Quantity::OneFormJacobian | Quantity::ConstraintJacobian(_)
         );
         Self { function, quantity, is_matrix }
     }
@@ -59,13 +55,10 @@ impl Output {
     pub(super) fn is_by_constraint(&self) -> bool {
         matches!(
             self.quantity,
-            Quantity::Constraint
-                | Quantity::ConstraintJacobian
-                | Quantity::ConstraintRate
+            Quantity::Constraint(_)
+                | Quantity::ConstraintJacobian(_)
+                | Quantity::ConstraintRate(_)
                 | Quantity::ConstraintCurvature
-                | Quantity::VelocityConstraint
-                | Quantity::VelocityConstraintJacobian
-                | Quantity::VelocityConstraintRate
         )
     }
 
@@ -93,13 +86,12 @@ impl Output {
             Quantity::EventLq(_) => "∂g/∂q of the event",
             Quantity::EventLv(_) => "∂g/∂v of the event",
             Quantity::EventByTime(_) => "∂g/∂t of the event",
-            Quantity::Constraint => "g",
-            Quantity::ConstraintJacobian => "∂g/∂q",
-            Quantity::ConstraintRate => "dg/dt",
+            Quantity::Constraint(of) => of.words().letter,
+            Quantity::ConstraintJacobian(Constrained::Velocities) => "the weighted sum of ∂a/∂q and ∂a/∂v",
+            Quantity::ConstraintJacobian(_) => "∂g/∂q",
+            Quantity::ConstraintRate(Constrained::Velocities) => "da/dt without acceleration",
+            Quantity::ConstraintRate(_) => "dg/dt",
             Quantity::ConstraintCurvature => "d²g/dt² without acceleration",
-            Quantity::VelocityConstraint => "a",
-            Quantity::VelocityConstraintJacobian => "the weighted sum of ∂a/∂q and ∂a/∂v",
-            Quantity::VelocityConstraintRate => "da/dt without acceleration",
         };
         entry.map_or_else(|| name.to_string(), |entry| format!("{name} at {entry}"))
     }

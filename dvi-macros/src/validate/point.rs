@@ -163,18 +163,10 @@ impl Point {
 
     /// The value of a size of the model, which no bound index stands in.
     pub(super) fn length(&self, index: &Index) -> Option<i64> {
-        index
-            .terms
-            .iter()
-            .try_fold(index.constant, |sum, (atom, coefficient)| Some(sum + coefficient * self.atom(atom)?))
-    }
-
-    fn atom(&self, atom: &Atom) -> Option<i64> {
-        match atom {
+        index.value(&|atom| match atom {
             Atom::Size(size) => self.size(size.0 as usize),
-            Atom::Product(factors) => factors.iter().map(|factor| self.atom(factor)).product(),
-            Atom::Open(_) | Atom::Bound(_) | Atom::Remainder(..) | Atom::Row(..) => None,
-        }
+            _ => None,
+        })
     }
 
     /// The values of `lower..upper` that are visited: of a long range the first ones.
@@ -241,17 +233,7 @@ impl Point {
     }
 
     pub(super) fn weight(&self, weight: Weight) -> f64 {
-        let number = match weight {
-            Weight::Qq => 0,
-            Weight::Qv => 1,
-            Weight::Vq => 2,
-            Weight::Vv => 3,
-            Weight::A => 4,
-            Weight::B => 5,
-            Weight::Q => 6,
-            Weight::V => 7,
-        };
-        within((-1.5, 1.5), mix(self.seed ^ mix(70 + number)))
+        within((-1.5, 1.5), mix(self.seed ^ mix(70 + weight as u64)))
     }
 }
 

@@ -7,7 +7,7 @@ use super::point::{Directions, Point};
 use crate::internal::internal;
 use crate::model::Model;
 use crate::symbolic::Weight;
-use crate::syntax::{Attribute, Kind, Named};
+use crate::syntax::{Attribute, Constrained, Kind, Named};
 
 /// The formulas as written, with what their names stand for.
 #[derive(Clone, Copy)]
@@ -243,16 +243,16 @@ impl Outputs {
             Quantity::EventLq(number) => events[number].first(First::Q),
             Quantity::EventLv(number) => events[number].first(First::V),
             Quantity::EventByTime(number) => events[number].first(First::T),
-            Quantity::Constraint | Quantity::VelocityConstraint => constraints().value(),
-            Quantity::ConstraintJacobian => constraints().along_positions(),
-            Quantity::VelocityConstraintJacobian => {
+            Quantity::Constraint(_) => constraints().value(),
+            Quantity::ConstraintJacobian(Constrained::Velocities) => {
                 let [by_positions, by_velocities] =
                     [Weight::Q, Weight::V].map(|weight| point.weight(weight));
                 let constraints = constraints();
                 let along = constraints.along_positions().times(by_positions);
                 along.plus(constraints.along_velocities().times(by_velocities))
             }
-            Quantity::ConstraintRate | Quantity::VelocityConstraintRate => constraints().rate(),
+            Quantity::ConstraintJacobian(_) => constraints().along_positions(),
+            Quantity::ConstraintRate(_) => constraints().rate(),
             Quantity::ConstraintCurvature => constraints().curvature(),
         }
     }

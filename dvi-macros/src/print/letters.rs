@@ -1,9 +1,9 @@
 //! Names, letters of indices, and places in arrays, as text.
 
-use super::Names;
 use crate::internal::internal;
-use crate::symbolic::graph::Coordinate;
-use crate::symbolic::index::{Atom, Index, Range};
+use crate::model::Model;
+use crate::symbolic::{Atom, Coordinate, Index, Range};
+use crate::syntax::{Factor, Kind};
 
 /// How a formula is written.
 #[derive(Clone, Copy, PartialEq)]
@@ -21,9 +21,9 @@ pub(super) fn letter(number: usize) -> String {
 }
 
 /// The letter, or with underscores that which nothing else is called.
-fn free_letter(number: usize, names: &dyn Names) -> String {
+fn free_letter(number: usize, model: &Model) -> String {
     let mut name = letter(number);
-    while names.is_taken(&name) {
+    while model.is_taken(&name) {
         name.push('_');
     }
     name
@@ -32,7 +32,7 @@ fn free_letter(number: usize, names: &dyn Names) -> String {
 /// The letters of the indices: open ones by depth, then those of the sums around a place.
 #[derive(Clone)]
 pub(super) struct Letters<'a> {
-    pub(super) names: &'a dyn Names,
+    pub(super) model: &'a Model,
     pub(super) depth: usize,
     /// Heights of the sums around, from the outside.
     pub(super) sums: Vec<u32>,
@@ -56,7 +56,7 @@ impl Letters<'_> {
     pub(super) fn letter(&self, number: usize) -> String {
         match self.notation {
             Notation::Paper => letter(number),
-            Notation::Language => free_letter(number, self.names),
+            Notation::Language => free_letter(number, self.model),
         }
     }
 
@@ -74,7 +74,7 @@ impl Letters<'_> {
                 Some(position) => self.letter(self.depth + position),
                 None => internal("an index outside of its sum"),
             },
-            Atom::Size(size) => self.name(self.names.size(size.0)),
+            Atom::Size(size) => self.name(&self.model.sizes[size.0 as usize].text),
             Atom::Remainder(value, modulus) => {
                 let [value, modulus] = [value, modulus].map(|index| self.index(index));
                 match self.notation {
@@ -136,35 +136,41 @@ impl Letters<'_> {
         if let Some((name, entry)) = self.of_rotation(coordinate) {
             return format!("{name}[{}][{}]", entry / 3, entry % 3);
         }
-        let (name, is_array) = self.names.coordinate(*block);
-        let name = self.name(&name);
-        let index = match self.names.row_length(*block) {
+        let declared = &self.model.blocks[*block as usize];
+        let name = if declared.is_spinor() { declared.spinor() } else { declared.name.to_string() };
+        let index = match declared.row_length() {
             Some(length) => {
-                index.row_and_column(&length).map(|index| format!("[{}]", self.index(&index))).concat()
+                index.row_and_column(length).map(|index| format!("[{}]", self.index(&index))).concat()
             }
-            None if is_array => format!("[{}]", self.index(index)),
+            None if declared.array.is_some() => format!("[{}]", self.index(index)),
             None => String::new(),
         };
-        let component = self.names.component(*block);
-        let component = component.map_or_else(String::new, |component| format!("[{component}]"));
-        format!("{name}{index}{component}")
+        let component = declared.axis.map_or_else(String::new, |axis| format!("[{}]", axis.number));
+        format!("{}{index}{component}", self.name(&name))
     }
 
     pub(super) fn velocity(&self, coordinate: &Coordinate) -> String {
         match self.of_rotation(coordinate) {
             Some((name, entry)) => format!("omega({name})[{entry}]"),
-            None => format!("{}({})", self.names.velocity(), self.coordinate(coordinate)),
+            None => {
+                let velocity = match self.model.kind {
+                    Kind::Degenerate => "d",
+                    Kind::Regular => "dot",
+                };
+                format!("{velocity}({})", self.coordinate(coordinate))
+            }
         }
     }
 
     /// The rotation that a coordinate is an entry of, or that a velocity is of, and which of them it is.
     fn of_rotation(&self, Coordinate { block, index }: &Coordinate) -> Option<(String, i64)> {
-        if !self.names.is_rotation(*block) {
+        let declared = &self.model.blocks[*block as usize];
+        if declared.factor != Factor::Rotation {
             return None;
         }
-        let name = self.name(&self.names.coordinate(*block).0);
-        Some(match self.names.component(*block) {
-            Some(entry) => (format!("{name}[{}]", self.index(index)), entry as i64),
+        let name = self.name(&declared.name.to_string());
+        Some(match declared.axis {
+            Some(axis) => (format!("{name}[{}]", self.index(index)), axis.number as i64),
             None => (name, index.as_literal()?),
         })
     }

@@ -4,31 +4,10 @@ mod letters;
 
 use rustc_hash::FxHashMap as HashMap;
 
-use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation, Weight};
-use super::index::{Index, Loop};
-use super::partial::Partial;
+use crate::internal::internal;
+use crate::model::Model;
+use crate::symbolic::{Binary, Coordinate, Expr, Fold, Graph, Id, Index, Loop, Node, Partial, Relation};
 use letters::{Letters, Notation, letter};
-
-/// The names that ids of the model stand for.
-pub(crate) trait Names {
-    /// The name, and whether it takes an index.
-    fn coordinate(&self, block: u32) -> (String, bool);
-    /// The length of its rows, if it takes two indices.
-    fn row_length(&self, block: u32) -> Option<Index>;
-    /// The component of vectors that its entries are.
-    fn component(&self, block: u32) -> Option<usize>;
-    /// Whether its entries are those of a rotation matrix, row by row, and its velocities an angular
-    /// velocity.
-    fn is_rotation(&self, block: u32) -> bool;
-    /// The function that makes a velocity of a coordinate.
-    fn velocity(&self) -> &'static str;
-    fn parameter(&self, field: u32) -> &str;
-    fn size(&self, size: u32) -> &str;
-    fn function(&self, function: u32) -> String;
-    fn scalar_field(&self, field: u32) -> &str;
-    /// Whether something is called so.
-    fn is_taken(&self, name: &str) -> bool;
-}
 
 /// How tightly the text of an expression holds together.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -39,27 +18,27 @@ enum Strength {
 }
 
 /// The letters outside of all sums.
-fn open_letters(names: &dyn Names) -> Letters<'_> {
-    Letters { names, depth: 0, sums: Vec::new(), notation: Notation::Paper }
+fn open_letters(model: &Model) -> Letters<'_> {
+    Letters { model, depth: 0, sums: Vec::new(), notation: Notation::Paper }
 }
 
-pub(crate) fn print_loops(loops: &[Loop], names: &dyn Names) -> String {
-    let letters = open_letters(names);
+pub(crate) fn print_loops(loops: &[Loop], model: &Model) -> String {
+    let letters = open_letters(model);
     let one = |one: &Loop| letters.range(&letter(one.depth as usize), &one.range);
     loops.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// The text of an index outside of all sums.
-pub(crate) fn print_index(index: &Index, names: &dyn Names) -> String {
-    open_letters(names).index(index)
+pub(crate) fn print_index(index: &Index, model: &Model) -> String {
+    open_letters(model).index(index)
 }
 
-pub(crate) fn print_velocity(coordinate: &Coordinate, names: &dyn Names) -> String {
-    open_letters(names).velocity(coordinate)
+pub(crate) fn print_velocity(coordinate: &Coordinate, model: &Model) -> String {
+    open_letters(model).velocity(coordinate)
 }
 
-pub(crate) fn print_coordinate(coordinate: &Coordinate, names: &dyn Names) -> String {
-    open_letters(names).coordinate(coordinate)
+pub(crate) fn print_coordinate(coordinate: &Coordinate, model: &Model) -> String {
+    open_letters(model).coordinate(coordinate)
 }
 
 /// Beyond this many nodes nobody reads a formula.
@@ -67,18 +46,18 @@ const LONGEST: u64 = 1000;
 
 /// The text of an expression inside of `depth` loops, unless it is too long: shared parts are written out
 /// each time.
-pub(crate) fn print_expr(graph: &Graph, expr: Expr, depth: usize, names: &dyn Names) -> String {
+pub(crate) fn print_expr(graph: &Graph, expr: Expr, depth: usize, model: &Model) -> String {
     let nodes = written_out(graph, expr.node);
     if nodes > LONGEST {
         return format!("… ({nodes} operations)");
     }
-    let letters = Letters { depth, ..open_letters(names) };
+    let letters = Letters { depth, ..open_letters(model) };
     Printer { graph, letters }.expr(expr, Strength::Sum)
 }
 
 /// The text of an expression in the language of the attribute, unless it is too long or something stands in
 /// it that has no word there.
-pub(crate) fn write_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> Option<String> {
+pub(crate) fn write_expr(graph: &Graph, expr: Expr, model: &Model) -> Option<String> {
     let can_be_written = |id: Id| match graph.node(id) {
         Node::Weight(_) => false,
         Node::Unary(function, _) => function.is_written(),
@@ -90,7 +69,7 @@ pub(crate) fn write_expr(graph: &Graph, expr: Expr, names: &dyn Names) -> Option
         _ => true,
     };
     let all = graph.reachable([expr.node]).into_iter().all(can_be_written);
-    let letters = Letters { notation: Notation::Language, ..open_letters(names) };
+    let letters = Letters { notation: Notation::Language, ..open_letters(model) };
     (all && written_out(graph, expr.node) <= LONGEST)
         .then(|| Printer { graph, letters }.expr(expr, Strength::Sum))
 }
@@ -164,7 +143,10 @@ impl Printer<'_> {
                 let indices: String =
                     p.indices.iter().map(|index| format!("[{}]", self.letters.index(index))).collect();
                 (
-                    format!("{}{indices}", self.letters.name(self.letters.names.parameter(p.field))),
+                    format!(
+                        "{}{indices}",
+                        self.letters.name(&self.letters.model.parameters[p.field as usize].text)
+                    ),
                     Strength::Atom,
                 )
             }
@@ -176,7 +158,7 @@ impl Printer<'_> {
                 };
                 (text, Strength::Atom)
             }
-            Node::Weight(weight) => (weight_name(*weight).into(), Strength::Atom),
+            Node::Weight(_) => internal("what the caller of a function passes in stands in no formula"),
             Node::Sum(terms) => (self.sum(terms), Strength::Sum),
             Node::Product(factors) => (self.quotient(factors), Strength::Product),
             Node::Reciprocal(_) => (self.quotient(&[(id, 1)]), Strength::Product),
@@ -184,12 +166,13 @@ impl Printer<'_> {
             Node::Binary(Binary::OverSquares, ..) => (self.quotient(&[(id, 1)]), Strength::Product),
             Node::Binary(function, a, b) => self.call(function.name(), &[*a, *b]),
             Node::Call(function, order, u) => {
-                let name = self.letters.name(&self.letters.names.function(*function));
+                let function = &self.letters.model.functions[*function as usize];
+                let name = self.letters.name(&function.name.to_string());
                 let name = format!("{name}{}", "'".repeat(*order as usize));
                 (format!("{name}({})", self.expr(*u, Strength::Sum)), Strength::Atom)
             }
             Node::ScalarField(field, partial, at) => {
-                let name = self.letters.name(self.letters.names.scalar_field(*field));
+                let name = self.letters.name(&self.letters.model.scalar_fields[*field as usize].text);
                 let arguments: Vec<String> = at.iter().map(|a| self.expr(*a, Strength::Sum)).collect();
                 (format!("{}{name}({})", derivatives(*partial), arguments.join(", ")), Strength::Atom)
             }
@@ -270,19 +253,6 @@ impl Printer<'_> {
             [single] => format!("{above}/{single}"),
             several => format!("{above}/({})", several.join(times)),
         }
-    }
-}
-
-fn weight_name(weight: Weight) -> &'static str {
-    match weight {
-        Weight::Qq => "w.qq",
-        Weight::Qv => "w.qv",
-        Weight::Vq => "w.vq",
-        Weight::Vv => "w.vv",
-        Weight::A => "a",
-        Weight::B => "b",
-        Weight::Q => "weights[0]",
-        Weight::V => "weights[1]",
     }
 }
 
