@@ -10,7 +10,7 @@ use crate::error::StepFailure;
 use crate::mechanics::phase::{Arrival, Increments};
 use crate::methods::step::{Begin, Carried, Work};
 use crate::scalar::norm;
-use crate::solve::{CoupledEquations, Guess, Stopping, solve_coupled};
+use crate::solve::{Guess, Stopping, solve_coupled};
 use crate::state::Statistics;
 use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector};
 
@@ -45,8 +45,8 @@ where
             self.guess();
         }
         let Self { system, frequency, stopping, interval, q, carried, path, .. } = self;
-        let Carried { phase, inertial, work: Work { node, .. } } = &mut **carried;
-        let Path { interior, fit, ends, unknowns, residuals, weights, .. } = &mut **path;
+        let Carried { phase, inertial, work: Work { node, increment, .. } } = &mut **carried;
+        let Path { interior, fit, ends, unknowns, residuals, weights: [sizes, change], .. } = &mut **path;
         let (system, interval, mass, limits) = (*system, *interval, &inertial.mass, (*stopping, budget));
         match interior {
             Some(interior) if F::UNFITTED => {
@@ -58,7 +58,7 @@ where
                 let fitted = Some(Fitted { frequency: *frequency, phase, mass, ends });
                 let path =
                     &mut Displaced { system, interval, p0: &phase.p, fitted, fit, unknowns, node, j: 0 };
-                path.iterate(mass, (residuals, &mut weights[0]), limits, statistics)
+                path.iterate((mass, q), (residuals, [increment, change, sizes]), limits, statistics)
             }
         }
     }
@@ -82,7 +82,7 @@ where
         let fitted = Some(Fitted { frequency: *frequency, phase, mass, ends });
         let path = &mut Displaced { system, interval, p0: &phase.p, fitted, fit, unknowns, node, j: 0 };
         solve_coupled(path, (system, q), solver, (residuals, weights), *stopping, statistics)?;
-        path.evaluate(residuals, statistics)
+        path.differentiate(residuals, statistics)
     }
 
     /// Sets the unknowns to their guess: extrapolated from the steps before, if these are kept and had about

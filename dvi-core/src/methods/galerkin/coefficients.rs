@@ -61,11 +61,13 @@ pub(super) struct Coefficients<const NODES: usize, T> {
     u: T,
     pub(super) weights: [T; NODES],
     /// φ
-    point: [[T; NODES]; NODES],
+    pub(super) point: [[T; NODES]; NODES],
     /// ψ
     velocity: [[T; NODES]; NODES],
     /// b and B of each node.
-    left: [[T; 2]; NODES],
+    pub(super) left: [[T; 2]; NODES],
+    /// Entry (r, k): Σⱼ wⱼ ψ̂ⱼᵣ ψⱼₖ, which M/h multiplies.
+    pub(super) kinetic: [[T; NODES]; NODES],
     /// The inverse of Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − u² φ̂ⱼᵣ φⱼₖ), r and k from 1.
     pub(super) inverse: [[T; NODES]; NODES],
 }
@@ -90,6 +92,7 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
             point: [[zero; NODES]; NODES],
             velocity: [[zero; NODES]; NODES],
             left: [[zero; 2]; NODES],
+            kinetic: [[zero; NODES]; NODES],
             inverse: [[zero; NODES]; NODES],
         };
         let nodes = Bases::new(u);
@@ -102,9 +105,19 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
             }
             (new.point[j][last], new.velocity[j][last]) = (b_bar, d_bar);
         }
+        for r in 0..NODES {
+            new.kinetic[r] = core::array::from_fn(|k| new.sum(r, k, zero));
+        }
         let sinc = nodes.sinc();
         let cosine_sum = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
         (new, [sinc, cosine_sum])
+    }
+
+    /// Sets `point` to qʲ of node `j`.
+    pub(super) fn set_point<V: DerefMut<Target = [T]>>(&self, j: usize, x: &[V; NODES], point: &mut [T]) {
+        for i in 0..point.len() {
+            point[i] = weighted(&self.point[j], x, i);
+        }
     }
 
     /// Sets `point` to qʲ of node `j` and `velocity` to q̇ʲ, in a step of length `h`.
@@ -116,8 +129,8 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         [point, velocity]: [&mut [T]; 2],
     ) {
         let per_h = T::lift(1.0) / h;
+        self.set_point(j, x, point);
         for i in 0..point.len() {
-            point[i] = weighted(&self.point[j], x, i);
             velocity[i] = per_h * weighted(&self.velocity[j], x, i);
         }
     }
@@ -133,6 +146,14 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         [self.point[j][k], self.velocity[j][k]]
     }
 
+    /// Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − z φ̂ⱼᵣ φⱼₖ)
+    fn sum(&self, r: usize, k: usize, z: T) -> T {
+        (0..NODES).fold(T::lift(0.0), |sum, j| {
+            let ([left, left_dot], [right, right_dot]) = (self.weighted_direction(j, r), self.slopes(j, k));
+            sum + left_dot * right_dot - z * left * right
+        })
+    }
+
     /// Sets `inverse`, and returns by what the equation for the new point multiplies it once the
     /// displacements are eliminated: without them S/(sin u/u)²; `None` if there is no inverse.
     fn invert(&mut self) -> Option<T> {
@@ -140,11 +161,7 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         let (mut matrix, mut permutation) = ([zero; UNKNOWNS * UNKNOWNS], [0; UNKNOWNS]);
         for r in 0..n {
             for k in 0..n {
-                matrix[r * n + k] = (0..NODES).fold(zero, |sum, j| {
-                    let ([left, left_dot], [right, right_dot]) =
-                        (self.weighted_direction(j, r + 1), self.slopes(j, k + 1));
-                    sum + left_dot * right_dot - self.u * self.u * left * right
-                });
+                matrix[r * n + k] = self.sum(r + 1, k + 1, self.u * self.u);
             }
         }
         let (matrix, permutation) = (&mut matrix[..n * n], &mut permutation[..n]);

@@ -94,7 +94,7 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Tw
         };
         newton(method.stopping, &mut Statistics::default(), |due, statistics| {
             due.prepare_all(system, weights, ends.q0, &mut path.unknowns[1..NODES - 1]);
-            path.differentiate(residuals, statistics);
+            path.differentiate(residuals, statistics)?;
             // The ends are given.
             residuals[NODES - 1].fill(T::lift(0.0));
             residuals.iter().try_for_each(|residual| norm::finite(residual))?;
