@@ -21,42 +21,10 @@ use core::ops::{Deref, DerefMut};
 const UNKNOWNS: usize = MOST - 1;
 
 /// The coefficients for the frequency and the length of a step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(super) struct Fit<const NODES: usize, T> {
-    pub(super) rule: Lobatto<NODES>,
+    rule: Lobatto<NODES>,
     differentiation: [[f64; NODES]; NODES],
-    pub(super) coefficients: Coefficients<NODES, T>,
-}
-
-impl<const NODES: usize, T: Real> Fit<NODES, T> {
-    /// Those of linear interpolation.
-    pub(super) fn new() -> Self {
-        let rule = Lobatto::new();
-        let differentiation = rule.differentiation();
-        let (coefficients, _) = Coefficients::at(&rule, &differentiation, T::lift(0.0));
-        Self { rule, differentiation, coefficients }
-    }
-
-    /// Makes the coefficients those for `u` = ωh, if they are not.
-    ///
-    /// # Errors
-    /// Those of [`Coefficients::new`].
-    pub(super) fn to(&mut self, u: T) -> Result<(), StepFailure> {
-        if self.coefficients.u != u {
-            self.coefficients = Coefficients::new(&self.rule, &self.differentiation, u)?;
-        }
-        Ok(())
-    }
-
-    /// The time of node `j`.
-    pub(super) fn time(&self, interval: Interval<T>, j: usize) -> T {
-        interval.time(T::lift(self.rule.nodes()[j]))
-    }
-}
-
-/// The coefficients for one frequency and step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Coefficients<const NODES: usize, T> {
     /// ωh
     u: T,
     pub(super) weights: [T; NODES],
@@ -72,45 +40,67 @@ pub(super) struct Coefficients<const NODES: usize, T> {
     pub(super) inverse: [[T; NODES]; NODES],
 }
 
-impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
-    /// For u = ωh, where `a` is the matrix of `rule` that differentiates.
+impl<const NODES: usize, T: Real> Fit<NODES, T> {
+    /// Those of linear interpolation.
+    pub(super) fn new() -> Self {
+        let (rule, zero) = (Lobatto::new(), T::lift(0.0));
+        let zeros = [[zero; NODES]; NODES];
+        let mut new = Self {
+            rule,
+            differentiation: rule.differentiation(),
+            u: zero,
+            weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
+            point: zeros,
+            velocity: zeros,
+            left: [[zero; 2]; NODES],
+            kinetic: zeros,
+            inverse: zeros,
+        };
+        new.set(zero);
+        new
+    }
+
+    /// Makes the coefficients those for `u` = ωh, if they are not.
     ///
     /// # Errors
     /// [`StepFailure::Resonance`] where there is no step, and [`StepFailure::Frequency`].
-    fn new(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
-        let (new, [sinc, cosine_sum]) = Self::at(rule, a, u);
-        frequency::determined(u, sinc, cosine_sum)?;
-        Ok(new)
+    pub(super) fn to(&mut self, u: T) -> Result<(), StepFailure> {
+        if self.u == u {
+            return Ok(());
+        }
+        let [sinc, cosine_sum] = self.set(u);
+        let determined = frequency::determined(u, sinc, cosine_sum);
+        if determined.is_err() {
+            // Not the coefficients of any step.
+            self.u = T::lift(f64::NAN);
+        }
+        determined
     }
 
-    /// The same beside sin u/u and what multiplies the new point.
-    fn at(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> (Self, [T; 2]) {
-        let (zero, one, last) = (T::lift(0.0), T::lift(1.0), NODES - 1);
-        let mut new = Self {
-            u,
-            weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
-            point: [[zero; NODES]; NODES],
-            velocity: [[zero; NODES]; NODES],
-            left: [[zero; 2]; NODES],
-            kinetic: [[zero; NODES]; NODES],
-            inverse: [[zero; NODES]; NODES],
-        };
-        let nodes = Bases::new(u);
-        for (j, &c) in rule.nodes().iter().enumerate().take(NODES) {
+    /// The same, and returns sin u/u and what multiplies the new point.
+    fn set(&mut self, u: T) -> [T; 2] {
+        let (zero, one, last, nodes) = (T::lift(0.0), T::lift(1.0), NODES - 1, Bases::new(u));
+        self.u = u;
+        for (j, &c) in self.rule.nodes().iter().enumerate().take(NODES) {
             let Basis { b, b_bar, d, d_bar } = nodes.basis(c, nodes.pairs(c));
-            new.left[j] = [b, d];
-            (new.point[j][0], new.velocity[j][0]) = (b + b_bar, d + d_bar);
+            self.left[j] = [b, d];
+            (self.point[j][0], self.velocity[j][0]) = (b + b_bar, d + d_bar);
             for k in 1..last {
-                (new.point[j][k], new.velocity[j][k]) = (if j == k { one } else { zero }, T::lift(a[j][k]));
+                let slope = T::lift(self.differentiation[j][k]);
+                (self.point[j][k], self.velocity[j][k]) = (if j == k { one } else { zero }, slope);
             }
-            (new.point[j][last], new.velocity[j][last]) = (b_bar, d_bar);
+            (self.point[j][last], self.velocity[j][last]) = (b_bar, d_bar);
         }
         for r in 0..NODES {
-            new.kinetic[r] = core::array::from_fn(|k| new.sum(r, k, zero));
+            self.kinetic[r] = core::array::from_fn(|k| self.sum(r, k, zero));
         }
         let sinc = nodes.sinc();
-        let cosine_sum = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
-        (new, [sinc, cosine_sum])
+        [sinc, self.invert().map_or(zero, |multiplier| multiplier * sinc * sinc)]
+    }
+
+    /// The time of node `j`.
+    pub(super) fn time(&self, interval: Interval<T>, j: usize) -> T {
+        interval.time(T::lift(self.rule.nodes()[j]))
     }
 
     /// Sets `point` to qʲ of node `j`.
@@ -186,29 +176,23 @@ pub(super) fn weighted<T: Real>(row: &[T], x: &[impl Deref<Target = [T]>], i: us
 
 #[cfg(test)]
 mod tests {
-    use super::Coefficients;
+    use super::Fit;
     use crate::error::StepFailure;
-    use crate::methods::collocation::lobatto::Lobatto;
 
     #[test]
     fn the_multiplier_of_the_new_point_is_that_of_the_exact_step() {
         // ∂²L_d/∂q0∂q1 of the exact discrete Lagrangian of the oscillator is −u/sin u.
-        let rule = Lobatto::<5>::new();
-        let a = rule.differentiation();
         for u in [0.1_f64, 0.5, 1.0, 1.5] {
-            let Ok(mut coefficients) = Coefficients::<5, f64>::new(&rule, &a, u) else {
-                panic!("u = {u} is not resonant")
-            };
-            let found = coefficients.invert().unwrap_or(f64::NAN);
+            let mut fit = Fit::<5, f64>::new();
+            assert!(fit.to(u).is_ok(), "u = {u} is not resonant");
+            let found = fit.invert().unwrap_or(f64::NAN);
             assert!((found - u / u.sin()).abs() < 1e-5 * u.powi(8), "u = {u}: {found}");
         }
     }
 
     #[test]
     fn half_periods_are_resonant() {
-        let rule = Lobatto::<4>::new();
-        let a = rule.differentiation();
-        let failure = |u| Coefficients::<4, f64>::new(&rule, &a, u).err();
+        let failure = |u| Fit::<4, f64>::new().to(u).err();
         let half_turn = failure(core::f64::consts::PI);
         assert!(matches!(half_turn, Some(StepFailure::Resonance { .. })), "{half_turn:?}");
         let undefined = failure(f64::NAN);

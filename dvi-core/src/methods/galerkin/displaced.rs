@@ -23,14 +23,16 @@ use crate::space::{NodeSum, Sink, scratch};
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Scalar, System, Vector, Weights};
 
-/// A path from the first of the unknowns.
+/// The path of a step from the first of the unknowns.
 pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) system: &'a S,
+    pub(super) frequency: &'a F,
     pub(super) interval: Interval<T>,
-    pub(super) p0: &'a [T],
-    /// What the coefficients are fitted by, unless they are given.
-    pub(super) fitted: Option<Fitted<'a, S, F, T>>,
+    pub(super) phase: &'a PhasePoint<S, T>,
+    pub(super) mass: &'a Mass<S, T>,
     pub(super) fit: &'a mut Fit<NODES, T>,
+    /// The frequencies at both ends.
+    pub(super) ends: &'a mut [Local<S, T>; 2],
     /// q0, the displacements of the interior nodes, and Δ.
     pub(super) unknowns: &'a mut [Vector<S, T>; NODES],
     /// Work space.
@@ -39,33 +41,19 @@ pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) j: usize,
 }
 
-/// Where a step begins, and the frequency.
-pub(super) struct Fitted<'a, S: System, F, T: Real> {
-    pub(super) frequency: &'a F,
-    pub(super) phase: &'a PhasePoint<S, T>,
-    pub(super) mass: &'a Mass<S, T>,
-    /// The frequencies at both ends.
-    pub(super) ends: &'a mut [Local<S, T>; 2],
-}
-
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real> Fitted<'_, S, F, T> {
-    /// Makes `fit` that for the frequency at the `unknowns`; `node` is storage.
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
+    Displaced<'_, NODES, S, F, T>
+{
+    /// Makes the coefficients those for the frequency at the unknowns.
     ///
     /// # Errors
     /// Those of a frequency.
-    fn read<const NODES: usize>(
-        &mut self,
-        (system, interval): (&S, Interval<T>),
-        fit: &mut Fit<NODES, T>,
-        unknowns: &[Vector<S, T>; NODES],
-        node: &mut NodeWork<S, T>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let Self { frequency, phase, mass, ends } = self;
+    fn read_frequency(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Self { system, frequency, interval, phase, mass, fit, ends, unknowns, node, .. } = self;
         if F::UNFITTED || frequency.reading().is_none() {
             return fit.to(frequency.fixed() * interval.h);
         }
-        let NodeWork { point: end, velocity, gradient: force, .. } = node;
+        let NodeWork { point: end, velocity, gradient: force, .. } = &mut **node;
         let (q, delta) = (&unknowns[0], &unknowns[NODES - 1]);
         for i in 0..q.len() {
             end[i] = q[i] + delta[i];
@@ -79,11 +67,7 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real> Fitted<'_, S, F,
         let omega = T::lift(0.5) * (first.omega + last.omega);
         fit.to(omega * interval.h)
     }
-}
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
-    Displaced<'_, NODES, S, F, T>
-{
     /// Sets `residuals`, of which that of the ends is (D₁ + D₂)L_d; in a step of a separable L from the
     /// forces, but for that at the end.
     ///
@@ -94,34 +78,30 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if let Some(fitted) = &mut self.fitted {
-            fitted.read((self.system, self.interval), self.fit, self.unknowns, self.node, statistics)?;
-        }
-        let Self { system, interval, p0, fitted, fit, unknowns, node, .. } = self;
+        self.read_frequency(statistics)?;
+        let Self { system, interval, phase, mass, fit, unknowns, node, .. } = self;
         let NodeWork { point, velocity, gradient, momentum } = &mut **node;
-        let (h, last, coefficients) = (interval.h, NODES - 1, &fit.coefficients);
-        if S::SEPARABLE
-            && let Some(Fitted { phase, mass, .. }) = fitted
-        {
+        let (h, last) = (interval.h, NODES - 1);
+        if S::SEPARABLE {
             scratch!(point = *system, *point);
             scratch!(force = *system, *gradient);
             scratch!(velocity = *system, *velocity);
-            for i in 0..p0.len() {
-                residuals[0][i] = h * coefficients.weights[0] * phase.force[i];
-                residuals[last][i] = p0[i] + residuals[0][i];
+            for i in 0..force.len() {
+                residuals[0][i] = h * fit.weights[0] * phase.force[i];
+                residuals[last][i] = phase.p[i] + residuals[0][i];
             }
             for j in 1..last {
-                coefficients.set_point(j, unknowns, point);
+                fit.set_point(j, unknowns, point);
                 system.force(point, &[], fit.time(*interval, j), force);
-                for i in 0..p0.len() {
-                    let impulse = h * coefficients.weights[j] * force[i];
-                    residuals[0][i] += coefficients.point[j][0] * impulse;
-                    residuals[last][i] += coefficients.left[j][0] * impulse;
+                for i in 0..force.len() {
+                    let impulse = h * fit.weights[j] * force[i];
+                    residuals[0][i] += fit.point[j][0] * impulse;
+                    residuals[last][i] += fit.left[j][0] * impulse;
                     residuals[j][i] = impulse;
                 }
             }
             statistics.gradients += (NODES - 2) as u64;
-            for (residual, row) in residuals.iter_mut().zip(&coefficients.kinetic) {
+            for (residual, row) in residuals.iter_mut().zip(&fit.kinetic) {
                 for i in 0..velocity.len() {
                     velocity[i] = weighted(row, &unknowns[..], i);
                 }
@@ -130,12 +110,12 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
             return Ok(());
         }
         residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
-        residuals[last].copy_from_slice(p0);
+        residuals[last].copy_from_slice(&phase.p);
         for j in 0..NODES {
-            coefficients.place(j, h, unknowns, [point, velocity]);
+            fit.place(j, h, unknowns, [point, velocity]);
             system.gradient(point, velocity, fit.time(*interval, j), gradient, momentum);
             for (r, residual) in residuals.iter_mut().enumerate() {
-                let [by_point, by_velocity] = coefficients.weighted_direction(j, r);
+                let [by_point, by_velocity] = fit.weighted_direction(j, r);
                 for i in 0..residual.len() {
                     residual[i] += h * by_point * gradient[i] + by_velocity * momentum[i];
                 }
@@ -152,7 +132,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
     pub(super) fn iterate(
         &mut self,
-        (mass, q): (&Mass<S, T>, &[T]),
+        q: &[T],
         (residuals, [delta, change, weights]): (&mut [Vector<S, T>; NODES], [&mut [T]; 3]),
         limits: (Stopping, usize),
         statistics: &mut Statistics,
@@ -167,9 +147,9 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
             |delta, change, statistics| {
                 self.unknowns[last].copy_from_slice(delta);
                 self.differentiate(residuals, statistics)?;
-                residuals[1..].iter_mut().for_each(|residual| mass.solve_in_place(residual));
+                residuals[1..].iter_mut().for_each(|residual| self.mass.solve_in_place(residual));
                 change.fill(T::lift(0.0));
-                for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.coefficients.inverse).skip(1) {
+                for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.inverse).skip(1) {
                     for i in 0..change.len() {
                         let correction = h * weighted(&row[1..], &residuals[1..], i);
                         unknown[i] -= correction;
@@ -212,17 +192,17 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     fn place(&mut self, j: usize) {
         self.j = j;
         let NodeWork { point, velocity, .. } = &mut *self.node;
-        self.fit.coefficients.place(j, self.interval.h, self.unknowns, [point, velocity]);
+        self.fit.place(j, self.interval.h, self.unknowns, [point, velocity]);
     }
 
     fn given(&self, i: usize) -> T {
-        self.p0[i]
+        self.phase.p[i]
     }
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
-        let (h, coefficients) = (self.interval.h, &self.fit.coefficients);
-        let [by_point, by_velocity] = coefficients.weighted_direction(self.j, r);
-        let [phi, psi] = coefficients.slopes(self.j, k);
+        let (h, fit) = (self.interval.h, &*self.fit);
+        let [by_point, by_velocity] = fit.weighted_direction(self.j, r);
+        let [phi, psi] = fit.slopes(self.j, k);
         let vv = by_velocity * psi / h;
         Weights { qq: h * by_point * phi, qv: by_point * psi, vq: by_velocity * phi, vv }
     }
