@@ -13,7 +13,6 @@ mod attempt;
 mod coefficients;
 mod displaced;
 mod interior;
-mod lagrangian;
 mod memory;
 mod steps;
 

@@ -7,6 +7,7 @@ use core::fmt;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
 use crate::memory::{Memory, lasting};
+use crate::methods::kicks::kick;
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::{Lagrangian, Real, System, Vector};
 
@@ -170,10 +171,7 @@ fn combine<S: System<Kind: Motion<S, T>>, T: Real>(
         out.copy_from_slice(y);
         for (&weight, slope) in weights.iter().zip(slopes) {
             if weight != 0.0 {
-                let factor = h * T::lift(weight);
-                for (out, &k) in out.iter_mut().zip(slope[part].iter()) {
-                    *out += factor * k;
-                }
+                kick(out, h * T::lift(weight), &slope[part]);
             }
         }
     }

@@ -15,8 +15,7 @@ use crate::{Lagrangian, Real};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, or it reads a frequency from the motion",
-    note = "such methods are `Sigma`, `Variational` and `Galerkin` with a frequency that is given, \
-            and `EnergyLimit` around any of them"
+    note = "such methods are `Sigma`, `Variational` with a frequency that is given, and `EnergyLimit` around them"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.

@@ -31,7 +31,7 @@ use krylov::Krylov;
 
 #[cfg(feature = "alloc")]
 pub(crate) use coupled::RunTimeCoupled;
-pub(crate) use coupled::{CoupledSolver, FixedCoupled, NodeSum, assemble};
+pub(crate) use coupled::{CoupledSolver, FixedCoupled, NodeSum};
 
 /// A system of linear equations A x = b that can be evaluated as often as it is asked for.
 pub trait LinearEquations<T> {

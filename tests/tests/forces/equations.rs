@@ -60,8 +60,6 @@ fn tangent_maps_hold_the_derivatives_of_the_forces() -> Outcome {
         tangent_map_is_right(&DAMPED, Variational::midpoint())?,
         tangent_map_is_right(&DAMPED, Variational::new(Quadrature::gauss(2)?))?,
         tangent_map_is_right(&DAMPED, Variational::new(Quadrature::sigma(0.3)))?,
-        tangent_map_is_right(&DAMPED, Galerkin::<3>::new())?,
-        tangent_map_is_right(&DAMPED, Galerkin::<4>::new())?,
     ] {
         assert!(lost > 1e-3, "{lost:e}");
     }
@@ -70,13 +68,8 @@ fn tangent_maps_hold_the_derivatives_of_the_forces() -> Outcome {
 
 #[test]
 fn tangent_maps_without_forces_are_symplectic() -> Outcome {
-    for lost in [
-        tangent_map_is_right(&KEPLER, Variational::simpson())?,
-        tangent_map_is_right(&KEPLER, Galerkin::<3>::new())?,
-        tangent_map_is_right(&KEPLER, Galerkin::<5>::new())?,
-    ] {
-        assert!(lost < 1e-12, "{lost:e}");
-    }
+    let lost = tangent_map_is_right(&KEPLER, Variational::simpson())?;
+    assert!(lost < 1e-12, "{lost:e}");
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! A step with interior displacements: its guess, the equations that are solved, and what is looked at where
 //! it ends.
 
-use super::displaced::{Displaced, Fitted};
+use super::displaced::Displaced;
 use super::interior::InteriorNodes;
 use super::memory::Path;
 use crate::discrete::frequency::FrequencyIn;
@@ -10,7 +10,7 @@ use crate::error::StepFailure;
 use crate::mechanics::phase::{Arrival, Increments};
 use crate::methods::step::{Begin, Carried, Work};
 use crate::scalar::norm;
-use crate::solve::{CoupledEquations, Guess, Stopping, solve_coupled};
+use crate::solve::{Guess, Stopping, solve_coupled};
 use crate::state::Statistics;
 use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector};
 
@@ -27,13 +27,21 @@ pub(super) struct Attempt<'a, const NODES: usize, S: System, F, T: Real, I> {
     pub(super) by_newton: bool,
 }
 
+/// The equations of a step, where it begins, and storage: for the residuals, for weights, and for Δ.
+type Posed<'a, const NODES: usize, S, F, T> = (
+    Displaced<'a, NODES, S, F, T>,
+    &'a [T],
+    &'a mut [Vector<S, T>; NODES],
+    &'a mut [Vector<S, T>; 2],
+    &'a mut Vector<S, T>,
+);
+
 impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, I>
     Attempt<'_, NODES, S, F, T, I>
 where
     I: InteriorNodes<NODES, S, T>,
 {
-    /// The unknowns, and p1 − p0 but for the kick at the end, by the fixed point of a separable
-    /// L.
+    /// The unknowns, and p1 − p0 but for the kick at the end, by the fixed point of a separable L.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn by_fixed_point(
         &mut self,
@@ -41,26 +49,19 @@ where
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.by_newton = false;
-        if !F::UNFITTED {
-            self.guess();
+        let limits = (self.stopping, budget);
+        let Self { system, interval, q, carried: Carried { phase, inertial, .. }, path, .. } = self;
+        let Path { interior, unknowns, residuals, .. } = &mut **path;
+        if F::UNFITTED
+            && let Some(interior) = interior
+        {
+            let at = Begin { system: *system, interval: *interval, q, phase, mass: &inertial.mass };
+            let increments = [&mut unknowns[NODES - 1], &mut residuals[0]];
+            return interior.solve(&at, limits, increments, statistics);
         }
-        let Self { system, frequency, stopping, interval, q, carried, path, .. } = self;
-        let Carried { phase, inertial, work: Work { node, .. } } = &mut **carried;
-        let Path { interior, fit, ends, unknowns, residuals, weights, .. } = &mut **path;
-        let (system, interval, mass, limits) = (*system, *interval, &inertial.mass, (*stopping, budget));
-        match interior {
-            Some(interior) if F::UNFITTED => {
-                let at = Begin { system, interval, q, phase, mass };
-                let increments = [&mut unknowns[NODES - 1], &mut residuals[0]];
-                interior.solve(&at, limits, increments, statistics)
-            }
-            _ => {
-                let fitted = Some(Fitted { frequency: *frequency, phase, mass, ends });
-                let path =
-                    &mut Displaced { system, interval, p0: &phase.p, fitted, fit, unknowns, node, j: 0 };
-                path.iterate(mass, (residuals, &mut weights[0]), limits, statistics)
-            }
-        }
+        self.guess();
+        let (mut path, q, residuals, [weights, change], delta) = self.pose();
+        path.iterate(q, (residuals, [delta, change, weights]), limits, statistics)
     }
 
     /// The same by Newton's method, of any L.
@@ -72,17 +73,23 @@ where
     ) -> Result<(), StepFailure> {
         self.by_newton = true;
         self.guess();
-        let Self { system, frequency, stopping, interval, q, carried, path, .. } = self;
-        let Carried { phase, inertial, work: Work { node, .. } } = &mut **carried;
-        let Path { fit, ends, unknowns, residuals, weights, .. } = &mut **path;
         if guess == Guess::Zero {
-            unknowns[1..].iter_mut().for_each(|unknown| unknown.fill(T::lift(0.0)));
+            self.path.unknowns[1..].iter_mut().for_each(|unknown| unknown.fill(T::lift(0.0)));
         }
-        let (system, interval, mass) = (*system, *interval, &inertial.mass);
-        let fitted = Some(Fitted { frequency: *frequency, phase, mass, ends });
-        let path = &mut Displaced { system, interval, p0: &phase.p, fitted, fit, unknowns, node, j: 0 };
-        solve_coupled(path, (system, q), solver, (residuals, weights), *stopping, statistics)?;
-        path.evaluate(residuals, statistics)
+        let (system, stopping) = (self.system, self.stopping);
+        let (mut path, q, residuals, weights, _) = self.pose();
+        solve_coupled(&mut path, (system, q), solver, (residuals, weights), stopping, statistics)?;
+        path.differentiate(residuals, statistics)
+    }
+
+    /// The equations of any L.
+    fn pose(&mut self) -> Posed<'_, NODES, S, F, T> {
+        let Self { system, frequency, interval, q, carried, path, .. } = self;
+        let Carried { phase, inertial, work: Work { node, increment, .. } } = &mut **carried;
+        let Path { fit, ends, unknowns, residuals, weights, .. } = &mut **path;
+        let (system, frequency, interval, mass) = (*system, *frequency, *interval, &inertial.mass);
+        let path = Displaced { system, frequency, interval, phase, mass, fit, ends, unknowns, node, j: 0 };
+        (path, q, residuals, weights, increment)
     }
 
     /// Sets the unknowns to their guess: extrapolated from the steps before, if these are kept and had about
@@ -118,7 +125,7 @@ where
         if S::SEPARABLE {
             system.force(next, &[], end, force);
             statistics.gradients += 1;
-            let by = h * fit.coefficients.weights[NODES - 1];
+            let by = h * fit.weights[NODES - 1];
             residuals[0].iter_mut().zip(force.iter()).for_each(|(sum, &force)| *sum += by * force);
         }
         phase.kick(&residuals[0], momentum);

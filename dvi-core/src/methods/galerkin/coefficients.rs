@@ -21,90 +21,93 @@ use core::ops::{Deref, DerefMut};
 const UNKNOWNS: usize = MOST - 1;
 
 /// The coefficients for the frequency and the length of a step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(super) struct Fit<const NODES: usize, T> {
-    pub(super) rule: Lobatto<NODES>,
+    rule: Lobatto<NODES>,
     differentiation: [[f64; NODES]; NODES],
-    pub(super) coefficients: Coefficients<NODES, T>,
+    /// ωh
+    u: T,
+    pub(super) weights: [T; NODES],
+    /// φ
+    pub(super) point: [[T; NODES]; NODES],
+    /// ψ
+    velocity: [[T; NODES]; NODES],
+    /// b and B of each node.
+    pub(super) left: [[T; 2]; NODES],
+    /// Entry (r, k): Σⱼ wⱼ ψ̂ⱼᵣ ψⱼₖ, which M/h multiplies.
+    pub(super) kinetic: [[T; NODES]; NODES],
+    /// The inverse of Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − u² φ̂ⱼᵣ φⱼₖ), r and k from 1.
+    pub(super) inverse: [[T; NODES]; NODES],
 }
 
 impl<const NODES: usize, T: Real> Fit<NODES, T> {
     /// Those of linear interpolation.
     pub(super) fn new() -> Self {
-        let rule = Lobatto::new();
-        let differentiation = rule.differentiation();
-        let (coefficients, _) = Coefficients::at(&rule, &differentiation, T::lift(0.0));
-        Self { rule, differentiation, coefficients }
+        let (rule, zero) = (Lobatto::new(), T::lift(0.0));
+        let zeros = [[zero; NODES]; NODES];
+        let mut new = Self {
+            rule,
+            differentiation: rule.differentiation(),
+            u: zero,
+            weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
+            point: zeros,
+            velocity: zeros,
+            left: [[zero; 2]; NODES],
+            kinetic: zeros,
+            inverse: zeros,
+        };
+        new.set(zero);
+        new
     }
 
     /// Makes the coefficients those for `u` = ωh, if they are not.
     ///
     /// # Errors
-    /// Those of [`Coefficients::new`].
+    /// [`StepFailure::Resonance`] where there is no step, and [`StepFailure::Frequency`].
     pub(super) fn to(&mut self, u: T) -> Result<(), StepFailure> {
-        if self.coefficients.u != u {
-            self.coefficients = Coefficients::new(&self.rule, &self.differentiation, u)?;
+        if self.u == u {
+            return Ok(());
         }
-        Ok(())
+        let [sinc, cosine_sum] = self.set(u);
+        let determined = frequency::determined(u, sinc, cosine_sum);
+        if determined.is_err() {
+            // Not the coefficients of any step.
+            self.u = T::lift(f64::NAN);
+        }
+        determined
+    }
+
+    /// The same, and returns sin u/u and what multiplies the new point.
+    fn set(&mut self, u: T) -> [T; 2] {
+        let (zero, one, last, nodes) = (T::lift(0.0), T::lift(1.0), NODES - 1, Bases::new(u));
+        self.u = u;
+        for (j, &c) in self.rule.nodes().iter().enumerate().take(NODES) {
+            let Basis { b, b_bar, d, d_bar } = nodes.basis(c, nodes.pairs(c));
+            self.left[j] = [b, d];
+            (self.point[j][0], self.velocity[j][0]) = (b + b_bar, d + d_bar);
+            for k in 1..last {
+                let slope = T::lift(self.differentiation[j][k]);
+                (self.point[j][k], self.velocity[j][k]) = (if j == k { one } else { zero }, slope);
+            }
+            (self.point[j][last], self.velocity[j][last]) = (b_bar, d_bar);
+        }
+        for r in 0..NODES {
+            self.kinetic[r] = core::array::from_fn(|k| self.sum(r, k, zero));
+        }
+        let sinc = nodes.sinc();
+        [sinc, self.invert().map_or(zero, |multiplier| multiplier * sinc * sinc)]
     }
 
     /// The time of node `j`.
     pub(super) fn time(&self, interval: Interval<T>, j: usize) -> T {
         interval.time(T::lift(self.rule.nodes()[j]))
     }
-}
 
-/// The coefficients for one frequency and step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Coefficients<const NODES: usize, T> {
-    /// ωh
-    u: T,
-    pub(super) weights: [T; NODES],
-    /// φ
-    point: [[T; NODES]; NODES],
-    /// ψ
-    velocity: [[T; NODES]; NODES],
-    /// b and B of each node.
-    left: [[T; 2]; NODES],
-    /// The inverse of Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − u² φ̂ⱼᵣ φⱼₖ), r and k from 1.
-    pub(super) inverse: [[T; NODES]; NODES],
-}
-
-impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
-    /// For u = ωh, where `a` is the matrix of `rule` that differentiates.
-    ///
-    /// # Errors
-    /// [`StepFailure::Resonance`] where there is no step, and [`StepFailure::Frequency`].
-    fn new(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> Result<Self, StepFailure> {
-        let (new, [sinc, cosine_sum]) = Self::at(rule, a, u);
-        frequency::determined(u, sinc, cosine_sum)?;
-        Ok(new)
-    }
-
-    /// The same beside sin u/u and what multiplies the new point.
-    fn at(rule: &Lobatto<NODES>, a: &[[f64; NODES]; NODES], u: T) -> (Self, [T; 2]) {
-        let (zero, one, last) = (T::lift(0.0), T::lift(1.0), NODES - 1);
-        let mut new = Self {
-            u,
-            weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
-            point: [[zero; NODES]; NODES],
-            velocity: [[zero; NODES]; NODES],
-            left: [[zero; 2]; NODES],
-            inverse: [[zero; NODES]; NODES],
-        };
-        let nodes = Bases::new(u);
-        for (j, &c) in rule.nodes().iter().enumerate().take(NODES) {
-            let Basis { b, b_bar, d, d_bar } = nodes.basis(c, nodes.pairs(c));
-            new.left[j] = [b, d];
-            (new.point[j][0], new.velocity[j][0]) = (b + b_bar, d + d_bar);
-            for k in 1..last {
-                (new.point[j][k], new.velocity[j][k]) = (if j == k { one } else { zero }, T::lift(a[j][k]));
-            }
-            (new.point[j][last], new.velocity[j][last]) = (b_bar, d_bar);
+    /// Sets `point` to qʲ of node `j`.
+    pub(super) fn set_point<V: DerefMut<Target = [T]>>(&self, j: usize, x: &[V; NODES], point: &mut [T]) {
+        for i in 0..point.len() {
+            point[i] = weighted(&self.point[j], x, i);
         }
-        let sinc = nodes.sinc();
-        let cosine_sum = new.invert().map_or(zero, |multiplier| multiplier * sinc * sinc);
-        (new, [sinc, cosine_sum])
     }
 
     /// Sets `point` to qʲ of node `j` and `velocity` to q̇ʲ, in a step of length `h`.
@@ -116,8 +119,8 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         [point, velocity]: [&mut [T]; 2],
     ) {
         let per_h = T::lift(1.0) / h;
+        self.set_point(j, x, point);
         for i in 0..point.len() {
-            point[i] = weighted(&self.point[j], x, i);
             velocity[i] = per_h * weighted(&self.velocity[j], x, i);
         }
     }
@@ -133,6 +136,14 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         [self.point[j][k], self.velocity[j][k]]
     }
 
+    /// Σⱼ wⱼ (ψ̂ⱼᵣ ψⱼₖ − z φ̂ⱼᵣ φⱼₖ)
+    fn sum(&self, r: usize, k: usize, z: T) -> T {
+        (0..NODES).fold(T::lift(0.0), |sum, j| {
+            let ([left, left_dot], [right, right_dot]) = (self.weighted_direction(j, r), self.slopes(j, k));
+            sum + left_dot * right_dot - z * left * right
+        })
+    }
+
     /// Sets `inverse`, and returns by what the equation for the new point multiplies it once the
     /// displacements are eliminated: without them S/(sin u/u)²; `None` if there is no inverse.
     fn invert(&mut self) -> Option<T> {
@@ -140,11 +151,7 @@ impl<const NODES: usize, T: Real> Coefficients<NODES, T> {
         let (mut matrix, mut permutation) = ([zero; UNKNOWNS * UNKNOWNS], [0; UNKNOWNS]);
         for r in 0..n {
             for k in 0..n {
-                matrix[r * n + k] = (0..NODES).fold(zero, |sum, j| {
-                    let ([left, left_dot], [right, right_dot]) =
-                        (self.weighted_direction(j, r + 1), self.slopes(j, k + 1));
-                    sum + left_dot * right_dot - self.u * self.u * left * right
-                });
+                matrix[r * n + k] = self.sum(r + 1, k + 1, self.u * self.u);
             }
         }
         let (matrix, permutation) = (&mut matrix[..n * n], &mut permutation[..n]);
@@ -169,29 +176,23 @@ pub(super) fn weighted<T: Real>(row: &[T], x: &[impl Deref<Target = [T]>], i: us
 
 #[cfg(test)]
 mod tests {
-    use super::Coefficients;
+    use super::Fit;
     use crate::error::StepFailure;
-    use crate::methods::collocation::lobatto::Lobatto;
 
     #[test]
     fn the_multiplier_of_the_new_point_is_that_of_the_exact_step() {
         // ∂²L_d/∂q0∂q1 of the exact discrete Lagrangian of the oscillator is −u/sin u.
-        let rule = Lobatto::<5>::new();
-        let a = rule.differentiation();
         for u in [0.1_f64, 0.5, 1.0, 1.5] {
-            let Ok(mut coefficients) = Coefficients::<5, f64>::new(&rule, &a, u) else {
-                panic!("u = {u} is not resonant")
-            };
-            let found = coefficients.invert().unwrap_or(f64::NAN);
+            let mut fit = Fit::<5, f64>::new();
+            assert!(fit.to(u).is_ok(), "u = {u} is not resonant");
+            let found = fit.invert().unwrap_or(f64::NAN);
             assert!((found - u / u.sin()).abs() < 1e-5 * u.powi(8), "u = {u}: {found}");
         }
     }
 
     #[test]
     fn half_periods_are_resonant() {
-        let rule = Lobatto::<4>::new();
-        let a = rule.differentiation();
-        let failure = |u| Coefficients::<4, f64>::new(&rule, &a, u).err();
+        let failure = |u| Fit::<4, f64>::new().to(u).err();
         let half_turn = failure(core::f64::consts::PI);
         assert!(matches!(half_turn, Some(StepFailure::Resonance { .. })), "{half_turn:?}");
         let undefined = failure(f64::NAN);

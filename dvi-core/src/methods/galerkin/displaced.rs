@@ -6,10 +6,10 @@
 //! Where the frequency is read from the motion, the residual is exact, and the matrix is that of ω held
 //! constant, which is close enough for Newton's method to contract.
 //!
-//! Of L = ½ v·M v − V(q, t) a fixed point solves the same equations, x ← x − h A⁻¹M⁻¹ r with A = Σⱼ wⱼ
-//! (ψ̂ⱼ ψⱼᵀ − u² φ̂ⱼ φⱼᵀ): A contains the oscillator of the fitted frequency, so that only what differs from
-//! it is iterated. As b = 0 at the end and no displacement reaches it, an iteration needs the forces of the
-//! interior nodes alone.
+//! Of L = ½ v·M v − V(q, t) only forces are evaluated, beside M Σₖ Kᵣₖ xₖ/h with K = Σⱼ wⱼ ψ̂ⱼ ψⱼᵀ, and a
+//! fixed point solves the same equations, x ← x − h A⁻¹M⁻¹ r with A = K − u² Σⱼ wⱼ φ̂ⱼ φⱼᵀ: A contains the
+//! oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0 at the end and
+//! no displacement reaches it, an iteration needs the forces of the interior nodes alone.
 
 use super::coefficients::{Fit, weighted};
 use crate::discrete::frequency::{FrequencyIn, Local};
@@ -18,19 +18,21 @@ use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::phase::PhasePoint;
 use crate::scalar::norm;
-use crate::solve::{Convergence, CoupledEquations, Stopping, iterate, sizes};
+use crate::solve::{CoupledEquations, Stopping, solve_by_fixed_point};
 use crate::space::{NodeSum, Sink, scratch};
 use crate::state::Statistics;
-use crate::{NondegenerateLagrangian, Real, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, Scalar, System, Vector, Weights};
 
-/// A path from the first of the unknowns.
+/// The path of a step from the first of the unknowns.
 pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) system: &'a S,
+    pub(super) frequency: &'a F,
     pub(super) interval: Interval<T>,
-    pub(super) p0: &'a [T],
-    /// What the coefficients are fitted by, unless they are given.
-    pub(super) fitted: Option<Fitted<'a, S, F, T>>,
+    pub(super) phase: &'a PhasePoint<S, T>,
+    pub(super) mass: &'a Mass<S, T>,
     pub(super) fit: &'a mut Fit<NODES, T>,
+    /// The frequencies at both ends.
+    pub(super) ends: &'a mut [Local<S, T>; 2],
     /// q0, the displacements of the interior nodes, and Δ.
     pub(super) unknowns: &'a mut [Vector<S, T>; NODES],
     /// Work space.
@@ -39,33 +41,19 @@ pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) j: usize,
 }
 
-/// Where a step begins, and the frequency.
-pub(super) struct Fitted<'a, S: System, F, T: Real> {
-    pub(super) frequency: &'a F,
-    pub(super) phase: &'a PhasePoint<S, T>,
-    pub(super) mass: &'a Mass<S, T>,
-    /// The frequencies at both ends.
-    pub(super) ends: &'a mut [Local<S, T>; 2],
-}
-
-impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real> Fitted<'_, S, F, T> {
-    /// Makes `fit` that for the frequency at the `unknowns`; `node` is storage.
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
+    Displaced<'_, NODES, S, F, T>
+{
+    /// Makes the coefficients those for the frequency at the unknowns.
     ///
     /// # Errors
     /// Those of a frequency.
-    fn read<const NODES: usize>(
-        &mut self,
-        (system, interval): (&S, Interval<T>),
-        fit: &mut Fit<NODES, T>,
-        unknowns: &[Vector<S, T>; NODES],
-        node: &mut NodeWork<S, T>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let Self { frequency, phase, mass, ends } = self;
+    fn read_frequency(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
+        let Self { system, frequency, interval, phase, mass, fit, ends, unknowns, node, .. } = self;
         if F::UNFITTED || frequency.reading().is_none() {
             return fit.to(frequency.fixed() * interval.h);
         }
-        let NodeWork { point: end, velocity, gradient: force, .. } = node;
+        let NodeWork { point: end, velocity, gradient: force, .. } = &mut **node;
         let (q, delta) = (&unknowns[0], &unknowns[NODES - 1]);
         for i in 0..q.len() {
             end[i] = q[i] + delta[i];
@@ -79,49 +67,62 @@ impl<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real> Fitted<'_, S, F,
         let omega = T::lift(0.5) * (first.omega + last.omega);
         fit.to(omega * interval.h)
     }
-}
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
-    Displaced<'_, NODES, S, F, T>
-{
-    /// Sets `residuals`, of which that of the ends is (D₁ + D₂)L_d; in a step of a separable L, but for the
-    /// force at the end.
+    /// Sets `residuals`, of which that of the ends is (D₁ + D₂)L_d; in a step of a separable L from the
+    /// forces, but for that at the end.
+    ///
+    /// # Errors
+    /// Those of a frequency that is read.
     pub(super) fn differentiate(
         &mut self,
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
-    ) {
-        let Self { system, interval, p0, fitted, fit, unknowns, node, .. } = self;
+    ) -> Result<(), StepFailure> {
+        self.read_frequency(statistics)?;
+        let Self { system, interval, phase, mass, fit, unknowns, node, .. } = self;
         let NodeWork { point, velocity, gradient, momentum } = &mut **node;
-        residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
-        residuals[NODES - 1].copy_from_slice(p0);
-        for j in 0..NODES {
-            fit.coefficients.place(j, interval.h, unknowns, [point, velocity]);
-            let t = fit.time(*interval, j);
-            if S::SEPARABLE
-                && let Some(Fitted { phase, mass, .. }) = fitted
-            {
-                momentum.fill(T::lift(0.0));
-                mass.multiply_add(T::lift(1.0), velocity, momentum);
-                if j == 0 {
-                    gradient.copy_from_slice(&phase.force);
-                } else if j < NODES - 1 {
-                    system.force(point, &[], t, gradient);
-                    statistics.gradients += 1;
-                } else {
-                    gradient.fill(T::lift(0.0));
-                }
-            } else {
-                system.gradient(point, velocity, t, gradient, momentum);
-                statistics.gradients += 1;
+        let (h, last) = (interval.h, NODES - 1);
+        if S::SEPARABLE {
+            scratch!(point = *system, *point);
+            scratch!(force = *system, *gradient);
+            scratch!(velocity = *system, *velocity);
+            for i in 0..force.len() {
+                residuals[0][i] = h * fit.weights[0] * phase.force[i];
+                residuals[last][i] = phase.p[i] + residuals[0][i];
             }
+            for j in 1..last {
+                fit.set_point(j, unknowns, point);
+                system.force(point, &[], fit.time(*interval, j), force);
+                for i in 0..force.len() {
+                    let impulse = h * fit.weights[j] * force[i];
+                    residuals[0][i] += fit.point[j][0] * impulse;
+                    residuals[last][i] += fit.left[j][0] * impulse;
+                    residuals[j][i] = impulse;
+                }
+            }
+            statistics.gradients += (NODES - 2) as u64;
+            for (residual, row) in residuals.iter_mut().zip(&fit.kinetic) {
+                for i in 0..velocity.len() {
+                    velocity[i] = weighted(row, &unknowns[..], i);
+                }
+                mass.multiply_add(T::lift(1.0) / h, velocity, residual);
+            }
+            return Ok(());
+        }
+        residuals.iter_mut().for_each(|residual| residual.fill(T::lift(0.0)));
+        residuals[last].copy_from_slice(&phase.p);
+        for j in 0..NODES {
+            fit.place(j, h, unknowns, [point, velocity]);
+            system.gradient(point, velocity, fit.time(*interval, j), gradient, momentum);
             for (r, residual) in residuals.iter_mut().enumerate() {
-                let [by_point, by_velocity] = fit.coefficients.weighted_direction(j, r);
+                let [by_point, by_velocity] = fit.weighted_direction(j, r);
                 for i in 0..residual.len() {
-                    residual[i] += interval.h * by_point * gradient[i] + by_velocity * momentum[i];
+                    residual[i] += h * by_point * gradient[i] + by_velocity * momentum[i];
                 }
             }
         }
+        statistics.gradients += NODES as u64;
+        Ok(())
     }
 
     /// Solves the equations of a separable L by the fixed point over its mass matrix M, in up to `budget`
@@ -131,27 +132,35 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
     pub(super) fn iterate(
         &mut self,
-        mass: &Mass<S, T>,
-        (residuals, weights): (&mut [Vector<S, T>; NODES], &mut [T]),
-        (stopping, budget): (Stopping, usize),
+        q: &[T],
+        (residuals, [delta, change, weights]): (&mut [Vector<S, T>; NODES], [&mut [T]; 3]),
+        limits: (Stopping, usize),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        iterate(Convergence::fixed_point(stopping, budget), statistics, |due, statistics| {
-            let (start, rest) = self.unknowns.split_at_mut(1);
-            due.prepare_all(self.system, weights, &start[0], rest);
-            self.evaluate(residuals, statistics)?;
-            residuals[1..].iter_mut().for_each(|residual| mass.solve_in_place(residual));
-            let (mut largest, change) = (T::lift(0.0), &mut self.node.velocity);
-            for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.coefficients.inverse).skip(1) {
-                for i in 0..change.len() {
-                    change[i] = self.interval.h * weighted(&row[1..], &residuals[1..], i);
+        let (system, last, h) = (self.system, NODES - 1, self.interval.h);
+        delta.copy_from_slice(&self.unknowns[last]);
+        solve_by_fixed_point(
+            (system, q),
+            [&mut *delta, change, weights],
+            Some(limits),
+            statistics,
+            |delta, change, statistics| {
+                self.unknowns[last].copy_from_slice(delta);
+                self.differentiate(residuals, statistics)?;
+                residuals[1..].iter_mut().for_each(|residual| self.mass.solve_in_place(residual));
+                change.fill(T::lift(0.0));
+                for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.inverse).skip(1) {
+                    for i in 0..change.len() {
+                        let correction = h * weighted(&row[1..], &residuals[1..], i);
+                        unknown[i] -= correction;
+                        change[i] = norm::larger(change[i], Scalar::abs(correction));
+                    }
                 }
-                largest = norm::larger(largest, sizes::reduce(self.system, weights, unknown, change));
-            }
-            Ok(largest)
-        })?;
-        self.unknowns[1..].iter().try_for_each(|unknown| norm::finite(unknown))?;
-        self.evaluate(residuals, statistics)
+                delta.copy_from_slice(&self.unknowns[last]);
+                Ok(())
+            },
+        )?;
+        self.differentiate(residuals, statistics)
     }
 
     fn time(&self) -> T {
@@ -171,11 +180,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        if let Some(fitted) = &mut self.fitted {
-            fitted.read((self.system, self.interval), self.fit, self.unknowns, self.node, statistics)?;
-        }
-        self.differentiate(residuals, statistics);
-        Ok(())
+        self.differentiate(residuals, statistics)
     }
 }
 
@@ -187,17 +192,17 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     fn place(&mut self, j: usize) {
         self.j = j;
         let NodeWork { point, velocity, .. } = &mut *self.node;
-        self.fit.coefficients.place(j, self.interval.h, self.unknowns, [point, velocity]);
+        self.fit.place(j, self.interval.h, self.unknowns, [point, velocity]);
     }
 
     fn given(&self, i: usize) -> T {
-        self.p0[i]
+        self.phase.p[i]
     }
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
-        let (h, coefficients) = (self.interval.h, &self.fit.coefficients);
-        let [by_point, by_velocity] = coefficients.weighted_direction(self.j, r);
-        let [phi, psi] = coefficients.slopes(self.j, k);
+        let (h, fit) = (self.interval.h, &*self.fit);
+        let [by_point, by_velocity] = fit.weighted_direction(self.j, r);
+        let [phi, psi] = fit.slopes(self.j, k);
         let vv = by_velocity * psi / h;
         Weights { qq: h * by_point * phi, qv: by_point * psi, vq: by_velocity * phi, vv }
     }
