@@ -1,4 +1,4 @@
-//! The implementations of `PairSum`, `DegeneratePairSum` and `RegularPairSum`.
+//! The implementation of `PairSum`.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -19,10 +19,7 @@ pub(super) fn degenerate_pairs(emitter: &Emitter<'_>, pairs: &DegeneratePairs) -
         }
         fn rest_flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #source }
     };
-    let axes = pairs.shared.sum.blocks.len();
-    let special = in_numbers_with(emitter, &quote!(system::DegeneratePairSum<__T, #axes>), &items);
-    let shared = pair_sum(emitter, &pairs.shared);
-    quote!(#shared #special)
+    pair_sum(emitter, &pairs.shared, &items)
 }
 
 pub(super) fn regular_pairs(emitter: &Emitter<'_>, pairs: &RegularPairs) -> TokenStream {
@@ -30,13 +27,11 @@ pub(super) fn regular_pairs(emitter: &Emitter<'_>, pairs: &RegularPairs) -> Toke
     let items = quote! {
         fn rest_force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #force }
     };
-    let axes = pairs.shared.sum.blocks.len();
-    let special = in_numbers_with(emitter, &quote!(system::RegularPairSum<__T, #axes>), &items);
-    let shared = pair_sum(emitter, &pairs.shared);
-    quote!(#shared #special)
+    pair_sum(emitter, &pairs.shared, &items)
 }
 
-fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
+/// With what is `special` to the kind of the system.
+fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms, special: &TokenStream) -> TokenStream {
     let krate = emitter.krate();
     let axes = pairs.sum.blocks.len();
     let bodies = emitter.index(&pairs.sum.bodies);
@@ -82,6 +77,7 @@ fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
             #read_all #l_q #l_v #offsets #linearize
         }
         fn rest_energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
+        #special
     };
     in_numbers_with(emitter, &quote!(PairSum<__T, #axes>), &items)
 }
