@@ -171,9 +171,9 @@ pub use scalar::{Parameter, Real, Scalar, Varied};
 pub use space::RunTime;
 pub use space::{Fixed, Sink, Space};
 pub use system::{
-    AffineOneForm, ConstrainedSystem, DegenerateLagrangian, DegeneratePairSum, Held, HolonomicLagrangian,
-    Lagrangian, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, NonholonomicLagrangian,
-    PairSum, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Separable,
-    State, System, TimeTransformed, UnilateralLagrangian, Vector, Weights,
+    ConstrainedSystem, DegenerateLagrangian, Held, HolonomicLagrangian, Lagrangian, ManifoldLagrangian,
+    ManifoldSystem, NondegenerateLagrangian, NonholonomicLagrangian, PairSum, ProperlyDegenerate,
+    RegularLagrangian, Report, Separable, State, System, TimeTransformed, UnilateralLagrangian, Vector,
+    Weights,
 };
 pub(crate) use system::{Coupled, Linear, Matrix, Permutation, Square};

@@ -8,6 +8,7 @@ pub use crate::scalar::pack::{
     whole, widest,
 };
 pub use crate::scalar::pairs::{are_many, halves};
+pub use crate::scalar::spinor::{lift, lower};
 pub use crate::space::room::FewInPlace;
 pub use crate::system::kind::{Degenerate, Holonomic, Manifold, Nonholonomic, Regular, Unilateral};
 pub use crate::system::packable::{Packable, Packing, Shared};
@@ -17,7 +18,7 @@ pub use crate::system::stand_in::StandIn;
 use crate::error::{IndexError, LengthError, OutsideError};
 use crate::field::Expansion;
 use crate::scalar::norm::reported;
-use crate::scalar::spinor;
+use crate::space::lines;
 use crate::{Real, Scalar, System};
 
 /// The Euclidean remainder of an index that rarely leaves 0..modulus by more than one turn.
@@ -129,21 +130,31 @@ pub fn to_blame<T: Real>(
     outside.filter(|_| !value.is_finite() && (!has_choices || with_constants.is_finite()))
 }
 
-/// Copies a block of a state to its place in a flat slice.
+/// Copies entries of a state, which have so many `components` each, to their places in a flat slice: all first
+/// components stand before all second ones.
 ///
 /// # Errors
-/// [`LengthError`] if the block does not have the declared length.
-pub fn write_block<T: Copy>(
+/// [`LengthError`] if there are not as many as declared.
+pub fn write<const D: usize, E: Copy, T>(
     array: &'static str,
-    block: &[T],
+    entries: &[E],
     expected: usize,
     at: &mut usize,
     flat: &mut [T],
+    components: impl Fn(E) -> [T; D],
 ) -> Result<(), LengthError> {
-    let error = LengthError { array, row: None, expected, found: block.len() };
-    let place = flat.get_mut(*at..*at + block.len()).filter(|_| block.len() == expected).ok_or(error)?;
-    place.copy_from_slice(block);
-    *at += expected;
+    let error = LengthError { array, row: None, expected, found: entries.len() };
+    if entries.len() != expected {
+        return Err(error);
+    }
+    let end = *at + D * expected;
+    let places = flat.get_mut(*at..end).ok_or(error)?;
+    for (i, &entry) in entries.iter().enumerate() {
+        for (axis, component) in components(entry).into_iter().enumerate() {
+            places[axis * expected + i] = component;
+        }
+    }
+    *at = end;
     Ok(())
 }
 
@@ -164,84 +175,35 @@ pub fn write_rows<T: Copy, R: AsRef<[T]>>(
     if expected != found {
         return Err(LengthError { array, row: None, expected, found });
     }
-    let write = |(row, entries): (usize, &R)| {
-        let written = write_block(array, entries.as_ref(), length, at, flat);
+    let write_row = |(row, entries): (usize, &R)| {
+        let written = write(array, entries.as_ref(), length, at, flat, |entry| [entry]);
         written.map_err(|error| LengthError { row: Some(row), ..error })
     };
-    rows.iter().enumerate().try_for_each(write)
+    rows.iter().enumerate().try_for_each(write_row)
 }
 
-/// Copies vectors of a state to their places in a flat slice, which has all first components before all
-/// second ones.
-///
-/// # Errors
-/// [`LengthError`] if there are not as many as declared.
-pub fn write_vectors<T: Copy, const D: usize>(
-    array: &'static str,
-    vectors: &[[T; D]],
-    expected: usize,
-    at: &mut usize,
-    flat: &mut [T],
-) -> Result<(), LengthError> {
-    let error = LengthError { array, row: None, expected, found: vectors.len() };
-    let end = *at + D * expected;
-    let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
-    for (i, vector) in vectors.iter().enumerate() {
-        for (axis, &component) in vector.iter().enumerate() {
-            places[axis * expected + i] = component;
-        }
-    }
-    *at = end;
-    Ok(())
-}
-
-/// Reads vectors, of which the number is known.
+/// Moves on behind so many entries of a state, and gives each, of its components.
 #[inline]
-pub fn read_vectors<T: Copy, const D: usize, const N: usize>(
-    _len: usize,
+pub fn read<const D: usize, E, T: Copy>(
+    len: usize,
     at: &mut usize,
     flat: &[T],
-) -> [[T; D]; N] {
+    entry: impl Fn([T; D]) -> E,
+) -> impl Fn(usize) -> E {
     let start = *at;
-    *at += D * N;
-    core::array::from_fn(|i| core::array::from_fn(|axis| flat[start + axis * N + i]))
+    *at += D * len;
+    move |i| entry(core::array::from_fn(|axis| flat[start + axis * len + i]))
 }
 
-/// Copies vectors of a state to their places in a flat slice, as spinors.
-///
-/// # Errors
-/// [`LengthError`] if there are not as many as declared.
-pub fn write_spinors<T: Scalar>(
-    array: &'static str,
-    vectors: &[[T; 3]],
-    expected: usize,
+/// Moves on behind the rows of an array with two indices, of so many entries, so many in each, and gives them.
+pub fn rows<'f, T>(
+    [all, length]: [usize; 2],
     at: &mut usize,
-    flat: &mut [T],
-) -> Result<(), LengthError> {
-    let error = LengthError { array, row: None, expected, found: vectors.len() };
-    let end = *at + spinor::COORDINATES * expected;
-    let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
-    for (i, &vector) in vectors.iter().enumerate() {
-        for (number, z) in spinor::lift(vector).into_iter().enumerate() {
-            places[number * expected + i] = z;
-        }
-    }
-    *at = end;
-    Ok(())
-}
-
-/// Reads vectors, of which the number is known.
-#[inline]
-pub fn read_spinors<T: Scalar, const N: usize>(_len: usize, at: &mut usize, flat: &[T]) -> [[T; 3]; N] {
-    core::array::from_fn(spinor::read(N, at, flat))
-}
-
-/// Reads a block of known length.
-#[inline]
-pub fn read_array<T: Copy, const N: usize>(_len: usize, at: &mut usize, flat: &[T]) -> [T; N] {
+    flat: &'f [T],
+) -> core::slice::ChunksExact<'f, T> {
     let start = *at;
-    *at += N;
-    core::array::from_fn(|i| flat[start + i])
+    *at += all;
+    lines(&flat[start..*at], length)
 }
 
 #[test]

@@ -12,7 +12,7 @@
 //! order of the declared coordinates, unless a function says that one may be empty; the integrators of
 //! this crate pass no others.
 
-mod affine;
+pub(crate) mod blocks;
 mod constrained;
 mod degenerate;
 mod held;
@@ -39,7 +39,6 @@ use crate::{Real, Scalar, Space};
 
 pub use crate::name::{Axis, Factor, Name};
 pub use crate::space::Weights;
-pub use affine::AffineOneForm;
 pub use constrained::ConstrainedSystem;
 pub use degenerate::{DegenerateLagrangian, ProperlyDegenerate, TimeTransform, TimeTransformed};
 pub use held::Held;
@@ -47,10 +46,10 @@ pub use holonomic::HolonomicLagrangian;
 pub(crate) use kind::{Degenerate, Holonomic, Kind, Manifold, Nonholonomic, Regular, Unilateral};
 pub use kind::{Smooth, Unconstrained};
 pub use manifold::{ManifoldLagrangian, ManifoldSystem};
-pub use nondegenerate::{NondegenerateLagrangian, QuadraticInVelocity, RegularLagrangian, Separable};
+pub use nondegenerate::{NondegenerateLagrangian, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
 pub(crate) use packable::Packable;
-pub use pair_sum::{DegeneratePairSum, PairSum, RegularPairSum};
+pub use pair_sum::PairSum;
 pub(crate) use report::CoordinateBlock;
 pub use report::Report;
 pub use suited::Same;

@@ -7,9 +7,8 @@ use super::packs::Pack;
 use crate::error::{IndexError, OutsideError};
 use crate::system::TimeTransform;
 use crate::{
-    AffineOneForm, DegenerateLagrangian, DegeneratePairSum, Held, Lagrangian, NondegenerateLagrangian,
-    PairSum, ProperlyDegenerate, QuadraticInVelocity, RegularLagrangian, RegularPairSum, Report, Scalar,
-    Separable, Sink, System, Weights,
+    DegenerateLagrangian, Held, Lagrangian, NondegenerateLagrangian, PairSum, ProperlyDegenerate,
+    RegularLagrangian, Report, Scalar, Separable, Sink, System, Weights,
 };
 
 #[diagnostic::do_not_recommend]
@@ -131,7 +130,7 @@ where
 #[diagnostic::do_not_recommend]
 impl<S, const D: usize> DegenerateLagrangian for FastSum<'_, S, D>
 where
-    S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + Sync,
+    S: PairSum<f64, D> + PairSum<Pack, D> + DegenerateLagrangian + Sync,
 {
     type Suited<M> = M;
 
@@ -171,15 +170,9 @@ where
 }
 
 #[diagnostic::do_not_recommend]
-impl<S, const D: usize> AffineOneForm for FastSum<'_, S, D> where
-    S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + AffineOneForm + Sync
-{
-}
-
-#[diagnostic::do_not_recommend]
 impl<S, const D: usize> ProperlyDegenerate for FastSum<'_, S, D>
 where
-    S: DegeneratePairSum<f64, D> + PairSum<Pack, D> + ProperlyDegenerate + Sync,
+    S: PairSum<f64, D> + PairSum<Pack, D> + ProperlyDegenerate + Sync,
 {
     type Suited<M> = M;
 
@@ -191,7 +184,7 @@ where
 #[diagnostic::do_not_recommend]
 impl<S, const D: usize> NondegenerateLagrangian for FastSum<'_, S, D>
 where
-    S: RegularPairSum<f64, D> + PairSum<Pack, D> + Sync,
+    S: PairSum<f64, D> + PairSum<Pack, D> + NondegenerateLagrangian + Sync,
 {
     const CONSTANT_MASS: bool = <S as NondegenerateLagrangian<f64>>::CONSTANT_MASS;
     const UNIFORM_MASS: bool = <S as NondegenerateLagrangian<f64>>::UNIFORM_MASS;
@@ -214,7 +207,7 @@ where
 #[diagnostic::do_not_recommend]
 impl<S, const D: usize> RegularLagrangian for FastSum<'_, S, D>
 where
-    S: RegularPairSum<f64, D> + PairSum<Pack, D> + RegularLagrangian + Sync,
+    S: PairSum<f64, D> + PairSum<Pack, D> + RegularLagrangian + Sync,
 {
     type Suited<M> = M;
 }
@@ -222,13 +215,7 @@ where
 #[diagnostic::do_not_recommend]
 impl<S, const D: usize> Separable for FastSum<'_, S, D>
 where
-    S: RegularPairSum<f64, D> + PairSum<Pack, D> + Separable + Sync,
+    S: PairSum<f64, D> + PairSum<Pack, D> + Separable + Sync,
 {
     type Suited<M> = M;
-}
-
-#[diagnostic::do_not_recommend]
-impl<S, const D: usize> QuadraticInVelocity for FastSum<'_, S, D> where
-    S: RegularPairSum<f64, D> + PairSum<Pack, D> + QuadraticInVelocity + Sync
-{
 }

@@ -9,7 +9,7 @@ pub(crate) const COMPONENTS: usize = 3;
 /// A spinor of a vector, with |z|² = |s|. One component is real, a where s points up and c where it points
 /// down, so that the divisor is never small. A vector whose length is infinite or no number has none: its
 /// entries stand there, and NaN.
-pub(crate) fn lift<T: Scalar>([x, y, z]: [T; COMPONENTS]) -> [T; COORDINATES] {
+pub fn lift<T: Scalar>([x, y, z]: [T; COMPONENTS]) -> [T; COORDINATES] {
     let (zero, half) = (T::lift(0.0), T::lift(0.5));
     let length = (x * x + y * y + z * z).sqrt();
     let real = (half * (length + z.abs())).sqrt();
@@ -23,16 +23,9 @@ pub(crate) fn lift<T: Scalar>([x, y, z]: [T; COMPONENTS]) -> [T; COORDINATES] {
 }
 
 /// s = z†σz
-pub(crate) fn lower<T: Scalar>([a, b, c, d]: [T; COORDINATES]) -> [T; COMPONENTS] {
+pub fn lower<T: Scalar>([a, b, c, d]: [T; COORDINATES]) -> [T; COMPONENTS] {
     let two = T::lift(2.0);
     [two * (a * c + b * d), two * (a * d - b * c), a * a + b * b - c * c - d * d]
-}
-
-/// Moves on behind so many spinors, and gives the vectors of them.
-pub(crate) fn read<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> impl Fn(usize) -> [T; COMPONENTS] {
-    let start = *at;
-    *at += COORDINATES * len;
-    move |i| lower(core::array::from_fn(|number| flat[start + number * len + i]))
 }
 
 #[test]

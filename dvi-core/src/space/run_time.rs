@@ -9,7 +9,6 @@ use super::linear::{RunTimeCoupled, RunTimeSolver, Storing};
 use super::rows::SparseRows;
 use super::square::RunTimeSquare;
 use super::{Sink, Space};
-use crate::scalar::spinor;
 use crate::{Real, Scalar};
 
 /// A space whose dimension is known at run time only; its storage is on the heap.
@@ -46,92 +45,27 @@ impl<T: Scalar> Sink<T> for RunTimeMatrix<T> {
 }
 
 impl RunTime {
-    /// Reads a block of a state whose length the run knows; generated code does.
+    /// Fills an array of a state, whose length the run knows, again; generated code does.
     #[doc(hidden)]
-    pub fn read_block<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> Vec<T> {
-        let start = *at;
-        *at += len;
-        flat[start..*at].to_vec()
+    pub fn refill<E>(entries: &mut Vec<E>, len: usize, entry: impl Fn(usize) -> E) {
+        entries.clear();
+        entries.extend((0..len).map(entry));
     }
 
-    /// Reads vectors of a state, all first components before all second ones.
-    #[doc(hidden)]
-    pub fn read_vectors<T: Scalar, const D: usize>(len: usize, at: &mut usize, flat: &[T]) -> Vec<[T; D]> {
-        let mut vectors = Vec::with_capacity(len);
-        Self::refill_vectors(len, at, flat, &mut vectors);
-        vectors
-    }
-
-    /// The same, into the storage of such vectors.
-    #[doc(hidden)]
-    pub fn refill_vectors<T: Scalar, const D: usize>(
-        len: usize,
-        at: &mut usize,
-        flat: &[T],
-        vectors: &mut Vec<[T; D]>,
-    ) {
-        let start = *at;
-        *at += D * len;
-        vectors.clear();
-        vectors.extend((0..len).map(|i| core::array::from_fn(|axis| flat[start + axis * len + i])));
-    }
-
-    /// Reads unit vectors of a state, of which spinors are carried.
-    #[doc(hidden)]
-    pub fn read_spinors<T: Scalar>(len: usize, at: &mut usize, flat: &[T]) -> Vec<[T; 3]> {
-        let mut vectors = Vec::with_capacity(len);
-        Self::refill_spinors(len, at, flat, &mut vectors);
-        vectors
-    }
-
-    /// The same, into the storage of such vectors.
-    #[doc(hidden)]
-    pub fn refill_spinors<T: Scalar>(len: usize, at: &mut usize, flat: &[T], vectors: &mut Vec<[T; 3]>) {
-        vectors.clear();
-        vectors.extend((0..len).map(spinor::read(len, at, flat)));
-    }
-
-    /// Reads the rows of an array with two indices: of so many entries, so many in each.
-    #[doc(hidden)]
-    pub fn read_rows<T, R>(
-        [all, length]: [usize; 2],
-        at: &mut usize,
-        flat: &[T],
-        read: impl Fn(usize, &mut usize, &[T]) -> R,
-    ) -> Vec<R> {
-        let rows = all.checked_div(length).unwrap_or(0);
-        (0..rows).map(|_| read(length, at, flat)).collect()
-    }
-
-    /// The same, into the storage of such rows.
+    /// The same for the rows of an array with two indices.
     #[doc(hidden)]
     pub fn refill_rows<T: Copy, R: AsMut<[T]>>(
-        lengths: [usize; 2],
-        at: &mut usize,
-        flat: &[T],
-        read: impl Fn(usize, &mut usize, &[T]) -> R,
         rows: &mut Vec<R>,
+        from: core::slice::ChunksExact<'_, T>,
+        read: impl Fn(&[T]) -> R,
     ) {
-        let [all, length] = lengths;
-        let fits = length * rows.len() == all && rows.iter_mut().all(|row| row.as_mut().len() == length);
-        if !fits {
-            *rows = Self::read_rows(lengths, at, flat, read);
-            return;
+        let count = rows.len();
+        let mut places = rows.iter_mut().zip(from.clone());
+        if count == from.len() && places.all(|(row, from)| row.as_mut().len() == from.len()) {
+            rows.iter_mut().zip(from).for_each(|(row, from)| row.as_mut().copy_from_slice(from));
+        } else {
+            *rows = from.map(read).collect();
         }
-        for row in rows {
-            let start = *at;
-            *at += length;
-            row.as_mut().copy_from_slice(&flat[start..*at]);
-        }
-    }
-
-    /// The same as [`read_block`](Self::read_block), into the storage of such a block.
-    #[doc(hidden)]
-    pub fn refill_block<T: Scalar>(len: usize, at: &mut usize, flat: &[T], block: &mut Vec<T>) {
-        let start = *at;
-        *at += len;
-        block.clear();
-        block.extend_from_slice(&flat[start..*at]);
     }
 }
 

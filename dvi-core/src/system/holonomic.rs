@@ -2,7 +2,7 @@
 
 use crate::Scalar;
 use crate::space::sink::Sink;
-use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, Same, System};
+use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, System};
 
 /// A regular Lagrangian with holonomic constraints g(q, t) = 0, declared by `constraint = …`.
 ///
@@ -43,9 +43,6 @@ use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, Same,
 pub trait HolonomicLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind = Holonomic>
 {
-    /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
-    type Suited<M>: Same<M, As = M>;
-
     /// Sets `out` to g(q, t), one entry for each constraint, in the units of its formula.
     fn constraint(&self, q: &[T], t: T, out: &mut [T]);
     /// Sets `out` to g(q, t), and **adds** the entries of G = ∂g/∂q to `sink`, with a row for each

@@ -6,7 +6,7 @@ use core::fmt::Debug;
 /// [`Holonomic`], [`Nonholonomic`] or [`Unilateral`].
 pub trait Kind: Debug {
     /// Whether the mass matrix is regular.
-    const REGULAR: bool;
+    const REGULAR: bool = true;
 }
 
 /// The kind of L = α(q, t)·v − H(q, t): the equations of motion are of first order on Q.
@@ -41,25 +41,11 @@ impl Kind for Degenerate {
     const REGULAR: bool = false;
 }
 
-impl Kind for Regular {
-    const REGULAR: bool = true;
-}
-
-impl Kind for Manifold {
-    const REGULAR: bool = true;
-}
-
-impl Kind for Holonomic {
-    const REGULAR: bool = true;
-}
-
-impl Kind for Nonholonomic {
-    const REGULAR: bool = true;
-}
-
-impl Kind for Unilateral {
-    const REGULAR: bool = true;
-}
+impl Kind for Regular {}
+impl Kind for Manifold {}
+impl Kind for Holonomic {}
+impl Kind for Nonholonomic {}
+impl Kind for Unilateral {}
 
 /// The kinds of systems without constraints or impacts.
 #[diagnostic::on_unimplemented(

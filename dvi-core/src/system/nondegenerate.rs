@@ -83,11 +83,3 @@ pub trait Separable<T: Scalar = f64>: NondegenerateLagrangian<T> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
     type Suited<M>: Same<M, As = M>;
 }
-
-/// A system whose L is a polynomial of degree at most two in v. The attribute implements it where
-/// [`QUADRATIC`](NondegenerateLagrangian::QUADRATIC) holds.
-#[diagnostic::on_unimplemented(
-    message = "the Lagrangian of `{Self}` is not quadratic in the velocities",
-    label = "p = ∂L/∂v is not affine in v"
-)]
-pub trait QuadraticInVelocity<T: Scalar = f64>: NondegenerateLagrangian<T> {}

@@ -1,7 +1,7 @@
 //! What a system says of a sum over all pairs of its bodies.
 
 use crate::space::sink::Sink;
-use crate::{DegenerateLagrangian, Lagrangian, NondegenerateLagrangian, Scalar, Weights};
+use crate::{Lagrangian, Scalar, Weights};
 
 /// A system whose energy has a sum over all pairs of `bodies` bodies, of a function of their distance:
 ///
@@ -56,18 +56,21 @@ pub trait PairSum<T: Scalar, const D: usize>: Lagrangian<T> {
     /// The [energy](Lagrangian::energy) without the sum. Of a degenerate system it is H without the sum; `v`
     /// is not read, and may be empty.
     fn rest_energy(&self, q: &[T], v: &[T], t: T) -> T;
-}
 
-/// A degenerate system with a sum over all pairs of its bodies.
-pub trait DegeneratePairSum<T: Scalar, const D: usize>: PairSum<T, D> + DegenerateLagrangian<T> {
-    /// Sets what [`hamiltonian_gradient`](DegenerateLagrangian::hamiltonian_gradient) does, without the sum.
-    fn rest_hamiltonian_gradient(&self, q: &[T], t: T, out: &mut [T]);
-    /// Sets what [`flow_source`](DegenerateLagrangian::flow_source) does, without the sum.
-    fn rest_flow_source(&self, q: &[T], t: T, out: &mut [T]);
-}
-
-/// A regular system with a sum over all pairs of its bodies.
-pub trait RegularPairSum<T: Scalar, const D: usize>: PairSum<T, D> + NondegenerateLagrangian<T> {
-    /// Sets what [`force`](NondegenerateLagrangian::force) does, without the sum.
-    fn rest_force(&self, q: &[T], v: &[T], t: T, out: &mut [T]);
+    /// Of a regular system: sets what [`force`](crate::NondegenerateLagrangian::force) does, without the sum.
+    #[allow(unused_variables)]
+    fn rest_force(&self, q: &[T], v: &[T], t: T, out: &mut [T]) {
+        out.fill(T::lift(f64::NAN));
+    }
+    /// Of a degenerate system: sets what
+    /// [`hamiltonian_gradient`](crate::DegenerateLagrangian::hamiltonian_gradient) does, without the sum.
+    #[allow(unused_variables)]
+    fn rest_hamiltonian_gradient(&self, q: &[T], t: T, out: &mut [T]) {
+        out.fill(T::lift(f64::NAN));
+    }
+    /// The same for [`flow_source`](crate::DegenerateLagrangian::flow_source).
+    #[allow(unused_variables)]
+    fn rest_flow_source(&self, q: &[T], t: T, out: &mut [T]) {
+        out.fill(T::lift(f64::NAN));
+    }
 }

@@ -9,11 +9,10 @@
 //! length of z nor its phase is the user's, so that there are no poles. The four coordinates of arrays lie
 //! one array after the other, as components of vectors do.
 
-use core::ops::Range;
-
+use super::blocks::{Block, blocks};
 use super::{Name, System};
 use crate::error::StartError;
-use crate::name::{Axis, Factor};
+use crate::name::Factor;
 use crate::scalar::norm::reported;
 use crate::scalar::spinor::{COORDINATES, lift, lower};
 use crate::scalar::{Comparison, Scalar};
@@ -42,59 +41,24 @@ pub(crate) const fn has<S: System>() -> bool {
     const { has_spinors(&S::REPORT, S::REGULAR) }
 }
 
-/// Where the coordinates of a spinor lie.
-#[derive(Clone, Copy, Debug)]
-struct Spinor {
-    name: &'static str,
-    /// The index, in an array.
-    index: Option<usize>,
-    first: usize,
-    stride: usize,
-}
-
-impl Spinor {
-    fn places(self) -> [usize; COORDINATES] {
-        core::array::from_fn(|number| self.first + number * self.stride)
-    }
-
-    fn of<T: Scalar>(self, q: &[T]) -> [T; COORDINATES] {
-        self.places().map(|place| q[place])
-    }
-
-    fn set<T: Scalar>(self, q: &mut [T], z: [T; COORDINATES]) {
-        self.places().into_iter().zip(z).for_each(|(place, z)| q[place] = z);
-    }
-
-    fn name(self) -> Name {
-        let Self { name, index, .. } = self;
-        Name { block: name, is_velocity: false, row: None, index, axis: None, factor: Factor::Sphere }
-    }
-}
-
 /// All spinors of a system.
-fn spinors<S: System>(system: &S) -> impl Iterator<Item = Spinor> {
-    let blocks = S::REPORT.coordinates.iter().enumerate();
-    let blocks = blocks.scan(0, |end, (number, block)| {
-        let length = system.block_len(number);
-        *end += length;
-        Some((block, *end - length..*end))
-    });
-    let is_first = |axis: Option<Axis>| axis.is_some_and(|axis| axis.number == 0);
-    let blocks = blocks.filter(move |(block, _)| is_spinor(block, S::REGULAR) && is_first(block.axis));
-    blocks.flat_map(|(block, places): (_, Range<usize>)| {
-        let stride = places.len();
-        places.enumerate().map(move |(index, first)| Spinor {
-            name: block.name,
-            index: (!block.size.is_empty()).then_some(index),
-            first,
-            stride,
-        })
-    })
+fn spinors<S: System>(system: &S) -> impl Iterator<Item = Block> {
+    blocks(system).filter(|block| !S::REGULAR && block.factor == Factor::Sphere)
+}
+
+fn of<T: Scalar>(spinor: Block, q: &[T]) -> [T; COORDINATES] {
+    core::array::from_fn(|number| q[spinor.place(number)])
+}
+
+fn set<T: Scalar>(spinor: Block, q: &mut [T], z: [T; COORDINATES]) {
+    spinor.places().zip(z).for_each(|(place, z)| q[place] = z);
 }
 
 /// The unit vector that a place in the flat state belongs to.
 pub(crate) fn at_place<S: System>(system: &S, place: usize) -> Option<Name> {
-    spinors(system).find(|spinor| spinor.places().contains(&place)).map(Spinor::name)
+    let Block { name, index, factor, .. } =
+        spinors(system).find(|spinor| spinor.places().any(|other| other == place))?;
+    Some(Name { block: name, is_velocity: false, row: None, index, axis: None, factor })
 }
 
 /// Puts the components of vectors in the first three places of their spinors.
@@ -103,11 +67,11 @@ pub(crate) fn lower_all<S: System, T: Scalar>(system: &S, q: &mut [T]) {
         return;
     }
     for spinor in spinors(system) {
-        let z = spinor.of(q);
+        let z = of(spinor, q);
         let s = lower(z);
         // What no spinor is of is there as it is.
         let is_number = |k: usize| T::choose(z[3], Comparison::Less, T::lift(f64::INFINITY), s[k], z[k]);
-        spinor.set(q, [is_number(0), is_number(1), is_number(2), z[3]]);
+        set(spinor, q, [is_number(0), is_number(1), is_number(2), z[3]]);
     }
 }
 
@@ -125,8 +89,8 @@ pub(crate) fn lowered<S: System, T: Scalar>(system: &S, q: &[T]) -> Option<Vecto
 pub(crate) fn lift_all<S: System, T: Scalar>(system: &S, q: &mut [T]) {
     if has::<S>() {
         spinors(system).for_each(|spinor| {
-            let [x, y, z, _] = spinor.of(q);
-            spinor.set(q, lift([x, y, z]));
+            let [x, y, z, _] = of(spinor, q);
+            set(spinor, q, lift([x, y, z]));
         });
     }
 }
@@ -138,10 +102,10 @@ pub(crate) fn lift_rates<S: System, T: Scalar>(system: &S, q: &[T], rates: &mut 
         return;
     }
     for spinor in spinors(system) {
-        let (z, rate) = (spinor.of(q), spinor.of(rates));
+        let (z, rate) = (of(spinor, q), of(spinor, rates));
         let forth = lower(core::array::from_fn(|k| z[k] + rate[k]));
         let back = lower(core::array::from_fn(|k| z[k] - rate[k]));
-        spinor.set(rates, lift(core::array::from_fn(|k| T::lift(0.5) * (forth[k] - back[k]))));
+        set(spinor, rates, lift(core::array::from_fn(|k| T::lift(0.5) * (forth[k] - back[k]))));
     }
 }
 
@@ -155,11 +119,11 @@ pub(crate) fn check<S: System, T: Real>(system: &S, q: &[T]) -> Result<(), Start
     }
     let tolerance = reported(T::default_epsilon()) * TOLERANCE;
     for spinor in spinors(system) {
-        let length = spinor.of(q).into_iter().fold(T::lift(0.0), |sum, z| sum + z * z);
+        let length = of(spinor, q).into_iter().fold(T::lift(0.0), |sum, z| sum + z * z);
         let defect = reported(Scalar::abs(length * length - T::lift(1.0)));
         let is_unit = defect <= tolerance;
         if !is_unit {
-            let Spinor { name: block, index, .. } = spinor;
+            let Block { name: block, index, .. } = spinor;
             return Err(StartError::OffManifold { block, index, defect, tolerance });
         }
     }

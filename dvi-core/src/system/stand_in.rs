@@ -3,10 +3,10 @@
 //! program does not compile.
 
 use super::{
-    AffineOneForm, ConstrainedSystem, Degenerate, DegenerateLagrangian, Holonomic, HolonomicLagrangian,
-    Lagrangian, Manifold, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, Nonholonomic,
-    NonholonomicLagrangian, Packable, ProperlyDegenerate, QuadraticInVelocity, Regular, RegularLagrangian,
-    Same, Separable, System, Unilateral, UnilateralLagrangian, Weights,
+    ConstrainedSystem, Degenerate, DegenerateLagrangian, Holonomic, HolonomicLagrangian, Lagrangian,
+    Manifold, ManifoldLagrangian, ManifoldSystem, NondegenerateLagrangian, Nonholonomic,
+    NonholonomicLagrangian, Packable, ProperlyDegenerate, Regular, RegularLagrangian, Same, Separable,
+    System, Unilateral, UnilateralLagrangian, Weights,
 };
 use crate::{Scalar, Sink};
 
@@ -93,9 +93,6 @@ impl<S: StandIn, T: Scalar> Separable<T> for S {
     type Suited<M> = S::Suited<M>;
 }
 #[diagnostic::do_not_recommend]
-impl<S: StandIn, T: Scalar> QuadraticInVelocity<T> for S {}
-
-#[diagnostic::do_not_recommend]
 impl<S: StandIn + ConstrainedSystem + System<Kind = Nonholonomic>, T: Scalar> NonholonomicLagrangian<T>
     for S
 {
@@ -115,7 +112,6 @@ impl<S: StandIn + ConstrainedSystem + System<Kind = Nonholonomic>, T: Scalar> No
 
 #[diagnostic::do_not_recommend]
 impl<S: StandIn + ConstrainedSystem + System<Kind = Holonomic>, T: Scalar> HolonomicLagrangian<T> for S {
-    type Suited<M> = S::Suited<M>;
     fn constraint(&self, _: &[T], _: T, _: &mut [T]) {}
     fn constraint_jacobian<K: Sink<T>>(&self, _: &[T], _: T, _: &mut [T], _: &mut K) {}
     fn constraint_rate(&self, _: &[T], _: &[T], _: T, _: &mut [T]) {}
@@ -134,9 +130,6 @@ impl<S: StandIn + ConstrainedSystem + System<Kind = Unilateral>, T: Scalar> Unil
 impl<S: StandIn + ManifoldSystem + System<Kind = Manifold>, T: Scalar> ManifoldLagrangian<T> for S {
     type Suited<M> = S::Suited<M>;
 }
-
-#[diagnostic::do_not_recommend]
-impl<S: StandIn + System<Kind = Degenerate>, T: Scalar> AffineOneForm<T> for S {}
 
 impl<const W: usize, S: StandIn> Packable<W> for S {
     type Packed = Self;

@@ -9,7 +9,7 @@ use approx::abs_diff_eq;
 use dvi_core::fast_sum::{FastSum, FastSumError};
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
-use dvi_core::{DegenerateLagrangian, DegeneratePairSum, Lagrangian, PairSum, System};
+use dvi_core::{DegenerateLagrangian, Lagrangian, PairSum, System};
 
 /// Vortices, with softened cores where `core` is not 0, in a flow of their own; with other numbers it is the
 /// kernel ln(c + s r²).
@@ -105,7 +105,7 @@ fn apart(found: &[f64], expected: &[f64]) -> f64 {
 /// Holds energy and gradient of fast sums against those of their system, to the tolerances.
 fn compare<S, const D: usize>(system: &S, q: &[f64], tolerances: &[f64], case: &str)
 where
-    S: DegeneratePairSum<f64, D> + PairSum<Lanes<8>, D> + Sync,
+    S: PairSum<f64, D> + PairSum<Lanes<8>, D> + DegenerateLagrangian + Sync,
 {
     let [mut found, mut expected] = [vec![0.0; q.len()], vec![0.0; q.len()]];
     DegenerateLagrangian::<f64>::hamiltonian_gradient(system, q, 0.2, &mut expected);

@@ -54,7 +54,7 @@ fn stars(n: usize) -> Stars {
 /// Forces, energies and derivatives at a point and velocity, beside those of the system.
 fn compare<const D: usize, S>(system: &S, tolerance: f64)
 where
-    S: dvi_core::RegularPairSum<f64, D>
+    S: dvi_core::PairSum<f64, D>
         + dvi_core::PairSum<dvi_core::scalar::Lanes<8>, D>
         + NondegenerateLagrangian<f64>
         + Sync,

@@ -92,10 +92,9 @@ fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let [value_of, jacobian_of, rate_of] =
         constraints.of.words().generated.map(|function| format_ident!("{function}"));
     let of_velocities = constraints.of == Constrained::Velocities;
-    let (suited, velocity, weights) = match of_velocities {
-        true => (None, Some(quote!(__v: &[__T],)), Some(quote!(__weights: [__T; 2],))),
-        false => (Some(suited()), None, None),
-    };
+    let suited = (constraints.of == Constrained::Gaps).then(suited);
+    let velocity = of_velocities.then(|| quote!(__v: &[__T],));
+    let weights = of_velocities.then(|| quote!(__weights: [__T; 2],));
     let for_constraints = |routine: &Routine| emitter.for_constraints(constraints, routine);
     let [value, rate] = [&constraints.value, &constraints.rate].map(for_constraints);
     let jacobian = emitter.constraint_jacobian(constraints);

@@ -158,7 +158,6 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let [conjugate, conjugates_end] = conjugates(emitter, structure);
     let indices = 0..programs.momentum_gradients.len();
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
-    let affine = linear.then(|| in_numbers(emitter, &quote!(AffineOneForm), &TokenStream::new()));
     let suited = suited();
     let items = quote! {
             #suited
@@ -208,7 +207,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let proper = proper(emitter, &structure.class);
     let time_transformed = programs.time.as_ref().map(|time| time_transformed(emitter, time));
     let pairs = programs.pairs.as_ref().map(|sum| pairs(emitter, sum));
-    quote!(#lagrangian #affine #proper #time_transformed #pairs)
+    quote!(#lagrangian #proper #time_transformed #pairs)
 }
 
 /// The implementation of `TimeTransformed`.

@@ -1,4 +1,4 @@
-//! The implementations of `PairSum`, `DegeneratePairSum` and `RegularPairSum`.
+//! The implementation of `PairSum`.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -12,31 +12,20 @@ use crate::symbolic::Index;
 
 pub(super) fn pairs(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
     let vector = emitter.vector(&pairs.vector);
-    let axes = pairs.sum.blocks.len();
-    let (name, items) = match &pairs.flow_source {
+    let special = match &pairs.flow_source {
         Some(source) => {
             let source = emitter.vector(source);
-            let items = quote! {
+            quote! {
                 fn rest_hamiltonian_gradient(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) {
                     #vector
                 }
                 fn rest_flow_source(&self, __q: &[__T], __t: __T, __vector: &mut [__T]) { #source }
-            };
-            (quote!(DegeneratePairSum), items)
+            }
         }
-        None => {
-            let items = quote! {
-                fn rest_force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #vector }
-            };
-            (quote!(RegularPairSum), items)
-        }
+        None => quote! {
+            fn rest_force(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #vector }
+        },
     };
-    let special = in_numbers_with(emitter, &quote!(system::#name<__T, #axes>), &items);
-    let shared = pair_sum(emitter, pairs);
-    quote!(#shared #special)
-}
-
-fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
     let krate = emitter.krate();
     let axes = pairs.sum.blocks.len();
     let bodies = emitter.index(&pairs.sum.bodies);
@@ -82,6 +71,7 @@ fn pair_sum(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
             #read_all #l_q #l_v #offsets #linearize
         }
         fn rest_energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
+        #special
     };
     in_numbers_with(emitter, &quote!(PairSum<__T, #axes>), &items)
 }

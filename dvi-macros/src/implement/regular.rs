@@ -111,13 +111,11 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
     };
     let lagrangian = in_numbers(emitter, &quote!(NondegenerateLagrangian), &lagrangian);
     let separable = separable.then(|| in_numbers(emitter, &quote!(Separable), &suited()));
-    let quadratic =
-        quadratic.then(|| in_numbers(emitter, &quote!(QuadraticInVelocity), &TokenStream::new()));
     let motion = match &programs.shared.constraints {
         Some(programs) => constraints(emitter, programs),
         None if emitter.model.is_on_manifold() => manifold(emitter),
         None => in_numbers(emitter, &quote!(RegularLagrangian), &suited()),
     };
     let pairs = programs.pairs.as_ref().map(|sum| pairs(emitter, sum));
-    quote!(#lagrangian #motion #separable #quadratic #pairs)
+    quote!(#lagrangian #motion #separable #pairs)
 }

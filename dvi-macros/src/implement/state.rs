@@ -321,72 +321,53 @@ fn transfer(
     field: &Ident,
     flat: &TokenStream,
 ) -> Transfers {
-    let (write, read) = there_and_back(emitter, block, is_velocity, field, flat);
-    let refill = if on_stack(emitter, block) {
-        quote!(self.#field = #read;)
-    } else {
-        let (krate, declared) = (emitter.krate(), &emitter.model.blocks[block]);
-        let refill = format_ident!("refill_{}", entries(declared, "block"));
-        let is_angular = is_velocity && declared.factor == Factor::Rotation;
-        let unused = is_angular.then(|| angular_rest(block, true));
-        quote!(#krate::RunTime::#refill(__len(#block), &mut __at, #flat, &mut self.#field); #unused)
-    };
-    Transfers { write, read, refill }
-}
-
-/// Goes on by the six places of each rotation that its angular velocity does not have.
-fn angular_rest(block: usize, is_array: bool) -> TokenStream {
-    if is_array { quote!(__at += 6usize * __len(#block);) } else { quote!(__at += 6usize;) }
-}
-
-/// The statements that write a field at `__at`, and the expression that reads it there.
-fn there_and_back(
-    emitter: &Emitter<'_>,
-    block: usize,
-    is_velocity: bool,
-    field: &Ident,
-    flat: &TokenStream,
-) -> (TokenStream, TokenStream) {
     let (krate, text) = (emitter.krate(), field.unraw().to_string());
     let declared = &emitter.model.blocks[block];
-    if declared.array.is_none() && declared.is_spinor() {
-        let read = quote!({
-            let [__value] = #krate::__private::read_spinors(1usize, &mut __at, #flat);
-            __value
-        });
-        let vectors = quote!(::core::slice::from_ref(&self.#field));
-        return (
-            quote!(#krate::__private::write_spinors(#text, #vectors, 1usize, &mut __at, #flat)?;),
-            read,
-        );
-    }
-    if declared.array.is_none() {
+    let is_single = declared.array.is_none();
+    if is_single && !declared.is_spinor() {
         let read = quote!({ let __value = #flat[__at]; __at += 1usize; __value });
-        return (quote!(#flat[__at] = self.#field; __at += 1usize;), read);
+        let write = quote!(#flat[__at] = self.#field; __at += 1usize;);
+        return Transfers { write, refill: quote!(self.#field = #read;), read };
     }
-    let (place, numbers) =
-        if on_stack(emitter, block) { (quote!(__private), "array") } else { (quote!(RunTime), "block") };
-    let reader = format_ident!("read_{}", entries(declared, numbers));
-    let reader = quote!(#place::#reader);
-    let writer = format_ident!("write_{}", entries(declared, "block"));
-    let entries = quote!(&self.#field[..]);
-    let write = |length: TokenStream| quote!(#krate::__private::#writer(#text, #entries, #length, &mut __at, #flat)?;);
-    if is_velocity && declared.factor == Factor::Rotation {
-        // An angular velocity has the first three of nine places.
-        let is_array = declared.axis.is_some();
-        let length = if is_array { quote!(__len(#block)) } else { quote!(3usize) };
-        let (write, unused) = (write(length.clone()), angular_rest(block, is_array));
-        let read = quote!({ let __value = #krate::#reader(#length, &mut __at, #flat); #unused __value });
-        return (quote!(#write #unused), read);
-    }
-    (write(quote!(__len(#block))), quote!(#krate::#reader(__len(#block), &mut __at, #flat)))
-}
-
-/// What an array has for entries, as functions that copy them are called: `numbers` where they are none else.
-fn entries(block: &Block, numbers: &'static str) -> &'static str {
-    match block.axis {
-        Some(_) if block.is_spinor() => "spinors",
-        Some(_) => "vectors",
-        None => numbers,
+    // What the flat slice has of an entry, and back.
+    let [there, back] = match declared.axis {
+        Some(_) if declared.is_spinor() => ["lift", "lower"].map(|name| {
+            let name = format_ident!("{name}");
+            quote!(#krate::__private::#name)
+        }),
+        Some(_) => [quote!(|__entry| __entry), quote!(|__entry| __entry)],
+        None => [quote!(|__entry| [__entry]), quote!(|[__entry]| __entry)],
+    };
+    // An angular velocity has the first three of nine places.
+    let is_angular = is_velocity && declared.factor == Factor::Rotation;
+    let (length, unused) = match declared.axis {
+        _ if is_single => (quote!(1usize), None),
+        Some(_) if is_angular => (quote!(__len(#block)), Some(quote!(__at += 6usize * __len(#block);))),
+        None if is_angular => (quote!(3usize), Some(quote!(__at += 6usize;))),
+        Some(_) | None => (quote!(__len(#block)), None),
+    };
+    let entries =
+        if is_single { quote!(::core::slice::from_ref(&self.#field)) } else { quote!(&self.#field[..]) };
+    let entry = quote!(#krate::__private::read(#length, &mut __at, #flat, #back));
+    let on_stack = on_stack(emitter, block);
+    let value = if is_single {
+        quote!({ let [__value] = ::core::array::from_fn(#entry); __value })
+    } else if on_stack {
+        quote!(::core::array::from_fn(#entry))
+    } else {
+        quote!(::core::iter::Iterator::collect(::core::iter::Iterator::map(0..#length, #entry)))
+    };
+    let read = if is_angular { quote!({ let __value = #value; #unused __value }) } else { value };
+    Transfers {
+        write: quote!(
+            #krate::__private::write(#text, #entries, #length, &mut __at, #flat, #there)?;
+            #unused
+        ),
+        refill: if on_stack {
+            quote!(self.#field = #read;)
+        } else {
+            quote!(#krate::RunTime::refill(&mut self.#field, #length, #entry); #unused)
+        },
+        read,
     }
 }

@@ -16,17 +16,18 @@ pub(super) fn transfer(emitter: &Emitter<'_>, block: usize, field: &Ident, flat:
     let lengths = quote!([__len(#block), __len(#row)]);
     let write = quote!(#krate::__private::write_rows(#text, &self.#field[..], #lengths, &mut __at, #flat)?;);
     if on_stack(emitter, block) {
-        let read =
-            quote!(::core::array::from_fn(|_| #krate::__private::read_array(0usize, &mut __at, #flat)));
+        let entry = quote!(#krate::__private::read(__len(#row), &mut __at, #flat, |[__entry]| __entry));
+        let read = quote!(::core::array::from_fn(|_| ::core::array::from_fn(#entry)));
         return Transfers { write, refill: quote!(self.#field = #read;), read };
     }
+    let rows = quote!(#krate::__private::rows(#lengths, &mut __at, #flat));
     let one = match fixed(emitter, block).as_slice() {
-        [] => quote!(#krate::RunTime::read_block),
-        _ => quote!(#krate::__private::read_array),
+        [] => quote!(|__row: &[__T]| __row.to_vec()),
+        _ => quote!(|__row: &[__T]| ::core::array::from_fn(|__i| __row[__i])),
     };
     Transfers {
         write,
-        read: quote!(#krate::RunTime::read_rows(#lengths, &mut __at, #flat, #one)),
-        refill: quote!(#krate::RunTime::refill_rows(#lengths, &mut __at, #flat, #one, &mut self.#field);),
+        read: quote!(::core::iter::Iterator::collect(::core::iter::Iterator::map(#rows, #one))),
+        refill: quote!(#krate::RunTime::refill_rows(&mut self.#field, #rows, #one);),
     }
 }
