@@ -38,8 +38,7 @@ pub use integrator::Integrator;
 #[cfg(feature = "alloc")]
 pub use resume::Resume;
 pub use step_control::{
-    CentreSpeed, ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, OneLength, Osculating, Power,
-    Reversible, StepControl,
+    ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, OneLength, Power, Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;
 

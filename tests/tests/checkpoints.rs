@@ -5,6 +5,7 @@ use dvi_core::error::CheckpointError;
 use dvi_core::methods::{Method, VariableStep};
 use dvi_core::prelude::*;
 use dvi_core::run::{Checkpoint, StepControl};
+use dvi_examples::osculating::Osculating;
 use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::configurations::leapfrogging;

@@ -3,16 +3,13 @@
 //! A method keeps its good long-time behaviour under variable steps if the whole map, step control included,
 //! is symmetric or comes from a transformed system; choosing each step by the error of the one before
 //! destroys it (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind,
-//! [`ErrorControl`] and [`Osculating`] of the other. With [`EnergyMomentum`] the length of a step is an
-//! unknown of its equations.
+//! [`ErrorControl`] of the other. With [`EnergyMomentum`] the length of a step is an unknown of its equations.
 
 mod breaks;
 mod controlled;
 mod energy_momentum;
 mod error_control;
 mod one_length;
-mod osculating;
-mod rejection;
 mod reversible;
 mod seams;
 
@@ -30,7 +27,6 @@ pub use controlled::ControlledRun;
 pub use energy_momentum::EnergyMomentum;
 pub use error_control::ErrorControl;
 pub use one_length::OneLength;
-pub use osculating::{CentreSpeed, Osculating};
 pub use reversible::{Density, Power, Reversible};
 
 /// A rule for the length of each step of a run on `S`; [`OneLength`] for all of them is one.

@@ -7,6 +7,7 @@ use crate::methods::{Carries, Clock, Method, Step, Tolerance};
 use crate::run::Stepper;
 use crate::run::clock::Time;
 use crate::scalar::norm::reported;
+use crate::state::Statistics;
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real, System, Vector};
 
@@ -64,6 +65,11 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> 
     pub fn local_error(&mut self, t: T, [h, usual]: [T; 2], tolerance: Tolerance) -> Result<T, StepFailure> {
         let Stepper { method, memory, statistics, .. } = &mut *self.stepper;
         method.local_error(self.system, memory, t, [h, usual], tolerance, statistics)
+    }
+
+    /// What the run has cost, for a control to count what it takes back and what it evaluates itself.
+    pub fn statistics(&mut self) -> &mut Statistics {
+        &mut self.stepper.statistics
     }
 
     /// Goes back to where the step of the control has begun, without allocation, if the control

@@ -9,7 +9,6 @@
 
 use core::fmt;
 
-use super::rejection::{Accepted, Verdict, step_of_at_most, within};
 use super::seams::{AtSeam, Seams};
 use super::{ControlledRun, StepControl, breaks};
 use crate::error::{StartError, StepError, StepFailure};
@@ -279,59 +278,39 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure> {
-        let one = T::lift(1.0);
-        let order = (run.stepper.method.order() + 1) as f64;
-        let excess = |error: T| Scalar::powf(error / T::lift(AIM), T::lift(1.0 / order));
         let usual = larger(Scalar::abs(memory.h), T::lift(FORGETTING) * Scalar::abs(memory.usual));
         let ends = [memory.end, breaks::next(self.breaks, t, memory.h)].into_iter().flatten();
         let left =
             ends.map(|end| end - t).reduce(|a, b| if Scalar::abs(b) < Scalar::abs(a) { b } else { a });
         let is_last = |left: &T| Scalar::abs(*left) <= T::lift(STRETCH) * Scalar::abs(memory.h);
-        let first = self.at_most_longest(left.filter(is_last).unwrap_or(memory.h));
+        let mut tried = self.at_most_longest(left.filter(is_last).unwrap_or(memory.h));
         let mut seams = if S::SEAMS > 0 { memory.seams.as_mut() } else { None };
         if let Some(seams) = &mut seams {
             seams.keep(run, t)?;
         }
-        let Accepted { h: tried, found: (error, at_seam), is_first } =
-            step_of_at_most(run, t, first, AFTER_FAILURE, |run, h| {
-                let at_seam = seams.as_mut().map_or(Ok(None), |seams| {
-                    seams.end(run, h, breaks::between(self.breaks, [t, h])[0] != t)
-                })?;
-                let judged = at_seam.map_or(h, |AtSeam { before, .. }| before);
-                if let Some(seams) = &mut seams
-                    && t + judged != t
-                    && let Some(part) = seams.second_turn(run, judged)
-                {
-                    return Ok(Verdict::TooLong { factor: part * (judged / h), failure: None });
-                }
-                let [start, length] = breaks::between(self.breaks, [t, judged]);
-                let error = match at_seam {
-                    // A step that begins there and crosses it is too short to have one.
-                    Some(AtSeam { before, .. }) if t + before == t => T::lift(0.0),
-                    _ => run.local_error(start, [length, usual], self.tolerance)?,
-                };
-                if error <= one {
-                    if let Some(AtSeam { behind, .. }) = at_seam {
-                        run.go_back();
-                        run.step(t, behind)?;
-                    }
-                    return Ok(Verdict::Accepted((error, at_seam)));
-                }
-                let mut factor = within(one / excess(error), FACTORS[0], 1.0);
-                if at_seam.is_some() {
-                    factor *= judged / h;
-                }
-                let failure = StepFailure::Tolerance { h: reported(judged), error: reported(error) };
-                Ok(Verdict::TooLong { factor, failure: Some(failure) })
-            })?;
+        let (mut is_first, mut failed) = (true, None);
+        let (error, at_seam) = loop {
+            let judged = run.step(t, tried).and_then(|()| self.judge(run, &mut seams, t, [tried, usual]));
+            let (factor, failure) = match judged {
+                Ok(Verdict::Accepted { error, at_seam }) => break (error, at_seam),
+                Ok(Verdict::TooLong { factor, failure }) => (factor, failure),
+                // The failure of a longer step tells more than that the steps became too short.
+                Err(failure @ StepFailure::StepLength { .. }) => return Err(failed.unwrap_or(failure)),
+                Err(failure) => (T::lift(AFTER_FAILURE), Some(failure)),
+            };
+            run.go_back();
+            run.statistics().rejected += 1;
+            (is_first, failed) = (false, failure.or(failed));
+            tried *= factor;
+        };
         let h = at_seam.map_or(tried, |AtSeam { behind, .. }| behind);
         if let Some(seams) = seams {
             seams.count(run, [h, usual])?;
         }
-        let (e, [now, before]) = (excess(error), EXPONENTS.map(T::lift));
+        let (e, [now, before]) = (excess(run, error), EXPONENTS.map(T::lift));
         let factor = Scalar::powf(e, now) * Scalar::powf(memory.excess, before);
-        let next =
-            self.at_most_longest(h * within(factor, FACTORS[0], if is_first { FACTORS[1] } else { 1.0 }));
+        let most = if is_first { FACTORS[1] } else { 1.0 };
+        let next = self.at_most_longest(h * within(factor, most));
         // A step that is cut short, by the end of the run or by a seam, says little of the next one.
         let uncut = if at_seam.is_some() { tried } else { memory.h };
         let is_cut = (left == Some(h) || at_seam.is_some()) && Scalar::abs(next) < Scalar::abs(uncut);
@@ -339,4 +318,70 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         (memory.error, memory.excess, memory.usual) = (error, larger(T::lift(LEAST_BEFORE), e), usual);
         Ok(h)
     }
+}
+
+/// What is said of a step that has been taken.
+enum Verdict<T> {
+    Accepted {
+        error: T,
+        at_seam: Option<AtSeam<T>>,
+    },
+    /// A step of the length times `factor` is tried next. Where that ends with steps that are too short,
+    /// `failure` tells why, or the failure before it.
+    TooLong {
+        factor: T,
+        failure: Option<StepFailure>,
+    },
+}
+
+impl ErrorControl<'_> {
+    /// What is to be said of the step from time `t` of length `h`, where steps usually have another. One that
+    /// is accepted at a seam ends behind it.
+    fn judge<S: Lagrangian<T>, M: Method<S, T>, T: Real>(
+        &self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        seams: &mut Option<&mut Seams<S, T>>,
+        t: T,
+        [h, usual]: [T; 2],
+    ) -> Result<Verdict<T>, StepFailure> {
+        let at_seam = seams
+            .as_mut()
+            .map_or(Ok(None), |seams| seams.end(run, h, breaks::between(self.breaks, [t, h])[0] != t))?;
+        let judged = at_seam.map_or(h, |AtSeam { before, .. }| before);
+        if let Some(seams) = seams
+            && t + judged != t
+            && let Some(part) = seams.second_turn(run, judged)
+        {
+            return Ok(Verdict::TooLong { factor: part * (judged / h), failure: None });
+        }
+        let [start, length] = breaks::between(self.breaks, [t, judged]);
+        let error = match at_seam {
+            // A step that begins there and crosses it is too short to have one.
+            Some(AtSeam { before, .. }) if t + before == t => T::lift(0.0),
+            _ => run.local_error(start, [length, usual], self.tolerance)?,
+        };
+        if error <= T::lift(1.0) {
+            if let Some(AtSeam { behind, .. }) = at_seam {
+                run.go_back();
+                run.step(t, behind)?;
+            }
+            return Ok(Verdict::Accepted { error, at_seam });
+        }
+        let factor = within(T::lift(1.0) / excess(run, error), 1.0);
+        let failure = StepFailure::Tolerance { h: reported(judged), error: reported(error) };
+        let factor = if at_seam.is_some() { factor * (judged / h) } else { factor };
+        Ok(Verdict::TooLong { factor, failure: Some(failure) })
+    }
+}
+
+/// e of a step of the method of `run` with this error.
+fn excess<S: Lagrangian<T>, M: Method<S, T>, T: Real>(run: &ControlledRun<'_, S, M, T>, error: T) -> T {
+    let order = (run.stepper.method.order() + 1) as f64;
+    Scalar::powf(error / T::lift(AIM), T::lift(1.0 / order))
+}
+
+/// A factor for the length of a step, at most `most`; the least one where it is not a number.
+fn within<T: Real>(factor: T, most: f64) -> T {
+    let [least, most] = [FACTORS[0], most].map(T::lift);
+    if factor > most { most } else { larger(least, factor) }
 }
