@@ -51,8 +51,8 @@
 //! ```no_run
 //! use dvi_core::ensemble::{Results, Shard};
 //!
-//! let shards = (0..8).map(|index| Results::read(Shard::new(index, 8)?.path("run.ckpt")).map_err(Into::into));
-//! let whole = Results::merge(shards.collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?)?;
+//! let shards = (0..8).map(|index| Results::read(Shard::new(index, 8)?.path("run.ckpt")));
+//! let whole = Results::merge(shards.collect::<Result<Vec<_>, _>>()?)?;
 //! whole.record()?.write_csv(std::fs::File::create("run.csv")?)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -78,7 +78,6 @@ mod rounds;
 pub(crate) mod sealed;
 mod settings;
 mod shard;
-mod table;
 
 use std::borrow::ToOwned;
 use std::boxed::Box;
@@ -100,13 +99,10 @@ use rounds::{Checkpoints, Rounds, Work};
 use settings::{Settings, Systems};
 
 pub use draws::{Draw, Draws};
-pub use error::{EnsembleError, MergeError};
+pub use error::EnsembleError;
 pub use member::{Member, Outcome};
-#[cfg(feature = "mpi")]
-pub use ranks::RanksError;
 pub use results::Results;
-pub use shard::{Shard, ShardError};
-pub use table::{Table, TableError};
+pub use shard::Shard;
 
 type Tell<'a> = Box<dyn FnMut(&Progress) + Send + 'a>;
 

@@ -89,7 +89,6 @@
 //! | [`StepControl`] | what a control is to a run |
 //! | [`Reversible`] | steps that follow the motion, and lead back |
 //! | [`Density`] | where they are short |
-//! | [`Power`] | short near the origin |
 //! | [`ErrorControl`] | steps with an error within a tolerance |
 //! | [`Tolerance`] | the error that a step may have |
 //! | [`EnergyMomentum`] | steps that conserve a discrete energy |
@@ -134,8 +133,8 @@ pub use crate::record::Recorded;
 #[cfg(feature = "alloc")]
 pub use crate::run::{Checkpoint, Together};
 pub use crate::run::{
-    Dense, Density, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator, Power, Reversible,
-    Run, StepControl, Watch,
+    Dense, Density, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator, Reversible, Run,
+    StepControl, Watch,
 };
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::{Statistics, Summation};

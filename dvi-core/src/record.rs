@@ -75,6 +75,7 @@
 
 mod body;
 mod column;
+mod csv;
 mod error;
 mod npy;
 mod page;

@@ -12,8 +12,6 @@ mod events;
 mod integrator;
 mod kept;
 mod outside;
-#[cfg(feature = "alloc")]
-mod resume;
 mod step_control;
 mod stepper;
 #[cfg(feature = "alloc")]
@@ -35,10 +33,8 @@ pub use dense::Dense;
 use events::{Conditions, Declared};
 pub use events::{Direction, Event, Events, Watch};
 pub use integrator::Integrator;
-#[cfg(feature = "alloc")]
-pub use resume::Resume;
 pub use step_control::{
-    ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, OneLength, Power, Reversible, StepControl,
+    ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;
 

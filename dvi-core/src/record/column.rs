@@ -1,7 +1,6 @@
 //! The columns of a record.
 
-use std::format;
-use std::string::{String, ToString};
+use std::string::String;
 use std::vec::Vec;
 
 use serde::Serialize;
@@ -125,16 +124,6 @@ impl Column {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
-    }
-
-    /// The entry of a row as a text from which it can be read back.
-    pub(super) fn text(&self, row: usize) -> String {
-        match &self.values {
-            // As many digits as tell it from its neighbours.
-            Values::Numbers(numbers) => format!("{:?}", numbers[row]),
-            Values::Counts(counts) => counts[row].to_string(),
-            Values::Texts(texts) => texts[row].clone(),
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::error::{CheckpointError, StartError};
-use crate::memory::{Memory, Reader, Record};
+use crate::memory::{Memory, Record};
 use crate::methods::Method;
 use crate::run::Stepper;
 use crate::state::Statistics;
@@ -180,11 +180,11 @@ impl<T: Real> Checkpoint<T> {
     pub(crate) fn load(
         &self,
         memory: &mut impl Memory<T>,
-        load: impl FnOnce(&mut Reader<'_, T>) -> Result<(), CheckpointError>,
+        load: impl FnOnce(&mut Record<T>) -> Result<(), CheckpointError>,
     ) -> Result<(), StartError> {
-        let mut reader = self.0.record.reader();
-        memory.load(&mut reader)?;
-        load(&mut reader)?;
-        Ok(reader.end()?)
+        let mut record = self.0.record.clone();
+        memory.load(&mut record)?;
+        load(&mut record)?;
+        Ok(record.end()?)
     }
 }

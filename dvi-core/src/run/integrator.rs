@@ -8,7 +8,9 @@ use super::Checkpoint;
 use super::begun::resumed;
 use super::begun::{Begun, BegunOf, begun, carried, point};
 use super::clock::Time;
-use super::{Between, ControlledRun, Obeys, OneLength, Run, StepControl, Stepper};
+use super::{Between, ControlledRun, Obeys, Run, StepControl, Stepper};
+#[cfg(feature = "ensembles")]
+use crate::error::CheckpointError;
 use crate::error::{StartError, StepError, StepFailure};
 #[cfg(feature = "alloc")]
 use crate::memory::Memory;
@@ -52,7 +54,7 @@ use crate::{Held, Lagrangian, Real, Vector};
 /// assert!((run.energy() - energy).abs() < 1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Integrator<H, M, T = f64, C = OneLength<T>>
+pub struct Integrator<H, M, T = f64, C = T>
 where
     H: Held,
     M: Carries<H::System, T>,
@@ -89,9 +91,9 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
     where
         X: Suits<H::System, T, M>,
     {
-        let (method, length) = (method.suited(), OneLength(h));
-        let begun = begun(system.held(), X::steps(&method), &length, t, &start)?;
-        Ok(Self::of(system, method, length, begun))
+        let method = method.suited();
+        let begun = begun(system.held(), X::steps(&method), &h, t, &start)?;
+        Ok(Self::of(system, method, h, begun))
     }
 
     /// A run of [`Sigma`] that starts at `first`, time 0, and whose first step leads to `second`.
@@ -112,10 +114,8 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
         let (at, [q1, rest]) = (point(held, t, &first)?, flatten(held, &second)?);
         evaluate(held, &q1, &rest, t + h)?;
         let begin = |q0: &_, _: &_, h| method.begin_between(held, q0, &q1, t, h);
-        let length = OneLength(h);
-        let begun =
-            carried::<_, OneLength<T>, _, _>(held, at, t, |q, v| length.begin(held, q, v, t), begin)?;
-        Ok(Self::of(system, method.suited(), length, begun))
+        let begun = carried::<_, T, _, _>(held, at, t, |q, v| h.begin(held, q, v, t), begin)?;
+        Ok(Self::of(system, method.suited(), h, begun))
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
@@ -129,9 +129,9 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
     where
         X: Suits<H::System, T, M>,
     {
-        let (method, length) = (method.suited(), OneLength(checkpoint.step_size()));
-        let begun = resumed(system.held(), X::steps(&method), &length, checkpoint)?;
-        Ok(Self::of(system, method, length, begun))
+        let (method, h) = (method.suited(), checkpoint.step_size());
+        let begun = resumed(system.held(), X::steps(&method), &h, checkpoint)?;
+        Ok(Self::of(system, method, h, begun))
     }
 }
 
@@ -200,6 +200,25 @@ where
         let (method, control) = (method.suited(), M::suited(control));
         let begun = resumed(system.held(), X::steps(&method), M::lengths(&control), checkpoint)?;
         Ok(Self::of(system, method, control, begun))
+    }
+
+    /// Another run that goes on from `checkpoint`, one of this run or of one like it.
+    ///
+    /// # Errors
+    /// As [`resume`](Integrator::resume) and [`resume_controlled`](Self::resume_controlled).
+    #[cfg(feature = "ensembles")]
+    pub(crate) fn going_on_from(&self, checkpoint: &Checkpoint<T>) -> Result<Self, StartError>
+    where
+        H: Clone,
+        M: Method<H::System, T> + Clone,
+        C: StepControl<H::System, T> + Clone,
+    {
+        if C::ONE_LENGTH && checkpoint.step_size() != self.step_size() {
+            return Err(CheckpointError::Damaged.into());
+        }
+        let (method, control) = (self.method().clone(), self.control.clone());
+        let begun = resumed(self.system(), &method, &control, checkpoint)?;
+        Ok(Self::of(self.system.clone(), method, control, begun))
     }
 
     pub(super) fn of(system: H, method: M, control: C, begun: BegunOf<H::System, M::Memory, C, T>) -> Self {

@@ -10,9 +10,16 @@ use super::*;
 
 /// Asks the archive of a run of `steps` steps, in two parts, for its state at random times and after random
 /// numbers of steps.
-fn check<R>(name: &str, every: Every, steps: u64, begin: impl Fn() -> Result<R, StartError>) -> Outcome
+fn check<H, M, C>(
+    name: &str,
+    every: Every,
+    steps: u64,
+    begin: impl Fn() -> Result<Integrator<H, M, f64, C>, StartError>,
+) -> Outcome
 where
-    R: Resume<Scalar = f64>,
+    H: Held<System: Lagrangian> + Clone,
+    M: Method<H::System, f64> + Clone + core::fmt::Debug,
+    C: StepControl<H::System, f64> + Clone,
 {
     let path = file(name)?;
     Archive::new(&path, begin()?, every)?.take_steps(steps / 3)?;
