@@ -85,6 +85,7 @@ use std::fmt;
 use std::format;
 use std::path::Path;
 use std::string::String;
+use std::sync::Arc;
 use std::time::Duration;
 use std::vec::Vec;
 
@@ -93,7 +94,7 @@ use crate::diagnostics::LyapunovExponent;
 use crate::discrete::TwiceDifferentiable;
 use crate::methods::{InStep, Method, Suits, VariationalMethod};
 use crate::run::{Direction, Together};
-use limits::Given;
+use limits::Condition;
 use plan::Plan;
 use rounds::{Checkpoints, Rounds, Work};
 use settings::{Settings, Systems};
@@ -192,7 +193,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
             vary: None,
             h,
             stride: 100,
-            limits: None,
+            limits: Vec::new(),
             section: None,
             packs: None,
             growth: None,
@@ -261,8 +262,12 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         reasons: [&'static str; N],
         g: impl Fn(&S, &S::State<f64>, f64) -> [f64; N] + Send + Sync + 'a,
     ) -> Self {
-        self.settings.limits =
-            Some((reasons.into(), Box::new(Given { directions: [Direction::Rising; N], g })));
+        let g = Arc::new(g);
+        let limit = |number: usize| -> Condition<'a, S> {
+            let g = Arc::clone(&g);
+            Box::new(move |system, state, t| g(system, state, t)[number])
+        };
+        self.settings.limits = (0..N).map(|number| (reasons[number], limit(number))).collect();
         self
     }
 
@@ -291,8 +296,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         direction: Direction,
         g: impl Fn(&S, &S::State<f64>) -> f64 + Send + Sync + 'a,
     ) -> Self {
-        let g = move |system: &S, state: &S::State<f64>, _: f64| [g(system, state)];
-        self.settings.section = Some((direction, Box::new(Given { directions: [direction], g })));
+        self.settings.section = Some((direction, Box::new(move |system, state, _| g(system, state))));
         self
     }
 

@@ -1,5 +1,6 @@
 //! A run: a system, a method, and where they have got to, whatever chooses the lengths of the steps.
 
+mod begin;
 mod begun;
 mod between;
 mod borrowed;
@@ -12,6 +13,8 @@ mod events;
 mod integrator;
 mod kept;
 mod outside;
+#[cfg(feature = "alloc")]
+mod resume;
 mod step_control;
 mod stepper;
 #[cfg(feature = "alloc")]
@@ -248,25 +251,18 @@ pub trait Run {
         Self: Sized,
         <Self::System as System>::Kind: Rates<Self::System, Self::Scalar>,
     {
-        let (system, t, zero) = (self.system(), self.time(), Self::Scalar::lift(0.0));
+        let (system, t, v, zero) = (self.system(), self.time(), self.v(), Self::Scalar::lift(0.0));
         if !Self::System::FORCED {
             return zero;
         }
-        let mut q = system.space().vector();
+        let [mut q, mut force] = system.space().vectors();
         q.copy_from_slice(self.q());
-        let power = |v: &[Self::Scalar], velocity: &[Self::Scalar]| {
-            let mut force = system.space().vector();
-            system.applied_force(&q, v, t, &mut force);
-            force.iter().zip(velocity).fold(zero, |sum, (&force, &v)| sum + force * v)
+        system.applied_force(&q, &v, t, &mut force);
+        let rates = || <Self::System as System>::Kind::rates(system, &q, &[], t);
+        let Ok(velocity) = (if Self::System::REGULAR { Ok(v) } else { rates() }) else {
+            return Self::Scalar::lift(f64::NAN);
         };
-        if Self::System::REGULAR {
-            let v = self.v();
-            return power(&v, &v);
-        }
-        match <Self::System as System>::Kind::rates(system, &q, &[], t) {
-            Ok(velocity) => power(&[], &velocity),
-            Err(_) => Self::Scalar::lift(f64::NAN),
-        }
+        force.iter().zip(velocity.iter()).fold(zero, |sum, (&force, &v)| sum + force * v)
     }
 
     /// The run as data, from which another one can go on as if this had not stopped.

@@ -20,7 +20,6 @@ use crate::error::{StartError, StepFailure};
 use crate::memory::Memory;
 use crate::methods::{Carries, Method};
 use crate::system::Same;
-use crate::system::start::is_length;
 use crate::{Lagrangian, Real};
 
 pub use controlled::ControlledRun;
@@ -134,23 +133,4 @@ where
     fn lengths(control: &C) -> &C {
         control
     }
-}
-
-/// Whether the options of a control that steps to a tolerance are in range.
-///
-/// # Errors
-/// [`StartError::Parameter`] and [`StartError::Step`].
-fn validate(tolerance: f64, first_step: f64) -> Result<(), StartError> {
-    let is_tolerance = tolerance > 0.0 && tolerance.is_finite();
-    if !is_tolerance {
-        return Err(StartError::Parameter {
-            name: "tolerance",
-            value: tolerance,
-            range: "positive and finite",
-        });
-    }
-    if !is_length(first_step) {
-        return Err(StartError::Step { h: first_step });
-    }
-    Ok(())
 }

@@ -14,6 +14,7 @@ use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Method};
 use crate::scalar::norm::{larger, reported};
 use crate::solve::crossing::zero;
+use crate::system::start::is_length;
 use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector};
 
 /// Iterations of the secant method.
@@ -297,7 +298,13 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
     const REJECTS: bool = true;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
-        super::validate(self.tolerance, self.first_step)?;
+        if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
+            let (value, range) = (self.tolerance, "positive and finite");
+            return Err(StartError::Parameter { name: "tolerance", value, range });
+        }
+        if !is_length(self.first_step) {
+            return Err(StartError::Step { h: self.first_step });
+        }
         if S::FORCED || !S::AUTONOMOUS {
             let reason = "energy is not conserved: forces act on the system, or L depends on the time";
             return Err(StartError::Unsupported { option: "EnergyMomentum", reason });

@@ -7,8 +7,6 @@
 //! proportional–integral controller of Gustafsson 1991, with the constants of Hairer & Wanner 1996, section
 //! IV.2. Steps settle at e = 1. After a step that is taken back h' = h/e.
 
-use core::fmt;
-
 use super::seams::{AtSeam, Seams};
 use super::{ControlledRun, StepControl, breaks};
 use crate::error::{StartError, StepError, StepFailure};
@@ -152,6 +150,7 @@ impl ErrorControl<'_> {
 }
 
 /// What [`ErrorControl`] carries from step to step.
+#[derive(Debug)]
 pub struct ErrorControlMemory<S: System, T: Real> {
     /// The length of the next step.
     h: T,
@@ -169,19 +168,6 @@ pub struct ErrorControlMemory<S: System, T: Real> {
 
 impl<S: System, T: Real> Memory<T> for ErrorControlMemory<S, T> {
     lasting!(T; number h, number error, number excess, number usual, parts seams; is_sound);
-}
-
-impl<S: System, T: Real + fmt::Debug> fmt::Debug for ErrorControlMemory<S, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { h, error, excess, usual, end, .. } = self;
-        f.debug_struct("ErrorControlMemory")
-            .field("h", h)
-            .field("error", error)
-            .field("excess", excess)
-            .field("usual", usual)
-            .field("end", end)
-            .finish_non_exhaustive()
-    }
 }
 
 impl<S: System, T: Real> ErrorControlMemory<S, T> {

@@ -46,6 +46,7 @@ const NEAR: f64 = 8.0;
 const FADING: f64 = 0.98;
 
 /// What the seams of a system ask for.
+#[derive(Debug)]
 pub(super) struct Seams<S: System, T: Real> {
     /// Where the step begins.
     t: T,
