@@ -127,11 +127,6 @@ where
         &self.run
     }
 
-    /// The file.
-    pub fn path(&self) -> &Path {
-        self.file.path()
-    }
-
     /// The number of steps and the time of each checkpoint.
     pub fn checkpoints(&self) -> impl Iterator<Item = (u64, f64)> + '_ {
         self.file.kept().iter().map(|kept| (kept.step, kept.time))

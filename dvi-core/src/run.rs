@@ -40,14 +40,12 @@ pub use step_control::{
     ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;
-
 #[cfg(feature = "alloc")]
 pub use together::Together;
 
 /// A run of a method on a system: what an [`Integrator`] can do.
 ///
-/// `dyn Run<System = S, Scalar = f64>` is a run of any method:
-/// [a method that is chosen at run
+/// `dyn Run<System = S, Scalar = f64>` is a run of any method: [one that is chosen at run
 /// time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time) is one line. In a `Box` or
 /// behind `&mut` it is a run too.
 ///
@@ -124,21 +122,6 @@ pub trait Run {
     ///
     /// # Errors
     /// [`StartError`] if no run of the method can begin at the present point.
-    ///
-    /// ```
-    /// use dvi_core::prelude::*;
-    ///
-    /// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
-    /// struct Oscillator;
-    ///
-    /// let start = OscillatorState { x: 1.0, dot_x: 0.0 };
-    /// let mut run = Integrator::new(&Oscillator, Gauss::<4>::new(), 0.2, start)?;
-    /// for state in run.states_at([0.1, 0.123, 7.0, 70.7])? {
-    ///     let (t, OscillatorState { x, .. }) = state?;
-    ///     assert!((x - t.cos()).abs() < 1e-10);
-    /// }
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     fn states_at<I>(&mut self, times: I) -> Result<impl FusedIterator<Item = dense::Timed<Self>>, StartError>
     where
         Self: Sized,

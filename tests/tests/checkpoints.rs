@@ -151,7 +151,7 @@ fn a_checkpoint_of_another_run_is_refused() -> Outcome {
     assert!(matches!(refused(other)?, CheckpointError::Long { more } if more > 0));
     let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
     let other = Integrator::resume(&chain, Variational::trapezoid(), &checkpoint).err();
-    assert_eq!(refused(other)?, CheckpointError::Coordinates { expected: 4, found: 2 });
+    assert_eq!(refused(other)?, CheckpointError::Size { what: "coordinates", expected: 4, found: 2 });
     let beyond =
         Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint.with_step_size(0.0)).err();
     assert!(matches!(beyond, Some(StartError::Step { .. })), "{beyond:?}");

@@ -56,10 +56,6 @@ impl File {
         Ok(opened)
     }
 
-    pub(super) fn path(&self) -> &Path {
-        &self.path
-    }
-
     pub(super) fn kept(&self) -> &[Kept] {
         &self.kept
     }

@@ -114,11 +114,6 @@ impl Results {
         &self.members
     }
 
-    /// The shard that they are.
-    pub fn shard(&self) -> Shard {
-        self.shard
-    }
-
     /// The names of the entries of a state.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.plan.names.iter().map(String::as_str)

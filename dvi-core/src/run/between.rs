@@ -8,7 +8,7 @@ use crate::run::stepper::PointOf;
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::velocities;
-use crate::{Lagrangian, Real, System, Vector};
+use crate::{Lagrangian, Real, State, System, Vector};
 
 /// What a run of any method does for [`Dense`](crate::run::Dense): it keeps the point at which steps begin,
 /// and a copy of it is moved within the last one.
@@ -113,6 +113,26 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
     fn end(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<&[T], StepFailure> {
         self.velocity(system, t, v)?;
         Ok(&self.q)
+    }
+}
+
+/// A state in flat form.
+#[derive(Debug)]
+pub struct Flat<'a, S, T> {
+    pub(super) system: &'a S,
+    pub(super) q: &'a [T],
+    pub(super) v: &'a [T],
+}
+
+impl<S: System, T: Real> Flat<'_, S, T> {
+    /// The state.
+    pub(super) fn state(self) -> S::State<T> {
+        S::State::read(|block| self.system.block_len(block), self.q, self.v)
+    }
+
+    /// Writes it into another one, without allocation.
+    pub(super) fn refill(self, state: &mut S::State<T>) {
+        state.refill(|block| self.system.block_len(block), self.q, self.v);
     }
 }
 

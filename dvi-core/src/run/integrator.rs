@@ -33,20 +33,8 @@ use crate::{Held, Lagrangian, Real, Vector};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A control reads the velocity; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-///
-/// ```
-#[doc = include_str!("../../docs/hidden/kepler.txt")]
-/// // An orbit of eccentricity 0.9, from its pericentre.
-/// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
-/// let control = Reversible::power(0.02, 1.5);
-/// let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start)?;
-/// let (energy, first) = (run.energy(), run.step_size());
-/// run.take_steps(200)?;
-/// assert!(run.step_size() > 10.0 * first); // further out steps are longer
-/// assert!((run.energy() - energy).abs() < 1e-3);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// [`Reversible`](super::Reversible) shows a run under a control. A control reads the velocity; for
+/// L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
 pub struct Integrator<H, M, T = f64, C = T>
 where
     H: Held,

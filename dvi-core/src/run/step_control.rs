@@ -12,6 +12,9 @@ mod error_control;
 mod one_length;
 mod reversible;
 mod seams;
+mod search;
+mod turns;
+mod verdict;
 
 use core::fmt::Debug;
 
