@@ -16,7 +16,7 @@
 //! let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
 //! let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
 //! let record = run.record(10, 200)?; // now, and 200 times after 10 steps each
-//! let names: Vec<&str> = record.columns().iter().map(|column| column.name()).collect();
+//! let names: Vec<&str> = record.columns().iter().map(|column| &column.name[..]).collect();
 //! assert_eq!(names, ["time", "x", "y", "dot_x", "dot_y", "energy", "angular"]);
 //! assert_eq!((record.rows(), record.numbers("x")?.len()), (201, 201));
 //! # let mut files: [Vec<u8>; 3] = Default::default();

@@ -154,24 +154,6 @@ pub trait Run {
     /// # Errors
     /// As [`events`](Self::events).
     ///
-    /// ```
-    /// use dvi_core::prelude::*;
-    ///
-    /// #[lagrangian(
-    ///     coordinates(x, y),
-    ///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / x.hypot(y),
-    ///     events(pericentre = x * dot(x) + y * dot(y)),
-    /// )]
-    /// struct Kepler;
-    ///
-    /// let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
-    /// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
-    /// let event = run.declared_events([Direction::Rising])?.next_until(20.0)?.ok_or("it comes back")?;
-    /// assert_eq!(Kepler::REPORT.events[event.index], "pericentre");
-    /// assert!((event.state.x - 1.0).abs() < 1e-9);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
     /// So many directions as there are events are a condition that the compiler asks for:
     ///
     /// ```compile_fail

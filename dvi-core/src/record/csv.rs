@@ -18,9 +18,9 @@ impl Record {
     /// Those of `to`.
     pub fn write_csv(&self, to: impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(to);
-        writer.write_record(self.columns.iter().map(Column::name)).map_err(io::Error::from)?;
+        writer.write_record(self.columns.iter().map(|column| &column.name)).map_err(io::Error::from)?;
         for row in 0..self.rows() {
-            let entries = self.columns.iter().map(|column| match column.values() {
+            let entries = self.columns.iter().map(|column| match &column.values {
                 // As many digits as tell it from its neighbours.
                 Values::Numbers(numbers) => format!("{:?}", numbers[row]),
                 Values::Counts(counts) => counts[row].to_string(),

@@ -17,7 +17,7 @@ pub(super) fn write(columns: &[Column], rows: usize, to: impl Write) -> io::Resu
     to.write_all(&head(columns, &letters, rows)?)?;
     for row in 0..rows {
         for (column, &letters) in columns.iter().zip(&letters) {
-            match column.values() {
+            match &column.values {
                 Values::Numbers(numbers) => to.write_all(&numbers[row].to_le_bytes())?,
                 Values::Counts(counts) => to.write_all(&counts[row].to_le_bytes())?,
                 Values::Texts(texts) => {
@@ -34,7 +34,7 @@ pub(super) fn write(columns: &[Column], rows: usize, to: impl Write) -> io::Resu
 
 /// The letters of the longest text of a column, at least one: there is no type for texts of none.
 fn letters(column: &Column) -> usize {
-    match column.values() {
+    match &column.values {
         Values::Texts(texts) => texts.iter().map(|text| text.chars().count()).fold(1, usize::max),
         Values::Numbers(_) | Values::Counts(_) => 1,
     }
@@ -43,8 +43,8 @@ fn letters(column: &Column) -> usize {
 /// What stands before the records: their type as a literal of Python.
 fn head(columns: &[Column], letters: &[usize], rows: usize) -> io::Result<Vec<u8>> {
     let field = |(column, letters): (&Column, &usize)| {
-        let name = literal(column.name());
-        match column.values() {
+        let name = literal(&column.name);
+        match &column.values {
             Values::Numbers(_) => format!("({name}, '<f8'), "),
             Values::Counts(_) => format!("({name}, '<u8'), "),
             Values::Texts(_) => format!("({name}, '<U{letters}'), "),

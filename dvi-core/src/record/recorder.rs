@@ -81,7 +81,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
             [("time", Quantity::Time), ("energy", Quantity::Energy)].into_iter().chain(momenta)
         {
             let mut name = name.to_string();
-            while columns.iter().any(|column| column.name() == name) {
+            while columns.iter().any(|column| column.name == name) {
                 name.insert_str(0, "run.");
             }
             columns.push(column(name, quantity));

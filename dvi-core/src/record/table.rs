@@ -70,13 +70,13 @@ impl Record {
     /// [`RecordError::Duplicate`] if there is one of this name, [`RecordError::Rows`] if it is longer or
     /// shorter than those that there are.
     pub fn with_column(mut self, column: Column) -> Result<Self, RecordError> {
-        let name = column.name();
-        if self.columns.iter().any(|other| other.name() == name) {
-            return Err(RecordError::Duplicate { name: name.into() });
+        let name = &column.name;
+        if self.columns.iter().any(|other| other.name == *name) {
+            return Err(RecordError::Duplicate { name: name.clone() });
         }
         let (found, expected) = (column.len(), self.rows());
         if found != expected && !self.columns.is_empty() {
-            return Err(RecordError::Rows { name: name.into(), found, expected });
+            return Err(RecordError::Rows { name: name.clone(), found, expected });
         }
         self.columns.push(column);
         Ok(self)
@@ -162,7 +162,7 @@ impl Record {
     /// [`RecordError::Missing`]; [`RecordError::Texts`] if it holds counts or texts, and
     /// [`RecordError::Number`] if these were [read](Self::read_csv).
     pub fn numbers(&self, name: &str) -> Result<&[f64], RecordError> {
-        match self.column(name)?.values() {
+        match &self.column(name)?.values {
             Values::Numbers(numbers) => Ok(numbers),
             Values::Counts(_) => Err(RecordError::Texts { name: name.into() }),
             Values::Texts(texts) => {
@@ -178,8 +178,8 @@ impl Record {
     }
 
     fn place(&self, name: &str) -> Result<usize, RecordError> {
-        self.columns.iter().position(|column| column.name() == name).ok_or_else(|| {
-            let names: Vec<&str> = self.columns.iter().map(Column::name).collect();
+        self.columns.iter().position(|column| column.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.columns.iter().map(|column| &column.name[..]).collect();
             RecordError::Missing { name: name.into(), columns: names.join(", ") }
         })
     }

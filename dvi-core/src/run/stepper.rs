@@ -1,7 +1,5 @@
 //! What runs of all kinds have in them.
 
-use core::fmt;
-
 use crate::error::{StepError, StepFailure};
 use crate::memory::Aside;
 use crate::methods::before::Before;
@@ -26,17 +24,6 @@ pub(crate) struct Stepper<S: System, M: Carries<S, T>, T: Real> {
 
 /// A point of a run of a method on a system.
 pub(super) type PointOf<S, M, T> = Before<<M as Carries<S, T>>::Memory, Vector<S, T>>;
-
-impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<S, M, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Stepper")
-            .field("system", &S::REPORT.system)
-            .field("method", &self.method)
-            .field("q", &self.q)
-            .field("statistics", &self.statistics)
-            .finish_non_exhaustive()
-    }
-}
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Sets `v` to the velocity at the current point, which is reached at time `t`.

@@ -42,7 +42,7 @@ pub(crate) const DEPTH: usize = 7;
 
 /// Row m: the coefficients of the last m increments, the newest first.
 #[rustfmt::skip]
-const COEFFICIENTS: [[f64; DEPTH]; DEPTH + 1] = [
+pub(super) const COEFFICIENTS: [[f64; DEPTH]; DEPTH + 1] = [
     [0.0,   0.0,  0.0,   0.0,  0.0,   0.0, 0.0],
     [1.0,   0.0,  0.0,   0.0,  0.0,   0.0, 0.0],
     [2.0,  -1.0,  0.0,   0.0,  0.0,   0.0, 0.0],
@@ -105,11 +105,6 @@ impl<S: System, T: Real> History<S, T> {
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         self.len <= DEPTH && self.next < DEPTH
-    }
-
-    /// The last increment, or the first guess.
-    pub(crate) fn latest(&self) -> &Vector<S, T> {
-        if self.len == 0 { &self.seed } else { &self.ring[(self.next + DEPTH - 1) % DEPTH] }
     }
 
     /// Forgets all increments; the next guess is `seed`.

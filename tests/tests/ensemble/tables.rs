@@ -128,17 +128,17 @@ fn the_record_of_an_ensemble() -> Checked {
     assert_eq!(numbers("dot_x")?, of(&|member| member.state[2]));
     assert_eq!(numbers("parameter.mu")?, of(&|member| systems[member.number as usize].mu));
     assert_eq!(numbers("parameter.start")?, of(&|member| states[member.number as usize].dot_y));
-    let quantity = |name: &str| record.column(name).map(dvi_core::record::Column::quantity);
+    let quantity = |name: &str| record.column(name).map(|column| column.quantity);
     assert_eq!([quantity("y")?, quantity("dot_x")?], [Quantity::Coordinate, Quantity::Velocity]);
     assert_eq!(quantity("parameter.mu")?, Quantity::Parameter);
-    let Values::Texts(outcomes) = record.column("run.outcome")?.values() else { panic!("they are words") };
+    let Values::Texts(outcomes) = &record.column("run.outcome")?.values else { panic!("they are words") };
     let expected = results.members().iter().map(|member| match member.outcome {
         Outcome::Finished => "finished",
         Outcome::Exited { .. } => "exited",
         Outcome::Failed { .. } => "failed",
     });
     assert!(outcomes.iter().eq(expected) && outcomes[4] == "failed");
-    assert_eq!(record.column("run.member")?.values(), &Values::Counts(vec![0, 1, 2, 3, 4, 5, 6]));
+    assert_eq!(record.column("run.member")?.values, Values::Counts(vec![0, 1, 2, 3, 4, 5, 6]));
     Ok(())
 }
 

@@ -96,8 +96,8 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> 
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for ControlledRun<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> fmt::Debug for ControlledRun<'_, S, M, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ControlledRun").field("stepper", &self.stepper).finish_non_exhaustive()
+        f.debug_struct("ControlledRun").field("q", &self.q()).finish_non_exhaustive()
     }
 }

@@ -194,8 +194,12 @@ where
             let failure = StepFailure::Unreachable { now: reported(now), target: reported(t) };
             return Err(step_error(self.system(), self.steps(), now, failure));
         }
+        let is_ahead = |run: &Self| run.is_before(t) && run.time() + (t - run.time()) != run.time();
+        let mut result = Ok(());
         self.control_memory.end = Some(t);
-        let result = self.steps_to(t);
+        while result.is_ok() && is_ahead(self) {
+            result = self.advance();
+        }
         self.control_memory.end = None;
         result
     }
@@ -204,13 +208,6 @@ where
     fn is_before(&self, t: T) -> bool {
         let now = self.time();
         if self.control_memory.h > T::lift(0.0) { now < t } else { now > t }
-    }
-
-    fn steps_to(&mut self, t: T) -> Result<(), StepError> {
-        while self.is_before(t) && self.time() + (t - self.time()) != self.time() {
-            self.advance()?;
-        }
-        Ok(())
     }
 }
 
