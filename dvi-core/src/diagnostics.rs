@@ -14,16 +14,12 @@
 
 mod alternating;
 mod convergence;
-mod hessian;
 mod lyapunov;
 mod tangent;
-mod two_point;
 mod work;
 
 pub use alternating::AlternatingComponent;
 pub use convergence::convergence_order;
-use hessian::DiscreteHessian;
 pub use lyapunov::LyapunovExponent;
 pub use tangent::TangentMap;
-pub use two_point::TwoPointTangentMap;
 pub use work::Work;

@@ -6,5 +6,6 @@
 #[cfg(feature = "gallery")]
 pub mod figure;
 pub mod models;
+pub mod osculating;
 #[cfg(feature = "gallery")]
 pub mod output;

@@ -25,3 +25,4 @@ pub use crate::rk4::*;
 pub use crate::runs::*;
 pub use crate::series::*;
 pub use dvi_examples::models::{self, *};
+pub use dvi_examples::osculating::{CentreSpeed, Osculating};

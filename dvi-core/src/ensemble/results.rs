@@ -8,7 +8,7 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::Shard;
-use super::error::{EnsembleError, MergeError};
+use super::error::EnsembleError;
 use super::file;
 use super::group::{Place, Slot};
 use super::member::Member;
@@ -81,14 +81,14 @@ impl Results {
     /// whole.
     ///
     /// # Errors
-    /// [`MergeError`] if they are seen to belong to different ensembles, as [a
+    /// [`EnsembleError`] if they are seen to belong to different ensembles, as [a
     /// checkpoint](super::Ensemble::checkpoints) is, if a member occurs twice, or if one is missing.
-    pub fn merge(shards: impl IntoIterator<Item = Self>) -> Result<Self, MergeError> {
+    pub fn merge(shards: impl IntoIterator<Item = Self>) -> Result<Self, EnsembleError> {
         let mut shards = shards.into_iter();
-        let mut whole = shards.next().ok_or(MergeError::Nothing)?;
+        let mut whole = shards.next().ok_or(EnsembleError::Nothing)?;
         for Self { plan, shard, members } in shards {
             if let Some(difference) = whole.plan.difference(&plan) {
-                return Err(MergeError::Foreign { shard, difference });
+                return Err(EnsembleError::ForeignShard { shard, difference });
             }
             whole.members.extend(members);
         }
@@ -96,15 +96,15 @@ impl Results {
         whole.shard = Shard::WHOLE;
         for (expected, Member { number, .. }) in (0..).zip(&whole.members) {
             if *number < expected {
-                return Err(MergeError::Twice { member: *number });
+                return Err(EnsembleError::Twice { member: *number });
             }
             if *number > expected {
-                return Err(MergeError::Missing { member: expected, members: whole.plan.members });
+                return Err(EnsembleError::Missing { member: expected, members: whole.plan.members });
             }
         }
         let found = whole.members.len() as u64;
         if found < whole.plan.members {
-            return Err(MergeError::Missing { member: found, members: whole.plan.members });
+            return Err(EnsembleError::Missing { member: found, members: whole.plan.members });
         }
         Ok(whole)
     }
@@ -112,11 +112,6 @@ impl Results {
     /// The members, in the order of their numbers.
     pub fn members(&self) -> &[Member] {
         &self.members
-    }
-
-    /// The shard that they are.
-    pub fn shard(&self) -> Shard {
-        self.shard
     }
 
     /// The names of the entries of a state.
@@ -134,7 +129,7 @@ impl Results {
     /// | `parameter.k` | the [parameters](super::Ensemble::parameter) by their names |
     /// | `energy.first`, `energy.last`, `energy.largest_error` | the energies |
     /// | `momentum.angular.first`, `momentum.angular.last` | the momenta by their names |
-    /// | `x`, `dot_x`, … | the last state; [`Table::states`](super::Table::states) reads it from the CSV |
+    /// | `x`, `dot_x`, … | the last state; [`Record::states`] reads it from the CSV |
     ///
     /// In an array of NumPy the reasons take four bytes for each letter of the longest one:
     /// [`without_column`](Record::without_column) leaves them out.

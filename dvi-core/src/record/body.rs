@@ -54,17 +54,17 @@ fn parts(name: &str) -> Vec<(usize, &str, &str)> {
 /// The bodies that names tell, in the order of their first columns, and the `turning` ones; none if rows are
 /// not states one after the other.
 pub(super) fn told(columns: &[Column], turning: &[Body]) -> Vec<Body> {
-    if columns.iter().all(|column| column.quantity() != Quantity::Time) {
+    if columns.iter().all(|column| column.quantity != Quantity::Time) {
         return Vec::new();
     }
     let is_known = |name: &str| turning.iter().any(|body| body.position.iter().any(|known| known == name));
     let mut found: BTreeMap<(&str, &str), [Option<usize>; 3]> = BTreeMap::new();
     for (place, column) in columns.iter().enumerate() {
-        let is_position = matches!(column.quantity(), Quantity::Coordinate | Quantity::Other);
-        if !is_position || !matches!(column.values(), Values::Numbers(_)) || is_known(column.name()) {
+        let is_position = matches!(column.quantity, Quantity::Coordinate | Quantity::Other);
+        if !is_position || !matches!(column.values, Values::Numbers(_)) || is_known(&column.name) {
             continue;
         }
-        for (axis, rest, index) in parts(column.name()) {
+        for (axis, rest, index) in parts(&column.name) {
             found.entry((rest, index)).or_default()[axis].get_or_insert(place);
         }
     }
@@ -72,7 +72,7 @@ pub(super) fn told(columns: &[Column], turning: &[Body]) -> Vec<Body> {
         let [Some(x), Some(y), z] = places else { return None };
         let name = format!("{}{index}", rest.trim_matches('_'));
         let position = [Some(x), Some(y), z].into_iter().flatten();
-        let position = position.map(|place| columns[place].name().into()).collect();
+        let position = position.map(|place| columns[place].name.clone()).collect();
         Some((x, Body { name, position, is_arm: false }))
     };
     let mut bodies: Vec<(usize, Body)> = found.into_iter().filter_map(body).collect();

@@ -61,7 +61,7 @@ fn data(record: &Record) -> io::Result<String> {
         bodies: Vec<Body>,
     }
 
-    let columns = record.columns().iter().filter(|column| !matches!(column.values(), Values::Texts(_)));
+    let columns = record.columns().iter().filter(|column| !matches!(column.values, Values::Texts(_)));
     let text = serde_json::to_string(&Data { columns: columns.collect(), bodies: record.bodies() })?;
     Ok(text.replace('<', "\\u003c"))
 }

@@ -48,6 +48,8 @@ pub struct Record {
     pub(super) turning: Vec<Body>,
     /// Those that the user has named.
     named: Vec<Body>,
+    /// Where the rows begin in the text that they were read from; empty if they were not.
+    pub(super) lines: Vec<u64>,
 }
 
 impl Record {
@@ -68,13 +70,13 @@ impl Record {
     /// [`RecordError::Duplicate`] if there is one of this name, [`RecordError::Rows`] if it is longer or
     /// shorter than those that there are.
     pub fn with_column(mut self, column: Column) -> Result<Self, RecordError> {
-        let name = column.name();
-        if self.columns.iter().any(|other| other.name() == name) {
-            return Err(RecordError::Duplicate { name: name.into() });
+        let name = &column.name;
+        if self.columns.iter().any(|other| other.name == *name) {
+            return Err(RecordError::Duplicate { name: name.clone() });
         }
         let (found, expected) = (column.len(), self.rows());
         if found != expected && !self.columns.is_empty() {
-            return Err(RecordError::Rows { name: name.into(), found, expected });
+            return Err(RecordError::Rows { name: name.clone(), found, expected });
         }
         self.columns.push(column);
         Ok(self)
@@ -157,17 +159,27 @@ impl Record {
     /// The numbers of a column.
     ///
     /// # Errors
-    /// [`RecordError::Missing`], and [`RecordError::Texts`] if it holds counts or texts.
+    /// [`RecordError::Missing`]; [`RecordError::Texts`] if it holds counts or texts, and
+    /// [`RecordError::Number`] if these were [read](Self::read_csv).
     pub fn numbers(&self, name: &str) -> Result<&[f64], RecordError> {
-        match self.column(name)?.values() {
+        match &self.column(name)?.values {
             Values::Numbers(numbers) => Ok(numbers),
-            Values::Counts(_) | Values::Texts(_) => Err(RecordError::Texts { name: name.into() }),
+            Values::Counts(_) => Err(RecordError::Texts { name: name.into() }),
+            Values::Texts(texts) => {
+                let mut read = self.lines.iter().zip(texts);
+                Err(match read.find(|(_, text)| text.parse::<f64>().is_err()) {
+                    Some((&line, text)) => {
+                        RecordError::Number { line, column: name.into(), text: text.clone() }
+                    }
+                    None => RecordError::Texts { name: name.into() },
+                })
+            }
         }
     }
 
     fn place(&self, name: &str) -> Result<usize, RecordError> {
-        self.columns.iter().position(|column| column.name() == name).ok_or_else(|| {
-            let names: Vec<&str> = self.columns.iter().map(Column::name).collect();
+        self.columns.iter().position(|column| column.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.columns.iter().map(|column| &column.name[..]).collect();
             RecordError::Missing { name: name.into(), columns: names.join(", ") }
         })
     }
@@ -175,22 +187,6 @@ impl Record {
     /// What was recorded before `error`, with it.
     pub(super) fn until(self, error: StepError) -> RecordError {
         RecordError::Step { record: Box::new(self), error }
-    }
-
-    /// Writes a table in CSV: the names, then a line for each row. Its numbers can be read back without a
-    /// rounding error; those that are none are `NaN`, `inf` and `-inf`.
-    ///
-    /// # Errors
-    /// Those of `to`.
-    pub fn write_csv(&self, to: impl Write) -> io::Result<()> {
-        let mut writer = csv::Writer::from_writer(to);
-        writer.write_record(self.columns.iter().map(Column::name)).map_err(io::Error::from)?;
-        for row in 0..self.rows() {
-            writer
-                .write_record(self.columns.iter().map(|column| column.text(row)))
-                .map_err(io::Error::from)?;
-        }
-        writer.flush()
     }
 
     /// Writes an array of records in the format of NumPy, with the columns as its fields:

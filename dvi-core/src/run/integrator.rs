@@ -4,20 +4,15 @@ use core::fmt;
 
 #[cfg(feature = "alloc")]
 use super::Checkpoint;
-#[cfg(feature = "alloc")]
-use super::begun::resumed;
-use super::begun::{Begun, BegunOf, begun, carried, point};
+use super::begun::{Begun, begun};
 use super::clock::Time;
-use super::{Between, ControlledRun, Obeys, OneLength, Run, StepControl, Stepper};
+use super::{Between, ControlledRun, Run, StepControl, Stepper};
 use crate::error::{StartError, StepError, StepFailure};
 #[cfg(feature = "alloc")]
 use crate::memory::Memory;
-#[cfg(doc)]
-use crate::methods::Sigma;
-use crate::methods::{BeginsBetween, Carries, Clock, Method, Suits, SuitsAnyStep};
+use crate::methods::{Carries, Clock, Method};
 use crate::state::Statistics;
 use crate::system::StateOf;
-use crate::system::start::{evaluate, flatten};
 use crate::{Held, Lagrangian, Real, Vector};
 
 /// A run of a method on a system: with steps of one length, or of those that a [`StepControl`] `C` chooses.
@@ -38,21 +33,9 @@ use crate::{Held, Lagrangian, Real, Vector};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A control reads the velocity; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-///
-/// ```
-#[doc = include_str!("../../docs/hidden/kepler.txt")]
-/// // An orbit of eccentricity 0.9, from its pericentre.
-/// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
-/// let control = Reversible::power(0.02, 1.5);
-/// let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start)?;
-/// let (energy, first) = (run.energy(), run.step_size());
-/// run.take_steps(200)?;
-/// assert!(run.step_size() > 10.0 * first); // further out steps are longer
-/// assert!((run.energy() - energy).abs() < 1e-3);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub struct Integrator<H, M, T = f64, C = OneLength<T>>
+/// [`Reversible`](super::Reversible) shows a run under a control. A control reads the velocity; for
+/// L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
+pub struct Integrator<H, M, T = f64, C = T>
 where
     H: Held,
     M: Carries<H::System, T>,
@@ -63,76 +46,7 @@ where
     pub(super) stepper: Stepper<H::System, M, T>,
     pub(super) control: C,
     pub(super) control_memory: C::Memory,
-    time: Time<T>,
-}
-
-impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrator<H, M, T> {
-    /// A run from `start` at time 0 with step `h`, which may be negative.
-    ///
-    /// # Errors
-    /// [`StartError`] if a parameter array of the system or an array of the state has the wrong length,
-    /// `h` is zero or not finite, a coordinate is not finite, an option of the method is out of range,
-    /// the energy or a first derivative of L is not finite at the start ([`StartError::Undefined`]), or the
-    /// starting values cannot be computed.
-    pub fn new<X>(system: H, method: X, h: T, start: StateOf<H, T>) -> Result<Self, StartError>
-    where
-        X: Suits<H::System, T, M>,
-    {
-        Self::new_at(system, method, T::lift(0.0), h, start)
-    }
-
-    /// A run from `start` at time `t`; else as [`new`](Self::new).
-    ///
-    /// # Errors
-    /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
-    pub fn new_at<X>(system: H, method: X, t: T, h: T, start: StateOf<H, T>) -> Result<Self, StartError>
-    where
-        X: Suits<H::System, T, M>,
-    {
-        let (method, length) = (method.suited(), OneLength(h));
-        let begun = begun(system.held(), X::steps(&method), &length, t, &start)?;
-        Ok(Self::of(system, method, length, begun))
-    }
-
-    /// A run of [`Sigma`] that starts at `first`, time 0, and whose first step leads to `second`.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    pub fn from_two_points<X>(
-        system: H,
-        method: X,
-        h: T,
-        first: StateOf<H, T>,
-        second: StateOf<H, T>,
-    ) -> Result<Self, StartError>
-    where
-        X: BeginsBetween<H::System, T, M>,
-    {
-        let (held, t) = (system.held(), T::lift(0.0));
-        let (at, [q1, rest]) = (point(held, t, &first)?, flatten(held, &second)?);
-        evaluate(held, &q1, &rest, t + h)?;
-        let begin = |q0: &_, _: &_, h| method.begin_between(held, q0, &q1, t, h);
-        let length = OneLength(h);
-        let begun =
-            carried::<_, OneLength<T>, _, _>(held, at, t, |q, v| length.begin(held, q, v, t), begin)?;
-        Ok(Self::of(system, method.suited(), length, begun))
-    }
-
-    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
-    /// [step](Checkpoint::with_step_size) from the same momenta.
-    ///
-    /// # Errors
-    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than this method
-    /// carries on this system, or numbers that no run has.
-    #[cfg(feature = "alloc")]
-    pub fn resume<X>(system: H, method: X, checkpoint: &Checkpoint<T>) -> Result<Self, StartError>
-    where
-        X: Suits<H::System, T, M>,
-    {
-        let (method, length) = (method.suited(), OneLength(checkpoint.step_size()));
-        let begun = resumed(system.held(), X::steps(&method), &length, checkpoint)?;
-        Ok(Self::of(system, method, length, begun))
-    }
+    pub(super) time: Time<T>,
 }
 
 impl<H, M, T: Real, C> Integrator<H, M, T, C>
@@ -141,73 +55,6 @@ where
     M: Carries<H::System, T>,
     C: Carries<H::System, T>,
 {
-    /// A run from `start` at time 0 with steps that `control` chooses.
-    ///
-    /// # Errors
-    /// As [`new`](Integrator::new), and [`StartError`] if an option of the control is out of range, or it
-    /// does not go with the system or with the method.
-    pub fn controlled<X, Y>(
-        system: H,
-        method: X,
-        control: Y,
-        start: StateOf<H, T>,
-    ) -> Result<Self, StartError>
-    where
-        X: SuitsAnyStep<H::System, T, M>,
-        M: Obeys<Y, H::System, T, C>,
-    {
-        Self::controlled_at(system, method, control, T::lift(0.0), start)
-    }
-
-    /// A run from `start` at time `t`; else as [`controlled`](Self::controlled).
-    ///
-    /// # Errors
-    /// As [`controlled`](Self::controlled), and [`StartError::Parameter`] if `t` is not finite.
-    pub fn controlled_at<X, Y>(
-        system: H,
-        method: X,
-        control: Y,
-        t: T,
-        start: StateOf<H, T>,
-    ) -> Result<Self, StartError>
-    where
-        X: SuitsAnyStep<H::System, T, M>,
-        M: Obeys<Y, H::System, T, C>,
-    {
-        let (method, control) = (method.suited(), M::suited(control));
-        let begun = begun(system.held(), X::steps(&method), M::lengths(&control), t, &start)?;
-        Ok(Self::of(system, method, control, begun))
-    }
-
-    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped. What a control
-    /// carries from step to step, the length and the direction of the next step among it, is that of the
-    /// checkpoint.
-    ///
-    /// # Errors
-    /// As [`controlled_at`](Self::controlled_at), and [`StartError::Checkpoint`] if it has more or less than
-    /// method and control carry on this system, or numbers that no run has.
-    #[cfg(feature = "alloc")]
-    pub fn resume_controlled<X, Y>(
-        system: H,
-        method: X,
-        control: Y,
-        checkpoint: &Checkpoint<T>,
-    ) -> Result<Self, StartError>
-    where
-        X: SuitsAnyStep<H::System, T, M>,
-        M: Obeys<Y, H::System, T, C>,
-    {
-        let (method, control) = (method.suited(), M::suited(control));
-        let begun = resumed(system.held(), X::steps(&method), M::lengths(&control), checkpoint)?;
-        Ok(Self::of(system, method, control, begun))
-    }
-
-    pub(super) fn of(system: H, method: M, control: C, begun: BegunOf<H::System, M::Memory, C, T>) -> Self {
-        let Begun { q, memory, kept, control_memory, time, statistics } = begun;
-        let stepper = Stepper { method, memory, q, statistics, failed: false, kept, points: None };
-        Self { system, stepper, control, control_memory, time }
-    }
-
     /// The method that takes the steps.
     #[inline]
     pub fn method(&self) -> &M {

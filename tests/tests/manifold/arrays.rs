@@ -2,9 +2,9 @@
 //! conserved, and what knows of the entries.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use dvi_core::ensemble::Table;
 use dvi_core::error::StepFailure;
 use dvi_core::prelude::*;
+use dvi_core::record::Record;
 use dvi_core::record::Recorder;
 use dvi_core::rotations;
 
@@ -286,7 +286,7 @@ fn entries_have_names_and_places() -> Outcome {
     assert_eq!(values, expected);
     let numbers: Vec<String> = values.iter().map(f64::to_string).collect();
     let table = format!("{}\n{}\n", names.join(","), numbers.join(","));
-    assert_eq!(Table::read(table.as_bytes())?.states(&bodies)?, [start]);
+    assert_eq!(Record::read_csv(table.as_bytes())?.states(&bodies)?, [start]);
     assert!(Bodies::<2>::REPORT.to_string().contains("  x\n  R[N]: SO3\n"));
 
     let found: Vec<_> = Recorder::new(&bodies).finish().bodies();
