@@ -12,6 +12,7 @@
 mod attempt;
 mod coefficients;
 mod displaced;
+mod evaluation;
 mod interior;
 mod memory;
 mod steps;
@@ -21,7 +22,7 @@ use crate::mechanics::motion::{InLanes, OneByOne};
 use crate::methods::Tabulated;
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
-use interior::NodeEvaluation;
+use evaluation::NodeEvaluation;
 
 /// The discrete Lagrangian of the Lobatto rule with `S` nodes, 3 ≤ `S` ≤ 9, stationary in displacements of
 /// the interior nodes.

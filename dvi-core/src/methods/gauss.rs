@@ -25,6 +25,7 @@ use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvalu
 use crate::methods::{
     Carries, Here, Method, PreservedForm, Scheme, Step, Tabulated, Tolerance, VariableStep,
 };
+use crate::scalar::simd::widest_if;
 use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, from_either_guess, iterate};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -151,7 +152,8 @@ where
         let GaussMemory { ladder, path } = memory;
         // Where Newton's method stands by, a fixed point that is slow is left to it.
         let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        E::run(
+        widest_if(
+            E::WIDE,
             #[cfg_attr(not(debug_assertions), inline(always))]
             || {
                 ladder.solve(

@@ -12,15 +12,18 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
+use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::mass::Mass;
 use crate::mechanics::mass_root::MassRoot;
+use crate::mechanics::phase::Arrival;
 use crate::memory::{Memory, lasting};
 use crate::methods::kicks::kick;
+use crate::methods::step::{Carried, Work};
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use crate::scalar::norm;
+use crate::state::summation::Summation;
 use crate::system::Same;
-use crate::{Real, RegularLagrangian, Scalar, Separable, Space, System, Vector};
+use crate::{Real, RegularLagrangian, Scalar, Separable, System, Vector};
 
 /// Langevin dynamics, for [`Separable`] systems: friction and noise as of a heat bath, by the splitting
 /// BAOAB (Leimkuhler & Matthews 2013).
@@ -72,31 +75,25 @@ pub struct Langevin {
     pub seed: u64,
 }
 
-/// The momentum and the force of a run, how many steps it has taken, and work space.
+/// What a run carries, how many steps it has taken, and its noise.
 #[derive(Debug)]
 pub struct LangevinMemory<S: System, T: Real> {
-    p: Vector<S, T>,
-    force: Vector<S, T>,
+    carried: Carried<S, T>,
     /// The number of the step, which is that of the stream of noise.
     step: u64,
     generator: ChaCha8Rng,
-    mass: Mass<S, T>,
     /// If there is noise.
     root: Option<MassRoot<S, T>>,
-    /// q, p and F at the end of a step.
-    end: [Vector<S, T>; 3],
-    /// A velocity or normal numbers, and noise.
-    work: [Vector<S, T>; 2],
 }
 
 impl<S: System, T: Real> Memory<T> for LangevinMemory<S, T> {
-    lasting!(T; numbers p, numbers force, count step);
+    lasting!(T; part carried, count step);
 }
 
 impl<S: System, T: Real> LangevinMemory<S, T> {
     /// p = M v at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
-        &self.p
+        &self.carried.phase.p
     }
 }
 
@@ -121,7 +118,7 @@ impl Langevin {
         root: Option<&MassRoot<S, T>>,
         h: T,
         generator: &mut ChaCha8Rng,
-        [normal, noise]: &mut [Vector<S, T>; 2],
+        [normal, noise]: [&mut Vector<S, T>; 2],
     ) {
         let kept = Scalar::exp(T::lift(-self.friction) * h);
         let Some(root) = root else {
@@ -164,16 +161,11 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin 
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.validate(h)?;
-        let mass = Mass::new(system, q, t).map_err(StartError::Starter)?;
+        let carried = Carried::new(system, q, v, t, Summation::Plain)?;
         let has_noise = self.friction > 0.0 && self.temperature > 0.0;
-        let root =
-            has_noise.then(|| MassRoot::new(system, &mass).map_err(StartError::Starter)).transpose()?;
-        let [mut p, mut force] = system.space().vectors();
-        mass.multiply_add(T::lift(1.0), v, &mut p);
-        system.force(q, &[], t, &mut force);
-        let (end, work) = (system.space().vectors(), system.space().vectors());
+        let root = has_noise.then(|| MassRoot::new(system, &carried.inertial.mass)).transpose();
         let generator = ChaCha8Rng::seed_from_u64(self.seed);
-        Ok(LangevinMemory { p, force, step: 0, generator, mass, root, end, work })
+        Ok(LangevinMemory { carried, step: 0, generator, root: root.map_err(StartError::Starter)? })
     }
 
     fn begun_anew(&self, before: &Self::Memory, begun: Self::Memory) -> Self::Memory {
@@ -182,36 +174,34 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin 
 
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
-        let LangevinMemory { p, force, step, generator, mass, root, end: [q1, p1, f1], work } = memory;
-        let half = T::lift(0.5) * h;
+        let LangevinMemory { carried: Carried { phase, inertial, work }, step, generator, root } = memory;
+        let Work { node: NodeWork { point: q1, velocity, gradient: f1, momentum: p1 }, trial, .. } = work;
+        let (half, mass) = (T::lift(0.5) * h, &inertial.mass);
         q1.copy_from_slice(q);
-        p1.copy_from_slice(p);
-        kick(p1, half, force);
-        mass.solve(p1, &mut work[0]);
-        kick(q1, half, &work[0]);
+        p1.copy_from_slice(&phase.p);
+        kick(p1, half, &phase.force);
+        mass.solve(p1, velocity);
+        kick(q1, half, velocity);
         generator.set_stream(*step);
         generator.set_word_pos(0);
-        self.exchange(p1, root.as_ref(), h, generator, work);
-        mass.solve(p1, &mut work[0]);
-        kick(q1, half, &work[0]);
+        self.exchange(p1, root.as_ref(), h, generator, [trial, velocity]);
+        mass.solve(p1, velocity);
+        kick(q1, half, velocity);
         system.force(q1, &[], t + h, f1);
         statistics.gradients += 1;
         kick(p1, half, f1);
         norm::finite(q1).and(norm::finite(p1))?;
-        q.copy_from_slice(q1);
-        p.copy_from_slice(p1);
-        force.copy_from_slice(f1);
+        phase.set(q, &Arrival { q: q1, p: p1, force: f1 });
         *step += 1;
         Ok(())
     }
 
     fn velocity(
         &self,
-        _here: Here<'_, S, T>,
+        here: Here<'_, S, T>,
         memory: &Self::Memory,
         v: &mut Vector<S, T>,
     ) -> Result<(), StepFailure> {
-        memory.mass.solve(&memory.p, v);
-        Ok(())
+        memory.carried.velocity(here, v)
     }
 }

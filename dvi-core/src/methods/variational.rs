@@ -7,54 +7,25 @@
 //! −D₁L_d(q0, q1) for q1 and evaluates p1 = D₂L_d(q0, q1), as p1 = p0 + (D₁ + D₂)L_d, which rounds less.
 
 mod coefficients;
-mod flight;
 mod lagrangian;
+mod steps;
 mod together;
 mod verlet;
 
+use crate::discrete::Interval;
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Local, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
-use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::methods::step::{Attempt, PhaseMemory};
-use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
+use crate::methods::{Clock, Step};
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
-use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
+use crate::{NondegenerateLagrangian, Real, System};
 
 use coefficients::Coefficients;
+pub use coefficients::Fitting;
 use lagrangian::{Interpolated, read};
-
-/// What a phase-fitted interpolation is made exact for on the oscillator of its frequency.
-///
-/// ```
-/// use dvi_core::prelude::*;
-///
-/// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
-/// struct Oscillator;
-///
-/// let start = OscillatorState { x: 0.0, dot_x: 1.0 };
-/// let end = |fitting| -> Result<f64, Box<dyn std::error::Error>> {
-///     let method = Variational { fitting, ..Variational::midpoint().phase_fitted(Constant(1.0)) };
-///     let mut run = Integrator::new(&Oscillator, method, 1.0, start.clone())?;
-///     run.advance()?;
-///     Ok(run.state().x)
-/// };
-/// let exact = 1_f64.sin();
-/// assert!((end(Fitting::PhaseAndMomentum)? - exact).abs() < 1e-14);
-/// assert!((end(Fitting::Phase)? * 1.188 - exact).abs() < 1e-3); // the momentum is 1.188 v
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Fitting {
-    /// The positions: q_{k+1} = 2 cos(ωh) q_k − q_{k−1}. The momentum is s·v with a factor s near one
-    /// (midpoint at ωh = 1: 1.188), so that a run from given velocities has a wrong amplitude for ever.
-    #[default]
-    Phase,
-    /// Positions and momenta: the weights are multiplied by (sin u/u)/S, u = ωh, S = Σ wⱼ cos((1 − 2cⱼ)u).
-    PhaseAndMomentum,
-}
 
 /// The quadrature family: the discrete Lagrangian is a quadrature rule of L on an interpolation between the
 /// two ends.
@@ -281,71 +252,4 @@ pub struct Interpolation<S: System, T: Real> {
 
 impl<S: System, T: Real> Memory<T> for Interpolation<S, T> {
     lasting!(T;);
-}
-
-impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
-    fn order(&self) -> usize {
-        if self.rule.is_exact_for_linear() { 2 } else { 1 }
-    }
-    fn is_symmetric(&self) -> bool {
-        self.rule.is_symmetric() && self.frequency.reading() != Some(Reading::LeftFrozen)
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        match self.frequency.reading() {
-            None | Some(Reading::Variational) => PreservedForm::Canonical,
-            Some(Reading::LeftFrozen | Reading::Averaged) => PreservedForm::Nothing,
-        }
-    }
-}
-
-impl<S: System, F, R, T: Real> Carries<S, T> for Variational<F, R> {
-    type Memory = PhaseMemory<S, T, Interpolation<S, T>>;
-}
-
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
-    type Suited<X> = S::Suited<X>;
-
-    fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.depart_from(system, (q, v, t), h)
-    }
-
-    // A step of Simpson's rule with a frequency of the motion takes 976 instructions, and 1149 without it.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        self.take(step, memory)
-    }
-
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
-        memory.carried.velocity(here, v)
-    }
-
-    #[inline]
-    fn steps(&self, steps: Steps<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
-            let Steps { system, q, clock, count, statistics } = steps;
-            let (taken, result) = verlet::steps(system, &mut memory.carried, q, clock, count);
-            statistics.gradients += taken;
-            statistics.steps += taken;
-            result
-        } else {
-            steps.one_by_one(self, memory)
-        }
-    }
-
-    fn has_discrete_energy(&self) -> bool {
-        F::UNFITTED
-    }
-
-    fn discrete_energy(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> T {
-        if F::UNFITTED { self.energy_of(span, work) } else { T::lift(f64::NAN) }
-    }
-}
-
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }

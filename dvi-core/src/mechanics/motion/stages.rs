@@ -5,7 +5,6 @@ use super::{EquationsOf, FirstOrder, Motion, PackedOf, PointOf};
 use crate::error::StepFailure;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
-use crate::scalar::simd::widest_if;
 use crate::state::Statistics;
 use crate::{Real, Space, System, Vector};
 
@@ -88,23 +87,16 @@ const BLOCK: usize = 4;
 
 /// For which instructions steps are compiled.
 pub trait Evaluation {
-    /// Runs `steps`, a closure that is `#[cfg_attr(not(debug_assertions), inline(always))]` where it is
-    /// written.
-    fn run<R>(steps: impl FnOnce() -> R) -> R;
+    /// Whether for the widest of the processor.
+    const WIDE: bool;
 }
 
 impl Evaluation for OneByOne {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<R>(steps: impl FnOnce() -> R) -> R {
-        steps()
-    }
+    const WIDE: bool = false;
 }
 
 impl Evaluation for InLanes {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run<R>(steps: impl FnOnce() -> R) -> R {
-        widest_if(true, steps)
-    }
+    const WIDE: bool = true;
 }
 
 /// How the equations of motion are evaluated at the `W` stages of a step.

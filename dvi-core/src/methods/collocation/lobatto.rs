@@ -14,9 +14,7 @@
 use super::legendre;
 use crate::discrete::Rule;
 
-/// The numbers of nodes that there are tables for.
-pub(in crate::methods) const FEWEST: usize = 3;
-/// See [`FEWEST`].
+/// The largest number of nodes that there are tables for.
 pub(in crate::methods) const MOST: usize = 9;
 
 /// The nodes from the centre on, and their weights, for 2 to 9 nodes; computed in 60 digits as the zeros of
@@ -69,11 +67,8 @@ impl<const S: usize> Rule for Lobatto<S> {
 }
 
 impl<const S: usize> Lobatto<S> {
-    /// The last node inside.
-    const INSIDE: usize = S - 2;
-
     pub(in crate::methods) fn new() -> Self {
-        const { assert!(S >= FEWEST && S <= MOST, "interior displacements are available with 3 to 9 nodes") };
+        const { assert!(S >= 3 && S <= MOST, "interior displacements are available with 3 to 9 nodes") };
         let (upper, mut new) = (UPPER[S - 2], Self { c: [0.0; S], b: [0.0; S] });
         for (place, &[c, b]) in upper.iter().rev().enumerate() {
             // Below the centre a node would have finer digits than 2⁻⁵³; it is what that above leaves of 1.
@@ -96,7 +91,7 @@ impl<const S: usize> Lobatto<S> {
                 if i + j + 1 < S {
                     continue;
                 }
-                let terms = (1..=Self::INSIDE).map(|k| slope(i, k) * slope(j, k) / (2 * k + 1) as f64);
+                let terms = (1..S - 1).map(|k| slope(i, k) * slope(j, k) / (2 * k + 1) as f64);
                 let exact = c[i] * c[j] + 0.25 * terms.sum::<f64>();
                 // On the grid of 2⁻⁵³.
                 let entry = if exact < 0.5 { (exact + 0.5) - 0.5 } else { exact };
@@ -139,6 +134,7 @@ impl<const S: usize> Lobatto<S> {
 mod tests {
     use super::Lobatto;
     use crate::discrete::{Quadrature, Rule};
+    use crate::error::StartError;
 
     /// A number as a sum of two, so that its rounding errors are those of the second: what the tables are
     /// held against.
@@ -191,18 +187,19 @@ mod tests {
             })
         };
         let mut x = Double::of(c);
-        for _ in 0..3 {
+        // The end is known.
+        for _ in 0..if c < 1.0 { 3 } else { 0 } {
             x = x.plus(derivative(x, 1).over(-derivative(x, 2).0));
         }
-        let value = derivative(if c == 1.0 { Double::of(1.0) } else { x }, 0);
+        let value = derivative(x, 0);
         let square = value.times(value).times(Double::of((S * n) as f64));
         // One step of Newton's method for the reciprocal.
         let weight = 1.0 / square.0;
         let rest = Double::of(1.0).plus(square.times(Double::of(-weight)));
-        [if c == 1.0 { Double::of(1.0) } else { x }, Double::of(weight).plus(rest.times(Double::of(weight)))]
+        [x, Double::of(weight).plus(rest.times(Double::of(weight)))]
     }
 
-    fn check<const S: usize>() {
+    fn nodes_weights_and_nu<const S: usize>() {
         let rule = Lobatto::<S>::new();
         let Lobatto { c, b } = rule;
         assert!(c.is_sorted() && rule.is_symmetric() && (c[0], c[S - 1]) == (0.0, 1.0));
@@ -221,8 +218,7 @@ mod tests {
         for k in 0..2 * S - 1 {
             let sum = (0..S).fold(Double::of(0.0), |sum, j| sum.plus(b_exact[j].times(c_exact[j].power(k))));
             let error = sum.plus(Double::of(-1.0).over((k + 1) as f64));
-            let bound = 1e-26;
-            assert_eq!(error.0.abs() < bound, k < 2 * S - 2, "{S} nodes, degree {k}: {:e}", error.0);
+            assert_eq!(error.0.abs() < 1e-26, k < 2 * S - 2, "{S} nodes, degree {k}: {:e}", error.0);
         }
         let nu = rule.nystrom();
         for i in 0..S {
@@ -249,72 +245,56 @@ mod tests {
         }
     }
 
-    #[test]
-    fn tableaus_are_those_of_lobatto() {
-        check::<3>();
-        check::<4>();
-        check::<5>();
-        check::<6>();
-        check::<7>();
-        check::<8>();
-        check::<9>();
-    }
-
     /// ν and the weights are those of IIIA and IIIB, whose matrices are found here by Gauss quadrature of
     /// Lagrange polynomials.
-    #[test]
-    fn nystrom_is_the_product_of_both_matrices() {
-        fn check<const S: usize>() -> Result<(), crate::error::StartError> {
-            let rule = Lobatto::<S>::new();
-            let (Lobatto { c, b }, gauss) = (rule, Quadrature::gauss(5)?);
-            let lagrange = |j: usize, x: f64| {
-                (0..S).filter(|&m| m != j).map(|m| (x - c[m]) / (c[j] - c[m])).product::<f64>()
-            };
-            let a = |i: usize, j: usize| {
-                let points = gauss.nodes().iter().zip(gauss.weights());
-                c[i] * points.map(|(x, w)| w * lagrange(j, c[i] * x)).sum::<f64>()
-            };
-            for i in 0..S {
-                for j in 0..S {
-                    let sum: f64 = (0..S).map(|k| a(i, k) * (1.0 - a(j, k) / b[k])).sum();
-                    assert!((rule.nystrom()[i][j] - sum).abs() < 2e-15, "{S} nodes, ({i}, {j}): {sum}");
-                }
+    fn nu_is_the_product_of_both_matrices<const S: usize>() -> Result<(), StartError> {
+        let rule = Lobatto::<S>::new();
+        let (Lobatto { c, b }, gauss) = (rule, Quadrature::gauss(5)?);
+        let lagrange = |j: usize, x: f64| {
+            (0..S).filter(|&m| m != j).map(|m| (x - c[m]) / (c[j] - c[m])).product::<f64>()
+        };
+        let a = |i: usize, j: usize| {
+            let points = gauss.nodes().iter().zip(gauss.weights());
+            c[i] * points.map(|(x, w)| w * lagrange(j, c[i] * x)).sum::<f64>()
+        };
+        for i in 0..S {
+            for j in 0..S {
+                let sum: f64 = (0..S).map(|k| a(i, k) * (1.0 - a(j, k) / b[k])).sum();
+                assert!((rule.nystrom()[i][j] - sum).abs() < 2e-15, "{S} nodes, ({i}, {j}): {sum}");
             }
-            Ok(())
         }
-        assert!(
-            check::<3>().is_ok() && check::<4>().is_ok() && check::<5>().is_ok() && check::<6>().is_ok()
-        );
-        assert!(check::<7>().is_ok() && check::<8>().is_ok() && check::<9>().is_ok());
+        Ok(())
+    }
+
+    fn polynomials_are_differentiated<const S: usize>() {
+        let rule = Lobatto::<S>::new();
+        let (a, Lobatto { c, b }) = (rule.differentiation(), rule);
+        for (row, &at) in a.iter().zip(&c) {
+            // Equation 28: exact on polynomials of degree S − 1, and on no others.
+            for n in 0..=S as i32 {
+                let sum: f64 = row.iter().zip(&c).map(|(a, c)| a * c.powi(n)).sum();
+                let exact = if n == 0 { 0.0 } else { f64::from(n) * at.powi(n - 1) };
+                assert_eq!((sum - exact).abs() < 1e-13, n < S as i32, "{S}: c = {at}, degree {n}");
+            }
+        }
+        for j in 0..S {
+            for k in 0..S {
+                // Summation by parts: the rule is exact on products of a polynomial and a derivative.
+                let boundary = if j != k || (j > 0 && j < S - 1) { 0.0 } else { 2.0 * c[j] - 1.0 };
+                assert!((b[j] * a[j][k] + b[k] * a[k][j] - boundary).abs() < 1e-14, "{S}: ({j}, {k})");
+            }
+        }
     }
 
     #[test]
-    fn polynomials_are_differentiated() {
-        fn check<const S: usize>() {
-            let rule = Lobatto::<S>::new();
-            let (a, Lobatto { c, b }) = (rule.differentiation(), rule);
-            for (row, &at) in a.iter().zip(&c) {
-                // Equation 28: exact on polynomials of degree S − 1, and on no others.
-                for n in 0..=S as i32 {
-                    let sum: f64 = row.iter().zip(&c).map(|(a, c)| a * c.powi(n)).sum();
-                    let exact = if n == 0 { 0.0 } else { f64::from(n) * at.powi(n - 1) };
-                    assert_eq!((sum - exact).abs() < 1e-13, n < S as i32, "{S}: c = {at}, degree {n}");
-                }
-            }
-            for j in 0..S {
-                for k in 0..S {
-                    // Summation by parts: the rule is exact on products of a polynomial and a derivative.
-                    let boundary = if j != k || (j > 0 && j < S - 1) { 0.0 } else { 2.0 * c[j] - 1.0 };
-                    assert!((b[j] * a[j][k] + b[k] * a[k][j] - boundary).abs() < 1e-14, "{S}: ({j}, {k})");
-                }
-            }
+    fn tableaus_are_those_of_lobatto() -> Result<(), StartError> {
+        fn check<const S: usize>() -> Result<(), StartError> {
+            nodes_weights_and_nu::<S>();
+            polynomials_are_differentiated::<S>();
+            nu_is_the_product_of_both_matrices::<S>()
         }
-        check::<3>();
-        check::<4>();
-        check::<5>();
-        check::<6>();
-        check::<7>();
-        check::<8>();
-        check::<9>();
+        let rules: [fn() -> _; 7] =
+            [check::<3>, check::<4>, check::<5>, check::<6>, check::<7>, check::<8>, check::<9>];
+        rules.iter().try_for_each(|check| check())
     }
 }

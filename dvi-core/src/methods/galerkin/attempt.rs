@@ -10,7 +10,7 @@ use crate::error::StepFailure;
 use crate::mechanics::phase::{Arrival, Increments};
 use crate::methods::step::{Begin, Carried, Work};
 use crate::scalar::norm;
-use crate::solve::{Guess, Stopping, solve_coupled};
+use crate::solve::{CoupledEquations, Guess, Stopping, solve_coupled};
 use crate::state::Statistics;
 use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector};
 
@@ -79,7 +79,7 @@ where
         let (system, stopping) = (self.system, self.stopping);
         let (mut path, q, residuals, weights, _) = self.pose();
         solve_coupled(&mut path, (system, q), solver, (residuals, weights), stopping, statistics)?;
-        path.differentiate(residuals, statistics)
+        path.evaluate(residuals, statistics)
     }
 
     /// The equations of any L.

@@ -68,12 +68,58 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         fit.to(omega * interval.h)
     }
 
-    /// Sets `residuals`, of which that of the ends is (D₁ + D₂)L_d; in a step of a separable L from the
-    /// forces, but for that at the end.
+    /// Solves the equations of a separable L by the fixed point over its mass matrix M, in up to `budget`
+    /// iterations. What comes with `residuals` is storage.
     ///
     /// # Errors
-    /// Those of a frequency that is read.
-    pub(super) fn differentiate(
+    /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
+    pub(super) fn iterate(
+        &mut self,
+        q: &[T],
+        (residuals, [delta, change, weights]): (&mut [Vector<S, T>; NODES], [&mut [T]; 3]),
+        limits: (Stopping, usize),
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let (system, last, h) = (self.system, NODES - 1, self.interval.h);
+        delta.copy_from_slice(&self.unknowns[last]);
+        solve_by_fixed_point(
+            (system, q),
+            [&mut *delta, change, weights],
+            Some(limits),
+            statistics,
+            |delta, change, statistics| {
+                self.unknowns[last].copy_from_slice(delta);
+                self.evaluate(residuals, statistics)?;
+                residuals[1..].iter_mut().for_each(|residual| self.mass.solve_in_place(residual));
+                change.fill(T::lift(0.0));
+                for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.inverse).skip(1) {
+                    for i in 0..change.len() {
+                        let correction = h * weighted(&row[1..], &residuals[1..], i);
+                        unknown[i] -= correction;
+                        change[i] = norm::larger(change[i], Scalar::abs(correction));
+                    }
+                }
+                delta.copy_from_slice(&self.unknowns[last]);
+                Ok(())
+            },
+        )?;
+        self.evaluate(residuals, statistics)
+    }
+
+    fn time(&self) -> T {
+        self.fit.time(self.interval, self.j)
+    }
+}
+
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
+    CoupledEquations<NODES, S, T> for Displaced<'_, NODES, S, F, T>
+{
+    fn unknowns(&mut self) -> &mut [Vector<S, T>; NODES] {
+        self.unknowns
+    }
+
+    // Of the ends it is (D₁ + D₂)L_d; in a step of a separable L from the forces, but for that at the end.
+    fn evaluate(
         &mut self,
         residuals: &mut [Vector<S, T>; NODES],
         statistics: &mut Statistics,
@@ -123,64 +169,6 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         }
         statistics.gradients += NODES as u64;
         Ok(())
-    }
-
-    /// Solves the equations of a separable L by the fixed point over its mass matrix M, in up to `budget`
-    /// iterations. What comes with `residuals` is storage.
-    ///
-    /// # Errors
-    /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
-    pub(super) fn iterate(
-        &mut self,
-        q: &[T],
-        (residuals, [delta, change, weights]): (&mut [Vector<S, T>; NODES], [&mut [T]; 3]),
-        limits: (Stopping, usize),
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let (system, last, h) = (self.system, NODES - 1, self.interval.h);
-        delta.copy_from_slice(&self.unknowns[last]);
-        solve_by_fixed_point(
-            (system, q),
-            [&mut *delta, change, weights],
-            Some(limits),
-            statistics,
-            |delta, change, statistics| {
-                self.unknowns[last].copy_from_slice(delta);
-                self.differentiate(residuals, statistics)?;
-                residuals[1..].iter_mut().for_each(|residual| self.mass.solve_in_place(residual));
-                change.fill(T::lift(0.0));
-                for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.inverse).skip(1) {
-                    for i in 0..change.len() {
-                        let correction = h * weighted(&row[1..], &residuals[1..], i);
-                        unknown[i] -= correction;
-                        change[i] = norm::larger(change[i], Scalar::abs(correction));
-                    }
-                }
-                delta.copy_from_slice(&self.unknowns[last]);
-                Ok(())
-            },
-        )?;
-        self.differentiate(residuals, statistics)
-    }
-
-    fn time(&self) -> T {
-        self.fit.time(self.interval, self.j)
-    }
-}
-
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
-    CoupledEquations<NODES, S, T> for Displaced<'_, NODES, S, F, T>
-{
-    fn unknowns(&mut self) -> &mut [Vector<S, T>; NODES] {
-        self.unknowns
-    }
-
-    fn evaluate(
-        &mut self,
-        residuals: &mut [Vector<S, T>; NODES],
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.differentiate(residuals, statistics)
     }
 }
 

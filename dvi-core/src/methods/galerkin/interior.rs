@@ -15,9 +15,10 @@
 
 use core::marker::PhantomData;
 
+use super::evaluation::NodeForces;
 use crate::discrete::{Interval, Rule as _};
 use crate::error::StepFailure;
-use crate::mechanics::motion::{Evaluation, InLanes, OneByOne, weigh};
+use crate::mechanics::motion::weigh;
 use crate::memory::{Memory, lasting};
 use crate::methods::collocation::lobatto::Lobatto;
 use crate::methods::collocation::packs::{Nystrom, combine, continuation, sum};
@@ -283,74 +284,5 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             sizes,
             [places, renewed],
         )
-    }
-}
-
-/// In which packs the interior nodes of a step stand.
-#[diagnostic::on_unimplemented(
-    message = "the forces of {NODES} nodes cannot be evaluated in lanes",
-    label = "lanes are for 4 to 9 nodes"
-)]
-pub trait NodeEvaluation<const NODES: usize, S: System, T: Real>: Evaluation {
-    /// The interior nodes.
-    type Interior: Memory<T>;
-}
-
-impl<const NODES: usize, S: System, T: Real> NodeEvaluation<NODES, S, T> for OneByOne {
-    type Interior = Interior<NODES, NODES, S, T, Self>;
-}
-
-macro_rules! in_lanes {
-    ($($nodes:literal $lanes:literal),*) => {$(
-        impl<S: System, T: Real> NodeEvaluation<$nodes, S, T> for InLanes {
-            type Interior = Interior<$nodes, $lanes, S, T, Self>;
-        }
-    )*};
-}
-
-in_lanes!(4 2, 5 4, 6 4, 7 8, 8 8, 9 8);
-
-/// How the forces at up to `W` nodes are evaluated.
-pub trait NodeForces<const W: usize, S: System, T: Real> {
-    /// Sets the first `count` lanes of `forces` to those at `places` and `times`; `work` is storage.
-    fn evaluate(
-        system: &S,
-        count: usize,
-        places: &[Lanes<W, T>],
-        times: Lanes<W, T>,
-        forces: &mut [Lanes<W, T>],
-        work: [&mut Vector<S, T>; 2],
-    );
-}
-
-impl<const W: usize, S: NondegenerateLagrangian<T>, T: Real> NodeForces<W, S, T> for OneByOne {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate(
-        system: &S,
-        count: usize,
-        places: &[Lanes<W, T>],
-        times: Lanes<W, T>,
-        forces: &mut [Lanes<W, T>],
-        [place, force]: [&mut Vector<S, T>; 2],
-    ) {
-        for lane in 0..count {
-            read_lane(lane, places, place);
-            system.force(place, &[], times.0[lane], force);
-            write_lane(lane, force, forces);
-        }
-    }
-}
-
-impl<const W: usize, S: NondegenerateLagrangian<Lanes<W, T>>, T: Real> NodeForces<W, S, T> for InLanes {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate(
-        system: &S,
-        _count: usize,
-        places: &[Lanes<W, T>],
-        times: Lanes<W, T>,
-        forces: &mut [Lanes<W, T>],
-        _work: [&mut Vector<S, T>; 2],
-    ) {
-        system.force(places, &[], times, forces);
     }
 }

@@ -9,6 +9,7 @@ use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::PhaseMemory;
 use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step, VariableStep};
+use crate::scalar::simd::widest_if;
 use crate::solve::Solver;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
@@ -50,7 +51,8 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         let PhaseMemory { carried, ladder, own: path } = memory;
         let (interval, Self { frequency, stopping, .. }) = (Interval { t, h }, self);
         let budget = ladder.budget(stopping.max_iterations, 24 + q.len());
-        E::run(
+        widest_if(
+            E::WIDE,
             #[cfg_attr(not(debug_assertions), inline(always))]
             || {
                 let mut step = Attempt {

@@ -32,6 +32,7 @@ use crate::error::StepFailure;
 use crate::mechanics::motion::{AtStages, FirstOrder, StageEvaluation};
 use crate::methods::collocation::packs::{combine, sum};
 use crate::methods::tolerance::{Tolerance, in_units_of};
+use crate::scalar::simd::widest_if;
 use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
 use crate::{Real, Scalar, System};
@@ -53,7 +54,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         tolerance: Tolerance,
         statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
-        E::run(
+        widest_if(
+            E::WIDE,
             #[inline]
             || {
                 self.evaluate_defects::<E>(system, [t, h], statistics)?;
