@@ -211,9 +211,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;
-        if S::AFFINE && self.is_midpoint() && self.start == Start::Consistent {
+        if self.is_midpoint_rule::<S>() {
             return SigmaMemory::without_defect(system, self, q, t, h);
         }
         let q1 = self.start.second_point(system, q, t, h)?;
@@ -229,7 +228,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         t: T,
         h: T,
     ) -> Result<Self::Memory, StartError> {
-        self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;
         SigmaMemory::without_defect(system, self, q, t, h)
     }
@@ -273,8 +271,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
-        self.keeps_lengths::<S>()?;
-        self.validate(S::AFFINE)
+        self.validate::<S>()
     }
 
     fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {

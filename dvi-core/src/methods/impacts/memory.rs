@@ -1,13 +1,11 @@
 //! What a run with impacts carries from step to step.
 
-use core::ops::Deref;
-
 use super::gaps::Gaps;
 use crate::error::StartError;
 use crate::mechanics::constraints::Multipliers;
 use crate::memory::{Memory, lasting};
 use crate::methods::Kept;
-use crate::{ConstrainedSystem, Real, Space, State, System, UnilateralLagrangian, Vector};
+use crate::{ConstrainedSystem, Real, Space, System, UnilateralLagrangian, Vector};
 
 /// How many impacts a step may have.
 pub(super) const MOST: usize = 16;
@@ -25,13 +23,6 @@ pub struct Impact<V, T> {
     pub q: V,
     /// The velocity after it, flat, in the order of declaration.
     pub v: V,
-}
-
-impl<V: Deref<Target = [T]>, T: Real> Impact<V, T> {
-    /// The state after it.
-    pub fn state<S: System>(&self, system: &S) -> S::State<T> {
-        S::State::read(|block| system.block_len(block), &self.q, &self.v)
-    }
 }
 
 /// A run with impacts: the memory of its method, the impacts of its last step, and work space.

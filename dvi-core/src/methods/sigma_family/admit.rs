@@ -10,42 +10,42 @@ use crate::system::spinors;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, Vector};
 
 impl<T: Real> Sigma<T> {
-    pub(super) fn validate(&self, is_affine: bool) -> Result<(), StartError> {
+    /// Whether options are in range and go together, and the lengths of unit vectors are kept, if there are
+    /// some: the implicit midpoint rule keeps them.
+    pub(super) fn validate<S: DegenerateLagrangian<T>>(&self) -> Result<(), StartError> {
         let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
         if !in_range {
             let value = norm::reported(self.sigma);
             return Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" });
         }
-        if self.summation == Summation::Compensated && (!is_affine || self.is_end()) {
+        if self.summation == Summation::Compensated && (!S::AFFINE || self.is_end()) {
             let reason = "it is for affine one-forms and 0 < sigma < 1";
             return Err(StartError::Unsupported { option: "Summation::Compensated", reason });
         }
         match self.parasitic_limit {
             Some(value) if value.is_nan() || value <= 0.0 => {
-                Err(StartError::Parameter { name: "parasitic_limit", value, range: "positive" })
+                return Err(StartError::Parameter { name: "parasitic_limit", value, range: "positive" });
             }
-            _ => self.stopping.validate(),
+            _ => self.stopping.validate()?,
         }
-    }
-
-    /// Whether the lengths of unit vectors are kept, if there are some: the implicit midpoint rule keeps
-    /// them.
-    pub(super) fn keeps_lengths<S: DegenerateLagrangian<T>>(&self) -> Result<(), StartError> {
-        let is_midpoint_rule = S::AFFINE && self.is_midpoint() && self.start == Start::Consistent;
-        if is_midpoint_rule {
+        if self.is_midpoint_rule::<S>() {
             return Ok(());
         }
         spinors::refuse::<S>("a `Sigma` that is not the implicit midpoint rule")
     }
 
-    /// Whether the equations of σ = 0 or 1 can have a solution: not if a row of Dα is zero.
+    pub(super) fn is_midpoint_rule<S: DegenerateLagrangian<T>>(&self) -> bool {
+        S::AFFINE && self.is_midpoint() && self.start == Start::Consistent
+    }
+
+    /// Whether its equations can have a solution too: those of σ = 0 or 1 not if a row of Dα is zero.
     pub(super) fn go_with<S: DegenerateLagrangian<T>>(
         &self,
         system: &S,
         q: &Vector<S, T>,
         t: T,
     ) -> Result<(), StartError> {
-        self.keeps_lengths::<S>()?;
+        self.validate::<S>()?;
         // The matrix of σ = 1 is that of the end of a step.
         if !self.is_end() || (self.sigma == T::lift(1.0) && !S::AFFINE) {
             return Ok(());

@@ -102,7 +102,7 @@ impl<S: System, T: Real> SigmaMemory<S, T> {
     /// larger the mode and the longer the steps; without a limit, or where α is affine and σ = ½, before
     /// every 256th step.
     pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
-        self.monitor.latest()
+        self.monitor.last().map(|(_, mode)| mode)
     }
 
     /// max |c|: the amplitude of the parasitic mode in p if σ = ½ and α is affine. Elsewhere c is of order

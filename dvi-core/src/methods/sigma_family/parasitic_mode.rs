@@ -96,7 +96,7 @@ pub(super) struct Monitor<S: System, T: Real> {
     pub(super) steps: u64,
     pace: Pace,
     /// The run is examined where the number of steps is a multiple of this power of two.
-    period: u64,
+    pub(super) period: u64,
     limit: Option<f64>,
     /// Before which step it was examined last, zero if it was not, and what was measured.
     examined: u64,
@@ -133,19 +133,9 @@ impl<S: System, T: Real> Monitor<S, T> {
         in_order && self.period.is_power_of_two() && self.period <= BLOCK
     }
 
-    pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
-        self.last().map(|(_, mode)| mode)
-    }
-
     /// The last examination: before which step, and what it measured.
-    fn last(&self) -> Option<(u64, ParasiticMode<T>)> {
+    pub(super) fn last(&self) -> Option<(u64, ParasiticMode<T>)> {
         (self.examined > 0).then_some((self.examined, self.mode))
-    }
-
-    /// The number of steps from one examination to the next, a power of two.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn period(&self) -> u64 {
-        self.period
     }
 
     /// Looks at the point before the next step, if it is one of those that are looked at, and returns the
