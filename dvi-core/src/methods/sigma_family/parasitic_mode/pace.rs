@@ -50,6 +50,12 @@ pub(super) struct First {
 }
 
 impl<S: System, T: Real> Monitor<S, T> {
+    #[cfg(feature = "alloc")]
+    pub(super) fn is_sound(&self) -> bool {
+        let in_order = self.examined <= self.steps && self.steps < u64::MAX / 2;
+        in_order && self.period.is_power_of_two() && self.period <= BLOCK
+    }
+
     /// Whether the mode is above the limit, and larger than where it came from.
     pub(super) fn is_above(&self, mode: &ParasiticMode<T>) -> bool {
         let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
