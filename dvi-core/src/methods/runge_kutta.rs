@@ -7,8 +7,8 @@ use core::fmt;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
 use crate::memory::{Memory, lasting};
-use crate::methods::kicks::kick;
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
+use crate::scalar::passes::kick;
 use crate::{Lagrangian, Real, System, Vector};
 
 /// The largest number of stages.

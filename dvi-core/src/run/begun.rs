@@ -4,7 +4,7 @@ use super::StepControl;
 use super::clock::Time;
 use crate::error::StartError;
 use crate::memory::Aside;
-use crate::methods::before::Before;
+use crate::methods::Kept;
 use crate::methods::{Carries, Method};
 use crate::state::Statistics;
 use crate::system::start::{consistent, evaluate, flatten, named, validate, velocities};
@@ -14,7 +14,7 @@ use crate::{Lagrangian, Real, Vector};
 pub(super) struct Begun<Q, K, L, T> {
     pub(super) q: Q,
     pub(super) memory: K,
-    pub(super) kept: Option<Aside<Before<K, Q>>>,
+    pub(super) kept: Option<Aside<Kept<Q, K>>>,
     pub(super) control_memory: L,
     pub(super) time: Time<T>,
     pub(super) statistics: Statistics,
@@ -56,7 +56,7 @@ pub(super) fn carried<S: Lagrangian<T>, C: StepControl<S, T>, K, T: Real>(
     let begin = || method(&q, v, h).map_err(explained);
     let memory = begin()?;
     let is_kept = S::TIME_TRANSFORMED || S::HAS_DOMAIN || C::REJECTS;
-    let kept = is_kept.then(|| begin().map(|inner| Before { inner, q: q.clone() }.into())).transpose()?;
+    let kept = is_kept.then(|| begin().map(|memory| Kept { q: q.clone(), memory }.into())).transpose()?;
     let time = Time::new(t, h, 0);
     Ok(Begun { q, memory, kept, control_memory, time, statistics: Statistics::default() })
 }

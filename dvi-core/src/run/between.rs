@@ -1,7 +1,7 @@
 //! The last step of a run, taken again in part, whatever its method is.
 
 use crate::error::{StartError, StepFailure};
-use crate::methods::before::Before;
+use crate::methods::Kept;
 use crate::methods::{Clock, Here, Method, Step, Steps};
 use crate::run::Stepper;
 use crate::run::stepper::PointOf;
@@ -60,7 +60,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         let mut v = q.clone();
         method.velocity(Here { system, q, t }, memory, &mut v).map_err(StartError::Starter)?;
         let begin = || method.begin_again(system, q, &v[..velocities(system)], t, h);
-        let point = || begin().map(|inner| Before { inner, q: q.clone() });
+        let point = || begin().map(|memory| Kept { q: q.clone(), memory });
         self.points = Some([point()?, point()?].into());
         self.keep_begun();
         Ok(self.method.places())
@@ -69,14 +69,14 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
     #[inline]
     fn keep_begun(&mut self) {
         if let Some(points) = &mut self.points {
-            points[0].keep(&self.memory, &self.q);
+            points[0].take(&self.q, &self.memory);
         }
     }
 
     fn settle(&mut self, system: &S, clock: Clock<T>, count: u64) -> Result<(), StepFailure> {
         let Self { method, points, .. } = self;
         let points: &mut [PointOf<S, M, T>; 2] = begun(points.as_mut(), clock.time())?;
-        let Before { q, inner: memory } = &mut points[0];
+        let Kept { q, memory } = &mut points[0];
         let statistics = &mut Statistics::default();
         method.steps(Steps { system, q, clock, count, statistics }, memory)
     }
@@ -90,8 +90,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
     ) -> Result<&[T], StepFailure> {
         let Self { method, points, .. } = self;
         let [begun, reached]: &mut [PointOf<S, M, T>; 2] = begun(points.as_mut(), t)?;
-        reached.keep(&begun.inner, &begun.q);
-        let (Before { q, inner: memory }, end) = (reached, t + h);
+        reached.take(&begun.q, &begun.memory);
+        let (Kept { q, memory }, end) = (reached, t + h);
         if end != t {
             let statistics = &mut Statistics::default();
             method.part_of_step(Step { system, q, t, h, statistics }, whole, memory)?;
@@ -105,7 +105,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
 
     fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])> {
         let Self { method, memory, points, .. } = self;
-        let [_, Before { q, .. }]: &mut [PointOf<S, M, T>; 2] = points.as_mut()?;
+        let [_, Kept { q, .. }]: &mut [PointOf<S, M, T>; 2] = points.as_mut()?;
         method.place(memory, index, q, v).map(|part| (part, &q[..]))
     }
 

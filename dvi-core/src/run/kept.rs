@@ -58,14 +58,14 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     #[inline]
     pub(super) fn keep(&mut self) {
         if let Some(kept) = &mut self.kept {
-            kept.keep(&self.memory, &self.q);
+            kept.take(&self.q, &self.memory);
         }
     }
 
     /// Goes back to the point that was kept last, without allocation.
     pub(super) fn go_back(&mut self) {
         if let Some(kept) = &self.kept {
-            kept.go_back(&mut self.memory, &mut self.q);
+            kept.go_back(&mut self.q, &mut self.memory);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::error::{StepError, StepFailure};
 use crate::memory::Aside;
-use crate::methods::before::Before;
+use crate::methods::Kept;
 use crate::methods::{Carries, Clock, Here, Method, Steps};
 use crate::state::Statistics;
 use crate::system::start::step_error;
@@ -23,7 +23,7 @@ pub(crate) struct Stepper<S: System, M: Carries<S, T>, T: Real> {
 }
 
 /// A point of a run of a method on a system.
-pub(super) type PointOf<S, M, T> = Before<<M as Carries<S, T>>::Memory, Vector<S, T>>;
+pub(super) type PointOf<S, M, T> = Kept<Vector<S, T>, <M as Carries<S, T>>::Memory>;
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Sets `v` to the velocity at the current point, which is reached at time `t`.
