@@ -48,8 +48,8 @@ pub trait Written: Steps {
     fn checkpoint(&self) -> Checkpoint;
     /// What else can be asked.
     fn asked(&self) -> (u64, u64, Statistics);
-    /// The first momentum that the system declares.
-    fn momentum(&self) -> Option<f64>;
+    /// The momenta that the system declares.
+    fn momenta(&self) -> Vec<f64>;
     /// Coordinates and velocities at given times.
     ///
     /// # Errors
@@ -79,8 +79,8 @@ impl<S: Lagrangian, M: Method<S, f64>> Written for Integrator<&'static S, M> {
     fn asked(&self) -> (u64, u64, Statistics) {
         (self.energy().to_bits(), Run::steps(self), self.statistics())
     }
-    fn momentum(&self) -> Option<f64> {
-        Run::momentum(self, 0)
+    fn momenta(&self) -> Vec<f64> {
+        Run::momenta(self).map(|(_, value)| value).collect()
     }
     fn values_at(&mut self, times: &[f64]) -> Outcome<Vec<Vec<f64>>> {
         let states = self.states_at(times.iter().copied())?.collect::<Result<Vec<_>, _>>()?;
@@ -294,27 +294,55 @@ fn bare<S: Lagrangian + 'static, M: Method<S, f64> + Clone>(
 pub struct Fused {
     /// The method and the system.
     pub name: String,
-    begin: Box<dyn Fn() -> Begun<dyn Steps>>,
+    bare: Box<dyn Fn() -> Begun<dyn Steps>>,
+    begin: Box<dyn Fn() -> Begun<dyn Written>>,
+    resume: Box<Resume>,
 }
 
 impl Fused {
     /// A method on such a system, from coordinates and velocities at a time with a step.
-    pub fn new<S, M>(system: &'static S, [q, v]: [&[f64]; 2], at: [f64; 2], method: M) -> Self
+    pub fn new<S, M>(system: &'static S, [q, v]: [&[f64]; 2], [t, h]: [f64; 2], method: M) -> Self
     where
         S: Lagrangian + 'static,
         M: Method<S, f64> + Clone + Debug + 'static,
     {
-        let [q, v] = [q.to_vec(), v.to_vec()];
-        let name = format!("{method:?} on {}", S::REPORT.system);
-        Self { name, begin: Box::new(move || Ok(Box::new(bare(system, &method, [&q, &v], at)?))) }
+        let (start, name) = ([q.to_vec(), v.to_vec()], format!("{method:?} on {}", S::REPORT.system));
+        let (begun, resumed, same) = (method.clone(), method.clone(), start.clone());
+        Self {
+            name,
+            bare: Box::new(move || Ok(Box::new(bare(system, &method, [&start[0], &start[1]], [t, h])?))),
+            begin: Box::new(move || {
+                let state = state(system, &same[0], &same[1]);
+                Ok(Box::new(Integrator::new_at(system, begun.clone(), t, h, state)?))
+            }),
+            resume: Box::new(move |checkpoint| {
+                Ok(Box::new(Integrator::resume(system, resumed.clone(), checkpoint)?))
+            }),
+        }
     }
 
     /// A run of bare steps.
     ///
     /// # Errors
     /// That of the start.
-    pub fn run(&self) -> Begun<dyn Steps> {
+    pub fn bare(&self) -> Begun<dyn Steps> {
+        (self.bare)()
+    }
+
+    /// A run.
+    ///
+    /// # Errors
+    /// That of the start.
+    pub fn run(&self) -> Begun<dyn Written> {
         (self.begin)()
+    }
+
+    /// The run of a checkpoint.
+    ///
+    /// # Errors
+    /// That of the start.
+    pub fn resume(&self, checkpoint: &Checkpoint) -> Begun<dyn Written> {
+        (self.resume)(checkpoint)
     }
 }
 

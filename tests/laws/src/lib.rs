@@ -4,6 +4,7 @@
 //! equations, and an order where that on these systems is not the one that it has everywhere. Every law
 //! in `tests` is asked of every row.
 
+mod by_hand;
 pub mod case;
 pub mod equations;
 pub mod formula;
@@ -252,6 +253,11 @@ pub fn in_class() -> Vec<Case> {
         Gauss { solver: at.solver, summation: at.summation, ..Gauss::<3>::new() } => ALL, Collocation(3);
         RungeKutta::classical() => ONE, Elsewhere;
     });
+    // Of an affine form both are the midpoint rule.
+    rows!(table, [canonical()], |at| {
+        Sigma::midpoint() => ONE, Collocation(1);
+        OneStep::midpoint() => ONE, Collocation(1);
+    });
     table
 }
 
@@ -471,8 +477,8 @@ pub fn constrained() -> Vec<Case> {
         on(Bead, [&[at.x, at.y], &[at.dot_x, at.dot_y]], 0.05)
     };
     let links = || {
-        let (x, rest): (Vec<f64>, _) = ((1..=4).map(f64::from).collect(), [0.0; 4]);
-        on(Links { rod: vec![1.0; 4] }, [&[x, rest.to_vec()].concat(), &[0.0; 8]], 0.02)
+        let (system, at) = Links::stretched(vec![1.0; 4]);
+        on(system, [&[at.x, at.y].concat(), &[at.dot_x, at.dot_y].concat()], 0.02)
     };
     rows!(table, [double(), on(Spherical, sphere, 0.05), links()], |at| {
         Rattle::default() => ONE, discrete(&[0.0, 1.0], &[0.5, 0.5]);
@@ -565,6 +571,7 @@ pub fn fused() -> Vec<Fused> {
         Variational { summation, ..Variational::trapezoid() },
         Newmark::new(0.0),
         Variational::simpson().phase_fitted(Constant(OMEGA)),
+        Langevin { friction: 0.3, temperature: 0.1, seed: 1 },
         RungeKutta::heun(),
         Composition::kahan_li_6(Variational::trapezoid()),
         EnergyLimit { method: Variational::trapezoid(), limit: 1e2 },

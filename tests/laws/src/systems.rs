@@ -1,7 +1,6 @@
 //! Systems that are written twice: as an attribute, which schemes integrate, and as plain Rust, of which
 //! the equations are made.
 
-use dvi_core::Lagrangian;
 use dvi_core::prelude::*;
 pub use dvi_examples::models::{
     RadialFriction as Damped, RadialFrictionState as DampedState, RadialFrictionStateOf as DampedStateOf,
@@ -10,15 +9,6 @@ use nalgebra::{RealField, convert};
 
 use super::formula::Formula;
 use super::fuse;
-use dvi_tests::systems::{Curved, LotkaVolterra, ManyVortices, PointVortices, Quadratic, SphereForm};
-use dvi_tests::zoo::constrained::{Bead, Charge, Double, Links, Spherical, Swing};
-use dvi_tests::zoo::gauges::OneSided;
-use dvi_tests::zoo::nonholonomic::{Particle, Steered};
-use dvi_tests::zoo::particles::Mirror;
-use dvi_tests::zoo::regular::{
-    DoublePendulum, DrivenOscillator, GrowingMass, Kepler, MagneticParticle, MixedVelocities, Relativistic,
-    Ring, RunTimeChain, SphericalPendulum, Surface,
-};
 
 /// A number of any kind.
 pub fn real<T: RealField + Copy>(value: f64) -> T {
@@ -406,17 +396,6 @@ impl Formula for Linked {
     }
 }
 
-impl Formula for Damped {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], _t: T) -> T {
-        let square = q[0] * q[0] + q[1] * q[1];
-        let off = square - real(1.0);
-        (v[0] * v[0] + v[1] * v[1]) * real(0.5) - square * off * off
-    }
-    fn force(&self, _q: &[f64], v: &[f64], _t: f64) -> Vec<f64> {
-        vec![-self.gamma * v[0], -self.gamma * v[1]]
-    }
-}
-
 /// Arrays, a mass that depends on the position, and forces that depend on all there is.
 #[lagrangian(
     coordinates(u, z[2]),
@@ -468,94 +447,6 @@ impl Formula for Swirl {
     fn force(&self, q: &[f64], _v: &[f64], t: f64) -> Vec<f64> {
         vec![-self.swirl * q[1] * t.cos(), self.swirl * q[0]]
     }
-}
-
-/// L as it is generated, which the compiler holds against the formulas as written; no derivative is.
-macro_rules! generated {
-    ($($system:ty),+ $(,)?) => {$(
-        impl Formula for $system {
-            fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-                Lagrangian::<T>::lagrangian(self, q, v, t)
-            }
-        }
-    )+};
-}
-
-generated!(
-    PointVortices<4>,
-    ManyVortices,
-    Quadratic,
-    Curved,
-    LotkaVolterra,
-    SphereForm,
-    OneSided,
-    Mirror,
-    Kepler,
-    DoublePendulum,
-    SphericalPendulum,
-    Surface,
-    Relativistic,
-    Ring<4>,
-    RunTimeChain,
-    DrivenOscillator,
-    GrowingMass,
-    MagneticParticle,
-    MixedVelocities,
-);
-
-/// The same with constraints by hand, and forces.
-macro_rules! constrained {
-    ($($system:ty, |$this:ident, $q:ident, $t:ident| $constraints:expr
-        $(, force |$v:ident| $force:expr)? $(, slips |$u:ident| $slips:expr)?;)+) => {$(
-        impl Formula for $system {
-            fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-                Lagrangian::<T>::lagrangian(self, q, v, t)
-            }
-            #[allow(unused_variables)]
-            fn constraints<T: RealField + Copy>(&self, $q: &[T], $t: T) -> Vec<T> {
-                let $this = self;
-                $constraints
-            }
-            $(#[allow(unused_variables)]
-            fn force(&self, _q: &[f64], $v: &[f64], _t: f64) -> Vec<f64> {
-                let $this = self;
-                $force
-            })?
-            $(fn slips<T: RealField + Copy>(&self, $q: &[T], $u: &[T], $t: T) -> Vec<T> {
-                $slips
-            })?
-        }
-    )+};
-}
-
-/// The square of the length.
-fn square<T: RealField + Copy>(x: &[T]) -> T {
-    x.iter().fold(real(0.0), |sum, &x| sum + x * x)
-}
-
-constrained! {
-    Double, |this, q, t| {
-        let outer = square(&[q[1] - q[0], q[3] - q[2]]).sqrt();
-        vec![square(&[q[0], q[2]]) - real(1.0), outer - real(this.rod)]
-    };
-    Swing, |this, q, t| {
-        let off = q[0] - real::<T>(0.3) * (t + t).sin();
-        vec![(square(&[off, q[1]]) - real(1.0)) * (real::<T>(2.0) + t.cos())]
-    }, force |v| v.iter().map(|v| -this.gamma * v).collect();
-    Bead, |this, q, t| vec![square(&[q[0], q[1], q[1]]) - real(1.0)];
-    Charge, |this, q, t| vec![square(q) - real(1.0)];
-    Particle, |this, q, _t| Vec::new(), slips |v| vec![v[2] - q[1] * v[0]];
-    Steered, |this, q, t| Vec::new(), force |v| vec![-0.2 * v[0]], slips |v| {
-        vec![(v[1] - q[0] * v[0] - t.cos()) * (real::<T>(2.0) + q[0].sin())]
-    };
-    Spherical, |this, q, t| vec![square(q) - real(1.0)];
-    Links, |this, q, t| {
-        let n = this.rod.len();
-        let before = |k: usize| if k.is_multiple_of(n) { real(0.0) } else { q[k - 1] };
-        (0..n)
-            .map(|i| square(&[q[i] - before(i), q[n + i] - before(n + i)]) - real(this.rod[i] * this.rod[i]))
-            .collect()
-    };
 }
 
 /// What [`fuse`](super::fuse) says of each of these: potentials and Hamiltonians in which it stands.

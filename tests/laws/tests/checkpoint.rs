@@ -1,10 +1,11 @@
 //! A run goes on from its checkpoint, written to a text and read again, and on a memory that is restored
 //! from another, bit by bit as if it had not stopped; and many steps at once are the same steps.
 
+use dvi_core::error::StartError;
 use dvi_core::run::Checkpoint;
 use dvi_core::state::Statistics;
 use dvi_laws::case::Written;
-use dvi_laws::{Case, STIFF, stiff};
+use dvi_laws::{Case, STIFF, fused, stiff};
 use dvi_tests::bits;
 
 use super::{Outcome, ask, of_every_kind};
@@ -26,22 +27,33 @@ fn same(run: &dyn Written, other: &dyn Written, what: &str) -> Outcome {
     if asked(run) == asked(other) { Ok(()) } else { Err(format!("{what} it is another run").into()) }
 }
 
-pub(super) fn runs_go_on(case: &Case) -> Outcome {
-    let steps = u64::from(case.subject.steps);
+type Begun = Result<Box<dyn Written>, StartError>;
+
+/// Of a run before its first step, after it, and in its middle.
+fn runs_and_their_checkpoints_go_on(
+    steps: u64,
+    begin: impl Fn() -> Begun,
+    resume: impl Fn(&Checkpoint) -> Begun,
+) -> Outcome {
     for before in [0, 1, steps / 2] {
-        let (mut run, mut single) = (case.run()?, case.run()?);
+        let (mut run, mut single) = (begin()?, begin()?);
         run.take_steps(before)?;
         (0..before).try_for_each(|_| single.advance())?;
         same(&*run, &*single, &format!("with {before} steps at once"))?;
-        let mut again = case.resume(&written_and_read(&run.checkpoint())?)?;
+        let mut again = resume(&written_and_read(&run.checkpoint())?)?;
         for _ in 0..2 {
             same(&*run, &*again, &format!("from its checkpoint after {before} steps"))?;
             run.take_steps(steps / 4)?;
             again.take_steps(steps / 4)?;
         }
-        case.goes_on_from_a_copy(before as u32)?;
     }
     Ok(())
+}
+
+pub(super) fn runs_go_on(case: &Case) -> Outcome {
+    let steps = u64::from(case.subject.steps);
+    runs_and_their_checkpoints_go_on(steps, || case.run(), |checkpoint| case.resume(checkpoint))?;
+    [0, 1, steps / 2].iter().try_for_each(|&before| case.goes_on_from_a_copy(before as u32))
 }
 
 of_every_kind!(runs_go_on);
@@ -50,4 +62,12 @@ of_every_kind!(runs_go_on);
 #[test]
 fn of_stiff_steps() {
     ask(&stiff(&STIFF), runs_go_on);
+}
+
+/// With impacts, noise and rotations too.
+#[test]
+fn of_every_scheme() {
+    ask(&fused(), |case| {
+        runs_and_their_checkpoints_go_on(12, || case.run(), |checkpoint| case.resume(checkpoint))
+    });
 }

@@ -31,7 +31,7 @@ pub(super) fn a_failed_step_leaves_no_trace(case: &Fused) -> Outcome {
     let mut failed = 0;
     for (before, lasting) in [(0, 0), (3, 0), (3, u64::MAX)] {
         for count in 0.. {
-            let (mut tried, mut smooth) = (case.run()?, case.run()?);
+            let (mut tried, mut smooth) = (case.bare()?, case.bare()?);
             for _ in 0..before {
                 tried.advance()?;
                 smooth.advance()?;

@@ -5,6 +5,7 @@ mod checkpoint;
 mod equations;
 mod failure;
 mod forms;
+mod iterations;
 mod mistakes;
 mod momenta;
 mod motion;

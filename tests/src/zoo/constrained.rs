@@ -162,6 +162,19 @@ pub struct Links {
     pub rod: Vec<f64>,
 }
 
+impl Links {
+    /// With rods of these lengths, stretched out to one side.
+    pub fn stretched(rod: Vec<f64>) -> (Self, LinksState) {
+        let rest = vec![0.0; rod.len()];
+        let ends = rod.iter().scan(0.0, |end, rod| {
+            *end += rod;
+            Some(*end)
+        });
+        let x = ends.collect();
+        (Self { rod }, LinksState { x, y: rest.clone(), dot_x: rest.clone(), dot_y: rest })
+    }
+}
+
 /// A closed chain of rods, whose joints may be at any place.
 #[lagrangian(
     coordinates(x[N], y[N]),
