@@ -14,7 +14,7 @@ use crate::program::{DegeneratePrograms, RegularPrograms};
 use crate::structure::{MassMatrix, OneForm, PairSum};
 use crate::symbolic::Graph;
 use crate::syntax::{Attribute, Kind, depth, parse_attribute, tidy};
-use crate::validate::{self, Checked, Difference};
+use crate::validate::{self, Checked, Functions};
 
 mod formulas;
 mod names;
@@ -26,33 +26,21 @@ use stand_in::stand_in;
 pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand(Kind::Degenerate, attribute, item, |stages| {
         let formulas = stages.degenerate_formulas()?;
-        stages.barrier()?;
-        let form_entries = stages.graph.hessian(formulas.one_form);
-        let structure = OneForm::new(
-            &mut stages.graph,
-            &stages.model,
-            formulas.one_form,
-            &form_entries,
-            formulas.declared,
-        );
-        structure.check(&stages.model, stages.attribute.symplectic_part(), &mut stages.errors);
-        stages.barrier()?;
+        let Stages { graph, model, attribute, errors } = stages;
+        barrier(errors)?;
+        let form_entries = graph.hessian(formulas.one_form);
+        let structure = OneForm::new(graph, model, formulas.one_form, &form_entries, formulas.declared);
+        structure.check(model, attribute.symplectic_part(), errors);
+        barrier(errors)?;
         let canonical = structure.canonical;
-        let pairs = PairSum::find(&mut stages.graph, &stages.model, formulas.hamiltonian);
+        let pairs = PairSum::find(graph, model, formulas.hamiltonian);
         let mut programs =
-            DegeneratePrograms::new(&mut stages.graph, &formulas, &form_entries, canonical, pairs.as_ref());
-        programs.shared.add_seams(&mut stages.graph, &formulas.seams);
+            DegeneratePrograms::new(graph, &formulas, &form_entries, canonical, pairs.as_ref());
+        programs.shared.add_seams(graph, &formulas.seams);
+        let checked = stages.checked(&Functions::Degenerate(&programs, &structure))?;
         let Stages { graph, model, attribute, .. } = &*stages;
-        let checked = validate::degenerate(graph, model, attribute, &programs, &structure);
-        let checked = stages.agrees(checked)?;
-        Some(implement::degenerate(
-            &stages.emitter(),
-            &stages.attribute,
-            &formulas,
-            &programs,
-            &structure,
-            &checked,
-        ))
+        let emitter = Emitter { graph, model };
+        Some(implement::degenerate(&emitter, attribute, &formulas, &programs, &structure, &checked))
     })
 }
 
@@ -60,27 +48,20 @@ pub(crate) fn degenerate_lagrangian(attribute: TokenStream, item: TokenStream) -
 pub(crate) fn lagrangian(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand(Kind::Regular, attribute, item, |stages| {
         let formulas = stages.regular_formulas()?;
-        stages.barrier()?;
-        let entries = stages.graph.hessian(formulas.lagrangian);
-        let structure = MassMatrix::new(&mut stages.graph, &stages.model, &formulas, &entries);
-        structure.check(&stages.model, stages.attribute.lagrangian.as_ref(), &mut stages.errors);
-        stages.barrier()?;
-        let is_free = formulas.constraints.is_none() && !stages.model.is_on_manifold();
-        let find = || PairSum::in_lagrangian(&mut stages.graph, &stages.model, formulas.lagrangian);
-        let pairs = is_free.then(find).flatten();
-        let mut programs = RegularPrograms::new(&mut stages.graph, &formulas, entries, pairs.as_ref());
-        programs.shared.add_seams(&mut stages.graph, &formulas.seams);
+        let Stages { graph, model, attribute, errors } = stages;
+        barrier(errors)?;
+        let entries = graph.hessian(formulas.lagrangian);
+        let structure = MassMatrix::new(graph, model, &formulas, &entries);
+        structure.check(model, attribute.lagrangian.as_ref(), errors);
+        barrier(errors)?;
+        let is_free = formulas.constraints.is_none() && !model.is_on_manifold();
+        let pairs = is_free.then(|| PairSum::in_lagrangian(graph, model, formulas.lagrangian)).flatten();
+        let mut programs = RegularPrograms::new(graph, &formulas, entries, pairs.as_ref());
+        programs.shared.add_seams(graph, &formulas.seams);
+        let checked = stages.checked(&Functions::Regular(&programs, &structure))?;
         let Stages { graph, model, attribute, .. } = &*stages;
-        let checked = validate::regular(graph, model, attribute, &programs, &structure);
-        let checked = stages.agrees(checked)?;
-        Some(implement::regular(
-            &stages.emitter(),
-            &stages.attribute,
-            &formulas,
-            &programs,
-            &structure,
-            &checked,
-        ))
+        let emitter = Emitter { graph, model };
+        Some(implement::regular(&emitter, attribute, &formulas, &programs, &structure, &checked))
     })
 }
 
@@ -92,23 +73,18 @@ struct Stages {
     errors: Errors,
 }
 
+/// Nothing passes once a mistake was found.
+fn barrier(errors: &Errors) -> Option<()> {
+    errors.is_empty().then_some(())
+}
+
 impl Stages {
-    /// Nothing passes once a mistake was found.
-    fn barrier(&self) -> Option<()> {
-        self.errors.is_empty().then_some(())
-    }
-
     /// Nothing is printed that differs from the formulas.
-    fn agrees(&mut self, checked: Result<Checked, Difference>) -> Option<Checked> {
+    fn checked(&mut self, functions: &Functions<'_>) -> Option<Checked> {
+        let checked = validate::check(&self.graph, &self.model, &self.attribute, functions);
         checked
-            .map_err(|difference| {
-                self.errors.push_syn(syn::Error::new(Span::call_site(), difference.message()));
-            })
+            .map_err(|differs| self.errors.push_syn(syn::Error::new(Span::call_site(), differs.message())))
             .ok()
-    }
-
-    fn emitter(&self) -> Emitter<'_> {
-        Emitter { graph: &self.graph, model: &self.model }
     }
 }
 
@@ -121,19 +97,17 @@ fn expand(
     ending: impl FnOnce(&mut Stages) -> Option<TokenStream>,
 ) -> TokenStream {
     let renaming = names::renaming([&attribute, &item]);
-    names::renamed(expanded(kind, attribute, item, ending), &renaming)
+    let item = read_item(kind, tidy::names(item));
+    let expanded = item.map_or_else(|refused| refused, |item| expanded(kind, attribute, item, ending));
+    names::renamed(expanded, &renaming)
 }
 
 fn expanded(
     kind: Kind,
     attribute: TokenStream,
-    item: TokenStream,
+    item: ItemStruct,
     ending: impl FnOnce(&mut Stages) -> Option<TokenStream>,
 ) -> TokenStream {
-    let item = match read_item(kind, tidy::names(item)) {
-        Ok(item) => item,
-        Err(refused) => return refused,
-    };
     let mut errors = Errors::default();
     let item = once(item, &mut errors);
     let mut attribute = parse_attribute(kind, attribute, &mut errors);
@@ -151,7 +125,8 @@ fn expanded(
         }
         _ => {
             let errors = std::mem::take(&mut stages.errors);
-            stand_in(&stages.emitter(), stages.attribute.constrained, errors)
+            let emitter = Emitter { graph: &stages.graph, model: &stages.model };
+            stand_in(&emitter, stages.attribute.constrained, errors)
         }
     }
 }

@@ -32,16 +32,11 @@ pub(crate) use state::{Names, State, state};
 /// A function of this many instructions at most is inlined wherever it is called.
 const SHORT: usize = 128;
 
-/// The item as written with its documentation continued, its state, and its implementations: the one
-/// that all systems have, where `energy` is the body of that function, and `special`.
-fn system(
-    emitter: &Emitter<'_>,
-    programs: &Programs,
-    account: &Account,
-    members: &TokenStream,
-    special: &TokenStream,
-) -> TokenStream {
-    let (documentation, report) = (account.documentation(emitter), account.report(emitter, programs));
+/// The item as written with its documentation continued, its state, and its implementations: the one that all
+/// systems have, with `members` more, and `special`.
+fn system(account: &Account<'_>, members: &TokenStream, special: &TokenStream) -> TokenStream {
+    let Account { emitter, programs, .. } = *account;
+    let (documentation, report) = (account.documentation(), account.report());
     let state = state(emitter);
     let configuration = configuration(emitter, programs, &state, &report);
     let lagrangian = lagrangian(emitter, programs, members);

@@ -148,6 +148,12 @@ impl<'ast> Visit<'ast> for IndexNames {
     }
 }
 
+/// All values if none is missing: each is asked for in any case, and says what is wrong with it.
+pub(crate) fn all<T>(values: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+    let values: Vec<Option<T>> = values.collect();
+    values.into_iter().collect()
+}
+
 /// The name in `name`, `name: type` and `_`.
 fn bound_name(pattern: &Pat) -> Option<String> {
     match pattern {
@@ -242,7 +248,7 @@ impl<'a> Lowering<'a> {
             }
             Syntax::Binary(binary) => self.binary(binary),
             Syntax::Path(path) if path.qself.is_none() => self.path(&path.path),
-            Syntax::Field(field) => self.field(field),
+            Syntax::Field(_) => self.field(syntax),
             Syntax::Index(_) => self.indexed(syntax),
             Syntax::Array(list) => self.list(list),
             Syntax::MethodCall(call) => self.method(call),

@@ -136,7 +136,9 @@ impl Model {
             model.extend(&transform.word, errors);
         }
         let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
-        for name in model.functions.iter().map(|function| &function.name).chain(fields) {
+        let functions: Vec<&Ident> =
+            model.functions.iter().map(|function| &function.name).chain(fields).collect();
+        for &name in &functions {
             if reserved().any(|reserved| name == reserved) {
                 errors.push(
                     name,
@@ -146,12 +148,10 @@ impl Model {
                 );
             }
         }
-        let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
-        unique(model.functions.iter().map(|function| &function.name).chain(fields), "function", errors);
+        unique(functions.iter().copied(), "function", errors);
         // A field of numbers cannot be called: no formula means it by mistake.
         let is_callable = |shape: &Shape| matches!(shape, Shape::Unknown | Shape::Other);
-        let fields = model.declared_scalar_fields.iter().map(|field| &field.name);
-        for name in model.functions.iter().map(|function| &function.name).chain(fields) {
+        for name in functions {
             let mut same = model.parameters.iter().filter(|parameter| *name == parameter.text);
             if same.any(|parameter| is_callable(&parameter.shape)) {
                 let message = "is a field of the struct too; give one of them another name";

@@ -15,7 +15,7 @@ use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
 use crate::statement::Statement;
-use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node, signed_exponent};
+use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node, leaf, signed_exponent};
 
 mod share;
 
@@ -101,14 +101,7 @@ impl Builder<'_> {
                 Node::Choose { left, right, then, otherwise, .. } => {
                     [left, right, then, otherwise].into_iter().for_each(|part| self.note(part));
                 }
-                Node::One
-                | Node::Coordinate(_)
-                | Node::Velocity(_)
-                | Node::Time
-                | Node::Parameter(_)
-                | Node::Count(_)
-                | Node::Weight(_)
-                | Node::Product(_) => {}
+                Node::One | leaf!() | Node::Product(_) => {}
             }
         }
         for (sum, over, body) in sums {
@@ -373,12 +366,7 @@ impl Builder<'_> {
                 Instruction::Reduce(fold, over, self.signed(body))
             }
             Node::One => Instruction::Literal(1.0_f64.to_bits()),
-            Node::Coordinate(_)
-            | Node::Velocity(_)
-            | Node::Time
-            | Node::Parameter(_)
-            | Node::Count(_)
-            | Node::Weight(_) => return self.out.push_leaf(id, self.graph.free(id)),
+            leaf!() => return self.out.push_leaf(id, self.graph.free(id)),
         };
         self.out.push(instruction)
     }

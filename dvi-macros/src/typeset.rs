@@ -15,7 +15,7 @@ use syn::visit::Visit as _;
 use syn::{BinOp, Expr, ExprIf, Lit, Local, Pat, Stmt, UnOp};
 
 use crate::errors::text;
-use crate::syntax::{Attribute, Factor, closure};
+use crate::syntax::{Attribute, Factor, closure, last_value};
 use names::{Arrays, number};
 
 #[cfg(test)]
@@ -131,7 +131,7 @@ impl Typesetter {
             Expr::Paren(inner) => self.terms(&inner.expr),
             Expr::Block(block) => {
                 self.bindings(&block.block);
-                block.block.stmts.last().and_then(value).map_or_else(Vec::new, |value| self.terms(value))
+                last_value(&block.block).map_or_else(Vec::new, |value| self.terms(value))
             }
             Expr::Binary(binary) if matches!(binary.op, BinOp::Add(_)) => {
                 let mut terms = self.terms(&binary.left);
@@ -208,7 +208,7 @@ impl Typesetter {
 
     fn statements(&mut self, block: &syn::Block) -> Tex {
         self.bindings(block);
-        match block.stmts.last().and_then(value) {
+        match last_value(block) {
             Some(value) => self.expr(value),
             None => Tex::atom(plain(&text(block))),
         }
@@ -319,13 +319,6 @@ impl Typesetter {
             }
             other => plain(&text(other)),
         }
-    }
-}
-
-fn value(statement: &Stmt) -> Option<&Expr> {
-    match statement {
-        Stmt::Expr(value, None) => Some(value),
-        _ => None,
     }
 }
 

@@ -13,16 +13,13 @@
 
 use quote::ToTokens;
 
-use self::claims::Claims;
 use self::formula::{NoValue, Texts};
-use self::generated::Functions;
+pub(crate) use self::generated::Functions;
 use self::jet::{First, Sized};
 use self::output::Output;
 use self::point::{Branches, Directions, Point, Support, mix_text};
 use self::system::{Part, System, difference};
 use crate::model::Model;
-use crate::program::{DegeneratePrograms, RegularPrograms};
-use crate::structure::{MassMatrix, OneForm};
 use crate::symbolic::Graph;
 use crate::syntax::Attribute;
 
@@ -93,28 +90,13 @@ impl Difference {
     }
 }
 
-pub(crate) fn degenerate(
+pub(crate) fn check(
     graph: &Graph,
     model: &Model,
     attribute: &Attribute,
-    programs: &DegeneratePrograms,
-    structure: &OneForm,
+    functions: &Functions<'_>,
 ) -> Result<Checked, Difference> {
-    let texts = Texts::default();
-    Check { graph, system: System { model, attribute, texts: &texts } }
-        .run(&Functions::Degenerate(programs), &Claims::Degenerate(structure))
-}
-
-pub(crate) fn regular(
-    graph: &Graph,
-    model: &Model,
-    attribute: &Attribute,
-    programs: &RegularPrograms,
-    structure: &MassMatrix,
-) -> Result<Checked, Difference> {
-    let texts = Texts::default();
-    Check { graph, system: System { model, attribute, texts: &texts } }
-        .run(&Functions::Regular(programs), &Claims::Regular(structure))
+    Check { graph, system: System { model, attribute, texts: &Texts::default() } }.run(functions)
 }
 
 struct Check<'a> {
@@ -123,7 +105,7 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn run(&self, functions: &Functions<'_>, claims: &Claims<'_>) -> Result<Checked, Difference> {
+    fn run(&self, functions: &Functions<'_>) -> Result<Checked, Difference> {
         let mut checked = Checked::default();
         let mut sides = formula::Sides::default();
         for branches in [Branches::AsCompared, Branches::Exchanged] {
@@ -156,7 +138,7 @@ impl Check<'_> {
                 sides.extend(&outputs.sides);
                 self.compare(&point, &outputs, functions, &mut checked)?;
                 self.compare_seams(&point, &outputs, functions)?;
-                self.system.check_claims(self.graph, claims, functions, &point, &outputs, &mut checked)?;
+                self.system.check_claims(self.graph, functions, &point, &outputs, &mut checked)?;
             }
             checked.points += accepted;
         }

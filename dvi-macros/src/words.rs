@@ -10,31 +10,19 @@ use crate::symbolic::{Binary, Unary, binary_by_name, binary_names, unary_by_name
 pub(crate) enum Method {
     Unary(Unary),
     Binary(Binary),
-    Arithmetic(Arithmetic),
+    /// One of [`ARITHMETIC`].
+    Arithmetic(&'static str, usize),
 }
 
-/// A method that is arithmetic rather than a function of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Arithmetic {
-    Powi,
-    Recip,
-    MulAdd,
-    Min,
-    Max,
-    ToRadians,
-    ToDegrees,
-}
-
-/// With the number of arguments.
-#[rustfmt::skip]
-const ARITHMETIC: [(&str, Arithmetic, usize); 7] = [
-    ("powi",       Arithmetic::Powi,      1),
-    ("recip",      Arithmetic::Recip,     0),
-    ("mul_add",    Arithmetic::MulAdd,    2),
-    ("min",        Arithmetic::Min,       1),
-    ("max",        Arithmetic::Max,       1),
-    ("to_radians", Arithmetic::ToRadians, 0),
-    ("to_degrees", Arithmetic::ToDegrees, 0),
+/// Methods that are arithmetic rather than functions of a table, with the number of arguments.
+const ARITHMETIC: [(&str, usize); 7] = [
+    ("powi", 1),
+    ("recip", 0),
+    ("mul_add", 2),
+    ("min", 1),
+    ("max", 1),
+    ("to_radians", 0),
+    ("to_degrees", 0),
 ];
 
 /// A method of vectors.
@@ -93,7 +81,7 @@ impl Method {
         unary_by_name(name)
             .map(Self::Unary)
             .or_else(|| binary_by_name(name).map(Self::Binary))
-            .or_else(|| arithmetic().map(|(_, method, _)| Self::Arithmetic(*method)))
+            .or_else(|| arithmetic().map(|&(name, arity)| Self::Arithmetic(name, arity)))
     }
 
     /// The number of arguments, the receiver not counted.
@@ -101,9 +89,7 @@ impl Method {
         match self {
             Self::Unary(_) => 0,
             Self::Binary(_) => 1,
-            Self::Arithmetic(method) => {
-                ARITHMETIC.iter().filter(|(_, known, _)| *known == method).map(|(.., arity)| arity).sum()
-            }
+            Self::Arithmetic(_, arity) => arity,
         }
     }
 }

@@ -5,7 +5,7 @@ use syn::Expr as Syntax;
 use super::Stages;
 use crate::formulas::{DeclaredConstraints, DegenerateFormulas, RegularFormulas, TimeTransform};
 use crate::internal::internal;
-use crate::lower::{Lowering, Role};
+use crate::lower::{Lowering, Role, all};
 use crate::model::Extended;
 use crate::structure::gauge::{self, Effort, Search};
 use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Id, Index, Node};
@@ -224,9 +224,7 @@ fn time_transform(
 }
 
 fn named(declared: &[Named], role: Role, lowering: &mut Lowering<'_>) -> Option<Vec<Expr>> {
-    let formulas: Vec<Option<Expr>> =
-        declared.iter().map(|named| lowering.formula(&named.formula, role)).collect();
-    formulas.into_iter().collect()
+    all(declared.iter().map(|named| lowering.formula(&named.formula, role)))
 }
 
 /// α·v and H, declared as they are, or split from L; `clean` if no mistake was found before.

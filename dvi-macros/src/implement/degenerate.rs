@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::document::{Account, beside_force, in_tex, quantity};
+use super::document::Account;
 use super::pairs::pairs;
 use super::{in_numbers, over_numbers, suited};
 use crate::emit::Emitter;
@@ -26,53 +26,13 @@ pub(crate) fn degenerate(
     structure: &OneForm,
     checked: &Checked,
 ) -> TokenStream {
-    let implementation = implementation(emitter, programs, structure);
-    let krate = emitter.krate();
-    let time = programs.time.as_ref().map(|_| {
-        quote! {
-            #[inline]
-            fn time_transform(
-                &self, __q: &[__T],
-            ) -> ::core::option::Option<#krate::system::TimeTransform<__T>> {
-                ::core::option::Option::Some(
-                    <Self as #krate::TimeTransformed<__T>>::time_transform_at(self, __q)
-                )
-            }
-        }
-    });
-    let members = quote! {
-        #[inline]
-        fn energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T {
-            <Self as #krate::DegenerateLagrangian<__T>>::hamiltonian(self, __q, __t)
-        }
-        #time
-    };
-    super::system(
-        emitter,
-        &programs.shared,
-        &account(emitter, attribute, formulas, programs, structure, checked),
-        &members,
-        &implementation,
-    )
-}
-
-fn account(
-    emitter: &Emitter<'_>,
-    attribute: &Attribute,
-    formulas: &DegenerateFormulas,
-    programs: &DegeneratePrograms,
-    structure: &OneForm,
-    checked: &Checked,
-) -> Account {
     let dynamics = [("α", formulas.one_form), ("H", formulas.hamiltonian)].into_iter();
     let declared = dynamics.chain(formulas.gauge.map(|gauge| ("F", gauge)));
     let declared = declared.chain(formulas.time.map(|time| ("ρ", time.rate)));
-    let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
     let mut account = Account::new(
-        attribute,
-        emitter.model,
+        (emitter, attribute, &programs.shared),
         "L(q, v, t) = α(q, t)·v − H(q, t), as it is declared:",
-        declared.collect(),
+        declared,
         structure.sentences(emitter.model, programs.shared.forces.is_some()),
     );
     if formulas.gauge.is_some() {
@@ -104,22 +64,39 @@ fn account(
             listed(divisors.iter().map(String::as_str))
         ));
     }
-    account.sentence(checked.sentence());
-    account.observed(emitter, &formulas.momenta, &formulas.events);
-    account.forces(emitter, &programs.shared);
-    account.seams(emitter, &programs.shared.seams);
+    account.observed(checked, &formulas.momenta, &formulas.events);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
-    account.derived(emitter, &programs.one_form.statements, |typesetter, _, entry| {
+    account.derived(&programs.one_form.statements, |account, _, entry| {
         let along = coordinate(entry);
-        (format!("α_{along}"), Some(format!(r"\alpha_{{{}}}", in_tex(typesetter, &along))))
+        (format!("α_{along}"), Some(format!(r"\alpha_{{{}}}", account.in_tex(&along))))
     });
-    account.derived(emitter, &programs.hamiltonian_gradient.statements, |typesetter, _, entry| {
-        let [text, tex] = beside_force(emitter, attribute, &programs.shared, typesetter, '-', entry);
+    account.derived(&programs.hamiltonian_gradient.statements, |account, _, entry| {
+        let [text, tex] = account.beside_force('-', entry);
         let by = coordinate(entry);
         let text = format!("∂H/∂{by}{}", text.replace('-', "−"));
-        (text, Some(format!(r"\partial H / \partial {}{tex}", in_tex(typesetter, &by))))
+        (text, Some(format!(r"\partial H / \partial {}{tex}", account.in_tex(&by))))
     });
-    account
+    let krate = emitter.krate();
+    let time = programs.time.as_ref().map(|_| {
+        quote! {
+            #[inline]
+            fn time_transform(
+                &self, __q: &[__T],
+            ) -> ::core::option::Option<#krate::system::TimeTransform<__T>> {
+                ::core::option::Option::Some(
+                    <Self as #krate::TimeTransformed<__T>>::time_transform_at(self, __q)
+                )
+            }
+        }
+    });
+    let members = quote! {
+        #[inline]
+        fn energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T {
+            <Self as #krate::DegenerateLagrangian<__T>>::hamiltonian(self, __q, __t)
+        }
+        #time
+    };
+    super::system(&account, &members, &implementation(emitter, programs, structure))
 }
 
 /// The parameters in denominators of a function in which neither coordinates stand nor the time.

@@ -11,18 +11,17 @@ use crate::model::{Axis, Model};
 use crate::operations::Operations;
 use crate::print::{print_coordinate, print_expr, print_index, print_loops, print_velocity, write_expr};
 use crate::program::Programs;
-use crate::routine::Routine;
 use crate::statement::{Output, Place, Row, Statement};
 use crate::symbolic::{Coordinate, Count, Expr, Index, Rows};
 use crate::syntax::{Attribute, Constrained, Factor, Force, closure, value};
 use crate::typeset::{Equation, Typesetter, block, declared, plain};
-
-pub(super) fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
-    print_expr(emitter.graph, expr, 0, emitter.model)
-}
+use crate::validate::Checked;
 
 /// What a system says about itself.
-pub(super) struct Account {
+pub(super) struct Account<'a> {
+    pub(super) emitter: &'a Emitter<'a>,
+    attribute: &'a Attribute,
+    pub(super) programs: &'a Programs,
     opening: &'static str,
     /// Declared formulas, then derived ones, as (name, text).
     formulas: Vec<(String, String)>,
@@ -34,20 +33,21 @@ pub(super) struct Account {
     sentences: Vec<String>,
 }
 
-impl Account {
+impl<'a> Account<'a> {
     pub(super) fn new(
-        attribute: &Attribute,
-        model: &Model,
+        (emitter, attribute, programs): (&'a Emitter<'a>, &'a Attribute, &'a Programs),
         opening: &'static str,
-        mut formulas: Vec<(String, String)>,
+        functions: impl IntoIterator<Item = (&'static str, Expr)>,
         sentences: Vec<String>,
     ) -> Self {
-        formulas.extend(attribute.shared.iter().filter_map(definition));
-        let mut typesetter = Typesetter::new(attribute, model.vectors());
+        let functions =
+            functions.into_iter().map(|(name, value)| (name.to_string(), quantity(emitter, value)));
+        let formulas = functions.chain(attribute.shared.iter().filter_map(definition)).collect();
+        let mut typesetter = Typesetter::new(attribute, emitter.model.vectors());
         let declared = declared(attribute, &mut typesetter);
         let has_more = declared.iter().any(Equation::is_endless);
         let equations = [declared, Vec::new()];
-        Self { opening, formulas, equations, typesetter, has_more, sentences }
+        Self { emitter, attribute, programs, opening, formulas, equations, typesetter, has_more, sentences }
     }
 
     /// Adds what is said of the system as a whole.
@@ -55,51 +55,44 @@ impl Account {
         self.sentences.push(sentence);
     }
 
-    /// Adds the declared momenta and events.
-    pub(super) fn observed(&mut self, emitter: &Emitter<'_>, momenta: &[Expr], events: &[Expr]) {
-        let Model { momenta: names, events: others, .. } = emitter.model;
-        let values = momenta.iter().chain(events);
-        let named = names.iter().chain(others).zip(values);
+    /// Adds what was checked, the declared momenta and events, the forces with what they mean for the methods,
+    /// and where the formulas are not smooth.
+    pub(super) fn observed(&mut self, checked: &Checked, momenta: &[Expr], events: &[Expr]) {
+        self.sentence(checked.sentence());
+        let (emitter, Model { momenta: names, events: others, .. }) = (self.emitter, self.emitter.model);
+        let named = names.iter().chain(others).zip(momenta.iter().chain(events));
         self.formulas.extend(named.map(|(name, value)| (name.clone(), quantity(emitter, *value))));
-    }
-
-    /// Says where the formulas are not smooth.
-    pub(super) fn seams(&mut self, emitter: &Emitter<'_>, seams: &[Routine]) {
-        let values = seams.iter().flat_map(|seam| &seam.statements).map(|statement| statement.value);
-        let values: Vec<String> = values.map(|value| format!("{} = 0", quantity(emitter, value))).collect();
-        if !values.is_empty() {
-            let places = values.join(", ");
+        if let Some(forces) = &self.programs.forces {
+            self.derived(&forces.statements, |_, _, entry| {
+                (format!("force({})", print_coordinate(entry, emitter.model)), None)
+            });
+            self.sentence(
+                "Forces act: no method preserves a form, and energy and momenta change as the forces make them."
+                    .to_string(),
+            );
+        }
+        let values = self.programs.seams.iter().flat_map(|seam| &seam.statements);
+        let values = values.map(|statement| format!("{} = 0", quantity(emitter, statement.value)));
+        let places = values.collect::<Vec<_>>().join(", ");
+        if !places.is_empty() {
             self.sentence(format!("Not smooth where {places}: there steps of `ErrorControl` end."));
         }
-    }
-
-    /// Adds the forces, and what they mean for the methods.
-    pub(super) fn forces(&mut self, emitter: &Emitter<'_>, programs: &Programs) {
-        let Some(forces) = &programs.forces else { return };
-        self.derived(emitter, &forces.statements, |_, _, entry| {
-            (format!("force({})", print_coordinate(entry, emitter.model)), None)
-        });
-        self.sentence(
-            "Forces act: no method preserves a form, and energy and momenta change as the forces make them."
-                .to_string(),
-        );
     }
 
     /// Adds derivatives, named by what they are entries of and where: as text, and in LaTeX if they are not
     /// declared as they are. What loops add to entries is no equation, and stands as text alone.
     pub(super) fn derived(
         &mut self,
-        emitter: &Emitter<'_>,
         statements: &[Statement],
-        name: impl Fn(&mut Typesetter, Output, &Coordinate) -> (String, Option<String>),
+        name: impl Fn(&mut Self, Output, &Coordinate) -> (String, Option<String>),
     ) {
         let are_equations = statements.iter().all(|statement| statement.loops.is_empty());
         for statement in statements {
             let Some((output, coordinate)) = statement.place.entry() else { continue };
-            let (text, tex) = name(&mut self.typesetter, output, coordinate);
-            self.formulas.push((text, in_loops(emitter, statement)));
+            let (text, tex) = name(self, output, coordinate);
+            self.formulas.push((text, in_loops(self.emitter, statement)));
             match tex {
-                Some(name) if are_equations => self.typeset(emitter, name, statement.value),
+                Some(name) if are_equations => self.typeset(name, statement.value),
                 Some(_) => self.has_more = true,
                 None => {}
             }
@@ -107,8 +100,8 @@ impl Account {
     }
 
     /// Typesets a derived formula, if it is short.
-    pub(super) fn typeset(&mut self, emitter: &Emitter<'_>, name: String, value: Expr) {
-        let text = write_expr(emitter.graph, value, emitter.model);
+    pub(super) fn typeset(&mut self, name: String, value: Expr) {
+        let text = write_expr(self.emitter.graph, value, self.emitter.model);
         let formula = text.and_then(|text| syn::parse_str(&text).ok());
         let equation = formula.map(|formula| self.typesetter.equation(name, &formula));
         match equation.filter(Equation::is_short) {
@@ -118,8 +111,9 @@ impl Account {
     }
 
     /// Adds the constraints with their derivatives, and how many there are.
-    pub(super) fn constraints(&mut self, emitter: &Emitter<'_>, programs: &Programs) {
-        let Some(constraints) = &programs.constraints else { return };
+    pub(super) fn constraints(&mut self) {
+        let emitter = self.emitter;
+        let Some(constraints) = &self.programs.constraints else { return };
         let number = |row: &Row| {
             let before = &constraints.lengths[..row.constraint as usize];
             let first = before.iter().fold(Index::default(), |sum, length| sum.plus(&length.rest, 1));
@@ -162,9 +156,9 @@ impl Account {
         self.sentence(format!("{count} {adjective}{noun} {function} {relation}{condition}."));
     }
 
-    pub(super) fn report(&self, emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
+    pub(super) fn report(&self) -> TokenStream {
+        let Self { emitter, programs, formulas, sentences, .. } = self;
         let krate = emitter.krate();
-        let Self { formulas, sentences, .. } = self;
         let Model { momenta, events, .. } = emitter.model;
         let system = emitter.model.item.ident.to_string();
         let blocks = emitter.model.blocks.iter().map(|block| {
@@ -203,7 +197,7 @@ impl Account {
     }
 
     /// The text that the struct's own documentation is continued with.
-    pub(super) fn documentation(&self, emitter: &Emitter<'_>) -> String {
+    pub(super) fn documentation(&self) -> String {
         let [declared, derived] = &self.equations;
         let mut text = format!("\n# Dynamics\n\n{}\n\n{}", self.opening, block(declared));
         if !derived.is_empty() {
@@ -213,10 +207,43 @@ impl Account {
             text += &format!("- {sentence}\n");
         }
         if self.has_more {
-            text += &format!("- `{}::REPORT` has all formulas.\n", emitter.model.item.ident);
+            text += &format!("- `{}::REPORT` has all formulas.\n", self.emitter.model.item.ident);
         }
         text
     }
+
+    /// A place as the language has it, such as `x[i]` or `dot(x)`, in LaTeX.
+    pub(super) fn in_tex(&mut self, place: &str) -> String {
+        syn::parse_str(place).map_or_else(|_| plain(place), |place| self.typesetter.text(&place))
+    }
+
+    /// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with
+    /// another sign, as text and in LaTeX; nothing where no force acts.
+    pub(super) fn beside_force(&mut self, sign: char, entry: &Coordinate) -> [String; 2] {
+        let acts =
+            |statement: &Statement| statement.place.entry().is_some_and(|(_, on)| on.block == entry.block);
+        if !self.programs.forces.iter().any(|forces| forces.statements.iter().any(acts)) {
+            return Default::default();
+        }
+        let model = self.emitter.model;
+        let on = print_coordinate(entry, model);
+        let is_on = |force: &Force| match force {
+            Force::Components(_) => true,
+            Force::On(name, _) => *name == model.blocks[entry.block as usize].name,
+        };
+        let mut tex = String::new();
+        if self.attribute.forces.iter().any(is_on) {
+            tex += &format!(" {sign} F_{{{}}}", self.in_tex(&on));
+        }
+        if self.attribute.dissipation.is_some() {
+            tex += &format!(r" - \partial R / \partial {}", self.in_tex(&print_velocity(entry, model)));
+        }
+        [format!(" {sign} force({on})"), tex]
+    }
+}
+
+fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
+    print_expr(emitter.graph, expr, 0, emitter.model)
 }
 
 /// A number with the passes of loops in loops in it.
@@ -256,42 +283,6 @@ fn in_loops(emitter: &Emitter<'_>, statement: &Statement) -> String {
         return text;
     }
     format!("{text}  for {}", print_loops(&statement.loops, emitter.model))
-}
-
-/// A place as the language has it, such as `x[i]` or `dot(x)`, in LaTeX.
-pub(super) fn in_tex(typesetter: &mut Typesetter, place: &str) -> String {
-    syn::parse_str(place).map_or_else(|_| plain(place), |place| typesetter.text(&place))
-}
-
-/// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with another
-/// sign, as text and in LaTeX; nothing where no force acts.
-pub(super) fn beside_force(
-    emitter: &Emitter<'_>,
-    attribute: &Attribute,
-    programs: &Programs,
-    typesetter: &mut Typesetter,
-    sign: char,
-    entry: &Coordinate,
-) -> [String; 2] {
-    let acts =
-        |statement: &Statement| statement.place.entry().is_some_and(|(_, on)| on.block == entry.block);
-    let is_forced = programs.forces.iter().any(|forces| forces.statements.iter().any(acts));
-    if !is_forced {
-        return Default::default();
-    }
-    let on = print_coordinate(entry, emitter.model);
-    let is_on = |force: &Force| match force {
-        Force::Components(_) => true,
-        Force::On(name, _) => *name == emitter.model.blocks[entry.block as usize].name,
-    };
-    let declared = attribute.forces.iter().any(is_on);
-    let mut tex =
-        if declared { format!(" {sign} F_{{{}}}", in_tex(typesetter, &on)) } else { String::new() };
-    if attribute.dissipation.is_some() {
-        let by = print_velocity(entry, emitter.model);
-        tex += &format!(r" - \partial R / \partial {}", in_tex(typesetter, &by));
-    }
-    [format!(" {sign} force({on})"), tex]
 }
 
 fn operation_list(emitter: &Emitter<'_>, operations: &[Operations]) -> TokenStream {

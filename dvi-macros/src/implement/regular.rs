@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constraints::constraints;
-use super::document::{Account, beside_force, in_tex, quantity};
+use super::document::Account;
 use super::manifold::manifold;
 use super::pairs::pairs;
 use super::{in_numbers, suited};
@@ -27,67 +27,35 @@ pub(crate) fn regular(
     structure: &MassMatrix,
     checked: &Checked,
 ) -> TokenStream {
-    let implementation = implementation(emitter, programs, structure);
+    let (model, energy) = (emitter.model, programs.energy.statements.first());
+    let energy = energy.map(|statement| statement.value);
+    let mut account = Account::new(
+        (emitter, attribute, &programs.shared),
+        "L(q, v, t), and what is declared with it:",
+        [("L", formulas.lagrangian), ("E", energy.unwrap_or(Expr::ZERO))],
+        structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of), model),
+    );
+    account.observed(checked, &formulas.momenta, &formulas.events);
+    account.constraints();
+    if let Some(energy) = energy {
+        account.typeset("E".to_string(), energy);
+    }
+    account.derived(&programs.shared.gradient.statements, |account, output, entry| match output {
+        Output::Lv => {
+            let by = print_velocity(entry, model);
+            (format!("∂L/∂{by}"), Some(format!(r"\partial L / \partial {}", account.in_tex(&by))))
+        }
+        Output::Lq | Output::Vector => {
+            let ([text, tex], by) = (account.beside_force('+', entry), print_coordinate(entry, model));
+            (format!("∂L/∂{by}{text}"), Some(format!(r"\partial L / \partial {}{tex}", account.in_tex(&by))))
+        }
+    });
     let energy = emitter.value(&programs.energy);
     let members = quote! {
         #[inline]
         fn energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
     };
-    super::system(
-        emitter,
-        &programs.shared,
-        &account(emitter, attribute, formulas, programs, structure, checked),
-        &members,
-        &implementation,
-    )
-}
-
-fn account(
-    emitter: &Emitter<'_>,
-    attribute: &Attribute,
-    formulas: &RegularFormulas,
-    programs: &RegularPrograms,
-    structure: &MassMatrix,
-    checked: &Checked,
-) -> Account {
-    let energy = programs.energy.statements.first();
-    let declared =
-        [("L", formulas.lagrangian), ("E", energy.map_or(Expr::ZERO, |statement| statement.value))];
-    let declared = declared.map(|(name, value)| (name.to_string(), quantity(emitter, value)));
-    let mut account = Account::new(
-        attribute,
-        emitter.model,
-        "L(q, v, t), and what is declared with it:",
-        declared.to_vec(),
-        structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of), emitter.model),
-    );
-    account.sentence(checked.sentence());
-    account.observed(emitter, &formulas.momenta, &formulas.events);
-    account.forces(emitter, &programs.shared);
-    account.seams(emitter, &programs.shared.seams);
-    account.constraints(emitter, &programs.shared);
-    if let Some(energy) = energy {
-        account.typeset(emitter, "E".to_string(), energy.value);
-    }
-    account.derived(
-        emitter,
-        &programs.shared.gradient.statements,
-        |typesetter, output, entry| match output {
-            Output::Lv => {
-                let by = print_velocity(entry, emitter.model);
-                (format!("∂L/∂{by}"), Some(format!(r"\partial L / \partial {}", in_tex(typesetter, &by))))
-            }
-            Output::Lq | Output::Vector => {
-                let [text, tex] = beside_force(emitter, attribute, &programs.shared, typesetter, '+', entry);
-                let by = print_coordinate(entry, emitter.model);
-                (
-                    format!("∂L/∂{by}{text}"),
-                    Some(format!(r"\partial L / \partial {}{tex}", in_tex(typesetter, &by))),
-                )
-            }
-        },
-    );
-    account
+    super::system(&account, &members, &implementation(emitter, programs, structure))
 }
 
 /// The implementation of `NondegenerateLagrangian`, and of what the system is beyond that.

@@ -5,12 +5,12 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
-use super::{Binding, Lowering, Value};
+use super::{Binding, Lowering, Value, all};
 use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
 use crate::symbolic::{Expr, Partial, Relation, Unary};
-use crate::words::{AREA, Arithmetic, Method, SUMS, VELOCITIES, VectorMethod, callable, is_method};
+use crate::words::{AREA, Method, SUMS, VELOCITIES, VectorMethod, callable, is_method};
 
 impl Lowering<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Option<Value> {
@@ -85,16 +85,15 @@ impl Lowering<'_> {
             }
             None => None,
         };
-        if let Method::Arithmetic(Arithmetic::Powi) = method {
+        if let Method::Arithmetic("powi", _) = method {
             let exponent = self.integer(&call.args[0]);
             let (receiver, exponent) = (receiver?, exponent?);
             let value = self.graph.powi(receiver, exponent);
             return self.admitted(call, value).map(Value::Number);
         }
-        let arguments: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
-        let arguments: Vec<Expr> = arguments.into_iter().collect::<Option<_>>()?;
+        let arguments = all(call.args.iter().map(|argument| self.expr(argument)))?;
         let receiver = receiver?;
-        if matches!(method, Method::Arithmetic(Arithmetic::Min | Arithmetic::Max)) {
+        if matches!(method, Method::Arithmetic("min" | "max", _)) {
             self.check_at_rest(call, &format!("`{name}`"), &[receiver, arguments[0]])?;
         }
         let value = self.apply(method, receiver, &arguments);
@@ -111,15 +110,15 @@ impl Lowering<'_> {
                 self.graph.unary(function, x)
             }
             (Method::Binary(function), [y]) => self.graph.binary(function, x, *y),
-            (Method::Arithmetic(Arithmetic::MulAdd), [y, z]) => {
+            (Method::Arithmetic("mul_add", _), [y, z]) => {
                 let product = self.graph.multiply(x, *y);
                 self.graph.add(product, *z)
             }
-            (Method::Arithmetic(Arithmetic::Min), [y]) => self.smaller(x, *y, (x, *y)),
-            (Method::Arithmetic(Arithmetic::Max), [y]) => self.smaller(x, *y, (*y, x)),
-            (Method::Arithmetic(Arithmetic::ToRadians), []) => x.scaled(std::f64::consts::PI / 180.0),
-            (Method::Arithmetic(Arithmetic::ToDegrees), []) => x.scaled(180.0 / std::f64::consts::PI),
-            (Method::Arithmetic(Arithmetic::Recip), []) => self.graph.reciprocal(x),
+            (Method::Arithmetic("min", _), [y]) => self.smaller(x, *y, (x, *y)),
+            (Method::Arithmetic("max", _), [y]) => self.smaller(x, *y, (*y, x)),
+            (Method::Arithmetic("to_radians", _), []) => x.scaled(std::f64::consts::PI / 180.0),
+            (Method::Arithmetic("to_degrees", _), []) => x.scaled(180.0 / std::f64::consts::PI),
+            (Method::Arithmetic("recip", _), []) => self.graph.reciprocal(x),
             (method, arguments) => internal(format!("{method:?} with {} arguments", arguments.len())),
         }
     }
@@ -293,7 +292,7 @@ impl Lowering<'_> {
         }
         let arity = call.args.len();
         let field = self.model.scalar_field(ident, arity)?;
-        let at: Vec<Option<Expr>> = call.args.iter().map(|argument| self.expr(argument)).collect();
+        let at = all(call.args.iter().map(|argument| self.expr(argument)));
         let field = match field {
             Ok(_) if arity == 0 => {
                 self.errors.push(call, format!("`{name}` takes one argument or more; here are none"));
@@ -307,7 +306,6 @@ impl Lowering<'_> {
                 return Some(None);
             }
         };
-        let at: Option<Vec<Expr>> = at.into_iter().collect();
         Some(at.and_then(|at| {
             let value = self.graph.scalar_field(field, Partial::Value, at);
             self.admitted(call, value)

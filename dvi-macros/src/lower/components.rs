@@ -4,7 +4,7 @@ use std::ops::Range as Blocks;
 
 use syn::{Expr as Syntax, Ident};
 
-use super::{Lowering, Role, Value};
+use super::{Lowering, Role, Value, all};
 use crate::errors::{here, listed, nearest};
 use crate::model::Block;
 use crate::symbolic::{Atom, Contribution, Coordinate, Expr, Fold, Index, Loop, Node, Range};
@@ -13,6 +13,7 @@ use crate::words::AREA;
 
 /// A component of a covector: its value at the entry `index` of a block, in the loop over that block if it
 /// is an array, or in both where it has two indices.
+#[derive(Clone)]
 struct Component {
     block: usize,
     index: Index,
@@ -46,17 +47,13 @@ impl Lowering<'_> {
 
     /// The components of a force that do not vanish, each at the coordinate that it acts on.
     pub(crate) fn forces(&mut self, forces: &[Force]) -> Option<Vec<Contribution>> {
-        let parts: Vec<Option<Vec<Component>>> = forces
-            .iter()
-            .map(|force| match force {
-                Force::Components(list) => self.listed(list, Role::Force),
-                Force::On(name, formula) => {
-                    let blocks = self.declared_blocks(name)?;
-                    self.along(blocks, formula, Role::Force)
-                }
-            })
-            .collect();
-        let parts: Vec<Vec<Component>> = parts.into_iter().collect::<Option<_>>()?;
+        let parts = all(forces.iter().map(|force| match force {
+            Force::Components(list) => self.listed(list, Role::Force),
+            Force::On(name, formula) => {
+                let blocks = self.declared_blocks(name)?;
+                self.along(blocks, formula, Role::Force)
+            }
+        }))?;
         let acting = parts.into_iter().flatten().filter(|part| !part.value.is_zero());
         let contribution = |part: Component| Contribution {
             target: self.graph.intern(Node::Coordinate(part.coordinate())),
@@ -115,9 +112,7 @@ impl Lowering<'_> {
             return None;
         }
         let components = declared.into_iter().zip(&list.elems);
-        let components: Vec<Option<Vec<Component>>> =
-            components.map(|(blocks, component)| self.along(blocks, component, role)).collect();
-        Some(components.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
+        Some(all(components.map(|(blocks, component)| self.along(blocks, component, role)))?.concat())
     }
 
     /// The blocks of each coordinate that the attribute declares.

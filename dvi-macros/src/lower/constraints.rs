@@ -4,7 +4,7 @@ use syn::Expr as Syntax;
 
 use super::lints::uses;
 use super::sums::natural;
-use super::{Binding, Lowering, Role};
+use super::{Binding, Lowering, Role, all};
 use crate::formulas::Constraint;
 use crate::symbolic::{Atom, Expr, Graph, Id, Index, Loop, Node};
 use crate::syntax::{self, Constrained, Member};
@@ -16,9 +16,7 @@ impl Lowering<'_> {
         of: Constrained,
         declared: &[syntax::Constraint],
     ) -> Option<Vec<Constraint>> {
-        let constraints: Vec<Option<Constraint>> =
-            declared.iter().map(|one| self.constraint(of, one)).collect();
-        let constraints: Vec<Constraint> = constraints.into_iter().collect::<Option<_>>()?;
+        let constraints = all(declared.iter().map(|one| self.constraint(of, one)))?;
         let formulas: Vec<&Syntax> = declared.iter().map(|one| &one.formula).collect();
         self.are_different(of, &constraints, &formulas);
         if of != Constrained::Gaps {

@@ -7,6 +7,7 @@ use syn::{BinOp, Expr as Syntax, Lit, UnOp};
 
 use super::{Binding, Lowering, Written};
 use crate::symbolic::Expr;
+use crate::syntax::last_value;
 
 impl Lowering<'_> {
     /// `value as f64`: numbers pass, and an index becomes a number.
@@ -43,10 +44,7 @@ impl Lowering<'_> {
                 }
                 _ => None,
             },
-            Syntax::Block(block) => match block.block.stmts.as_slice() {
-                [.., syn::Stmt::Expr(value, None)] => self.integer_division(value),
-                _ => None,
-            },
+            Syntax::Block(block) => self.integer_division(last_value(&block.block)?),
             Syntax::Paren(inner) => self.integer_division(&inner.expr),
             Syntax::Unary(unary) => self.integer_division(&unary.expr),
             Syntax::Binary(binary) => {
@@ -63,10 +61,7 @@ impl Lowering<'_> {
                 inside.or_else(|| call.args.iter().find_map(|argument| self.integer_division(argument)))
             }
             Syntax::If(choice) => {
-                let then = choice.then_branch.stmts.last().and_then(|last| match last {
-                    syn::Stmt::Expr(value, None) => self.integer_division(value),
-                    _ => None,
-                });
+                let then = last_value(&choice.then_branch).and_then(|value| self.integer_division(value));
                 let otherwise = choice.else_branch.as_ref();
                 then.or_else(|| otherwise.and_then(|(_, otherwise)| self.integer_division(otherwise)))
             }
@@ -121,16 +116,10 @@ impl Lowering<'_> {
                 call.method == "len" || (keeps && self.is_integer(&call.receiver))
             }
             Syntax::If(choice) => {
-                let then = match choice.then_branch.stmts.last() {
-                    Some(syn::Stmt::Expr(value, None)) => self.is_integer(value),
-                    _ => false,
-                };
+                let then = last_value(&choice.then_branch).is_some_and(|value| self.is_integer(value));
                 then && choice.else_branch.as_ref().is_some_and(|(_, otherwise)| self.is_integer(otherwise))
             }
-            Syntax::Block(block) => match block.block.stmts.as_slice() {
-                [.., syn::Stmt::Expr(value, None)] => self.is_integer(value),
-                _ => false,
-            },
+            Syntax::Block(block) => last_value(&block.block).is_some_and(|value| self.is_integer(value)),
             _ => false,
         }
     }

@@ -2,13 +2,14 @@
 
 use std::f64::consts;
 
-use syn::{Expr as Syntax, ExprField, Path};
+use syn::{Expr as Syntax, Path};
 
 use super::habits::as_receiver;
-use super::{Binding, Lowering, Value};
+use super::{Binding, Lowering, Value, all};
 use crate::errors::here;
 use crate::model::{Axis, Block, Grid, Shape, are_components};
 use crate::symbolic::{Coordinate, Expr, Index, Node};
+use crate::syntax::{indexed, name_of, own_field};
 use crate::words;
 
 impl Lowering<'_> {
@@ -121,32 +122,24 @@ impl Lowering<'_> {
     }
 
     /// `self.name` is `name`; `self.p.m` is a field of a field.
-    pub(super) fn field(&mut self, field: &ExprField) -> Option<Value> {
-        match (&*field.base, &field.member) {
-            (Syntax::Path(base), syn::Member::Named(name)) if base.path.is_ident("self") => {
-                match self.parameter(name) {
-                    Some(parameter) => self.whole_parameter(field, parameter),
-                    None => {
-                        self.unknown_name(name, &name.to_string(), "the struct has no field");
-                        None
-                    }
-                }
-            }
-            _ => {
-                let syntax = Syntax::Field(field.clone());
-                if self.is_bound_root(&syntax) {
-                    self.unsupported(&syntax);
-                    return None;
-                }
-                match self.model.nested_parameter(&syntax) {
-                    Some(parameter) => Some(self.parameter_node(parameter, Vec::new()).into()),
-                    None => {
-                        self.unsupported(&syntax);
-                        None
-                    }
-                }
-            }
+    pub(super) fn field(&mut self, syntax: &Syntax) -> Option<Value> {
+        if let Some(name) = own_field(syntax) {
+            let Some(parameter) = self.parameter(name) else {
+                self.unknown_name(name, &name.to_string(), "the struct has no field");
+                return None;
+            };
+            return self.whole_parameter(syntax, parameter);
         }
+        let Some(parameter) = self.nested_parameter(syntax) else {
+            self.unsupported(syntax);
+            return None;
+        };
+        Some(self.parameter_node(parameter, Vec::new()).into())
+    }
+
+    /// The parameter at `p.m`, where `p` is no name of an inner scope.
+    fn nested_parameter(&mut self, syntax: &Syntax) -> Option<u32> {
+        if self.is_bound_root(syntax) { None } else { self.model.nested_parameter(syntax) }
     }
 
     /// Whether the first name of `p.m.n` is one of an inner scope.
@@ -162,28 +155,10 @@ impl Lowering<'_> {
 
     /// `x[i]`, `r[i]` of vectors, `r[i][k]`, `gamma[i]`, `coupling[i][j]`; `v[k]` of another vector.
     pub(super) fn indexed(&mut self, syntax: &Syntax) -> Option<Value> {
-        let mut indices = Vec::new();
-        let mut base = syntax;
-        while let Syntax::Index(index) = base {
-            indices.push(&*index.index);
-            base = &index.expr;
-        }
-        indices.reverse();
-        let name = match base {
-            Syntax::Path(path) => path.path.get_ident().cloned(),
-            Syntax::Field(field) => match (&*field.base, &field.member) {
-                (Syntax::Path(path), syn::Member::Named(name)) if path.path.is_ident("self") => {
-                    Some(name.clone())
-                }
-                _ => None,
-            },
-            _ => None,
-        };
-        let Some(name) = name else {
-            let nested = if self.is_bound_root(base) { None } else { self.model.nested_parameter(base) };
-            if let Some(field) = nested {
-                let lowered: Vec<Option<Index>> = indices.iter().map(|index| self.index(index)).collect();
-                let lowered = lowered.into_iter().collect::<Option<_>>()?;
+        let (base, indices) = indexed(syntax);
+        let Some(name) = name_of(base) else {
+            if let Some(field) = self.nested_parameter(base) {
+                let lowered = all(indices.iter().map(|index| self.index(index)))?;
                 return Some(self.entry_node(field, lowered).into());
             }
             return self.component(base, &indices);
@@ -204,7 +179,7 @@ impl Lowering<'_> {
                 format!("functions are written as methods: `{}.{function}()`", as_receiver(indices[0]));
             return self.refuse(syntax, message);
         }
-        if let Some(block) = self.model.blocks.iter().position(|block| block.name == name) {
+        if let Some(block) = self.model.blocks.iter().position(|block| block.name == *name) {
             let declared = &self.model.blocks[block];
             return match declared.axis {
                 Some(_) if declared.array.is_none() => {
@@ -215,12 +190,12 @@ impl Lowering<'_> {
                 None => self.indexed_coordinate(syntax, block, &indices).map(Value::Number),
             };
         }
-        let lowered: Vec<Option<Index>> = indices.iter().map(|index| self.index(index)).collect();
-        let Some(field) = self.parameter(&name) else {
-            self.unknown_name(&name, &name.to_string(), "unknown name");
+        let lowered = all(indices.iter().map(|index| self.index(index)));
+        let Some(field) = self.parameter(name) else {
+            self.unknown_name(name, &name.to_string(), "unknown name");
             return None;
         };
-        let lowered: Vec<Index> = lowered.into_iter().collect::<Option<_>>()?;
+        let lowered = lowered?;
         let name = name.to_string();
         let mut shape = self.shape_of(field).clone();
         if shape == Shape::Number || shape == Shape::Count {

@@ -4,6 +4,7 @@ use syn::{BinOp, Expr as Syntax, Member, Pat, UnOp};
 
 use super::{Binding, Lowering, Value};
 use crate::errors::text;
+use crate::syntax::indexed;
 
 impl Lowering<'_> {
     pub(super) fn unsupported(&mut self, syntax: &Syntax) {
@@ -21,11 +22,7 @@ impl Lowering<'_> {
     fn component_called(&self, field: &syn::ExprField) -> Option<String> {
         let Member::Named(name) = &field.member else { return None };
         let component = ["x", "y", "z"].iter().position(|axis| name == axis)?;
-        let mut base = &*field.base;
-        while let Syntax::Index(index) = base {
-            base = &index.expr;
-        }
-        let Syntax::Path(path) = base else { return None };
+        let Syntax::Path(path) = indexed(&field.base).0 else { return None };
         let root = path.path.get_ident()?;
         let index = match self.binding_of(&root.to_string()) {
             Some(Binding::Value { value: Some(Value::Vector(_)), .. }) => "",

@@ -5,7 +5,7 @@
 use syn::{Expr as Syntax, ExprMethodCall};
 
 use super::habits::as_receiver;
-use super::{Lowering, Role};
+use super::{Lowering, Role, all};
 use crate::errors::text;
 use crate::model::{COMPONENTS, Shape};
 use crate::symbolic::{Expr, Unary};
@@ -159,8 +159,7 @@ impl Lowering<'_> {
 
     /// `[a, b, c]`
     pub(super) fn list(&mut self, list: &syn::ExprArray) -> Option<Value> {
-        let components: Vec<Option<Expr>> =
-            list.elems.iter().map(|component| self.expr(component)).collect();
+        let components = all(list.elems.iter().map(|component| self.expr(component)));
         if !COMPONENTS.contains(&(list.elems.len() as i64)) {
             let message = format!(
                 "a list is a vector, which has from {} to {} components",
@@ -169,7 +168,7 @@ impl Lowering<'_> {
             );
             return self.refuse(list, message);
         }
-        components.into_iter().collect::<Option<_>>().map(Value::Vector)
+        components.map(Value::Vector)
     }
 
     /// `v[k]`, where v is no place in an array.

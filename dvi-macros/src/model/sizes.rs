@@ -9,6 +9,7 @@ use super::{Model, ParameterName, SizeName};
 use crate::errors::{Errors, text};
 use crate::internal::internal;
 use crate::symbolic::{Atom, Index, Size};
+use crate::syntax::{indexed, name_of};
 
 /// The largest dimension that a literal size may give: such a state lives on the stack.
 const LARGEST: i64 = 1 << 20;
@@ -75,8 +76,8 @@ impl Model {
                 let (text, tokens) = (format!("{}.len()", known.text), known.tokens.clone());
                 Some(self.intern_size(text, quote!(#tokens.len()), false))
             }
-            Expr::Field(_) => match field_name(expr) {
-                Some(name) => self.named_size(&name),
+            Expr::Field(_) => match name_of(expr) {
+                Some(name) => self.named_size(&name.to_string()),
                 None => {
                     let known = self.nested_parameter(expr)?;
                     let known = &self.parameters[known as usize];
@@ -205,8 +206,8 @@ impl Model {
 
     /// The parameter at `name`, `self.name`, `p.m` or `self.p.m`.
     fn place(&mut self, expr: &Expr) -> Option<u32> {
-        match field_name(expr) {
-            Some(name) => self.parameters.iter().position(|p| p.text == name).map(|known| known as u32),
+        match name_of(expr) {
+            Some(name) => self.parameters.iter().position(|p| *name == p.text).map(|known| known as u32),
             None => self.nested_parameter(expr),
         }
     }
@@ -232,11 +233,7 @@ impl Model {
 
     /// Whether an expression is a field of integers, or an entry of one.
     pub(crate) fn is_integer_field(&mut self, expr: &Expr) -> bool {
-        let mut base = expr;
-        while let Expr::Index(index) = base {
-            base = &index.expr;
-        }
-        self.place(base).is_some_and(|known| self.parameters[known as usize].integer)
+        self.place(indexed(expr).0).is_some_and(|known| self.parameters[known as usize].integer)
     }
 }
 
@@ -252,16 +249,4 @@ fn array_length(ty: &Type, level: usize) -> Option<&Expr> {
 /// Whether a name is written as that of a constant.
 fn is_upper(name: &Ident) -> bool {
     name.to_string().chars().all(|letter| letter.is_uppercase() || letter.is_ascii_digit() || letter == '_')
-}
-
-/// `name` in `name` and in `self.name`.
-fn field_name(expr: &Expr) -> Option<String> {
-    match expr {
-        Expr::Path(path) => path.path.get_ident().map(Ident::to_string),
-        Expr::Field(field) => match (&*field.base, &field.member) {
-            (Expr::Path(base), Member::Named(name)) if base.path.is_ident("self") => Some(name.to_string()),
-            _ => None,
-        },
-        _ => None,
-    }
 }

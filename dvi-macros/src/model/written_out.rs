@@ -8,6 +8,7 @@ use syn::{Expr, ExprClosure, ExprIndex, ExprPath, Ident, Pat, PatIdent, RangeLim
 
 use super::Model;
 use super::vectors::{COMPONENTS, literal};
+use crate::syntax::indexed;
 
 impl Model {
     /// The values of the indices of a sum, where its range is literal and one of them numbers components in
@@ -54,13 +55,10 @@ struct Search<'a> {
 
 impl<'ast> Visit<'ast> for Search<'_> {
     fn visit_expr_index(&mut self, place: &'ast ExprIndex) {
-        let (mut base, mut before) = (&*place.expr, 0);
-        while let Expr::Index(inner) = base {
-            (base, before) = (&inner.expr, before + 1);
-        }
+        let (base, before) = indexed(&place.expr);
         self.visit_expr(&place.expr);
         let around = self.is_component;
-        self.is_component = self.model.component_behind(base) == Some(before);
+        self.is_component = self.model.component_behind(base) == Some(before.len());
         self.visit_expr(&place.index);
         self.is_component = around;
     }

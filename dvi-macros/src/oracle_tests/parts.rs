@@ -100,24 +100,7 @@ impl Formula {
             Self::Multiply(a, b) => a.is_vector() || b.is_vector(),
             Self::Negative(a) | Self::Add(a, _) | Self::Subtract(a, _) | Self::Divide(a, _) => a.is_vector(),
             Self::If(_, value, _) | Self::Let(_, _, value) | Self::Sum(.., value) => value.is_vector(),
-            Self::Number(_)
-            | Self::Pi
-            | Self::Time
-            | Self::Coordinate(..)
-            | Self::Velocity(..)
-            | Self::Parameter(..)
-            | Self::Count(_)
-            | Self::Name(_)
-            | Self::Dot(..)
-            | Self::Norm(_)
-            | Self::NormSquared(_)
-            | Self::Component(..)
-            | Self::Power(..)
-            | Self::Unary(..)
-            | Self::Binary(..)
-            | Self::MultiplyAdd(..)
-            | Self::Own(..)
-            | Self::ScalarField(..) => false,
+            _ => false,
         }
     }
 

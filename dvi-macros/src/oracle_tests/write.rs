@@ -3,7 +3,7 @@
 mod spelling;
 
 use super::formula::{Atom, Condition, Formula, Index, Loops, Relation};
-use super::functions::{BinaryFunction, OWN, SCALAR_FIELDS};
+use super::functions::{OWN, SCALAR_FIELDS};
 use super::system::{Constraint, Container, Dynamics, Field, Gauge, SizeKind, System};
 use spelling::{Spelling, is_in_brackets};
 
@@ -253,14 +253,7 @@ impl<'a> Writer<'a> {
             }
             Formula::Unary(function, of) => method(of, function.name, String::new()),
             Formula::Binary(function, a, b) => {
-                let name = match function {
-                    BinaryFunction::Atan2 => "atan2",
-                    BinaryFunction::Hypot => "hypot",
-                    BinaryFunction::Powf => "powf",
-                    BinaryFunction::Min => "min",
-                    BinaryFunction::Max => "max",
-                };
-                method(a, name, self.text(b))
+                method(a, &format!("{function:?}").to_lowercase(), self.text(b))
             }
             Formula::MultiplyAdd(a, b, c) => {
                 method(a, "mul_add", format!("{}, {}", self.text(b), self.text(c)))

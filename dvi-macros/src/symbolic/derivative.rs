@@ -9,7 +9,7 @@
 //! coordinates a scatter, weighted by ∂f/∂(the sum). [`Graph::hessian`] does this twice.
 
 use super::functions::Unary;
-use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node};
+use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, leaf};
 use super::index::{Atom, Index, Loop, Range, Renaming};
 use crate::internal::internal;
 use crate::work::step;
@@ -137,13 +137,7 @@ impl Graph {
                 }
                 self.fold(Fold::Sum, Atom::Open(depth), range, tangent)
             }
-            Node::One
-            | Node::Coordinate(_)
-            | Node::Velocity(_)
-            | Node::Time
-            | Node::Parameter(_)
-            | Node::Count(_)
-            | Node::Weight(_) => Expr::ZERO,
+            Node::One | leaf!() => Expr::ZERO,
         }
     }
 

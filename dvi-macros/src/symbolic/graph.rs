@@ -76,6 +76,30 @@ pub(crate) enum Relation {
     HasMore,
 }
 
+impl Relation {
+    pub(crate) fn holds(self, left: f64, right: f64) -> bool {
+        match self {
+            Self::Less => left < right,
+            Self::LessOrEqual => left <= right,
+            Self::Greater | Self::HasMore => left > right,
+            Self::GreaterOrEqual => left >= right,
+        }
+    }
+}
+
+/// The pattern of nodes that hold no others, but for the one.
+macro_rules! leaf {
+    () => {
+        Node::Coordinate(_)
+            | Node::Velocity(_)
+            | Node::Time
+            | Node::Parameter(_)
+            | Node::Count(_)
+            | Node::Weight(_)
+    };
+}
+pub(crate) use leaf;
+
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Node {
     One,
@@ -194,13 +218,7 @@ impl From<Id> for Expr {
 impl Node {
     pub(crate) fn operands(&self) -> Vec<Id> {
         match self {
-            Self::One
-            | Self::Coordinate(_)
-            | Self::Velocity(_)
-            | Self::Time
-            | Self::Parameter(_)
-            | Self::Count(_)
-            | Self::Weight(_) => Vec::new(),
+            Self::One | leaf!() => Vec::new(),
             Self::Sum(terms) => terms.iter().map(|term| term.node).collect(),
             Self::Product(factors) => factors.iter().map(|(factor, _)| *factor).collect(),
             Self::Reciprocal(of) => vec![*of],
@@ -373,13 +391,7 @@ impl Graph {
             Node::Reduce { fold, height, range: known, body } => {
                 self.fold(fold, Atom::Bound(height), range(&known), of(&body))
             }
-            Node::One
-            | Node::Coordinate(_)
-            | Node::Velocity(_)
-            | Node::Time
-            | Node::Parameter(_)
-            | Node::Count(_)
-            | Node::Weight(_) => id.into(),
+            Node::One | leaf!() => id.into(),
         }
     }
 }

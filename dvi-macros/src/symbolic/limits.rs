@@ -16,7 +16,7 @@
 //! | √(a²ᵐ·b²ⁿ…) | it is \|a\|ᵐ·\|b\|ⁿ…, whose derivative at 0 is 0 |
 
 use super::functions::{Property, Unary};
-use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation};
+use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation, leaf};
 use super::index::{Atom, Index, Range};
 use super::powers::{Part, Root, take};
 
@@ -191,16 +191,9 @@ impl Graph {
     /// Whether it is made of functions that are smooth everywhere.
     fn is_smooth(&self, id: Id) -> bool {
         !self.depends(id, |node| match node {
-            Node::One
-            | Node::Coordinate(_)
-            | Node::Velocity(_)
-            | Node::Time
-            | Node::Parameter(_)
-            | Node::Count(_)
-            | Node::Weight(_)
-            | Node::Sum(_)
-            | Node::Product(_)
-            | Node::Reduce { fold: Fold::Sum, .. } => false,
+            Node::One | leaf!() | Node::Sum(_) | Node::Product(_) | Node::Reduce { fold: Fold::Sum, .. } => {
+                false
+            }
             Node::Unary(function, _) => !function.has(Property::Smooth),
             Node::Reciprocal(_)
             | Node::Binary(..)

@@ -1,6 +1,7 @@
-//! Functions that a `let` of a formula names, and names that a pattern gives.
+//! What expressions are made of: functions that a `let` of a formula names, names that a pattern gives, places
+//! in arrays, and values of blocks.
 
-use syn::{Expr, ExprClosure, Ident, Pat};
+use syn::{Block, Expr, ExprClosure, Ident, Member, Pat, Stmt};
 
 /// `|a, b| …`, in parentheses or not.
 pub(crate) fn closure(syntax: &Expr) -> Option<&ExprClosure> {
@@ -18,5 +19,41 @@ pub(crate) fn bound(pattern: &Pat) -> Vec<&Ident> {
         Pat::Type(typed) => bound(&typed.pat),
         Pat::Tuple(list) => list.elems.iter().flat_map(bound).collect(),
         _ => Vec::new(),
+    }
+}
+
+/// `name` in `name` and in `self.name`.
+pub(crate) fn name_of(syntax: &Expr) -> Option<&Ident> {
+    match syntax {
+        Expr::Path(path) => path.path.get_ident(),
+        Expr::Field(_) => own_field(syntax),
+        _ => None,
+    }
+}
+
+/// `name` in `self.name`.
+pub(crate) fn own_field(syntax: &Expr) -> Option<&Ident> {
+    let Expr::Field(field) = syntax else { return None };
+    match (&*field.base, &field.member) {
+        (Expr::Path(base), Member::Named(name)) if base.path.is_ident("self") => Some(name),
+        _ => None,
+    }
+}
+
+/// `x` and `i`, `j` of `x[i][j]`.
+pub(crate) fn indexed(mut syntax: &Expr) -> (&Expr, Vec<&Expr>) {
+    let mut indices = Vec::new();
+    while let Expr::Index(place) = syntax {
+        indices.insert(0, &*place.index);
+        syntax = &place.expr;
+    }
+    (syntax, indices)
+}
+
+/// The expression at the end of a block.
+pub(crate) fn last_value(block: &Block) -> Option<&Expr> {
+    match block.stmts.last() {
+        Some(Stmt::Expr(value, None)) => Some(value),
+        _ => None,
     }
 }

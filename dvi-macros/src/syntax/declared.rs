@@ -125,9 +125,7 @@ impl Force {
         };
         components.into_iter().flatten().chain(formula)
     }
-}
 
-impl Force {
     /// Its formulas, to be changed.
     pub(super) fn formulas_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
         let (components, formula) = match self {

@@ -6,6 +6,7 @@ use syn::{Expr, ExprField, ExprIndex, Member};
 
 use super::{Strength, Typesetter};
 use crate::errors::text;
+use crate::syntax::name_of;
 use crate::words::{VELOCITIES, constant};
 
 /// The names of Greek letters, as LaTeX has them; `lambda_` is a name of Rust's, too.
@@ -196,14 +197,7 @@ impl Typesetter {
                 indices.push(self.expr(&index.index).text);
                 Some((name, indices))
             }
-            Expr::Path(path) => Some((path.path.get_ident()?.to_string(), Vec::new())),
-            Expr::Field(field) => match (&*field.base, &field.member) {
-                (Expr::Path(base), Member::Named(name)) if base.path.is_ident("self") => {
-                    Some((name.to_string(), Vec::new()))
-                }
-                _ => None,
-            },
-            _ => None,
+            other => Some((name_of(other)?.to_string(), Vec::new())),
         }
     }
 

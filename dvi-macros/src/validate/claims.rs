@@ -10,11 +10,6 @@ use crate::statement::Output;
 use crate::structure::{Components, MassMatrix, OneForm};
 use crate::symbolic::Graph;
 
-pub(super) enum Claims<'a> {
-    Degenerate(&'a OneForm),
-    Regular(&'a MassMatrix),
-}
-
 /// A claim about numbers that vanish, or that are the same at two points.
 fn claim(name: &'static str, what: &str, expected: Sized, found: f64) -> Result<(), Difference> {
     if difference(expected, found) <= TOLERANCE {
@@ -35,14 +30,13 @@ impl System<'_> {
     pub(super) fn check_claims(
         &self,
         graph: &Graph,
-        claims: &Claims<'_>,
         functions: &Functions<'_>,
         point: &Point,
         outputs: &Outputs,
         checked: &mut Checked,
     ) -> Result<(), Difference> {
-        match (claims, functions) {
-            (Claims::Degenerate(form), Functions::Degenerate(programs)) => {
+        match functions {
+            Functions::Degenerate(programs, form) => {
                 self.check_form(form, point)?;
                 if form.canonical {
                     let [one, other] = conjugates(form);
@@ -58,13 +52,12 @@ impl System<'_> {
                 }
                 Ok(())
             }
-            (Claims::Regular(mass), Functions::Regular(_)) => {
+            Functions::Regular(_, mass) => {
                 if let Some(bend) = outputs.constraint_bend() {
                     vanishes("velocity_constraint", "∂²a/∂v∂v", bend)?;
                 }
                 self.check_mass(mass, point)
             }
-            _ => Ok(()),
         }
     }
 

@@ -148,13 +148,8 @@ pub(super) fn binary(name: &str, a: &Jet, b: &Jet) -> Option<Jet> {
 pub(super) fn printed_unary(name: &str, x: f64) -> f64 {
     match (name, taylor(name, x)) {
         // What derivatives of |x| are made of: the mean of both sides at 0.
-        ("sign", _) => {
-            if x == 0.0 {
-                0.0
-            } else {
-                x.signum()
-            }
-        }
+        ("sign", _) if x == 0.0 => 0.0,
+        ("sign", _) => x.signum(),
         ("sinc1", _) => sinc_slope(1, x),
         ("sinc2", _) => sinc_slope(2, x),
         ("sinc3", _) => sinc_slope(3, x),
@@ -167,13 +162,8 @@ pub(super) fn printed_unary(name: &str, x: f64) -> f64 {
 pub(super) fn printed_binary(name: &str, a: f64, b: f64) -> f64 {
     match name {
         // A quotient by a root that is zero where both are.
-        "over_root" => {
-            if b == 0.0 {
-                0.0
-            } else {
-                a / b
-            }
-        }
+        "over_root" if b == 0.0 => 0.0,
+        "over_root" => a / b,
         "over_squares" => a / (a * a + b * b),
         "hypot" => a.hypot(b),
         "powf" => a.powf(b),
@@ -195,31 +185,26 @@ pub(super) fn own(number: usize, x: &Jet) -> Jet {
     x.through([0, 1, 2, 3, 4].map(|order| stand_in(number, order, at)))
 }
 
-/// A smooth function of several variables in place of the user's number `number`: 1.5 + sin(a·x + φ) + 0.3
-/// cos(b·x + φ). No two axes are alike in it.
-struct Waves {
-    phase: f64,
+// A smooth function of several variables in place of the user's number n: 1.5 + sin(a·x + φ) + 0.3 cos(b·x + φ).
+// No two axes are alike in it.
+
+/// φ of the function that stands for number `number`.
+fn phase(number: usize) -> f64 {
+    0.4 * number as f64 + 0.3
 }
 
-impl Waves {
-    fn of(number: usize) -> Self {
-        Self { phase: 0.4 * number as f64 + 0.3 }
-    }
-
-    /// a and b along an axis.
-    fn slopes(axis: usize) -> [f64; 2] {
-        let axis = axis as f64;
-        [0.8 - 0.5 * axis, 0.6 / (1.0 + axis)]
-    }
+/// a and b along an axis.
+fn slopes(axis: usize) -> [f64; 2] {
+    let axis = axis as f64;
+    [0.8 - 0.5 * axis, 0.6 / (1.0 + axis)]
 }
 
 /// A partial derivative of the function that stands for number `number`.
 pub(super) fn scalar_field_stand_in(number: usize, axes: &[usize], at: &[f64]) -> f64 {
-    let Waves { phase } = Waves::of(number);
     let angle = |wave: usize| {
-        at.iter().enumerate().fold(phase, |sum, (axis, x)| sum + Waves::slopes(axis)[wave] * x)
+        at.iter().enumerate().fold(phase(number), |sum, (axis, x)| sum + slopes(axis)[wave] * x)
     };
-    let factor = |wave: usize| axes.iter().map(|axis| Waves::slopes(*axis)[wave]).product::<f64>();
+    let factor = |wave: usize| axes.iter().map(|axis| slopes(*axis)[wave]).product::<f64>();
     // Each derivative shifts a wave by a quarter of its period.
     let shift = axes.len() as f64 * PI / 2.0;
     let constant = if axes.is_empty() { 1.5 } else { 0.0 };
@@ -228,16 +213,11 @@ pub(super) fn scalar_field_stand_in(number: usize, axes: &[usize], at: &[f64]) -
 
 /// That function of jets.
 pub(super) fn scalar_field(number: usize, at: &[Jet]) -> Jet {
-    let Waves { phase } = Waves::of(number);
-    let angle = |wave: usize| {
-        let terms = at.iter().enumerate().map(|(axis, x)| x.clone().scaled(Waves::slopes(axis)[wave]));
-        terms.fold(Jet::number(phase), |sum, term| sum.plus(&term))
-    };
-    let [first, second] = [0, 1].map(angle);
-    let wave = |angle: &Jet, shift: f64| {
+    let wave = |wave: usize, shift: f64| {
+        let terms = at.iter().enumerate().map(|(axis, x)| x.clone().scaled(slopes(axis)[wave]));
+        let angle = terms.fold(Jet::number(phase(number)), |sum, term| sum.plus(&term));
         let at = angle.value().value + shift;
         angle.through([0.0, 1.0, 2.0, 3.0, 4.0].map(|order| (at + order * PI / 2.0).sin()))
     };
-    let second = wave(&second, PI / 2.0).scaled(0.3);
-    Jet::number(1.5).plus(&wave(&first, 0.0)).plus(&second)
+    Jet::number(1.5).plus(&wave(0, 0.0)).plus(&wave(1, PI / 2.0).scaled(0.3))
 }

@@ -7,19 +7,20 @@ use crate::model::Model;
 use crate::program::{DegeneratePrograms, Programs, RegularPrograms};
 use crate::routine::Routine;
 use crate::statement;
+use crate::structure::{MassMatrix, OneForm};
 use crate::symbolic::{Count, Graph};
 
-/// The generated functions.
-pub(super) enum Functions<'a> {
-    Degenerate(&'a DegeneratePrograms),
-    Regular(&'a RegularPrograms),
+/// The generated functions, and what is said of their structure.
+pub(crate) enum Functions<'a> {
+    Degenerate(&'a DegeneratePrograms, &'a OneForm),
+    Regular(&'a RegularPrograms, &'a MassMatrix),
 }
 
 impl Functions<'_> {
     fn shared(&self) -> &Programs {
         match self {
-            Self::Degenerate(programs) => &programs.shared,
-            Self::Regular(programs) => &programs.shared,
+            Self::Degenerate(programs, _) => &programs.shared,
+            Self::Regular(programs, _) => &programs.shared,
         }
     }
 
@@ -92,7 +93,7 @@ impl Functions<'_> {
             add(function, Quantity::EventByTime(number), value(&event.by_time));
         }
         match self {
-            Self::Degenerate(programs) => {
+            Self::Degenerate(programs, _) => {
                 add("hamiltonian", Quantity::Hamiltonian, value(&programs.hamiltonian));
                 let gradient = vector(&programs.hamiltonian_gradient);
                 add("hamiltonian_gradient", Quantity::HamiltonianGradient, gradient);
@@ -114,7 +115,7 @@ impl Functions<'_> {
                     add("momentum_gradient", Quantity::MomentumGradient(number), vector(gradient));
                 }
             }
-            Self::Regular(programs) => {
+            Self::Regular(programs, _) => {
                 add("energy", Quantity::Energy, value(&programs.energy));
                 add("force", Quantity::Force, vector(&programs.force));
                 add("conjugate_momentum", Quantity::Lv, vector(&programs.momentum));

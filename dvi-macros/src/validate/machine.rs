@@ -190,12 +190,7 @@ impl Run<'_> {
             }
             Instruction::Choose(left, relation, right, then, otherwise) => {
                 let (left, right) = (self.signed(*left), self.signed(*right));
-                let holds = match relation {
-                    Relation::Less => left < right,
-                    Relation::LessOrEqual => left <= right,
-                    Relation::Greater | Relation::HasMore => left > right,
-                    Relation::GreaterOrEqual => left >= right,
-                };
+                let holds = relation.holds(left, right);
                 let is_exchanged =
                     *relation != Relation::HasMore && self.machine.point.branches == Branches::Exchanged;
                 self.signed(if holds != is_exchanged { *then } else { *otherwise })

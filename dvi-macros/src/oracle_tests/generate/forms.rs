@@ -21,13 +21,8 @@ impl Generator<'_> {
         match self.random.below(12) {
             0..=4 => {
                 let loops = self.any_sum();
-                match self.loops(scope, loops) {
-                    Some((lower, upper, inside)) => {
-                        let body = self.form(&inside, less);
-                        Formula::Sum(loops, scope.level, lower, upper, Box::new(body))
-                    }
-                    None => self.form(scope, less),
-                }
+                let sum = self.summed(scope, loops, |this, inside| this.form(inside, less));
+                sum.unwrap_or_else(|| self.form(scope, less))
             }
             5 => self.form(scope, less).plus(self.form(scope, less)),
             6 => self.form(scope, less).minus(self.form(scope, less)),
@@ -43,8 +38,7 @@ impl Generator<'_> {
             }
             10 => {
                 let value = self.value(scope, less);
-                let body = self.form(&scope.with_name(&value), less);
-                Formula::Let(scope.names.len(), Box::new(value), Box::new(body))
+                self.named(scope, value, |this, inside| this.form(inside, less))
             }
             _ => self.value(scope, less.min(2)).times(self.velocity(scope)),
         }
@@ -108,10 +102,7 @@ impl Generator<'_> {
     /// The areas of unit vectors, with a factor or without.
     fn area(&mut self, first: usize) -> Formula {
         let size = self.system.blocks[first].size;
-        let scope = match size {
-            Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
-            None => Scope::outside(),
-        };
+        let scope = self.entries(size);
         let term = Formula::Velocity(first, size.map(|_| Index::bound(0)));
         let term = if self.random.chance(60) { self.parameter(&scope).times(term) } else { term };
         self.over(size, term)
@@ -120,10 +111,7 @@ impl Generator<'_> {
     /// Σ xⱼ dyⱼ, with a factor or without.
     fn conjugate(&mut self, x: usize, y: usize) -> Formula {
         let size = self.system.blocks[x].size;
-        let scope = match size {
-            Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
-            None => Scope::outside(),
-        };
+        let scope = self.entries(size);
         let index = size.map(|_| Index::bound(0));
         let term = Formula::Coordinate(x, index.clone()).times(Formula::Velocity(y, index));
         let term = if self.random.chance(40) { self.parameter(&scope).times(term) } else { term };
@@ -164,10 +152,7 @@ impl Generator<'_> {
 
     fn kinetic_of(&mut self, block: usize) -> Formula {
         let size = self.system.blocks[block].size;
-        let scope = match size {
-            Some(size) => Scope::outside().over(0..self.system.sizes[size].value),
-            None => Scope::outside(),
-        };
+        let scope = self.entries(size);
         let velocity = Formula::Velocity(block, size.map(|_| Index::bound(0)));
         let square = velocity.power(2).over(Formula::Number("2.0"));
         let term = match self.random.below(4) {
@@ -181,6 +166,12 @@ impl Generator<'_> {
             _ => square,
         };
         self.over(size, term)
+    }
+
+    /// Where the entries of an array of that size stand.
+    fn entries(&self, size: Option<usize>) -> Scope {
+        let outside = Scope::outside();
+        size.map_or(outside.clone(), |size| outside.over(0..self.system.sizes[size].value))
     }
 
     fn over(&self, size: Option<usize>, term: Formula) -> Formula {

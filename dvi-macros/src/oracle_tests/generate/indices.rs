@@ -131,6 +131,28 @@ impl Generator<'_> {
         None
     }
 
+    /// A sum of what `body` makes inside of it, if there is a range for it.
+    pub(super) fn summed(
+        &mut self,
+        scope: &Scope,
+        loops: Loops,
+        body: impl FnOnce(&mut Self, &Scope) -> Formula,
+    ) -> Option<Formula> {
+        let (lower, upper, inside) = self.loops(scope, loops)?;
+        Some(Formula::Sum(loops, scope.level, lower, upper, Box::new(body(self, &inside))))
+    }
+
+    /// A value with a name in what `body` makes.
+    pub(super) fn named(
+        &mut self,
+        scope: &Scope,
+        value: Formula,
+        body: impl FnOnce(&mut Self, &Scope) -> Formula,
+    ) -> Formula {
+        let body = body(self, &scope.with_name(&value));
+        Formula::Let(scope.names.len(), Box::new(value), Box::new(body))
+    }
+
     fn range(&mut self, scope: &Scope) -> (Index, Index) {
         let size = Index::atom(Atom::Size(self.random.below(self.system.sizes.len())));
         let whole = (Index::literal(0), size.clone());

@@ -92,8 +92,7 @@ impl Generator<'_> {
             }
             82..=86 => {
                 let value = self.value(scope, less);
-                let body = self.value(&scope.with_name(&value), less);
-                Formula::Let(scope.names.len(), Box::new(value), Box::new(body))
+                self.named(scope, value, |this, inside| this.value(inside, less))
             }
             87 => Formula::MultiplyAdd(
                 Box::new(self.value(scope, less)),
@@ -133,13 +132,8 @@ impl Generator<'_> {
 
     fn sum(&mut self, scope: &Scope, depth: usize) -> Formula {
         let loops = self.any_loops();
-        match self.loops(scope, loops) {
-            Some((lower, upper, inside)) => {
-                let body = self.value(&inside, depth);
-                Formula::Sum(loops, scope.level, lower, upper, Box::new(body))
-            }
-            None => self.value(scope, depth),
-        }
+        let sum = self.summed(scope, loops, |this, inside| this.value(inside, depth));
+        sum.unwrap_or_else(|| self.value(scope, depth))
     }
 
     fn leaf(&mut self, scope: &Scope) -> Formula {

@@ -35,18 +35,12 @@ impl Generator<'_> {
             }
             11 => {
                 let value = self.any(scope, less);
-                let body = self.vector(&scope.with_name(&value), less);
-                Formula::Let(scope.names.len(), Box::new(value), Box::new(body))
+                self.named(scope, value, |this, inside| this.vector(inside, less))
             }
             12 => {
                 let loops = self.any_sum();
-                match self.loops(scope, loops) {
-                    Some((lower, upper, inside)) => {
-                        let body = self.vector(&inside, less);
-                        Formula::Sum(loops, scope.level, lower, upper, Box::new(body))
-                    }
-                    None => self.vector_leaf(scope),
-                }
+                let sum = self.summed(scope, loops, |this, inside| this.vector(inside, less));
+                sum.unwrap_or_else(|| self.vector_leaf(scope))
             }
             _ => self.vector_leaf(scope),
         }
@@ -64,8 +58,7 @@ impl Generator<'_> {
             }
             _ => {
                 let value = self.vector(scope, less);
-                let body = self.value(&scope.with_name(&value), less);
-                Formula::Let(scope.names.len(), Box::new(value), Box::new(body))
+                self.named(scope, value, |this, inside| this.value(inside, less))
             }
         }
     }

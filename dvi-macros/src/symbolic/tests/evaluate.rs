@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::symbolic::rules::evaluate_binary;
-use crate::symbolic::{Expr, Graph, Id, Node, Relation};
+use crate::symbolic::{Expr, Graph, Id, Node};
 
 pub(super) fn evaluate(graph: &Graph, expr: Expr, point: [f64; 2]) -> f64 {
     let mut values: HashMap<Id, f64> = HashMap::new();
@@ -20,14 +20,7 @@ pub(super) fn evaluate(graph: &Graph, expr: Expr, point: [f64; 2]) -> f64 {
             Node::Unary(function, u) => function.evaluate(of(u)),
             Node::Binary(function, a, b) => evaluate_binary(*function, of(a), of(b)),
             Node::Choose { left, relation, right, then, otherwise } => {
-                let (left, right) = (of(left), of(right));
-                let holds = match relation {
-                    Relation::Less => left < right,
-                    Relation::LessOrEqual => left <= right,
-                    Relation::Greater | Relation::HasMore => left > right,
-                    Relation::GreaterOrEqual => left >= right,
-                };
-                of(if holds { then } else { otherwise })
+                of(if relation.holds(of(left), of(right)) { then } else { otherwise })
             }
             other => unreachable!("no formula here has {other:?}"),
         };

@@ -2,7 +2,6 @@
 //! zero, against closed forms that do not; and their symmetries.
 
 use crate::symbolic::functions::{self, UNARY};
-use crate::symbolic::rules::BINARY;
 use crate::symbolic::{Binary, Expr, Graph, Id, Relation, Unary};
 
 use super::coordinate;
@@ -93,6 +92,12 @@ impl Plane {
             values.extend([self.x, self.y].map(|by| self.graph.derivative(derivative, by)));
         }
         std::array::from_fn(|entry| self.at(values[entry], x, y))
+    }
+
+    fn agree(&mut self, name: &str, f: Expr, (x, y): (f64, f64), expected: [f64; 7]) {
+        for (entry, (found, expected)) in self.expanded(f, x, y).into_iter().zip(expected).enumerate() {
+            agree(&format!("{name} [{entry}] at ({x:e}, {y:e})"), found, expected);
+        }
     }
 }
 
@@ -237,10 +242,7 @@ fn hypot_across_and_far_away() {
     for (x, y) in [(1.0, 1e-9), (1e-12, -3.0), (3e200, 4e200), (3e-200, 4e-200), (1e300, 1.0), (5.0, 0.0)] {
         let r = f64::hypot(x, y);
         let (c, s) = (x / r, y / r);
-        let expected = [r, c, s, s * s / r, -s * c / r, -s * c / r, c * c / r];
-        for (entry, (found, expected)) in plane.expanded(f, x, y).into_iter().zip(expected).enumerate() {
-            agree(&format!("hypot [{entry}] at ({x:e}, {y:e})"), found, expected);
-        }
+        plane.agree("hypot", f, (x, y), [r, c, s, s * s / r, -s * c / r, -s * c / r, c * c / r]);
     }
 }
 
@@ -268,9 +270,7 @@ fn angles_near_and_far() {
         let (s, c) = (a / r, b / r);
         let (twice, difference) = (2.0 * s * c / r / r, (s - c) * (s + c) / r / r);
         let expected = [a.atan2(b), c / r, -s / r, -twice, difference, difference, twice];
-        for (entry, (found, expected)) in plane.expanded(f, a, b).into_iter().zip(expected).enumerate() {
-            agree(&format!("atan2 [{entry}] at ({a:e}, {b:e})"), found, expected);
-        }
+        plane.agree("atan2", f, (a, b), expected);
     }
 }
 
@@ -290,9 +290,7 @@ fn powers_with_exponents_that_vary_at_zero() {
         (-1.0, [NONE; 7]),
     ];
     for (y, expected) in at_zero {
-        for (entry, (found, expected)) in plane.expanded(f, 0.0, y).into_iter().zip(expected).enumerate() {
-            agree(&format!("x^y [{entry}] at (0, {y})"), found, expected);
-        }
+        plane.agree("x^y", f, (0.0, y), expected);
     }
     for (x, y) in [(1e-100, 2.0), (1e-200, 3.0), (1e-300, 1.0), (0.3, -2.5), (1e100, 2.5)] {
         let (x, y): (f64, f64) = (x, y);
@@ -300,64 +298,8 @@ fn powers_with_exponents_that_vary_at_zero() {
         let mixed = slope * (1.0 + y * ln);
         let expected =
             [power, y * slope, power * ln, y * (y - 1.0) * x.powf(y - 2.0), mixed, mixed, power * ln * ln];
-        for (entry, (found, expected)) in plane.expanded(f, x, y).into_iter().zip(expected).enumerate() {
-            agree(&format!("x^y [{entry}] at ({x:e}, {y})"), found, expected);
-        }
+        plane.agree("x^y", f, (x, y), expected);
     }
     // A power of a negative number has no derivative by its exponent, be it too small for a number or not.
     assert!([-1.0, -1e-200].into_iter().all(|x| plane.expanded(f, x, 2.0)[2].is_nan()));
-}
-
-type Interval = (f64, f64);
-
-/// Rectangles of the plane on which each function is smooth, by the ranges of a and b.
-#[rustfmt::skip]
-const PLANE: &[(&str, &[[Interval; 2]])] = &[
-    ("atan2", &[[(0.2, 2.0), (-2.0, 2.0)], [(-2.0, -0.2), (-2.0, 2.0)], [(-2.0, 2.0), (0.2, 2.0)]]),
-    ("hypot", &[[(0.3, 2.0), (-2.0, 2.0)], [(-2.0, 2.0), (-2.0, -0.3)]]),
-    ("powf",  &[[(0.4, 3.0), (-2.5, 2.5)]]),
-    ("over_root", &[[(-2.0, 2.0), (2.0, 3.0)]]),
-    ("over_squares", &[[(0.4, 2.0), (-2.0, 2.0)], [(-2.0, 2.0), (-2.0, -0.4)]]),
-];
-
-fn samples((low, high): Interval) -> impl Iterator<Item = f64> {
-    (0..=7).map(move |step| low + (high - low) * f64::from(step) / 7.0)
-}
-
-/// Five points (Abramowitz and Stegun 25.3.6); error below 1e-9 for the functions of the table.
-fn difference(mut f: impl FnMut(f64) -> f64, x: f64) -> f64 {
-    let h = 1e-3;
-    (8.0 * (f(x + h) - f(x - h)) - (f(x + 2.0 * h) - f(x - 2.0 * h))) / (12.0 * h)
-}
-
-/// Those of two arguments, the ones that only derivatives are made of among them, against differences of the
-/// function and of its gradient.
-#[test]
-fn every_function_of_two_arguments() {
-    assert_eq!(PLANE.len(), BINARY.len());
-    for (name, function, value) in BINARY {
-        let (_, squares) =
-            PLANE.iter().find(|(known, _)| known == name).expect("every function has a domain");
-        let mut plane = Plane::new();
-        let f = plane.graph.binary(*function, plane.x.into(), plane.y.into());
-        let points = squares.iter().flat_map(|[along_a, along_b]| {
-            samples(*along_a).flat_map(|a| samples(*along_b).map(move |b| (a, b)))
-        });
-        for (a, b) in points {
-            let found = plane.expanded(f, a, b);
-            assert_eq!(found[0], value(a, b), "{name}({a}, {b})");
-            // The derivatives of f and of its gradient stand behind them, in pairs.
-            for order in 0..3 {
-                let along_a = difference(|a| plane.expanded(f, a, b)[order], a);
-                let along_b = difference(|b| plane.expanded(f, a, b)[order], b);
-                for (entry, slope) in [(1 + 2 * order, along_a), (2 + 2 * order, along_b)] {
-                    let off = (found[entry] - slope).abs();
-                    assert!(
-                        off < 1e-8 * (1.0 + slope.abs()),
-                        "{name} [{entry}] at ({a}, {b}) is off by {off:e}"
-                    );
-                }
-            }
-        }
-    }
 }
