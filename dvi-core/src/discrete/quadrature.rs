@@ -65,15 +65,6 @@ macro_rules! rules {
                 &$weights
             }
         }
-
-        impl From<$name> for Quadrature {
-            fn from(rule: $name) -> Self {
-                let mut own = Self { nodes: [0.0; NODES], weights: [0.0; NODES], len: rule.nodes().len() };
-                own.nodes[..own.len].copy_from_slice(rule.nodes());
-                own.weights[..own.len].copy_from_slice(rule.weights());
-                own
-            }
-        }
     )*};
 }
 
@@ -300,9 +291,11 @@ mod tests {
             check(&rule, 2 * s as i32 - 3);
             assert_eq!((rule.nodes()[0], rule.nodes()[s - 1]), (0.0, 1.0));
         }
-        assert_eq!(Quadrature::gauss(1)?, Midpoint.into());
-        assert_eq!(Quadrature::lobatto(2)?, Trapezoid.into());
-        assert_eq!(Quadrature::lobatto(3)?, Simpson.into());
+        fn same(rule: &Quadrature, known: &impl Rule) -> bool {
+            (rule.nodes(), rule.weights()) == (known.nodes(), known.weights())
+        }
+        assert!(same(&Quadrature::gauss(1)?, &Midpoint));
+        assert!(same(&Quadrature::lobatto(2)?, &Trapezoid) && same(&Quadrature::lobatto(3)?, &Simpson));
         Ok(())
     }
 

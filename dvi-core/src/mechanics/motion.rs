@@ -74,34 +74,12 @@ pub trait Rates<S: System, T: Real>: Kind {
     fn rates(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Vector<S, T>, StepFailure>;
 }
 
-/// What the equations of motion of a kind of system are stored in.
-#[diagnostic::on_unimplemented(
-    message = "the equations of motion of `{S}` have constraints, impacts, rotations or unit vectors beside them, and this would not keep these",
-    label = "it knows none of these",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
-    note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
-    note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
-)]
-pub trait Motion<S: System, T: Real>: Kind {
-    /// y: q, or q and p; in numbers of type `T`, or in packs of them.
-    type Point<P: Scalar>: Debug + DerefMut<Target = [Vector<S, P>]> + Memory<P>;
-    /// The equations, with the storage that their evaluation needs, and all of y but q.
-    type Equations: Memory<T>;
-
-    /// A point of zeros.
-    fn point<P: Scalar>(system: &S) -> Self::Point<P>;
-    /// So many of them.
-    fn points<P: Scalar, const COUNT: usize>(system: &S) -> [Self::Point<P>; COUNT] {
-        core::array::from_fn(|_| Self::point(system))
-    }
-}
-
 /// The equations of motion of `S` with their storage.
-pub(crate) type EquationsOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Equations;
+pub(crate) type EquationsOf<S, T> = <<S as System>::Kind as FirstOrder<S, T>>::Equations;
 /// A point y of the equations of motion of `S`, or its velocity.
-pub(crate) type PointOf<S, T> = <<S as System>::Kind as Motion<S, T>>::Point<T>;
+pub(crate) type PointOf<S, T> = <<S as System>::Kind as FirstOrder<S, T>>::Point<T>;
 /// The same in packs of type `P`, of numbers of type `T`.
-pub(crate) type PackedOf<S, T, P> = <<S as System>::Kind as Motion<S, T>>::Point<P>;
+pub(crate) type PackedOf<S, T, P> = <<S as System>::Kind as FirstOrder<S, T>>::Point<P>;
 
 /// The equations of the stages of a collocation step, as Newton's method solves them for velocities: those
 /// with momenta, ∂L/∂v(Qᵢ, Vᵢ) = p + h Σⱼ aᵢⱼ ∂L/∂q(Qⱼ, Vⱼ), unless they are others.
@@ -166,10 +144,20 @@ impl<S: System, T: Real> StageEquations<S, T> for Regular {}
     note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
     note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
-pub trait FirstOrder<S: System, T: Real>: Motion<S, T> + StageEquations<S, T> {
+pub trait FirstOrder<S: System, T: Real>: Kind + StageEquations<S, T> {
+    /// y: q, or q and p; in numbers of type `T`, or in packs of them.
+    type Point<P: Scalar>: Debug + DerefMut<Target = [Vector<S, P>]> + Memory<P>;
+    /// The equations, with the storage that their evaluation needs, and all of y but q.
+    type Equations: Memory<T>;
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
     type Suited<M>: Same<M, As = M>;
 
+    /// A point of zeros.
+    fn point<P: Scalar>(system: &S) -> Self::Point<P>;
+    /// So many of them.
+    fn points<P: Scalar, const COUNT: usize>(system: &S) -> [Self::Point<P>; COUNT] {
+        core::array::from_fn(|_| Self::point(system))
+    }
     /// The equations at (`q`, `v`, `t`).
     ///
     /// # Errors

@@ -21,7 +21,7 @@ mod newton;
 mod second_order;
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::motion::{FirstOrder, InLanes, Motion, OneByOne, StageEvaluation};
+use crate::mechanics::motion::{FirstOrder, InLanes, OneByOne, StageEvaluation};
 use crate::methods::{
     Carries, Here, Method, PreservedForm, Scheme, Step, Tabulated, Tolerance, VariableStep,
 };
@@ -127,7 +127,7 @@ impl<const S: usize, E> Scheme for Gauss<S, E> {
     }
 }
 
-impl<const STAGES: usize, E, S: System<Kind: Motion<S, T>>, T: Real> Carries<S, T> for Gauss<STAGES, E> {
+impl<const STAGES: usize, E, S: System<Kind: FirstOrder<S, T>>, T: Real> Carries<S, T> for Gauss<STAGES, E> {
     type Memory = GaussMemory<STAGES, S, T>;
 }
 

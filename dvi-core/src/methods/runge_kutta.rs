@@ -5,7 +5,7 @@
 use core::fmt;
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::motion::{EquationsOf, FirstOrder, Motion, PointOf};
+use crate::mechanics::motion::{EquationsOf, FirstOrder, PointOf};
 use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::scalar::passes::kick;
@@ -80,7 +80,7 @@ impl RungeKutta {
 }
 
 /// The stages of a Runge–Kutta step.
-pub struct RungeKuttaMemory<S: System<Kind: Motion<S, T>>, T: Real> {
+pub struct RungeKuttaMemory<S: System<Kind: FirstOrder<S, T>>, T: Real> {
     equations: EquationsOf<S, T>,
     slopes: [PointOf<S, T>; STAGES],
     /// Where the step begins, and where a stage is.
@@ -88,11 +88,11 @@ pub struct RungeKuttaMemory<S: System<Kind: Motion<S, T>>, T: Real> {
     stage: PointOf<S, T>,
 }
 
-impl<S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for RungeKuttaMemory<S, T> {
+impl<S: System<Kind: FirstOrder<S, T>>, T: Real> Memory<T> for RungeKuttaMemory<S, T> {
     lasting!(T; part equations);
 }
 
-impl<S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for RungeKuttaMemory<S, T> {
+impl<S: System<Kind: FirstOrder<S, T>>, T: Real> fmt::Debug for RungeKuttaMemory<S, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("RungeKuttaMemory").field("slopes", &self.slopes).finish_non_exhaustive()
     }
@@ -110,7 +110,7 @@ impl Scheme for RungeKutta {
     }
 }
 
-impl<S: System<Kind: Motion<S, T>>, T: Real> Carries<S, T> for RungeKutta {
+impl<S: System<Kind: FirstOrder<S, T>>, T: Real> Carries<S, T> for RungeKutta {
     type Memory = RungeKuttaMemory<S, T>;
 }
 
@@ -160,7 +160,7 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S,
 }
 
 /// Sets `out` to y + h Σ wⱼ kⱼ.
-fn combine<S: System<Kind: Motion<S, T>>, T: Real>(
+fn combine<S: System<Kind: FirstOrder<S, T>>, T: Real>(
     y: &PointOf<S, T>,
     h: T,
     weights: &[f64],

@@ -1,6 +1,6 @@
 //! Ω q' = ∇H + ∂α/∂t, on Q.
 
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Motion, Point, Rates, StageEquations, StageWork};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Point, Rates, StageEquations, StageWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
@@ -22,18 +22,14 @@ impl<S: System, T: Real> Memory<T> for FlowOnQ<S, T> {
     lasting!(T; part orientation);
 }
 
-impl<S: System, T: Real> Motion<S, T> for Degenerate {
+impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
+    type Suited<M> = M;
     type Point<P: Scalar> = Point<Vector<S, P>, 1>;
     type Equations = FlowOnQ<S, T>;
 
     fn point<P: Scalar>(system: &S) -> Self::Point<P> {
         Point([system.space().vector()])
     }
-}
-
-impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
-    type Suited<M> = M;
-
     fn begin(system: &S, q: &Vector<S, T>, _v: &[T], t: T) -> Result<FlowOnQ<S, T>, StartError> {
         Ok(FlowOnQ {
             field: VectorField::new(system, q, t).map_err(StartError::Starter)?,

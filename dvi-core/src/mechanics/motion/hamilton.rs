@@ -1,8 +1,6 @@
 //! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
 
-use super::{
-    AtStages, FirstOrder, FirstOrderInLanes, Motion, OneByOne, Point, Rates, StageEvaluation, StageWork,
-};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, OneByOne, Point, Rates, StageEvaluation, StageWork};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
@@ -68,21 +66,17 @@ impl<S: System, T: Real> Memory<T> for Transform<S, T> {
     lasting!(T; part orientation, numbers velocity);
 }
 
-impl<S: System, T: Real> Motion<S, T> for Regular {
-    type Point<P: Scalar> = Point<Vector<S, P>, 2>;
-    type Equations = HamiltonsEquations<S, T>;
-
-    fn point<P: Scalar>(system: &S) -> Self::Point<P> {
-        Point(system.space().vectors())
-    }
-}
-
 impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     type Suited<M> = M;
+    type Point<P: Scalar> = Point<Vector<S, P>, 2>;
+    type Equations = HamiltonsEquations<S, T>;
 
     const HAS_VELOCITY_FORCES: bool = !S::SEPARABLE;
     const OF_SECOND_ORDER: bool = S::SEPARABLE && S::DIAGONAL_MASS;
 
+    fn point<P: Scalar>(system: &S) -> Self::Point<P> {
+        Point(system.space().vectors())
+    }
     fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<HamiltonsEquations<S, T>, StartError> {
         let space = system.space();
         let [mut force, mut p, rest]: [Vector<S, T>; 3] = space.vectors();

@@ -1,7 +1,7 @@
 //! The equations of motion at all stages of a step, of which each has a lane: evaluated one by one, or in
 //! the lanes.
 
-use super::{EquationsOf, FirstOrder, Motion, PackedOf, PointOf};
+use super::{EquationsOf, FirstOrder, PackedOf, PointOf};
 use crate::error::StepFailure;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
@@ -29,7 +29,7 @@ pub struct InLanes;
 
 /// What the evaluation of stages works with.
 #[derive(Debug)]
-pub struct StageWork<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+pub struct StageWork<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> {
     /// One stage.
     pub(crate) point: PointOf<S, T>,
     pub(crate) slope: PointOf<S, T>,
@@ -40,7 +40,7 @@ pub struct StageWork<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
     pub(super) entries: Vector<S, Lanes<W, T>>,
 }
 
-impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> {
+impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageWork<W, S, T> {
     pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
         let [point, slope] = S::Kind::points(system);
@@ -50,7 +50,7 @@ impl<const W: usize, S: System<Kind: Motion<S, T>>, T: Real> StageWork<W, S, T> 
 
 /// Where an entry of X is evaluated: in the points `y` at the times `t`.
 #[derive(Debug)]
-pub struct AtStages<'a, const W: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+pub struct AtStages<'a, const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> {
     pub(crate) system: &'a S,
     /// Which entry.
     pub(crate) part: usize,
@@ -100,7 +100,7 @@ impl Evaluation for InLanes {
 }
 
 /// How the equations of motion are evaluated at the `W` stages of a step.
-pub trait StageEvaluation<const W: usize, S: System<Kind: Motion<S, T>>, T: Real>: Evaluation {
+pub trait StageEvaluation<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real>: Evaluation {
     /// Sets `out` to an entry of X at all stages, as [`FirstOrder::evaluate_part`] does at one.
     ///
     /// # Errors

@@ -27,10 +27,9 @@ pub(super) struct Attempt<'a, const NODES: usize, S: System, F, T: Real, I> {
     pub(super) by_newton: bool,
 }
 
-/// The equations of a step, where it begins, and storage: for the residuals, for weights, and for Δ.
+/// The equations of a step, and storage: for the residuals, for weights, and for Δ.
 type Posed<'a, const NODES: usize, S, F, T> = (
     Displaced<'a, NODES, S, F, T>,
-    &'a [T],
     &'a mut [Vector<S, T>; NODES],
     &'a mut [Vector<S, T>; 2],
     &'a mut Vector<S, T>,
@@ -60,8 +59,8 @@ where
             return interior.solve(&at, limits, increments, statistics);
         }
         self.guess();
-        let (mut path, q, residuals, [weights, change], delta) = self.pose();
-        path.iterate(q, (residuals, [delta, change, weights]), limits, statistics)
+        let (mut path, residuals, [weights, change], delta) = self.pose();
+        path.iterate((residuals, [delta, change, weights]), limits, statistics)
     }
 
     /// The same by Newton's method, of any L.
@@ -76,8 +75,9 @@ where
         if guess == Guess::Zero {
             self.path.unknowns[1..].iter_mut().for_each(|unknown| unknown.fill(T::lift(0.0)));
         }
-        let (system, stopping) = (self.system, self.stopping);
-        let (mut path, q, residuals, weights, _) = self.pose();
+        let stopping = self.stopping;
+        let (mut path, residuals, weights, _) = self.pose();
+        let Begin { system, q, .. } = path.at;
         solve_coupled(&mut path, (system, q), solver, (residuals, weights), stopping, statistics)?;
         path.evaluate(residuals, statistics)
     }
@@ -87,9 +87,9 @@ where
         let Self { system, frequency, interval, q, carried, path, .. } = self;
         let Carried { phase, inertial, work: Work { node, increment, .. } } = &mut **carried;
         let Path { fit, ends, unknowns, residuals, weights, .. } = &mut **path;
-        let (system, frequency, interval, mass) = (*system, *frequency, *interval, &inertial.mass);
-        let path = Displaced { system, frequency, interval, phase, mass, fit, ends, unknowns, node, j: 0 };
-        (path, q, residuals, weights, increment)
+        let at = Begin { system: *system, interval: *interval, q, phase, mass: &inertial.mass };
+        let path = Displaced { at, frequency: *frequency, fit, ends, unknowns, node, j: 0 };
+        (path, residuals, weights, increment)
     }
 
     /// Sets the unknowns to their guess: extrapolated from the steps before, if these are kept and had about

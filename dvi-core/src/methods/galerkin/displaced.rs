@@ -15,8 +15,7 @@ use super::coefficients::{Fit, weighted};
 use crate::discrete::frequency::{FrequencyIn, Local};
 use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
-use crate::mechanics::mass::Mass;
-use crate::mechanics::phase::PhasePoint;
+use crate::methods::step::Begin;
 use crate::scalar::norm;
 use crate::solve::{CoupledEquations, Stopping, solve_by_fixed_point};
 use crate::space::{NodeSum, Sink, scratch};
@@ -25,11 +24,8 @@ use crate::{NondegenerateLagrangian, Real, Scalar, System, Vector, Weights};
 
 /// The path of a step from the first of the unknowns.
 pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
-    pub(super) system: &'a S,
+    pub(super) at: Begin<'a, S, T>,
     pub(super) frequency: &'a F,
-    pub(super) interval: Interval<T>,
-    pub(super) phase: &'a PhasePoint<S, T>,
-    pub(super) mass: &'a Mass<S, T>,
     pub(super) fit: &'a mut Fit<NODES, T>,
     /// The frequencies at both ends.
     pub(super) ends: &'a mut [Local<S, T>; 2],
@@ -49,12 +45,20 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     /// # Errors
     /// Those of a frequency.
     fn read_frequency(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
-        let Self { system, frequency, interval, phase, mass, fit, ends, unknowns, node, .. } = self;
+        let Self {
+            at: Begin { system, interval, q, phase, mass },
+            frequency,
+            fit,
+            ends,
+            unknowns,
+            node,
+            ..
+        } = self;
         if F::UNFITTED || frequency.reading().is_none() {
             return fit.to(frequency.fixed() * interval.h);
         }
         let NodeWork { point: end, velocity, gradient: force, .. } = &mut **node;
-        let (q, delta) = (&unknowns[0], &unknowns[NODES - 1]);
+        let delta = &unknowns[NODES - 1];
         for i in 0..q.len() {
             end[i] = q[i] + delta[i];
             velocity[i] = delta[i] / interval.h;
@@ -75,12 +79,12 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or those of a frequency that is read.
     pub(super) fn iterate(
         &mut self,
-        q: &[T],
         (residuals, [delta, change, weights]): (&mut [Vector<S, T>; NODES], [&mut [T]; 3]),
         limits: (Stopping, usize),
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let (system, last, h) = (self.system, NODES - 1, self.interval.h);
+        let Begin { system, interval: Interval { h, .. }, q, mass, .. } = self.at;
+        let last = NODES - 1;
         delta.copy_from_slice(&self.unknowns[last]);
         solve_by_fixed_point(
             (system, q),
@@ -90,7 +94,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
             |delta, change, statistics| {
                 self.unknowns[last].copy_from_slice(delta);
                 self.evaluate(residuals, statistics)?;
-                residuals[1..].iter_mut().for_each(|residual| self.mass.solve_in_place(residual));
+                residuals[1..].iter_mut().for_each(|residual| mass.solve_in_place(residual));
                 change.fill(T::lift(0.0));
                 for (unknown, row) in self.unknowns.iter_mut().zip(&self.fit.inverse).skip(1) {
                     for i in 0..change.len() {
@@ -107,7 +111,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     }
 
     fn time(&self) -> T {
-        self.fit.time(self.interval, self.j)
+        self.fit.time(self.at.interval, self.j)
     }
 }
 
@@ -125,7 +129,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         self.read_frequency(statistics)?;
-        let Self { system, interval, phase, mass, fit, unknowns, node, .. } = self;
+        let Self { at: Begin { system, interval, phase, mass, .. }, fit, unknowns, node, .. } = self;
         let NodeWork { point, velocity, gradient, momentum } = &mut **node;
         let (h, last) = (interval.h, NODES - 1);
         if S::SEPARABLE {
@@ -180,15 +184,15 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     fn place(&mut self, j: usize) {
         self.j = j;
         let NodeWork { point, velocity, .. } = &mut *self.node;
-        self.fit.place(j, self.interval.h, self.unknowns, [point, velocity]);
+        self.fit.place(j, self.at.interval.h, self.unknowns, [point, velocity]);
     }
 
     fn given(&self, i: usize) -> T {
-        self.phase.p[i]
+        self.at.phase.p[i]
     }
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
-        let (h, fit) = (self.interval.h, &*self.fit);
+        let (h, fit) = (self.at.interval.h, &*self.fit);
         let [by_point, by_velocity] = fit.weighted_direction(self.j, r);
         let [phi, psi] = fit.slopes(self.j, k);
         let vv = by_velocity * psi / h;
@@ -201,14 +205,14 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let (t, NodeWork { point, velocity, gradient, momentum }) = (self.time(), &mut *self.node);
         let w = Weights { qq: zero, qv: zero, vq: one, vv: zero };
-        self.system.linearize(point, velocity, t, w, gradient, momentum, vq);
+        self.at.system.linearize(point, velocity, t, w, gradient, momentum, vq);
     }
 
     // Kept out of line, with scratch of its own, so that the compiler sees that what is written is not what
     // is read, and evaluates once what the three have in common.
     #[inline(never)]
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>) {
-        let (system, t, zero, one) = (self.system, self.time(), T::lift(0.0), T::lift(1.0));
+        let (system, t, zero, one) = (self.at.system, self.time(), T::lift(0.0), T::lift(1.0));
         let NodeWork { point, velocity, gradient, momentum } = &mut *self.node;
         let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
         scratch!(l_q = system, *gradient);

@@ -5,7 +5,7 @@ use core::fmt;
 use super::coefficients::Coefficients;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
-    AtStages, EquationsOf, FirstOrder, Motion, PackedOf, PointOf, StageEvaluation, StageWork, weigh,
+    AtStages, EquationsOf, FirstOrder, PackedOf, PointOf, StageEvaluation, StageWork, weigh,
 };
 use crate::memory::{Aside, Memory, lasting};
 use crate::methods::collocation::packs::{combine, replace, sum};
@@ -17,13 +17,13 @@ use crate::state::summation::{Summation, left_out};
 use crate::{Real, Space, System, Vector};
 
 /// The stages of a Gauss step, and those of the step before.
-pub struct GaussMemory<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+pub struct GaussMemory<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> {
     pub(super) ladder: Ladder<Aside<NewtonStages<STAGES, S, T>>>,
     pub(super) path: Path<STAGES, S, T>,
 }
 
 /// Where the run is, and the polynomial on which it goes on from there.
-pub(super) struct Path<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> {
+pub(super) struct Path<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> {
     pub(super) equations: EquationsOf<S, T>,
     pub(super) coefficients: Coefficients<STAGES, T>,
     /// The slopes K of the last completed step.
@@ -51,15 +51,19 @@ pub(super) struct Path<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Re
 
 type StagesOf<const STAGES: usize, S, T> = PackedOf<S, T, Lanes<STAGES, T>>;
 
-impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Memory<T>
+    for GaussMemory<STAGES, S, T>
+{
     lasting!(T; part path, part ladder);
 }
 
-impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> Memory<T> for Path<STAGES, S, T> {
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Memory<T> for Path<STAGES, S, T> {
     lasting!(T; part equations, packs completed, number last, number momentum, part rest);
 }
 
-impl<const STAGES: usize, S: System<Kind: Motion<S, T>>, T: Real> fmt::Debug for GaussMemory<STAGES, S, T> {
+impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> fmt::Debug
+    for GaussMemory<STAGES, S, T>
+{
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("GaussMemory").field("completed", &self.path.completed).finish_non_exhaustive()
     }
