@@ -1,7 +1,7 @@
 //! Where a run begins, or a part of a step: with a defect, or without.
 
 use super::Sigma;
-use super::memory::{Carried, SigmaMemory, Work};
+use super::memory::{Carried, Leaps, SigmaMemory, Work};
 use super::parasitic_mode::{Monitor, Pace};
 use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, Span};
 use crate::error::{StartError, StepFailure};
@@ -75,7 +75,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
             .then(|| Product::new(system, q, t, Combination { a: sigma - one, b: sigma }));
         let symmetric = Combination { a: one, b: one };
         let reverses = S::AFFINE && Product::new(system, q, t, symmetric).vanishes(system);
-        let before = (reverses && sigma == T::lift(0.0)).then(|| space.vector());
+        let (leaps, product) = match product {
+            Some(product) if reverses && sigma == T::lift(0.0) => {
+                (Some(Leaps { product, before: space.vector() }), None)
+            }
+            product => (None, product),
+        };
         let solver = if explicit { Solver::FixedPoint } else { method.solver.in_numbers::<T>() };
         let newton = || of_second_derivatives(system, q, &rest, t, solver.storing());
         system.one_form(q, t, &mut one_form);
@@ -98,7 +103,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
                 inverse,
                 scale,
                 product,
-                before,
+                leaps,
                 l_d: OneNode::new(system, sigma),
                 orientation: FormOrientation::new(system, q, t),
                 rest: summation::Carried::new(system, method.summation),
@@ -116,7 +121,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
             for i in 0..q.len() {
                 increment[i] -= shift[i];
             }
-            if let Some(before) = &mut carried.before {
+            if let Some(Leaps { before, .. }) = &mut carried.leaps {
                 add(q, shift, before);
             }
         }

@@ -7,7 +7,7 @@
 //! arrays, which the compiler can keep in registers, and c, which no step needs, is computed at the end: 128
 //! instructions a step of four vortices, and 250 where each state is read.
 
-use super::memory::{Carried, SigmaMemory};
+use super::memory::{Carried, Leaps, SigmaMemory};
 use super::parasitic_mode::Monitor;
 use crate::error::StepFailure;
 use crate::mechanics::combination::{Inverse, Product};
@@ -28,8 +28,8 @@ pub(super) fn steps<S: DegenerateLagrangian<T>, T: Real>(
     (clock, count): (Clock<T>, u64),
     statistics: &mut Statistics,
 ) -> Option<(u64, Result<(), StepFailure>)> {
-    let Carried { defect, inverse, product, before, l_d, work, .. } = carried;
-    let (product, before) = (product.as_ref()?, before.as_mut()?);
+    let Carried { defect, inverse, leaps, l_d, work, .. } = carried;
+    let Leaps { product, before } = leaps.as_mut()?;
     let (node, from) = (&mut l_d.work, monitor.steps);
     scratch!(q1 = system, work.next);
     scratch!(q0 = system, node.velocity);

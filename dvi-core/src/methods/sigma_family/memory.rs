@@ -40,10 +40,10 @@ pub(super) struct Carried<S: System, T: Real> {
     /// That of K times `scale`: constant if α is affine, and else frozen for one step.
     pub(super) inverse: Inverse<S, T>,
     pub(super) scale: T,
-    /// K' = σ(Dα)ᵀ − (1−σ)Dα, if α is affine; not if σ = ½, where c is just reversed.
+    /// K' = σ(Dα)ᵀ − (1−σ)Dα, if α is affine; not if σ = ½, where c is just reversed, nor beside `leaps`.
     pub(super) product: Option<Product<S, T>>,
-    /// The point before, q0 + K⁻¹c0, where σ = 0 and Dα is constant and antisymmetric: steps are leaps.
-    pub(super) before: Option<Vector<S, T>>,
+    /// Where σ = 0 and Dα is constant and antisymmetric.
+    pub(super) leaps: Option<Leaps<S, T>>,
     pub(super) l_d: OneNode<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
     /// What rounding has left out of the coordinates, if α is affine and σ neither 0 nor 1.
@@ -66,6 +66,19 @@ pub(super) struct Work<S: System, T: Real> {
     pub(super) next: Vector<S, T>,
 }
 
+/// What steps with σ = 0 take where Dα is antisymmetric.
+#[derive(Debug)]
+pub(super) struct Leaps<S: System, T: Real> {
+    /// K' = −Dα.
+    pub(super) product: Product<S, T>,
+    /// The point before, q0 + K⁻¹c0.
+    pub(super) before: Vector<S, T>,
+}
+
+impl<S: System, T: Real> Memory<T> for Leaps<S, T> {
+    lasting!(T; numbers before);
+}
+
 impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
     lasting!(T; part carried, part ladder, part monitor);
 }
@@ -73,7 +86,7 @@ impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
 impl<S: System, T: Real> Memory<T> for Carried<S, T> {
     lasting!(
         T;
-        numbers defect, flag defect_vanishes, numbers one_form, vectors before, part history,
+        numbers defect, flag defect_vanishes, numbers one_form, parts leaps, part history,
         part orientation, part rest,
     );
 }

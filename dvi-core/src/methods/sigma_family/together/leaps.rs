@@ -3,7 +3,7 @@
 use super::{Packed, Packs, look};
 use crate::methods::Clock;
 use crate::methods::sigma_family::Sigma;
-use crate::methods::sigma_family::memory::Carried;
+use crate::methods::sigma_family::memory::{Carried, Leaps};
 use crate::methods::together::{Companion, all_finite, load, load_if_all_have, of_lanes};
 use crate::methods::walk::BLOCK;
 use crate::scalar::Lanes;
@@ -24,7 +24,7 @@ where
     S: DegenerateLagrangian + Packable<W, Packed: DegenerateLagrangian<Lanes<W>>>,
 {
     let Packs { q, other: ahead, kept, gradient, reciprocals, one, increment, .. } = packs;
-    if !load_if_all_have(ahead, |run| runs[run].memory.carried.before.as_deref(), runs.len()) {
+    if !load_if_all_have(ahead, |run| Some(&*runs[run].memory.carried.leaps.as_ref()?.before), runs.len()) {
         return 0;
     }
     load(q, |run| &*runs[run].q, runs.len());
@@ -58,9 +58,9 @@ where
     }
     for (lane, (run, &system)) in runs.iter_mut().zip(systems).enumerate() {
         read_lane(lane, q, run.q);
-        let Carried { defect, product, before, .. } = &mut run.memory.carried;
+        let Carried { defect, leaps, .. } = &mut run.memory.carried;
         // All have them: the point ahead has been loaded from there.
-        if let (Some(product), Some(before)) = (product, before) {
+        if let Some(Leaps { product, before }) = leaps {
             read_lane(lane, ahead, before);
             for ((delta, &now), &before) in increment.iter_mut().zip(run.q.iter()).zip(before.iter()) {
                 *delta = now - before;
