@@ -118,7 +118,6 @@ fn none_and_one_of_a_degenerate_system() -> Checked {
         Composition::triple_jump(OneStep::midpoint()),
         OneStepGauss::<2>::new(),
         Projected::symmetric(),
-        Projected::standard(),
         Gauss::<2>::new(),
         Gauss::<2>::new().in_lanes(),
         RungeKutta::classical(),

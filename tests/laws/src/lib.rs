@@ -155,13 +155,11 @@ pub fn affine() -> Vec<Case> {
     });
     rows!(table, [driven()], |at| {
         Projected::symmetric() => ONE, Elsewhere;
-        Projected::standard() => ONE, Elsewhere;
     });
     rows!(table, [four()], |at| {
         // The implicit midpoint rule, all three of them.
         Sigma::midpoint() => ONE, Collocation(1);
         Projected::symmetric() => ONE, Collocation(1);
-        Projected::standard() => ONE, Collocation(1);
         RungeKutta::midpoint() => ONE, Elsewhere;
         RungeKutta::heun() => ONE, Elsewhere;
         RungeKutta::classical() => ONE, Elsewhere;
@@ -214,7 +212,6 @@ pub fn at_large() -> Vec<Case> {
     });
     rows!(table, [mirror(), loose(), prey()], |at| {
         Projected::symmetric() => ONE, Elsewhere;
-        Projected::standard() => ONE, Elsewhere;
         Composition::suzuki(Projected::symmetric()) => ONE, Elsewhere;
     });
     rows!(table, [guiding()], |at| {
@@ -252,7 +249,6 @@ pub fn in_class() -> Vec<Case> {
     rows!(table, [canonical(), harvested()], |at| {
         Sigma { solver: at.solver, ..Sigma::midpoint() } => PLAIN, Elsewhere;
         Projected::symmetric() => ONE, Elsewhere;
-        Projected::standard() => ONE, Elsewhere;
         Gauss { solver: at.solver, summation: at.summation, ..Gauss::<3>::new() } => ALL, Collocation(3);
         RungeKutta::classical() => ONE, Elsewhere;
     });
@@ -560,7 +556,6 @@ pub fn fused() -> Vec<Fused> {
         OneStep::scheme_b(),
         OneStepGauss::<3>::new(),
         Projected::symmetric(),
-        Projected::standard(),
         Gauss::<2>::new(),
         RungeKutta::classical(),
         Composition::suzuki(OneStep::midpoint()),

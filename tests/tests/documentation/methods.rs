@@ -63,7 +63,7 @@ fn degenerate() -> Vec<(&'static str, Schemes)> {
             ],
         ),
         ("[`Gauss`]", schemes![Gauss::<1>::new(), Gauss::<2>::new(), Gauss::<8>::new()]),
-        ("[`Projected`]", schemes![Projected::symmetric(), Projected::standard()]),
+        ("[`Projected`]", schemes![Projected::symmetric()]),
         ("[`RungeKutta`]", schemes![RungeKutta::heun(), RungeKutta::classical()]),
     ]
 }

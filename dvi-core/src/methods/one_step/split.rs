@@ -60,10 +60,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
 }
 
 /// p − ϑ(q, t) = 0.
-struct End<'a, S, T> {
+struct End<'a, S: System, T: Real> {
     system: &'a S,
     t: T,
-    form: &'a mut [T],
+    form: &'a mut Vector<S, T>,
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for End<'_, S, T> {
@@ -93,10 +93,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for End<'_, S, T> {
 }
 
 /// Solves for y alone.
-struct ByHalves<'a, S, T> {
+struct ByHalves<'a, S: System, T: Real> {
     system: &'a S,
-    block: &'a mut [T],
-    work: [&'a mut [T]; 2],
+    block: &'a mut Matrix<S, T>,
+    work: [&'a mut Vector<S, T>; 2],
     /// [`Judge::NAMES`].
     names: bool,
 }
@@ -139,7 +139,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> ByHalves<'_, S, T> {
         x: &mut [T],
     ) -> Result<(), StepFailure> {
         let Self { system, block, work: [change, scales], .. } = self;
-        let half = x.len() / 2;
+        // As many as the compiler knows of, in a function of its own.
+        let n = system.space().dimension();
+        let (half, weights, x) = (n / 2, &weights[..n], &mut x[..n]);
         let (block, change) = (&mut block[..half * half], &mut change[..half]);
         block.fill(T::lift(0.0));
         let mut places = Places(|row: usize, column: usize, entry: T| {
@@ -153,8 +155,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> ByHalves<'_, S, T> {
         for i in (0..x.len()).filter(|&i| is_x(*system, i)) {
             (change[system.place(i)], of_rows[system.place(i)]) = (x[i], weights[i]);
         }
-        linear::set_scales(scales, of_rows);
-        elimination::eliminate(block, scales, change)?;
+        elimination::eliminate_two(block, of_rows, change).unwrap_or_else(|| {
+            linear::set_scales(scales, of_rows);
+            elimination::eliminate(block, scales, change)
+        })?;
         for (i, x) in x.iter_mut().enumerate() {
             *x = system.place(i).checked_sub(half).map_or(T::lift(0.0), |y| change[y]);
         }
