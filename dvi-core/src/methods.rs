@@ -56,7 +56,6 @@
 //! [`Scheme`] says of a method what the tables say, [`Method`] is what a run asks of it. The other traits are
 //! for methods of your own, and for code that is generic over methods.
 
-mod before;
 mod collocation;
 mod composition;
 mod constrained;
@@ -67,7 +66,7 @@ mod galerkin;
 mod gauss;
 mod geodesic;
 mod impacts;
-mod kicks;
+mod kept;
 #[cfg(feature = "random")]
 mod langevin;
 mod newmark;
@@ -75,12 +74,13 @@ mod one_point;
 mod one_step;
 mod projected;
 mod runge_kutta;
+mod scheme;
 mod sigma_family;
 mod step;
+mod suits;
 mod tabulated;
 mod together;
 mod tolerance;
-mod variable_step;
 mod variational;
 mod variational_method;
 mod walk;
@@ -94,103 +94,30 @@ use crate::{Lagrangian, Real, System, Vector};
 
 pub use composition::Composition;
 pub use constrained::{Constrained, Rattle};
-pub use context::{Here, Step, Steps};
+pub use context::{Clock, Here, Step, Steps};
 pub use energy_limit::EnergyLimit;
 pub use flight::FreeFlight;
 pub use galerkin::Galerkin;
 pub use gauss::Gauss;
 pub use geodesic::Geodesic;
 pub use impacts::{Collision, Impact, Impacts};
+pub(crate) use kept::Kept;
 #[cfg(feature = "random")]
 pub use langevin::Langevin;
 pub use newmark::Newmark;
 pub use one_step::{OneStep, OneStepGauss};
 pub use projected::Projected;
 pub use runge_kutta::RungeKutta;
+pub use scheme::{PreservedForm, Scheme};
 pub use sigma_family::{BeginsBetween, ParasiticMode, Sigma, Start};
+pub use suits::{Suits, SuitsAnyStep, VariableStep};
 pub use tabulated::Tabulated;
 #[cfg(feature = "alloc")]
 pub(crate) use together::Companion;
 pub use together::InStep;
 pub use tolerance::Tolerance;
-pub use variable_step::{SuitsAnyStep, VariableStep};
 pub use variational::{Fitting, Variational};
 pub use variational_method::{InnerScheme, VariationalMethod};
-
-/// The geometric structure that every step of a method preserves, up to rounding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum PreservedForm {
-    /// None.
-    Nothing,
-    /// The form of the equations of motion where it is constant: dq ∧ dp for a regular system; Ω = −dα on Q
-    /// for a degenerate one whose α is affine.
-    OmegaIfAffine,
-    /// Ω = −dα on Q, of a degenerate system.
-    Omega,
-    /// The discrete two-form ∂²L_d/∂q0∂q1 dq0 ∧ dq1 on Q×Q (Rowley & Marsden 2002, eq. 17).
-    Discrete,
-    /// dq ∧ dp on T*Q.
-    Canonical,
-    /// dq' ∧ dp, where q' differs from q by a term of first or second order in h that the method documents:
-    /// its orbits are those of a symplectic map in other coordinates.
-    Conjugate,
-}
-
-/// What is known of a method before it meets a system.
-///
-/// ```
-/// use dvi_core::methods::PreservedForm;
-/// use dvi_core::prelude::*;
-///
-/// let method = Composition::kahan_li_8(Variational::trapezoid());
-/// assert_eq!((method.order(), method.is_symmetric()), (8, true));
-/// assert_eq!(method.preserved_form(), PreservedForm::Canonical);
-/// assert_eq!(RungeKutta::classical().preserved_form(), PreservedForm::Nothing);
-/// ```
-pub trait Scheme {
-    /// The order of convergence on smooth systems whose Lagrangian does not depend on time. On others it is
-    /// the same, unless the documentation of the method says otherwise.
-    fn order(&self) -> usize;
-    /// Whether a step with −h undoes a step with h.
-    fn is_symmetric(&self) -> bool;
-    /// What is preserved on systems without friction or drives and, with constraints, where these are
-    /// holonomic. Constraints of the velocities leave no two-form to preserve, and a method does not know of
-    /// them before it meets a system.
-    fn preserved_form(&self) -> PreservedForm;
-}
-
-/// The times at which the steps of a run begin: start + k h, which does not accumulate rounding errors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Clock<T> {
-    pub(crate) start: T,
-    pub(crate) h: T,
-    pub(crate) step: u64,
-}
-
-impl<T: Real> Clock<T> {
-    /// A clock that begins at time `start` and whose steps have the length `h`.
-    pub fn new(start: T, h: T) -> Self {
-        Self { start, h, step: 0 }
-    }
-
-    /// The clock after `steps` steps.
-    #[must_use]
-    pub fn after(self, steps: u64) -> Self {
-        Self { step: self.step.wrapping_add(steps), ..self }
-    }
-
-    /// The present time.
-    pub fn time(self) -> T {
-        // Signed integers convert in one instruction; no run takes 2⁶³ steps.
-        self.start + T::lift(self.step as i64 as f64) * self.h
-    }
-
-    /// The step h.
-    pub fn step_size(self) -> T {
-        self.h
-    }
-}
 
 /// What runs carry for a method, or for a [step control](crate::run::StepControl).
 ///
@@ -350,31 +277,5 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         _statistics: &mut Statistics,
     ) -> Result<T, StepFailure> {
         Ok(T::lift(f64::INFINITY))
-    }
-}
-
-/// A [`Method`] for `S` that is `M`: where it is one for systems of another kind, rustc does not know `M`.
-pub trait Suits<S: Lagrangian<T>, T: Real, M: Carries<S, T>> {
-    /// `M`, of which it is known here that it steps `S`.
-    type Method: Method<S, T, Memory = M::Memory>;
-    /// The method as it is.
-    fn suited(self) -> M;
-    /// The method as it is, as what steps `S`.
-    fn steps(method: &M) -> &Self::Method;
-}
-
-impl<S: Lagrangian<T>, T: Real, M, X> Suits<S, T, M> for X
-where
-    X: Method<S, T, Suited<X>: Same<X, As = M>>,
-    M: Method<S, T>,
-{
-    type Method = M;
-    #[inline]
-    fn suited(self) -> M {
-        X::Suited::<X>::same(self)
-    }
-    #[inline]
-    fn steps(method: &M) -> &M {
-        method
     }
 }

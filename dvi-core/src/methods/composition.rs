@@ -9,8 +9,7 @@ use crate::memory::{Memory, lasting};
 use core::fmt::Debug;
 
 use crate::error::{StartError, StepFailure};
-use crate::methods::before::Before;
-use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
+use crate::methods::{Carries, Here, Kept, Method, PreservedForm, Scheme, Step, VariableStep};
 use crate::{Lagrangian, Real, System, Vector};
 
 /// The coefficients up to the middle one; the rest is their mirror image.
@@ -164,7 +163,7 @@ impl<M> Composition<M> {
 #[derive(Debug)]
 pub struct CompositionMemory<I, V> {
     inner: I,
-    before: Before<I, V>,
+    before: Kept<V, I>,
 }
 
 impl<I, V> CompositionMemory<I, V> {
@@ -208,20 +207,20 @@ impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composit
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let begin = || self.method.begin(system, q, v, t, h);
-        Ok(CompositionMemory { inner: begin()?, before: Before { inner: begin()?, q: q.clone() } })
+        Ok(CompositionMemory { inner: begin()?, before: Kept { q: q.clone(), memory: begin()? } })
     }
 
     #[inline]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let CompositionMemory { inner, before } = memory;
-        before.keep(inner, q);
+        before.take(q, inner);
         let mut elapsed = 0.0;
         for gamma in self.table.steps() {
             let (t, h) = (t + T::lift(elapsed) * h, T::lift(gamma) * h);
             let step = Step { system, q, t, h, statistics };
             if let Err(failure) = self.method.step(step, inner) {
-                before.go_back(inner, q);
+                before.go_back(q, inner);
                 return Err(failure);
             }
             elapsed += gamma;

@@ -2,6 +2,7 @@
 
 mod memory;
 mod reduced;
+mod step;
 
 use crate::discrete::frequency::Unfitted;
 use crate::discrete::quadrature::Trapezoid;

@@ -1,9 +1,41 @@
-//! What a run gives to its method: a step to take, steps to take, a point to be asked about.
+//! What a run gives to its method: a step to take, steps to take and their times, a point to be asked about.
 
 use crate::error::StepFailure;
-use crate::methods::{Clock, Method};
+use crate::methods::Method;
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, System, Vector};
+
+/// The times at which the steps of a run begin: start + k h, which does not accumulate rounding errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock<T> {
+    pub(crate) start: T,
+    pub(crate) h: T,
+    pub(crate) step: u64,
+}
+
+impl<T: Real> Clock<T> {
+    /// A clock that begins at time `start` and whose steps have the length `h`.
+    pub fn new(start: T, h: T) -> Self {
+        Self { start, h, step: 0 }
+    }
+
+    /// The clock after `steps` steps.
+    #[must_use]
+    pub fn after(self, steps: u64) -> Self {
+        Self { step: self.step.wrapping_add(steps), ..self }
+    }
+
+    /// The present time.
+    pub fn time(self) -> T {
+        // Signed integers convert in one instruction; no run takes 2⁶³ steps.
+        self.start + T::lift(self.step as i64 as f64) * self.h
+    }
+
+    /// The step h.
+    pub fn step_size(self) -> T {
+        self.h
+    }
+}
 
 /// A step to take.
 #[derive(Debug)]

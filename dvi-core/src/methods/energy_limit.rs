@@ -6,9 +6,8 @@
 
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::before::Before;
 use crate::methods::{
-    Carries, Here, Method, PreservedForm, Scheme, Step, Tolerance, VariableStep, VariationalMethod,
+    Carries, Here, Kept, Method, PreservedForm, Scheme, Step, Tolerance, VariableStep, VariationalMethod,
 };
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
@@ -48,7 +47,7 @@ pub struct EnergyLimit<M> {
 #[derive(Debug)]
 pub struct EnergyLimitMemory<I, V, T> {
     inner: I,
-    before: Before<I, V>,
+    before: Kept<V, I>,
     v: V,
     start: T,
 }
@@ -105,7 +104,7 @@ where
             return Err(StartError::Parameter { name: "limit", value, range });
         }
         let begin = || self.method.begin(system, q, v, t, h);
-        let (start, before) = (watched(system, q, v, t), Before { inner: begin()?, q: q.clone() });
+        let (start, before) = (watched(system, q, v, t), Kept { q: q.clone(), memory: begin()? });
         Ok(EnergyLimitMemory { inner: begin()?, before, v: system.space().vector(), start })
     }
 
@@ -116,7 +115,7 @@ where
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let EnergyLimitMemory { inner, before, v, start } = memory;
-        before.keep(inner, q);
+        before.take(q, inner);
         self.method.step(Step { system, q, t, h, statistics }, inner)?;
         let end = t + h;
         let verdict = self.method.velocity(Here { system, q, t: end }, inner, v).and_then(|()| {
@@ -127,7 +126,7 @@ where
             if within { Ok(()) } else { Err(StepFailure::Energy { start, now, limit: self.limit }) }
         });
         if verdict.is_err() {
-            before.go_back(inner, q);
+            before.go_back(q, inner);
         }
         verdict
     }

@@ -4,10 +4,12 @@
 
 mod between;
 mod covectors;
+mod equations;
 mod memory;
 mod node;
 mod step;
 mod tangents;
+mod variation;
 
 use crate::discrete::Interval;
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Trapezoid};
@@ -22,8 +24,8 @@ use crate::system::start::evaluate;
 use crate::{ManifoldLagrangian, Real, Space, Vector};
 
 use covectors::momentum;
+use equations::has_spheres;
 use memory::{Kicks, is_positive, mass_rows};
-use step::has_spheres;
 use tangents::{Equations, Legendre, TangentMass};
 
 use memory::GeodesicMemory;

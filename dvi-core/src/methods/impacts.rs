@@ -1,6 +1,9 @@
 //! Impacts: steps of a variational method that are divided where a gap closes, with a jump of the momentum
 //! there.
 
+mod closing;
+mod gaps;
+mod impulse;
 mod jump;
 mod memory;
 mod passage;
@@ -181,21 +184,21 @@ where
             return Err(StartError::Unsupported { option: "Collision::Variational", reason });
         }
         evaluate(system, q, v, t)?;
-        memory::admit(system, [q, v], t, h)?;
+        gaps::admit(system, [q, v], t, h)?;
         ImpactsMemory::new(system, q, || self.scheme.depart(system, q, v, t, h))
     }
 
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let counts = [memory.total, memory.grazing];
-        memory.start.keep(&memory.inner, q);
+        memory.start.take(q, &memory.inner);
         memory.is_divided = false;
         let (left, is_at_wall, is_there, turns) = (h, false, true, 0);
         let passage =
             Passage { method: self, system, memory, q, statistics, t, left, h, is_at_wall, is_there, turns };
         passage.take().inspect_err(|_| {
             let begin = if memory.is_divided { &memory.before } else { &memory.start };
-            begin.go_back(&mut memory.inner, q);
+            begin.go_back(q, &mut memory.inner);
             memory.count = 0;
             [memory.total, memory.grazing] = counts;
         })

@@ -16,9 +16,9 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::mechanics::mass_root::MassRoot;
 use crate::memory::{Memory, lasting};
-use crate::methods::kicks::kick;
 use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use crate::scalar::norm;
+use crate::scalar::passes::kick;
 use crate::system::Same;
 use crate::{Real, RegularLagrangian, Scalar, Separable, Space, System, Vector};
 

@@ -8,7 +8,9 @@
 //!
 //! r(Δ) = c0 + α(q0) − α(q_σ) + (1−σ)G = 0        c1 = α(q_σ) + σG − α(q1)
 
+mod admit;
 mod affine;
+mod begin;
 mod leapfrog;
 mod memory;
 mod parasitic_mode;
@@ -18,15 +20,11 @@ mod together;
 
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::VectorField;
 use crate::methods::VariationalMethod;
 use crate::methods::{self, Carries, Clock, Method, PreservedForm, Scheme, Steps};
-use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
-use crate::space::sink::Places;
 use crate::state::summation::Summation;
-use crate::system::spinors;
-use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
+use crate::{DegenerateLagrangian, Real, System, Vector};
 
 pub(crate) use memory::SigmaMemory;
 pub use parasitic_mode::ParasiticMode;
@@ -166,62 +164,6 @@ impl<T: Real> Sigma<T> {
     fn budget<N>(&self, ladder: &Ladder<N>, dimension: usize) -> usize {
         ladder.budget(self.stopping.max_iterations, 12 + dimension)
     }
-
-    fn validate(&self, is_affine: bool) -> Result<(), StartError> {
-        let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
-        if !in_range {
-            let value = norm::reported(self.sigma);
-            return Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" });
-        }
-        if self.summation == Summation::Compensated && (!is_affine || self.is_end()) {
-            let reason = "it is for affine one-forms and 0 < sigma < 1";
-            return Err(StartError::Unsupported { option: "Summation::Compensated", reason });
-        }
-        match self.parasitic_limit {
-            Some(value) if value.is_nan() || value <= 0.0 => {
-                Err(StartError::Parameter { name: "parasitic_limit", value, range: "positive" })
-            }
-            _ => self.stopping.validate(),
-        }
-    }
-
-    /// Whether the lengths of unit vectors are kept, if there are some: the implicit midpoint rule keeps
-    /// them.
-    fn keeps_lengths<S: DegenerateLagrangian<T>>(&self) -> Result<(), StartError> {
-        let is_midpoint_rule = S::AFFINE && self.is_midpoint() && self.start == Start::Consistent;
-        if is_midpoint_rule {
-            return Ok(());
-        }
-        spinors::refuse::<S>("a `Sigma` that is not the implicit midpoint rule")
-    }
-
-    /// Whether the equations of σ = 0 or 1 can have a solution: not if a row of Dα is zero.
-    fn go_with<S: DegenerateLagrangian<T>>(
-        &self,
-        system: &S,
-        q: &Vector<S, T>,
-        t: T,
-    ) -> Result<(), StartError> {
-        self.keeps_lengths::<S>()?;
-        // The matrix of σ = 1 is that of the end of a step.
-        if !self.is_end() || (self.sigma == T::lift(1.0) && !S::AFFINE) {
-            return Ok(());
-        }
-        let (zero, mut sizes): (T, Vector<S, T>) = (T::lift(0.0), system.space().vector());
-        let mut sink = Places(|row: usize, _: usize, entry: T| {
-            sizes[row] = norm::larger(sizes[row], Scalar::abs(entry));
-        });
-        system.one_form_jacobian(q, t, T::lift(1.0), zero, &mut sink);
-        if sizes.contains(&zero) {
-            // Where Ω is singular too, none of these helps.
-            VectorField::new(system, q, t).map_err(StartError::Starter)?;
-            let reason = "the one-form has no component along some coordinate, or one that is constant at the start, so \
-                          that the equations are singular; take `Sigma::midpoint()`, `OneStep` if the system is in its class, or a \
-                          one-form such as (p dq - q dp) / 2 in place of p dq";
-            return Err(StartError::Unsupported { option: "sigma = 0 or 1", reason });
-        }
-        Ok(())
-    }
 }
 
 /// The default of [`Sigma::parasitic_limit`].
@@ -269,9 +211,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, _v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;
-        if S::AFFINE && self.is_midpoint() && self.start == Start::Consistent {
+        if self.is_midpoint_rule::<S>() {
             return SigmaMemory::without_defect(system, self, q, t, h);
         }
         let q1 = self.start.second_point(system, q, t, h)?;
@@ -287,7 +228,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         t: T,
         h: T,
     ) -> Result<Self::Memory, StartError> {
-        self.validate(S::AFFINE)?;
         self.go_with(system, q, t)?;
         SigmaMemory::without_defect(system, self, q, t, h)
     }
@@ -331,8 +271,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
     fn admit(&self, _system: &S) -> Result<(), StartError> {
-        self.keeps_lengths::<S>()?;
-        self.validate(S::AFFINE)
+        self.validate::<S>()
     }
 
     fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {

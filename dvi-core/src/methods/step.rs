@@ -12,17 +12,15 @@
 //! is constant, and Newton's method behind it or alone; what is looked at where a step ends; and the sums.
 
 mod equations;
+mod memory;
 
 use crate::discrete::{Interval, NodeWork};
-use crate::error::{StartError, StepFailure};
-use crate::mechanics::pattern::of_second_derivatives;
+use crate::error::StepFailure;
 use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
-use crate::memory::{Memory, lasting};
-use crate::methods::Here;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
 use crate::scalar::simd::widest_if;
-use crate::solve::{Convergence, Guess, Ladder, Linearize, Solver, Stopping};
+use crate::solve::{Convergence, Guess, Ladder, Linearize, Stopping};
 use crate::solve::{solve_by_fixed_point, solve_by_newton};
 use crate::space::Sink;
 use crate::state::Statistics;
@@ -31,105 +29,7 @@ use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Ve
 
 pub(super) use equations::{Begin, Equations, Kinetic, Share, set_force};
 
-/// What a run carries from step to step, and its work space.
-#[derive(Debug)]
-pub(super) struct Carried<S: System, T: Real> {
-    pub(super) phase: PhasePoint<S, T>,
-    pub(super) inertial: Inertial<S, T>,
-    pub(super) work: Work<S, T>,
-}
-
-/// Vectors that are written before they are read in each step.
-#[derive(Debug)]
-pub(super) struct Work<S: System, T: Real> {
-    pub(super) node: NodeWork<S, T>,
-    /// Δ
-    pub(super) increment: Vector<S, T>,
-    pub(super) next: Vector<S, T>,
-    /// The residual, then the correction, or a force.
-    pub(super) trial: Vector<S, T>,
-    /// s
-    pub(super) sum: Vector<S, T>,
-    /// In which iterations judge coordinates.
-    weights: Vector<S, T>,
-}
-
-impl<S: Lagrangian<T>, T: Real> Work<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn new(system: &S) -> Self {
-        let vector = || system.space().vector();
-        Self {
-            node: NodeWork::new(system),
-            increment: vector(),
-            next: vector(),
-            trial: vector(),
-            sum: vector(),
-            weights: vector(),
-        }
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real> Carried<S, T> {
-    /// Of a run from (`q`, `v`, `t`).
-    ///
-    /// # Errors
-    /// [`StartError::Starter`] where momentum or force is no number, or the mass matrix is singular.
-    pub(super) fn new(system: &S, q: &[T], v: &[T], t: T, summation: Summation) -> Result<Self, StartError> {
-        Ok(Self {
-            phase: PhasePoint::new(system, q, v, t, summation)?,
-            inertial: Inertial::new(system, q, v, t)?,
-            work: Work::new(system),
-        })
-    }
-
-    /// Sets `v` to the velocity at the present point.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn velocity(&self, here: Here<'_, S, T>, v: &mut [T]) -> Result<(), StepFailure> {
-        let Here { system, q, t } = here;
-        self.inertial.velocity(system, &self.phase, q, t, v)
-    }
-}
-
-impl<S: System, T: Real> Memory<T> for Carried<S, T> {
-    lasting!(T; part phase, part inertial);
-}
-
-/// What a run carries, how its steps are solved, and what its method has of its own.
-#[derive(Debug)]
-pub struct PhaseMemory<S: System, T: Real, X = (), N = Linear<S, T>> {
-    pub(super) carried: Carried<S, T>,
-    /// With the matrix of Newton's method; explicit steps do not use it.
-    pub(super) ladder: Ladder<N>,
-    pub(super) own: X,
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real, X, N> PhaseMemory<S, T, X, N> {
-    /// p = ∂L/∂v at the current point, one entry per coordinate.
-    pub fn p(&self) -> &[T] {
-        &self.carried.phase.p
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, T: Real, X> PhaseMemory<S, T, X> {
-    /// Of a run from (`q`, `v`, `t`).
-    ///
-    /// # Errors
-    /// As [`Carried::new`].
-    pub(super) fn new(
-        system: &S,
-        (q, v, t): (&[T], &[T], T),
-        (solver, summation): (Solver, Summation),
-        own: X,
-    ) -> Result<Self, StartError> {
-        let newton = || of_second_derivatives(system, q, v, t, solver.storing());
-        let carried = Carried::new(system, q, v, t, summation)?;
-        Ok(Self { carried, ladder: Ladder::new(solver, newton), own })
-    }
-}
-
-impl<S: System, T: Real, X: Memory<T>, N> Memory<T> for PhaseMemory<S, T, X, N> {
-    lasting!(T; part carried, part own, part ladder);
-}
+pub(super) use memory::{Carried, PhaseMemory, Work};
 
 /// A step, and what it changes.
 pub(super) struct Attempt<'a, S: System, T: Real> {

@@ -22,3 +22,10 @@ pub(crate) fn add<T: Real>(x: &[T], delta: &[T], sum: &mut [T]) {
         *sum = x + delta;
     }
 }
+
+/// A kick of the momentum, p ← p + a F, or a drift of the point, q ← q + a v.
+pub(crate) fn kick<T: Real>(p: &mut [T], a: T, force: &[T]) {
+    for (p, &force) in p.iter_mut().zip(force) {
+        *p += a * force;
+    }
+}

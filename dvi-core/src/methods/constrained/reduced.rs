@@ -8,6 +8,7 @@
 //! unknowns takes those that do not, and says why they fail.
 
 mod arrival;
+mod place;
 mod rows;
 
 use super::memory::Impulses;
@@ -20,7 +21,8 @@ use crate::solve::Stopping;
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
 use crate::{ConstrainedSystem, Real, Space, Vector};
-use arrival::{Arrival, Begin, Place};
+use arrival::Begin;
+use place::{Arrival, Place};
 use rows::{combine, fill};
 
 /// With more constraints the equations for all unknowns are cheaper.

@@ -1,6 +1,6 @@
 //! Second derivatives over the coordinates as those over the tangent vectors of their blocks.
 
-use super::node::Rows;
+use super::variation::Rows;
 use crate::mechanics::manifold::blocks;
 use crate::mechanics::pattern::visit_second_derivatives;
 use crate::space::Sink;

@@ -10,46 +10,20 @@
 //! not depend on the displacement, and those of the last do no work where the last point is held. It
 //! evaluates one force.
 
-use nalgebra::Vector3;
-
-use super::covectors::{depart, force, increment_of, push, subtract_momentum, velocity};
-use super::memory::{Arrival, GeodesicMemory, Kicks, MassRows};
-use super::node::{Forces, Path};
-use super::tangents::{Equations, Tangents};
+use super::covectors::{force, increment_of, velocity};
+use super::equations::{Begin, nodes};
+use super::memory::{Arrival, GeodesicMemory, Kicks};
+use crate::discrete::Interval;
 use crate::discrete::quadrature::Rule;
-use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
-use crate::mechanics::manifold::sphere::GreatCircle;
-use crate::mechanics::manifold::{self, Block, blocks, vector};
-use crate::methods::kicks::kick;
+use crate::mechanics::manifold::{self, blocks, vector};
 use crate::scalar::norm::{self, reported};
+use crate::scalar::passes::kick;
 use crate::solve::{Stopping, from_either_guess};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
-use crate::system::{CoordinateBlock, Factor};
-use crate::{ManifoldLagrangian, Real, Scalar, System};
-
-/// Where a step begins, and what is integrated along it.
-struct Begin<'a, S: System, R, T: Real> {
-    system: &'a S,
-    rule: &'a R,
-    interval: Interval<T>,
-    q: &'a [T],
-    p: &'a [T],
-    /// M, where L is ½ v·M v alone.
-    mass: Option<&'a MassRows<S, T>>,
-}
-
-/// Whether a coordinate of `S` is a unit vector. Without these what a drift needs is the same at all its
-/// nodes.
-pub(super) fn has_spheres<S: ManifoldLagrangian<T>, T: Real>() -> bool {
-    S::REPORT.coordinates.iter().any(|&CoordinateBlock { factor, .. }| factor == Factor::Sphere)
-}
-
-/// The nodes cⱼ of a rule with h wⱼ.
-fn nodes<R: Rule, T: Real>(rule: &R, h: T) -> impl Iterator<Item = [T; 2]> {
-    rule.nodes().iter().zip(rule.weights()).map(move |(&c, &weight)| [T::lift(c), h * T::lift(weight)])
-}
+use crate::system::Factor;
+use crate::{ManifoldLagrangian, Real};
 
 /// The weights h w of the two ends.
 fn impulses<R: Rule, T: Real>(rule: &R, h: T) -> [T; 2] {
@@ -142,98 +116,5 @@ fn check_angles<S: ManifoldLagrangian<T>, T: Real>(
             Err(StepFailure::HalfTurn { block: name, index, angle: reported(angle) })
         }
         None => Ok(()),
-    }
-}
-
-impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
-    fn path<'b>(&'b self, displacement: &'b [T]) -> Path<'b, T> {
-        Path { q: self.q, displacement, h: self.interval.h }
-    }
-
-    /// The nodes of a drift with their weights.
-    fn drifts(&self) -> impl Iterator<Item = [T; 2]> {
-        let once = (!has_spheres::<S, T>()).then(|| [T::lift(0.0), self.interval.h]);
-        let each = has_spheres::<S, T>().then(|| nodes(self.rule, self.interval.h));
-        once.into_iter().chain(each.into_iter().flatten())
-    }
-
-    /// Sets `p` to the momentum at the end of the displacement.
-    fn balance(
-        &self,
-        displacement: &[T],
-        Tangents { node, .. }: &mut Tangents<S, T>,
-        p: &mut [T],
-        statistics: &mut Statistics,
-    ) {
-        let (system, path) = (self.system, self.path(displacement));
-        for block in blocks(system) {
-            depart(block, path, self.p, p);
-        }
-        if self.mass.is_some() && !has_spheres::<S, T>() {
-            return;
-        }
-        for [c, weight] in nodes(self.rule, self.interval.h) {
-            let forces = match self.mass {
-                Some(_) => {
-                    node.drift(system, path, self.interval.time(c), c);
-                    Forces::Without
-                }
-                None => {
-                    node.place(system, path, c);
-                    let NodeWork { point, velocity, gradient, momentum } = &mut node.work;
-                    system.gradient(point, velocity, self.interval.time(c), gradient, momentum);
-                    statistics.gradients += 1;
-                    Forces::Of
-                }
-            };
-            for block in blocks(system) {
-                push(block, path, &node.work, [c, weight], forces, p);
-            }
-        }
-    }
-}
-
-impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S, R, T> {
-    /// Angles are judged as they are.
-    fn size(&self, block: Block, displacement: &[T]) -> T {
-        match block.factor {
-            Factor::Line => block.places().fold(T::lift(0.0), |largest, place| {
-                norm::larger(largest, Scalar::abs(self.q[place]) + Scalar::abs(displacement[place]))
-            }),
-            Factor::Rotation | Factor::Sphere => T::lift(1.0),
-        }
-    }
-
-    /// The residual is −D₁L_d − p0.
-    fn linearize(&self, displacement: &[T], tangents: &mut Tangents<S, T>, statistics: &mut Statistics) {
-        let (system, path) = (self.system, self.path(displacement));
-        let Tangents { node, residual, matrix, .. } = tangents;
-        residual.fill(T::lift(0.0));
-        for block in blocks(system) {
-            subtract_momentum(block, self.p, residual, || path.circle(block));
-        }
-        let entries = matrix.cleared();
-        let Some(mass) = self.mass else {
-            statistics.linearizations += self.rule.nodes().len() as u64;
-            for [c, weight] in nodes(self.rule, self.interval.h) {
-                node.place(system, path, c);
-                node.add_second_derivatives(system, self.interval.time(c), weight, entries);
-                node.bend(system, path, [c, weight], Forces::Of, entries);
-                node.project_force(weight, residual);
-                node.project_momentum(system, weight, residual);
-            }
-            return;
-        };
-        for [c, weight] in self.drifts() {
-            node.drift(system, path, self.interval.time(c), c);
-            node.add_kinetic(system, mass, weight, entries);
-            node.bend(system, path, [c, weight], Forces::Without, entries);
-            node.project_momentum(system, weight, residual);
-        }
-    }
-
-    fn corrected(&self, block: Block, displacement: Vector3<T>, [along, across]: [T; 2]) -> Vector3<T> {
-        let circle = GreatCircle::new(vector(self.q, block), displacement);
-        circle.axis * (circle.angle - along) + circle.direction * across
     }
 }

@@ -1,14 +1,11 @@
 //! What a run with impacts carries from step to step.
 
-use core::ops::Deref;
-
-use crate::error::{StartError, StepFailure};
+use super::gaps::Gaps;
+use crate::error::StartError;
 use crate::mechanics::constraints::Multipliers;
 use crate::memory::{Memory, lasting};
-use crate::methods::before::Before;
-use crate::scalar::norm::reported;
-use crate::space::sink::Places;
-use crate::{ConstrainedSystem, Real, Scalar, Space, State, System, UnilateralLagrangian, Vector};
+use crate::methods::Kept;
+use crate::{ConstrainedSystem, Real, Space, System, UnilateralLagrangian, Vector};
 
 /// How many impacts a step may have.
 pub(super) const MOST: usize = 16;
@@ -28,22 +25,15 @@ pub struct Impact<V, T> {
     pub v: V,
 }
 
-impl<V: Deref<Target = [T]>, T: Real> Impact<V, T> {
-    /// The state after it.
-    pub fn state<S: System>(&self, system: &S) -> S::State<T> {
-        S::State::read(|block| system.block_len(block), &self.q, &self.v)
-    }
-}
-
 /// A run with impacts: the memory of its method, the impacts of its last step, and work space.
 #[derive(Debug)]
 pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real> {
     /// At the present point, or at the end of the flight at hand.
     pub(super) inner: I,
     /// Where the step at hand began, if it has been divided.
-    pub(super) before: Before<I, Vector<S, T>>,
+    pub(super) before: Kept<Vector<S, T>, I>,
     /// Where the flight at hand begins, before the jump of the momentum there.
-    pub(super) start: Before<I, Vector<S, T>>,
+    pub(super) start: Kept<Vector<S, T>, I>,
     /// Gaps at the beginning and at the end of the flight at hand; behind the jump, where there is one.
     pub(super) here: Gaps<S, T>,
     pub(super) there: Gaps<S, T>,
@@ -63,13 +53,6 @@ pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real> {
     pub(super) impulse: Vector<S, T>,
     pub(super) delta: Vector<S, T>,
     pub(super) work: [Vector<S, T>; 2],
-}
-
-/// The gap functions at a point, and their rates of change there.
-#[derive(Debug)]
-pub(super) struct Gaps<S: ConstrainedSystem, T: Real> {
-    pub(super) gap: Multipliers<S, T>,
-    pub(super) rate: Multipliers<S, T>,
 }
 
 /// The surface that the flight at hand begins at, and what is known of the jump there.
@@ -93,30 +76,6 @@ pub(super) struct Wall<S: System, T: Real> {
     pub(super) impulse: T,
     /// Whether it is that of a reflection because no other keeps the discrete energy.
     pub(super) is_grazing: bool,
-}
-
-impl<S: UnilateralLagrangian<T>, T: Real> Gaps<S, T> {
-    fn new(system: &S) -> Self {
-        Self { gap: system.multipliers().vector(), rate: system.multipliers().vector() }
-    }
-
-    /// Evaluates them.
-    ///
-    /// # Errors
-    /// [`StepFailure::Gap`].
-    pub(super) fn look(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<(), StepFailure> {
-        system.gap(q, t, &mut self.gap);
-        system.gap_rate(q, v, t, &mut self.rate);
-        let values = self.gap.iter().zip(self.rate.iter()).enumerate();
-        for (surface, (&gap, &rate)) in values {
-            // Where a gap is closed it is not asked for the rate, which may have none behind the surface.
-            if !gap.is_finite() || (gap >= T::lift(0.0) && !rate.is_finite()) {
-                let value = reported(if gap.is_finite() { rate } else { gap });
-                return Err(StepFailure::Gap { surface, value });
-            }
-        }
-        Ok(())
-    }
 }
 
 impl<S: UnilateralLagrangian<T>, T: Real> Wall<S, T> {
@@ -147,7 +106,7 @@ impl<S: UnilateralLagrangian<T>, I, T: Real> ImpactsMemory<S, I, T> {
             let [q, v] = system.space().vectors();
             Impact { surface: 0, time: T::lift(0.0), impulse: T::lift(0.0), q, v }
         };
-        let mut point = || inner().map(|inner| Before { inner, q: q.clone() });
+        let mut point = || inner().map(|inner| Kept { q: q.clone(), memory: inner });
         let [v, impulse, delta, l_q, l_v] = system.space().vectors();
         Ok(Self {
             before: point()?,
@@ -196,48 +155,4 @@ impl<S: ConstrainedSystem, I, T: Real> ImpactsMemory<S, I, T> {
 
 impl<S: ConstrainedSystem, I: Memory<T>, T: Real> Memory<T> for ImpactsMemory<S, I, T> {
     lasting!(T; part inner, count total, count grazing);
-}
-
-/// Sets `gap` to the gaps at (`q`, `t`), and hands over the terms of |∂g/∂q|(|q| + |h v|), each with the
-/// number of its surface. Rounding errors of the coordinates, and of their changes in a step of length `h`,
-/// are errors of the gap of that size.
-pub(super) fn terms<S: UnilateralLagrangian<T>, T: Real>(
-    system: &S,
-    [q, v]: [&[T]; 2],
-    [t, h]: [T; 2],
-    gap: &mut [T],
-    mut add: impl FnMut(usize, T),
-) {
-    let mut sizes = Places(|surface: usize, j: usize, entry: T| {
-        add(surface, Scalar::abs(entry) * (Scalar::abs(q[j]) + Scalar::abs(h * v[j])));
-    });
-    system.gap_jacobian(q, t, gap, &mut sizes);
-}
-
-/// A start may be beyond a surface by so many rounding errors.
-const ROUNDINGS: f64 = 1e4;
-
-/// Whether a run with steps of length `h` can begin at (`q`, `v`, `t`).
-///
-/// # Errors
-/// [`StartError::Beyond`] with the first surface that it is beyond; [`StartError::Starter`] where a gap is
-/// no number.
-pub(super) fn admit<S: UnilateralLagrangian<T>, T: Real>(
-    system: &S,
-    [q, v]: [&[T]; 2],
-    t: T,
-    h: T,
-) -> Result<(), StartError> {
-    let [mut gap, mut size]: [Multipliers<S, T>; 2] = system.multipliers().vectors();
-    terms(system, [q, v], [t, h], &mut gap, |surface, term| size[surface] += term);
-    let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
-    for (surface, (&gap, &size)) in gap.iter().zip(size.iter()).enumerate() {
-        if !gap.is_finite() {
-            return Err(StartError::Starter(StepFailure::Gap { surface, value: reported(gap) }));
-        }
-        if gap < -rounding * size {
-            return Err(StartError::Beyond { surface, gap: reported(gap) });
-        }
-    }
-    Ok(())
 }

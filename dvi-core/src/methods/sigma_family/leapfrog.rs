@@ -81,7 +81,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Walk for Leapfrog<'_, '_, S, T> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn block(&self) -> u64 {
-        self.monitor.period()
+        self.monitor.period
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

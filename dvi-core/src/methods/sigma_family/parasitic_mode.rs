@@ -7,11 +7,14 @@
 //! in a step the ratio is tan²(θ/2). The solution of a stable step with σ ≠ ½ has θ < π/2, and the parasitic
 //! mode is its mirror image, π − θ (the two roots of Rowley & Marsden 2002, section 4.1, meet at θ = π/2).
 
+mod pace;
+
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
-use crate::methods::walk::BLOCK;
 use crate::scalar::norm::{larger, reported};
 use crate::{Real, Scalar, Space, System, Vector};
+use pace::First;
+pub(super) use pace::Pace;
 
 /// How many points are kept besides the present one.
 const KEPT: usize = 4;
@@ -35,10 +38,6 @@ const STEADY: f64 = 0.01;
 /// The second differences of a coordinate count as no smaller than this fraction of the largest of all.
 const FLOOR: f64 = 0.1;
 
-/// A mode that is large from the first steps on, as it is where steps are long, may become this many times
-/// as large.
-const GROWTH: f64 = 3.0;
-
 /// What it takes to end a run: this many looks in a row above the limit, or two of which the last is above
 /// it this many times.
 #[derive(Clone, Copy, Debug)]
@@ -56,13 +55,6 @@ const AT_ONCE: Evidence = Evidence { looks: 8, sudden: 16.0 };
 
 /// A mode that is this many times as large as a step before has not grown.
 const JUMP: f64 = 5.0;
-
-/// How many looks show the mode as it is from the start.
-const FIRST_LOOKS: u32 = 2;
-
-/// By how many radians the motion turns while the mode may grow e-fold; from this follows when to look
-/// again.
-const RADIANS: f64 = 4.0;
 
 /// The parasitic mode at five consecutive points of a run.
 ///
@@ -91,17 +83,6 @@ pub struct ParasiticMode<T = f64> {
     pub is_significant: bool,
 }
 
-/// When a run is examined.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Pace {
-    /// Before each step: the mode may grow by a factor from step to step.
-    EachStep,
-    /// Before the mode can have become too large, if it grows at a rate of the flow: after 4 to 256 steps.
-    WithTheFlow,
-    /// Before every 256th step: the mode does not grow, or nobody minds.
-    Seldom,
-}
-
 /// The points from which the mode is measured.
 #[derive(Debug)]
 pub(super) struct Monitor<S: System, T: Real> {
@@ -114,7 +95,7 @@ pub(super) struct Monitor<S: System, T: Real> {
     pub(super) steps: u64,
     pace: Pace,
     /// The run is examined where the number of steps is a multiple of this power of two.
-    period: u64,
+    pub(super) period: u64,
     limit: Option<f64>,
     /// Before which step it was examined last, zero if it was not, and what was measured.
     examined: u64,
@@ -126,15 +107,6 @@ pub(super) struct Monitor<S: System, T: Real> {
     first: First,
 }
 
-/// The mode in the first looks of a run whose mode grows with the flow: the largest relative size and
-/// amplitude.
-#[derive(Clone, Copy, Debug, Default)]
-struct First {
-    looks: u32,
-    relative: f64,
-    amplitude: f64,
-}
-
 impl<S: System, T: Real> Monitor<S, T> {
     pub(super) fn new(system: &S, limit: Option<f64>, pace: Pace) -> Self {
         let vector = || system.space().vector();
@@ -144,11 +116,7 @@ impl<S: System, T: Real> Monitor<S, T> {
             together: T::lift(0.0),
             steps: 0,
             pace,
-            period: match pace {
-                Pace::EachStep => 1,
-                Pace::WithTheFlow => KEPT as u64,
-                Pace::Seldom => BLOCK,
-            },
+            period: pace.first_period(),
             limit,
             examined: 0,
             mode: ParasiticMode { amplitude: T::lift(0.0), relative: T::lift(0.0), is_significant: false },
@@ -158,25 +126,9 @@ impl<S: System, T: Real> Monitor<S, T> {
         }
     }
 
-    #[cfg(feature = "alloc")]
-    fn is_sound(&self) -> bool {
-        let in_order = self.examined <= self.steps && self.steps < u64::MAX / 2;
-        in_order && self.period.is_power_of_two() && self.period <= BLOCK
-    }
-
-    pub(super) fn latest(&self) -> Option<ParasiticMode<T>> {
-        self.last().map(|(_, mode)| mode)
-    }
-
     /// The last examination: before which step, and what it measured.
-    fn last(&self) -> Option<(u64, ParasiticMode<T>)> {
+    pub(super) fn last(&self) -> Option<(u64, ParasiticMode<T>)> {
         (self.examined > 0).then_some((self.examined, self.mode))
-    }
-
-    /// The number of steps from one examination to the next, a power of two.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn period(&self) -> u64 {
-        self.period
     }
 
     /// Looks at the point before the next step, if it is one of those that are looked at, and returns the
@@ -236,16 +188,6 @@ impl<S: System, T: Real> Monitor<S, T> {
         Err(StepFailure::ParasiticMode { amplitude, relative, limit })
     }
 
-    /// Whether the mode is above the limit, and larger than where it came from.
-    fn is_above(&self, mode: &ParasiticMode<T>) -> bool {
-        let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
-        let First { looks, relative: first, amplitude: from } = self.first;
-        let has_grown = relative > GROWTH * first || amplitude > GROWTH * from;
-        self.limit.is_some_and(|limit| relative > limit)
-            && mode.is_significant
-            && (self.pace != Pace::WithTheFlow || (looks >= FIRST_LOOKS && has_grown))
-    }
-
     fn measure(&mut self, step: u64, q: &[T]) -> ParasiticMode<T> {
         let (zero, two) = (T::lift(0.0), T::lift(2.0));
         let Self { points, sizes, together, mode, examined, pace, .. } = self;
@@ -296,36 +238,6 @@ impl<S: System, T: Real> Monitor<S, T> {
         (self.examined, self.mode) = (step, mode);
         mode
     }
-
-    /// Notes the mode of the first looks, and sets when to look again: before the mode can have reached the
-    /// limit if it grows with the turning of the path, `turned`/`moved` being the square of the angle of a
-    /// step, or as it has grown since the last look; and not much later than half as far again as the run
-    /// has come.
-    fn keep_pace(&mut self, step: u64, mode: &ParasiticMode<T>, turned: f64, moved: f64) {
-        let size = |mode: &ParasiticMode<T>| if mode.is_significant { reported(mode.relative) } else { 0.0 };
-        let relative = size(mode);
-        let First { looks, relative: first, amplitude } = &mut self.first;
-        if *looks < FIRST_LOOKS {
-            *looks += 1;
-            *first = first.max(relative);
-            *amplitude = amplitude.max(reported(mode.amplitude));
-        }
-        let limit = self.limit.unwrap_or(super::PARASITIC_LIMIT).max(GROWTH * self.first.relative);
-        let room = Scalar::ln((limit / relative).clamp(1.0, f64::MAX));
-        let grown = self.last().map_or(0.0, |(_, last)| Scalar::ln((relative / size(&last)).max(1.0)));
-        let since = self.last().map_or(1, |(last, _)| step - last) as f64;
-        // (steps · angle)² ≤ (RADIANS room)², which is false of what is not a number.
-        let fits = |steps: u64| {
-            let (by_angle, steps_squared) = (RADIANS * room, (steps * steps) as f64);
-            steps_squared * turned <= by_angle * by_angle * moved
-                && (grown.is_infinite() || steps as f64 * grown <= room * since)
-                && steps * 4 <= step.max(2 * KEPT as u64)
-        };
-        self.period = KEPT as u64;
-        while self.period < BLOCK && fits(2 * self.period) {
-            self.period *= 2;
-        }
-    }
 }
 
 impl<S: System, T: Real> Memory<T> for Monitor<S, T> {
@@ -339,8 +251,4 @@ impl<S: System, T: Real> Memory<T> for Monitor<S, T> {
 
 impl<T: Real> Memory<T> for ParasiticMode<T> {
     lasting!(T; size amplitude, size relative, flag is_significant);
-}
-
-impl<T: Real> Memory<T> for First {
-    lasting!(T; count looks, bits relative, bits amplitude);
 }

@@ -108,7 +108,6 @@ where
     ) -> Result<M::Memory, StartError> {
         // The phases between two states of unit vectors are not known.
         spinors::refuse::<S>("a run from two points")?;
-        self.validate(S::AFFINE)?;
         self.go_with(system, q0, t)?;
         SigmaMemory::between(system, self, [q0, q1], t, h)
     }

@@ -13,7 +13,8 @@
 
 use super::Step;
 use super::affine::fixed_point;
-use super::memory::{Carried, SigmaMemory, Work, scaled_matrix};
+use super::begin::scaled_matrix;
+use super::memory::{Carried, SigmaMemory, Work};
 use crate::discrete::{Departing, DiscreteLagrangian, Ends, Span};
 use crate::error::StepFailure;
 use crate::scalar::norm;

@@ -43,17 +43,9 @@ where
 
     fn packs(&self, system: &S) -> Packs<W, S> {
         let space = system.space();
-        Packs {
-            q: space.vector(),
-            other: space.vector(),
-            kept: space.vectors(),
-            gradient: space.vector(),
-            point: space.vector(),
-            history: space.vectors(),
-            reciprocals: space.vector(),
-            one: space.vector(),
-            increment: space.vector(),
-        }
+        let [q, other, gradient, point, reciprocals] = space.vectors();
+        let ([one, increment], kept, history) = (space.vectors(), space.vectors(), space.vectors());
+        Packs { q, other, kept, gradient, point, history, reciprocals, one, increment }
     }
 
     fn fit(a: &S, b: &S) -> Option<bool> {

@@ -1,10 +1,34 @@
-//! Methods whose steps may differ in length.
+//! Methods that suit a system, and those among them whose steps may differ in length.
 
-#[cfg(doc)]
-use super::Suits;
 use super::{Carries, Method};
 use crate::system::Same;
 use crate::{Lagrangian, Real};
+
+/// A [`Method`] for `S` that is `M`: where it is one for systems of another kind, rustc does not know `M`.
+pub trait Suits<S: Lagrangian<T>, T: Real, M: Carries<S, T>> {
+    /// `M`, of which it is known here that it steps `S`.
+    type Method: Method<S, T, Memory = M::Memory>;
+    /// The method as it is.
+    fn suited(self) -> M;
+    /// The method as it is, as what steps `S`.
+    fn steps(method: &M) -> &Self::Method;
+}
+
+impl<S: Lagrangian<T>, T: Real, M, X> Suits<S, T, M> for X
+where
+    X: Method<S, T, Suited<X>: Same<X, As = M>>,
+    M: Method<S, T>,
+{
+    type Method = M;
+    #[inline]
+    fn suited(self) -> M {
+        X::Suited::<X>::same(self)
+    }
+    #[inline]
+    fn steps(method: &M) -> &M {
+        method
+    }
+}
 
 /// A method whose memory does not depend on the step, so that steps of different lengths, also negative,
 /// may follow one another.
