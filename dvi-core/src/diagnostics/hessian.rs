@@ -1,6 +1,6 @@
 //! The second derivatives of a discrete Lagrangian L_d(q0, q1).
 
-use crate::discrete::{Ends, Interval, Span, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
@@ -25,7 +25,7 @@ pub struct DiscreteHessian<S: System, L, T: Real = f64> {
     delta: Vector<S, T>,
 }
 
-impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> DiscreteHessian<S, L, T> {
+impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> DiscreteHessian<S, L, T> {
     /// Storage for the discrete Lagrangian of `method` on `system`, with zeros.
     pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {
         let space = system.space();

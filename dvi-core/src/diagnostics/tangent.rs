@@ -9,7 +9,7 @@
 use alloc::vec::Vec;
 
 use super::DiscreteHessian;
-use crate::discrete::{Interval, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Interval};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::space::elimination::{self, multiply_add};
@@ -38,7 +38,7 @@ pub struct TangentMap<S: System, L, T: Real = f64> {
     next: [Vector<S, T>; 2],
 }
 
-impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T> {
+impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T> {
     /// Storage for steps of `method` on `system`; the map is that of the step given to
     /// [`evaluate`](Self::evaluate).
     pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {

@@ -9,7 +9,7 @@
 #[cfg(feature = "alloc")]
 use super::tangent::{defect, images};
 use super::{DiscreteHessian, TangentMap};
-use crate::discrete::{Interval, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Interval};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::space::elimination::multiply_add;
@@ -41,7 +41,7 @@ pub struct TwoPointTangentMap<S: System, L, T: Real = f64> {
     dp: Vector<S, T>,
 }
 
-impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap<S, L, T> {
+impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TwoPointTangentMap<S, L, T> {
     /// Storage for steps of `method` on `system`; the map is that of the points given to
     /// [`evaluate`](Self::evaluate).
     pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {
