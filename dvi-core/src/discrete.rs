@@ -67,21 +67,14 @@ pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
         sink: &mut K,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>;
-}
 
-/// A discrete Lagrangian with all of its second derivatives, from which tangent maps and the preserved
-/// two-form come.
-#[diagnostic::on_unimplemented(
-    message = "the second derivatives of `{Self}` in one point are not known",
-    label = "has no tangent map"
-)]
-pub trait TwiceDifferentiable<S: Lagrangian<T>, T: Real> {
     /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, its transpose
-    /// D₂D₁L_d and D₂D₂L_d to sinks. With forces on the system these are the derivatives of D₁L_d + F⁻ and
-    /// D₂L_d + F⁺, and no matrix is the transpose of another.
+    /// D₂D₁L_d and D₂D₂L_d to sinks: tangent maps and the preserved two-form come from these. With forces on
+    /// the system these are the derivatives of D₁L_d + F⁻ and D₂L_d + F⁺, and no matrix is the transpose of
+    /// another.
     ///
     /// # Errors
-    /// As [`derivatives`](DiscreteLagrangian::derivatives).
+    /// As [`derivatives`](Self::derivatives).
     fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 4]) -> Result<(), StepFailure>;
 }
 

@@ -91,7 +91,7 @@ use std::vec::Vec;
 
 use crate::Lagrangian;
 use crate::diagnostics::LyapunovExponent;
-use crate::discrete::TwiceDifferentiable;
+use crate::discrete::DiscreteLagrangian;
 use crate::methods::{InStep, Method, Suits, VariationalMethod};
 use crate::run::{Direction, Together};
 use limits::Condition;
@@ -305,7 +305,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     pub fn exponents<L>(mut self) -> Self
     where
         M: VariationalMethod<S, f64, DiscreteLagrangian = L>,
-        L: TwiceDifferentiable<S, f64> + 'a,
+        L: DiscreteLagrangian<S, f64> + 'a,
     {
         self.settings.growth = Some(|run| Box::new(LyapunovExponent::new(run)));
         self

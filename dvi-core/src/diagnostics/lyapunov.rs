@@ -4,7 +4,7 @@
 //! one after each (Benettin et al. 1980).
 
 use super::TangentMap;
-use crate::discrete::{Interval, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Interval};
 use crate::error::StepError;
 use crate::methods::{Method, VariationalMethod};
 use crate::run::{Integrator, Run, StepControl};
@@ -39,7 +39,7 @@ pub struct LyapunovExponent<S: System, L, T: Real = f64> {
     elapsed: T,
 }
 
-impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S, L, T> {
+impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> LyapunovExponent<S, L, T> {
     /// The exponent of the given run, from its current state on. The first perturbation has a direction of
     /// no significance, and that of a degenerate system keeps p = α(q).
     pub fn new<H: Held<System = S>, M, C: StepControl<S, T>>(run: &Integrator<H, M, T, C>) -> Self

@@ -11,7 +11,7 @@
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 
-use crate::discrete::{Ends, Interval, Span, TwiceDifferentiable};
+use crate::discrete::{DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::space::elimination::{self, multiply_add};
@@ -44,7 +44,7 @@ pub struct TangentMap<S: System, L, T: Real = f64> {
     next: [Vector<S, T>; 2],
 }
 
-impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T> {
+impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T> {
     /// Storage for steps of `method` on `system`; the map is that of the step given to
     /// [`evaluate`](Self::evaluate).
     pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {

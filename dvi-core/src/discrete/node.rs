@@ -10,7 +10,7 @@
 //! eqs. 9, 10 and 17).
 
 use super::basis::Basis;
-use super::{DiscreteLagrangian, Ends, Interval, Span, TwiceDifferentiable};
+use super::{DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::StepFailure;
 use crate::space::sink::Sink;
 use crate::state::Statistics;
@@ -151,26 +151,7 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
         linearize(&self.nodes, span, &mut self.work, d1, sink);
         Ok(())
     }
-}
 
-/// Adds D₁L_d and D₁D₂L_d.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn linearize<S: Lagrangian<T>, T: Real, K: Sink<T>>(
-    nodes: &impl Nodes<T>,
-    Span { system, interval, ends }: Span<'_, S, T>,
-    work: &mut NodeWork<S, T>,
-    d1: &mut [T],
-    sink: &mut K,
-) {
-    for j in 0..nodes.count() {
-        let node = nodes.node(j);
-        nodes.place(j, interval.h, ends, [&mut work.point, &mut work.velocity]);
-        node.add_second([node.left, node.right], (system, interval), work, sink);
-        work.add(node.weight, interval.h, node.left, d1);
-    }
-}
-
-impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> TwiceDifferentiable<S, T> for SumOverNodes<S, N, T> {
     fn hessian<K: Sink<T>>(
         &mut self,
         Span { system, interval, ends }: Span<'_, S, T>,
@@ -187,6 +168,23 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> TwiceDifferentiable<S, T> for SumOv
             node.add_second([right, right], (system, interval), work, d22);
         }
         Ok(())
+    }
+}
+
+/// Adds D₁L_d and D₁D₂L_d.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn linearize<S: Lagrangian<T>, T: Real, K: Sink<T>>(
+    nodes: &impl Nodes<T>,
+    Span { system, interval, ends }: Span<'_, S, T>,
+    work: &mut NodeWork<S, T>,
+    d1: &mut [T],
+    sink: &mut K,
+) {
+    for j in 0..nodes.count() {
+        let node = nodes.node(j);
+        nodes.place(j, interval.h, ends, [&mut work.point, &mut work.velocity]);
+        node.add_second([node.left, node.right], (system, interval), work, sink);
+        work.add(node.weight, interval.h, node.left, d1);
     }
 }
 

@@ -4,7 +4,7 @@ use std::vec::Vec;
 
 use crate::Lagrangian;
 use crate::diagnostics::LyapunovExponent;
-use crate::discrete::TwiceDifferentiable;
+use crate::discrete::DiscreteLagrangian;
 use crate::error::StepError;
 use crate::methods::{Method, VariationalMethod};
 use crate::run::Integrator;
@@ -21,7 +21,7 @@ impl<'a, S, M, L> Growth<'a, S, M> for LyapunovExponent<S, L>
 where
     S: Lagrangian,
     M: Method<S, f64> + VariationalMethod<S, f64, DiscreteLagrangian = L>,
-    L: TwiceDifferentiable<S, f64>,
+    L: DiscreteLagrangian<S, f64>,
 {
     fn take_steps(&mut self, run: &mut Integrator<&'a S, M>, count: u64) -> Result<(), StepError> {
         (0..count).try_for_each(|_| self.advance(run))

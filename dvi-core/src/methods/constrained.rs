@@ -135,7 +135,7 @@ impl<M: Scheme> Scheme for Constrained<M> {
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Carries<S, T> for Constrained<M> {
-    type Memory = ConstrainedMemory<S, M::Inside, T>;
+    type Memory = ConstrainedMemory<S, M::DiscreteLagrangian, T>;
 }
 
 /// `X` if `S` has constraints, and unknown if it has none: rustc asks nothing of the scheme then.

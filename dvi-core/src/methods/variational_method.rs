@@ -3,7 +3,7 @@
 use super::Scheme;
 #[cfg(doc)]
 use super::{Constrained, EnergyLimit, Method};
-use crate::discrete::{DiscreteLagrangian, TwiceDifferentiable};
+use crate::discrete::DiscreteLagrangian;
 use crate::error::StartError;
 use crate::system::Same;
 use crate::{Lagrangian, Real};
@@ -19,7 +19,7 @@ use crate::{Lagrangian, Real};
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
-    type DiscreteLagrangian: TwiceDifferentiable<S, T>;
+    type DiscreteLagrangian: DiscreteLagrangian<S, T>;
 
     /// Checks the options of the method.
     ///
@@ -45,8 +45,6 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     /// As [`Method::Suited`].
     type Suited<M>: Same<M, As = M>;
-    /// The discrete Lagrangian.
-    type Inside: DiscreteLagrangian<S, T>;
 
     /// Whether the compiler knows that without constraints the steps would be those of Störmer and Verlet.
     const IS_VERLET: bool;
@@ -55,5 +53,5 @@ pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     ///
     /// # Errors
     /// [`StartError::Unsupported`] names the first that is not left at its default.
-    fn inside(&self, system: &S) -> Result<Self::Inside, StartError>;
+    fn inside(&self, system: &S) -> Result<Self::DiscreteLagrangian, StartError>;
 }

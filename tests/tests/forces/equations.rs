@@ -24,7 +24,7 @@ fn tangent_map_is_right<S, M>(system: &S, method: M) -> Outcome<f64>
 where
     S: RegularLagrangian + RegularLagrangian<Dual64>,
     M: Method<S, f64> + Method<S, Dual64> + Clone,
-    M: VariationalMethod<S, f64, DiscreteLagrangian: dvi_core::discrete::TwiceDifferentiable<S, f64>>,
+    M: VariationalMethod<S, f64>,
 {
     let mut by_hand = Matrix4::zeros();
     for column in 0..4 {

@@ -3,7 +3,7 @@
 
 use super::Outcome;
 use approx::abs_diff_eq;
-use dvi_core::discrete::{Interval, Rule, TwiceDifferentiable};
+use dvi_core::discrete::{Interval, Rule};
 use dvi_core::methods::{Method, VariationalMethod};
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, State};
@@ -20,7 +20,7 @@ type Start = (Vec<f64>, Vec<f64>);
 fn check<S, M>(system: &S, method: M, nodes: &Nodes, (q, v): &Start) -> Outcome
 where
     S: Lagrangian + Lagrangian<HyperDual64>,
-    M: Method<S, f64> + VariationalMethod<S, f64, DiscreteLagrangian: TwiceDifferentiable<S, f64>>,
+    M: Method<S, f64> + VariationalMethod<S, f64>,
     M: Clone + core::fmt::Debug,
 {
     let (t, h, n) = (0.4, 0.07, q.len());

@@ -109,8 +109,5 @@ fn newton_matrix<const NODES: usize, S: Lagrangian<T>, T: Real>(
     t: T,
     storing: Storing,
 ) -> Aside<Coupled<NODES, S, T>> {
-    let matrix = coupled_by_second_derivatives(system, points, t, NODES - 1, storing);
-    #[cfg(feature = "alloc")]
-    let matrix = Aside::new(matrix);
-    matrix
+    coupled_by_second_derivatives(system, points, t, NODES - 1, storing).into()
 }

@@ -263,11 +263,10 @@ where
     T: Real,
 {
     type Suited<X> = X;
-    type Inside = SumOverNodes<S, RuleNodes<F, R, T>, T>;
 
     const IS_VERLET: bool = S::SEPARABLE && F::UNFITTED && R::TRAPEZOIDAL;
 
-    fn inside(&self, system: &S) -> Result<Self::Inside, StartError> {
+    fn inside(&self, system: &S) -> Result<Self::DiscreteLagrangian, StartError> {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         if self.summation != Summation::default() {
             return unsupported(
