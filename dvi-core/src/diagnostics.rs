@@ -1,4 +1,4 @@
-//! What can be measured on a run: parasitic modes, preserved two-forms, sections, Lyapunov exponents, work.
+//! What can be measured on a run: preserved two-forms, Lyapunov exponents, work, orders of convergence.
 //!
 //! Energy and momenta are methods of [`Run`](crate::run::Run). The tangent maps here are those of methods
 //! whose discrete Lagrangian can be differentiated twice,
@@ -12,13 +12,11 @@
 //! from the motion has a kink, which [`Curvature`](crate::discrete::Curvature) has on straight paths, the
 //! derivatives are those of no tangent map.
 
-mod alternating;
 mod convergence;
 mod lyapunov;
 mod tangent;
 mod work;
 
-pub use alternating::AlternatingComponent;
 pub use convergence::convergence_order;
 pub use lyapunov::LyapunovExponent;
 pub use tangent::TangentMap;

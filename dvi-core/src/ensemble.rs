@@ -96,7 +96,7 @@ use crate::methods::{InStep, Method, Suits, VariationalMethod};
 use crate::run::{Direction, Together};
 use limits::Condition;
 use plan::Plan;
-use rounds::{Checkpoints, Rounds, Work};
+use rounds::{Checkpoints, Rounds};
 use settings::{Settings, Systems};
 
 pub use draws::{Draw, Draws};
@@ -380,11 +380,10 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         let checkpoints = self.checkpoints.as_ref();
         let rounds = Rounds::begin(plan, self.shard, checkpoints)?;
         let settings = &self.settings;
-        let work = Work {
-            group: settings.group(),
-            advance: &|group, is_interrupted| settings.advance(group, count, is_interrupted),
+        let advance = |group: &mut [_], is_interrupted: &dyn Fn() -> bool| {
+            settings.advance(group, count, is_interrupted)
         };
-        rounds.run(&work, checkpoints, self.on_progress)
+        rounds.run((settings.group(), &advance), checkpoints, self.on_progress)
     }
 }
 

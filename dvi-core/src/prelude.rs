@@ -108,14 +108,13 @@
 //! |---|---|
 //! | [`LyapunovExponent`] | how fast neighbours part |
 //! | [`TangentMap`] | the derivative of a step, (q, p) to (q, p), or of two points to two points |
-//! | [`AlternatingComponent`] | what alternates from point to point |
 //! | [`Work`] | the work of forces along a run |
 //! | [`convergence_order`] | the slope of errors over steps |
 //! | [`StartError`] | why a run cannot begin |
 //! | [`StepError`] | a step that has failed, and where |
 //! | [`StepFailure`] | why |
 
-pub use crate::diagnostics::{AlternatingComponent, LyapunovExponent, TangentMap, Work, convergence_order};
+pub use crate::diagnostics::{LyapunovExponent, TangentMap, Work, convergence_order};
 pub use crate::discrete::{
     Constant, Curvature, Midpoint, Quadrature, Radial, Reading, Simpson, Trapezoid, Unfitted,
 };

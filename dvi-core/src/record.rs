@@ -59,7 +59,6 @@ mod page;
 mod recorder;
 mod table;
 
-pub use body::Body;
 pub use column::{Column, Quantity, Values};
 pub use error::RecordError;
 pub use recorder::{Recorded, Recorder};

@@ -149,21 +149,11 @@ pub trait Run {
     }
 
     /// The [events](Run::events) that are declared by `events(name = g, …)` in the attribute of the system, a
-    /// direction for each of them; their names are in [`Report::events`](crate::Report::events).
+    /// direction for each of them, which the compiler asks for; their names are in
+    /// [`Report::events`](crate::Report::events).
     ///
     /// # Errors
     /// As [`events`](Self::events).
-    ///
-    /// So many directions as there are events are a condition that the compiler asks for:
-    ///
-    /// ```compile_fail
-    /// # use dvi_core::prelude::*;
-    /// # #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn = dot(x)))]
-    /// # struct Free;
-    /// # let mut run = Integrator::new(&Free, Gauss::<2>::new(), 0.1, FreeState { x: 0.0, dot_x: 1.0 })?;
-    /// let events = run.declared_events([Direction::Rising; 2])?;
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     fn declared_events<const N: usize>(
         &mut self,
         directions: [Direction; N],

@@ -133,7 +133,8 @@ impl Osculating {
             CentreSpeed::PerArcLength => 2.0,
             CentreSpeed::AsPrinted => 1.0,
         };
-        (0.9 * (self.tolerance / e).powf(1.0 / order)).max(AFTER_FAILURE).min(5.0)
+        let factor = 0.9 * (self.tolerance / e).powf(1.0 / order);
+        if factor > 5.0 { 5.0 } else { factor.max(AFTER_FAILURE) }
     }
 }
 

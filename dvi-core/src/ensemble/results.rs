@@ -23,7 +23,6 @@ use crate::record::{Column, Quantity, Record, RecordError};
 ///
 /// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
 /// let results = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts).take_steps(1000)?;
-/// assert!(results.names().eq(["angle", "dot_angle"]));
 /// assert!(results.members().iter().all(|member| member.steps == 1000));
 /// assert_eq!(results.record()?.numbers("angle")?.len(), 10);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -112,11 +111,6 @@ impl Results {
     /// The members, in the order of their numbers.
     pub fn members(&self) -> &[Member] {
         &self.members
-    }
-
-    /// The names of the entries of a state.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.plan.names.iter().map(String::as_str)
     }
 
     /// A record with a row for each member: `write_csv`, `write_npy` and `write_page` of [`Record`] write

@@ -9,27 +9,13 @@ use serde::Serialize;
 
 use super::column::{Column, Quantity, Values};
 
-/// A body: its name, and the names of the two or three columns in which its position is.
-///
-/// ```
-/// use dvi_core::record::{Column, Quantity, Record};
-///
-/// let column = |name: &str| Column::new(name, vec![0.0, 1.0]).with_quantity(Quantity::Coordinate);
-/// let time = Column::new("time", vec![0.0, 0.1]).with_quantity(Quantity::Time);
-/// let record = Record::new("The sun").with_column(time)?;
-/// let record = record.with_column(column("sun_x"))?.with_column(column("sun_y"))?;
-/// let bodies = record.bodies();
-/// assert_eq!(bodies[0].name, "sun");
-/// assert_eq!(bodies[0].position, ["sun_x", "sun_y"]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// A body.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[non_exhaustive]
-pub struct Body {
+pub(super) struct Body {
     /// The name; empty if `x` and `y` have none in common.
-    pub name: String,
+    pub(super) name: String,
     /// The columns of its coordinates along the axes x, y and, in space, z.
-    pub position: Vec<String>,
+    pub(super) position: Vec<String>,
     /// Whether it is drawn with a line from the origin, as the end of a unit vector is.
     pub(super) is_arm: bool,
 }

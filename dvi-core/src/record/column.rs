@@ -11,7 +11,7 @@ use serde::Serialize;
 /// use dvi_core::record::{Column, Record, Values};
 ///
 /// let speed = Column::new("speed", vec![1.5, 2.5]);
-/// assert_eq!((&speed.name[..], speed.len()), ("speed", 2));
+/// assert_eq!(speed.name, "speed");
 /// assert_eq!(speed.values, Values::Numbers(vec![1.5, 2.5]));
 /// let record = Record::new("Two runs").with_column(speed)?.with_unit("speed", "m/s")?;
 /// assert_eq!(record.column("speed")?.unit, "m/s");
@@ -96,17 +96,12 @@ impl Column {
     }
 
     /// How many there are.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         match &self.values {
             Values::Numbers(numbers) => numbers.len(),
             Values::Counts(counts) => counts.len(),
             Values::Texts(texts) => texts.len(),
         }
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 }
 

@@ -6,8 +6,9 @@ use std::vec::Vec;
 
 use serde::Serialize;
 
+use super::Record;
+use super::body::Body;
 use super::column::{Column, Values};
-use super::{Body, Record};
 
 const TEMPLATE: &str = include_str!("page/page.html");
 const STYLES: [&str; 2] = [include_str!("page/uplot.css"), include_str!("page/page.css")];

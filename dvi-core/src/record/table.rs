@@ -37,7 +37,6 @@ use crate::error::StepError;
 /// record.write_page(&mut page)?; // its angle and energy over time, and the bob as it moves
 /// # let text = String::from_utf8(page)?;
 /// # assert!(text.contains("A pendulum of length 1 m") && text.contains("bob_x"));
-/// # assert_eq!(record.bodies().len(), 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -105,8 +104,12 @@ impl Record {
         Ok(self)
     }
 
-    /// The same with a body whose position is in two or three columns. The first body that is named takes
-    /// the place of [those that the names of columns tell](Self::bodies).
+    /// The same with a body whose position is in two or three columns, for the [page](Self::write_page).
+    ///
+    /// If none is named, the bodies are those whose coordinates, or functions of yours, have names that are
+    /// alike but for the letters `x`, `y` and perhaps `z` at their beginning or end, as `x[3]` and `y[3]`,
+    /// `x2` and `y2`, `sun_x` and `sun_y`; and unit vectors and the three axes of rotations. The array `r[3]`
+    /// is none, since its numbers may be three angles as well: where it is a position, name it.
     ///
     /// # Errors
     /// [`RecordError::Missing`]; [`RecordError::Texts`] if a column has no numbers; [`RecordError::Body`] if
@@ -139,12 +142,8 @@ impl Record {
         self.columns.first().map_or(0, Column::len)
     }
 
-    /// The bodies that move in a plane or in space: those that were [named](Self::with_body); if none was,
-    /// those whose coordinates, or functions of yours, have names that are alike but for the letters `x`,
-    /// `y` and perhaps `z` at their beginning or end, as `x[3]` and `y[3]`, `x2` and `y2`, `sun_x` and
-    /// `sun_y`; and unit vectors and the three axes of rotations. The array `r[3]` is none, since its
-    /// numbers may be three angles as well: where it is a position, [name it](Self::with_body).
-    pub fn bodies(&self) -> Vec<Body> {
+    /// The bodies that move in a plane or in space: those that were named, or those that names tell.
+    pub(super) fn bodies(&self) -> Vec<Body> {
         if self.named.is_empty() { body::told(&self.columns, &self.turning) } else { self.named.clone() }
     }
 
@@ -202,7 +201,7 @@ impl Record {
     }
 
     /// Writes a page of HTML that shows the columns over time, any column against any other, and, if there
-    /// are [bodies](Self::bodies), how they move. It is one file, which needs no network and no server: less
+    /// are [bodies](Self::with_body), how they move. It is one file, which needs no network and no server: less
     /// than 100 kB, and about 20 bytes for each number. Numbers that are none are gaps. Of long columns at
     /// most 4000 points over time are drawn, the extremes among them, and 60,000 against each other; the
     /// page says of how many. Columns of texts are not on it.

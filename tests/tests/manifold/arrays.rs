@@ -289,13 +289,11 @@ fn entries_have_names_and_places() -> Outcome {
     assert_eq!(Record::read_csv(table.as_bytes())?.states(&bodies)?, [start]);
     assert!(Bodies::<2>::REPORT.to_string().contains("  x\n  R[N]: SO3\n"));
 
-    let found: Vec<_> = Recorder::new(&bodies).finish().bodies();
-    let found: Vec<_> = found.iter().map(|body| (body.name.as_str(), body.position.join(" "))).collect();
+    let found = crate::records::bodies(&Recorder::new(&bodies).finish())?;
     assert_eq!(found.len(), 6);
-    assert_eq!(found[4], ("R[1], axis 2", "R[1][1] R[1][4] R[1][7]".to_string()));
-    let found: Vec<_> = Recorder::new(&system).finish().bodies();
-    let found: Vec<_> = found.iter().map(|body| (body.name.as_str(), body.position.join(" "))).collect();
-    assert_eq!(found[2], ("s[2]", "s[2].x s[2].y s[2].z".to_string()));
+    assert_eq!((&found[4].0[..], found[4].1.join(" ")), ("R[1], axis 2", "R[1][1] R[1][4] R[1][7]".into()));
+    let (name, position) = &crate::records::bodies(&Recorder::new(&system).finish())?[2];
+    assert_eq!((&name[..], position.join(" ")), ("s[2]", "s[2].x s[2].y s[2].z".into()));
     Ok(())
 }
 

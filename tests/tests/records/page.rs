@@ -8,14 +8,14 @@ use dvi_core::record::{Column, Record};
 use crate::browser::told;
 use crate::records::{Checked, Kepler, START, bits};
 
-fn page(record: &Record) -> Result<String, Box<dyn std::error::Error>> {
+pub(super) fn page(record: &Record) -> Result<String, Box<dyn std::error::Error>> {
     let mut page = Vec::new();
     record.write_page(&mut page)?;
     Ok(String::from_utf8(page)?)
 }
 
 /// What stands on a page as data, read by another program.
-fn data(page: &str) -> Result<serde_json::Value, Box<dyn std::error::Error>> {
+pub(super) fn data(page: &str) -> Result<serde_json::Value, Box<dyn std::error::Error>> {
     let (_, rest) =
         page.split_once(r#"<script type="application/json" id="record">"#).ok_or("it has data")?;
     let (data, _) = rest.split_once("</script>").ok_or("they end")?;
