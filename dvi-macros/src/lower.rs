@@ -334,11 +334,8 @@ impl<'a> Lowering<'a> {
     }
 
     fn parameter(&mut self, name: &Ident) -> Option<u32> {
-        self.model
-            .parameters
-            .iter()
-            .position(|parameter| *name == parameter.text)
-            .map(|position| position as u32)
+        let position = self.model.parameters.iter().position(|parameter| *name == parameter.text);
+        position.map(|position| position as u32)
     }
 
     fn parameter_node(&mut self, field: u32, indices: Vec<Index>) -> Expr {

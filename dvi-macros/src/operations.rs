@@ -37,14 +37,8 @@ fn count_operations(code: &Instructions, steps: &[Step], loops: &[Loop], counted
                 | Instruction::Binary(..)
                 | Instruction::Power(..)
                 | Instruction::Call(..)
-                | Instruction::Expansion(..) => {
-                    here.calls += 1;
-                }
-                Instruction::Leaf(_)
-                | Instruction::Literal(_)
-                | Instruction::Part(..)
-                | Instruction::Choose(..)
-                | Instruction::Reduce(..) => {}
+                | Instruction::Expansion(..) => here.calls += 1,
+                _ => {}
             },
             Step::Loop { over, folds, body } => {
                 let inside: Vec<Loop> = loops.iter().chain([over]).cloned().collect();

@@ -111,14 +111,7 @@ impl Function<'_> {
                 // Those that depend on the index are numbers of their own.
                 _ => false,
             },
-            Instruction::Unary(..)
-            | Instruction::Binary(..)
-            | Instruction::Power(..)
-            | Instruction::Call(..)
-            | Instruction::Expansion(..)
-            | Instruction::Part(..)
-            | Instruction::Choose(..)
-            | Instruction::Reduce(..) => false,
+            _ => false,
         }
     }
 

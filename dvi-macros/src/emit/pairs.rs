@@ -244,16 +244,7 @@ impl Function<'_> {
                     if free.is_empty() { Dependence::Linear } else { Dependence::Both { linear, free } };
                 is_linear.then_some(dependence)
             }
-            Instruction::Leaf(_)
-            | Instruction::Literal(_)
-            | Instruction::Unary(..)
-            | Instruction::Binary(..)
-            | Instruction::Power(..)
-            | Instruction::Call(..)
-            | Instruction::Expansion(..)
-            | Instruction::Part(..)
-            | Instruction::Choose(..)
-            | Instruction::Reduce(..) => None,
+            _ => None,
         }
     }
 

@@ -93,6 +93,15 @@ impl Names {
         self.close(outside);
     }
 
+    /// A body with indices bound around it, which are used in any case or not.
+    fn visit_sum(&mut self, closure: &syn::ExprClosure, used: bool) {
+        let outside = self.open.len();
+        closure.inputs.iter().for_each(|input| self.bind(input, true));
+        self.open[outside..].iter_mut().for_each(|local| local.used = used);
+        self.visit_expr(&closure.body);
+        self.close(outside);
+    }
+
     fn bind(&mut self, pattern: &Pat, index: bool) {
         for name in bound(pattern) {
             if index && self.open.iter().any(|local| local.index && local.name == *name) {
@@ -123,24 +132,16 @@ impl<'ast> Visit<'ast> for Names {
     }
 
     fn visit_expr_closure(&mut self, closure: &'ast syn::ExprClosure) {
-        let outside = self.open.len();
-        closure.inputs.iter().for_each(|input| self.bind(input, true));
-        self.visit_expr(&closure.body);
-        self.close(outside);
+        self.visit_sum(closure, false);
     }
 
     /// A component `|j| 0.0` of a one-form has its index by its place in the list.
     fn visit_expr_array(&mut self, list: &'ast syn::ExprArray) {
         for component in &list.elems {
-            let Expr::Closure(closure) = component else {
-                self.visit_expr(component);
-                continue;
-            };
-            let outside = self.open.len();
-            closure.inputs.iter().for_each(|input| self.bind(input, true));
-            self.open[outside..].iter_mut().for_each(|local| local.used = true);
-            self.visit_expr(&closure.body);
-            self.close(outside);
+            match component {
+                Expr::Closure(closure) => self.visit_sum(closure, true),
+                other => self.visit_expr(other),
+            }
         }
     }
 

@@ -11,6 +11,7 @@ use syn::Expr as Syntax;
 use super::Class;
 use super::one_form::omega;
 use crate::errors::listed;
+use crate::formulas::variable;
 use crate::model::Model;
 use crate::print::{print_expr, print_loops, write_expr};
 use crate::symbolic::{Contribution, Expr, Graph, Id, Index, Node, Terms};
@@ -216,7 +217,8 @@ fn clear(
         }
         let left = components.into_iter().find(|part| half.contains(&block_of(graph, part.target)));
         let Some(part) = left else { return Ok(function) };
-        let position = position_of(graph, part.target);
+        let (_, coordinate) = variable(graph, part.target);
+        let position = graph.intern(Node::Coordinate(coordinate));
         let Some(integral) = graph.antiderivative(part.value, position, terms) else {
             return Err(Lacking::Antiderivative(part));
         };
@@ -231,17 +233,7 @@ fn clear(
 }
 
 fn block_of(graph: &Graph, velocity: Id) -> usize {
-    match graph.node(velocity) {
-        Node::Velocity(coordinate) => coordinate.block as usize,
-        other => crate::internal::internal(format!("a component along {other:?}")),
-    }
-}
-
-fn position_of(graph: &mut Graph, velocity: Id) -> Id {
-    match graph.node(velocity).clone() {
-        Node::Velocity(coordinate) => graph.intern(Node::Coordinate(coordinate)),
-        other => crate::internal::internal(format!("a component along {other:?}")),
-    }
+    variable(graph, velocity).1.block as usize
 }
 
 impl Lacking {

@@ -178,7 +178,7 @@ impl Outputs {
 
     /// ∂²a/∂v∂v of constraints of the velocities.
     pub(super) fn constraint_bend(&self) -> Option<Sized> {
-        self.constraints.as_ref().map(Combination::bend)
+        self.constraints.as_ref().map(|constraints| constraints.value.both(First::V, Second::V))
     }
 
     /// ∂F/∂v between the two directions.
@@ -243,17 +243,20 @@ impl Outputs {
             Quantity::EventLq(number) => events[number].first(First::Q),
             Quantity::EventLv(number) => events[number].first(First::V),
             Quantity::EventByTime(number) => events[number].first(First::T),
-            Quantity::Constraint(_) => constraints().value(),
+            Quantity::Constraint(_) => constraints().value.value(),
             Quantity::ConstraintJacobian(Constrained::Velocities) => {
                 let [by_positions, by_velocities] =
                     [Weight::Q, Weight::V].map(|weight| point.weight(weight));
-                let constraints = constraints();
-                let along = constraints.along_positions().times(by_positions);
-                along.plus(constraints.along_velocities().times(by_velocities))
+                let along = |second| constraints().value.second(second);
+                along(Second::Q).times(by_positions).plus(along(Second::V).times(by_velocities))
             }
-            Quantity::ConstraintJacobian(_) => constraints().along_positions(),
-            Quantity::ConstraintRate(_) => constraints().rate(),
-            Quantity::ConstraintCurvature => constraints().curvature(),
+            Quantity::ConstraintJacobian(_) => constraints().value.second(Second::Q),
+            Quantity::ConstraintRate(_) => constraints().rate.value(),
+            // The first direction of positions is the velocity.
+            Quantity::ConstraintCurvature => {
+                let rate = &constraints().rate;
+                rate.first(First::Q).plus(rate.first(First::T))
+            }
         }
     }
 

@@ -22,12 +22,7 @@ impl Comparison<'_> {
         if self.system.constrained == Constrained::Velocities {
             return self.velocity_constraints(expected, random, &matrix);
         }
-        let [value, jacobian, rate] = match self.system.constrained {
-            Constrained::Gaps => ["gap", "gap_jacobian", "gap_rate"],
-            Constrained::Positions | Constrained::Velocities => {
-                ["constraint", "constraint_jacobian", "constraint_rate"]
-            }
-        };
+        let [value, jacobian, rate] = self.system.constrained.words().generated;
         self.sets(value, self.at_rest(point), m, |k| constraints[k].value)?;
         let (_, slices) = self.at_rest(point).slice(&vec![7.0; m]).slice(&matrix).run(jacobian)?;
         self.same_vector(jacobian, &slices[1], |k| constraints[k].value)?;

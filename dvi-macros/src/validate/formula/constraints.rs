@@ -2,49 +2,20 @@
 
 use syn::Expr;
 
-use super::super::jet::{First, Jet, Second, Sized};
+use super::super::jet::Jet;
 use super::{Binding, Evaluation, Value, unknown};
 use crate::syntax::{Constraint, Member};
 
 /// All constraints, each times the component of its row along a direction: what they add up to.
 pub(in super::super) struct Combination {
-    value: Jet,
-    rate: Jet,
+    pub(in super::super) value: Jet,
+    /// The rate along the motion.
+    pub(in super::super) rate: Jet,
 }
 
 impl Combination {
     pub(in super::super) fn is_moderate(&self) -> bool {
         self.value.is_moderate() && self.rate.is_moderate()
-    }
-
-    pub(in super::super) fn value(&self) -> Sized {
-        self.value.value()
-    }
-
-    /// The derivative along the second direction of positions.
-    pub(in super::super) fn along_positions(&self) -> Sized {
-        self.value.second(Second::Q)
-    }
-
-    /// The derivative along the second direction of velocities.
-    pub(in super::super) fn along_velocities(&self) -> Sized {
-        self.value.second(Second::V)
-    }
-
-    /// The second derivative by velocities, between both directions.
-    pub(in super::super) fn bend(&self) -> Sized {
-        self.value.both(First::V, Second::V)
-    }
-
-    /// The rate along the motion.
-    pub(in super::super) fn rate(&self) -> Sized {
-        self.rate.value()
-    }
-
-    /// The rate of the rate along a motion without acceleration: the first direction of positions is the
-    /// velocity.
-    pub(in super::super) fn curvature(&self) -> Sized {
-        self.rate.first(First::Q).plus(self.rate.first(First::T))
     }
 }
 
