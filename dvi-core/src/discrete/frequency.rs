@@ -153,7 +153,10 @@ impl<T: Real> FrequencyIn<T> for Constant {
         T::lift(self.0)
     }
     fn validate(&self) -> Result<(), StartError> {
-        in_range("omega", self.0)
+        if (0.0..f64::INFINITY).contains(&self.0) {
+            return Ok(());
+        }
+        Err(StartError::Parameter { name: "omega", value: self.0, range: "0 <= omega, finite" })
     }
 }
 
@@ -181,8 +184,7 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
             "FrequencyIn::fixed does not give a finite number",
         ),
         Some(Reading::Variational) => {
-            let point = space.vector();
-            let [mut dq, mut dv, mut da] = [space.vector(), space.vector(), space.vector()];
+            let [point, mut dq, mut dv, mut da] = space.vectors();
             match frequency.derivatives(&point, &point, &point, &mut dq, &mut dv, &mut da) {
                 Some(_) => Ok(()),
                 None => unsupported(
@@ -192,14 +194,6 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
             }
         }
         None | Some(Reading::LeftFrozen | Reading::Averaged) => Ok(()),
-    }
-}
-
-fn in_range(name: &'static str, value: f64) -> Result<(), StartError> {
-    if (0.0..f64::INFINITY).contains(&value) {
-        Ok(())
-    } else {
-        Err(StartError::Parameter { name, value, range: "0 <= omega, finite" })
     }
 }
 

@@ -23,14 +23,8 @@ pub(crate) struct Local<S: System, T: Real> {
 impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
     pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
-        Self {
-            omega: T::lift(0.0),
-            dq: space.vector(),
-            dv: space.vector(),
-            acceleration: space.vector(),
-            da: space.vector(),
-            l: [space.vector(), space.vector()],
-        }
+        let [dq, dv, acceleration, da] = space.vectors();
+        Self { omega: T::lift(0.0), dq, dv, acceleration, da, l: space.vectors() }
     }
 
     /// ω at (`q`, `v`), where the force is `force`.

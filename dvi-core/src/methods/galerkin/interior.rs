@@ -160,9 +160,12 @@ where
             },
         )?;
         for (k, delta) in delta.iter_mut().enumerate() {
-            *delta = self.increment(k);
+            let forced = self.nystrom.beta * self.displacements[k];
+            *delta = self.drift[k] + (sum(&forced.0[..Self::COUNT]) + self.kick[k]);
         }
-        self.set_impulse(at.interval.h, impulse);
+        for ((impulse, &force), terms) in impulse.iter_mut().zip(self.start.iter()).zip(self.terms.iter()) {
+            *impulse = at.interval.h * self.end * force + sum(&terms.0[..Self::COUNT]);
+        }
         norm::finite(delta)
     }
 }
@@ -201,21 +204,6 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
         statistics.gradients += Self::COUNT as u64;
         let by = Lanes::all(h) * *weights;
         weigh(|_| by, forces, terms);
-    }
-
-    /// The change of coordinate `k`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn increment(&self, k: usize) -> T {
-        let forced = self.nystrom.beta * self.displacements[k];
-        self.drift[k] + (sum(&forced.0[..Self::COUNT]) + self.kick[k])
-    }
-
-    /// Sets `impulse` to the first kick and the impulses of the nodes, in a step of length `h`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn set_impulse(&self, h: T, impulse: &mut [T]) {
-        for ((impulse, &force), terms) in impulse.iter_mut().zip(self.start.iter()).zip(self.terms.iter()) {
-            *impulse = h * self.end * force + sum(&terms.0[..Self::COUNT]);
-        }
     }
 
     /// Continues the polynomial through the forces of the step before into a step of length `h`, where the
