@@ -7,7 +7,7 @@ use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_examples::osculating::Osculating;
 use dvi_tests::systems::{ManyVortices, ManyVorticesState, PointVortices, PointVorticesState};
-use dvi_tests::zoo::constrained::{Links, LinksState};
+use dvi_tests::zoo::constrained::Links;
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
 
 #[global_allocator]
@@ -97,12 +97,6 @@ struct Turning {
     n: usize,
 }
 
-/// A chain of `n` rods, stretched out.
-fn links(n: usize) -> (Links, LinksState) {
-    let (x, zero) = ((1..=n).map(|i| i as f64).collect(), vec![0.0; n]);
-    (Links { rod: vec![1.0; n] }, LinksState { x, y: zero.clone(), dot_x: zero.clone(), dot_y: zero })
-}
-
 /// Balls on a line between two walls.
 #[lagrangian(
     coordinates(x[m.len()]),
@@ -136,7 +130,7 @@ fn of_turning(n: usize) -> f64 {
 
 /// Bytes that a constrained run of a chain of `n` rods takes.
 fn of_links(n: usize) -> f64 {
-    let (system, start) = links(n);
+    let (system, start) = Links::stretched(vec![1.0; n]);
     bytes(&system, Constrained::new(Variational::midpoint()), (0.01, 3), start)
 }
 

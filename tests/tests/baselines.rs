@@ -3,9 +3,7 @@
 use approx::abs_diff_eq;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_examples::models::Orbit;
 use dvi_tests::Outcome;
-use dvi_tests::zoo::regular::*;
 use dvi_tests::{apart, run};
 
 /// Two oscillators of frequency 1 whose velocities are coupled, and beside them dF/dt of F = t x y + x³ y:
@@ -109,22 +107,4 @@ fn no_step_changes_the_branch_of_the_velocity() -> Outcome {
     ends(Gauss::<1>::new(), 0.1, 2.0, 0.2)?;
     ends(Gauss::<2>::new(), 0.1, 2.0, 0.2)?;
     ends(RungeKutta::classical(), 0.1, 2.0, 0.2)
-}
-
-/// Most of one period of Kepler's orbit in 16 steps, against its closed form.
-#[test]
-fn each_stage_of_gauss_gains_digits() -> Outcome {
-    fn error<const S: usize>() -> Outcome<f64>
-    where
-        Gauss<S>: Tabulated,
-    {
-        let found = run(&KEPLER, Gauss::<S>::new().in_lanes(), pericentre(0.3), 6.0, 16)?;
-        Ok(apart(&found, &Orbit { e: 0.3 }.position(6.0)))
-    }
-    let errors = [error::<3>()?, error::<4>()?, error::<5>()?, error::<6>()?, error::<7>()?, error::<8>()?];
-    for (errors, bound) in errors.windows(2).zip([0.1, 0.1, 0.1, 0.1, 0.2]) {
-        assert!(errors[1] < bound * errors[0], "{errors:?}");
-    }
-    assert!(errors[5] < 2e-14, "{errors:?}");
-    Ok(())
 }

@@ -1,9 +1,8 @@
 //! Steps on holonomic constraints.
 
-mod equations;
 mod failing;
 mod light;
-mod orders;
+mod multipliers;
 mod starts;
 
 use dvi_tests::Outcome;

@@ -1,7 +1,6 @@
 //! Ensembles: what their records say, that they are the same however they are computed, and what becomes of
 //! mistakes.
 
-mod every_method;
 mod files;
 mod left_later;
 mod limits;

@@ -12,7 +12,6 @@ use dvi_core::discrete::Simpson;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
-use dvi_tests::zoo::constrained::{Pendulum, PendulumState};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState, PLANE, Planar, PlanarState};
 use dvi_tests::{bits, larger};
@@ -166,50 +165,6 @@ fn the_points_of_a_run_stay_as_they_are() -> Outcome {
     check(|| Ok(Integrator::new(&PLANE, limited, 0.1, PLANAR)?), |state| state.x)?;
     let (method, control) = (Gauss::<4>::new().in_lanes(), ErrorControl::new(1e-9, 0.1));
     check(|| Ok(Integrator::controlled(&PLANE, method, control, PLANAR)?), |state| state.x)
-}
-
-/// Every kind of method: events are within the error of the run, and g vanishes there.
-#[test]
-fn events_lie_where_g_vanishes_whatever_the_method() -> Outcome {
-    fn check<R: Run<Scalar = f64>>(mut run: R, x: fn(&StateOf<R>) -> f64, most: f64, name: &str) -> Outcome {
-        for (k, event) in run.events([Direction::Rising], |_, state| [x(state)])?.take(3).enumerate() {
-            let Event { time, state, .. } = event?;
-            let error = (time - 3.0 * FRAC_PI_2 - TAU * k as f64).abs();
-            assert!(error < most, "{name}: {error:e}");
-            assert!(x(&state).abs() < 1e-12, "{name}: {:e}", x(&state));
-        }
-        Ok(())
-    }
-    let oscillator = Oscillator { omega: 1.0 };
-    let at = OscillatorState { x: 1.0, y: 0.0 };
-    for sigma in [0.0, 0.2, 0.5, 0.8] {
-        check(Integrator::new(&oscillator, Sigma::new(sigma), 0.02, at)?, |state| state.x, 2e-3, "sigma")?;
-    }
-    check(
-        Integrator::new(&oscillator, Projected::symmetric(), 0.02, at)?,
-        |state| state.x,
-        1e-3,
-        "projected",
-    )?;
-    let newmark = Newmark::new(0.25);
-    check(Integrator::new(&PLANE, newmark, 0.02, PLANAR)?, |state| state.x, 1e-3, "newmark")?;
-    let galerkin = Galerkin::<4>::new();
-    check(Integrator::new(&PLANE, galerkin, 0.5, PLANAR)?, |state| state.x, 1e-5, "galerkin")?;
-    let midpoint = Variational::midpoint();
-    check(Integrator::new(&PLANE, midpoint, 0.02, PLANAR)?, |state| state.x, 1e-3, "variational")?;
-    let composed = Composition::yoshida(Variational::trapezoid());
-    check(Integrator::new(&PLANE, composed, 0.1, PLANAR)?, |state| state.x, 1e-3, "composition")?;
-    let circle = Pendulum { m: 1.0, g: 0.0, length: 1.0 };
-    let at = PendulumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
-    check(Integrator::new(&circle, Rattle::default(), 0.02, at)?, |state| state.x, 2e-3, "rattle")?;
-    #[lagrangian(coordinates(s: S2), lagrangian = sum(0..3, |i| dot(s[i]).powi(2)) / 2.0)]
-    #[derive(Debug)]
-    struct Turning;
-    let geodesic = TurningState { s: [1.0, 0.0, 0.0], dot_s: [0.0, 1.0, 0.0] };
-    let geodesic = Integrator::new(&Turning, Geodesic::trapezoid(), 0.3, geodesic)?;
-    check(geodesic, |state| state.s[0], 1e-12, "geodesic")?;
-    let constrained = Constrained::new(Variational::midpoint());
-    check(Integrator::new(&circle, constrained, 0.02, at)?, |state| state.x, 2e-3, "constrained")
 }
 
 /// Where α is not affine, p − α(q) depends on the length of a step. Orbits of the midpoint scheme lie on

@@ -73,17 +73,12 @@ fn a_gauge_is_found_for_twenty_systems() {
         })+};
     }
     check!(
-        Vortex(x, y): k / 2.0 * (x * d(y) - y * d(x)), g[0] * x * y;
         Vortices(x[3], y[3]): sum(0..3, |j| g[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))), k * x[0] * y[1];
-        Prey(x, y): y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y), k * x + g[0] * y;
-        PreyShifted(x, y): (y + y.ln() / x) * d(x) + x * d(y), k * x + g[0] * y;
         PreySymmetric(x, y): (y + y.ln() / (2.0 * x)) * d(x) + (x - x.ln() / (2.0 * y)) * d(y), k * x + g[0] * y;
         Reciprocal(x, y): (x + 1.0 / y) * d(y) - k * y * d(x), x * y + g[0];
         Polynomial(x, y): (x * y.powi(3) + x.powi(2) * y) * d(y) + x * y * d(x), k * x + g[0] * y;
         Exponential(x, y): x * (k * y).exp() * d(y) + x.exp() * y * d(x), x * y + g[0];
         Gaussian(x, y): (x + x * y * (-y * y).exp()) * d(y) - y * x * d(x), k * x + g[0] * y;
-        Wave(x, y): x * y * y.cos() * d(y) + x.cos() * y * d(x), k * x + g[0] * y;
-        Pendulum(angle, p): p * d(angle) - angle * d(p), k * p * p - g[0] * angle.cos();
         Root(x, y): x * (1.0 + y * y).sqrt() * y * d(y) + y.powi(2) * d(x), k * x + g[0] * y;
         Powers(x, y): x * y.powf(1.5) * d(y) - y.sqrt() * d(x), k * x + g[0] * y;
         Field(x, y): -k * y / (1.0 + x * x) * d(x) + k * x * (y / 2.0).sinh() * d(y), x * y + g[0];
@@ -166,69 +161,6 @@ fn gauges_of_the_same_system_have_the_same_trajectory() -> Outcome {
     let order = convergence_order(&differences).ok_or("no slope")?;
     assert!(abs_diff_eq!(order, 2.0, epsilon = 0.1), "{differences:?}");
     Ok(())
-}
-
-/// F(q, t) adds its rate to −H: the energy becomes another one, and the motion stays.
-#[test]
-fn a_gauge_may_depend_on_time() {
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form    = (1.0 + t / 2.0) * (x * d(y) - y * d(x)),
-        hamiltonian = x * x + y * y * t,
-    )]
-    struct Symmetric;
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form    = (1.0 + t / 2.0) * (x * d(y) - y * d(x)),
-        hamiltonian = x * x + y * y * t,
-        gauge       = (1.0 + t / 2.0) * x * y,
-    )]
-    struct OneSided;
-    have_the_same_motion(&Symmetric, &OneSided);
-    for [x, y, ..] in POINTS {
-        let energies = [Symmetric.hamiltonian(&[x, y], 0.3), OneSided.hamiltonian(&[x, y], 0.3)];
-        assert!(abs_diff_eq!(energies[0] - energies[1], x * y / 2.0, epsilon = 1e-14), "{energies:?}");
-    }
-}
-
-/// A function of one's own in a gauge brings its third derivative.
-#[test]
-fn functions_of_the_user_stand_in_gauges() {
-    fn f<T: dvi_core::Scalar>(y: T) -> T {
-        (y * T::lift(2.0)).sin()
-    }
-    fn df<T: dvi_core::Scalar>(y: T) -> T {
-        (y * T::lift(2.0)).cos() * T::lift(2.0)
-    }
-    fn d2f<T: dvi_core::Scalar>(y: T) -> T {
-        -(y * T::lift(2.0)).sin() * T::lift(4.0)
-    }
-    fn d3f<T: dvi_core::Scalar>(y: T) -> T {
-        -(y * T::lift(2.0)).cos() * T::lift(8.0)
-    }
-    macro_rules! by_function {
-        ($($gauge:tt)*) => {{
-            #[degenerate_lagrangian(
-                coordinates(x, y),
-                one_form    = x * d(y) + f(x) * d(y),
-                hamiltonian = x * x + y * y,
-                functions(f = [f, df, d2f, d3f]),
-                $($gauge)*
-            )]
-            struct Any;
-            Any
-        }};
-    }
-    let declared = by_function!();
-    for point in POINTS {
-        let q = &point[..2];
-        let expected = [(2.0 * q[0]).cos() * -2.0 * q[1] - q[1], 0.0];
-        let gauged = by_function!(gauge = -f(x) * y - x * y);
-        let mut form = [0.0; 2];
-        gauged.one_form(q, 0.0, &mut form);
-        assert!(apart(&expected, &form) < 1e-14, "{form:?}");
-        have_the_same_motion(&declared, &gauged);
-    }
 }
 
 /// Where there is a choice, no parameter is divided by, so that it may be zero; where there is none, the

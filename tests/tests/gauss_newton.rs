@@ -27,62 +27,6 @@ macro_rules! each {
     })*};
 }
 
-/// An oscillator whose momentum has the unit of its mass.
-#[degenerate_lagrangian(
-    coordinates(x, p),
-    one_form = p * d(x),
-    hamiltonian = p * p / (2.0 * m) + k * x * x / 2.0,
-)]
-struct Weighed {
-    m: f64,
-    k: f64,
-}
-
-#[test]
-fn the_unit_of_the_mass_does_not_matter() -> Outcome {
-    for (m, h) in
-        [(1.0, 0.9), (10.0, 0.3), (100.0, 0.05), (1e3, 1e-2), (1e-3, 1e-2), (1e-27, 0.05), (1e24, 0.5)]
-    {
-        let system = Weighed { m, k: m };
-        each!(1 2 3 4 5 6 7 8; |stages, method| {
-            let mut run = Integrator::new(&system, method, h, WeighedState { x: 1.0, p: 0.0 })?;
-            run.take_steps(500)?;
-            let off = run.state().x - (500.0 * angle(stages, h)).cos();
-            assert!(off.abs() < 2e-13, "m = {m}, h = {h}, {stages} stages: {off:e}");
-        });
-    }
-    Ok(())
-}
-
-/// A planet in polar coordinates, in metres, seconds and kilograms.
-#[lagrangian(
-    coordinates(r, phi),
-    lagrangian = m * ((dot(r).powi(2) + r * r * dot(phi).powi(2)) / 2.0 + mu / r),
-)]
-struct Planet {
-    m: f64,
-    mu: f64,
-}
-
-/// On a circle the midpoint rule leaves r̈ = 0 to r φ̇² = μ/r², and the angle that it turns by is known.
-#[test]
-fn planets_move_in_metres_and_seconds() -> Outcome {
-    let (m, mu, r) = (5.97e24, 1.327e20, 1.496e11);
-    let rate = f64::sqrt(mu / (r * r * r));
-    let system = Planet { m, mu };
-    let start = PlanetState { r, phi: 0.0, dot_r: 0.0, dot_phi: rate };
-    for steps in [20, 50, 200] {
-        let h = 3.156e7 / f64::from(steps);
-        each!(1 2; |stages, method| {
-            let mut run = Integrator::new(&system, method, h, start)?;
-            run.take_steps(3 * steps as u64)?;
-            let off = (run.state().phi / (rate * run.time()) - 1.0).abs() + (run.state().r / r - 1.0).abs();
-            assert!(off < 1e-13, "{steps} steps a year, {stages} stages: {off:e}");
-        });
-    }
-    Ok(())
-}
-
 /// Masses between two walls, with springs of length zero between neighbours.
 #[lagrangian(
     coordinates(x[N]),

@@ -147,66 +147,6 @@ fn waves_on_a_torus_have_the_frequencies_of_the_discrete_laplacian() -> Outcome 
     Ok(())
 }
 
-/// Springs in a cube whose sides are closed to rings, two of its indices in one.
-#[lagrangian(
-    coordinates(q[N * N][m]),
-    lagrangian = sum(0..N, |i| sum(0..N, |j| sum(0..m, |k| (dot(q[N * i + j][k]).powi(2)
-        - (at(i + 1, j, k) - at(i, j, k)).powi(2) - (at(i, j + 1, k) - at(i, j, k)).powi(2)
-        - (at(i, j, k + 1) - at(i, j, k)).powi(2)) / 2.0))),
-    let = { let at = |i, j, k| q[N * (i % N) + j % N][k % m]; },
-)]
-struct Cube<const N: usize> {
-    m: usize,
-}
-
-#[test]
-fn two_of_three_indices_share_one() -> Outcome {
-    let (m, h, steps) = (4, 0.1, 100);
-    let [x, y, z] = [PI / 3.0, 2.0 * PI / 3.0, PI / m as f64];
-    let wave = |row: usize, k: usize| {
-        let [i, j] = [row / N, row % N];
-        (2.0 * (x * i as f64 + y * j as f64 + z * k as f64)).cos()
-    };
-    let q: Vec<Vec<f64>> = (0..N * N).map(|row| (0..m).map(|k| wave(row, k)).collect()).collect();
-    let start = CubeState { q: q.clone(), dot_q: vec![vec![0.0; m]; N * N] };
-    let mut run = Integrator::new(Cube::<N> { m }, Variational::trapezoid(), h, start)?;
-    run.take_steps(steps)?;
-    let omega = 2.0 * x.sin().hypot(y.sin()).hypot(z.sin());
-    let amplitude = (turned(omega, h) * steps as f64).cos();
-    for (found, start) in run.state().q.iter().flatten().zip(q.iter().flatten()) {
-        assert_abs_diff_eq!(*found, amplitude * start, epsilon = 1e-12);
-    }
-    Ok(())
-}
-
-/// Each number is slowed down by friction of its own.
-#[lagrangian(
-    coordinates(q[n][M]),
-    lagrangian = sum(0..n, |i| sum(0..M, |j| dot(q[i][j]).powi(2) / 2.0)),
-    force(q) = |i, j| -gamma[i][j] * dot(q[i][j]),
-)]
-struct Slowed<const M: usize> {
-    n: usize,
-    gamma: Vec<[f64; M]>,
-}
-
-#[test]
-fn forces_act_on_each_entry() -> Outcome {
-    let [_, dot_q, gamma] = point::<4>();
-    let system = Slowed { n: N, gamma: gamma.into() };
-    let start = SlowedState { q: vec![[0.0; 4]; N], dot_q: dot_q.into() };
-    let (h, steps) = (0.05, 60);
-    let mut run = Integrator::new(&system, Variational::midpoint(), h, start)?;
-    run.take_steps(steps)?;
-    for (found, (start, gamma)) in
-        run.state().dot_q.as_flattened().iter().zip(dot_q.as_flattened().iter().zip(gamma.as_flattened()))
-    {
-        let ratio = (1.0 - gamma * h / 2.0) / (1.0 + gamma * h / 2.0);
-        assert_abs_diff_eq!(*found, start * ratio.powi(steps as i32), epsilon = 1e-13);
-    }
-    Ok(())
-}
-
 /// The entries of each row move together.
 #[lagrangian(
     coordinates(q[N][M]),

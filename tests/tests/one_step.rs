@@ -5,28 +5,11 @@ use dvi_core::prelude::*;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_examples::models::{TokamakInClass, TokamakInClassState};
 use dvi_laws::systems::{Belt, Mixed};
-use dvi_tests::steps::{apart, stepped};
 use dvi_tests::systems::{SphereForm, SphereFormState};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use dvi_tests::{Outcome, failing};
 
 const PREY: OneSided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
-
-/// σ = ½ with an affine α is the midpoint rule too: for α = y dx the two schemes are the same map.
-#[test]
-fn midpoint_is_sigma_one_half_where_the_form_is_affine() -> Outcome {
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form = y * d(x),
-        hamiltonian = y * y / 2.0 - x.cos() + (x * y).sin() / 8.0,
-    )]
-    struct Canonical;
-    let q0 = [0.7, -0.4];
-    let one = stepped(&Canonical, &OneStep::midpoint(), &q0, [0.0, 0.1], 500)?;
-    let other = stepped(&Canonical, &Sigma::midpoint(), &q0, [0.0, 0.1], 500)?;
-    assert!(apart(&one, &other) < 1e-11, "{one:?} and {other:?}");
-    Ok(())
-}
 
 /// The places of the halves, for blocks of every kind.
 #[test]

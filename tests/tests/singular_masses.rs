@@ -110,40 +110,6 @@ fn a_mass_too_small_to_divide_by_is_singular() -> Outcome {
     check(Galerkin::<3>::new())
 }
 
-/// A mass matrix D R D with R = ((1, r), (r, 1)), where D are units of both coordinates.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = a * dot(x).powi(2) / 2.0 + r * dot(x) * dot(y) + c * dot(y).powi(2) / 2.0 - (a * x * x + c * y * y) / 2.0,
-)]
-struct Coupled {
-    a: f64,
-    r: f64,
-    c: f64,
-}
-
-#[test]
-fn regular_masses_are_regular_in_any_units() -> Outcome {
-    for r in [0.1, 0.5, 0.9] {
-        let path = |unit: f64| -> Outcome<[f64; 2]> {
-            let system = Coupled { a: unit * unit, r, c: 1.0 / (unit * unit) };
-            let start = CoupledState { x: 1.0 / unit, y: unit, dot_x: 0.0, dot_y: 0.0 };
-            let field = system.vector_field(0.0, &start)?;
-            assert!((field.dot_x * unit + 1.0 / (1.0 + r)).abs() < 1e-15, "{field:?}");
-            let mut run = Integrator::new(&system, Variational::trapezoid(), 0.01, start)?;
-            run.take_steps(100)?;
-            Ok([run.q()[0] * unit, run.q()[1] / unit])
-        };
-        let expected = path(1.0)?;
-        // Powers of two change nothing but exponents, and the choice of pivots.
-        for exponent in [-240, -30, 27, 70, 240] {
-            let found = path(f64::from(exponent).exp2())?;
-            let error = (found[0] - expected[0]).abs().max((found[1] - expected[1]).abs());
-            assert!(error < 1e-14, "r = {r}, 2^{exponent}: {error:e}");
-        }
-    }
-    Ok(())
-}
-
 /// Two squares of three velocities.
 #[lagrangian(
     coordinates(x, y, z),

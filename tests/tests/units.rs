@@ -71,7 +71,8 @@ fn end<const N: usize, S: InUnits<N>, M: Method<S, f64>>(
 }
 
 fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone>(name: &str, method: M) {
-    let steps = 40;
+    // The guess is that of all increments after the seventh.
+    let steps = 12;
     let plain =
         end::<N, S, M>(([0; N], 0), method.clone(), steps).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert!(plain.iter().all(|x| x.is_finite()) && plain != S::start(), "{name}: {plain:?}");
@@ -200,16 +201,16 @@ fn moved_in_the_middle<M: Method<Springs, f64>>(n: usize, method: M) -> Vec<f64>
     start.x[n / 2] = 0.3;
     let system = Springs { n };
     let mut run = Integrator::new(&system, method, 0.05, start).expect("a start");
-    run.take_steps(100).unwrap_or_else(|error| panic!("{n} masses: {error}"));
+    run.take_steps(60).unwrap_or_else(|error| panic!("{n} masses: {error}"));
     // Beside the mass that moves the last ones are nothing, and need no iteration of their own.
     let iterations = run.statistics().iterations;
-    assert!(iterations < 1200, "{n} masses: {iterations}");
+    assert!(iterations < 720, "{n} masses: {iterations}");
     run.state().x
 }
 
 #[test]
 fn where_a_wave_has_not_arrived() {
-    for n in [10, 40, 200] {
+    for n in [10, 200] {
         for compare in [
             |n, solver| moved_in_the_middle(n, Variational { solver, ..Variational::midpoint() }),
             |n, solver| moved_in_the_middle(n, Newmark { solver, ..Newmark::new(0.25) }),

@@ -2,7 +2,6 @@
 
 use dvi_tests::Outcome;
 
-mod barnes;
 mod failures;
 mod frequencies;
 mod kepler;

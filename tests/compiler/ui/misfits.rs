@@ -25,7 +25,6 @@ pub struct Pendulum;
 const VORTEX: VortexState = VortexState { x: 1.0, y: 0.0 };
 const BEAD: BeadState = BeadState { x: 1.0, dot_x: 0.0 };
 const SPIN: SpinState = SpinState { s: [0.0, 0.0, 1.0] };
-const PENDULUM: PendulumState = PendulumState { s: [0.0, 0.0, 1.0], dot_s: [0.0; 3] };
 const ROD: RodState = RodState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -61,13 +60,6 @@ fn not_separable() -> Outcome {
 
 fn constrained_and_separable() -> Outcome {
     let mut run = Integrator::new(&Rod, Newmark::new(0.25), 0.1, ROD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn constrained() -> Outcome {
-    let mut run = Integrator::new(&Rod, Gauss::<2>::new(), 0.1, ROD)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -125,14 +117,6 @@ fn composed_of_one_length() -> Outcome {
     Ok(())
 }
 
-fn controlled_of_one_length() -> Outcome {
-    let control = ErrorControl::new(1e-9, 0.1);
-    let mut run = Integrator::controlled(&Vortex, Sigma::midpoint(), control, VORTEX)?;
-    run.advance_to(10.0)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
 fn resumed(checkpoint: &Checkpoint) -> Outcome {
     let control = ErrorControl::new(1e-9, 0.1);
     let mut run = Integrator::resume_controlled(&Bead, Newmark::new(0.25), control, checkpoint)?;
@@ -148,27 +132,8 @@ fn a_spin_is_degenerate() -> Outcome {
     Ok(())
 }
 
-fn unit_vectors() -> Outcome {
-    let mut run = Integrator::new(&Pendulum, Sigma::midpoint(), 0.1, PENDULUM)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
 fn two_points_of_another_method() -> Outcome {
     let mut run = Integrator::from_two_points(&Bead, Newmark::new(0.25), 0.1, BEAD, BEAD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn limited_in_place() -> Outcome {
-    let mut run = Integrator::new(
-        &Bead,
-        EnergyLimit { method: Composition::yoshida(Newmark::new(0.25)), limit: 1e-3 },
-        0.1,
-        BEAD,
-    )?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -186,14 +151,6 @@ fn limited_under_a_control() -> Outcome {
     let method = EnergyLimit { method: Newmark::new(0.25), limit: 1e-3 };
     let control = Reversible::power(0.02, 1.5);
     let mut run = Integrator::controlled(&Vortex, method, control, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn another_kind_inside_and_outside() -> Outcome {
-    let method = Constrained::new(Newmark::new(0.25));
-    let mut run = Integrator::new(&Bead, EnergyLimit { method, limit: 1e-3 }, 0.1, BEAD)?;
     run.take_steps(100)?;
     println!("{:?} {}", run.state(), run.energy());
     Ok(())
@@ -226,14 +183,6 @@ fn written_under_a_control(
     rod: &Rod,
 ) -> Result<Integrator<&Rod, OneStep, f64, ErrorControl<'_>>, StartError> {
     Integrator::controlled(rod, OneStep::midpoint(), ErrorControl::new(1e-9, 0.1), ROD)
-}
-
-fn in_a_box() -> Result<Box<Integrator<Vortex, Variational<Unfitted, Trapezoid>>>, StartError> {
-    Ok(Box::new(Integrator::new(Vortex, Variational::trapezoid(), 0.1, VORTEX)?))
-}
-
-fn two_points_written(bead: &Bead) -> Result<Integrator<&Bead, Sigma>, StartError> {
-    Integrator::from_two_points(bead, Sigma::midpoint(), 0.1, BEAD, BEAD)
 }
 
 fn in_a_local() -> Outcome {

@@ -58,11 +58,11 @@ fn it_is_the_method_on_phase_space() -> Outcome {
     check::<8>(1e-13)
 }
 
-/// The largest errors of energy and angular momentum over 10⁵ steps, relative to those at the start.
+/// The largest errors of energy and angular momentum over 20,000 steps, relative to those at the start.
 fn errors(mut run: impl Run<Scalar = f64>, angular: usize) -> Outcome<[f64; 2]> {
     let initial = [run.energy(), run.momentum(angular).ok_or("declared")?];
     let mut largest = [0.0; 2];
-    for _ in 0..10_000 {
+    for _ in 0..2_000 {
         run.take_steps(10)?;
         let now = [run.energy(), run.momentum(angular).ok_or("declared")?];
         for i in 0..2 {
@@ -77,10 +77,8 @@ fn bilinear_invariants_and_the_energy_stay_at_rounding_errors() -> Outcome {
     let (kepler, start) = (Kepler { mu: 1.0 }, KeplerState { x: 0.4, y: 0.0, dot_x: 0.0, dot_y: 2.0 });
     let h = TAU / 60.0;
     let [energy, angular] = errors(Integrator::new(&kepler, Gauss::<8>::new().in_lanes(), h, start)?, 0)?;
-    println!("{energy:e} {angular:e}");
     assert!(angular < 1e-14 && energy < 1e-13, "{energy:e} {angular:e}");
     let [_, angular] = errors(Integrator::new(&kepler, Gauss::<3>::new(), h, start)?, 0)?;
-    println!("{angular:e}");
     assert!(angular < 1e-14, "{angular:e}");
 
     // Two planets around a star.
@@ -93,7 +91,6 @@ fn bilinear_invariants_and_the_energy_stay_at_rounding_errors() -> Outcome {
     };
     let run = Integrator::new(&system, Gauss::<8>::new().in_lanes(), 0.2, start)?;
     let [energy, angular] = errors(run, 1)?;
-    println!("{energy:e} {angular:e}");
     assert!(angular < 1e-14 && energy < 1e-13, "{energy:e} {angular:e}");
     Ok(())
 }

@@ -175,18 +175,6 @@ impl Links {
     }
 }
 
-/// A closed chain of rods, whose joints may be at any place.
-#[lagrangian(
-    coordinates(x[N], y[N]),
-    lagrangian = sum(0..N, |i| mass[i] * (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0 - x[i] * x[i] / 4.0),
-    constraint(i in 0..N) = (x[(i + 1) % N] - x[i]).powi(2) + (y[(i + 1) % N] - y[i]).powi(2) - 1.0,
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Ring<const N: usize> {
-    /// Masses of the joints.
-    pub mass: [f64; N],
-}
-
 /// Masses on rods in a plane, two below each.
 #[lagrangian(
     coordinates(x[2 * half + 1], y[2 * half + 1]),

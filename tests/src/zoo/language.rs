@@ -2,21 +2,7 @@
 
 use dvi_core::degenerate_lagrangian;
 
-/// A Toeplitz coupling: indices that are differences of indices, with a literal size.
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form    = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum_pairs(0..4, |j, k| g[k - j - 1] * x[j] * y[k])
-                      + sum(0..4, |j| sum(j..4, |k| x[k - j] * y[k]))
-                      + sum(0..4, |j| sum(0..4 - j, |k| x[j + k] * y[k] * y[j])),
-)]
-#[derive(Clone, Debug)]
-pub struct Toeplitz {
-    /// Coupling by distance.
-    pub g: [f64; 3],
-}
-
-/// The same sums for any size, and an index that stays in range because i < j.
+/// Indices that are differences of indices, and one that stays in range because i < j.
 #[degenerate_lagrangian(
     coordinates(x[N], y[N]),
     one_form    = sum(0..N, |j| x[j] * d(y[j])),

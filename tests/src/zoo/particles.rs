@@ -22,24 +22,6 @@ pub struct SphereVortices<const N: usize> {
     pub gamma: [f64; N],
 }
 
-/// A particle without mass in the plane: α is the vector potential of B = b (1 + ε cos x cos y + y²/2),
-/// H the electric potential.
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form    = -b * (y / 2.0 + y.powi(3) / 6.0) * d(x)
-                      + b * (x / 2.0 + ripple * x.sin() * y.cos()) * d(y),
-    hamiltonian = e * (x.cos() * (2.0 * y).cos() - x * y) + (-(x * x + y * y)).exp(),
-)]
-#[derive(Clone, Debug)]
-pub struct PlaneParticle {
-    /// Strength of the magnetic field.
-    pub b: f64,
-    /// Its ripple ε.
-    pub ripple: f64,
-    /// Strength of the electric field.
-    pub e: f64,
-}
-
 /// A guiding centre (x, y, z) with parallel velocity u: α = (A + u b)·dx with a unit vector b that
 /// turns with the radius, so that Ω is dense.
 #[degenerate_lagrangian(

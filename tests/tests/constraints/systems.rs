@@ -1,24 +1,9 @@
-//! Systems with constraints, each with its constraints written a second time.
+//! Systems with constraints.
 
+use dvi_core::Scalar;
 use dvi_core::field::{Axis, Spline};
 use dvi_core::prelude::*;
-use dvi_core::{HolonomicLagrangian, NondegenerateLagrangian, Scalar};
 use dvi_tests::Outcome;
-use dvi_tests::zoo::constrained::Pendulum;
-use num_dual::HyperDual64;
-
-pub(super) use crate::derivatives::oracle::Number;
-
-/// A system and its g, written a second time.
-pub(crate) trait ByHand: HolonomicLagrangian + NondegenerateLagrangian<HyperDual64> {
-    fn by_hand<D: Number>(&self, q: &[D], t: D) -> Vec<D>;
-}
-
-impl ByHand for Pendulum {
-    fn by_hand<D: Number>(&self, q: &[D], _: D) -> Vec<D> {
-        vec![q[0] * q[0] + q[1] * q[1] - self.length * self.length]
-    }
-}
 
 /// A pendulum whose pivot moves, with a force and a mass that depends on the position.
 #[lagrangian(
@@ -35,23 +20,6 @@ pub(crate) struct Driven {
     pub(crate) amplitude: f64,
 }
 
-impl ByHand for Driven {
-    fn by_hand<D: Number>(&self, q: &[D], t: D) -> Vec<D> {
-        let pivot = (t * 3.0).sin() * self.amplitude;
-        let (dx, dy) = (q[0] - pivot, q[1] - t * t);
-        vec![(dx * dx + dy * dy).sqrt() - 1.5]
-    }
-}
-
-/// The squared distances of neighbours, less those of the rods between them.
-fn chain<D: Number>(q: &[D], n: usize, length: impl Fn(usize) -> f64) -> Vec<D> {
-    let rod = |i: usize| {
-        let (dx, dy) = (q[i + 1] - q[i], q[n + i + 1] - q[n + i]);
-        dx * dx + dy * dy - length(i) * length(i)
-    };
-    (0..n.saturating_sub(1)).map(rod).collect()
-}
-
 /// A chain of three.
 #[lagrangian(
     coordinates(x[3], y[3]),
@@ -60,12 +28,6 @@ fn chain<D: Number>(q: &[D], n: usize, length: impl Fn(usize) -> f64) -> Vec<D> 
 )]
 #[derive(Clone, Debug)]
 pub(crate) struct Three;
-
-impl ByHand for Three {
-    fn by_hand<D: Number>(&self, q: &[D], _: D) -> Vec<D> {
-        chain(q, 3, |_| 1.0)
-    }
-}
 
 /// A chain of const length.
 #[lagrangian(
@@ -76,12 +38,6 @@ impl ByHand for Three {
 #[derive(Clone, Debug)]
 pub(crate) struct Chain<const N: usize> {
     pub(crate) rods: Vec<f64>,
-}
-
-impl<const N: usize> ByHand for Chain<N> {
-    fn by_hand<D: Number>(&self, q: &[D], _: D) -> Vec<D> {
-        chain(q, N, |i| self.rods[i])
-    }
 }
 
 /// A chain of run-time length between two walls, its constraints before, between and behind those of the
@@ -101,19 +57,6 @@ pub(crate) struct Hung {
     pub(crate) rods: Vec<f64>,
 }
 
-impl ByHand for Hung {
-    fn by_hand<D: Number>(&self, q: &[D], t: D) -> Vec<D> {
-        let n = self.rods.len() + 1;
-        let mut g = vec![q[0] - t * 0.1];
-        g.extend(chain(q, n, |i| self.rods[i]));
-        g.push(q[n]);
-        g.push((0..n).map(|j| q[j] * q[n + j] * j as f64).sum::<D>() - 1.0);
-        g.extend((0..self.rods.len().saturating_sub(2)).map(|k| q[k] * q[k + 2] * t));
-        g.push(q[n - 1] * q[2 * n - 1]);
-        g
-    }
-}
-
 /// As many constraints as particles, and two more.
 #[lagrangian(
     coordinates(x[N], y[N], w),
@@ -123,15 +66,6 @@ impl ByHand for Hung {
 )]
 #[derive(Clone, Debug)]
 pub(crate) struct Linked<const N: usize>;
-
-impl<const N: usize> ByHand for Linked<N> {
-    fn by_hand<D: Number>(&self, q: &[D], _: D) -> Vec<D> {
-        let w = q[2 * N];
-        let mut g = vec![w - q[..N].iter().copied().sum::<D>(), w * w * (q[0] + q[N])];
-        g.extend((0..N).map(|i| q[i] * q[i] + q[N + (i + 1) % N].cos() - w));
-        g
-    }
-}
 
 fn track<T: Scalar>(x: T) -> T {
     (x * T::lift(2.0)).sin()

@@ -70,9 +70,6 @@ impl ByHand for Driven {
         let body = |j: usize| (x[j] * x[j] + y[j] * y[j]) / 2.0 - (x[j] - phase).cos() * (j + 1) as f64;
         (0..3).map(body).sum::<D>() + x[0] * y[2] / t.exp()
     }
-    fn integrals<D: Number>(&self, q: &[D], t: D) -> Vec<D> {
-        vec![(0..3).map(|j| q[j] - t * q[3 + j] * q[3 + j]).sum()]
-    }
 }
 
 impl ByHand for OwnFunction {

@@ -1,47 +1,8 @@
-//! Correlated indices, sizes that are sums, fields of fields, `min` and `max` by hand.
+//! Sizes that are sums, fields of fields, `min` and `max` by hand.
 
-use dvi_tests::zoo::language::{Corners, Neighbours, Nested, Toeplitz};
+use dvi_tests::zoo::language::{Corners, Nested};
 
 use crate::derivatives::oracle::{ByHand, Number};
-
-impl ByHand for Toeplitz {
-    fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
-        [[D::zero(); 4], std::array::from_fn(|j| q[j])].concat()
-    }
-    fn energy<D: Number>(&self, q: &[D], _t: D) -> D {
-        let (x, y) = q.split_at(4);
-        let mut sum = D::zero();
-        for k in 0..4 {
-            for j in 0..=k {
-                if j < k {
-                    sum += x[j] * y[k] * self.g[k - j - 1];
-                }
-                sum += x[k - j] * y[k] + x[k] * y[k - j] * y[j];
-            }
-        }
-        sum
-    }
-}
-
-impl<const N: usize> ByHand for Neighbours<N> {
-    fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
-        std::iter::repeat_n(D::zero(), N).chain((0..N).map(|j| q[j])).collect()
-    }
-    fn energy<D: Number>(&self, q: &[D], _t: D) -> D {
-        let (x, y) = q.split_at(N);
-        let mut sum = D::zero();
-        for k in 0..N {
-            for j in 0..=k {
-                if j < k {
-                    sum +=
-                        x[j + 1] * x[k] * self.g[j + 1] + x[j] * y[k] * y[j + 1].cos() * self.g[k - j - 1];
-                }
-                sum += x[k - j] * y[k];
-            }
-        }
-        sum
-    }
-}
 
 impl<const N: usize> ByHand for Nested<N> {
     fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {

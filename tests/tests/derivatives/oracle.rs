@@ -1,4 +1,4 @@
-//! The oracle: formulas written by hand, differentiated by `num-dual`, against every generated function.
+//! The oracle: formulas written by hand, differentiated by `num-dual`.
 //!
 //! Tolerance: one unit in the last place of a coordinate changes a k-th derivative by about ε times the
 //! (k+1)-th, and adding up its terms changes it by about ε times its own size. So a k-th derivative may
@@ -8,7 +8,7 @@
 use dvi_core::space::sink::Dense;
 use dvi_core::{DegenerateLagrangian, Lagrangian, Space, Weights};
 use dvi_tests::larger;
-use num_dual::{Dual64, DualNum, HyperDual64};
+use num_dual::{DualNum, HyperDual64};
 
 pub(crate) const UNITS: f64 = 16.0;
 const POINTS: usize = 25;
@@ -17,24 +17,10 @@ const POINTS: usize = 25;
 pub(crate) trait Number: DualNum<Primitive = f64> + Copy {}
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
-/// A system and its L, written a second time.
-pub(crate) trait Action: Lagrangian + Lagrangian<f32> + Lagrangian<HyperDual64> {
-    fn action<D: Number>(&self, q: &[D], v: &[D], t: D) -> D;
-}
-
-impl<S: ByHand> Action for S {
-    fn action<D: Number>(&self, q: &[D], v: &[D], t: D) -> D {
-        self.whole(q, v, t)
-    }
-}
-
 /// A degenerate system and its formulas, written a second time.
 pub(crate) trait ByHand: DegenerateLagrangian + Lagrangian<f32> + Lagrangian<HyperDual64> {
     fn alpha<D: Number>(&self, q: &[D], t: D) -> Vec<D>;
     fn energy<D: Number>(&self, q: &[D], t: D) -> D;
-    fn integrals<D: Number>(&self, _q: &[D], _t: D) -> Vec<D> {
-        Vec::new()
-    }
     /// α·v − H, or L as it is declared.
     fn whole<D: Number>(&self, q: &[D], v: &[D], t: D) -> D {
         self.alpha(q, t).iter().zip(v).map(|(&a, &v)| a * v).sum::<D>() - ByHand::energy(self, q, t)
@@ -66,27 +52,6 @@ impl Random {
         let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         low + (high - low) * ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
-}
-
-/// Values of f and the derivative of each by each of q, then by t: `derivatives[f][variable]`.
-pub(crate) fn differentiated(q: &[f64], t: f64, f: &dyn Fn(&[Dual64], Dual64) -> Vec<Dual64>) -> Jacobian {
-    let n = q.len();
-    let columns: Vec<Vec<Dual64>> = (0..=n)
-        .map(|along| {
-            let seed = |i: usize, value: f64| Dual64::new(value, f64::from(u8::from(i == along)));
-            let point: Vec<Dual64> = q.iter().enumerate().map(|(i, &value)| seed(i, value)).collect();
-            f(&point, seed(n, t))
-        })
-        .collect();
-    let values = columns[0].iter().map(|value| value.re).collect();
-    let derivatives =
-        (0..columns[0].len()).map(|row| columns.iter().map(|column| column[row].eps).collect()).collect();
-    Jacobian { values, derivatives }
-}
-
-pub(crate) struct Jacobian {
-    pub(crate) values: Vec<f64>,
-    pub(crate) derivatives: Vec<Vec<f64>>,
 }
 
 /// L with its first derivatives and its second ones, row-major, by (q, v).
@@ -151,17 +116,14 @@ pub(crate) fn agrees<S: ByHand>(system: &S) {
         let place = Place { system: S::REPORT.system, q: &q, epsilon: f64::EPSILON };
         lagrangian(system, &place, &v, t, &mut random);
         single_precision(system, &place, &v, t);
-        hamiltonian(system, &place, t);
-        one_form(system, &place, t, &mut random);
-        momenta(system, &place, t);
     }
 }
 
 /// Value, gradient and all four blocks of the second derivative of L.
-pub(crate) fn lagrangian<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t: f64, random: &mut Random) {
+pub(crate) fn lagrangian<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64, random: &mut Random) {
     let (q, n) = (place.q, place.q.len());
     let variables = [q, v].concat();
-    let expected = expanded(&variables, &|z| system.action(&z[..n], &z[n..], HyperDual64::from(t)));
+    let expected = expanded(&variables, &|z| system.whole(&z[..n], &z[n..], HyperDual64::from(t)));
     let [second, first] = [largest(&expected.hessian), largest(&expected.gradient)];
     let value = system.lagrangian(q, v, t);
     place.compare("L", &[value], &[expected.value], larger(first, expected.value.abs()));
@@ -192,7 +154,7 @@ pub(crate) fn lagrangian<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t:
 }
 
 /// The same at f32. Coordinates are rounded first, so that both sides see the same point.
-pub(crate) fn single_precision<S: Action>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
+pub(crate) fn single_precision<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64) {
     let n = place.q.len();
     let single = |values: &[f64]| values.iter().map(|&value| value as f32).collect::<Vec<f32>>();
     let double = |values: &[f32]| values.iter().map(|&value| f64::from(value)).collect::<Vec<f64>>();
@@ -200,7 +162,7 @@ pub(crate) fn single_precision<S: Action>(system: &S, place: &Place<'_>, v: &[f6
     let place = Place { q: &double(&q), epsilon: f64::from(f32::EPSILON), ..*place };
     let variables = [double(&q), double(&v)].concat();
     let expected =
-        expanded(&variables, &|z| system.action(&z[..n], &z[n..], HyperDual64::from(f64::from(t))));
+        expanded(&variables, &|z| system.whole(&z[..n], &z[n..], HyperDual64::from(f64::from(t))));
     let scale = larger(largest(&expected.hessian), largest(&expected.gradient));
     let (mut l_q, mut l_v, mut matrix) = (vec![0.0; n], vec![0.0; n], vec![0.0; n * n]);
     let w = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
@@ -208,66 +170,4 @@ pub(crate) fn single_precision<S: Action>(system: &S, place: &Place<'_>, v: &[f6
     place.compare("gradient in f32", &double(&[l_q, l_v].concat()), &expected.gradient, scale);
     let block: Vec<f64> = (0..n * n).map(|at| expected.hessian[2 * n * (at / n) + at % n]).collect();
     place.compare("linearize in f32", &double(&matrix), &block, scale);
-}
-
-/// H, its gradient, and the right side of the flow.
-fn hamiltonian<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
-    let (q, n) = (place.q, place.q.len());
-    let energy = differentiated(q, t, &|q, t| vec![ByHand::energy(system, q, t)]);
-    let alpha = differentiated(q, t, &|q, t| system.alpha(q, t));
-    let gradient = &energy.derivatives[0][..n];
-    let second = expanded(q, &|q| ByHand::energy(system, q, HyperDual64::from(t))).hessian;
-    let scale = larger(largest(gradient), energy.values[0].abs());
-    place.compare("H", &[system.hamiltonian(q, t)], &energy.values, scale);
-    let mut out = vec![f64::NAN; n];
-    system.hamiltonian_gradient(q, t, &mut out);
-    let scale = larger(largest(gradient), largest(&second));
-    place.compare("∇H", &out, gradient, scale);
-    let rates: Vec<f64> = alpha.derivatives.iter().map(|row| row[n]).collect();
-    let source: Vec<f64> = gradient.iter().zip(&rates).map(|(h, a)| h + a).collect();
-    out.fill(f64::NAN);
-    system.flow_source(q, t, &mut out);
-    place.compare("∇H + ∂α/∂t", &out, &source, larger(scale, largest(&alpha.derivatives.concat())));
-}
-
-/// α, a Dα + b (Dα)ᵀ, and its entries at the conjugates.
-fn one_form<S: ByHand>(system: &S, place: &Place<'_>, t: f64, random: &mut Random) {
-    let (q, n) = (place.q, place.q.len());
-    let alpha = differentiated(q, t, &|q, t| system.alpha(q, t));
-    let scale = larger(larger(largest(&alpha.derivatives.concat()), largest(&alpha.values)), 1.0);
-    let mut out = vec![f64::NAN; n];
-    system.one_form(q, t, &mut out);
-    place.compare("α", &out, &alpha.values, scale);
-
-    let (a, b) = (random.between(-1.0, 1.0), random.between(-1.0, 1.0));
-    let before: Vec<f64> = (0..n * n).map(|_| random.between(-1.0, 1.0)).collect();
-    let combined = |i: usize, j: usize| a * alpha.derivatives[i][j] + b * alpha.derivatives[j][i];
-    let expected: Vec<f64> = (0..n * n).map(|at| before[at] + combined(at / n, at % n)).collect();
-    let mut matrix = before;
-    system.one_form_jacobian(q, t, a, b, &mut Dense::new(&mut matrix, n));
-    place.compare("a Dα + b (Dα)ᵀ", &matrix, &expected, scale);
-
-    out.fill(f64::NAN);
-    system.conjugate_entries(q, t, a, b, &mut out);
-    let at_partner: Vec<f64> =
-        (0..n).map(|i| if S::CANONICAL { combined(i, system.conjugate(i)) } else { 0.0 }).collect();
-    place.compare("conjugate entries", &out, &at_partner, scale);
-}
-
-/// The declared momenta and their gradients.
-fn momenta<S: ByHand>(system: &S, place: &Place<'_>, t: f64) {
-    let (q, n) = (place.q, place.q.len());
-    if S::REPORT.momenta.is_empty() {
-        return;
-    }
-    let expected = differentiated(q, t, &|q, t| system.integrals(q, t));
-    assert_eq!(expected.values.len(), S::REPORT.momenta.len());
-    for (index, (value, derivatives)) in expected.values.iter().zip(&expected.derivatives).enumerate() {
-        let scale = larger(largest(derivatives), value.abs());
-        place.compare("momentum", &[system.momentum(index, q, &[], t)], &[*value], scale);
-        let mut out = vec![f64::NAN; n];
-        system.momentum_gradient(index, q, t, &mut out);
-        let second = expanded(q, &|q| system.integrals(q, HyperDual64::from(t))[index]).hessian;
-        place.compare("momentum gradient", &out, &derivatives[..n], larger(largest(&second), scale));
-    }
 }

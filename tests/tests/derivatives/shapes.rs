@@ -17,9 +17,6 @@ impl ByHand for Chain {
             (1..self.n).map(|j| ((angle[j] - angle[j - 1]) / 2.0).sin().powi(2) * self.k[j - 1]).sum();
         pendula + springs * 2.0
     }
-    fn integrals<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
-        vec![q[self.n..].iter().copied().sum()]
-    }
 }
 
 impl<const N: usize> ByHand for Borrowing<'_, N> {

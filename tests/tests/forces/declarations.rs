@@ -7,7 +7,7 @@ use dvi_core::{IndexError, OutsideError, ScalarField};
 use super::Outcome;
 use dvi_laws::systems::{Damped, Harvested, Pulled, Swirl, SwirlState};
 
-/// The same forces as a list and one by one, with arrays of run-time size.
+/// Forces as a list, with arrays of run-time size.
 #[lagrangian(
     coordinates(x[n], y),
     lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0) + dot(y).powi(2) / 2.0,
@@ -17,30 +17,6 @@ use dvi_laws::systems::{Damped, Harvested, Pulled, Swirl, SwirlState};
 struct Listed {
     n: usize,
     c: Vec<f64>,
-}
-
-#[lagrangian(
-    coordinates(x[n], y),
-    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0) + dot(y).powi(2) / 2.0,
-    force(y) = -y * t,
-    force(x) = |k| -c[k] * dot(x[k]) + x[(k + 1) % n],
-)]
-#[derive(Clone, Debug)]
-struct OneByOne {
-    n: usize,
-    c: Vec<f64>,
-}
-
-#[test]
-fn a_list_is_the_same_as_one_force_after_the_other() {
-    let c = vec![0.1, 0.2, 0.3];
-    let (listed, one_by_one) = (Listed { n: 3, c: c.clone() }, OneByOne { n: 3, c });
-    let (q, v) = ([0.3, -0.2, 0.5, 0.7], [1.0, 2.0, 3.0, 4.0]);
-    let (mut a, mut b) = ([7.0; 4], [7.0; 4]);
-    listed.applied_force(&q, &v, 2.0, &mut a);
-    one_by_one.applied_force(&q, &v, 2.0, &mut b);
-    assert_eq!(a, b);
-    assert_eq!(a, [-0.1 * 1.0 + -0.2, -0.2 * 2.0 + 0.5, -0.3 * 3.0 + 0.3, -0.7 * 2.0]);
 }
 
 #[test]

@@ -85,40 +85,6 @@ fn it_is_the_force_that_is_written_by_hand() -> Outcome {
     Ok(())
 }
 
-/// Bodies whose force is the same expression either way.
-#[lagrangian(
-    coordinates(x[N]),
-    lagrangian = sum(0..N, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(4)),
-    dissipation = sum(0..N, |i| c * dot(x[i]).powi(2) / 2.0),
-)]
-#[derive(Clone, Debug)]
-struct Alone<const N: usize> {
-    c: f64,
-}
-
-#[lagrangian(
-    coordinates(x[N]),
-    lagrangian = sum(0..N, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(4)),
-    force(x) = |i| -c * dot(x[i]),
-)]
-#[derive(Clone, Debug)]
-struct AloneByHand<const N: usize> {
-    c: f64,
-}
-
-#[test]
-fn the_same_force_is_the_same_to_the_last_bit() -> Outcome {
-    let (x, dot_x) = ([0.3, -0.2, 0.5], [1.0, 2.0, 4.0]);
-    let mut run =
-        Integrator::new(&Alone { c: 0.3 }, Variational::midpoint(), 0.05, AloneState { x, dot_x })?;
-    let start = AloneByHandState { x, dot_x };
-    let mut by_hand = Integrator::new(&AloneByHand { c: 0.3 }, Variational::midpoint(), 0.05, start)?;
-    run.take_steps(200)?;
-    by_hand.take_steps(200)?;
-    assert_eq!((run.state().x, run.state().dot_x), (by_hand.state().x, by_hand.state().dot_x));
-    Ok(())
-}
-
 /// Drag of the square of the speed, as a function and as a force.
 #[lagrangian(
     coordinates(r[3]),
@@ -138,20 +104,6 @@ struct Dragged {
 #[derive(Clone, Debug)]
 struct Braked {
     c: f64,
-}
-
-#[test]
-fn drag_of_the_square_of_the_speed_slows_down_as_its_closed_form() -> Outcome {
-    let start = DraggedState { r: [0.0; 3], dot_r: [0.6, 0.0, 0.8] };
-    let mut run = Integrator::new(Dragged { c: 0.5 }, Galerkin::<4>::new(), 0.1, start)?;
-    run.take_steps(100)?;
-    // v = 1/(1 + c t), r = ln(1 + c t)/c
-    let (speed, way) = (1.0 / 6.0, 2.0 * 6.0_f64.ln());
-    for (axis, along) in [0.6, 0.0, 0.8].into_iter().enumerate() {
-        assert!((run.state().dot_r[axis] - speed * along).abs() < 1e-9);
-        assert!((run.state().r[axis] - way * along).abs() < 1e-9);
-    }
-    Ok(())
 }
 
 /// |v| v has the derivative 0 at v = 0, though that of |v| does not exist there.

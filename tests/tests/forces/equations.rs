@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Vector4};
 use num_dual::Dual64;
 
 use super::Outcome;
-use dvi_laws::systems::{Canonical, Damped, Harvested, Pulled, PulledState, Swirl, SwirlState};
+use dvi_laws::systems::{Canonical, Damped, Harvested, Pulled, Swirl, SwirlState};
 use dvi_tests::zoo::regular::KEPLER;
 
 const DAMPED: Damped = Damped { gamma: 0.3 };
@@ -103,27 +103,6 @@ fn the_energy_changes_by_the_work_of_the_forces() -> Outcome {
     let canonical = Canonical { n: 1, k: 1.0, gamma: 0.2 };
     assert!(balance(&canonical, OneStepGauss::<3>::new(), [&[1.0, 0.4], &[]], 200)? < 1e-8);
     assert!(balance(&Harvested { harvest: 0.1 }, Gauss::<3>::new(), [&[1.4, 1.7], &[]], 200)? < 1e-8);
-    Ok(())
-}
-
-/// Matrices of Newton's method hold the derivatives of the forces: two iterations are enough for most steps.
-#[test]
-fn newtons_method_knows_the_derivatives_of_the_forces() -> Outcome {
-    fn iterations<M: Method<Pulled, f64>>(method: M) -> Outcome<f64> {
-        let system = Pulled { drag: [0.5, 0.8] };
-        let start = PulledState { u: 0.3, z: [-0.2, 0.5], dot_u: 0.4, dot_z: [0.6, 0.7] };
-        let mut run = Integrator::new(&system, method, 0.2, start)?;
-        run.take_steps(100)?;
-        Ok(run.statistics().iterations as f64 / 100.0)
-    }
-    for found in [
-        iterations(Variational::midpoint())?,
-        iterations(Variational::trapezoid())?,
-        iterations(Galerkin::<3>::new())?,
-        iterations(Galerkin::<5>::new())?,
-    ] {
-        assert!(found < 2.6, "{found}");
-    }
     Ok(())
 }
 

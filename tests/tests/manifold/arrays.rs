@@ -1,14 +1,13 @@
 //! Arrays of rotations and unit vectors: sizes of each kind against single names, motion by hand, what is
 //! conserved, and what knows of the entries.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
+use approx::assert_abs_diff_eq;
 use dvi_core::error::StepFailure;
 use dvi_core::prelude::*;
 use dvi_core::record::Record;
 use dvi_core::record::Recorder;
 use dvi_core::rotations;
 
-use super::reference;
 use dvi_tests::Outcome;
 use dvi_tests::zoo::manifold::{cross, dot};
 
@@ -201,52 +200,6 @@ fn rotors<const N: usize>() -> RotorsState<N> {
     };
     let s = core::array::from_fn(unit);
     RotorsState { s, dot_s: core::array::from_fn(|i| cross([0.3, 0.2 * i as f64, 0.5], s[i])) }
-}
-
-/// s̈ᵢ = −J(sᵢ₋₁ + sᵢ₊₁) + λ sᵢ with s·s̈ = −|ṡ|², for three rotors.
-fn by_hand(j: f64) -> impl Fn(&[f64; 18]) -> [f64; 18] {
-    move |y| {
-        let part = |k: usize| [y[3 * k], y[3 * k + 1], y[3 * k + 2]];
-        let mut rates = [0.0; 18];
-        for i in 0..3 {
-            let (s, v, [a, b]) = (part(i), part(3 + i), [(i + 1) % 3, (i + 2) % 3].map(part));
-            let pull: [f64; 3] = core::array::from_fn(|k| -j * (a[k] + b[k]));
-            let tension = -dot(v, v) - dot(s, pull);
-            for k in 0..3 {
-                (rates[3 * i + k], rates[9 + 3 * i + k]) = (v[k], pull[k] + tension * s[k]);
-            }
-        }
-        rates
-    }
-}
-
-#[test]
-fn rotors_converge_to_motion_by_hand() {
-    let start = rotors::<3>();
-    let mut y = [0.0; 18];
-    y[..9].copy_from_slice(start.s.as_flattened());
-    y[9..].copy_from_slice(start.dot_s.as_flattened());
-    let exact = reference::motion(by_hand(0.8), y, 4.0, 20_000);
-    fn errors(method: impl dvi_core::methods::Method<Rotors<3>, f64> + Copy, exact: &[f64]) -> [f64; 3] {
-        [50_u32, 100, 200].map(|steps| {
-            let mut run = Integrator::new(Rotors { j: 0.8 }, method, 4.0 / f64::from(steps), rotors())
-                .expect("a step that is short enough");
-            run.take_steps(u64::from(steps)).expect("a step that is short enough");
-            let RotorsState { s, dot_s } = run.state();
-            largest(s.as_flattened().iter().chain(dot_s.as_flattened()), exact)
-        })
-    }
-    for (errors, order) in [
-        (errors(Geodesic::trapezoid(), &exact), 2.0),
-        (errors(Geodesic::midpoint(), &exact), 2.0),
-        (errors(Geodesic::new(Quadrature::simpson()), &exact), 2.0),
-        (errors(Composition::suzuki(Geodesic::trapezoid()), &exact), 4.0),
-    ] {
-        for pair in errors.windows(2) {
-            let rate = (pair[0] / pair[1]).log2();
-            assert!(abs_diff_eq!(rate, order, epsilon = 0.2), "order {rate}, {errors:?}");
-        }
-    }
 }
 
 #[test]

@@ -142,50 +142,6 @@ fn a_unit_vector_at_rest_has_no_derivatives_and_a_body_has() -> Outcome {
     Ok(())
 }
 
-/// A body on a chain whose length is known at run time only, or by a constant.
-mod sizes {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x[n], R: SO3),
-        lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(2))
-            + omega(R)[0].powi(2) + 0.8 * omega(R)[1].powi(2) + 0.5 * omega(R)[2].powi(2) + x[0] * R[0][2],
-    )]
-    struct Listed {
-        n: usize,
-    }
-
-    #[lagrangian(
-        coordinates(x[N], R: SO3),
-        lagrangian = sum(0..N, |i| dot(x[i]).powi(2) / 2.0 - x[i].powi(2))
-            + omega(R)[0].powi(2) + 0.8 * omega(R)[1].powi(2) + 0.5 * omega(R)[2].powi(2) + x[0] * R[0][2],
-    )]
-    struct Fixed<const N: usize>;
-
-    #[test]
-    fn all_sizes_take_the_same_steps() -> Outcome {
-        let (R, omega_R) = (rotations::exp([0.3, -0.2, 0.6]), [0.4, 0.9, -0.3]);
-        let [x, dot_x] = [[0.3, -0.1], [0.2, 0.5]];
-        let start = FixedState { x, R, dot_x, omega_R };
-        let mut fixed = Integrator::new(&Fixed::<2>, Geodesic::trapezoid(), 0.1, start)?;
-        let start = ListedState { x: x.to_vec(), R, dot_x: dot_x.to_vec(), omega_R };
-        let mut listed = Integrator::new(&Listed { n: 2 }, Geodesic::trapezoid(), 0.1, start)?;
-        fixed.take_steps(200)?;
-        listed.take_steps(200)?;
-        let (fixed, listed) = (fixed.state(), listed.state());
-        assert_eq!((fixed.x.to_vec(), fixed.R, fixed.omega_R), (listed.x, listed.R, listed.omega_R));
-        let names: Vec<String> = Listed { n: 2 }.names().map(|name| name.to_string()).collect();
-        assert_eq!((names.len(), &names[2][..], &names[13][..]), (16, "R[0]", "omega_R[0]"));
-        let values: Vec<f64> = Fixed::<2>.values(&fixed)?.collect();
-        assert_eq!(values[13..], omega(&fixed));
-        Ok(())
-    }
-
-    fn omega(state: &FixedState<2>) -> [f64; 3] {
-        state.omega_R
-    }
-}
-
 /// The same Lagrangian with the nine entries and the velocities as numbers; the six velocities more have an
 /// energy of their own, and rest.
 #[lagrangian(

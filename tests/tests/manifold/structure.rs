@@ -127,18 +127,6 @@ fn steps_on_the_sphere_preserve_the_canonical_form() {
     }
 }
 
-/// Newton's method converges as it does with the derivative of the equations: two or three iterations a
-/// step.
-#[test]
-fn steps_take_few_iterations() {
-    for rule in [Quadrature::trapezoid(), Quadrature::midpoint()] {
-        let mut run = Integrator::new(&UNEVEN, Geodesic::new(rule), 0.1, tilted([0.7, 1.1, 0.9]))
-            .expect("a step that is short enough");
-        run.take_steps(1000).expect("a step that is short enough");
-        assert!(run.statistics().iterations < 4000, "{:?}", run.statistics());
-    }
-}
-
 /// The step by kicks, and the general one, of a system that is the same but for a term of the size zero.
 #[test]
 fn steps_by_kicks_are_those_of_the_general_equations() {

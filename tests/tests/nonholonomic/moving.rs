@@ -7,38 +7,6 @@ use dvi_tests::larger;
 
 use super::Outcome;
 
-/// A mass that is driven along x with a given speed.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    nonholonomic = dot(x) - speed,
-)]
-#[derive(Clone, Copy, Debug)]
-struct Conveyor {
-    speed: f64,
-}
-
-#[test]
-fn a_given_speed_is_kept() -> Outcome {
-    for (speed, along) in [(1.0, 0.0), (-3.0, 0.0), (2.0, 0.1), (0.1, -5.0), (0.0, 1.0)] {
-        let system = Conveyor { speed };
-        for h in [1e-6, 0.01, 1.0, -0.3] {
-            let start = ConveyorState { x: 0.5, y: -0.2, dot_x: speed, dot_y: along };
-            let mut run = Integrator::new(&system, Constrained::new(Variational::midpoint()), h, start)?;
-            run.take_steps(100)?;
-            let (time, end) = (100.0 * h, run.state());
-            let off = [
-                end.x - 0.5 - speed * time,
-                end.y + 0.2 - along * time,
-                end.dot_x - speed,
-                end.dot_y - along,
-            ];
-            assert!(off.iter().all(|off| off.abs() < 1e-12 * (1.0 + speed.abs() * time.abs())), "{off:?}");
-        }
-    }
-    Ok(())
-}
-
 /// A homogeneous sphere of mass one that rolls on a turntable: the place of its centre, and the angles by
 /// which it has turned about the two axes in the plane, of which only the rates have a meaning. The point of
 /// contact moves with the table.
