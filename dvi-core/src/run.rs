@@ -1,6 +1,5 @@
 //! A run: a system, a method, and where they have got to, whatever chooses the lengths of the steps.
 
-mod begin;
 mod begun;
 mod between;
 mod borrowed;
@@ -17,6 +16,7 @@ mod outside;
 mod resume;
 mod step_control;
 mod stepper;
+mod steps;
 #[cfg(feature = "alloc")]
 mod together;
 
@@ -37,7 +37,7 @@ use events::{Conditions, Declared};
 pub use events::{Direction, Event, Events, Watch};
 pub use integrator::Integrator;
 pub use step_control::{
-    ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, Reversible, StepControl,
+    ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, OneLength, Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;
 #[cfg(feature = "alloc")]

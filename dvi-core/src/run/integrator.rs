@@ -1,19 +1,23 @@
 //! A run: a system, a method, what sets the lengths of its steps, and where they have got to.
 
-use core::fmt;
-
 #[cfg(feature = "alloc")]
 use super::Checkpoint;
-use super::begun::{Begun, begun};
+#[cfg(doc)]
+use super::Run;
+use super::begun::{Begun, BegunOf, begun, carried, point};
 use super::clock::Time;
-use super::{Between, ControlledRun, Run, StepControl, Stepper};
-use crate::error::{StartError, StepError, StepFailure};
 #[cfg(feature = "alloc")]
-use crate::memory::Memory;
-use crate::methods::{Carries, Clock, Method};
-use crate::state::Statistics;
+use super::resume::resumed;
+use super::{Obeys, OneLength, StepControl, Stepper};
+use crate::error::StartError;
+#[cfg(doc)]
+use crate::error::StepFailure;
+#[cfg(doc)]
+use crate::methods::Sigma;
+use crate::methods::{BeginsBetween, Carries, Suits, SuitsAnyStep};
 use crate::system::StateOf;
-use crate::{Held, Lagrangian, Real, Vector};
+use crate::system::start::{evaluate, flatten};
+use crate::{Held, Lagrangian, Real};
 
 /// A run of a method on a system: with steps of one length, or of those that a [`StepControl`] `C` chooses.
 ///
@@ -35,7 +39,7 @@ use crate::{Held, Lagrangian, Real, Vector};
 ///
 /// [`Reversible`](super::Reversible) shows a run under a control. A control reads the velocity; for
 /// L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-pub struct Integrator<H, M, T = f64, C = T>
+pub struct Integrator<H, M, T = f64, C = OneLength<T>>
 where
     H: Held,
     M: Carries<H::System, T>,
@@ -49,12 +53,148 @@ where
     pub(super) time: Time<T>,
 }
 
+impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrator<H, M, T> {
+    /// A run from `start` at time 0 with step `h`, which may be negative.
+    ///
+    /// # Errors
+    /// [`StartError`] if a parameter array of the system or an array of the state has the wrong length,
+    /// `h` is zero or not finite, a coordinate is not finite, an option of the method is out of range,
+    /// the energy or a first derivative of L is not finite at the start ([`StartError::Undefined`]), or the
+    /// starting values cannot be computed.
+    pub fn new<X>(system: H, method: X, h: T, start: StateOf<H, T>) -> Result<Self, StartError>
+    where
+        X: Suits<H::System, T, M>,
+    {
+        Self::new_at(system, method, T::lift(0.0), h, start)
+    }
+
+    /// A run from `start` at time `t`; else as [`new`](Self::new).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and [`StartError::Parameter`] if `t` is not finite.
+    pub fn new_at<X>(system: H, method: X, t: T, h: T, start: StateOf<H, T>) -> Result<Self, StartError>
+    where
+        X: Suits<H::System, T, M>,
+    {
+        let (method, length) = (method.suited(), OneLength(h));
+        let begun = begun(system.held(), X::steps(&method), &length, t, &start)?;
+        Ok(Self::of(system, method, length, begun))
+    }
+
+    /// A run of [`Sigma`] that starts at `first`, time 0, and whose first step leads to `second`.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn from_two_points<X>(
+        system: H,
+        method: X,
+        h: T,
+        first: StateOf<H, T>,
+        second: StateOf<H, T>,
+    ) -> Result<Self, StartError>
+    where
+        X: BeginsBetween<H::System, T, M>,
+    {
+        let (held, t) = (system.held(), T::lift(0.0));
+        let (at, [q1, rest]) = (point(held, t, &first)?, flatten(held, &second)?);
+        evaluate(held, &q1, &rest, t + h)?;
+        let begin = |q0: &_, _: &_, h| method.begin_between(held, q0, &q1, t, h);
+        let length = OneLength(h);
+        let begun =
+            carried::<_, OneLength<T>, _, _>(held, at, t, |q, v| length.begin(held, q, v, t), begin)?;
+        Ok(Self::of(system, method.suited(), length, begun))
+    }
+
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
+    /// [step](Checkpoint::with_step_size) from the same momenta.
+    ///
+    /// # Errors
+    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than this method
+    /// carries on this system, or numbers that no run has.
+    #[cfg(feature = "alloc")]
+    pub fn resume<X>(system: H, method: X, checkpoint: &Checkpoint<T>) -> Result<Self, StartError>
+    where
+        X: Suits<H::System, T, M>,
+    {
+        let (method, length) = (method.suited(), OneLength(checkpoint.step_size()));
+        let begun = resumed(system.held(), X::steps(&method), &length, checkpoint)?;
+        Ok(Self::of(system, method, length, begun))
+    }
+}
+
 impl<H, M, T: Real, C> Integrator<H, M, T, C>
 where
     H: Held<System: Lagrangian<T>>,
     M: Carries<H::System, T>,
     C: Carries<H::System, T>,
 {
+    /// A run from `start` at time 0 with steps that `control` chooses.
+    ///
+    /// # Errors
+    /// As [`new`](Integrator::new), and [`StartError`] if an option of the control is out of range, or it
+    /// does not go with the system or with the method.
+    pub fn controlled<X, Y>(
+        system: H,
+        method: X,
+        control: Y,
+        start: StateOf<H, T>,
+    ) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
+        Self::controlled_at(system, method, control, T::lift(0.0), start)
+    }
+
+    /// A run from `start` at time `t`; else as [`controlled`](Self::controlled).
+    ///
+    /// # Errors
+    /// As [`controlled`](Self::controlled), and [`StartError::Parameter`] if `t` is not finite.
+    pub fn controlled_at<X, Y>(
+        system: H,
+        method: X,
+        control: Y,
+        t: T,
+        start: StateOf<H, T>,
+    ) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
+        let (method, control) = (method.suited(), M::suited(control));
+        let begun = begun(system.held(), X::steps(&method), M::lengths(&control), t, &start)?;
+        Ok(Self::of(system, method, control, begun))
+    }
+
+    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped. What a control
+    /// carries from step to step, the length and the direction of the next step among it, is that of the
+    /// checkpoint.
+    ///
+    /// # Errors
+    /// As [`controlled_at`](Self::controlled_at), and [`StartError::Checkpoint`] if it has more or less than
+    /// method and control carry on this system, or numbers that no run has.
+    #[cfg(feature = "alloc")]
+    pub fn resume_controlled<X, Y>(
+        system: H,
+        method: X,
+        control: Y,
+        checkpoint: &Checkpoint<T>,
+    ) -> Result<Self, StartError>
+    where
+        X: SuitsAnyStep<H::System, T, M>,
+        M: Obeys<Y, H::System, T, C>,
+    {
+        let (method, control) = (method.suited(), M::suited(control));
+        let begun = resumed(system.held(), X::steps(&method), M::lengths(&control), checkpoint)?;
+        Ok(Self::of(system, method, control, begun))
+    }
+
+    pub(super) fn of(system: H, method: M, control: C, begun: BegunOf<H::System, M::Memory, C, T>) -> Self {
+        let Begun { q, memory, kept, control_memory, time, statistics } = begun;
+        let stepper = Stepper { method, memory, q, statistics, failed: false, kept, points: None };
+        Self { system, stepper, control, control_memory, time }
+    }
+
     /// The method that takes the steps.
     #[inline]
     pub fn method(&self) -> &M {
@@ -94,153 +234,5 @@ where
     /// [`ErrorControl`](super::ErrorControl) the `error()` of the last step in units of the tolerance.
     pub fn control_memory(&self) -> &C::Memory {
         &self.control_memory
-    }
-}
-
-impl<H, M, T: Real, C> Run for Integrator<H, M, T, C>
-where
-    H: Held<System: Lagrangian<T>>,
-    M: Method<H::System, T>,
-    C: StepControl<H::System, T>,
-{
-    type System = H::System;
-    type Scalar = T;
-
-    #[inline]
-    fn system(&self) -> &H::System {
-        self.system.held()
-    }
-
-    #[inline]
-    fn between(&mut self) -> (&H::System, &mut dyn Between<H::System, T>) {
-        (self.system.held(), &mut self.stepper)
-    }
-
-    #[inline]
-    fn q(&self) -> &[T] {
-        &self.stepper.q
-    }
-
-    fn v(&self) -> Vector<H::System, T> {
-        self.stepper.known_velocity(self.system(), self.time())
-    }
-
-    #[inline]
-    fn statistics(&self) -> Statistics {
-        self.stepper.statistics
-    }
-
-    #[inline]
-    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-        let Self { system, stepper, control, control_memory, time } = self;
-        let mut run = ControlledRun { system: system.held(), stepper, time };
-        control.steps(control_memory, &mut run, count).map_err(|failure| self.error(failure))
-    }
-
-    #[cfg(feature = "alloc")]
-    fn checkpoint(&self) -> Checkpoint<T> {
-        Checkpoint::of(self.system(), &self.stepper, [self.time(), self.step_size()], |record| {
-            self.control_memory.save(record);
-            self.time.save(record);
-        })
-    }
-
-    /// Of steps of one length t₀ + steps · h, of others their sum, compensated: rounding errors do not add
-    /// up.
-    #[inline]
-    fn time(&self) -> T {
-        self.present().time()
-    }
-
-    #[inline]
-    fn step_size(&self) -> T {
-        self.time.h
-    }
-
-    #[inline]
-    fn clock(&self) -> Option<Clock<T>> {
-        C::ONE_LENGTH.then(|| self.present())
-    }
-
-    fn set_state(&mut self, t: T, state: StateOf<H, T>) -> Result<(), StartError> {
-        let Self { system, stepper: Stepper { method, memory, statistics, .. }, control, .. } = &*self;
-        let Begun { q, memory: begun, kept, control_memory, time, .. } =
-            begun(system.held(), method, control, t, &state)?;
-        let (memory, steps) = (method.begun_anew(memory, begun), statistics.steps);
-        let stepper = &mut self.stepper;
-        (stepper.q, stepper.memory, stepper.kept, stepper.failed) = (q, memory, kept, false);
-        (self.control_memory, self.time) = (control_memory, Time::new(t, time.h, steps));
-        Ok(())
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Integrator<H, M, T, C>
-where
-    C: StepControl<S, T>,
-{
-    /// The clock at the present time.
-    #[inline]
-    pub(super) fn present(&self) -> Clock<T> {
-        self.time.after(self.stepper.statistics.steps)
-    }
-
-    /// Whether steps may be taken many at once, without a look at the end of each.
-    #[cfg(feature = "alloc")]
-    pub(super) fn is_unwatched(&self) -> bool {
-        self.stepper.kept.is_none()
-    }
-
-    #[cold]
-    fn error(&mut self, failure: StepFailure) -> StepError {
-        let (time, h) = (self.time(), self.step_size());
-        self.stepper.error(self.system.held(), time, h, failure)
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Iterator for Integrator<H, M, T, C>
-where
-    C: StepControl<S, T>,
-{
-    type Item = Result<S::State<T>, StepError>;
-
-    #[inline]
-    fn next(&mut self) -> Option<Self::Item> {
-        self.nth(0)
-    }
-
-    /// Skips `n` states without building them and yields the next. Unlike elsewhere, a failure on the way is
-    /// not skipped but yielded.
-    #[inline]
-    fn nth(&mut self, n: usize) -> Option<Self::Item> {
-        if self.stepper.failed {
-            return None;
-        }
-        Some(self.take_steps(n as u64 + 1).and_then(|()| {
-            let time = self.time();
-            self.stepper.try_state(self.system.held(), time)
-        }))
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C: StepControl<S, T>>
-    core::iter::FusedIterator for Integrator<H, M, T, C>
-{
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M, T: Real, C> fmt::Debug for Integrator<H, M, T, C>
-where
-    M: Method<S, T> + fmt::Debug,
-    C: StepControl<S, T>,
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Integrator")
-            .field("system", &S::REPORT.system)
-            .field("method", &self.stepper.method)
-            .field("control", &self.control)
-            .field("time", &self.time())
-            .field("step_size", &self.step_size())
-            .field("state", &self.state())
-            .field("statistics", &self.stepper.statistics)
-            .finish_non_exhaustive()
     }
 }

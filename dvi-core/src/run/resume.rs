@@ -1,72 +1,30 @@
 //! How runs go on from checkpoints.
 
-#[cfg(feature = "ensembles")]
-use super::Run;
 use super::begun::{Begun, BegunOf, carried};
 use super::clock::Time;
-use super::{Checkpoint, Integrator, Obeys, StepControl};
+use super::{Checkpoint, StepControl};
+#[cfg(feature = "ensembles")]
+use super::{Integrator, Run};
+#[cfg(feature = "ensembles")]
+use crate::Held;
 use crate::error::{CheckpointError, StartError};
 use crate::memory::Memory;
-use crate::methods::{Carries, Method, Suits, SuitsAnyStep};
+use crate::methods::Method;
 use crate::system::start::validate;
-use crate::{Held, Lagrangian, Real};
+use crate::{Lagrangian, Real};
 
-impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrator<H, M, T> {
-    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another
-    /// [step](Checkpoint::with_step_size) from the same momenta.
-    ///
-    /// # Errors
-    /// As [`new_at`](Self::new_at), and [`StartError::Checkpoint`] if it has more or less than this method
-    /// carries on this system, or numbers that no run has.
-    pub fn resume<X>(system: H, method: X, checkpoint: &Checkpoint<T>) -> Result<Self, StartError>
-    where
-        X: Suits<H::System, T, M>,
-    {
-        let (method, h) = (method.suited(), checkpoint.step_size());
-        let begun = resumed(system.held(), X::steps(&method), &h, checkpoint)?;
-        Ok(Self::of(system, method, h, begun))
-    }
-}
-
+#[cfg(feature = "ensembles")]
 impl<H, M, T: Real, C> Integrator<H, M, T, C>
 where
-    H: Held<System: Lagrangian<T>>,
-    M: Carries<H::System, T>,
-    C: Carries<H::System, T>,
+    H: Held<System: Lagrangian<T>> + Clone,
+    M: Method<H::System, T> + Clone,
+    C: StepControl<H::System, T> + Clone,
 {
-    /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped. What a control
-    /// carries from step to step, the length and the direction of the next step among it, is that of the
-    /// checkpoint.
-    ///
-    /// # Errors
-    /// As [`controlled_at`](Self::controlled_at), and [`StartError::Checkpoint`] if it has more or less than
-    /// method and control carry on this system, or numbers that no run has.
-    pub fn resume_controlled<X, Y>(
-        system: H,
-        method: X,
-        control: Y,
-        checkpoint: &Checkpoint<T>,
-    ) -> Result<Self, StartError>
-    where
-        X: SuitsAnyStep<H::System, T, M>,
-        M: Obeys<Y, H::System, T, C>,
-    {
-        let (method, control) = (method.suited(), M::suited(control));
-        let begun = resumed(system.held(), X::steps(&method), M::lengths(&control), checkpoint)?;
-        Ok(Self::of(system, method, control, begun))
-    }
-
     /// Another run that goes on from `checkpoint`, one of this run or of one like it.
     ///
     /// # Errors
-    /// As [`resume`](Integrator::resume) and [`resume_controlled`](Self::resume_controlled).
-    #[cfg(feature = "ensembles")]
-    pub(crate) fn going_on_from(&self, checkpoint: &Checkpoint<T>) -> Result<Self, StartError>
-    where
-        H: Clone,
-        M: Method<H::System, T> + Clone,
-        C: StepControl<H::System, T> + Clone,
-    {
+    /// As [`Integrator::resume`] and [`Integrator::resume_controlled`].
+    pub(crate) fn going_on_from(&self, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
         if C::ONE_LENGTH && checkpoint.step_size() != self.step_size() {
             return Err(CheckpointError::Damaged.into());
         }
@@ -77,7 +35,7 @@ where
 }
 
 /// From a checkpoint.
-fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: Real>(
+pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: Real>(
     system: &S,
     method: &M,
     control: &C,

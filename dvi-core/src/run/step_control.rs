@@ -28,9 +28,10 @@ use crate::{Lagrangian, Real};
 pub use controlled::ControlledRun;
 pub use energy_momentum::EnergyMomentum;
 pub use error_control::ErrorControl;
+pub use one_length::OneLength;
 pub use reversible::{Density, Reversible};
 
-/// A rule for the length of each step of a run on `S`. A number is one: the length of all steps.
+/// A rule for the length of each step of a run on `S`; [`OneLength`] for all of them is one.
 ///
 /// The control takes the steps itself, so that it sees the run before and after each, and may take one back.
 ///

@@ -1,4 +1,4 @@
-//! Steps of one length, which is a number.
+//! Steps of one length.
 
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
@@ -7,22 +7,26 @@ use crate::scalar::norm::reported;
 use crate::system::start::validate_step;
 use crate::{Lagrangian, Real, System};
 
-impl<S: System, T: Real> Carries<S, T> for T {
+/// The length h of all steps of a run, as [`Integrator::new`](crate::run::Integrator::new) takes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OneLength<T>(pub(in crate::run) T);
+
+impl<S: System, T: Real> Carries<S, T> for OneLength<T> {
     type Memory = ();
 }
 
-impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for T {
+impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for OneLength<T> {
     type Suited<C> = C;
 
     const ONE_LENGTH: bool = true;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<((), T), StartError> {
         self.begin_again(system, q, v, t)?;
-        if t + *self == t { Err(StartError::Step { h: reported(*self) }) } else { Ok(((), *self)) }
+        if t + self.0 == t { Err(StartError::Step { h: reported(self.0) }) } else { Ok(((), self.0)) }
     }
 
     fn begin_again(&self, _system: &S, _q: &[T], _v: &[T], t: T) -> Result<(), StartError> {
-        validate_step(t, *self)
+        validate_step(t, self.0)
     }
 
     fn step<M: Method<S, T>>(
@@ -31,7 +35,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for T {
         run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure> {
-        run.step(t, *self).map(|()| *self)
+        run.step(t, self.0).map(|()| self.0)
     }
 
     /// It is faster than one after the other where a method can keep its state in registers.
