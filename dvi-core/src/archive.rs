@@ -15,14 +15,18 @@ mod error;
 mod file;
 
 use std::any::type_name;
+use std::fmt::Debug;
+use std::format;
 use std::path::Path;
 use std::string::ToString;
 use std::time::{Duration, Instant};
 use std::vec::Vec;
 
 use crate::ensemble::facts::{self, Facts};
-use crate::run::Resume;
+use crate::methods::Method;
+use crate::run::{Integrator, Run, StepControl};
 use crate::state::fingerprint::Fingerprint;
+use crate::{Held, Lagrangian};
 use file::File;
 
 pub use error::{ArchiveError, Difference};
@@ -52,7 +56,8 @@ pub enum Every {
     Time(Duration),
 }
 
-/// A run whose states are kept in a file.
+/// A run whose states are kept in a file: one whose system and step control can be cloned, as a reference and
+/// an `Arc` can.
 ///
 /// ```
 #[doc = include_str!("../docs/hidden/pendulum.txt")]
@@ -89,7 +94,12 @@ pub struct Archive<R> {
     written: Instant,
 }
 
-impl<R: Resume<Scalar = f64>> Archive<R> {
+impl<H, M, C> Archive<Integrator<H, M, f64, C>>
+where
+    H: Held<System: Lagrangian> + Clone,
+    M: Method<H::System, f64> + Clone + Debug,
+    C: StepControl<H::System, f64> + Clone,
+{
     /// The archive of `run` in the file at `path`. If there is none, it is made, with `run` as it is; else
     /// `run` has to be as it was then, and the run goes on where the archive ends. No other process can have
     /// the file at the same time.
@@ -97,11 +107,15 @@ impl<R: Resume<Scalar = f64>> Archive<R> {
     /// # Errors
     /// [`ArchiveError`]: the file cannot be read or written, it is no archive or has changed, it is that of
     /// another run, or another process has it.
-    pub fn new(path: impl AsRef<Path>, run: R, every: Every) -> Result<Self, ArchiveError> {
+    pub fn new(
+        path: impl AsRef<Path>,
+        run: Integrator<H, M, f64, C>,
+        every: Every,
+    ) -> Result<Self, ArchiveError> {
         let (path, first) = (path.as_ref(), run.checkpoint());
         let file = File::open(path, &facts_of(&run), &first)?;
         let run = match file.kept() {
-            [.., last] if last.step != first.statistics().steps => run.resumed(&file.read(*last)?)?,
+            [.., last] if last.step != first.statistics().steps => run.going_on_from(&file.read(*last)?)?,
             _ => run,
         };
         let every = if every == Every::Steps(0) { Every::Steps(1) } else { every };
@@ -109,13 +123,8 @@ impl<R: Resume<Scalar = f64>> Archive<R> {
     }
 
     /// The run, as far as it has come.
-    pub fn run(&self) -> &R {
+    pub fn run(&self) -> &Integrator<H, M, f64, C> {
         &self.run
-    }
-
-    /// The file.
-    pub fn path(&self) -> &Path {
-        self.file.path()
     }
 
     /// The number of steps and the time of each checkpoint.
@@ -174,12 +183,12 @@ impl<R: Resume<Scalar = f64>> Archive<R> {
     ///
     /// # Errors
     /// [`ArchiveError::Steps`] if it has not come so far, or has begun later.
-    pub fn run_after(&self, steps: u64) -> Result<R, ArchiveError> {
+    pub fn run_after(&self, steps: u64) -> Result<Integrator<H, M, f64, C>, ArchiveError> {
         let kept = self.file.kept().iter().take_while(|kept| kept.step <= steps).last();
         let Some(kept) = kept.filter(|_| steps <= self.run.steps()) else {
             return Err(ArchiveError::Steps { steps, reached: self.run.steps() });
         };
-        let mut run = self.run.resumed(&self.file.read(*kept)?)?;
+        let mut run = self.run.going_on_from(&self.file.read(*kept)?)?;
         run.take_steps(steps - kept.step)?;
         Ok(run)
     }
@@ -189,7 +198,7 @@ impl<R: Resume<Scalar = f64>> Archive<R> {
     ///
     /// # Errors
     /// [`ArchiveError::Time`] if it has not come to `t`, or has begun later.
-    pub fn run_at(&self, t: f64) -> Result<R, ArchiveError> {
+    pub fn run_at(&self, t: f64) -> Result<Integrator<H, M, f64, C>, ArchiveError> {
         let is_forward = self.run.step_size() > 0.0;
         let is_reached = |time: f64| if is_forward { time <= t } else { time >= t };
         let is_past = |time: f64| if is_forward { time >= t } else { time <= t };
@@ -197,7 +206,7 @@ impl<R: Resume<Scalar = f64>> Archive<R> {
         let Some(kept) = kept.filter(|_| is_past(self.run.time())) else {
             return Err(ArchiveError::Time { t, reached: self.run.time() });
         };
-        let (mut ahead, mut steps) = (self.run.resumed(&self.file.read(*kept)?)?, kept.step);
+        let (mut ahead, mut steps) = (self.run.going_on_from(&self.file.read(*kept)?)?, kept.step);
         while steps < self.run.steps() {
             ahead.advance()?;
             if !is_reached(ahead.time()) {
@@ -210,19 +219,26 @@ impl<R: Resume<Scalar = f64>> Archive<R> {
 }
 
 /// What tells the archive of `run` from others.
-fn facts_of<R: Resume<Scalar = f64>>(run: &R) -> Facts {
-    let (system, [method, control]) = (run.system(), run.taken_by());
+fn facts_of<H, M, C>(run: &Integrator<H, M, f64, C>) -> Facts
+where
+    H: Held<System: Lagrangian>,
+    M: Method<H::System, f64> + Debug,
+    C: StepControl<H::System, f64>,
+{
+    let system = run.system();
+    // A length is compared with the start.
+    let control: &dyn Debug = if C::ONE_LENGTH { &() } else { run.control() };
     let mut parameters = Fingerprint::new();
     facts::parameters(&mut parameters, system, run.q(), &run.v(), run.time());
     let names: Vec<_> = crate::System::names(system).map(|name| name.to_string()).collect();
     let facts = [
         ("version of the library", env!("CARGO_PKG_VERSION").to_string()),
-        ("system", type_name::<R::System>().to_string()),
+        ("system", type_name::<H::System>().to_string()),
         ("list of coordinates", names.join(" ")),
-        ("fingerprint of the formulas", facts::formulas::<R::System>()),
+        ("fingerprint of the formulas", facts::formulas::<H::System>()),
         ("fingerprint of the parameters and the start", parameters.to_string()),
-        ("method", method),
-        ("step control", control),
+        ("method", format!("{} {:?}", type_name::<M>(), run.method())),
+        ("step control", format!("{control:?}")),
     ];
     facts.into_iter().map(|(what, value)| (what.to_string(), value)).collect()
 }

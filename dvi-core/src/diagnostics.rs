@@ -1,4 +1,4 @@
-//! What can be measured on a run: parasitic modes, preserved two-forms, sections, Lyapunov exponents, work.
+//! What can be measured on a run: preserved two-forms, Lyapunov exponents, work, orders of convergence.
 //!
 //! Energy and momenta are methods of [`Run`](crate::run::Run). The tangent maps here are those of methods
 //! whose discrete Lagrangian can be differentiated twice,
@@ -12,18 +12,12 @@
 //! from the motion has a kink, which [`Curvature`](crate::discrete::Curvature) has on straight paths, the
 //! derivatives are those of no tangent map.
 
-mod alternating;
 mod convergence;
-mod hessian;
 mod lyapunov;
 mod tangent;
-mod two_point;
 mod work;
 
-pub use alternating::AlternatingComponent;
 pub use convergence::convergence_order;
-use hessian::DiscreteHessian;
 pub use lyapunov::LyapunovExponent;
 pub use tangent::TangentMap;
-pub use two_point::TwoPointTangentMap;
 pub use work::Work;

@@ -51,8 +51,8 @@
 //! ```no_run
 //! use dvi_core::ensemble::{Results, Shard};
 //!
-//! let shards = (0..8).map(|index| Results::read(Shard::new(index, 8)?.path("run.ckpt")).map_err(Into::into));
-//! let whole = Results::merge(shards.collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?)?;
+//! let shards = (0..8).map(|index| Results::read(Shard::new(index, 8)?.path("run.ckpt")));
+//! let whole = Results::merge(shards.collect::<Result<Vec<_>, _>>()?)?;
 //! whole.record()?.write_csv(std::fs::File::create("run.csv")?)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -78,7 +78,6 @@ mod rounds;
 pub(crate) mod sealed;
 mod settings;
 mod shard;
-mod table;
 
 use std::borrow::ToOwned;
 use std::boxed::Box;
@@ -86,6 +85,7 @@ use std::fmt;
 use std::format;
 use std::path::Path;
 use std::string::String;
+use std::sync::Arc;
 use std::time::Duration;
 use std::vec::Vec;
 
@@ -94,19 +94,16 @@ use crate::diagnostics::LyapunovExponent;
 use crate::discrete::TwiceDifferentiable;
 use crate::methods::{InStep, Method, Suits, VariationalMethod};
 use crate::run::{Direction, Together};
-use limits::Given;
+use limits::Condition;
 use plan::Plan;
-use rounds::{Checkpoints, Rounds, Work};
+use rounds::{Checkpoints, Rounds};
 use settings::{Settings, Systems};
 
 pub use draws::{Draw, Draws};
-pub use error::{EnsembleError, MergeError};
+pub use error::EnsembleError;
 pub use member::{Member, Outcome};
-#[cfg(feature = "mpi")]
-pub use ranks::RanksError;
 pub use results::Results;
-pub use shard::{Shard, ShardError};
-pub use table::{Table, TableError};
+pub use shard::Shard;
 
 type Tell<'a> = Box<dyn FnMut(&Progress) + Send + 'a>;
 
@@ -196,7 +193,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
             vary: None,
             h,
             stride: 100,
-            limits: None,
+            limits: Vec::new(),
             section: None,
             packs: None,
             growth: None,
@@ -265,8 +262,12 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         reasons: [&'static str; N],
         g: impl Fn(&S, &S::State<f64>, f64) -> [f64; N] + Send + Sync + 'a,
     ) -> Self {
-        self.settings.limits =
-            Some((reasons.into(), Box::new(Given { directions: [Direction::Rising; N], g })));
+        let g = Arc::new(g);
+        let limit = |number: usize| -> Condition<'a, S> {
+            let g = Arc::clone(&g);
+            Box::new(move |system, state, t| g(system, state, t)[number])
+        };
+        self.settings.limits = (0..N).map(|number| (reasons[number], limit(number))).collect();
         self
     }
 
@@ -295,8 +296,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         direction: Direction,
         g: impl Fn(&S, &S::State<f64>) -> f64 + Send + Sync + 'a,
     ) -> Self {
-        let g = move |system: &S, state: &S::State<f64>, _: f64| [g(system, state)];
-        self.settings.section = Some((direction, Box::new(Given { directions: [direction], g })));
+        self.settings.section = Some((direction, Box::new(move |system, state, _| g(system, state))));
         self
     }
 
@@ -380,11 +380,10 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         let checkpoints = self.checkpoints.as_ref();
         let rounds = Rounds::begin(plan, self.shard, checkpoints)?;
         let settings = &self.settings;
-        let work = Work {
-            group: settings.group(),
-            advance: &|group, is_interrupted| settings.advance(group, count, is_interrupted),
+        let advance = |group: &mut [_], is_interrupted: &dyn Fn() -> bool| {
+            settings.advance(group, count, is_interrupted)
         };
-        rounds.run(&work, checkpoints, self.on_progress)
+        rounds.run((settings.group(), &advance), checkpoints, self.on_progress)
     }
 }
 

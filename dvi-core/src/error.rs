@@ -284,20 +284,14 @@ pub enum CheckpointError {
     /// It has numbers or counts that no run has.
     #[error("the checkpoint is damaged: it has numbers or counts that no run has")]
     Damaged,
-    /// It has another number of velocities.
-    #[error("the checkpoint has {found} velocities, but the system has {expected}")]
-    Velocities {
-        /// The dimension of the system, or zero if it is degenerate.
+    /// It has another number of coordinates or velocities.
+    #[error("the checkpoint has {found} {what}, but the system has {expected}")]
+    Size {
+        /// `"coordinates"` or `"velocities"`.
+        what: &'static str,
+        /// How many the system has.
         expected: usize,
-        /// The velocities of the checkpoint.
-        found: usize,
-    },
-    /// It has another number of coordinates.
-    #[error("the checkpoint has {found} coordinates, but the system has {expected}")]
-    Coordinates {
-        /// The dimension of the system.
-        expected: usize,
-        /// The coordinates of the checkpoint.
+        /// How many the checkpoint has.
         found: usize,
     },
 }

@@ -34,7 +34,7 @@ pub trait Memory<T> {
     /// # Errors
     /// [`CheckpointError`] if the record does not have what belongs here.
     #[cfg(feature = "alloc")]
-    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError>;
+    fn load(&mut self, record: &mut Record<T>) -> Result<(), CheckpointError>;
 }
 
 #[cfg(feature = "alloc")]
@@ -45,24 +45,26 @@ impl<T, R: Memory<T>> Memory<T> for Aside<R> {
     fn save(&self, record: &mut Record<T>) {
         (**self).save(record);
     }
-    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        (**self).load(reader)
+    fn load(&mut self, record: &mut Record<T>) -> Result<(), CheckpointError> {
+        (**self).load(record)
     }
 }
 
-/// Numbers and counts, in the order in which a run lists what it carries.
+/// Numbers and counts, in the order in which a run lists what it carries, and how far they have been read.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Record<T> {
     numbers: Vec<T>,
     counts: Vec<u64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    read: [usize; 2],
 }
 
 #[cfg(feature = "alloc")]
 impl<T: Copy> Record<T> {
     pub(crate) fn new() -> Self {
-        Self { numbers: Vec::new(), counts: Vec::new() }
+        Self { numbers: Vec::new(), counts: Vec::new(), read: [0; 2] }
     }
 
     /// Appends numbers.
@@ -75,8 +77,36 @@ impl<T: Copy> Record<T> {
         self.counts.push(count);
     }
 
-    pub(crate) fn reader(&self) -> Reader<'_, T> {
-        Reader { numbers: &self.numbers, counts: &self.counts }
+    /// Reads the next numbers, as many as there are places.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] if there are fewer.
+    pub fn read(&mut self, places: &mut [T]) -> Result<(), CheckpointError> {
+        let next = self.read[0]..self.read[0] + places.len();
+        places.copy_from_slice(self.numbers.get(next).ok_or(CheckpointError::Short)?);
+        self.read[0] += places.len();
+        Ok(())
+    }
+
+    /// Reads the next count.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] if there is none.
+    pub fn read_count(&mut self) -> Result<u64, CheckpointError> {
+        let count = *self.counts.get(self.read[1]).ok_or(CheckpointError::Short)?;
+        self.read[1] += 1;
+        Ok(count)
+    }
+
+    /// Whether all has been read.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] with how much has not.
+    pub(crate) fn end(&self) -> Result<(), CheckpointError> {
+        match self.numbers.len() + self.counts.len() - self.read.iter().sum::<usize>() {
+            0 => Ok(()),
+            more => Err(CheckpointError::Long { more }),
+        }
     }
 
     /// All numbers, and all counts.
@@ -90,49 +120,6 @@ impl<T: Copy> Record<T> {
         T: Real,
     {
         self.numbers.iter().all(|number| number.is_finite())
-    }
-}
-
-/// What has not been read yet of a [`Record`].
-#[cfg(feature = "alloc")]
-#[derive(Debug)]
-pub struct Reader<'a, T> {
-    numbers: &'a [T],
-    counts: &'a [u64],
-}
-
-#[cfg(feature = "alloc")]
-impl<T: Copy> Reader<'_, T> {
-    /// Reads as many numbers as there are places.
-    ///
-    /// # Errors
-    /// [`CheckpointError`] if there are fewer.
-    pub fn numbers(&mut self, places: &mut [T]) -> Result<(), CheckpointError> {
-        let (read, rest) = self.numbers.split_at_checked(places.len()).ok_or(CheckpointError::Short)?;
-        places.copy_from_slice(read);
-        self.numbers = rest;
-        Ok(())
-    }
-
-    /// Reads a count.
-    ///
-    /// # Errors
-    /// [`CheckpointError`] if there is none.
-    pub fn count(&mut self) -> Result<u64, CheckpointError> {
-        let (&count, rest) = self.counts.split_first().ok_or(CheckpointError::Short)?;
-        self.counts = rest;
-        Ok(count)
-    }
-
-    /// Whether nothing is left.
-    ///
-    /// # Errors
-    /// [`CheckpointError`] with how much is.
-    pub(crate) fn end(&self) -> Result<(), CheckpointError> {
-        match self.numbers.len() + self.counts.len() {
-            0 => Ok(()),
-            more => Err(CheckpointError::Long { more }),
-        }
     }
 }
 
@@ -160,9 +147,9 @@ macro_rules! lasting {
         #[cfg(feature = "alloc")]
         fn load(
             &mut self,
-            #[allow(unused_variables)] reader: &mut $crate::memory::Reader<'_, $T>,
+            #[allow(unused_variables)] record: &mut $crate::memory::Record<$T>,
         ) -> Result<(), $crate::error::CheckpointError> {
-            $($crate::memory::lasting!(@load $T, $kind self.$field, reader);)*
+            $($crate::memory::lasting!(@load $T, $kind self.$field, record);)*
             $(
                 if !self.$sound() {
                     return Err($crate::error::CheckpointError::Damaged);
@@ -205,28 +192,28 @@ macro_rules! lasting {
     };
     (@save vectors $from:expr, $record:ident) => { $from.iter().for_each(|vector| $record.numbers(vector)) };
 
-    (@load $T:ty, numbers $to:expr, $reader:ident) => { $reader.numbers(&mut $to)? };
-    (@load $T:ty, number $to:expr, $reader:ident) => { $reader.numbers(core::slice::from_mut(&mut $to))? };
-    (@load $T:ty, count $to:expr, $reader:ident) => {
-        $to = $reader.count()?.try_into().map_err(|_| $crate::error::CheckpointError::Damaged)?
+    (@load $T:ty, numbers $to:expr, $record:ident) => { $record.read(&mut $to)? };
+    (@load $T:ty, number $to:expr, $record:ident) => { $record.read(core::slice::from_mut(&mut $to))? };
+    (@load $T:ty, count $to:expr, $record:ident) => {
+        $to = $record.read_count()?.try_into().map_err(|_| $crate::error::CheckpointError::Damaged)?
     };
-    (@load $T:ty, flag $to:expr, $reader:ident) => {
-        $to = match $reader.count()? {
+    (@load $T:ty, flag $to:expr, $record:ident) => {
+        $to = match $record.read_count()? {
             0 => false,
             1 => true,
             _ => return Err($crate::error::CheckpointError::Damaged),
         }
     };
-    (@load $T:ty, size $to:expr, $reader:ident) => { $to = <$T>::lift(f64::from_bits($reader.count()?)) };
-    (@load $T:ty, bits $to:expr, $reader:ident) => { $to = f64::from_bits($reader.count()?) };
-    (@load $T:ty, part $to:expr, $reader:ident) => { $to.load($reader)? };
-    (@load $T:ty, parts $to:expr, $reader:ident) => { for part in $to.iter_mut() { part.load($reader)?; } };
-    (@load $T:ty, packs $to:expr, $reader:ident) => {
+    (@load $T:ty, size $to:expr, $record:ident) => { $to = <$T>::lift(f64::from_bits($record.read_count()?)) };
+    (@load $T:ty, bits $to:expr, $record:ident) => { $to = f64::from_bits($record.read_count()?) };
+    (@load $T:ty, part $to:expr, $record:ident) => { $to.load($record)? };
+    (@load $T:ty, parts $to:expr, $record:ident) => { for part in $to.iter_mut() { part.load($record)?; } };
+    (@load $T:ty, packs $to:expr, $record:ident) => {
         for pack in $to.iter_mut().flat_map(|packs| packs.iter_mut()) {
-            $reader.numbers(&mut pack.0)?;
+            $record.read(&mut pack.0)?;
         }
     };
-    (@load $T:ty, vectors $to:expr, $reader:ident) => { for vector in $to.iter_mut() { $reader.numbers(vector)?; } };
+    (@load $T:ty, vectors $to:expr, $record:ident) => { for vector in $to.iter_mut() { $record.read(vector)?; } };
 }
 pub(crate) use lasting;
 

@@ -56,7 +56,7 @@
 //! [`Scheme`] says of a method what the tables say, [`Method`] is what a run asks of it. The other traits are
 //! for methods of your own, and for code that is generic over methods.
 
-mod before;
+pub(crate) mod before;
 mod collocation;
 mod composition;
 mod constrained;

@@ -89,12 +89,9 @@
 //! | [`StepControl`] | what a control is to a run |
 //! | [`Reversible`] | steps that follow the motion, and lead back |
 //! | [`Density`] | where they are short |
-//! | [`Power`] | short near the origin |
 //! | [`ErrorControl`] | steps with an error within a tolerance |
 //! | [`Tolerance`] | the error that a step may have |
 //! | [`EnergyMomentum`] | steps that conserve a discrete energy |
-//! | [`Osculating`] | steps by the circle that a path follows |
-//! | [`CentreSpeed`] | what these compare |
 //! | [`Dense`] | the state at any time of the last step |
 //! | [`Events`] | where conditions cross zero |
 //! | [`Watch`] | the same for those who take the steps themselves |
@@ -110,18 +107,14 @@
 //! | name | what it is |
 //! |---|---|
 //! | [`LyapunovExponent`] | how fast neighbours part |
-//! | [`TangentMap`] | the derivative of a step, (q, p) to (q, p) |
-//! | [`TwoPointTangentMap`] | that of a step of two points |
-//! | [`AlternatingComponent`] | what alternates from point to point |
+//! | [`TangentMap`] | the derivative of a step, (q, p) to (q, p), or of two points to two points |
 //! | [`Work`] | the work of forces along a run |
 //! | [`convergence_order`] | the slope of errors over steps |
 //! | [`StartError`] | why a run cannot begin |
 //! | [`StepError`] | a step that has failed, and where |
 //! | [`StepFailure`] | why |
 
-pub use crate::diagnostics::{
-    AlternatingComponent, LyapunovExponent, TangentMap, TwoPointTangentMap, Work, convergence_order,
-};
+pub use crate::diagnostics::{LyapunovExponent, TangentMap, Work, convergence_order};
 pub use crate::discrete::{
     Constant, Curvature, Midpoint, Quadrature, Radial, Reading, Simpson, Trapezoid, Unfitted,
 };
@@ -136,12 +129,12 @@ pub use crate::methods::{
 };
 #[cfg(feature = "records")]
 pub use crate::record::Recorded;
-pub use crate::run::{
-    CentreSpeed, Dense, Density, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator,
-    Osculating, Power, Reversible, Run, StepControl, Watch,
-};
 #[cfg(feature = "alloc")]
 pub use crate::run::{Checkpoint, Together};
+pub use crate::run::{
+    Dense, Density, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator, Reversible, Run,
+    StepControl, Watch,
+};
 pub use crate::solve::{Solver, Stopping};
 pub use crate::state::{Statistics, Summation};
 pub use crate::{

@@ -183,12 +183,23 @@ pub fn write_vectors<T: Copy, const D: usize>(
     at: &mut usize,
     flat: &mut [T],
 ) -> Result<(), LengthError> {
-    let error = LengthError { array, row: None, expected, found: vectors.len() };
-    let end = *at + D * expected;
-    let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
-    for (i, vector) in vectors.iter().enumerate() {
-        for (axis, &component) in vector.iter().enumerate() {
-            places[axis * expected + i] = component;
+    write_columns(array, vectors.iter().copied(), expected, at, flat)
+}
+
+/// Copies rows to their places in a flat slice, column by column.
+fn write_columns<T: Copy, const D: usize>(
+    array: &'static str,
+    rows: impl ExactSizeIterator<Item = [T; D]>,
+    expected: usize,
+    at: &mut usize,
+    flat: &mut [T],
+) -> Result<(), LengthError> {
+    let (found, end) = (rows.len(), *at + D * expected);
+    let error = LengthError { array, row: None, expected, found };
+    let places = flat.get_mut(*at..end).filter(|_| found == expected).ok_or(error)?;
+    for (i, row) in rows.enumerate() {
+        for (column, entry) in row.into_iter().enumerate() {
+            places[column * expected + i] = entry;
         }
     }
     *at = end;
@@ -218,16 +229,7 @@ pub fn write_spinors<T: Scalar>(
     at: &mut usize,
     flat: &mut [T],
 ) -> Result<(), LengthError> {
-    let error = LengthError { array, row: None, expected, found: vectors.len() };
-    let end = *at + spinor::COORDINATES * expected;
-    let places = flat.get_mut(*at..end).filter(|_| vectors.len() == expected).ok_or(error)?;
-    for (i, &vector) in vectors.iter().enumerate() {
-        for (number, z) in spinor::lift(vector).into_iter().enumerate() {
-            places[number * expected + i] = z;
-        }
-    }
-    *at = end;
-    Ok(())
+    write_columns(array, vectors.iter().map(|&vector| spinor::lift(vector)), expected, at, flat)
 }
 
 /// Reads vectors, of which the number is known.

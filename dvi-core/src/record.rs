@@ -16,7 +16,7 @@
 //! let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
 //! let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
 //! let record = run.record(10, 200)?; // now, and 200 times after 10 steps each
-//! let names: Vec<&str> = record.columns().iter().map(|column| column.name()).collect();
+//! let names: Vec<&str> = record.columns().iter().map(|column| &column.name[..]).collect();
 //! assert_eq!(names, ["time", "x", "y", "dot_x", "dot_y", "energy", "angular"]);
 //! assert_eq!((record.rows(), record.numbers("x")?.len()), (201, 201));
 //! # let mut files: [Vec<u8>; 3] = Default::default();
@@ -46,42 +46,19 @@
 //! Where a coordinate has the name of one of the others already, that one stands as `run.time`, `run.energy`
 //! or `run.` and the name of the momentum.
 //!
-//! # Functions of yours, events, and other times
-//!
-//! A [`Recorder`] takes functions along, and states one by one or from an iterator, wherever they come from:
-//! from [events](crate::run::Events), from [given times](crate::run::Run::states_at), or from a loop of
-//! yours.
-//!
-//! ```
-//! # use dvi_core::prelude::*;
-//! # #[lagrangian(
-//! #     coordinates(x, y),
-//! #     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / x.hypot(y),
-//! # )]
-//! # struct Kepler;
-//! # let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
-//! # let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?;
-//! use dvi_core::record::Recorder;
-//!
-//! let recorder = || Recorder::new(&Kepler).with_function("radius", |_, state, _| state.x.hypot(state.y));
-//! let orbit = recorder()?.record(&mut run, 10, 200)?;
-//! assert!(orbit.numbers("radius")?.iter().all(|&r| r > 0.99 && r < 2.6));
-//!
-//! let passages = run.events([Direction::Rising], |_, state| [state.y])?;
-//! let passages = recorder()?.points(&Kepler, passages.take(3))?;
-//! assert_eq!(passages.rows(), 3);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! A [`Recorder`] takes functions of yours along, and states one by one or from an iterator, wherever they
+//! come from: from [events](crate::run::Events), from [given times](crate::run::Run::states_at), or from a
+//! loop of yours. [`Record::read_csv`] reads a table again.
 
 mod body;
 mod column;
+mod csv;
 mod error;
 mod npy;
 mod page;
 mod recorder;
 mod table;
 
-pub use body::Body;
 pub use column::{Column, Quantity, Values};
 pub use error::RecordError;
 pub use recorder::{Recorded, Recorder};

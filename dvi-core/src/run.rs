@@ -16,6 +16,7 @@ mod outside;
 mod resume;
 mod step_control;
 mod stepper;
+mod steps;
 #[cfg(feature = "alloc")]
 mod together;
 
@@ -35,21 +36,16 @@ pub use dense::Dense;
 use events::{Conditions, Declared};
 pub use events::{Direction, Event, Events, Watch};
 pub use integrator::Integrator;
-#[cfg(feature = "alloc")]
-pub use resume::Resume;
 pub use step_control::{
-    CentreSpeed, ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, OneLength, Osculating, Power,
-    Reversible, StepControl,
+    ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, OneLength, Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;
-
 #[cfg(feature = "alloc")]
 pub use together::Together;
 
 /// A run of a method on a system: what an [`Integrator`] can do.
 ///
-/// `dyn Run<System = S, Scalar = f64>` is a run of any method:
-/// [a method that is chosen at run
+/// `dyn Run<System = S, Scalar = f64>` is a run of any method: [one that is chosen at run
 /// time](crate::guide::choosing_a_method#a-method-that-is-chosen-at-run-time) is one line. In a `Box` or
 /// behind `&mut` it is a run too.
 ///
@@ -126,21 +122,6 @@ pub trait Run {
     ///
     /// # Errors
     /// [`StartError`] if no run of the method can begin at the present point.
-    ///
-    /// ```
-    /// use dvi_core::prelude::*;
-    ///
-    /// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
-    /// struct Oscillator;
-    ///
-    /// let start = OscillatorState { x: 1.0, dot_x: 0.0 };
-    /// let mut run = Integrator::new(&Oscillator, Gauss::<4>::new(), 0.2, start)?;
-    /// for state in run.states_at([0.1, 0.123, 7.0, 70.7])? {
-    ///     let (t, OscillatorState { x, .. }) = state?;
-    ///     assert!((x - t.cos()).abs() < 1e-10);
-    /// }
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     fn states_at<I>(&mut self, times: I) -> Result<impl FusedIterator<Item = dense::Timed<Self>>, StartError>
     where
         Self: Sized,
@@ -168,39 +149,11 @@ pub trait Run {
     }
 
     /// The [events](Run::events) that are declared by `events(name = g, …)` in the attribute of the system, a
-    /// direction for each of them; their names are in [`Report::events`](crate::Report::events).
+    /// direction for each of them, which the compiler asks for; their names are in
+    /// [`Report::events`](crate::Report::events).
     ///
     /// # Errors
     /// As [`events`](Self::events).
-    ///
-    /// ```
-    /// use dvi_core::prelude::*;
-    ///
-    /// #[lagrangian(
-    ///     coordinates(x, y),
-    ///     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / x.hypot(y),
-    ///     events(pericentre = x * dot(x) + y * dot(y)),
-    /// )]
-    /// struct Kepler;
-    ///
-    /// let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
-    /// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
-    /// let event = run.declared_events([Direction::Rising])?.next_until(20.0)?.ok_or("it comes back")?;
-    /// assert_eq!(Kepler::REPORT.events[event.index], "pericentre");
-    /// assert!((event.state.x - 1.0).abs() < 1e-9);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// So many directions as there are events are a condition that the compiler asks for:
-    ///
-    /// ```compile_fail
-    /// # use dvi_core::prelude::*;
-    /// # #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn = dot(x)))]
-    /// # struct Free;
-    /// # let mut run = Integrator::new(&Free, Gauss::<2>::new(), 0.1, FreeState { x: 0.0, dot_x: 1.0 })?;
-    /// let events = run.declared_events([Direction::Rising; 2])?;
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     fn declared_events<const N: usize>(
         &mut self,
         directions: [Direction; N],
@@ -253,25 +206,18 @@ pub trait Run {
         Self: Sized,
         <Self::System as System>::Kind: Rates<Self::System, Self::Scalar>,
     {
-        let (system, t, zero) = (self.system(), self.time(), Self::Scalar::lift(0.0));
+        let (system, t, v, zero) = (self.system(), self.time(), self.v(), Self::Scalar::lift(0.0));
         if !Self::System::FORCED {
             return zero;
         }
-        let mut q = system.space().vector();
+        let [mut q, mut force] = system.space().vectors();
         q.copy_from_slice(self.q());
-        let power = |v: &[Self::Scalar], velocity: &[Self::Scalar]| {
-            let mut force = system.space().vector();
-            system.applied_force(&q, v, t, &mut force);
-            force.iter().zip(velocity).fold(zero, |sum, (&force, &v)| sum + force * v)
+        system.applied_force(&q, &v, t, &mut force);
+        let rates = || <Self::System as System>::Kind::rates(system, &q, &[], t);
+        let Ok(velocity) = (if Self::System::REGULAR { Ok(v) } else { rates() }) else {
+            return Self::Scalar::lift(f64::NAN);
         };
-        if Self::System::REGULAR {
-            let v = self.v();
-            return power(&v, &v);
-        }
-        match <Self::System as System>::Kind::rates(system, &q, &[], t) {
-            Ok(velocity) => power(&[], &velocity),
-            Err(_) => Self::Scalar::lift(f64::NAN),
-        }
+        force.iter().zip(velocity.iter()).fold(zero, |sum, (&force, &v)| sum + force * v)
     }
 
     /// The run as data, from which another one can go on as if this had not stopped.

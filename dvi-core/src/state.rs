@@ -9,6 +9,6 @@ pub(crate) mod summation;
 
 pub use crate::memory::Memory;
 #[cfg(feature = "alloc")]
-pub use crate::memory::{Reader, Record};
+pub use crate::memory::Record;
 pub use statistics::Statistics;
 pub use summation::Summation;

@@ -91,10 +91,10 @@ fn index(name: &str) -> Option<usize> {
 fn thinned(record: &Record, title: &str, wanted: impl Fn(usize) -> bool) -> Result<Record> {
     let mut thin = Record::new(title);
     for column in record.columns() {
-        if column.name() == "time" || index(column.name()).is_some_and(&wanted) {
-            let values = record.numbers(column.name())?.iter().map(|x| (x * 1e3).round() / 1e3);
+        if column.name == "time" || index(&column.name).is_some_and(&wanted) {
+            let values = record.numbers(&column.name)?.iter().map(|x| (x * 1e3).round() / 1e3);
             let column =
-                Column::new(column.name(), values.collect::<Vec<_>>()).with_quantity(column.quantity());
+                Column::new(&column.name, values.collect::<Vec<_>>()).with_quantity(column.quantity);
             thin = thin.with_column(column)?;
         }
     }

@@ -24,4 +24,6 @@ pub use crate::output::Table;
 pub use crate::rk4::*;
 pub use crate::runs::*;
 pub use crate::series::*;
+pub use dvi_examples::alternating::AlternatingComponent;
 pub use dvi_examples::models::{self, *};
+pub use dvi_examples::osculating::{CentreSpeed, Osculating};

@@ -5,6 +5,7 @@ use dvi_core::field::{Axis, ScalarField, Spline};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
+use dvi_examples::osculating::Osculating;
 use dvi_tests::systems::{ManyVortices, ManyVorticesState, PointVortices, PointVorticesState};
 use dvi_tests::zoo::constrained::{Links, LinksState};
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
@@ -295,7 +296,6 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
     let seamed_start = SeamedState { x: vec![1.0, -0.5], dot_x: vec![0.0, 0.1] };
     assert_none_controlled!(seamed, seamed_start, by_error, Gauss::<2>::new(), Gauss::<4>::new());
     assert_none_controlled!(chain, chain_start, reversible, Variational::trapezoid(), fitted());
-    assert_none_controlled!(chain, chain_start, osculating, Variational::trapezoid(), fitted());
     assert_none!(chain, chain_start, Langevin { friction: 0.3, temperature: 0.1, seed: 1 });
 
     // Friction stores no matrix where the mass matrix is diagonal and constant.

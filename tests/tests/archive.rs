@@ -7,8 +7,9 @@ mod same;
 use std::path::PathBuf;
 
 use dvi_core::archive::{Archive, ArchiveError, Every};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::run::Resume;
+use dvi_core::run::StepControl;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use dvi_tests::{Outcome, bits};
 
@@ -41,9 +42,11 @@ fn alone<R: Run<Scalar = f64>>(mut run: R, steps: u64) -> Result<(Vec<u64>, Chec
 }
 
 /// The number of steps of each checkpoint.
-fn kept<R>(archive: &Archive<R>) -> Vec<u64>
+fn kept<H, M, C>(archive: &Archive<Integrator<H, M, f64, C>>) -> Vec<u64>
 where
-    R: Resume<Scalar = f64>,
+    H: Held<System: Lagrangian> + Clone,
+    M: Method<H::System, f64> + Clone + core::fmt::Debug,
+    C: StepControl<H::System, f64> + Clone,
 {
     archive.checkpoints().map(|(steps, _)| steps).collect()
 }

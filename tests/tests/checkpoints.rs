@@ -5,6 +5,7 @@ use dvi_core::error::CheckpointError;
 use dvi_core::methods::{Method, VariableStep};
 use dvi_core::prelude::*;
 use dvi_core::run::{Checkpoint, StepControl};
+use dvi_examples::osculating::Osculating;
 use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::configurations::leapfrogging;
@@ -150,7 +151,7 @@ fn a_checkpoint_of_another_run_is_refused() -> Outcome {
     assert!(matches!(refused(other)?, CheckpointError::Long { more } if more > 0));
     let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
     let other = Integrator::resume(&chain, Variational::trapezoid(), &checkpoint).err();
-    assert_eq!(refused(other)?, CheckpointError::Coordinates { expected: 4, found: 2 });
+    assert_eq!(refused(other)?, CheckpointError::Size { what: "coordinates", expected: 4, found: 2 });
     let beyond =
         Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint.with_step_size(0.0)).err();
     assert!(matches!(beyond, Some(StartError::Step { .. })), "{beyond:?}");

@@ -230,7 +230,7 @@ fn a_step_control_keeps_to_the_domain() -> Outcome {
         advanced
     });
     assert_eq!(error.ok_or("no error")?.step, run.steps());
-    let control = Reversible::new(0.1, Power { exponent: 0.0 });
+    let control = Reversible::power(0.1, 0.0);
     let mut run = Integrator::controlled(&Falling, Variational::trapezoid(), control, start)?;
     let error = (0..100).find_map(|_| {
         let advanced = run.advance().err();

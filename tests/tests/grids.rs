@@ -4,8 +4,8 @@ use std::error::Error;
 use std::f64::consts::PI;
 
 use approx::assert_abs_diff_eq;
-use dvi_core::ensemble::Table;
 use dvi_core::prelude::*;
+use dvi_core::record::Record;
 use dvi_core::{IndexError, LengthError};
 use dvi_tests::Outcome;
 
@@ -284,7 +284,7 @@ fn entries_have_names_row_by_row() -> Outcome {
 
     let state = ConstantState { q, dot_q };
     let row: Vec<String> = system.values(&state)?.map(|value: f64| value.to_string()).collect();
-    let table = Table::read(format!("{}\n{}\n", names.join(","), row.join(",")).as_bytes())?;
+    let table = Record::read_csv(format!("{}\n{}\n", names.join(","), row.join(",")).as_bytes())?;
     assert_eq!(table.states(&system)?, [state]);
     let run_time = RunTime { n: N, m: 5, k: system.k };
     assert_eq!(table.states(&run_time)?, [RunTimeState { q: vectors(&q), dot_q: vectors(&dot_q) }]);

@@ -84,7 +84,6 @@ fn so_is_a_controlled_run() -> Outcome {
         Ok(())
     }
     check(Variational::trapezoid(), Reversible::power(0.05, 1.5))?;
-    check(Variational::trapezoid(), Osculating::new(1e-4, 0.01))?;
     check(Variational::midpoint(), EnergyMomentum::new(0.05))?;
     check(Gauss::<3>::new(), ErrorControl::new(1e-8, 0.01))
 }

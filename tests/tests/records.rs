@@ -9,6 +9,8 @@ mod sizes;
 use dvi_core::prelude::*;
 use dvi_core::record::RecordError;
 
+pub(crate) use bodies::bodies;
+
 type Checked = Result<(), Box<dyn std::error::Error>>;
 
 /// A planet around a fixed sun.

@@ -251,7 +251,7 @@ fn states_are_vectors_wherever_they_are_seen() -> Outcome {
         names.join(","),
         start.s.as_flattened().iter().map(f64::to_string).collect::<Vec<_>>().join(",")
     );
-    let read = dvi_core::ensemble::Table::read(table.as_bytes())?.states(&RING)?;
+    let read = dvi_core::record::Record::read_csv(table.as_bytes())?.states(&RING)?;
     assert!(read.len() == 1 && apart(read[0].s.as_flattened(), start.s.as_flattened()) < 4e-16);
     let mut run = Integrator::new(&RING, Sigma::midpoint(), 0.05, start)?;
     let event =

@@ -1,8 +1,8 @@
 //! Vectors beside the same in components: the same numbers, under other names.
 
 use approx::assert_abs_diff_eq;
-use dvi_core::ensemble::Table;
 use dvi_core::prelude::*;
+use dvi_core::record::Record;
 use dvi_core::rotations;
 use dvi_tests::Outcome;
 
@@ -93,7 +93,7 @@ fn a_table_of_bodies_is_read_body_by_body() -> Outcome {
     let system = Bodies { m: MASSES };
     let head: Vec<String> = system.names().map(|name| name.to_string()).collect();
     let row: Vec<String> = system.values(&start())?.map(|value: f64| value.to_string()).collect();
-    let table = Table::read(format!("{}\n{}\n", head.join(","), row.join(",")).as_bytes())?;
+    let table = Record::read_csv(format!("{}\n{}\n", head.join(","), row.join(",")).as_bytes())?;
     assert_eq!(table.states(&system)?, [start()]);
     Ok(())
 }

@@ -2,13 +2,13 @@
 
 use std::borrow::ToOwned;
 use std::fs::{self, TryLockError};
-use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, Seek, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::vec::Vec;
 
 use super::{ArchiveError, Difference};
 use crate::ensemble::facts::{self, Facts};
-use crate::ensemble::sealed::{self, HEAD};
+use crate::ensemble::sealed::{self, Found, Reader};
 use crate::run::Checkpoint;
 
 /// Begins each file; after it stand the facts, and then the checkpoints, each of them sealed.
@@ -39,13 +39,9 @@ impl File {
     pub(super) fn open(path: &Path, facts: &Facts, first: &Checkpoint) -> Result<Self, ArchiveError> {
         let unread = |source| ArchiveError::File { path: path.to_owned(), source };
         if sealed::existing(path).map_err(unread)?.is_none() {
-            let begun = encoded(facts).and_then(|facts| {
-                sealed::replace(
-                    path,
-                    &[MARK, &sealed::sealed(&facts), &sealed::sealed(&encoded(first)?)].concat(),
-                )
-            });
-            begun.map_err(unread)?;
+            let begun =
+                || sealed::replace(path, &[MARK, &sealed::sealed(facts)?, &sealed::sealed(first)?].concat());
+            begun().map_err(unread)?;
         }
         let file = fs::File::options().read(true).write(true).open(path).map_err(unread)?;
         match file.try_lock() {
@@ -58,10 +54,6 @@ impl File {
         // What was not completed.
         opened.file.set_len(opened.end).map_err(unread)?;
         Ok(opened)
-    }
-
-    pub(super) fn path(&self) -> &Path {
-        &self.path
     }
 
     pub(super) fn kept(&self) -> &[Kept] {
@@ -83,10 +75,8 @@ impl File {
     /// Finds the checkpoints that are whole, if they are those of a run with these facts and this start.
     fn look_through(&mut self, facts: &Facts, first: &Checkpoint) -> Result<(), ArchiveError> {
         let len = self.file.metadata().map_err(|source| self.unread(source))?.len();
-        let mut reader = Sealed { from: BufReader::new(&self.file), place: 0, len };
-        let mut mark = [0; MARK.len()];
-        let is_marked = reader.exactly(&mut mark).map_err(|source| self.unread(source))? && mark == MARK;
-        if !is_marked {
+        let mut reader = Reader { from: BufReader::new(&self.file), place: 0, len };
+        if !reader.begins_with(MARK).map_err(|source| self.unread(source))? {
             return Err(self.damaged("it does not begin as one"));
         }
         let Found::Whole(found) = reader.next().map_err(|source| self.unread(source))? else {
@@ -108,7 +98,7 @@ impl File {
                 Found::Cut { .. } | Found::Changed => return Err(self.damaged(CHANGED)),
             };
             let checkpoint = self.decoded(&content)?;
-            if self.kept.is_empty() && encoded(first).is_ok_and(|first| first != content) {
+            if self.kept.is_empty() && postcard::to_allocvec(first).is_ok_and(|first| first != content) {
                 let [expected, found] = [first, &checkpoint].map(|start| {
                     let [steps, time] = [start.statistics().steps as f64, start.time()];
                     let (h, q, v) = (start.step_size(), start.q(), start.v());
@@ -127,7 +117,7 @@ impl File {
     pub(super) fn read(&self, kept: Kept) -> Result<Checkpoint, ArchiveError> {
         let mut file = &self.file;
         file.seek(SeekFrom::Start(kept.place)).map_err(|source| self.unread(source))?;
-        let mut reader = Sealed { from: file, place: kept.place, len: self.end };
+        let mut reader = Reader { from: file, place: kept.place, len: self.end };
         match reader.next().map_err(|source| self.unread(source))? {
             Found::Whole(content) => self.decoded(&content),
             Found::Cut { .. } | Found::Changed => Err(self.damaged(CHANGED)),
@@ -140,8 +130,7 @@ impl File {
 
     /// Appends a checkpoint, and makes sure that it is on the disk.
     pub(super) fn append(&mut self, checkpoint: &Checkpoint) -> Result<(), ArchiveError> {
-        let written = encoded(checkpoint).and_then(|content| {
-            let bytes = sealed::sealed(&content);
+        let written = sealed::sealed(checkpoint).and_then(|bytes| {
             self.file.seek(SeekFrom::Start(self.end))?;
             self.file.write_all(&bytes)?;
             self.file.sync_data()?;
@@ -168,56 +157,5 @@ impl Drop for File {
         // A process that is just being started may have the file too, as long as it is not another program
         // yet.
         let _ = self.file.unlock();
-    }
-}
-
-fn encoded(content: &impl serde::Serialize) -> io::Result<Vec<u8>> {
-    postcard::to_allocvec(content).map_err(io::Error::other)
-}
-
-/// What is found in a file.
-enum Found {
-    Whole(Vec<u8>),
-    /// The file ends before so many bytes of it.
-    Cut {
-        len: u64,
-    },
-    Changed,
-}
-
-/// What has been sealed, one after the other.
-struct Sealed<F> {
-    from: F,
-    /// How far it has been read, and the length of the whole.
-    place: u64,
-    len: u64,
-}
-
-impl<F: Read> Sealed<F> {
-    /// The next content.
-    fn next(&mut self) -> io::Result<Found> {
-        let mut head = [0; HEAD];
-        let is_there = self.exactly(&mut head)?;
-        let Some((len, fingerprint)) = sealed::head(&head).filter(|_| is_there) else {
-            return Ok(Found::Cut { len: 0 });
-        };
-        if len > self.len - self.place {
-            return Ok(Found::Cut { len });
-        }
-        let mut content = Vec::new();
-        self.from.by_ref().take(len).read_to_end(&mut content)?;
-        self.place += len;
-        let is_whole = sealed::fingerprint(&content) == fingerprint;
-        Ok(if is_whole { Found::Whole(content) } else { Found::Changed })
-    }
-
-    /// Reads as many bytes, if there are as many.
-    fn exactly(&mut self, bytes: &mut [u8]) -> io::Result<bool> {
-        let is_there = self.len - self.place >= bytes.len() as u64;
-        if is_there {
-            self.from.read_exact(bytes)?;
-            self.place += bytes.len() as u64;
-        }
-        Ok(is_there)
     }
 }

@@ -125,11 +125,6 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> LyapunovExponent<S
         self.growth
     }
 
-    /// The time over which it has grown.
-    pub fn elapsed(&self) -> T {
-        self.elapsed
-    }
-
     /// All that the next step depends on.
     #[cfg(feature = "alloc")]
     pub fn save(&self) -> alloc::vec::Vec<T> {

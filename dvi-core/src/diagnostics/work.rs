@@ -1,7 +1,7 @@
 //! The work of the forces along a run: the integral of their power F·q' over the time.
 //!
 //! Between two states the power is taken for the cubic polynomial through the last four of them, which
-//! Gauss's rule with two points integrates exactly.
+//! Simpson's rule integrates exactly.
 
 use crate::mechanics::motion::Rates;
 use crate::run::Run;
@@ -10,9 +10,6 @@ use crate::{Real, System};
 
 /// The states through which the power is interpolated.
 const POINTS: usize = 4;
-
-/// The nodes ½ ∓ √3/6 of Gauss's rule on (0, 1), with weights ½.
-const NODES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// The work ∫ F·q' dt that the forces on a system have done along a run.
 ///
@@ -89,8 +86,9 @@ impl<T: Real> Work<T> {
     /// The integral of the polynomial through all points over the last `steps` of them.
     fn since(&self, steps: usize) -> T {
         let (from, to) = (self.latest[steps].t, self.latest[0].t);
-        let power = NODES.map(|c| self.power(from + T::lift(c) * (to - from)));
-        T::lift(0.5) * (to - from) * (power[0] + power[1])
+        let [half, four, six] = [0.5, 4.0, 6.0].map(T::lift);
+        let [begin, middle, end] = [from, half * (from + to), to].map(|t| self.power(t));
+        (to - from) / six * (begin + four * middle + end)
     }
 
     /// The polynomial at time `t`, by Neville's scheme.

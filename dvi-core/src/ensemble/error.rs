@@ -9,18 +9,24 @@ use thiserror::Error;
 use super::Shard;
 use crate::error::StartError;
 
-crate::error::said!(EnsembleError, Difference, MergeError);
+crate::error::said!(EnsembleError, Difference);
 
-/// An ensemble that cannot run. The failure of a member is none: it is the [`Outcome`](super::Outcome) of
+/// An ensemble that cannot run, or shards that cannot be put together. The failure of a member is none: it is the [`Outcome`](super::Outcome) of
 /// that member.
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/pendulum.txt")]
-/// use dvi_core::ensemble::{Ensemble, EnsembleError};
+/// use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
 ///
 /// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
 /// let nowhere = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.0, starts).take_steps(1000);
 /// assert!(matches!(nowhere, Err(EnsembleError::Step { h: 0.0, .. })));
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let half = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts).shard(Shard::new(0, 2)?);
+/// let merged = Results::merge([half.take_steps(100)?]);
+/// assert!(matches!(merged, Err(EnsembleError::Missing { member: 1, members: 10, .. })));
+/// # Ok::<(), EnsembleError>(())
 /// ```
 #[derive(Error)]
 #[non_exhaustive]
@@ -90,59 +96,29 @@ pub enum EnsembleError {
         /// Those of the shard.
         members: usize,
     },
-}
-
-/// In what two ensembles differ.
-///
-/// ```
-#[doc = include_str!("../../docs/hidden/pendulum.txt")]
-/// use dvi_core::ensemble::{Ensemble, MergeError, Results, Shard};
-///
-/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
-/// let half = |index: u64, h: f64| -> Result<Results, Box<dyn std::error::Error>> {
-///     let ensemble = Ensemble::new(&Pendulum, Variational::trapezoid(), h, starts.clone());
-///     Ok(ensemble.shard(Shard::new(index, 2)?).take_steps(100)?)
-/// };
-/// let merged = Results::merge([half(0, 0.1)?, half(1, 0.2)?]); // another step
-/// let Err(MergeError::Foreign { difference, .. }) = merged else { panic!("they differ") };
-/// assert_eq!((difference.expected.as_str(), difference.found.as_str()), ("0.1", "0.2"));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Error)]
-#[error("its {what} is `{found}`, and `{expected}` is expected")]
-pub struct Difference {
-    /// What it is.
-    pub what: String,
-    /// What is expected.
-    pub expected: String,
-    /// What is found instead. Numbers in hexadecimal digits are fingerprints.
-    pub found: String,
-}
-
-/// Shards whose results are not those of one ensemble.
-///
-/// ```
-#[doc = include_str!("../../docs/hidden/pendulum.txt")]
-/// use dvi_core::ensemble::{Ensemble, MergeError, Results, Shard};
-///
-/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
-/// let ensemble = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts).shard(Shard::new(0, 2)?);
-/// let half = ensemble.take_steps(100)?;
-/// assert!(matches!(Results::merge([half]), Err(MergeError::Missing { member: 1, members: 10, .. })));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum MergeError {
-    /// There are no shards.
+    /// A text is no shard.
+    #[error("`{text}` is no shard: write i/n, such as 0/4 for the first of four")]
+    ShardText {
+        /// The text.
+        text: String,
+    },
+    /// The index of a shard is not below the number of shards.
+    #[error("there is no shard {index} of {of}: they count from 0 to n − 1")]
+    ShardRange {
+        /// The index.
+        index: u64,
+        /// The number of shards.
+        of: u64,
+    },
+    /// There are no shards to put together.
     #[error("there are no results to put together")]
     Nothing,
-    /// The shards are those of different ensembles.
+    /// Shards are those of different ensembles.
     #[error("shard {shard} belongs to another ensemble: {difference}")]
-    Foreign {
+    ForeignShard {
         /// The shard.
         shard: Shard,
-        /// What differs: `what` it is, what is `expected` and what is `found`.
+        /// What differs.
         difference: Difference,
     },
     /// A member occurs more than once.
@@ -159,4 +135,51 @@ pub enum MergeError {
         /// The number of members of the ensemble.
         members: u64,
     },
+    /// The results of a process cannot be written to be sent to the first, or not be read there.
+    #[cfg(feature = "mpi")]
+    #[error("the results of a process cannot be sent: {0}")]
+    Encoding(io::Error),
+    /// The shard of another process cannot run, which has the reason.
+    #[cfg(feature = "mpi")]
+    #[error("the shard of rank {rank} could not be run")]
+    Elsewhere {
+        /// The first such process.
+        rank: i32,
+    },
+    /// What has been received is not the results of a shard.
+    #[cfg(feature = "mpi")]
+    #[error("what rank {rank} has sent is not the results of a shard: {reason}")]
+    Received {
+        /// The process.
+        rank: i32,
+        /// What is wrong.
+        reason: &'static str,
+    },
+}
+
+/// In what two ensembles differ.
+///
+/// ```
+#[doc = include_str!("../../docs/hidden/pendulum.txt")]
+/// use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
+///
+/// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
+/// let half = |index: u64, h: f64| -> Result<Results, EnsembleError> {
+///     let ensemble = Ensemble::new(&Pendulum, Variational::trapezoid(), h, starts.clone());
+///     ensemble.shard(Shard::new(index, 2)?).take_steps(100)
+/// };
+/// let merged = Results::merge([half(0, 0.1)?, half(1, 0.2)?]); // another step
+/// let Err(EnsembleError::ForeignShard { difference, .. }) = merged else { panic!("they differ") };
+/// assert_eq!((difference.expected.as_str(), difference.found.as_str()), ("0.1", "0.2"));
+/// # Ok::<(), EnsembleError>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Error)]
+#[error("its {what} is `{found}`, and `{expected}` is expected")]
+pub struct Difference {
+    /// What it is.
+    pub what: String,
+    /// What is expected.
+    pub expected: String,
+    /// What is found instead. Numbers in hexadecimal digits are fingerprints.
+    pub found: String,
 }

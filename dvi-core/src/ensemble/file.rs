@@ -1,7 +1,7 @@
 //! A checkpoint on the disk: it is there as a whole, or as it was before.
 
 use std::borrow::ToOwned;
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 use std::vec::Vec;
 
@@ -9,14 +9,12 @@ use super::Shard;
 use super::error::EnsembleError;
 use super::group::Slot;
 use super::plan::Plan;
-use super::sealed::{self, HEAD};
+use super::sealed::{self, Found, Reader};
 
 /// Begins each file; after it stands the content, sealed.
-const MARK: &[u8] = b"dvi ensemble checkpoint 6\n";
-/// The bytes before the content.
-const BEFORE: usize = MARK.len() + HEAD;
+const MARK: &[u8] = b"dvi ensemble checkpoint 7\n";
 
-/// What a file holds, in the binary format of the crate postcard, in which each number keeps its bits.
+/// What a file holds.
 pub(super) type Saved = (Plan, Shard, Vec<Slot>);
 
 /// Writes the file anew.
@@ -27,8 +25,7 @@ pub(super) fn write(path: &Path, plan: &Plan, shard: Shard, slots: &[Slot]) -> R
 
 /// The bytes of a file.
 pub(super) fn encode(plan: &Plan, shard: Shard, slots: &[Slot]) -> io::Result<Vec<u8>> {
-    let content = postcard::to_allocvec(&(plan, shard, slots)).map_err(io::Error::other)?;
-    Ok([MARK, &sealed::sealed(&content)].concat())
+    Ok([MARK, &sealed::sealed(&(plan, shard, slots))?].concat())
 }
 
 /// Reads a file; `None` if there is none. Of another one only the head is read, however long it is.
@@ -36,43 +33,34 @@ pub(super) fn read(path: &Path) -> Result<Option<Saved>, EnsembleError> {
     let unread = |source| EnsembleError::File { path: path.to_owned(), source };
     let damaged = |reason| EnsembleError::Damaged { path: path.to_owned(), reason };
     let Some((file, len)) = sealed::existing(path).map_err(unread)? else { return Ok(None) };
-    let mut bytes = Vec::new();
-    (&file).take(BEFORE as u64).read_to_end(&mut bytes).map_err(unread)?;
-    fingerprint_in_head(&bytes, len).map_err(damaged)?;
-    file.take(len).read_to_end(&mut bytes).map_err(unread)?;
-    decode(&bytes).map(Some).map_err(damaged)
+    decode(BufReader::new(file), len).map_err(unread)?.map(Some).map_err(damaged)
 }
 
-/// The fingerprint of the content, in the head of a file of `len` bytes.
+/// Reads what has been encoded in so many bytes.
 ///
 /// # Errors
-/// What is wrong with head or length.
-fn fingerprint_in_head(bytes: &[u8], len: u64) -> Result<[u8; 8], &'static str> {
-    let rest = bytes.strip_prefix(MARK).ok_or("it does not begin as one")?;
-    let (content, fingerprint) = sealed::head(rest).ok_or("it ends too early")?;
-    if len.checked_sub(BEFORE as u64) == Some(content) {
-        Ok(fingerprint)
-    } else {
-        Err("it does not have the length with which it was written")
+/// Those of `from`; and what is wrong with what has been read.
+pub(super) fn decode(from: impl Read, len: u64) -> io::Result<Result<Saved, &'static str>> {
+    let mut reader = Reader { from, place: 0, len };
+    if !reader.begins_with(MARK)? {
+        return Ok(Err("it does not begin as one"));
     }
+    Ok(match reader.next()? {
+        Found::Whole(content) if reader.place == len => saved(&content),
+        Found::Whole(_) | Found::Cut { .. } => Err("it does not have the length with which it was written"),
+        Found::Changed => Err("its content has changed since it was written"),
+    })
 }
 
-/// Reads the bytes of a file.
-///
-/// # Errors
-/// What is wrong with them.
-pub(super) fn decode(bytes: &[u8]) -> Result<Saved, &'static str> {
-    let found = fingerprint_in_head(bytes, bytes.len() as u64)?;
-    let content = &bytes[BEFORE..];
-    if found != sealed::fingerprint(content) {
-        return Err("its content has changed since it was written");
-    }
+/// The content of a file.
+fn saved(content: &[u8]) -> Result<Saved, &'static str> {
     let saved: Saved = postcard::from_bytes(content).map_err(|_| "it is one of another version")?;
     let (plan, Shard { index, of }, slots) = &saved;
     let shard = Shard::new(*index, *of).map_err(|_| "there is no such shard")?;
     let expected = (0..plan.members).filter(|&member| shard.contains(member));
-    if !slots.iter().map(|slot| slot.number).eq(expected) {
-        return Err("its members are not those of its shard");
+    if slots.iter().map(|slot| slot.number).eq(expected) {
+        Ok(saved)
+    } else {
+        Err("its members are not those of its shard")
     }
-    Ok(saved)
 }

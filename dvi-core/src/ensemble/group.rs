@@ -29,7 +29,7 @@ pub(super) struct UnderWay {
     checkpoint: Checkpoint,
     seen: Seen,
     growth: Option<Vec<f64>>,
-    watch: Option<limits::Saved>,
+    watches: Option<limits::Saved>,
 }
 
 /// A member with its place.
@@ -162,7 +162,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
         &self,
         system: &'a S,
         number: u64,
-        UnderWay { checkpoint, growth: saved, watch, .. }: &UnderWay,
+        UnderWay { checkpoint, growth: saved, watches, .. }: &UnderWay,
     ) -> Result<(Course<'_, 'a, S, M>, Option<AnyGrowth<'a, S, M>>), StartError> {
         let run = Integrator::resume(system, self.method(number), checkpoint)?;
         let mut growth = self.growth.map(|new| new(&run));
@@ -171,7 +171,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             (None, None) => {}
             (Some(_), None) | (None, Some(_)) => return Err(CheckpointError::Damaged.into()),
         }
-        Ok((self.course(system, run, watch.as_ref())?, growth))
+        Ok((self.course(system, run, watches.as_ref())?, growth))
     }
 
     fn course(
@@ -252,11 +252,11 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
     {
         let Self { slot, run, seen, growth } = self;
         let growth = growth.as_ref().map(|growth| growth.save());
-        let watch = match run {
+        let watches = match run {
             Course::Free(_) => None,
             Course::Watched(watched) => Some(watched.save()),
         };
-        let under_way = UnderWay { checkpoint: run.run().checkpoint(), seen: seen.clone(), growth, watch };
+        let under_way = UnderWay { checkpoint: run.run().checkpoint(), seen: seen.clone(), growth, watches };
         let can_go_on =
             settings.resume(settings.system(slot.number as usize), slot.number, &under_way).is_ok();
         if can_go_on {

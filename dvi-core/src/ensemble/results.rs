@@ -8,7 +8,7 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::Shard;
-use super::error::{EnsembleError, MergeError};
+use super::error::EnsembleError;
 use super::file;
 use super::group::{Place, Slot};
 use super::member::Member;
@@ -23,7 +23,6 @@ use crate::record::{Column, Quantity, Record, RecordError};
 ///
 /// let starts = (1..=10).map(|k| PendulumState { angle: 0.1 * f64::from(k), dot_angle: 0.0 });
 /// let results = Ensemble::new(&Pendulum, Variational::trapezoid(), 0.1, starts).take_steps(1000)?;
-/// assert!(results.names().eq(["angle", "dot_angle"]));
 /// assert!(results.members().iter().all(|member| member.steps == 1000));
 /// assert_eq!(results.record()?.numbers("angle")?.len(), 10);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -81,14 +80,14 @@ impl Results {
     /// whole.
     ///
     /// # Errors
-    /// [`MergeError`] if they are seen to belong to different ensembles, as [a
+    /// [`EnsembleError`] if they are seen to belong to different ensembles, as [a
     /// checkpoint](super::Ensemble::checkpoints) is, if a member occurs twice, or if one is missing.
-    pub fn merge(shards: impl IntoIterator<Item = Self>) -> Result<Self, MergeError> {
+    pub fn merge(shards: impl IntoIterator<Item = Self>) -> Result<Self, EnsembleError> {
         let mut shards = shards.into_iter();
-        let mut whole = shards.next().ok_or(MergeError::Nothing)?;
+        let mut whole = shards.next().ok_or(EnsembleError::Nothing)?;
         for Self { plan, shard, members } in shards {
             if let Some(difference) = whole.plan.difference(&plan) {
-                return Err(MergeError::Foreign { shard, difference });
+                return Err(EnsembleError::ForeignShard { shard, difference });
             }
             whole.members.extend(members);
         }
@@ -96,15 +95,15 @@ impl Results {
         whole.shard = Shard::WHOLE;
         for (expected, Member { number, .. }) in (0..).zip(&whole.members) {
             if *number < expected {
-                return Err(MergeError::Twice { member: *number });
+                return Err(EnsembleError::Twice { member: *number });
             }
             if *number > expected {
-                return Err(MergeError::Missing { member: expected, members: whole.plan.members });
+                return Err(EnsembleError::Missing { member: expected, members: whole.plan.members });
             }
         }
         let found = whole.members.len() as u64;
         if found < whole.plan.members {
-            return Err(MergeError::Missing { member: found, members: whole.plan.members });
+            return Err(EnsembleError::Missing { member: found, members: whole.plan.members });
         }
         Ok(whole)
     }
@@ -112,16 +111,6 @@ impl Results {
     /// The members, in the order of their numbers.
     pub fn members(&self) -> &[Member] {
         &self.members
-    }
-
-    /// The shard that they are.
-    pub fn shard(&self) -> Shard {
-        self.shard
-    }
-
-    /// The names of the entries of a state.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.plan.names.iter().map(String::as_str)
     }
 
     /// A record with a row for each member: `write_csv`, `write_npy` and `write_page` of [`Record`] write
@@ -134,7 +123,7 @@ impl Results {
     /// | `parameter.k` | the [parameters](super::Ensemble::parameter) by their names |
     /// | `energy.first`, `energy.last`, `energy.largest_error` | the energies |
     /// | `momentum.angular.first`, `momentum.angular.last` | the momenta by their names |
-    /// | `x`, `dot_x`, … | the last state; [`Table::states`](super::Table::states) reads it from the CSV |
+    /// | `x`, `dot_x`, … | the last state; [`Record::states`] reads it from the CSV |
     ///
     /// In an array of NumPy the reasons take four bytes for each letter of the longest one:
     /// [`without_column`](Record::without_column) leaves them out.

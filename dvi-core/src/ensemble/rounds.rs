@@ -18,14 +18,9 @@ use super::{Outcome, Progress, Results, Shard, Tell};
 /// How often progress is told.
 const PROGRESS: Duration = Duration::from_secs(1);
 
-/// What is done in a round, whatever the systems and the method are.
-pub(super) struct Work<'w> {
-    /// So many members go together.
-    pub(super) group: usize,
-    /// Takes the members of a group on, until they have ended or this says that they are interrupted.
-    #[allow(clippy::type_complexity)]
-    pub(super) advance: &'w (dyn Fn(&mut [Slot], &dyn Fn() -> bool) -> Result<(), EnsembleError> + Sync),
-}
+/// Takes the members of a group on, until they have ended or this says that they are interrupted: whatever the
+/// systems and the method are.
+type Advance<'w> = dyn Fn(&mut [Slot], &dyn Fn() -> bool) -> Result<(), EnsembleError> + Sync + 'w;
 
 /// The file of a checkpoint, and how often it is written.
 pub(super) struct Checkpoints {
@@ -65,10 +60,10 @@ impl Rounds {
         }
     }
 
-    /// Goes on until all members have ended.
+    /// Goes on until all members have ended, with so many in a group.
     pub(super) fn run(
         mut self,
-        work: &Work<'_>,
+        work: (usize, &Advance<'_>),
         checkpoints: Option<&Checkpoints>,
         mut on_progress: Option<Tell<'_>>,
     ) -> Result<Results, EnsembleError> {
@@ -92,15 +87,19 @@ impl Rounds {
 
     /// Takes members on until they have ended or, if the round has a `length`, it is over. In each round at
     /// least one of them gets on.
-    fn round(&mut self, work: &Work<'_>, length: Option<Duration>) -> Result<(), EnsembleError> {
+    fn round(
+        &mut self,
+        (group, advance): (usize, &Advance<'_>),
+        length: Option<Duration>,
+    ) -> Result<(), EnsembleError> {
         let begin = Instant::now();
         let is_over = || length.is_some_and(|length| begin.elapsed() >= length);
         let has_begun = AtomicBool::new(false);
-        self.slots.par_chunks_mut(work.group).with_max_len(1).try_for_each(|group| {
+        self.slots.par_chunks_mut(group).with_max_len(1).try_for_each(|group| {
             if group.iter().all(Slot::has_ended) || (has_begun.swap(true, Ordering::Relaxed) && is_over()) {
                 return Ok(());
             }
-            (work.advance)(group, &is_over)
+            advance(group, &is_over)
         })
     }
 

@@ -3,32 +3,80 @@
 
 use std::borrow::ToOwned;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
 #[cfg(unix)]
 use std::path::PathBuf;
+use std::vec;
 use std::vec::Vec;
+
+use serde::Serialize;
 
 use crate::state::fingerprint::Fingerprint;
 
-/// The bytes of the length and the fingerprint.
-pub(crate) const HEAD: usize = 16;
-
-/// Length and fingerprint of the content, and the content.
-pub(crate) fn sealed(content: &[u8]) -> Vec<u8> {
-    [&(content.len() as u64).to_le_bytes(), &fingerprint(content)[..], content].concat()
+/// The length and the fingerprint of the content, and the content: in the binary format of the crate
+/// postcard, in which each number keeps its bits.
+pub(crate) fn sealed(content: &impl Serialize) -> io::Result<Vec<u8>> {
+    let content = postcard::to_allocvec(content).map_err(io::Error::other)?;
+    Ok([&(content.len() as u64).to_le_bytes(), &fingerprint(&content)[..], &content].concat())
 }
 
-/// The length and the fingerprint that begin `bytes`, if there are as many.
-pub(crate) fn head(bytes: &[u8]) -> Option<(u64, [u8; 8])> {
-    let (len, rest) = bytes.split_first_chunk()?;
-    Some((u64::from_le_bytes(*len), *rest.first_chunk()?))
-}
-
-pub(crate) fn fingerprint(content: &[u8]) -> [u8; 8] {
+fn fingerprint(content: &[u8]) -> [u8; 8] {
     let mut fingerprint = Fingerprint::new();
     fingerprint.bytes(content);
     fingerprint.value().to_le_bytes()
+}
+
+/// What is found in a file.
+pub(crate) enum Found {
+    Whole(Vec<u8>),
+    /// The file ends before so many bytes of it.
+    Cut {
+        len: u64,
+    },
+    Changed,
+}
+
+/// Reads what has been sealed, one after the other.
+pub(crate) struct Reader<F> {
+    pub(crate) from: F,
+    /// How far it has been read, and the length of the whole.
+    pub(crate) place: u64,
+    pub(crate) len: u64,
+}
+
+impl<F: Read> Reader<F> {
+    /// Reads the mark of a file, if it is this one.
+    pub(crate) fn begins_with(&mut self, mark: &[u8]) -> io::Result<bool> {
+        let mut read = vec![0; mark.len()];
+        Ok(self.exactly(&mut read)? && read == mark)
+    }
+
+    /// The next content.
+    pub(crate) fn next(&mut self) -> io::Result<Found> {
+        let [mut len, mut expected] = [[0; 8]; 2];
+        if !self.exactly(&mut len)? || !self.exactly(&mut expected)? {
+            return Ok(Found::Cut { len: 0 });
+        }
+        let len = u64::from_le_bytes(len);
+        if len > self.len - self.place {
+            return Ok(Found::Cut { len });
+        }
+        let mut content = Vec::new();
+        self.from.by_ref().take(len).read_to_end(&mut content)?;
+        self.place += len;
+        Ok(if fingerprint(&content) == expected { Found::Whole(content) } else { Found::Changed })
+    }
+
+    /// Reads as many bytes, if there are as many.
+    fn exactly(&mut self, bytes: &mut [u8]) -> io::Result<bool> {
+        let is_there = self.len - self.place >= bytes.len() as u64;
+        if is_there {
+            self.from.read_exact(bytes)?;
+            self.place += bytes.len() as u64;
+        }
+        Ok(is_there)
+    }
 }
 
 /// Opens a file and tells its length; `None` if there is none.

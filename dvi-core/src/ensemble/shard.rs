@@ -6,12 +6,10 @@ use std::fmt;
 use std::format;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
-use std::string::String;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-crate::error::said!(ShardError);
+use super::error::EnsembleError;
 
 /// One of several parts of an ensemble: of `i/n` the members k with k mod n = i, where i counts from 0.
 ///
@@ -21,39 +19,12 @@ crate::error::said!(ShardError);
 /// let shard: Shard = "2/8".parse()?;
 /// assert!(shard.contains(10) && !shard.contains(11));
 /// assert!("8/8".parse::<Shard>().is_err());
-/// # Ok::<(), dvi_core::ensemble::ShardError>(())
+/// # Ok::<(), dvi_core::ensemble::EnsembleError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     pub(super) index: u64,
     pub(super) of: u64,
-}
-
-/// A text or a pair of numbers that is no shard.
-///
-/// ```
-/// use dvi_core::ensemble::{Shard, ShardError};
-///
-/// assert!(matches!("2 of 8".parse::<Shard>(), Err(ShardError::Form { .. })));
-/// assert!(matches!(Shard::new(8, 8), Err(ShardError::Range { index: 8, of: 8, .. })));
-/// ```
-#[derive(Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum ShardError {
-    /// The text does not have the form i/n.
-    #[error("`{text}` is no shard: write i/n, such as 0/4 for the first of four")]
-    Form {
-        /// The text.
-        text: String,
-    },
-    /// The index is not below the number of shards.
-    #[error("there is no shard {index} of {of}: they count from 0 to n − 1")]
-    Range {
-        /// The index.
-        index: u64,
-        /// The number of shards.
-        of: u64,
-    },
 }
 
 impl Shard {
@@ -63,9 +34,9 @@ impl Shard {
     /// Shard `index` of `of`.
     ///
     /// # Errors
-    /// [`ShardError::Range`] if `index` is not below `of`.
-    pub fn new(index: u64, of: u64) -> Result<Self, ShardError> {
-        if index < of { Ok(Self { index, of }) } else { Err(ShardError::Range { index, of }) }
+    /// [`EnsembleError::ShardRange`] if `index` is not below `of`.
+    pub fn new(index: u64, of: u64) -> Result<Self, EnsembleError> {
+        if index < of { Ok(Self { index, of }) } else { Err(EnsembleError::ShardRange { index, of }) }
     }
 
     /// Whether a member belongs to this shard.
@@ -87,10 +58,10 @@ impl Shard {
 }
 
 impl FromStr for Shard {
-    type Err = ShardError;
+    type Err = EnsembleError;
 
-    fn from_str(text: &str) -> Result<Self, ShardError> {
-        let form = || ShardError::Form { text: text.to_owned() };
+    fn from_str(text: &str) -> Result<Self, EnsembleError> {
+        let form = || EnsembleError::ShardText { text: text.to_owned() };
         let (index, of) = text.trim().split_once('/').ok_or_else(form)?;
         let number = |digits: &str| digits.parse().map_err(|_| form());
         Self::new(number(index)?, number(of)?)

@@ -14,7 +14,7 @@ use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
 use crate::memory::Memory;
 #[cfg(feature = "alloc")]
-use crate::memory::{Reader, Record};
+use crate::memory::Record;
 use crate::state::Statistics;
 use crate::system::{Kind, Regular, Same};
 use crate::{Lagrangian, Real, Scalar, Sink, System, Vector, Weights};
@@ -54,8 +54,8 @@ impl<T: Copy, V: DerefMut<Target = [T]>, const K: usize> Memory<T> for Point<V, 
         self.0.iter().for_each(|vector| record.numbers(vector));
     }
     #[cfg(feature = "alloc")]
-    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        self.0.iter_mut().try_for_each(|vector| reader.numbers(vector))
+    fn load(&mut self, record: &mut Record<T>) -> Result<(), CheckpointError> {
+        self.0.iter_mut().try_for_each(|vector| record.read(vector))
     }
 }
 

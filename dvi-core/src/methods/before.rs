@@ -6,14 +6,14 @@ use crate::memory::Memory;
 
 /// A point of a run with coordinates `q`, and what its method carried there.
 #[derive(Debug)]
-pub(super) struct Before<I, V> {
-    pub(super) inner: I,
-    pub(super) q: V,
+pub(crate) struct Before<I, V> {
+    pub(crate) inner: I,
+    pub(crate) q: V,
 }
 
 impl<I, V> Before<I, V> {
     /// Takes over the present point.
-    pub(super) fn keep<T: Copy>(&mut self, inner: &I, q: &[T])
+    pub(crate) fn keep<T: Copy>(&mut self, inner: &I, q: &[T])
     where
         I: Memory<T>,
         V: DerefMut<Target = [T]>,
@@ -23,7 +23,7 @@ impl<I, V> Before<I, V> {
     }
 
     /// Makes the present point that one again.
-    pub(super) fn go_back<T: Copy>(&self, inner: &mut I, q: &mut [T])
+    pub(crate) fn go_back<T: Copy>(&self, inner: &mut I, q: &mut [T])
     where
         I: Memory<T>,
         V: DerefMut<Target = [T]>,

@@ -9,27 +9,13 @@ use serde::Serialize;
 
 use super::column::{Column, Quantity, Values};
 
-/// A body: its name, and the names of the two or three columns in which its position is.
-///
-/// ```
-/// use dvi_core::record::{Column, Quantity, Record};
-///
-/// let column = |name: &str| Column::new(name, vec![0.0, 1.0]).with_quantity(Quantity::Coordinate);
-/// let time = Column::new("time", vec![0.0, 0.1]).with_quantity(Quantity::Time);
-/// let record = Record::new("The sun").with_column(time)?;
-/// let record = record.with_column(column("sun_x"))?.with_column(column("sun_y"))?;
-/// let bodies = record.bodies();
-/// assert_eq!(bodies[0].name, "sun");
-/// assert_eq!(bodies[0].position, ["sun_x", "sun_y"]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// A body.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[non_exhaustive]
-pub struct Body {
+pub(super) struct Body {
     /// The name; empty if `x` and `y` have none in common.
-    pub name: String,
+    pub(super) name: String,
     /// The columns of its coordinates along the axes x, y and, in space, z.
-    pub position: Vec<String>,
+    pub(super) position: Vec<String>,
     /// Whether it is drawn with a line from the origin, as the end of a unit vector is.
     pub(super) is_arm: bool,
 }
@@ -54,17 +40,17 @@ fn parts(name: &str) -> Vec<(usize, &str, &str)> {
 /// The bodies that names tell, in the order of their first columns, and the `turning` ones; none if rows are
 /// not states one after the other.
 pub(super) fn told(columns: &[Column], turning: &[Body]) -> Vec<Body> {
-    if columns.iter().all(|column| column.quantity() != Quantity::Time) {
+    if columns.iter().all(|column| column.quantity != Quantity::Time) {
         return Vec::new();
     }
     let is_known = |name: &str| turning.iter().any(|body| body.position.iter().any(|known| known == name));
     let mut found: BTreeMap<(&str, &str), [Option<usize>; 3]> = BTreeMap::new();
     for (place, column) in columns.iter().enumerate() {
-        let is_position = matches!(column.quantity(), Quantity::Coordinate | Quantity::Other);
-        if !is_position || !matches!(column.values(), Values::Numbers(_)) || is_known(column.name()) {
+        let is_position = matches!(column.quantity, Quantity::Coordinate | Quantity::Other);
+        if !is_position || !matches!(column.values, Values::Numbers(_)) || is_known(&column.name) {
             continue;
         }
-        for (axis, rest, index) in parts(column.name()) {
+        for (axis, rest, index) in parts(&column.name) {
             found.entry((rest, index)).or_default()[axis].get_or_insert(place);
         }
     }
@@ -72,7 +58,7 @@ pub(super) fn told(columns: &[Column], turning: &[Body]) -> Vec<Body> {
         let [Some(x), Some(y), z] = places else { return None };
         let name = format!("{}{index}", rest.trim_matches('_'));
         let position = [Some(x), Some(y), z].into_iter().flatten();
-        let position = position.map(|place| columns[place].name().into()).collect();
+        let position = position.map(|place| columns[place].name.clone()).collect();
         Some((x, Body { name, position, is_arm: false }))
     };
     let mut bodies: Vec<(usize, Body)> = found.into_iter().filter_map(body).collect();

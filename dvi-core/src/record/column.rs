@@ -1,7 +1,6 @@
 //! The columns of a record.
 
-use std::format;
-use std::string::{String, ToString};
+use std::string::String;
 use std::vec::Vec;
 
 use serde::Serialize;
@@ -12,19 +11,22 @@ use serde::Serialize;
 /// use dvi_core::record::{Column, Record, Values};
 ///
 /// let speed = Column::new("speed", vec![1.5, 2.5]);
-/// assert_eq!((speed.name(), speed.len()), ("speed", 2));
-/// assert_eq!(speed.values(), &Values::Numbers(vec![1.5, 2.5]));
+/// assert_eq!(speed.name, "speed");
+/// assert_eq!(speed.values, Values::Numbers(vec![1.5, 2.5]));
 /// let record = Record::new("Two runs").with_column(speed)?.with_unit("speed", "m/s")?;
-/// assert_eq!(record.column("speed")?.unit(), "m/s");
+/// assert_eq!(record.column("speed")?.unit, "m/s");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Column {
-    name: String,
-    quantity: Quantity,
-    /// Empty if it is not known.
-    pub(super) unit: String,
-    pub(super) values: Values,
+    /// The name.
+    pub name: String,
+    /// What it is.
+    pub quantity: Quantity,
+    /// Its unit; empty if [nobody has said](super::Record::with_unit) it.
+    pub unit: String,
+    /// The values.
+    pub values: Values,
 }
 
 /// What a column is, which decides where it stands on a page.
@@ -34,8 +36,8 @@ pub struct Column {
 /// use dvi_core::record::Quantity;
 ///
 /// let record = Integrator::new(&Kepler, Variational::trapezoid(), 0.01, start)?.record(1, 10)?;
-/// assert_eq!(record.column("dot_x")?.quantity(), Quantity::Velocity);
-/// assert_eq!(record.column("angular")?.quantity(), Quantity::Momentum);
+/// assert_eq!(record.column("dot_x")?.quantity, Quantity::Velocity);
+/// assert_eq!(record.column("angular")?.quantity, Quantity::Momentum);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -65,7 +67,7 @@ pub enum Quantity {
 /// use dvi_core::record::{Column, Values};
 ///
 /// let column = Column::new("steps", vec![100_u64, 200]);
-/// let Values::Counts(steps) = column.values() else { panic!("counts") };
+/// let Values::Counts(steps) = column.values else { panic!("counts") };
 /// assert_eq!(steps.iter().sum::<u64>(), 300);
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -93,47 +95,12 @@ impl Column {
         self
     }
 
-    /// The name.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// What it is.
-    pub fn quantity(&self) -> Quantity {
-        self.quantity
-    }
-
-    /// Its unit; empty if [nobody has said](super::Record::with_unit) it.
-    pub fn unit(&self) -> &str {
-        &self.unit
-    }
-
-    /// The values.
-    pub fn values(&self) -> &Values {
-        &self.values
-    }
-
     /// How many there are.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         match &self.values {
             Values::Numbers(numbers) => numbers.len(),
             Values::Counts(counts) => counts.len(),
             Values::Texts(texts) => texts.len(),
-        }
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// The entry of a row as a text from which it can be read back.
-    pub(super) fn text(&self, row: usize) -> String {
-        match &self.values {
-            // As many digits as tell it from its neighbours.
-            Values::Numbers(numbers) => format!("{:?}", numbers[row]),
-            Values::Counts(counts) => counts[row].to_string(),
-            Values::Texts(texts) => texts[row].clone(),
         }
     }
 }

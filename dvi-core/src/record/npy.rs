@@ -11,62 +11,46 @@ const MARK: &[u8] = b"\x93NUMPY\x03\x00";
 /// The data begin at a multiple of this.
 const ALIGNMENT: usize = 64;
 
-/// How the entries of a column are written: numbers and counts in eight bytes, texts in so many letters.
-enum Kind {
-    Number,
-    Count,
-    Text { letters: usize },
-}
-
-impl Kind {
-    fn of(column: &Column) -> Self {
-        match column.values() {
-            Values::Numbers(_) => Self::Number,
-            Values::Counts(_) => Self::Count,
-            // There is no type for texts of no letters.
-            Values::Texts(texts) => {
-                let letters = texts.iter().map(|text| text.chars().count()).max();
-                Self::Text { letters: letters.unwrap_or(0).max(1) }
-            }
-        }
-    }
-
-    fn name(&self) -> String {
-        match self {
-            Self::Number => "<f8".into(),
-            Self::Count => "<u8".into(),
-            Self::Text { letters } => format!("<U{letters}"),
-        }
-    }
-}
-
 pub(super) fn write(columns: &[Column], rows: usize, to: impl Write) -> io::Result<()> {
-    let kinds: Vec<Kind> = columns.iter().map(Kind::of).collect();
+    let letters: Vec<usize> = columns.iter().map(letters).collect();
     let mut to = BufWriter::new(to);
-    to.write_all(&head(columns, &kinds, rows)?)?;
+    to.write_all(&head(columns, &letters, rows)?)?;
     for row in 0..rows {
-        for (column, kind) in columns.iter().zip(&kinds) {
-            match (column.values(), kind) {
-                (Values::Numbers(numbers), _) => to.write_all(&numbers[row].to_le_bytes())?,
-                (Values::Counts(counts), _) => to.write_all(&counts[row].to_le_bytes())?,
-                (Values::Texts(texts), &Kind::Text { letters }) => {
+        for (column, &letters) in columns.iter().zip(&letters) {
+            match &column.values {
+                Values::Numbers(numbers) => to.write_all(&numbers[row].to_le_bytes())?,
+                Values::Counts(counts) => to.write_all(&counts[row].to_le_bytes())?,
+                Values::Texts(texts) => {
                     let text = texts[row].chars().map(u32::from);
                     for letter in text.chain(core::iter::repeat(0)).take(letters) {
                         to.write_all(&letter.to_le_bytes())?;
                     }
                 }
-                (Values::Texts(_), Kind::Number | Kind::Count) => {}
             }
         }
     }
     to.flush()
 }
 
+/// The letters of the longest text of a column, at least one: there is no type for texts of none.
+fn letters(column: &Column) -> usize {
+    match &column.values {
+        Values::Texts(texts) => texts.iter().map(|text| text.chars().count()).fold(1, usize::max),
+        Values::Numbers(_) | Values::Counts(_) => 1,
+    }
+}
+
 /// What stands before the records: their type as a literal of Python.
-fn head(columns: &[Column], kinds: &[Kind], rows: usize) -> io::Result<Vec<u8>> {
-    let field =
-        |(column, kind): (&Column, &Kind)| format!("({}, '{}'), ", literal(column.name()), kind.name());
-    let fields: String = columns.iter().zip(kinds).map(field).collect();
+fn head(columns: &[Column], letters: &[usize], rows: usize) -> io::Result<Vec<u8>> {
+    let field = |(column, letters): (&Column, &usize)| {
+        let name = literal(&column.name);
+        match &column.values {
+            Values::Numbers(_) => format!("({name}, '<f8'), "),
+            Values::Counts(_) => format!("({name}, '<u8'), "),
+            Values::Texts(_) => format!("({name}, '<U{letters}'), "),
+        }
+    };
+    let fields: String = columns.iter().zip(letters).map(field).collect();
     let mut text = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({rows},), }}");
     let before = MARK.len() + size_of::<u32>();
     // A line end closes the padding.

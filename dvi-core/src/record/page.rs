@@ -6,8 +6,9 @@ use std::vec::Vec;
 
 use serde::Serialize;
 
+use super::Record;
+use super::body::Body;
 use super::column::{Column, Values};
-use super::{Body, Record};
 
 const TEMPLATE: &str = include_str!("page/page.html");
 const STYLES: [&str; 2] = [include_str!("page/uplot.css"), include_str!("page/page.css")];
@@ -61,7 +62,7 @@ fn data(record: &Record) -> io::Result<String> {
         bodies: Vec<Body>,
     }
 
-    let columns = record.columns().iter().filter(|column| !matches!(column.values(), Values::Texts(_)));
+    let columns = record.columns().iter().filter(|column| !matches!(column.values, Values::Texts(_)));
     let text = serde_json::to_string(&Data { columns: columns.collect(), bodies: record.bodies() })?;
     Ok(text.replace('<', "\\u003c"))
 }

@@ -23,10 +23,14 @@ type Function<'f, S, Q> = Box<dyn FnMut(&S, &Q, f64) -> f64 + 'f>;
 /// use dvi_core::record::Recorder;
 ///
 /// let mut run = Integrator::new(&Kepler, Gauss::<4>::new(), 0.05, start)?;
-/// let recorder = Recorder::new(&Kepler).with_function("radius", |_, state, _| state.x.hypot(state.y))?;
-/// let record = recorder.record(&mut run, 10, 100)?; // now, and 100 times after 10 steps each
+/// let recorder = || Recorder::new(&Kepler).with_function("radius", |_, state, _| state.x.hypot(state.y));
+/// let record = recorder()?.record(&mut run, 10, 100)?; // now, and 100 times after 10 steps each
 /// let farthest = record.numbers("radius")?.iter().fold(0.0_f64, |a, b| a.max(*b));
 /// assert!((farthest - 2.57).abs() < 0.01); // the apocentre, 1.44/0.56
+///
+/// let passages = run.events([Direction::Rising], |_, state| [state.y])?;
+/// let passages = recorder()?.points(&Kepler, passages.take(3))?;
+/// assert!(passages.numbers("radius")?.iter().all(|radius| (radius - 1.0).abs() < 1e-4)); // at the pericentre
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Recorder<'f, S: Lagrangian> {
@@ -77,7 +81,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
             [("time", Quantity::Time), ("energy", Quantity::Energy)].into_iter().chain(momenta)
         {
             let mut name = name.to_string();
-            while columns.iter().any(|column| column.name() == name) {
+            while columns.iter().any(|column| column.name == name) {
                 name.insert_str(0, "run.");
             }
             columns.push(column(name, quantity));

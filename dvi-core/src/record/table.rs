@@ -37,7 +37,6 @@ use crate::error::StepError;
 /// record.write_page(&mut page)?; // its angle and energy over time, and the bob as it moves
 /// # let text = String::from_utf8(page)?;
 /// # assert!(text.contains("A pendulum of length 1 m") && text.contains("bob_x"));
-/// # assert_eq!(record.bodies().len(), 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,6 +47,8 @@ pub struct Record {
     pub(super) turning: Vec<Body>,
     /// Those that the user has named.
     named: Vec<Body>,
+    /// Where the rows begin in the text that they were read from; empty if they were not.
+    pub(super) lines: Vec<u64>,
 }
 
 impl Record {
@@ -68,13 +69,13 @@ impl Record {
     /// [`RecordError::Duplicate`] if there is one of this name, [`RecordError::Rows`] if it is longer or
     /// shorter than those that there are.
     pub fn with_column(mut self, column: Column) -> Result<Self, RecordError> {
-        let name = column.name();
-        if self.columns.iter().any(|other| other.name() == name) {
-            return Err(RecordError::Duplicate { name: name.into() });
+        let name = &column.name;
+        if self.columns.iter().any(|other| other.name == *name) {
+            return Err(RecordError::Duplicate { name: name.clone() });
         }
         let (found, expected) = (column.len(), self.rows());
         if found != expected && !self.columns.is_empty() {
-            return Err(RecordError::Rows { name: name.into(), found, expected });
+            return Err(RecordError::Rows { name: name.clone(), found, expected });
         }
         self.columns.push(column);
         Ok(self)
@@ -103,8 +104,12 @@ impl Record {
         Ok(self)
     }
 
-    /// The same with a body whose position is in two or three columns. The first body that is named takes
-    /// the place of [those that the names of columns tell](Self::bodies).
+    /// The same with a body whose position is in two or three columns, for the [page](Self::write_page).
+    ///
+    /// If none is named, the bodies are those whose coordinates, or functions of yours, have names that are
+    /// alike but for the letters `x`, `y` and perhaps `z` at their beginning or end, as `x[3]` and `y[3]`,
+    /// `x2` and `y2`, `sun_x` and `sun_y`; and unit vectors and the three axes of rotations. The array `r[3]`
+    /// is none, since its numbers may be three angles as well: where it is a position, name it.
     ///
     /// # Errors
     /// [`RecordError::Missing`]; [`RecordError::Texts`] if a column has no numbers; [`RecordError::Body`] if
@@ -137,12 +142,8 @@ impl Record {
         self.columns.first().map_or(0, Column::len)
     }
 
-    /// The bodies that move in a plane or in space: those that were [named](Self::with_body); if none was,
-    /// those whose coordinates, or functions of yours, have names that are alike but for the letters `x`,
-    /// `y` and perhaps `z` at their beginning or end, as `x[3]` and `y[3]`, `x2` and `y2`, `sun_x` and
-    /// `sun_y`; and unit vectors and the three axes of rotations. The array `r[3]` is none, since its
-    /// numbers may be three angles as well: where it is a position, [name it](Self::with_body).
-    pub fn bodies(&self) -> Vec<Body> {
+    /// The bodies that move in a plane or in space: those that were named, or those that names tell.
+    pub(super) fn bodies(&self) -> Vec<Body> {
         if self.named.is_empty() { body::told(&self.columns, &self.turning) } else { self.named.clone() }
     }
 
@@ -157,17 +158,27 @@ impl Record {
     /// The numbers of a column.
     ///
     /// # Errors
-    /// [`RecordError::Missing`], and [`RecordError::Texts`] if it holds counts or texts.
+    /// [`RecordError::Missing`]; [`RecordError::Texts`] if it holds counts or texts, and
+    /// [`RecordError::Number`] if these were [read](Self::read_csv).
     pub fn numbers(&self, name: &str) -> Result<&[f64], RecordError> {
-        match self.column(name)?.values() {
+        match &self.column(name)?.values {
             Values::Numbers(numbers) => Ok(numbers),
-            Values::Counts(_) | Values::Texts(_) => Err(RecordError::Texts { name: name.into() }),
+            Values::Counts(_) => Err(RecordError::Texts { name: name.into() }),
+            Values::Texts(texts) => {
+                let mut read = self.lines.iter().zip(texts);
+                Err(match read.find(|(_, text)| text.parse::<f64>().is_err()) {
+                    Some((&line, text)) => {
+                        RecordError::Number { line, column: name.into(), text: text.clone() }
+                    }
+                    None => RecordError::Texts { name: name.into() },
+                })
+            }
         }
     }
 
     fn place(&self, name: &str) -> Result<usize, RecordError> {
-        self.columns.iter().position(|column| column.name() == name).ok_or_else(|| {
-            let names: Vec<&str> = self.columns.iter().map(Column::name).collect();
+        self.columns.iter().position(|column| column.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.columns.iter().map(|column| &column.name[..]).collect();
             RecordError::Missing { name: name.into(), columns: names.join(", ") }
         })
     }
@@ -175,22 +186,6 @@ impl Record {
     /// What was recorded before `error`, with it.
     pub(super) fn until(self, error: StepError) -> RecordError {
         RecordError::Step { record: Box::new(self), error }
-    }
-
-    /// Writes a table in CSV: the names, then a line for each row. Its numbers can be read back without a
-    /// rounding error; those that are none are `NaN`, `inf` and `-inf`.
-    ///
-    /// # Errors
-    /// Those of `to`.
-    pub fn write_csv(&self, to: impl Write) -> io::Result<()> {
-        let mut writer = csv::Writer::from_writer(to);
-        writer.write_record(self.columns.iter().map(Column::name)).map_err(io::Error::from)?;
-        for row in 0..self.rows() {
-            writer
-                .write_record(self.columns.iter().map(|column| column.text(row)))
-                .map_err(io::Error::from)?;
-        }
-        writer.flush()
     }
 
     /// Writes an array of records in the format of NumPy, with the columns as its fields:
@@ -206,7 +201,7 @@ impl Record {
     }
 
     /// Writes a page of HTML that shows the columns over time, any column against any other, and, if there
-    /// are [bodies](Self::bodies), how they move. It is one file, which needs no network and no server: less
+    /// are [bodies](Self::with_body), how they move. It is one file, which needs no network and no server: less
     /// than 100 kB, and about 20 bytes for each number. Numbers that are none are gaps. Of long columns at
     /// most 4000 points over time are drawn, the extremes among them, and 60,000 against each other; the
     /// page says of how many. Columns of texts are not on it.

@@ -1,16 +1,10 @@
 //! What a run carries when it begins.
 
-#[cfg(feature = "alloc")]
-use super::Checkpoint;
 use super::StepControl;
 use super::clock::Time;
-use super::kept::Kept;
-#[cfg(feature = "alloc")]
-use crate::error::CheckpointError;
 use crate::error::StartError;
 use crate::memory::Aside;
-#[cfg(feature = "alloc")]
-use crate::memory::Memory;
+use crate::methods::before::Before;
 use crate::methods::{Carries, Method};
 use crate::state::Statistics;
 use crate::system::start::{consistent, evaluate, flatten, named, validate, velocities};
@@ -20,7 +14,7 @@ use crate::{Lagrangian, Real, Vector};
 pub(super) struct Begun<Q, K, L, T> {
     pub(super) q: Q,
     pub(super) memory: K,
-    pub(super) kept: Option<Aside<Kept<Q, K>>>,
+    pub(super) kept: Option<Aside<Before<K, Q>>>,
     pub(super) control_memory: L,
     pub(super) time: Time<T>,
     pub(super) statistics: Statistics,
@@ -62,7 +56,7 @@ pub(super) fn carried<S: Lagrangian<T>, C: StepControl<S, T>, K, T: Real>(
     let begin = || method(&q, v, h).map_err(explained);
     let memory = begin()?;
     let is_kept = S::TIME_TRANSFORMED || S::HAS_DOMAIN || C::REJECTS;
-    let kept = is_kept.then(|| begin().map(|memory| Kept { q: q.clone(), memory }.into())).transpose()?;
+    let kept = is_kept.then(|| begin().map(|inner| Before { inner, q: q.clone() }.into())).transpose()?;
     let time = Time::new(t, h, 0);
     Ok(Begun { q, memory, kept, control_memory, time, statistics: Statistics::default() })
 }
@@ -79,36 +73,4 @@ pub(super) fn begun<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: 
     control.admit(method)?;
     let lengths = |q: &_, v: &_| control.begin(system, q, v, t);
     carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin(system, q, v, t, h))
-}
-
-/// From a checkpoint.
-#[cfg(feature = "alloc")]
-pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: Real>(
-    system: &S,
-    method: &M,
-    control: &C,
-    checkpoint: &Checkpoint<T>,
-) -> Result<BegunOf<S, M::Memory, C, T>, StartError> {
-    let (t, h, statistics) = (checkpoint.time(), checkpoint.step_size(), checkpoint.statistics());
-    validate(system, t)?;
-    let at = checkpoint.point(system)?;
-    control.admit(method)?;
-    let lengths = |q: &_, v: &_| Ok((control.begin_again(system, q, v, t)?, h));
-    let mut begun =
-        carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;
-    let Begun { memory, control_memory, time, .. } = &mut begun;
-    checkpoint.load(memory, |reader| {
-        control_memory.load(reader)?;
-        time.load(reader)?;
-        let is_length = C::ONE_LENGTH || (time.h == h && h != T::lift(0.0));
-        if time.after(statistics.steps).time() != t || !is_length {
-            return Err(CheckpointError::Damaged);
-        }
-        if time.h != h {
-            // No steps have been taken with this one.
-            *time = Time::new(t, h, statistics.steps);
-        }
-        Ok(())
-    })?;
-    Ok(Begun { statistics, ..begun })
 }

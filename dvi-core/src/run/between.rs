@@ -1,14 +1,14 @@
 //! The last step of a run, taken again in part, whatever its method is.
 
 use crate::error::{StartError, StepFailure};
+use crate::methods::before::Before;
 use crate::methods::{Clock, Here, Method, Step, Steps};
 use crate::run::Stepper;
-use crate::run::kept::Kept;
 use crate::run::stepper::PointOf;
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::velocities;
-use crate::{Lagrangian, Real, System, Vector};
+use crate::{Lagrangian, Real, State, System, Vector};
 
 /// What a run of any method does for [`Dense`](crate::run::Dense): it keeps the point at which steps begin,
 /// and a copy of it is moved within the last one.
@@ -60,7 +60,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         let mut v = q.clone();
         method.velocity(Here { system, q, t }, memory, &mut v).map_err(StartError::Starter)?;
         let begin = || method.begin_again(system, q, &v[..velocities(system)], t, h);
-        let point = || begin().map(|memory| Kept { q: q.clone(), memory });
+        let point = || begin().map(|inner| Before { inner, q: q.clone() });
         self.points = Some([point()?, point()?].into());
         self.keep_begun();
         Ok(self.method.places())
@@ -69,14 +69,14 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
     #[inline]
     fn keep_begun(&mut self) {
         if let Some(points) = &mut self.points {
-            points[0].take(&self.q, &self.memory);
+            points[0].keep(&self.memory, &self.q);
         }
     }
 
     fn settle(&mut self, system: &S, clock: Clock<T>, count: u64) -> Result<(), StepFailure> {
         let Self { method, points, .. } = self;
         let points: &mut [PointOf<S, M, T>; 2] = begun(points.as_mut(), clock.time())?;
-        let Kept { q, memory } = &mut points[0];
+        let Before { q, inner: memory } = &mut points[0];
         let statistics = &mut Statistics::default();
         method.steps(Steps { system, q, clock, count, statistics }, memory)
     }
@@ -90,8 +90,8 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
     ) -> Result<&[T], StepFailure> {
         let Self { method, points, .. } = self;
         let [begun, reached]: &mut [PointOf<S, M, T>; 2] = begun(points.as_mut(), t)?;
-        reached.take(&begun.q, &begun.memory);
-        let (Kept { q, memory }, end) = (reached, t + h);
+        reached.keep(&begun.inner, &begun.q);
+        let (Before { q, inner: memory }, end) = (reached, t + h);
         if end != t {
             let statistics = &mut Statistics::default();
             method.part_of_step(Step { system, q, t, h, statistics }, whole, memory)?;
@@ -105,7 +105,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
 
     fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])> {
         let Self { method, memory, points, .. } = self;
-        let [_, Kept { q, .. }]: &mut [PointOf<S, M, T>; 2] = points.as_mut()?;
+        let [_, Before { q, .. }]: &mut [PointOf<S, M, T>; 2] = points.as_mut()?;
         method.place(memory, index, q, v).map(|part| (part, &q[..]))
     }
 
@@ -113,6 +113,26 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
     fn end(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<&[T], StepFailure> {
         self.velocity(system, t, v)?;
         Ok(&self.q)
+    }
+}
+
+/// A state in flat form.
+#[derive(Debug)]
+pub struct Flat<'a, S, T> {
+    pub(super) system: &'a S,
+    pub(super) q: &'a [T],
+    pub(super) v: &'a [T],
+}
+
+impl<S: System, T: Real> Flat<'_, S, T> {
+    /// The state.
+    pub(super) fn state(self) -> S::State<T> {
+        S::State::read(|block| self.system.block_len(block), self.q, self.v)
+    }
+
+    /// Writes it into another one, without allocation.
+    pub(super) fn refill(self, state: &mut S::State<T>) {
+        state.refill(|block| self.system.block_len(block), self.q, self.v);
     }
 }
 

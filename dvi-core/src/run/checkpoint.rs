@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::error::{CheckpointError, StartError};
-use crate::memory::{Memory, Reader, Record};
+use crate::memory::{Memory, Record};
 use crate::methods::Method;
 use crate::run::Stepper;
 use crate::state::Statistics;
@@ -157,13 +157,11 @@ impl<T: Real> Checkpoint<T> {
 
     /// The coordinates and velocities, for `system`, if all numbers and counts are those of a run.
     pub(crate) fn point<S: Lagrangian<T>>(&self, system: &S) -> Result<[Vector<S, T>; 2], StartError> {
-        let (expected, found) = (system.space().dimension(), self.0.q.len());
-        if found != expected {
-            return Err(CheckpointError::Coordinates { expected, found }.into());
-        }
-        let (expected, found) = (velocities(system), self.0.v.len());
-        if found != 0 && found != expected {
-            return Err(CheckpointError::Velocities { expected, found }.into());
+        let found = self.0.v.len();
+        let of_q = ("coordinates", system.space().dimension(), self.0.q.len());
+        let of_v = ("velocities", if found == 0 { 0 } else { velocities(system) }, found);
+        if let Some((what, expected, found)) = [of_q, of_v].into_iter().find(|(_, a, b)| a != b) {
+            return Err(CheckpointError::Size { what, expected, found }.into());
         }
         finite(system, &self.0.q, &self.0.v)?;
         if self.0.statistics.counts().iter().any(|&count| count > BEYOND) || !self.0.record.is_finite() {
@@ -180,11 +178,11 @@ impl<T: Real> Checkpoint<T> {
     pub(crate) fn load(
         &self,
         memory: &mut impl Memory<T>,
-        load: impl FnOnce(&mut Reader<'_, T>) -> Result<(), CheckpointError>,
+        load: impl FnOnce(&mut Record<T>) -> Result<(), CheckpointError>,
     ) -> Result<(), StartError> {
-        let mut reader = self.0.record.reader();
-        memory.load(&mut reader)?;
-        load(&mut reader)?;
-        Ok(reader.end()?)
+        let mut record = self.0.record.clone();
+        memory.load(&mut record)?;
+        load(&mut record)?;
+        Ok(record.end()?)
     }
 }

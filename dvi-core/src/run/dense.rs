@@ -1,5 +1,5 @@
-//! The state at any time within the last step of a run: that step, taken again in part, by the run's own
-//! method. The run does not notice: what is moved is a copy.
+//! The state at any time within the last step of a run: that step, taken again in part. The run does not
+//! notice: what is moved is a copy.
 
 use core::fmt;
 use core::iter::FusedIterator;
@@ -9,10 +9,11 @@ use crate::error::{StartError, StepError, StepFailure};
 #[cfg(doc)]
 use crate::methods::Method;
 use crate::run::Run;
+use crate::run::between::Flat;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::system::start::step_error;
-use crate::{Real, Scalar as _, Space, State, System, Vector};
+use crate::{Scalar as _, Space, System, Vector};
 
 /// A run with its continuous extension: the state at any time of its last step.
 ///
@@ -52,26 +53,6 @@ pub struct Dense<R: Run> {
     /// How many places within a step are known when it has been taken.
     places: usize,
     v: Vector<R::System, R::Scalar>,
-}
-
-/// A state in flat form.
-#[derive(Debug)]
-pub struct Flat<'a, S, T> {
-    pub(super) system: &'a S,
-    pub(super) q: &'a [T],
-    pub(super) v: &'a [T],
-}
-
-impl<S: System, T: Real> Flat<'_, S, T> {
-    /// The state.
-    pub(super) fn state(self) -> S::State<T> {
-        S::State::read(|block| self.system.block_len(block), self.q, self.v)
-    }
-
-    /// Writes it into another one, without allocation.
-    pub(super) fn refill(self, state: &mut S::State<T>) {
-        state.refill(|block| self.system.block_len(block), self.q, self.v);
-    }
 }
 
 type FlatOf<'a, R> = Flat<'a, <R as Run>::System, <R as Run>::Scalar>;

@@ -9,6 +9,7 @@
 
 mod conditions;
 mod course;
+mod found;
 mod search;
 mod watch;
 
@@ -179,18 +180,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
         self.watch.next_before(&mut self.dense, None)
     }
 
-    /// The state at time `t`, within the last step.
-    ///
-    /// # Errors
-    /// [`StepFailure::Unreachable`] if `t` lies before this step or after it: what happens there is not
-    /// known yet. Else as [`Dense::state_at`].
-    pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
-        if self.dense.is_before(self.dense.time(), t) {
-            return Err(self.dense.unreachable(t));
-        }
-        self.dense.state_at(t)
-    }
-
     /// Goes on from another state at time `t`, which is as a rule that of the last event. The run begins
     /// anew, as by [`Run::set_state`]. Conditions that are zero there but for rounding are zero; of the
     /// events that have not been handed out those that happen there too, as in a corner, are handed out
@@ -203,18 +192,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
         self.watch.begin_anew(&mut self.dense)?;
         self.ended = false;
         Ok(())
-    }
-
-    /// As [`Watch::save`].
-    #[cfg(feature = "alloc")]
-    pub fn save(&self) -> alloc::vec::Vec<R::Scalar> {
-        self.watch.save()
-    }
-
-    /// As [`Watch::load`].
-    #[cfg(feature = "alloc")]
-    pub fn load(&mut self, saved: &[R::Scalar]) -> Option<()> {
-        self.watch.load(saved)
     }
 
     /// Takes a step, and finds its events.

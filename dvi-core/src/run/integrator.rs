@@ -1,24 +1,23 @@
 //! A run: a system, a method, what sets the lengths of its steps, and where they have got to.
 
-use core::fmt;
-
 #[cfg(feature = "alloc")]
 use super::Checkpoint;
-#[cfg(feature = "alloc")]
-use super::begun::resumed;
+#[cfg(doc)]
+use super::Run;
 use super::begun::{Begun, BegunOf, begun, carried, point};
 use super::clock::Time;
-use super::{Between, ControlledRun, Obeys, OneLength, Run, StepControl, Stepper};
-use crate::error::{StartError, StepError, StepFailure};
 #[cfg(feature = "alloc")]
-use crate::memory::Memory;
+use super::resume::resumed;
+use super::{Obeys, OneLength, StepControl, Stepper};
+use crate::error::StartError;
+#[cfg(doc)]
+use crate::error::StepFailure;
 #[cfg(doc)]
 use crate::methods::Sigma;
-use crate::methods::{BeginsBetween, Carries, Clock, Method, Suits, SuitsAnyStep};
-use crate::state::Statistics;
+use crate::methods::{BeginsBetween, Carries, Suits, SuitsAnyStep};
 use crate::system::StateOf;
 use crate::system::start::{evaluate, flatten};
-use crate::{Held, Lagrangian, Real, Vector};
+use crate::{Held, Lagrangian, Real};
 
 /// A run of a method on a system: with steps of one length, or of those that a [`StepControl`] `C` chooses.
 ///
@@ -38,20 +37,8 @@ use crate::{Held, Lagrangian, Real, Vector};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A control reads the velocity; for L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
-///
-/// ```
-#[doc = include_str!("../../docs/hidden/kepler.txt")]
-/// // An orbit of eccentricity 0.9, from its pericentre.
-/// let start = KeplerState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 19_f64.sqrt() };
-/// let control = Reversible::power(0.02, 1.5);
-/// let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start)?;
-/// let (energy, first) = (run.energy(), run.step_size());
-/// run.take_steps(200)?;
-/// assert!(run.step_size() > 10.0 * first); // further out steps are longer
-/// assert!((run.energy() - energy).abs() < 1e-3);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// [`Reversible`](super::Reversible) shows a run under a control. A control reads the velocity; for
+/// L = ½ v·M v − V(q, t) that is one product with M⁻¹ a step.
 pub struct Integrator<H, M, T = f64, C = OneLength<T>>
 where
     H: Held,
@@ -63,7 +50,7 @@ where
     pub(super) stepper: Stepper<H::System, M, T>,
     pub(super) control: C,
     pub(super) control_memory: C::Memory,
-    time: Time<T>,
+    pub(super) time: Time<T>,
 }
 
 impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrator<H, M, T> {
@@ -247,153 +234,5 @@ where
     /// [`ErrorControl`](super::ErrorControl) the `error()` of the last step in units of the tolerance.
     pub fn control_memory(&self) -> &C::Memory {
         &self.control_memory
-    }
-}
-
-impl<H, M, T: Real, C> Run for Integrator<H, M, T, C>
-where
-    H: Held<System: Lagrangian<T>>,
-    M: Method<H::System, T>,
-    C: StepControl<H::System, T>,
-{
-    type System = H::System;
-    type Scalar = T;
-
-    #[inline]
-    fn system(&self) -> &H::System {
-        self.system.held()
-    }
-
-    #[inline]
-    fn between(&mut self) -> (&H::System, &mut dyn Between<H::System, T>) {
-        (self.system.held(), &mut self.stepper)
-    }
-
-    #[inline]
-    fn q(&self) -> &[T] {
-        &self.stepper.q
-    }
-
-    fn v(&self) -> Vector<H::System, T> {
-        self.stepper.known_velocity(self.system(), self.time())
-    }
-
-    #[inline]
-    fn statistics(&self) -> Statistics {
-        self.stepper.statistics
-    }
-
-    #[inline]
-    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-        let Self { system, stepper, control, control_memory, time } = self;
-        let mut run = ControlledRun { system: system.held(), stepper, time };
-        control.steps(control_memory, &mut run, count).map_err(|failure| self.error(failure))
-    }
-
-    #[cfg(feature = "alloc")]
-    fn checkpoint(&self) -> Checkpoint<T> {
-        Checkpoint::of(self.system(), &self.stepper, [self.time(), self.step_size()], |record| {
-            self.control_memory.save(record);
-            self.time.save(record);
-        })
-    }
-
-    /// Of steps of one length t₀ + steps · h, of others their sum, compensated: rounding errors do not add
-    /// up.
-    #[inline]
-    fn time(&self) -> T {
-        self.present().time()
-    }
-
-    #[inline]
-    fn step_size(&self) -> T {
-        self.time.h
-    }
-
-    #[inline]
-    fn clock(&self) -> Option<Clock<T>> {
-        C::ONE_LENGTH.then(|| self.present())
-    }
-
-    fn set_state(&mut self, t: T, state: StateOf<H, T>) -> Result<(), StartError> {
-        let Self { system, stepper: Stepper { method, memory, statistics, .. }, control, .. } = &*self;
-        let Begun { q, memory: begun, kept, control_memory, time, .. } =
-            begun(system.held(), method, control, t, &state)?;
-        let (memory, steps) = (method.begun_anew(memory, begun), statistics.steps);
-        let stepper = &mut self.stepper;
-        (stepper.q, stepper.memory, stepper.kept, stepper.failed) = (q, memory, kept, false);
-        (self.control_memory, self.time) = (control_memory, Time::new(t, time.h, steps));
-        Ok(())
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Integrator<H, M, T, C>
-where
-    C: StepControl<S, T>,
-{
-    /// The clock at the present time.
-    #[inline]
-    pub(super) fn present(&self) -> Clock<T> {
-        self.time.after(self.stepper.statistics.steps)
-    }
-
-    /// Whether steps may be taken many at once, without a look at the end of each.
-    #[cfg(feature = "alloc")]
-    pub(super) fn is_unwatched(&self) -> bool {
-        self.stepper.kept.is_none()
-    }
-
-    #[cold]
-    fn error(&mut self, failure: StepFailure) -> StepError {
-        let (time, h) = (self.time(), self.step_size());
-        self.stepper.error(self.system.held(), time, h, failure)
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Iterator for Integrator<H, M, T, C>
-where
-    C: StepControl<S, T>,
-{
-    type Item = Result<S::State<T>, StepError>;
-
-    #[inline]
-    fn next(&mut self) -> Option<Self::Item> {
-        self.nth(0)
-    }
-
-    /// Skips `n` states without building them and yields the next. Unlike elsewhere, a failure on the way is
-    /// not skipped but yielded.
-    #[inline]
-    fn nth(&mut self, n: usize) -> Option<Self::Item> {
-        if self.stepper.failed {
-            return None;
-        }
-        Some(self.take_steps(n as u64 + 1).and_then(|()| {
-            let time = self.time();
-            self.stepper.try_state(self.system.held(), time)
-        }))
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C: StepControl<S, T>>
-    core::iter::FusedIterator for Integrator<H, M, T, C>
-{
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M, T: Real, C> fmt::Debug for Integrator<H, M, T, C>
-where
-    M: Method<S, T> + fmt::Debug,
-    C: StepControl<S, T>,
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Integrator")
-            .field("system", &S::REPORT.system)
-            .field("method", &self.stepper.method)
-            .field("control", &self.control)
-            .field("time", &self.time())
-            .field("step_size", &self.step_size())
-            .field("state", &self.state())
-            .field("statistics", &self.stepper.statistics)
-            .finish_non_exhaustive()
     }
 }

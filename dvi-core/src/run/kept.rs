@@ -10,37 +10,15 @@
 //! length. A step that ends where ρ is not positive is taken back, and one in which the physical time runs
 //! backwards because ρ was negative in between.
 
-use core::ops::DerefMut;
-
 use crate::error::StepFailure;
-use crate::memory::Memory;
 use crate::methods::{Clock, Method, Step};
 use crate::run::Stepper;
 use crate::scalar::norm::reported;
 use crate::system::start::extended;
 use crate::{Lagrangian, Real};
 
-/// A point of a run with coordinates `Q`, and what its method carries there.
-pub(super) struct Kept<Q, K> {
-    pub(super) q: Q,
-    pub(super) memory: K,
-}
-
 /// How many steps are taken before the next point is kept.
 const BLOCK: u64 = 64;
-
-impl<Q, K> Kept<Q, K> {
-    /// Takes over where a run is.
-    #[inline]
-    pub(super) fn take<T: Real>(&mut self, q: &Q, memory: &K)
-    where
-        Q: DerefMut<Target = [T]>,
-        K: Memory<T>,
-    {
-        self.q.copy_from_slice(q);
-        self.memory.restore(memory);
-    }
-}
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Takes `count` steps from the present time of `clock`, or as many as succeed and lead where they may.
@@ -80,15 +58,14 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     #[inline]
     pub(super) fn keep(&mut self) {
         if let Some(kept) = &mut self.kept {
-            kept.take(&self.q, &self.memory);
+            kept.keep(&self.memory, &self.q);
         }
     }
 
     /// Goes back to the point that was kept last, without allocation.
     pub(super) fn go_back(&mut self) {
         if let Some(kept) = &self.kept {
-            self.q.copy_from_slice(&kept.q);
-            self.memory.restore(&kept.memory);
+            kept.go_back(&mut self.memory, &mut self.q);
         }
     }
 

@@ -1,36 +1,30 @@
-//! Runs that can be begun again where they have been.
+//! How runs go on from checkpoints.
 
-use alloc::format;
-use alloc::string::String;
-use core::any::type_name;
-use core::fmt::Debug;
-
-use super::begun::resumed;
-use super::{Checkpoint, Integrator, Run, StepControl};
+use super::begun::{Begun, BegunOf, carried};
+use super::clock::Time;
+use super::{Checkpoint, StepControl};
+#[cfg(feature = "ensembles")]
+use super::{Integrator, Run};
+#[cfg(feature = "ensembles")]
+use crate::Held;
 use crate::error::{CheckpointError, StartError};
+use crate::memory::Memory;
 use crate::methods::Method;
-use crate::{Held, Lagrangian, Real};
+use crate::system::start::validate;
+use crate::{Lagrangian, Real};
 
-/// A run from which others on the same system can be made, with the same method and step control: these and
-/// its system can be cloned, as a reference and an `Arc` can.
-pub trait Resume: Run + Sized {
-    /// A run that goes on from `checkpoint`, one of this run or of one like it.
+#[cfg(feature = "ensembles")]
+impl<H, M, T: Real, C> Integrator<H, M, T, C>
+where
+    H: Held<System: Lagrangian<T>> + Clone,
+    M: Method<H::System, T> + Clone,
+    C: StepControl<H::System, T> + Clone,
+{
+    /// Another run that goes on from `checkpoint`, one of this run or of one like it.
     ///
     /// # Errors
     /// As [`Integrator::resume`] and [`Integrator::resume_controlled`].
-    fn resumed(&self, checkpoint: &Checkpoint<Self::Scalar>) -> Result<Self, StartError>;
-
-    /// The method, and the [`StepControl`] if it is no number, with their options.
-    fn taken_by(&self) -> [String; 2];
-}
-
-impl<H, M, T: Real, C> Resume for Integrator<H, M, T, C>
-where
-    H: Held<System: Lagrangian<T>> + Clone,
-    M: Method<H::System, T> + Clone + Debug,
-    C: StepControl<H::System, T> + Clone,
-{
-    fn resumed(&self, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
+    pub(crate) fn going_on_from(&self, checkpoint: &Checkpoint<T>) -> Result<Self, StartError> {
         if C::ONE_LENGTH && checkpoint.step_size() != self.step_size() {
             return Err(CheckpointError::Damaged.into());
         }
@@ -38,9 +32,35 @@ where
         let begun = resumed(self.system(), &method, &control, checkpoint)?;
         Ok(Self::of(self.system.clone(), method, control, begun))
     }
+}
 
-    fn taken_by(&self) -> [String; 2] {
-        let control: &dyn Debug = if C::ONE_LENGTH { &() } else { &self.control };
-        [format!("{} {:?}", type_name::<M>(), self.method()), format!("{control:?}")]
-    }
+/// From a checkpoint.
+pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: Real>(
+    system: &S,
+    method: &M,
+    control: &C,
+    checkpoint: &Checkpoint<T>,
+) -> Result<BegunOf<S, M::Memory, C, T>, StartError> {
+    let (t, h, statistics) = (checkpoint.time(), checkpoint.step_size(), checkpoint.statistics());
+    validate(system, t)?;
+    let at = checkpoint.point(system)?;
+    control.admit(method)?;
+    let lengths = |q: &_, v: &_| Ok((control.begin_again(system, q, v, t)?, h));
+    let mut begun =
+        carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;
+    let Begun { memory, control_memory, time, .. } = &mut begun;
+    checkpoint.load(memory, |record| {
+        control_memory.load(record)?;
+        time.load(record)?;
+        let is_length = C::ONE_LENGTH || (time.h == h && h != T::lift(0.0));
+        if time.after(statistics.steps).time() != t || !is_length {
+            return Err(CheckpointError::Damaged);
+        }
+        if time.h != h {
+            // No steps have been taken with this one.
+            *time = Time::new(t, h, statistics.steps);
+        }
+        Ok(())
+    })?;
+    Ok(Begun { statistics, ..begun })
 }

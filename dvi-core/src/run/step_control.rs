@@ -3,18 +3,18 @@
 //! A method keeps its good long-time behaviour under variable steps if the whole map, step control included,
 //! is symmetric or comes from a transformed system; choosing each step by the error of the one before
 //! destroys it (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind,
-//! [`ErrorControl`] and [`Osculating`] of the other. With [`EnergyMomentum`] the length of a step is an
-//! unknown of its equations.
+//! [`ErrorControl`] of the other. With [`EnergyMomentum`] the length of a step is an unknown of its equations.
 
 mod breaks;
 mod controlled;
 mod energy_momentum;
 mod error_control;
 mod one_length;
-mod osculating;
-mod rejection;
 mod reversible;
 mod seams;
+mod search;
+mod turns;
+mod verdict;
 
 use core::fmt::Debug;
 
@@ -23,15 +23,13 @@ use crate::error::{StartError, StepFailure};
 use crate::memory::Memory;
 use crate::methods::{Carries, Method};
 use crate::system::Same;
-use crate::system::start::is_length;
 use crate::{Lagrangian, Real};
 
 pub use controlled::ControlledRun;
 pub use energy_momentum::EnergyMomentum;
 pub use error_control::ErrorControl;
 pub use one_length::OneLength;
-pub use osculating::{CentreSpeed, Osculating};
-pub use reversible::{Density, Power, Reversible};
+pub use reversible::{Density, Reversible};
 
 /// A rule for the length of each step of a run on `S`; [`OneLength`] for all of them is one.
 ///
@@ -139,23 +137,4 @@ where
     fn lengths(control: &C) -> &C {
         control
     }
-}
-
-/// Whether the options of a control that steps to a tolerance are in range.
-///
-/// # Errors
-/// [`StartError::Parameter`] and [`StartError::Step`].
-fn validate(tolerance: f64, first_step: f64) -> Result<(), StartError> {
-    let is_tolerance = tolerance > 0.0 && tolerance.is_finite();
-    if !is_tolerance {
-        return Err(StartError::Parameter {
-            name: "tolerance",
-            value: tolerance,
-            range: "positive and finite",
-        });
-    }
-    if !is_length(first_step) {
-        return Err(StartError::Step { h: first_step });
-    }
-    Ok(())
 }

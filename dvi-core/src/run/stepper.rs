@@ -1,11 +1,9 @@
 //! What runs of all kinds have in them.
 
-use core::fmt;
-
 use crate::error::{StepError, StepFailure};
 use crate::memory::Aside;
+use crate::methods::before::Before;
 use crate::methods::{Carries, Clock, Here, Method, Steps};
-use crate::run::kept::Kept;
 use crate::state::Statistics;
 use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Space as _, State as _, System, Vector};
@@ -25,18 +23,7 @@ pub(crate) struct Stepper<S: System, M: Carries<S, T>, T: Real> {
 }
 
 /// A point of a run of a method on a system.
-pub(super) type PointOf<S, M, T> = Kept<Vector<S, T>, <M as Carries<S, T>>::Memory>;
-
-impl<S: System, M: Carries<S, T> + fmt::Debug, T: Real> fmt::Debug for Stepper<S, M, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Stepper")
-            .field("system", &S::REPORT.system)
-            .field("method", &self.method)
-            .field("q", &self.q)
-            .field("statistics", &self.statistics)
-            .finish_non_exhaustive()
-    }
-}
+pub(super) type PointOf<S, M, T> = Before<<M as Carries<S, T>>::Memory, Vector<S, T>>;
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Sets `v` to the velocity at the current point, which is reached at time `t`.

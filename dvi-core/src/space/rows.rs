@@ -13,7 +13,7 @@ use crate::Scalar;
 use crate::error::CheckpointError;
 use crate::memory::Memory;
 #[cfg(feature = "alloc")]
-use crate::memory::{Reader, Record, lasting};
+use crate::memory::{Record, lasting};
 use crate::space::Sink;
 
 /// Rows that are filled entry by entry.
@@ -49,8 +49,8 @@ impl<T: Copy, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Memory<T> fo
         self.0.iter().for_each(|row| record.numbers(row));
     }
     #[cfg(feature = "alloc")]
-    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        self.0.iter_mut().try_for_each(|row| reader.numbers(row))
+    fn load(&mut self, record: &mut Record<T>) -> Result<(), CheckpointError> {
+        self.0.iter_mut().try_for_each(|row| record.read(row))
     }
 }
 

@@ -66,7 +66,7 @@ fn same_motion() -> Result<Claim> {
 
 fn parasite(job: &Job<'_>, h: f64, stroke: Stroke) -> Result<Parasite> {
     let mut run = Problem::new(&SYMMETRIC, START).run(unwatched(Sigma::midpoint()), h)?;
-    let (mut filter, mut amplitudes) = (AlternatingComponent::new(&SYMMETRIC), vec![]);
+    let (mut filter, mut amplitudes) = (AlternatingComponent::default(), vec![]);
     let span = Span { end: END, early: END, intervals: 1 };
     let series = job.series((&format!("h = {h}"), stroke), &mut run, span, |run, path| {
         amplitudes.extend(filter.amplitude(run.q()).map(|amplitude| [run.time(), amplitude]));

@@ -113,17 +113,16 @@ fn two_step(Case { vortices, start }: &Case, method: Sigma) -> Result<[Option<f6
     let mut run = Integrator::new(vortices, method, H, *start)?;
     let momentum = |run: &Integrator<_, _>| anyhow::Ok(run.discrete_momentum(ANGULAR)?.unwrap_or(f64::NAN));
     let initial = momentum(&run)?;
-    let mut map = TwoPointTangentMap::new(vortices, &method);
+    let [mut before, mut map] = [(); 2].map(|()| TangentMap::new(vortices, &method));
     let (mut discrete, mut two_form) = (0.0f64, 0.0f64);
-    let (mut q0, mut q1) = (run.q().to_vec(), run.q().to_vec());
     for step in 0..STEPS {
+        let (interval, from) = (Interval { t: run.time(), h: H }, run.q().to_vec());
         run.advance()?;
+        map.evaluate(vortices, interval, &from, run.q())?;
         if step > 0 {
-            let t = run.time() - 2.0 * H;
-            map.evaluate(vortices, Interval { t, h: H }, [&q0, &q1, run.q()])?;
-            two_form = larger(two_form, map.two_form_defect(vortices));
+            two_form = larger(two_form, map.two_form_defect(&before, vortices));
         }
-        (q0, q1) = (q1, run.q().to_vec());
+        (before, map) = (map, before);
         discrete = larger(discrete, (momentum(&run)? - initial).abs());
     }
     Ok([Some(discrete), Some(two_form)])

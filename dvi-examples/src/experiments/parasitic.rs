@@ -71,7 +71,7 @@ impl Motion {
         // The Runge–Kutta start leaves a parasitic mode of size h³, which then does what it does.
         let mut run = Integrator::new(&vortices, unwatched(begun_by_rk2(sigma)), h, start)?;
         let (initial, mut largest) = (run.energy(), 0.0f64);
-        let (mut filter, mut points) = (AlternatingComponent::new(&vortices), Vec::new());
+        let (mut filter, mut points) = (AlternatingComponent::default(), Vec::new());
         let ended = job.follow(&mut run, (end / h) as u64, |run| {
             largest = larger(largest, (run.energy() - initial).abs());
             points.extend(filter.amplitude(run.q()).map(|amplitude| [run.time(), amplitude, largest]));

@@ -5,7 +5,7 @@ use dvi_core::discrete::{Midpoint, Unfitted};
 use dvi_core::error::CheckpointError;
 use dvi_core::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
 use dvi_core::prelude::*;
-use dvi_core::state::{Memory, Reader, Record};
+use dvi_core::state::{Memory, Record};
 use dvi_core::{Real, Vector};
 use dvi_laws::equations::{Equations, Nodes};
 use dvi_laws::systems::{FusedSeparable, Shaken, real};
@@ -72,9 +72,9 @@ impl<M: Memory<T>, T: Real> Memory<T> for Kept<M, T> {
             record.numbers(&self.length);
         }
     }
-    fn load(&mut self, reader: &mut Reader<'_, T>) -> Result<(), CheckpointError> {
-        self.inner.load(reader)?;
-        if self.mistake == Mistake::NotSaved { Ok(()) } else { reader.numbers(&mut self.length) }
+    fn load(&mut self, record: &mut Record<T>) -> Result<(), CheckpointError> {
+        self.inner.load(record)?;
+        if self.mistake == Mistake::NotSaved { Ok(()) } else { record.read(&mut self.length) }
     }
 }
 

@@ -91,9 +91,15 @@ fn what_changes_later_is_seen() -> Outcome {
 
 #[test]
 fn another_run_is_told_from_this_one() -> Outcome {
-    fn differs<R>(path: &std::path::Path, run: Result<R, StartError>, what: &str) -> Outcome
+    fn differs<H, M, C>(
+        path: &std::path::Path,
+        run: Result<Integrator<H, M, f64, C>, StartError>,
+        what: &str,
+    ) -> Outcome
     where
-        R: Resume<Scalar = f64>,
+        H: Held<System: Lagrangian> + Clone,
+        M: Method<H::System, f64> + Clone + core::fmt::Debug,
+        C: StepControl<H::System, f64> + Clone,
     {
         match Archive::new(path, run?, EVERY).err() {
             Some(ArchiveError::Foreign { difference, .. }) if difference.what == what => Ok(()),

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use dvi_core::ensemble::{Ensemble, EnsembleError, MergeError, Results, Shard};
+use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
 use dvi_core::prelude::*;
 
 use crate::ensemble::{Checked, HenonHeiles, Kepler, LEFT, Verlet, file, left, planets, said, wells};
@@ -156,18 +156,22 @@ fn shards_that_do_not_go_together() -> Checked {
     let shard = |index, of, steps| -> Result<Results, Box<dyn std::error::Error>> {
         Ok(ensemble(&HenonHeiles).shard(Shard::new(index, of)?).take_steps(steps)?)
     };
-    let error = |shards: Vec<Results>| Results::merge(shards).err();
-    assert_eq!(error(vec![]), Some(MergeError::Nothing));
-    let twice = error(vec![shard(0, 2, 10)?, shard(1, 2, 10)?, shard(0, 2, 10)?]);
-    assert_eq!(twice, Some(MergeError::Twice { member: 0 }));
-    let overlapping = error(vec![shard(0, 2, 10)?, shard(1, 2, 10)?, shard(1, 3, 10)?]);
-    assert_eq!(overlapping, Some(MergeError::Twice { member: 1 }));
-    let missing = |member| Some(MergeError::Missing { member, members: 3 });
-    assert_eq!(error(vec![shard(0, 3, 10)?, shard(2, 3, 10)?]), missing(1));
-    assert_eq!(error(vec![shard(0, 3, 10)?, shard(1, 3, 10)?]), missing(2));
-    assert_eq!(error(vec![shard(4, 5, 10)?]), missing(0));
+    assert!(matches!(Results::merge(vec![]), Err(EnsembleError::Nothing)));
+    let twice = Results::merge([shard(0, 2, 10)?, shard(1, 2, 10)?, shard(0, 2, 10)?]);
+    assert!(matches!(twice, Err(EnsembleError::Twice { member: 0 })));
+    let overlapping = Results::merge([shard(0, 2, 10)?, shard(1, 2, 10)?, shard(1, 3, 10)?]);
+    assert!(matches!(overlapping, Err(EnsembleError::Twice { member: 1 })));
+    let missing = |shards: Vec<Results>| match Results::merge(shards) {
+        Err(EnsembleError::Missing { member, members: 3 }) => Ok(member),
+        other => Err(format!("{other:?}")),
+    };
+    assert_eq!(missing(vec![shard(0, 3, 10)?, shard(2, 3, 10)?])?, 1);
+    assert_eq!(missing(vec![shard(0, 3, 10)?, shard(1, 3, 10)?])?, 2);
+    assert_eq!(missing(vec![shard(4, 5, 10)?])?, 0);
     let foreign = Results::merge([shard(0, 2, 10)?, shard(1, 2, 11)?]);
-    let Err(MergeError::Foreign { shard, difference }) = foreign else { return Err("they differ".into()) };
+    let Err(EnsembleError::ForeignShard { shard, difference }) = foreign else {
+        return Err("they differ".into());
+    };
     assert_eq!(
         (shard.to_string(), difference.what, difference.found),
         ("1/2".into(), "number of steps".into(), "11".into())
@@ -189,7 +193,7 @@ fn a_method_with_other_stages_is_another_ensemble() -> Checked {
     let by_verlet = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(4)).shard(shard(0)?);
     let by_midpoint = Ensemble::new(&HenonHeiles, Variational::midpoint(), 0.05, wells(4)).shard(shard(1)?);
     let merged = Results::merge([by_verlet.take_steps(20)?, by_midpoint.take_steps(20)?]);
-    assert!(matches!(merged, Err(MergeError::Foreign { .. })));
+    assert!(matches!(merged, Err(EnsembleError::ForeignShard { .. })));
     // What a checkpoint asks beyond that does not keep shards of one ensemble apart.
     let verlet = |index| {
         Ok::<_, Box<dyn std::error::Error>>(

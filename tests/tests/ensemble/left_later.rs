@@ -7,7 +7,7 @@ use dvi_core::ensemble::Ensemble;
 use dvi_core::error::{CheckpointError, StepFailure};
 use dvi_core::methods::{Carries, Here, Method, PreservedForm, Step};
 use dvi_core::prelude::*;
-use dvi_core::state::{Memory, Reader, Record};
+use dvi_core::state::{Memory, Record};
 use dvi_core::{Lagrangian, System, Vector};
 
 use crate::ensemble::{Checked, HenonHeiles, bytes, file, wells};
@@ -30,9 +30,9 @@ impl<M: Memory<f64>> Memory<f64> for Mark<M> {
         self.inner.save(record);
         record.numbers(&[self.mark]);
     }
-    fn load(&mut self, reader: &mut Reader<'_, f64>) -> Result<(), CheckpointError> {
-        self.inner.load(reader)?;
-        reader.numbers(std::slice::from_mut(&mut self.mark))
+    fn load(&mut self, record: &mut Record<f64>) -> Result<(), CheckpointError> {
+        self.inner.load(record)?;
+        record.read(std::slice::from_mut(&mut self.mark))
     }
 }
 

@@ -27,7 +27,6 @@ fn a_record_is_that_of_the_run() -> Checked {
         assert_eq!([energy.first, energy.last, energy.largest_error], [first, run.energy(), largest]);
         assert_eq!((&member.outcome, member.exponent, member.crossings), (&Outcome::Finished, None, 0));
     }
-    assert_eq!(results.names().collect::<Vec<_>>(), ["x", "y", "dot_x", "dot_y"]);
     Ok(())
 }
 

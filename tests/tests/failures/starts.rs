@@ -68,7 +68,7 @@ fn a_step_control_does_not_begin_with_a_step_that_is_too_short() {
         assert!(matches!(found, Some(StartError::Step { h: found }) if found.to_bits() == h.to_bits()));
     }
     // ρ = 1 at the start: its steps have the length ε, in which no number has all digits.
-    let control = Reversible::new(1e-310, Power { exponent: 1.5 });
+    let control = Reversible::power(1e-310, 1.5);
     let run = Integrator::controlled(&Kepler { mu: 1.0 }, Variational::midpoint(), control, start);
     let found = run.map(|mut run| run.advance().map_err(|error| error.failure));
     assert!(matches!(found, Ok(Err(StepFailure::StepLength { h })) if h == 1e-310), "{found:?}");

@@ -2,9 +2,9 @@
 //! conserved, and what knows of the entries.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use dvi_core::ensemble::Table;
 use dvi_core::error::StepFailure;
 use dvi_core::prelude::*;
+use dvi_core::record::Record;
 use dvi_core::record::Recorder;
 use dvi_core::rotations;
 
@@ -286,16 +286,14 @@ fn entries_have_names_and_places() -> Outcome {
     assert_eq!(values, expected);
     let numbers: Vec<String> = values.iter().map(f64::to_string).collect();
     let table = format!("{}\n{}\n", names.join(","), numbers.join(","));
-    assert_eq!(Table::read(table.as_bytes())?.states(&bodies)?, [start]);
+    assert_eq!(Record::read_csv(table.as_bytes())?.states(&bodies)?, [start]);
     assert!(Bodies::<2>::REPORT.to_string().contains("  x\n  R[N]: SO3\n"));
 
-    let found: Vec<_> = Recorder::new(&bodies).finish().bodies();
-    let found: Vec<_> = found.iter().map(|body| (body.name.as_str(), body.position.join(" "))).collect();
+    let found = crate::records::bodies(&Recorder::new(&bodies).finish())?;
     assert_eq!(found.len(), 6);
-    assert_eq!(found[4], ("R[1], axis 2", "R[1][1] R[1][4] R[1][7]".to_string()));
-    let found: Vec<_> = Recorder::new(&system).finish().bodies();
-    let found: Vec<_> = found.iter().map(|body| (body.name.as_str(), body.position.join(" "))).collect();
-    assert_eq!(found[2], ("s[2]", "s[2].x s[2].y s[2].z".to_string()));
+    assert_eq!((&found[4].0[..], found[4].1.join(" ")), ("R[1], axis 2", "R[1][1] R[1][4] R[1][7]".into()));
+    let (name, position) = &crate::records::bodies(&Recorder::new(&system).finish())?[2];
+    assert_eq!((&name[..], position.join(" ")), ("s[2]", "s[2].x s[2].y s[2].z".into()));
     Ok(())
 }
 

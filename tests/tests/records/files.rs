@@ -49,9 +49,9 @@ fn the_csv_reads_back_to_the_bit() -> Checked {
         let rows = cells(std::str::from_utf8(&file)?);
         assert_eq!(rows.len(), record.rows() + 1);
         for (place, column) in record.columns().iter().enumerate() {
-            assert_eq!(rows[0][place], column.name());
+            assert_eq!(rows[0][place], column.name);
             for (row, cells) in rows[1..].iter().enumerate() {
-                match column.values() {
+                match &column.values {
                     Values::Numbers(numbers) => {
                         let found: f64 = cells[place].parse()?;
                         let is_same = found.to_bits() == numbers[row].to_bits();

@@ -8,14 +8,14 @@ use dvi_core::record::{Column, Record};
 use crate::browser::told;
 use crate::records::{Checked, Kepler, START, bits};
 
-fn page(record: &Record) -> Result<String, Box<dyn std::error::Error>> {
+pub(super) fn page(record: &Record) -> Result<String, Box<dyn std::error::Error>> {
     let mut page = Vec::new();
     record.write_page(&mut page)?;
     Ok(String::from_utf8(page)?)
 }
 
 /// What stands on a page as data, read by another program.
-fn data(page: &str) -> Result<serde_json::Value, Box<dyn std::error::Error>> {
+pub(super) fn data(page: &str) -> Result<serde_json::Value, Box<dyn std::error::Error>> {
     let (_, rest) =
         page.split_once(r#"<script type="application/json" id="record">"#).ok_or("it has data")?;
     let (data, _) = rest.split_once("</script>").ok_or("they end")?;
@@ -49,9 +49,9 @@ fn a_page_has_the_data_and_loads_nothing() -> Checked {
     for (found, column) in columns.iter().zip(record.columns()) {
         assert_eq!(
             (found["name"].as_str(), found["unit"].as_str()),
-            (Some(column.name()), Some(column.unit()))
+            (Some(&column.name[..]), Some(&column.unit[..]))
         );
-        assert_eq!(bits(&numbers(&found["values"])), bits(record.numbers(column.name())?));
+        assert_eq!(bits(&numbers(&found["values"])), bits(record.numbers(&column.name)?));
     }
     assert_eq!(columns[0]["quantity"], "time");
     assert_eq!(data["bodies"][0]["position"], serde_json::json!(["x", "y"]));
@@ -86,7 +86,7 @@ fn nothing_of_a_record_breaks_its_page() -> Checked {
     let data = data(&text)?;
     let columns = data["columns"].as_array().ok_or("columns")?;
     assert_eq!(columns.len(), 2);
-    assert_eq!(columns[0]["name"].as_str(), Some(record.columns()[0].name()));
+    assert_eq!(columns[0]["name"].as_str(), Some(&record.columns()[0].name[..]));
     assert_eq!(columns[0]["values"].as_array().map(|values| values[0].is_null()), Some(true));
     let expected = [f64::NAN, 1.5, f64::NAN, 2.0, -0.0, 5e-324];
     assert_eq!(bits(&numbers(&columns[0]["values"])), bits(&expected));

@@ -30,8 +30,8 @@ where
     let (interval, q1) = (Interval { t, h }, run.q());
     let mut map = TangentMap::new(system, &method);
     map.evaluate(system, interval, q, q1)?;
-    let hessian = map.hessian();
-    for (matrix, first, second) in [(&hessian.d11, 0, 0), (&hessian.d12, 0, n), (&hessian.d22, n, n)] {
+    let [d11, d12, _, d22] = map.hessian();
+    for (matrix, first, second) in [(d11, 0, 0), (d12, 0, n), (d22, n, n)] {
         for k in 0..n * n {
             let (i, j) = (first + k / n, second + k % n);
             let entry = |place: usize, value: f64| {

@@ -1,6 +1,6 @@
 //! What is looked at: closures, and the events that a system declares.
 
-use crate::run::dense::Flat;
+use crate::run::between::Flat;
 use crate::{Lagrangian, Real, System};
 
 /// Conditions of which an event is a zero: a closure over the time and the state, or those that are

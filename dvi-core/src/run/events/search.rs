@@ -1,7 +1,7 @@
 //! The search for events in a step: by the signs of a condition at its ends, and by its slopes there.
 
 use super::conditions::Conditions;
-use super::watch::are_one;
+use super::found::are_one;
 use crate::error::StepFailure;
 use crate::run::Run;
 use crate::run::dense::{Dense, StateOf};

@@ -4,14 +4,14 @@ use core::fmt;
 
 use super::conditions::Conditions;
 use super::course::{Course, Turn, Watched};
+use super::found::Found;
 use super::search::{Within, numbers};
-use super::{Direction, Event, EventOf};
+use super::{Direction, EventOf};
+use crate::Scalar;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::run::Run;
-use crate::run::dense::{Dense, PLACES, StateOf};
+use crate::run::dense::{Dense, StateOf};
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::{larger, reported, smaller};
-use crate::{Real, Scalar};
 
 /// Conditions that are watched on a run: [`Events`](super::Events) for those who take the steps themselves.
 /// Several can watch one run, each with conditions of its own.
@@ -38,40 +38,28 @@ pub struct Watch<R: Run, G, const N: usize> {
     directions: [Direction; N],
     /// Of each condition, at the end of the last step.
     watched: [Watched<R::Scalar>; N],
-    /// Parts of the last step at which events are, that have not been handed out.
-    found: [[Option<R::Scalar>; FOUND]; N],
-    /// How many of each condition have been found in it.
-    count: [usize; N],
+    /// Events of the last step that have not been handed out.
+    pub(super) found: Found<R::Scalar, N>,
     /// Where states that are looked at are read to.
     state: StateOf<R>,
     /// When it has looked last.
     time: R::Scalar,
     /// The last event, but for those where the state was set: its condition and its part of a step.
-    last: Option<(usize, R::Scalar)>,
+    pub(super) last: Option<(usize, R::Scalar)>,
     /// Steps since the state was set; before it is, more than one.
-    steps: u64,
+    pub(super) steps: u64,
     /// Events one after the other that came soon after the state was set.
-    hops: usize,
+    pub(super) hops: usize,
     /// Why the events of the last step are not known.
     lost: Option<StepError>,
 }
 
-/// Two between neighbours of the ends of a step and of places within it, and one at the second of them.
-const FOUND: usize = 3 * (PLACES + 1);
-/// A condition is far from zero if its values are larger than so many of its largest changes in a step.
-const FAR: f64 = 3.0;
 /// In one of so many steps places are looked at wherever zero is.
 const RENEWED: u64 = 32;
 /// Of the change of a condition between two such places, what interpolation may be wrong by.
 const UNSURE: f64 = 0.05;
 /// Where the state is changed a condition is zero if it is no more than this part of what changes in a step.
 const LEFT: f64 = 1e-9;
-/// Parts of a step that differ by no more than so many rounding errors are one.
-const TOGETHER: f64 = 16.0;
-/// An event in this part of the first step after a change of the state is a hop.
-const HOP: f64 = 1e-2;
-/// After so many hops of one condition, each shorter than the one before, events accumulate.
-const HOPS: usize = 4;
 
 impl<R: Run, G, const N: usize> Watch<R, G, N>
 where
@@ -96,20 +84,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         let at = run.at_end().map_err(StartError::Starter)?;
         let values = numbers(g.values(time, at, &mut state)).map_err(StartError::Starter)?;
         let watched = values.map(|g| Watched { g, course: None });
-        let (found, count) = ([[None; FOUND]; N], [0; N]);
-        Ok(Self {
-            g,
-            directions,
-            watched,
-            found,
-            count,
-            state,
-            time,
-            last: None,
-            steps: 2,
-            hops: 0,
-            lost: None,
-        })
+        let (found, last, lost) = (Found::new(), None, None);
+        Ok(Self { g, directions, watched, found, state, time, last, steps: 2, hops: 0, lost })
     }
 
     /// Finds the events of the last step: to be called after each step.
@@ -174,15 +150,18 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     /// [`StepFailure::UndefinedEvent`], and those of parts of the step.
     #[inline]
     fn find(&mut self, run: &mut Dense<R>) -> Result<(), StepFailure> {
-        self.forget();
+        self.found.forget();
         self.steps += 1;
         let end = self.at_end(run)?;
         let [mut from, one] = [0.0, 1.0].map(R::Scalar::lift);
         if run.places() == 0 {
             return self.find_between::<true>(run, [from, one], end);
         }
-        if !self.is_near(run, &end) {
-            self.pass_over(run, end);
+        let h = Scalar::abs(run.step_size());
+        // The rates that were seen within steps are seen anew in some.
+        let is_renewed = self.steps == 1 || run.steps().is_multiple_of(RENEWED);
+        if !is_renewed && self.watched.iter().zip(end).all(|(watched, b)| watched.stays_far(b, h)) {
+            self.watched.iter_mut().zip(end).for_each(|(watched, b)| watched.pass_over(b, h));
             return Ok(());
         }
         for place in 0..run.places() {
@@ -192,29 +171,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             from = part;
         }
         self.find_between::<false>(run, [from, one], end)
-    }
-
-    /// Whether a condition may have come to zero in the last step, whose end is given, as far as the rates
-    /// say that were seen within steps; these are seen anew in some steps.
-    fn is_near(&self, run: &Dense<R>, end: &[R::Scalar; N]) -> bool {
-        let (zero, h) = (R::Scalar::lift(0.0), Scalar::abs(run.step_size()));
-        let is_far = |(&Watched { g: a, course }, &b): (&Watched<R::Scalar>, &R::Scalar)| {
-            let change = |course: Course<R::Scalar>| R::Scalar::lift(FAR) * course.rate * h;
-            let stays = (a > zero && b > zero) || (a < zero && b < zero);
-            stays && course.is_some_and(|course| Scalar::abs(a) + Scalar::abs(b) > change(course))
-        };
-        self.steps == 1 || run.steps().is_multiple_of(RENEWED) || !self.watched.iter().zip(end).all(is_far)
-    }
-
-    /// Passes over a step in which there are none. The rates that were seen within a step hold until these
-    /// are looked at again.
-    fn pass_over(&mut self, run: &Dense<R>, end: [R::Scalar; N]) {
-        let h = Scalar::abs(run.step_size());
-        for (watched, b) in self.watched.iter_mut().zip(end) {
-            let mut course = Course::after(watched.course, (b - watched.g) / h);
-            course.rate = watched.course.map_or(course.rate, |before| larger(course.rate, before.rate));
-            *watched = Watched { g: b, course: Some(course) };
-        }
     }
 
     /// Finds the events of a part of the last step, or of the whole, with the values of the conditions at its
@@ -261,8 +217,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
                 continue;
             }
             for part in within.events(ends)?.into_iter().flatten() {
-                self.found[index][self.count[index]] = Some(part);
-                self.count[index] += 1;
+                self.found.push(index, part);
             }
         }
         Ok(())
@@ -281,18 +236,19 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         self.time = run.time();
         let values = self.at_end(run).map_err(|failure| {
             self.lost = Some(run.error(failure));
-            self.forget();
+            self.found.forget();
             StartError::Starter(failure)
         })?;
         let h = Scalar::abs(run.step_size());
         let [zero, left] = [0.0, LEFT].map(R::Scalar::lift);
-        let conditions = self.watched.iter_mut().zip(&mut self.found).zip(&mut self.count);
-        for (((watched, found), count), g) in conditions.zip(values) {
+        let before = core::mem::replace(&mut self.found, Found::new());
+        for (index, (watched, g)) in self.watched.iter_mut().zip(values).enumerate() {
             let rounding = watched.course.map_or(zero, |course| left * course.rate * h);
             let is_zero = Scalar::abs(g) <= rounding;
             let is_now = |part| self.last.is_some_and(|(_, last)| part <= last + left);
-            let is_due = is_zero && found[..*count].iter().flatten().any(|&part| is_now(part));
-            (found[0], *count) = (Some(zero), usize::from(is_due));
+            if is_zero && before.of(index).any(is_now) {
+                self.found.push(index, zero);
+            }
             watched.g = if is_zero { zero } else { g };
         }
         (self.steps, self.lost) = (0, None);
@@ -306,69 +262,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     pub(super) fn check_known(&self) -> Result<(), StepError> {
         self.lost.map_or(Ok(()), Err)
     }
-
-    /// Whether an event of the last step has not been handed out.
-    #[inline]
-    pub(super) fn is_left(&self) -> bool {
-        self.first().is_some()
-    }
-
-    /// Forgets the events of the last step.
-    fn forget(&mut self) {
-        self.count = [0; N];
-    }
-
-    /// The next event of the last step, if one is left that is not after `end`.
-    pub(super) fn next_before(
-        &mut self,
-        run: &mut Dense<R>,
-        end: Option<R::Scalar>,
-    ) -> Result<Option<EventOf<R>>, StepError> {
-        let Some((part, index, which)) = self.first() else { return Ok(None) };
-        if end.is_some_and(|end| run.is_before(end, run.time_at(part))) {
-            return Ok(None);
-        }
-        self.found[index][which] = None;
-        self.event(run, part, index).map(Some).map_err(|failure| run.error(failure))
-    }
-
-    /// The first event of the last step that has not been handed out: its part of the step, its condition,
-    /// and which of two it is. Of those at one time but for rounding it is the first in the array.
-    #[inline]
-    fn first(&self) -> Option<(R::Scalar, usize, usize)> {
-        let all = || self.found.iter().zip(self.count).map(|(found, count)| &found[..count]);
-        let least = all().flatten().copied().flatten().reduce(smaller)?;
-        all().enumerate().find_map(|(index, found)| {
-            let which = found.iter().position(|part| part.is_some_and(|part| are_one(least, part)))?;
-            found[which].map(|part| (part, index, which))
-        })
-    }
-
-    fn event(
-        &mut self,
-        run: &mut Dense<R>,
-        part: R::Scalar,
-        index: usize,
-    ) -> Result<EventOf<R>, StepFailure> {
-        run.settle()?;
-        let (time, at) = run.reach(part * run.step_size())?;
-        // What happens where the state has been set is part of that event.
-        if part > R::Scalar::lift(0.0) {
-            let is_shorter = self.last.is_some_and(|(last, hop)| last == index && part < hop);
-            let is_hop = self.steps == 1 && part < R::Scalar::lift(HOP) && is_shorter;
-            self.hops = if is_hop { self.hops + 1 } else { 0 };
-            self.last = Some((index, part));
-        }
-        if self.hops > HOPS {
-            return Err(StepFailure::Hops { event: index, count: HOPS, time: reported(time) });
-        }
-        Ok(Event { index, time, state: at.state() })
-    }
-}
-
-/// Whether a part of a step is another, which is no larger, but for rounding.
-pub(super) fn are_one<T: Real>(least: T, part: T) -> bool {
-    part <= least + T::lift(TOGETHER) * T::default_epsilon()
 }
 
 impl<R: Run, G, const N: usize> fmt::Debug for Watch<R, G, N> {

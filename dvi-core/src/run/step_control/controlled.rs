@@ -7,6 +7,7 @@ use crate::methods::{Carries, Clock, Method, Step, Tolerance};
 use crate::run::Stepper;
 use crate::run::clock::Time;
 use crate::scalar::norm::reported;
+use crate::state::Statistics;
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real, System, Vector};
 
@@ -66,6 +67,11 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> 
         method.local_error(self.system, memory, t, [h, usual], tolerance, statistics)
     }
 
+    /// What the run has cost, for a control to count what it takes back and what it evaluates itself.
+    pub fn statistics(&mut self) -> &mut Statistics {
+        &mut self.stepper.statistics
+    }
+
     /// Goes back to where the step of the control has begun, without allocation, if the control
     /// [rejects](super::StepControl::REJECTS) steps.
     pub fn go_back(&mut self) {
@@ -90,8 +96,8 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> 
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T> + fmt::Debug, T: Real> fmt::Debug for ControlledRun<'_, S, M, T> {
+impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> fmt::Debug for ControlledRun<'_, S, M, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ControlledRun").field("stepper", &self.stepper).finish_non_exhaustive()
+        f.debug_struct("ControlledRun").field("q", &self.q()).finish_non_exhaustive()
     }
 }

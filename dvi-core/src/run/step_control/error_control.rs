@@ -7,10 +7,8 @@
 //! proportional–integral controller of Gustafsson 1991, with the constants of Hairer & Wanner 1996, section
 //! IV.2. Steps settle at e = 1. After a step that is taken back h' = h/e.
 
-use core::fmt;
-
-use super::rejection::{Accepted, Verdict, step_of_at_most, within};
 use super::seams::{AtSeam, Seams};
+use super::verdict::{FACTORS, Verdict, excess, within};
 use super::{ControlledRun, StepControl, breaks};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::{Memory, lasting};
@@ -20,10 +18,6 @@ use crate::scalar::norm::{larger, reported};
 use crate::system::start::{is_length, step_error};
 use crate::{Held, Lagrangian, Real, Scalar, System};
 
-/// a: the part of the tolerance that the next step aims at, for each number of stages the same.
-const AIM: f64 = 0.02;
-/// A step is at least and at most so many times as long as the one before.
-const FACTORS: [f64; 2] = [0.2, 2.0];
 /// A step that has failed is tried again with this part of its length.
 const AFTER_FAILURE: f64 = 0.25;
 /// The exponents of e and e₋.
@@ -144,15 +138,10 @@ impl ErrorControl<'_> {
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
         Self { tolerance, first_step, longest_step: f64::INFINITY, breaks: &[] }
     }
-
-    /// A step of length `h`, or the longest there may be.
-    fn at_most_longest<T: Real>(&self, h: T) -> T {
-        let longest = T::lift(self.longest_step);
-        larger(-longest, -larger(-longest, -h))
-    }
 }
 
 /// What [`ErrorControl`] carries from step to step.
+#[derive(Debug)]
 pub struct ErrorControlMemory<S: System, T: Real> {
     /// The length of the next step.
     h: T,
@@ -170,19 +159,6 @@ pub struct ErrorControlMemory<S: System, T: Real> {
 
 impl<S: System, T: Real> Memory<T> for ErrorControlMemory<S, T> {
     lasting!(T; number h, number error, number excess, number usual, parts seams; is_sound);
-}
-
-impl<S: System, T: Real + fmt::Debug> fmt::Debug for ErrorControlMemory<S, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { h, error, excess, usual, end, .. } = self;
-        f.debug_struct("ErrorControlMemory")
-            .field("h", h)
-            .field("error", error)
-            .field("excess", excess)
-            .field("usual", usual)
-            .field("end", end)
-            .finish_non_exhaustive()
-    }
 }
 
 impl<S: System, T: Real> ErrorControlMemory<S, T> {
@@ -218,8 +194,12 @@ where
             let failure = StepFailure::Unreachable { now: reported(now), target: reported(t) };
             return Err(step_error(self.system(), self.steps(), now, failure));
         }
+        let is_ahead = |run: &Self| run.is_before(t) && run.time() + (t - run.time()) != run.time();
+        let mut result = Ok(());
         self.control_memory.end = Some(t);
-        let result = self.steps_to(t);
+        while result.is_ok() && is_ahead(self) {
+            result = self.advance();
+        }
         self.control_memory.end = None;
         result
     }
@@ -228,13 +208,6 @@ where
     fn is_before(&self, t: T) -> bool {
         let now = self.time();
         if self.control_memory.h > T::lift(0.0) { now < t } else { now > t }
-    }
-
-    fn steps_to(&mut self, t: T) -> Result<(), StepError> {
-        while self.is_before(t) && self.time() + (t - self.time()) != self.time() {
-            self.advance()?;
-        }
-        Ok(())
     }
 }
 
@@ -279,59 +252,39 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         run: &mut ControlledRun<'_, S, M, T>,
         t: T,
     ) -> Result<T, StepFailure> {
-        let one = T::lift(1.0);
-        let order = (run.stepper.method.order() + 1) as f64;
-        let excess = |error: T| Scalar::powf(error / T::lift(AIM), T::lift(1.0 / order));
         let usual = larger(Scalar::abs(memory.h), T::lift(FORGETTING) * Scalar::abs(memory.usual));
         let ends = [memory.end, breaks::next(self.breaks, t, memory.h)].into_iter().flatten();
         let left =
             ends.map(|end| end - t).reduce(|a, b| if Scalar::abs(b) < Scalar::abs(a) { b } else { a });
         let is_last = |left: &T| Scalar::abs(*left) <= T::lift(STRETCH) * Scalar::abs(memory.h);
-        let first = self.at_most_longest(left.filter(is_last).unwrap_or(memory.h));
+        let mut tried = self.at_most_longest(left.filter(is_last).unwrap_or(memory.h));
         let mut seams = if S::SEAMS > 0 { memory.seams.as_mut() } else { None };
         if let Some(seams) = &mut seams {
             seams.keep(run, t)?;
         }
-        let Accepted { h: tried, found: (error, at_seam), is_first } =
-            step_of_at_most(run, t, first, AFTER_FAILURE, |run, h| {
-                let at_seam = seams.as_mut().map_or(Ok(None), |seams| {
-                    seams.end(run, h, breaks::between(self.breaks, [t, h])[0] != t)
-                })?;
-                let judged = at_seam.map_or(h, |AtSeam { before, .. }| before);
-                if let Some(seams) = &mut seams
-                    && t + judged != t
-                    && let Some(part) = seams.second_turn(run, judged)
-                {
-                    return Ok(Verdict::TooLong { factor: part * (judged / h), failure: None });
-                }
-                let [start, length] = breaks::between(self.breaks, [t, judged]);
-                let error = match at_seam {
-                    // A step that begins there and crosses it is too short to have one.
-                    Some(AtSeam { before, .. }) if t + before == t => T::lift(0.0),
-                    _ => run.local_error(start, [length, usual], self.tolerance)?,
-                };
-                if error <= one {
-                    if let Some(AtSeam { behind, .. }) = at_seam {
-                        run.go_back();
-                        run.step(t, behind)?;
-                    }
-                    return Ok(Verdict::Accepted((error, at_seam)));
-                }
-                let mut factor = within(one / excess(error), FACTORS[0], 1.0);
-                if at_seam.is_some() {
-                    factor *= judged / h;
-                }
-                let failure = StepFailure::Tolerance { h: reported(judged), error: reported(error) };
-                Ok(Verdict::TooLong { factor, failure: Some(failure) })
-            })?;
+        let (mut is_first, mut failed) = (true, None);
+        let (error, at_seam) = loop {
+            let judged = run.step(t, tried).and_then(|()| self.judge(run, &mut seams, t, [tried, usual]));
+            let (factor, failure) = match judged {
+                Ok(Verdict::Accepted { error, at_seam }) => break (error, at_seam),
+                Ok(Verdict::TooLong { factor, failure }) => (factor, failure),
+                // The failure of a longer step tells more than that the steps became too short.
+                Err(failure @ StepFailure::StepLength { .. }) => return Err(failed.unwrap_or(failure)),
+                Err(failure) => (T::lift(AFTER_FAILURE), Some(failure)),
+            };
+            run.go_back();
+            run.statistics().rejected += 1;
+            (is_first, failed) = (false, failure.or(failed));
+            tried *= factor;
+        };
         let h = at_seam.map_or(tried, |AtSeam { behind, .. }| behind);
         if let Some(seams) = seams {
             seams.count(run, [h, usual])?;
         }
-        let (e, [now, before]) = (excess(error), EXPONENTS.map(T::lift));
+        let (e, [now, before]) = (excess(run, error), EXPONENTS.map(T::lift));
         let factor = Scalar::powf(e, now) * Scalar::powf(memory.excess, before);
-        let next =
-            self.at_most_longest(h * within(factor, FACTORS[0], if is_first { FACTORS[1] } else { 1.0 }));
+        let most = if is_first { FACTORS[1] } else { 1.0 };
+        let next = self.at_most_longest(h * within(factor, most));
         // A step that is cut short, by the end of the run or by a seam, says little of the next one.
         let uncut = if at_seam.is_some() { tried } else { memory.h };
         let is_cut = (left == Some(h) || at_seam.is_some()) && Scalar::abs(next) < Scalar::abs(uncut);

@@ -19,7 +19,7 @@ use crate::scalar::norm::reported;
 use crate::{Held, Real, RegularLagrangian, Space, System, Vector};
 
 /// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position
-/// alone: then G is odd in v, and the control reversible.
+/// alone: then G is odd in v, and the control reversible. A number κ is the density |q|^(−κ).
 ///
 /// ```
 #[doc = include_str!("../../../docs/hidden/kepler.txt")]
@@ -48,29 +48,14 @@ pub trait Density<T>: Debug {
     fn growth(&self, q: &[T], v: &[T]) -> T;
 }
 
-/// ρ = |q|^(−κ), for motions around the origin: G = −κ q·v/|q|².
+/// A number κ is the density ρ = |q|^(−κ), for motions around the origin: G = −κ q·v/|q|².
 ///
 /// κ = 3/2 takes steps in proportion to the time of free fall: on Kepler's problem all orbits of the same
 /// shape then have the same number of steps a revolution, about (2π/ε)·mean(ρ) over time.
-///
-/// ```
-/// use dvi_core::prelude::*;
-///
-/// let density = Power { exponent: 1.5 };
-/// assert_eq!(density.value(&[4.0, 0.0]), 0.125); // |q|^(−3/2)
-/// let control = Reversible::new(0.02, density);
-/// assert_eq!(control, Reversible::power(0.02, 1.5));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Power {
-    /// κ.
-    pub exponent: f64,
-}
-
-impl<T: Real> Density<T> for Power {
+impl<T: Real> Density<T> for f64 {
     fn value(&self, q: &[T]) -> T {
         let square = q.iter().fold(T::lift(0.0), |sum, &x| sum + x * x);
-        crate::Scalar::powf(square, T::lift(-0.5 * self.exponent))
+        crate::Scalar::powf(square, T::lift(-0.5 * self))
     }
 
     #[inline]
@@ -80,7 +65,7 @@ impl<T: Real> Density<T> for Power {
             along += x * v;
             square += x * x;
         }
-        T::lift(-self.exponent) * along / square
+        T::lift(-self) * along / square
     }
 }
 
@@ -102,7 +87,7 @@ impl<T: Real> Density<T> for Power {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reversible<D = Power> {
+pub struct Reversible<D = f64> {
     /// ε ≠ 0, in units of ρ times time; negative to run back in time.
     pub epsilon: f64,
     /// ρ.
@@ -136,9 +121,9 @@ where
 }
 
 impl Reversible {
-    /// Steps ε |q|^κ.
+    /// Steps ε |q|^κ with the exponent κ.
     pub fn power(epsilon: f64, exponent: f64) -> Self {
-        Self::new(epsilon, Power { exponent })
+        Self::new(epsilon, exponent)
     }
 }
 

@@ -17,7 +17,7 @@ use crate::memory::{Memory, lasting};
 use crate::methods::Method;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported};
-use crate::solve::crossing::{Sample, dip, zero};
+use crate::solve::crossing::zero;
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// By how many rounding errors of the step a step ends behind a seam, at least. Those of the time are more:
@@ -28,12 +28,6 @@ const LEAVING: f64 = 256.0;
 /// A step may end so many times farther behind a seam, again and again, if it is not on the other side yet,
 /// and at most so many times what is rounded of the step and of the time.
 const WIDER: [f64; 2] = [8.0, 262_144.0];
-/// A seam that is not crossed by so many rounding errors of its values at both ends of a step is touched.
-const TOUCHING: f64 = 64.0;
-/// The places of a step at which seams are looked at for turns: uneven, so that no oscillation keeps step.
-const PLACES: [f64; 13] = [0.001, 0.08, 0.19, 0.27, 0.38, 0.45, 0.56, 0.66, 0.74, 0.85, 0.93, 0.999, 1.0];
-/// Looks at the turn of a seam that comes nearer at the beginning of a step and goes away at its end.
-const SURE: usize = 6;
 /// Iterations for the derivatives of a length, of numbers that carry some.
 const POLISHED: usize = 3;
 /// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
@@ -46,15 +40,16 @@ const NEAR: f64 = 8.0;
 const FADING: f64 = 0.98;
 
 /// What the seams of a system ask for.
+#[derive(Debug)]
 pub(super) struct Seams<S: System, T: Real> {
     /// Where the step begins.
-    t: T,
-    q: Vector<S, T>,
-    v: Vector<S, T>,
+    pub(super) t: T,
+    pub(super) q: Vector<S, T>,
+    pub(super) v: Vector<S, T>,
     /// The velocity where it ends.
-    v_end: Vector<S, T>,
+    pub(super) v_end: Vector<S, T>,
     /// A point near by.
-    near: [Vector<S, T>; 2],
+    pub(super) near: [Vector<S, T>; 2],
     /// Hops without a longer step between them.
     hops: usize,
     /// How long steps have been, the longest of them fading.
@@ -160,123 +155,6 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         Ok(None)
     }
 
-    /// The part of a step of length `h`, which has been taken, that ends well before a seam turns for the
-    /// second time: [`end`](Self::end) sees one turn. As far as the cubic path between its ends tells; a seam
-    /// that is farther from zero than it changes may turn as it likes. To be asked behind [`end`](Self::end),
-    /// which knows the velocity there.
-    pub(super) fn second_turn<M: Method<S, T>>(
-        &mut self,
-        run: &ControlledRun<'_, S, M, T>,
-        h: T,
-    ) -> Option<T> {
-        let (nothing, mut first) = (T::lift(0.0), None);
-        for seam in 0..S::SEAMS {
-            let noise = self.noise(run, seam, h);
-            let ([mut earlier, mut before], mut last) = ([nothing; 2], self.at_begin(run.system(), seam));
-            let ([mut low, mut high], mut slope, mut turns) = ([last; 2], nothing, 0);
-            for place in PLACES.map(T::lift) {
-                self.set_near(run, [place, h]);
-                let value = run.system().seam(seam, &self.near[0], &self.near[1], self.t + place * h);
-                (low, high) = (-larger(-low, -value), larger(high, value));
-                let change = value - last;
-                if Scalar::abs(change) <= noise {
-                    continue;
-                }
-                turns += usize::from(change * slope < nothing);
-                let may_meet = larger(low, -high) <= high - low;
-                if turns == 2 && may_meet && first.is_none_or(|first| earlier < first) {
-                    first = Some(earlier);
-                }
-                ([earlier, before], last, slope) = ([before, place], value, change);
-            }
-        }
-        first.map(|first| larger(first, T::lift(PLACES[1])))
-    }
-
-    /// What rounding may change a seam by at the end of a step of length `h`.
-    fn noise<M: Method<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, seam: usize, h: T) -> T {
-        let rounded = T::lift(1.0) + T::lift(TOUCHING) * T::default_epsilon();
-        let [near_q, near_v] = &mut self.near;
-        for (k, &q) in run.q().iter().enumerate() {
-            (near_q[k], near_v[k]) = (q * rounded, self.v_end[k] * rounded);
-        }
-        let (system, t) = (run.system(), self.t + h);
-        let value = system.seam(seam, run.q(), &self.v_end, t);
-        let near = system.seam(seam, &self.near[0], &self.near[1], t * rounded);
-        Scalar::abs(near - value) + Scalar::abs(value) * (rounded - T::lift(1.0))
-    }
-
-    /// Sets the point near by to a place of a step of length `h`, on the cubic path between its ends.
-    fn set_near<M: Method<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, [x, h]: [T; 2]) {
-        let [one, two, three, six] = [1.0, 2.0, 3.0, 6.0].map(T::lift);
-        let [near_q, near_v] = &mut self.near;
-        for (k, &end) in run.q().iter().enumerate() {
-            let (moved, [v, v_end]) = (end - self.q[k], [self.v[k], self.v_end[k]].map(|v| h * v));
-            near_q[k] =
-                self.q[k] + x * x * (three - two * x) * moved + x * (x - one) * ((x - one) * v + x * v_end);
-            let rate = six * x * (one - x) * moved
-                + (x - one) * (three * x - one) * v
-                + x * (three * x - two) * v_end;
-            near_v[k] = rate / h;
-        }
-    }
-
-    /// A part of a step of length `h`, which has been taken, at which a seam has been crossed that is ahead
-    /// at its end. The run is moved to it, if there is one.
-    fn dip<M: Method<S, T>>(
-        &mut self,
-        run: &mut ControlledRun<'_, S, M, T>,
-        h: T,
-    ) -> Result<Option<T>, StepFailure> {
-        let [nothing, one] = [0.0, 1.0].map(T::lift);
-        for seam in 0..S::SEAMS {
-            if self.at_begin(run.system(), seam) == nothing {
-                continue;
-            }
-            let (from, to) = (self.sample(run, seam, [nothing, h]), self.sample(run, seam, [one, h]));
-            let rounding = T::lift(TOUCHING) * T::default_epsilon() * (from.value + to.value);
-            let mut is_moved = false;
-            let low = dip([from, to], SURE, |place| {
-                is_moved = true;
-                self.look(run, place * h)?;
-                let here = self.sample(run, seam, [place, h]);
-                Ok(Sample { value: here.value + rounding, ..here })
-            })?;
-            if low.is_some() {
-                return Ok(low);
-            }
-            if is_moved {
-                self.look(run, h)?;
-            }
-        }
-        Ok(None)
-    }
-
-    /// How far ahead a seam is at a place of a step of length `h`, where the run is, or where the step
-    /// begins, and how that changes with the place: along the velocity, which changes evenly from the
-    /// beginning.
-    fn sample<M: Method<S, T>>(
-        &mut self,
-        run: &ControlledRun<'_, S, M, T>,
-        seam: usize,
-        [place, h]: [T; 2],
-    ) -> Sample<T> {
-        let [nothing, one] = [0.0, 1.0].map(T::lift);
-        let (system, begins) = (run.system(), place == nothing);
-        let (q, v) = if begins { (&*self.q, &*self.v) } else { (run.q(), &*self.v_end) };
-        let (t, chord) = (self.t + place * h, Scalar::sqrt(T::default_epsilon()));
-        let part = chord / if begins { one } else { place };
-        let [near_q, near_v] = &mut self.near;
-        for k in 0..q.len() {
-            near_q[k] = q[k] + chord * h * v[k];
-            near_v[k] = v[k] + part * (self.v_end[k] - self.v[k]);
-        }
-        let side = if self.at_begin(system, seam) < nothing { -one } else { one };
-        let value = side * system.seam(seam, q, v, t);
-        let near = side * system.seam(seam, &self.near[0], &self.near[1], t + chord * h);
-        Sample { place, value, slope: (near - value) / chord }
-    }
-
     /// The length of this `part` of a step, if it leads away from a seam on which the step begins: there a
     /// formula has the value of neither side, or of the wrong one.
     fn leave<M: Method<S, T>>(
@@ -332,12 +210,12 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     }
 
     /// A seam where the step begins.
-    fn at_begin(&self, system: &S, seam: usize) -> T {
+    pub(super) fn at_begin(&self, system: &S, seam: usize) -> T {
         system.seam(seam, &self.q, &self.v, self.t)
     }
 
     /// Moves the run from where the step begins by a length `h`, and looks ahead there.
-    fn look<M: Method<S, T>>(
+    pub(super) fn look<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
         h: T,

@@ -1,0 +1,164 @@
+//! The steps of an integrator, and its states one after the other.
+
+use core::fmt;
+
+#[cfg(feature = "alloc")]
+use super::Checkpoint;
+use super::begun::{Begun, begun};
+use super::clock::Time;
+use super::{Between, ControlledRun, Integrator, Run, StepControl, Stepper};
+use crate::error::{StartError, StepError, StepFailure};
+#[cfg(feature = "alloc")]
+use crate::memory::Memory;
+use crate::methods::{Clock, Method};
+use crate::state::Statistics;
+use crate::system::StateOf;
+use crate::{Held, Lagrangian, Real, Vector};
+
+impl<H, M, T: Real, C> Run for Integrator<H, M, T, C>
+where
+    H: Held<System: Lagrangian<T>>,
+    M: Method<H::System, T>,
+    C: StepControl<H::System, T>,
+{
+    type System = H::System;
+    type Scalar = T;
+
+    #[inline]
+    fn system(&self) -> &H::System {
+        self.system.held()
+    }
+
+    #[inline]
+    fn between(&mut self) -> (&H::System, &mut dyn Between<H::System, T>) {
+        (self.system.held(), &mut self.stepper)
+    }
+
+    #[inline]
+    fn q(&self) -> &[T] {
+        &self.stepper.q
+    }
+
+    fn v(&self) -> Vector<H::System, T> {
+        self.stepper.known_velocity(self.system(), self.time())
+    }
+
+    #[inline]
+    fn statistics(&self) -> Statistics {
+        self.stepper.statistics
+    }
+
+    #[inline]
+    fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
+        let Self { system, stepper, control, control_memory, time } = self;
+        let mut run = ControlledRun { system: system.held(), stepper, time };
+        control.steps(control_memory, &mut run, count).map_err(|failure| self.error(failure))
+    }
+
+    #[cfg(feature = "alloc")]
+    fn checkpoint(&self) -> Checkpoint<T> {
+        Checkpoint::of(self.system(), &self.stepper, [self.time(), self.step_size()], |record| {
+            self.control_memory.save(record);
+            self.time.save(record);
+        })
+    }
+
+    /// Of steps of one length t₀ + steps · h, of others their sum, compensated: rounding errors do not add
+    /// up.
+    #[inline]
+    fn time(&self) -> T {
+        self.present().time()
+    }
+
+    #[inline]
+    fn step_size(&self) -> T {
+        self.time.h
+    }
+
+    #[inline]
+    fn clock(&self) -> Option<Clock<T>> {
+        C::ONE_LENGTH.then(|| self.present())
+    }
+
+    fn set_state(&mut self, t: T, state: StateOf<H, T>) -> Result<(), StartError> {
+        let Self { system, stepper: Stepper { method, memory, statistics, .. }, control, .. } = &*self;
+        let Begun { q, memory: begun, kept, control_memory, time, .. } =
+            begun(system.held(), method, control, t, &state)?;
+        let (memory, steps) = (method.begun_anew(memory, begun), statistics.steps);
+        let stepper = &mut self.stepper;
+        (stepper.q, stepper.memory, stepper.kept, stepper.failed) = (q, memory, kept, false);
+        (self.control_memory, self.time) = (control_memory, Time::new(t, time.h, steps));
+        Ok(())
+    }
+}
+
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Integrator<H, M, T, C>
+where
+    C: StepControl<S, T>,
+{
+    /// The clock at the present time.
+    #[inline]
+    pub(super) fn present(&self) -> Clock<T> {
+        self.time.after(self.stepper.statistics.steps)
+    }
+
+    /// Whether steps may be taken many at once, without a look at the end of each.
+    #[cfg(feature = "alloc")]
+    pub(super) fn is_unwatched(&self) -> bool {
+        self.stepper.kept.is_none()
+    }
+
+    #[cold]
+    fn error(&mut self, failure: StepFailure) -> StepError {
+        let (time, h) = (self.time(), self.step_size());
+        self.stepper.error(self.system.held(), time, h, failure)
+    }
+}
+
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Iterator for Integrator<H, M, T, C>
+where
+    C: StepControl<S, T>,
+{
+    type Item = Result<S::State<T>, StepError>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        self.nth(0)
+    }
+
+    /// Skips `n` states without building them and yields the next. Unlike elsewhere, a failure on the way is
+    /// not skipped but yielded.
+    #[inline]
+    fn nth(&mut self, n: usize) -> Option<Self::Item> {
+        if self.stepper.failed {
+            return None;
+        }
+        Some(self.take_steps(n as u64 + 1).and_then(|()| {
+            let time = self.time();
+            self.stepper.try_state(self.system.held(), time)
+        }))
+    }
+}
+
+impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C: StepControl<S, T>>
+    core::iter::FusedIterator for Integrator<H, M, T, C>
+{
+}
+
+impl<H: Held<System = S>, S: Lagrangian<T>, M, T: Real, C> fmt::Debug for Integrator<H, M, T, C>
+where
+    M: Method<S, T> + fmt::Debug,
+    C: StepControl<S, T>,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Integrator")
+            .field("system", &S::REPORT.system)
+            .field("method", &self.stepper.method)
+            .field("control", &self.control)
+            .field("time", &self.time())
+            .field("step_size", &self.step_size())
+            .field("state", &self.state())
+            .field("statistics", &self.stepper.statistics)
+            .finish_non_exhaustive()
+    }
+}
