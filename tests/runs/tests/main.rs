@@ -3,6 +3,7 @@
 //! They are one program, so that what several of them run is compiled once, and the long ones run beside the
 //! others.
 
+mod angular_momentum;
 mod constrained;
 mod drift;
 mod error_control;
