@@ -178,7 +178,7 @@ where
         self.file.append(&self.run.checkpoint())
     }
 
-    /// The run as it was after `steps` steps, counted as [`Run::steps`](crate::run::Run::steps) does:
+    /// The run as it was after `steps` steps, counted as [`Run::steps`] does:
     /// another one, bit for bit, from the last checkpoint before.
     ///
     /// # Errors
