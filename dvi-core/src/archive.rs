@@ -56,8 +56,8 @@ pub enum Every {
     Time(Duration),
 }
 
-/// A run whose states are kept in a file: one whose system and step control can be cloned, as a reference and
-/// an `Arc` can.
+/// A run whose states are kept in a file: one whose system and step control can be cloned, as a reference
+/// and an `Arc` can.
 ///
 /// ```
 #[doc = include_str!("../docs/hidden/pendulum.txt")]
