@@ -56,8 +56,8 @@ pub enum Every {
     Time(Duration),
 }
 
-/// A run whose states are kept in a file: one whose system and step control can be cloned, as a reference and
-/// an `Arc` can.
+/// A run whose states are kept in a file: one whose system and step control can be cloned, as a reference
+/// and an `Arc` can.
 ///
 /// ```
 #[doc = include_str!("../docs/hidden/pendulum.txt")]
@@ -178,7 +178,7 @@ where
         self.file.append(&self.run.checkpoint())
     }
 
-    /// The run as it was after `steps` steps, counted as [`Run::steps`](crate::run::Run::steps) does:
+    /// The run as it was after `steps` steps, counted as [`Run::steps`] does:
     /// another one, bit for bit, from the last checkpoint before.
     ///
     /// # Errors

@@ -204,7 +204,9 @@ macro_rules! lasting {
             _ => return Err($crate::error::CheckpointError::Damaged),
         }
     };
-    (@load $T:ty, size $to:expr, $record:ident) => { $to = <$T>::lift(f64::from_bits($record.read_count()?)) };
+    (@load $T:ty, size $to:expr, $record:ident) => {
+        $to = <$T>::lift(f64::from_bits($record.read_count()?))
+    };
     (@load $T:ty, bits $to:expr, $record:ident) => { $to = f64::from_bits($record.read_count()?) };
     (@load $T:ty, part $to:expr, $record:ident) => { $to.load($record)? };
     (@load $T:ty, parts $to:expr, $record:ident) => { for part in $to.iter_mut() { part.load($record)?; } };
@@ -213,7 +215,9 @@ macro_rules! lasting {
             $record.read(&mut pack.0)?;
         }
     };
-    (@load $T:ty, vectors $to:expr, $record:ident) => { for vector in $to.iter_mut() { $record.read(vector)?; } };
+    (@load $T:ty, vectors $to:expr, $record:ident) => {
+        for vector in $to.iter_mut() { $record.read(vector)?; }
+    };
 }
 pub(crate) use lasting;
 

@@ -5,8 +5,8 @@
 //! δq1 = −(D₁D₂)⁻¹(δp0 + D₁D₁δq0)
 //! δp1 = D₂D₁δq0 + D₂D₂δq1
 //!
-//! The last line, of the step before, makes of it the derivative of the two-step map (q0, q1) ↦ (q1, q2), which
-//! preserves Ω_d = ∂²L_d/∂q0ⁱ∂q1ʲ dq0ⁱ ∧ dq1ʲ (Rowley & Marsden 2002, eq. 17).
+//! The last line, of the step before, makes of it the derivative of the two-step map (q0, q1) ↦ (q1, q2),
+//! which preserves Ω_d = ∂²L_d/∂q0ⁱ∂q1ʲ dq0ⁱ ∧ dq1ʲ (Rowley & Marsden 2002, eq. 17).
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;

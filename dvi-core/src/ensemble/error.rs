@@ -11,8 +11,8 @@ use crate::error::StartError;
 
 crate::error::said!(EnsembleError, Difference);
 
-/// An ensemble that cannot run, or shards that cannot be put together. The failure of a member is none: it is the [`Outcome`](super::Outcome) of
-/// that member.
+/// An ensemble that cannot run, or shards that cannot be put together. The failure of a member is none: it
+/// is the [`Outcome`](super::Outcome) of that member.
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/pendulum.txt")]

@@ -21,7 +21,8 @@ type OnSystem<'s, S> = Box<dyn FnMut(f64, &<S as System>::State<f64>) -> [f64; 1
 /// An event at which a member ends, and why.
 pub(super) type Exit<S> = (EventOf<S>, &'static str);
 
-/// Parts of a step that differ by no more than this are one: of limits that are met at once the first counts.
+/// Parts of a step that differ by no more than this are one: of limits that are met at once the first
+/// counts.
 const TOGETHER: f64 = 16.0 * f64::EPSILON;
 
 /// What is known of limits and section, for a run that goes on.

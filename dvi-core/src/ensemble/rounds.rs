@@ -18,8 +18,8 @@ use super::{Outcome, Progress, Results, Shard, Tell};
 /// How often progress is told.
 const PROGRESS: Duration = Duration::from_secs(1);
 
-/// Takes the members of a group on, until they have ended or this says that they are interrupted: whatever the
-/// systems and the method are.
+/// Takes the members of a group on, until they have ended or this says that they are interrupted: whatever
+/// the systems and the method are.
 type Advance<'w> = dyn Fn(&mut [Slot], &dyn Fn() -> bool) -> Result<(), EnsembleError> + Sync + 'w;
 
 /// The file of a checkpoint, and how often it is written.

@@ -30,7 +30,8 @@ type Function<'f, S, Q> = Box<dyn FnMut(&S, &Q, f64) -> f64 + 'f>;
 ///
 /// let passages = run.events([Direction::Rising], |_, state| [state.y])?;
 /// let passages = recorder()?.points(&Kepler, passages.take(3))?;
-/// assert!(passages.numbers("radius")?.iter().all(|radius| (radius - 1.0).abs() < 1e-4)); // at the pericentre
+/// // Each at the pericentre.
+/// assert!(passages.numbers("radius")?.iter().all(|radius| (radius - 1.0).abs() < 1e-4));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Recorder<'f, S: Lagrangian> {

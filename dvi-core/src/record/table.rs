@@ -108,8 +108,8 @@ impl Record {
     ///
     /// If none is named, the bodies are those whose coordinates, or functions of yours, have names that are
     /// alike but for the letters `x`, `y` and perhaps `z` at their beginning or end, as `x[3]` and `y[3]`,
-    /// `x2` and `y2`, `sun_x` and `sun_y`; and unit vectors and the three axes of rotations. The array `r[3]`
-    /// is none, since its numbers may be three angles as well: where it is a position, name it.
+    /// `x2` and `y2`, `sun_x` and `sun_y`; and unit vectors and the three axes of rotations. The array
+    /// `r[3]` is none, since its numbers may be three angles as well: where it is a position, name it.
     ///
     /// # Errors
     /// [`RecordError::Missing`]; [`RecordError::Texts`] if a column has no numbers; [`RecordError::Body`] if
@@ -201,9 +201,9 @@ impl Record {
     }
 
     /// Writes a page of HTML that shows the columns over time, any column against any other, and, if there
-    /// are [bodies](Self::with_body), how they move. It is one file, which needs no network and no server: less
-    /// than 100 kB, and about 20 bytes for each number. Numbers that are none are gaps. Of long columns at
-    /// most 4000 points over time are drawn, the extremes among them, and 60,000 against each other; the
+    /// are [bodies](Self::with_body), how they move. It is one file, which needs no network and no server:
+    /// less than 100 kB, and about 20 bytes for each number. Numbers that are none are gaps. Of long columns
+    /// at most 4000 points over time are drawn, the extremes among them, and 60,000 against each other; the
     /// page says of how many. Columns of texts are not on it.
     ///
     /// # Errors

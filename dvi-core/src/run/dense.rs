@@ -8,8 +8,7 @@ use core::ops::Deref;
 use crate::error::{StartError, StepError, StepFailure};
 #[cfg(doc)]
 use crate::methods::Method;
-use crate::run::Run;
-use crate::run::between::Flat;
+use crate::run::{Run, between::Flat};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::system::start::step_error;
@@ -46,7 +45,7 @@ pub struct Dense<R: Run> {
     run: R,
     /// When steps at hand have begun.
     begun: R::Scalar,
-    /// How many of them there are.
+    /// How many there are.
     taken: u64,
     /// How many there may be before the next point is kept.
     most: u64,

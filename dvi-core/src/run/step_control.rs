@@ -3,7 +3,8 @@
 //! A method keeps its good long-time behaviour under variable steps if the whole map, step control included,
 //! is symmetric or comes from a transformed system; choosing each step by the error of the one before
 //! destroys it (Hairer, Lubich & Wanner 2006, section VIII.1). [`Reversible`] is of the first kind,
-//! [`ErrorControl`] of the other. With [`EnergyMomentum`] the length of a step is an unknown of its equations.
+//! [`ErrorControl`] of the other. With [`EnergyMomentum`] the length of a step is an unknown of its
+//! equations.
 
 mod breaks;
 mod controlled;

@@ -18,9 +18,9 @@ const PLACES: [f64; 13] = [0.001, 0.08, 0.19, 0.27, 0.38, 0.45, 0.56, 0.66, 0.74
 
 impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     /// The part of a step of length `h`, which has been taken, that ends well before a seam turns for the
-    /// second time: [`end`](Self::end) sees one turn. As far as the cubic path between its ends tells; a seam
-    /// that is farther from zero than it changes may turn as it likes. To be asked behind [`end`](Self::end),
-    /// which knows the velocity there.
+    /// second time: [`end`](Self::end) sees one turn. As far as the cubic path between its ends tells; a
+    /// seam that is farther from zero than it changes may turn as it likes. To be asked behind
+    /// [`end`](Self::end), which knows the velocity there.
     pub(super) fn second_turn<M: Method<S, T>>(
         &mut self,
         run: &ControlledRun<'_, S, M, T>,

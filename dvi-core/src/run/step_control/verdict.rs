@@ -33,8 +33,8 @@ impl ErrorControl<'_> {
         larger(-longest, -larger(-longest, -h))
     }
 
-    /// What is to be said of the step from time `t` of length `h`, where steps usually have another. One that
-    /// is accepted at a seam ends behind it.
+    /// What is to be said of the step from time `t` of length `h`, where steps usually have another. One
+    /// that is accepted at a seam ends behind it.
     pub(super) fn judge<S: Lagrangian<T>, M: Method<S, T>, T: Real>(
         &self,
         run: &mut ControlledRun<'_, S, M, T>,
