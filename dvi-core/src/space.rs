@@ -13,7 +13,7 @@ pub(crate) mod room;
 mod rows;
 #[cfg(feature = "alloc")]
 mod run_time;
-pub mod sink;
+mod sink;
 pub(crate) mod square;
 mod weights;
 

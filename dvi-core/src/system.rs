@@ -34,7 +34,7 @@ mod unilateral;
 use core::fmt::Debug;
 
 use crate::error::{IndexError, LengthError, OutsideError};
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::{Real, Scalar, Space};
 
 pub use crate::name::{Axis, Factor, Name};

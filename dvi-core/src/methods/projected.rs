@@ -16,7 +16,6 @@ use crate::methods::one_point::OnePoint;
 use crate::methods::{self, Carries, Method, PreservedForm, Scheme, VariableStep};
 use crate::scalar::norm;
 use crate::solve::{CoupledEquations, Stopping, from_either_guess, solve_coupled};
-use crate::space::sink::Product;
 use crate::space::{NodeSum, Sink, Storing};
 use crate::state::Statistics;
 use crate::system::spinors;
@@ -262,7 +261,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> CoupledEquations<NODES, S, T> for Step
         }
         for (row, factor, point, time) in [(&mut *r1, *a, *q, *t), (&mut *r2, -*b, &**end, after)] {
             // Dα(q)ᵀλ
-            let mut product = Product { x: lambda, sum: row };
+            let mut product = |i: usize, j: usize, entry: T| row[i] += entry * lambda[j];
             system.one_form_jacobian(point, time, zero, factor, &mut product);
         }
         system.one_form(end, after, one_form);

@@ -23,7 +23,6 @@ use crate::methods::VariationalMethod;
 use crate::methods::{self, Carries, Clock, Method, PreservedForm, Scheme, Steps};
 use crate::scalar::norm;
 use crate::solve::{Ladder, Solver, Stopping};
-use crate::space::sink::Places;
 use crate::state::summation::Summation;
 use crate::system::spinors;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, System, Vector};
@@ -208,9 +207,9 @@ impl<T: Real> Sigma<T> {
             return Ok(());
         }
         let (zero, mut sizes): (T, Vector<S, T>) = (T::lift(0.0), system.space().vector());
-        let mut sink = Places(|row: usize, _: usize, entry: T| {
+        let mut sink = |row: usize, _: usize, entry: T| {
             sizes[row] = norm::larger(sizes[row], Scalar::abs(entry));
-        });
+        };
         system.one_form_jacobian(q, t, T::lift(1.0), zero, &mut sink);
         if sizes.contains(&zero) {
             // Where Ω is singular too, none of these helps.

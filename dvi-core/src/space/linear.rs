@@ -16,9 +16,6 @@ use core::ops::Deref;
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::space::sink::Places;
-#[cfg(feature = "alloc")]
-use crate::space::sink::Scaled;
 use crate::space::square::{FixedSquare, SquareMatrix};
 use crate::space::{Fixed, FixedVector, InPlace, Room, Sink, Space};
 
@@ -54,7 +51,7 @@ pub(crate) fn residual<T: Real>(
     [b, sums]: [&mut [T]; 2],
 ) -> Result<T, StepFailure> {
     sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(given(i)));
-    equations.evaluate(b, &mut Places(|i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j))))?;
+    equations.evaluate(b, &mut |i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j)))?;
     relative(rows(b, sums))
 }
 
@@ -104,17 +101,17 @@ pub(crate) fn residual_of_nodes<
             };
             let [qq, qv, vq, vv] = [of(|w| w.qq), of(|w| w.qv), of(|w| w.vq), of(|w| w.vv)];
             matrix.second_derivatives(
-                &mut Places(|i, j, entry| add(i, j, qq * entry)),
-                &mut Places(|i, j, entry| {
+                &mut |i, j, entry| add(i, j, qq * entry),
+                &mut |i, j, entry| {
                     add(i, j, qv * entry);
                     if M::MIXED_ARE_TRANSPOSED {
                         add(j, i, vq * entry);
                     }
-                }),
-                &mut Places(|i, j, entry| add(i, j, vv * entry)),
+                },
+                &mut |i, j, entry| add(i, j, vv * entry),
             );
             if !M::MIXED_ARE_TRANSPOSED {
-                matrix.momentum_by_position(&mut Places(|i, j, entry| add(i, j, vq * entry)));
+                matrix.momentum_by_position(&mut |i, j, entry| add(i, j, vq * entry));
             }
         }
         largest = norm::larger(largest, relative(rows(vector, sums.into_inner()))?);
@@ -338,7 +335,8 @@ struct Balanced<'a, E, T> {
 impl<T: Real, E: LinearEquations<T>> LinearEquations<T> for Balanced<'_, E, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { equations, scales } = self;
-        equations.evaluate(b, &mut Scaled { sink, factor: |i: usize, j: usize| scales[i] * scales[j] })?;
+        let mut scaled = |i: usize, j: usize, entry: T| sink.add(i, j, scales[i] * scales[j] * entry);
+        equations.evaluate(b, &mut scaled)?;
         scale(b, scales);
         Ok(())
     }

@@ -28,7 +28,7 @@ mod sparse;
 use core::fmt::Debug;
 
 use crate::error::StepFailure;
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::space::{FixedMatrix, FixedVector, InPlace, Room};
 use crate::space::{elimination, lines};
 use crate::{Real, Scalar, Space};

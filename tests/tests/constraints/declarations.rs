@@ -2,11 +2,11 @@
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
 use dvi_core::{
     ConstrainedSystem, Fixed, HolonomicLagrangian, IndexError, NondegenerateLagrangian, RunTime, Space,
 };
 use dvi_core::{Lagrangian, ScalarField, Varied};
+use dvi_tests::filling;
 use num_dual::{Dual64, HyperDual64};
 
 use super::Outcome;
@@ -34,7 +34,7 @@ fn generated<S: HolonomicLagrangian>(system: &S, q: &[f64], v: &[f64], t: f64) -
     let (mut g, mut again, mut rate, mut curvature) = (set(), set(), set(), set());
     let mut jacobian = vec![0.0; n * m];
     system.constraint(q, t, &mut g);
-    system.constraint_jacobian(q, t, &mut again, &mut Dense::new(&mut jacobian, n));
+    system.constraint_jacobian(q, t, &mut again, &mut filling(&mut jacobian, n));
     system.constraint_rate(q, v, t, &mut rate);
     system.constraint_curvature(q, v, t, &mut curvature);
     close(&again, &g, "g beside ∂g/∂q");

@@ -1,11 +1,11 @@
 //! Constraints of the velocities: what is generated for them, against closed forms and num-dual.
 
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
 use dvi_core::{
     ConstrainedSystem, Fixed, NondegenerateLagrangian, NonholonomicLagrangian, RunTime, Space, System,
     Varied,
 };
+use dvi_tests::filling;
 use num_dual::Dual64;
 
 use super::Outcome;
@@ -117,7 +117,7 @@ fn generated<S: NonholonomicLagrangian>(
     let (mut a, mut again, mut rate) = (vec![7.0; m], vec![7.0; m], vec![7.0; m]);
     let mut jacobian = vec![0.0; n * m];
     system.velocity_constraint(q, v, t, &mut a);
-    system.velocity_constraint_jacobian(q, v, t, weights, &mut again, &mut Dense::new(&mut jacobian, n));
+    system.velocity_constraint_jacobian(q, v, t, weights, &mut again, &mut filling(&mut jacobian, n));
     system.velocity_constraint_rate(q, v, t, &mut rate);
     close(&again, &a, "a beside its derivatives");
     Generated { a, jacobian, rate }

@@ -6,8 +6,8 @@
 #![allow(non_snake_case)]
 
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
 use dvi_core::{Lagrangian, Space, System, Weights};
+use dvi_tests::filling;
 use num_dual::HyperDual64;
 
 use crate::derivatives::oracle::{Number, Random, expanded};
@@ -143,7 +143,7 @@ fn derivatives_by_angles_are_those_of_the_entries() {
 
         let (mut l_q, mut l_v, mut matrix) = (vec![0.0; n], vec![0.0; n], vec![0.0; n * n]);
         let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-        system.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut Dense::new(&mut matrix, n));
+        system.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut filling(&mut matrix, n));
         // The entries along the curve, with their derivatives.
         let [one, zero] = [1.0, 0.0];
         let curve =

@@ -17,9 +17,9 @@ use crate::memory::Aside;
 use crate::methods::VariationalMethod;
 use crate::scalar::norm;
 use crate::solve::{Due, newton, sizes};
+use crate::space::Sink;
 use crate::space::linear::{assemble, blocks, residual_of_nodes};
 use crate::space::lines;
-use crate::space::sink::Sink;
 use crate::state::Statistics;
 use crate::{Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector};
 

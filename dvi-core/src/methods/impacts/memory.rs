@@ -7,7 +7,6 @@ use crate::mechanics::constraints::Multipliers;
 use crate::memory::{Memory, lasting};
 use crate::methods::before::Before;
 use crate::scalar::norm::reported;
-use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Scalar, Space, State, System, UnilateralLagrangian, Vector};
 
 /// How many impacts a step may have.
@@ -208,9 +207,9 @@ pub(super) fn terms<S: UnilateralLagrangian<T>, T: Real>(
     gap: &mut [T],
     mut add: impl FnMut(usize, T),
 ) {
-    let mut sizes = Places(|surface: usize, j: usize, entry: T| {
+    let mut sizes = |surface: usize, j: usize, entry: T| {
         add(surface, Scalar::abs(entry) * (Scalar::abs(q[j]) + Scalar::abs(h * v[j])));
-    });
+    };
     system.gap_jacobian(q, t, gap, &mut sizes);
 }
 

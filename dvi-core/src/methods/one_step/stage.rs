@@ -11,7 +11,6 @@ use super::split::is_x;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::solve::{Course, Judge, Linearize, Stopping, residual, solve_by_newton};
-use crate::space::sink::{Product, Scaled};
 use crate::space::{Sink, Storing};
 use crate::state::Statistics;
 use crate::{Linear, ProperlyDegenerate, Real, Space, System, Vector, Weights};
@@ -149,7 +148,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
             let r = one_form[i] - momentum[i] - half * gradient[i];
             rest[i] = if is_moved { r } else { T::lift(0.0) };
         }
-        let mut product = Product { x: d, sum: rest };
+        let mut product = |i: usize, j: usize, entry: T| rest[i] += entry * d[j];
         system.one_form_jacobian(point, centre, T::lift(-1.0), T::lift(0.0), &mut product);
         for i in (0..momentum.len()).filter(|&i| is_x(system, i)) {
             momentum[i] += T::lift(2.0) * (half * gradient[i] + rest[i]);
@@ -220,7 +219,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for Equations<'_, S, T> {
             let row = |row: usize| weight * if is_x(system, row) { one - c } else { half };
             let column = |column: usize| if is_x(system, column) { c } else { one };
             let mut add = |w: Weights<T>, factor: &dyn Fn(usize, usize) -> T| {
-                let mut scaled = Scaled { sink: &mut *sink, factor };
+                let mut scaled = |i: usize, j: usize, entry: T| sink.add(i, j, factor(i, j) * entry);
                 system.linearize(point, velocity, time, w, gradient, one_form, &mut scaled);
             };
             add(Weights { qq: h, ..none }, &|i, j| row(i) * column(j));

@@ -15,7 +15,6 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
 use crate::methods::{Carries, Method};
-use crate::space::sink::Product;
 use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector, Weights};
 
 /// How far the centre of the osculating circle moves in a step.
@@ -143,7 +142,7 @@ impl<S: RegularLagrangian<T>, T: Real> Work<S, T> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let Self { acceleration, jerk, l_q, l_v, force_rate } = self;
         force_rate.fill(zero);
-        let mut product = Product { x: v, sum: force_rate };
+        let mut product = |i: usize, j: usize, entry: T| force_rate[i] += entry * v[j];
         system.linearize(q, v, t, Weights { qq: one, qv: zero, vq: zero, vv: zero }, l_q, l_v, &mut product);
         mass.solve(l_q, acceleration);
         mass.solve(force_rate, jerk);

@@ -13,8 +13,6 @@ use crate::RunTime;
 use crate::error::StepFailure;
 use crate::memory::Aside;
 use crate::space::Weights;
-#[cfg(feature = "alloc")]
-use crate::space::sink::Places;
 use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room};
 #[cfg(feature = "alloc")]
 use crate::space::{lines, lines_mut};
@@ -210,17 +208,17 @@ impl<const NODES: usize, T: Real, M: NodeSum<NODES, T>> LinearEquations<T> for F
                 }
             };
             matrix.second_derivatives(
-                &mut Places(|i, j, entry| add(i, j, entry, |w| w.qq)),
-                &mut Places(|i, j, entry| {
+                &mut |i, j, entry| add(i, j, entry, |w| w.qq),
+                &mut |i, j, entry| {
                     add(i, j, entry, |w| w.qv);
                     if M::MIXED_ARE_TRANSPOSED {
                         add(j, i, entry, |w| w.vq);
                     }
-                }),
-                &mut Places(|i, j, entry| add(i, j, entry, |w| w.vv)),
+                },
+                &mut |i, j, entry| add(i, j, entry, |w| w.vv),
             );
             if !M::MIXED_ARE_TRANSPOSED {
-                matrix.momentum_by_position(&mut Places(|i, j, entry| add(i, j, entry, |w| w.vq)));
+                matrix.momentum_by_position(&mut |i, j, entry| add(i, j, entry, |w| w.vq));
             }
         }
         Ok(())

@@ -11,7 +11,6 @@ use alloc::vec::Vec;
 use super::LinearEquations;
 use crate::error::StepFailure;
 use crate::scalar::norm::{self, reported};
-use crate::space::sink::{Places, Product};
 use crate::{Real, Scalar};
 
 /// The dimension of the spaces that residuals are minimised in.
@@ -100,13 +99,13 @@ impl<T: Real> Krylov<T> {
         pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, zero));
         diagonal.fill(zero);
         // Beside the diagonal, the largest part of an entry has to do for the entry.
-        let mut largest = Places(|row: usize, column: usize, entry: T| {
+        let mut largest = |row: usize, column: usize, entry: T| {
             if row == column {
                 diagonal[row] += entry;
             } else if Scalar::abs(entry) > Scalar::abs(pivots[row].1) {
                 pivots[row] = (column, entry);
             }
-        });
+        };
         equations.evaluate(b, &mut largest)?;
         norm::finite(b)?;
         taken.fill(zero);
@@ -121,11 +120,11 @@ impl<T: Real> Krylov<T> {
             pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, one));
             return Ok(());
         }
-        let mut sum = Places(|row: usize, column: usize, entry: T| {
+        let mut sum = |row: usize, column: usize, entry: T| {
             if column == pivots[row].0 {
                 pivots[row].1 += entry;
             }
-        });
+        };
         equations.evaluate(unused, &mut sum)?;
         let usable = pivots.iter().all(|pivot| (one / pivot.1).is_finite());
         for (row, pivot) in pivots.iter_mut().enumerate() {
@@ -152,8 +151,7 @@ impl<T: Real> Krylov<T> {
         while size < BASIS && Scalar::abs(rhs[size]) > target {
             self.precondition(size * n);
             let Self { basis, columns, rotations, unused, work: [direction, product], .. } = &mut *self;
-            product.fill(T::lift(0.0));
-            equations.evaluate(unused, &mut Product { x: direction, sum: product })?;
+            multiply(equations, direction, [unused, product])?;
             let column = &mut columns[size];
             for (v, entry) in basis.chunks_exact(n).zip(column.iter_mut()).take(size + 1) {
                 *entry = dot(v, product);
@@ -215,8 +213,7 @@ impl<T: Real> Krylov<T> {
         }
         self.precondition(BASIS * n);
         let Self { solution, unused, work: [direction, product], .. } = self;
-        product.fill(T::lift(0.0));
-        equations.evaluate(unused, &mut Product { x: direction, sum: product })?;
+        multiply(equations, direction, [unused, product])?;
         for i in 0..n {
             solution[i] += direction[i];
             residual[i] -= product[i];
@@ -233,6 +230,16 @@ impl<T: Real> Krylov<T> {
     }
 }
 
+/// Sets `product` to A x; what comes with it is storage.
+fn multiply<T: Real>(
+    equations: &mut impl LinearEquations<T>,
+    x: &[T],
+    [unused, product]: [&mut Vec<T>; 2],
+) -> Result<(), StepFailure> {
+    product.fill(T::lift(0.0));
+    equations.evaluate(unused, &mut |i: usize, j: usize, entry: T| product[i] += entry * x[j])
+}
+
 fn dot<T: Real>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::lift(0.0), |sum, (&x, &y)| sum + x * y)
 }
@@ -245,8 +252,8 @@ fn length<T: Real>(x: &[T]) -> T {
 mod tests {
     use super::{BASIS, Krylov};
     use crate::error::StepFailure;
+    use crate::space::Sink;
     use crate::space::linear::LinearEquations;
-    use crate::space::sink::Sink;
     use alloc::vec;
     use alloc::vec::Vec;
     use nalgebra::{DMatrix, DVector};

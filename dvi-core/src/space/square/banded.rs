@@ -181,7 +181,7 @@ mod tests {
     use super::super::run_time::RunTimeSquare;
     use crate::RunTime;
     use crate::error::StepFailure;
-    use crate::space::sink::Sink;
+    use crate::space::Sink;
     use crate::space::square::SquareMatrix;
 
     /// Numbers in (−1, 1) from a linear congruential generator.

@@ -10,9 +10,9 @@ use super::ordering::Pattern;
 use super::sparse::Sparse;
 use crate::error::StepFailure;
 use crate::space::RunTimeMatrix;
+use crate::space::Sink;
 use crate::space::elimination;
 use crate::space::linear::scale;
-use crate::space::sink::Sink;
 use crate::{Real, RunTime, Scalar, Space};
 
 /// The square matrix of a [`RunTime`] space.

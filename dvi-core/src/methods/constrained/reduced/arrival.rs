@@ -10,7 +10,6 @@ use crate::methods::constrained::memory::Impulses;
 use crate::methods::kicks::kick;
 use crate::solve::{Course, Due, Iteration, Judge, Quick, Stopping, repeat, sizes};
 use crate::space::SquareMatrix;
-use crate::space::sink::Places;
 use crate::state::Statistics;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
@@ -120,7 +119,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Place<S, T> {
     pub(super) fn constrain(&mut self, system: &S, q: &[T], t: T, values: &mut [T]) {
         let rows = &mut self.rows;
         rows.iter_mut().for_each(|row| row.fill(T::lift(NEUTRAL)));
-        S::Kind::forces(system, q, t, values, &mut Places(|k: usize, j: usize, entry| rows[k][j] += entry));
+        S::Kind::forces(system, q, t, values, &mut |k: usize, j: usize, entry| rows[k][j] += entry);
     }
 
     /// Sets M⁻¹Gᵀ and the diagonal of G M⁻¹ Gᵀ.
@@ -207,7 +206,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
             }
         } else {
             mass.solve(p, v);
-            S::Kind::of_velocity(system, q, v, t, values, &mut Places(|_, _, _: T| ()));
+            S::Kind::of_velocity(system, q, v, t, values, &mut |_, _, _: T| ());
         }
         // Of one constraint the matrix is its square. A quotient by zero is no number, which is seen where
         // the stride ends.
