@@ -67,8 +67,6 @@ pub(crate) type Square<S, T> = <<S as System>::Space as Space>::Square<T>;
 pub(crate) type Linear<S, T> = <<S as System>::Space as Space>::Linear<T>;
 /// What solves linear equations for several vectors over the space of `S`.
 pub(crate) type Coupled<const NODES: usize, S, T> = <<S as System>::Space as Space>::Coupled<NODES, T>;
-/// A row permutation over the space of `S`.
-pub(crate) type Permutation<S> = <<S as System>::Space as Space>::Permutation;
 
 /// A state with named coordinates, as users see it: (q, v) for a regular system, q for a degenerate one.
 ///

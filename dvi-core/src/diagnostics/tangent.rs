@@ -13,7 +13,7 @@ use crate::discrete::{Interval, TwiceDifferentiable};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::space::elimination::{self, multiply_add};
-use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
+use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of the discrete Lagrangian `L`.
 ///
@@ -34,7 +34,7 @@ use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
 pub struct TangentMap<S: System, L, T: Real = f64> {
     hessian: DiscreteHessian<S, L, T>,
     factors: Matrix<S, T>,
-    permutation: Permutation<S>,
+    permutation: Vector<S, usize>,
     next: [Vector<S, T>; 2],
 }
 
@@ -46,7 +46,7 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T
         Self {
             hessian: DiscreteHessian::new(system, method),
             factors: space.matrix(),
-            permutation: space.permutation(),
+            permutation: space.array(|| 0),
             next: [space.vector(), space.vector()],
         }
     }
@@ -80,12 +80,12 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TangentMap<S, L, T
         let DiscreteHessian { d11, d21, d22, .. } = &self.hessian;
         let [dq1, dp1] = &mut self.next;
         dq1.copy_from_slice(dp);
-        multiply_add(d11, dq, dq1);
+        multiply_add(d11, T::lift(1.0), dq, dq1);
         elimination::solve(&self.factors, &self.permutation, dq1);
         dq1.iter_mut().for_each(|x| *x = -*x);
         dp1.fill(T::lift(0.0));
-        multiply_add(d21, dq, dp1);
-        multiply_add(d22, dq1, dp1);
+        multiply_add(d21, T::lift(1.0), dq, dp1);
+        multiply_add(d22, T::lift(1.0), dq1, dp1);
         dq.copy_from_slice(dq1);
         dp.copy_from_slice(dp1);
     }

@@ -71,8 +71,8 @@ impl<S: Lagrangian<T>, L: TwiceDifferentiable<S, T>, T: Real> TwoPointTangentMap
     /// Maps (δq0, δq1), in place, to (δq1, δq2).
     pub fn apply(&mut self, dq0: &mut Vector<S, T>, dq1: &mut Vector<S, T>) {
         self.dp.fill(T::lift(0.0));
-        multiply_add(&self.before.d21, dq0, &mut self.dp);
-        multiply_add(&self.before.d22, dq1, &mut self.dp);
+        multiply_add(&self.before.d21, T::lift(1.0), dq0, &mut self.dp);
+        multiply_add(&self.before.d22, T::lift(1.0), dq1, &mut self.dp);
         dq0.copy_from_slice(dq1);
         self.after.apply(dq1, &mut self.dp);
     }

@@ -13,15 +13,14 @@ use super::displaced::Displaced;
 use crate::discrete::frequency::{FrequencyIn, GivenFrequency};
 use crate::discrete::{NodeWork, Span, TwiceDifferentiable};
 use crate::error::{StartError, StepFailure};
-use crate::memory::Aside;
 use crate::methods::VariationalMethod;
 use crate::scalar::norm;
 use crate::solve::{Due, newton, sizes};
 use crate::space::Sink;
-use crate::space::linear::{assemble, blocks, residual_of_nodes};
+use crate::space::linear::{Blocks, assemble, blocks, residual_of_nodes};
 use crate::space::lines;
 use crate::state::Statistics;
-use crate::{Matrix, Permutation, Real, RegularLagrangian, Space, System, Vector};
+use crate::{Real, RegularLagrangian, Space, System, Vector};
 
 /// The discrete Lagrangian with interior displacements, and the storage that it needs.
 #[derive(Debug)]
@@ -34,39 +33,28 @@ pub struct GalerkinLagrangian<const NODES: usize, S: System, F, T: Real = f64> {
     /// In which iterations judge coordinates, work space, and zeros.
     weights: [Vector<S, T>; 3],
     node: NodeWork<S, T>,
-    second: Second<NODES, S, T>,
+    /// In rows and columns of the displacements, of Δ and of q0.
+    second: Blocks<NODES, S::Space, T>,
 }
 
-/// Second derivatives.
-#[derive(Debug)]
-struct Second<const NODES: usize, S: System, T: Real> {
-    /// In rows and columns of the displacements, of Δ and of q0, each transposed.
-    blocks: Aside<[[Matrix<S, T>; NODES]; NODES]>,
-    /// Those of L at a node.
-    of_node: [Matrix<S, T>; 4],
-    permutation: Permutation<S>,
-}
-
-impl<const NODES: usize, S: RegularLagrangian<T>, T: Real> Second<NODES, S, T> {
-    /// Solves for the displacements with the right-hand sides `x`, and leaves H* in the last two rows and
-    /// columns.
-    fn eliminate<F: FrequencyIn<T>>(
-        &mut self,
-        path: &mut Displaced<'_, NODES, S, F, T>,
-        weights: &[T],
-        x: &mut [Vector<S, T>; NODES],
-    ) -> Result<(), StepFailure> {
-        let Self { blocks, of_node, permutation } = self;
-        let n = permutation.len();
-        assemble(path, of_node, blocks, n, 0);
-        // The row and the column of q0 come first there.
-        blocks.iter_mut().for_each(|row| row.rotate_left(1));
-        blocks.rotate_left(1);
-        x.rotate_left(1);
-        blocks::eliminate(blocks, permutation, (weights, &mut of_node[0][..n]), x, 0..NODES - 2)?;
-        x.rotate_right(1);
-        Ok(())
-    }
+/// Solves for the displacements with the right-hand sides `x`, and leaves H* in the last two rows and columns
+/// of `second`.
+fn eliminate<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+    second: &mut Blocks<NODES, S::Space, T>,
+    path: &mut Displaced<'_, NODES, S, F, T>,
+    weights: &[T],
+    x: &mut [Vector<S, T>; NODES],
+) -> Result<(), StepFailure> {
+    let Blocks { rows, second: of_node, permutation } = second;
+    let n = permutation.len();
+    assemble(path, of_node, rows, n, 0);
+    // The row and the column of q0 come first there.
+    rows.iter_mut().for_each(|row| row.rotate_left(1));
+    rows.rotate_left(1);
+    x.rotate_left(1);
+    blocks::eliminate(rows, permutation, (weights, &mut of_node[0][..n]), x, 0..NODES - 2)?;
+    x.rotate_right(1);
+    Ok(())
 }
 
 impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> TwiceDifferentiable<S, T>
@@ -101,15 +89,15 @@ impl<const NODES: usize, S: RegularLagrangian<T>, F: FrequencyIn<T>, T: Real> Tw
             if *due == Due::Residual {
                 return residual_of_nodes(path, weights, residuals, sums);
             }
-            second.eliminate(path, weights, residuals)?;
+            eliminate(second, path, weights, residuals)?;
             let corrections = path.unknowns.iter_mut().zip(&*residuals).take(NODES - 1).skip(1);
             Ok(corrections.fold(T::lift(0.0), |largest, (displacement, change)| {
                 norm::larger(largest, sizes::reduce(system, weights, displacement, change))
             }))
         })?;
-        second.eliminate(path, weights, residuals)?;
+        eliminate(second, path, weights, residuals)?;
         // Of rows D₁L_d and (D₁ + D₂)L_d, in columns by Δ, and by q0 at the same Δ.
-        let [left, both] = [NODES - 2, NODES - 1].map(|row| &second.blocks[row]);
+        let [left, both] = [NODES - 2, NODES - 1].map(|row| &second.rows[row]);
         let [left_delta, left_both] = [&left[NODES - 2], &left[NODES - 1]];
         let [both_delta, both_both] = [&both[NODES - 2], &both[NODES - 1]];
         add_block(left_delta, 1.0, ends.q0.len(), d12);
@@ -147,8 +135,6 @@ where
 
     fn discrete_lagrangian(&self, system: &S) -> GalerkinLagrangian<NODES, S, F, T> {
         let space = system.space();
-        let blocks: [[_; NODES]; NODES] = core::array::from_fn(|_| core::array::from_fn(|_| space.matrix()));
-        let of_node = core::array::from_fn(|_| space.matrix());
         GalerkinLagrangian {
             method: self.clone(),
             fit: Fit::new(),
@@ -156,7 +142,7 @@ where
             residuals: space.vectors(),
             weights: space.vectors(),
             node: NodeWork::new(system),
-            second: Second { blocks: blocks.into(), of_node, permutation: space.permutation() },
+            second: Blocks::new(space),
         }
     }
 }

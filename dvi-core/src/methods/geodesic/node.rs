@@ -14,10 +14,10 @@ use crate::mechanics::manifold::{Block, blocks, fill, matrix, rotation, set, set
 use crate::space::{RowMatrix, Sink};
 
 use crate::system::Factor;
-use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Weights};
+use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Vector, Weights};
 
 /// Three numbers for each coordinate: how it varies with the tangent vectors of its block.
-pub(super) type Rows<S, T> = <<S as System>::Space as Space>::Array<[T; 3]>;
+pub(super) type Rows<S, T> = Vector<S, [T; 3]>;
 
 /// How the point and the velocity of a node vary, in each row with the tangent vectors of its block.
 #[derive(Debug)]

@@ -254,6 +254,7 @@ mod tests {
     use crate::error::StepFailure;
     use crate::space::Sink;
     use crate::space::linear::LinearEquations;
+    use crate::space::numbers;
     use alloc::vec;
     use alloc::vec::Vec;
     use nalgebra::{DMatrix, DVector};
@@ -275,14 +276,8 @@ mod tests {
         }
     }
 
-    /// Entries in (−1, 1) from a linear congruential generator.
     fn entries(count: usize, seed: u64) -> Vec<f64> {
-        let mut state = seed;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        };
-        (0..count).map(|_| next()).collect()
+        core::iter::repeat_with(numbers(seed)).take(count).collect()
     }
 
     fn solve(matrix: &DMatrix<f64>, b: &[f64]) -> Result<Vec<f64>, StepFailure> {

@@ -11,10 +11,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::SquareMatrix;
 use super::exchanges::Exchanges;
 use super::fronts::{Front, Fronts};
 use crate::error::StepFailure;
 use crate::scalar::norm::{is_pivot, larger, singular};
+use crate::space::Sink;
 use crate::space::elimination::LEAST;
 use crate::{Real, Scalar};
 
@@ -96,28 +98,6 @@ impl<T: Scalar> Sparse<T> {
             order,
         }
     }
-
-    pub(super) fn clear(&mut self) {
-        self.entries.values.fill(T::lift(0.0));
-        self.entries.outside = None;
-    }
-
-    #[inline]
-    pub(super) fn add(&mut self, row: usize, column: usize, entry: T) {
-        let Entries { begins, columns, values, outside } = &mut self.entries;
-        let (from, to) = (begins[row], begins[row + 1]);
-        match columns[from..to].binary_search(&(column as u32)) {
-            Ok(at) => values[from + at] += entry,
-            Err(_) => *outside = Some((row, column)),
-        }
-    }
-
-    pub(super) fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
-        for (row, sum) in sum.iter_mut().enumerate() {
-            let terms = self.entries.row(row).map(|(column, a)| a * x[column]);
-            *sum += factor * terms.fold(T::lift(0.0), |sum, term| sum + term);
-        }
-    }
 }
 
 impl<T: Scalar> Entries<T> {
@@ -129,15 +109,42 @@ impl<T: Scalar> Entries<T> {
     }
 }
 
-impl<T: Real> Sparse<T> {
-    pub(super) fn scale_rows(&mut self, scales: &[T]) {
+impl<T: Real> Sink<T> for Sparse<T> {
+    #[inline]
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        let Entries { begins, columns, values, outside } = &mut self.entries;
+        let (from, to) = (begins[row], begins[row + 1]);
+        match columns[from..to].binary_search(&(column as u32)) {
+            Ok(at) => values[from + at] += entry,
+            Err(_) => *outside = Some((row, column)),
+        }
+    }
+}
+
+impl<T: Real> SquareMatrix<T> for Sparse<T> {
+    type Entries = Self;
+
+    fn cleared(&mut self) -> &mut Self {
+        self.entries.values.fill(T::lift(0.0));
+        self.entries.outside = None;
+        self
+    }
+
+    fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
+        for (row, sum) in sum.iter_mut().enumerate() {
+            let terms = self.entries.row(row).map(|(column, a)| a * x[column]);
+            *sum += factor * terms.fold(T::lift(0.0), |sum, term| sum + term);
+        }
+    }
+
+    fn scale_rows(&mut self, scales: &[T]) {
         let Entries { begins, values, .. } = &mut self.entries;
         for (row, &scale) in scales.iter().enumerate() {
             values[begins[row]..begins[row + 1]].iter_mut().for_each(|value| *value *= scale);
         }
     }
 
-    pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
+    fn factor(&mut self) -> Result<(), StepFailure> {
         let Self { entries, order, factors, work } = self;
         if let Some((row, column)) = entries.outside {
             return Err(StepFailure::Pattern { row, column });
@@ -157,12 +164,11 @@ impl<T: Real> Sparse<T> {
         Ok(())
     }
 
-    /// Whether the determinant is positive.
-    pub(super) fn is_positive(&self) -> bool {
+    fn is_positive(&self) -> bool {
         self.factors.is_positive ^ self.factors.exchanges.is_odd()
     }
 
-    pub(super) fn solve(&self, x: &mut [T]) {
+    fn solve(&self, x: &mut [T]) {
         let Factors { numbers, rows, pivot, exchanges, .. } = &self.factors;
         for front in &self.order.fronts {
             let (pivots, rows) = (front.pivots, &rows[front.rows.clone()]);
@@ -291,6 +297,3 @@ fn subtracted<T: Real>(table: &[T], width: usize, row: usize, column: usize) -> 
     let terms = (0..column).map(|j| Scalar::abs(table[row * width + j] * table[j * width + column]));
     terms.fold(T::lift(LEAST), |sum, term| sum + term)
 }
-
-#[cfg(test)]
-mod tests;

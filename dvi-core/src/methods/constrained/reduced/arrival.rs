@@ -14,7 +14,7 @@ use crate::state::Statistics;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
 /// A vector of coordinates for each constraint.
-type Rows<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Array<Vector<S, T>>;
+type Rows<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Vector<Vector<S, T>>;
 /// A square matrix over the constraints.
 type Gram<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Square<T>;
 
