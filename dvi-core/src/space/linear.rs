@@ -6,8 +6,6 @@ mod coupled;
 #[cfg(feature = "alloc")]
 mod krylov;
 
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
 use core::fmt::Debug;
 use core::ops::Deref;
 
@@ -236,8 +234,7 @@ pub struct RunTimeSolver<T: Real>(Storage<T>);
 #[derive(Debug)]
 enum Storage<T: Real> {
     Matrix(Stored<RunTime, T>),
-    /// With the sizes of the unknowns.
-    Products(Krylov<T>, Vec<T>),
+    Products(Krylov<T>),
 }
 
 #[cfg(feature = "alloc")]
@@ -249,7 +246,7 @@ impl<T: Real> RunTimeSolver<T> {
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self {
         let RunTime { dimension } = space;
-        let products = || Self(Storage::Products(Krylov::new(dimension), space.vector()));
+        let products = || Self(Storage::Products(Krylov::new(dimension)));
         if storing == Storing::Never {
             return products();
         }
@@ -274,30 +271,7 @@ impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
     ) -> Result<(), StepFailure> {
         match &mut self.0 {
             Storage::Matrix(stored) => stored.solve(equations, weights, x),
-            Storage::Products(krylov, scales) => {
-                set_scales(scales, weights);
-                krylov.solve(&mut Balanced { equations, scales }, x)?;
-                scale(x, scales);
-                Ok(())
-            }
+            Storage::Products(krylov) => krylov.solve(equations, weights, x),
         }
-    }
-}
-
-/// Equations in units in which the unknowns are about one.
-#[cfg(feature = "alloc")]
-struct Balanced<'a, E, T> {
-    equations: &'a mut E,
-    scales: &'a [T],
-}
-
-#[cfg(feature = "alloc")]
-impl<T: Real, E: LinearEquations<T>> LinearEquations<T> for Balanced<'_, E, T> {
-    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let Self { equations, scales } = self;
-        let mut scaled = |i: usize, j: usize, entry: T| sink.add(i, j, scales[i] * scales[j] * entry);
-        equations.evaluate(b, &mut scaled)?;
-        scale(b, scales);
-        Ok(())
     }
 }
