@@ -44,7 +44,7 @@ pub use degenerate::{DegenerateLagrangian, ProperlyDegenerate, TimeTransform, Ti
 pub use held::Held;
 pub use holonomic::HolonomicLagrangian;
 pub(crate) use kind::{Degenerate, Holonomic, Kind, Manifold, Nonholonomic, Regular, Unilateral};
-pub use kind::{Smooth, Unconstrained};
+pub use kind::Smooth;
 pub use manifold::{ManifoldLagrangian, ManifoldSystem};
 pub use nondegenerate::{NondegenerateLagrangian, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
