@@ -8,7 +8,6 @@
 use core::ops::Range;
 
 use crate::error::StepFailure;
-use crate::scalar::blocks::blocks;
 use crate::scalar::{Lanes, norm};
 use crate::solve::sizes;
 use crate::space::linear::{power_below, set_scales};
@@ -106,6 +105,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     }
 }
 
+/// How many coordinates a block has: eight vectors of so many numbers are half of a first cache of 32 KiB.
+const BLOCK: usize = 256;
+
 /// Sets `x`, which begins with coordinate `first`, to the products of the reciprocals with the entries of
 /// the conjugates.
 #[inline]
@@ -147,7 +149,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             self.solve(system, rhs, x);
             return take(0..x.len(), x);
         }
-        for block in blocks(x.len()) {
+        let n = x.len();
+        for start in (0..n).step_by(BLOCK) {
+            let block = start..n.min(start + BLOCK);
             let x = &mut x[..block.len()];
             divide(system, &self.scales, rhs, (block.start, x));
             take(block, x);
