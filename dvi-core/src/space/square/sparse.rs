@@ -154,9 +154,9 @@ impl<T: Real> SquareMatrix<T> for Sparse<T> {
         for front in &order.fronts {
             work.assemble(entries, order, front, &mut factors.rows);
             let rows = &mut factors.rows[front.rows.clone()];
-            factors.is_positive ^= work.eliminate(order.columns(front), front.pivots, rows)?;
+            factors.is_positive ^= work.eliminate(&front.columns, front.pivots, rows)?;
             work.hand_on(front, &mut factors.numbers[front.factors.clone()]);
-            for (&column, &row) in order.columns(front)[..front.pivots].iter().zip(&*rows) {
+            for (&column, &row) in front.columns[..front.pivots].iter().zip(&*rows) {
                 factors.pivot[column as usize] = row;
             }
         }
@@ -182,7 +182,7 @@ impl<T: Real> SquareMatrix<T> for Sparse<T> {
         }
         for front in self.order.fronts.iter().rev() {
             let upper = &numbers[front.factors.clone()][..front.pivots * front.width()];
-            let columns = self.order.columns(front);
+            let columns = &front.columns;
             for (k, line) in upper.chunks_exact(front.width()).enumerate().rev() {
                 let right = line[k + 1..].iter().zip(&columns[k + 1..]);
                 let row = pivot[columns[k] as usize] as usize;
@@ -208,12 +208,12 @@ impl<T: Real> Work<T> {
         let width = front.width();
         let table = &mut self.front[..front.rows.len() * width];
         table.fill(T::lift(0.0));
-        for (place, &column) in order.columns(front).iter().enumerate() {
+        for (place, &column) in front.columns.iter().enumerate() {
             self.place[column as usize] = place as u32;
         }
         let mut lines = table.chunks_exact_mut(width).zip(front.rows.clone());
         for child in order.children(front) {
-            let columns = &order.columns(child)[child.pivots..];
+            let columns = &child.columns[child.pivots..];
             let from = self.waiting[child.waiting.clone()].chunks_exact(child.width_left());
             for ((from, row), (line, at)) in from.zip(child.rows_left()).zip(&mut lines) {
                 rows[at] = rows[row];
@@ -222,7 +222,7 @@ impl<T: Real> Work<T> {
                 }
             }
         }
-        for (&row, (line, at)) in order.own(front).iter().zip(&mut lines) {
+        for (&row, (line, at)) in front.own.iter().zip(&mut lines) {
             rows[at] = row;
             for (column, value) in entries.row(row as usize) {
                 line[self.place[column] as usize] = value;
