@@ -132,7 +132,8 @@ const LOOKS: u64 = 4096;
 
 /// A matrix whose columns are being eliminated.
 struct Elimination {
-    /// Sets of rows that have entries in the same columns.
+    /// Sets of rows that have entries in the same columns: the rows of A one by one, then those that each front
+    /// hands on.
     sets: Vec<Rows>,
     /// The sets that have entries in each column.
     sets_of: Vec<Vec<u32>>,
@@ -153,13 +154,6 @@ struct Rows {
     columns: Vec<u32>,
     /// How many rows.
     count: usize,
-    from: Source,
-}
-
-#[derive(Clone, Copy)]
-enum Source {
-    Row(u32),
-    Front(u32),
 }
 
 impl Elimination {
@@ -168,7 +162,7 @@ impl Elimination {
         let mut sets_of = vec![Vec::new(); n];
         let set = |(row, columns): (usize, Vec<u32>)| {
             columns.iter().for_each(|&column| sets_of[column as usize].push(row as u32));
-            Rows { columns, count: 1, from: Source::Row(row as u32) }
+            Rows { columns, count: 1 }
         };
         let sets = rows.into_iter().enumerate().map(set).collect();
         let mut elimination = Self {
@@ -217,15 +211,15 @@ impl Elimination {
     fn eliminate(&mut self, column: u32) -> usize {
         let mut columns = self.reach(column);
         columns.sort_unstable();
-        let (front, set) = (self.fronts.len() as u32, self.sets.len() as u32);
+        let (n, set) = (self.sets_of.len(), self.sets.len() as u32);
         let (mut rows, mut own, mut children) = (0, Vec::new(), Vec::new());
         for set in mem::take(&mut self.sets_of[column as usize]) {
-            let Rows { columns, count, from } = &mut self.sets[set as usize];
+            let Rows { columns, count } = &mut self.sets[set as usize];
             *columns = Vec::new();
             rows += *count;
-            match *from {
-                Source::Row(row) => own.push(row),
-                Source::Front(child) => children.push(child),
+            match (set as usize).checked_sub(n) {
+                None => own.push(set),
+                Some(child) => children.push(child as u32),
             }
         }
         let sets = &self.sets;
@@ -239,15 +233,13 @@ impl Elimination {
         columns.extend(&left);
         let numbers = pivots * (columns.len() + rows - pivots);
         self.fronts.push(Front { columns, pivots, own, children, rows: 0..rows, ..Front::default() });
-        if !left.is_empty() {
-            left.iter().for_each(|&other| self.sets_of[other as usize].push(set));
-            self.sets.push(Rows { columns: left.clone(), count: rows - pivots, from: Source::Front(front) });
-            for other in left {
-                if self.takes_too_long() {
-                    break;
-                }
-                self.place(other);
+        left.iter().for_each(|&other| self.sets_of[other as usize].push(set));
+        self.sets.push(Rows { columns: left.clone(), count: rows - pivots });
+        for other in left {
+            if self.takes_too_long() {
+                break;
             }
+            self.place(other);
         }
         numbers
     }
