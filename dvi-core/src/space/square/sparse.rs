@@ -18,27 +18,16 @@ use crate::error::StepFailure;
 use crate::scalar::norm::{is_pivot, larger, singular};
 use crate::space::Sink;
 use crate::space::elimination::LEAST;
+use crate::space::rows::{RowMatrix, SparseRows};
 use crate::{Real, Scalar};
 
 /// A sparse matrix.
 #[derive(Clone, Debug)]
 pub(super) struct Sparse<T> {
-    entries: Entries<T>,
+    entries: SparseRows<T>,
     order: Fronts,
     factors: Factors<T>,
     work: Work<T>,
-}
-
-/// A, row by row.
-#[derive(Clone, Debug)]
-struct Entries<T> {
-    /// Where each row begins, and where the last ends.
-    begins: Vec<usize>,
-    /// The columns of the entries, ascending in a row.
-    columns: Vec<u32>,
-    values: Vec<T>,
-    /// Row and column of an entry that was added outside of the pattern.
-    outside: Option<(usize, usize)>,
 }
 
 /// What is left of A when it is factored.
@@ -74,14 +63,9 @@ impl<T: Scalar> Sparse<T> {
     /// Of a matrix whose rows have entries in these columns, ascending, and that has these fronts.
     pub(super) fn new(rows: &[Vec<u32>], order: Fronts) -> Self {
         let n = rows.len();
-        let mut begins = vec![0; n + 1];
-        for (i, row) in rows.iter().enumerate() {
-            begins[i + 1] = begins[i] + row.len();
-        }
-        let columns = rows.concat();
         let zeros = |count: usize| vec![T::lift(0.0); count];
         Self {
-            entries: Entries { begins, values: zeros(columns.len()), columns, outside: None },
+            entries: SparseRows::with_columns(rows),
             factors: Factors {
                 numbers: zeros(order.factors()),
                 rows: vec![0; order.rows()],
@@ -100,24 +84,10 @@ impl<T: Scalar> Sparse<T> {
     }
 }
 
-impl<T: Scalar> Entries<T> {
-    /// The columns and values of a row.
-    fn row(&self, row: usize) -> impl Iterator<Item = (usize, T)> {
-        let (from, to) = (self.begins[row], self.begins[row + 1]);
-        let columns = self.columns[from..to].iter().map(|&column| column as usize);
-        columns.zip(self.values[from..to].iter().copied())
-    }
-}
-
 impl<T: Real> Sink<T> for Sparse<T> {
     #[inline]
     fn add(&mut self, row: usize, column: usize, entry: T) {
-        let Entries { begins, columns, values, outside } = &mut self.entries;
-        let (from, to) = (begins[row], begins[row + 1]);
-        match columns[from..to].binary_search(&(column as u32)) {
-            Ok(at) => values[from + at] += entry,
-            Err(_) => *outside = Some((row, column)),
-        }
+        self.entries.add(row, column, entry);
     }
 }
 
@@ -125,23 +95,16 @@ impl<T: Real> SquareMatrix<T> for Sparse<T> {
     type Entries = Self;
 
     fn cleared(&mut self) -> &mut Self {
-        self.entries.values.fill(T::lift(0.0));
-        self.entries.outside = None;
+        self.entries.clear();
         self
     }
 
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
-        for (row, sum) in sum.iter_mut().enumerate() {
-            let terms = self.entries.row(row).map(|(column, a)| a * x[column]);
-            *sum += factor * terms.fold(T::lift(0.0), |sum, term| sum + term);
-        }
+        sum.iter_mut().enumerate().for_each(|(row, sum)| *sum += factor * self.entries.times(row, x));
     }
 
     fn scale_rows(&mut self, scales: &[T]) {
-        let Entries { begins, values, .. } = &mut self.entries;
-        for (row, &scale) in scales.iter().enumerate() {
-            values[begins[row]..begins[row + 1]].iter_mut().for_each(|value| *value *= scale);
-        }
+        scales.iter().enumerate().for_each(|(row, &scale)| self.entries.scale(row, scale));
     }
 
     fn factor(&mut self) -> Result<(), StepFailure> {
@@ -204,7 +167,7 @@ fn take_off<T: Real>(factors: &[T], of: &[u32], row: u32, x: &mut [T]) {
 impl<T: Real> Work<T> {
     /// Puts a front together, of the rows that wait for it and those of A that begin there, and lists which
     /// these are.
-    fn assemble(&mut self, entries: &Entries<T>, order: &Fronts, front: &Front, rows: &mut [u32]) {
+    fn assemble(&mut self, entries: &SparseRows<T>, order: &Fronts, front: &Front, rows: &mut [u32]) {
         let width = front.width();
         let table = &mut self.front[..front.rows.len() * width];
         table.fill(T::lift(0.0));
@@ -224,9 +187,7 @@ impl<T: Real> Work<T> {
         }
         for (&row, (line, at)) in front.own.iter().zip(&mut lines) {
             rows[at] = row;
-            for (column, value) in entries.row(row as usize) {
-                line[self.place[column] as usize] = value;
-            }
+            entries.row(row as usize, |column, value| line[self.place[column] as usize] = value);
         }
     }
 
