@@ -175,7 +175,7 @@ struct Steep {
 fn position_derivatives<S: Lagrangian, const N: usize>(system: &S, q: [f64; N]) -> ([f64; N], Vec<f64>) {
     let (mut gradient, mut momentum, mut matrix) = ([0.0; N], [0.0; N], vec![0.0; N * N]);
     let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-    let sink = &mut filling(&mut matrix, N);
+    let sink = &mut |i: usize, j: usize, entry: f64| matrix[N * i + j] += entry;
     system.linearize(&q, &[0.0; N], 0.0, weights, &mut gradient, &mut momentum, sink);
     (gradient, matrix)
 }
