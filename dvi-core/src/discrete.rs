@@ -22,7 +22,7 @@ pub(crate) mod quadrature;
 
 use crate::error::StepFailure;
 use crate::solve::Linearize;
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::state::Statistics;
 use crate::{Lagrangian, Real};
 

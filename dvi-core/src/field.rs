@@ -31,7 +31,7 @@ mod spline;
 mod table;
 
 #[cfg(feature = "alloc")]
-pub use axis::{Axis, AxisError};
+pub use axis::Axis;
 #[cfg(feature = "alloc")]
 pub use spline::Spline;
 #[cfg(feature = "alloc")]

@@ -176,4 +176,4 @@ pub use system::{
     RegularLagrangian, Report, Separable, State, System, TimeTransformed, UnilateralLagrangian, Vector,
     Weights,
 };
-pub(crate) use system::{Coupled, Linear, Matrix, Permutation, Square};
+pub(crate) use system::{Coupled, Linear, Matrix, Square};

@@ -4,8 +4,7 @@ pub use crate::name::{Argument, Axis, Factor};
 pub use crate::scalar::comparison::Comparison;
 pub use crate::scalar::number::Number;
 pub use crate::scalar::pack::{
-    Sums, Waiting, add_to, all, first_unturned, load, packs, parameters, past_unturned, subtract_from,
-    whole, widest,
+    Sums, Waiting, add_to, all, first_unturned, load, packs, parameters, past_unturned, whole, widest,
 };
 pub use crate::scalar::pairs::{are_many, halves};
 pub use crate::scalar::spinor::{lift, lower};

@@ -5,7 +5,6 @@
 //! numbers), and so is a pack of several ([`Lanes`]), because nothing here orders or tests a value.
 //! The solvers, which must decide, ask for [`Real`].
 
-pub(crate) mod blocks;
 pub(crate) mod comparison;
 mod error_function;
 pub(crate) mod lanes;

@@ -13,7 +13,7 @@ pub(crate) mod room;
 mod rows;
 #[cfg(feature = "alloc")]
 mod run_time;
-pub mod sink;
+mod sink;
 pub(crate) mod square;
 mod weights;
 
@@ -27,14 +27,11 @@ use core::ops::{Deref, DerefMut};
 use crate::{Real, Scalar};
 
 pub use fixed::Fixed;
-pub(crate) use fixed::{FixedMatrix, FixedVector};
 pub(crate) use linear::{CoupledSolver, LinearEquations, LinearSolver, NodeSum, Storing};
 pub(crate) use room::{InPlace, Room, Store};
 pub(crate) use rows::RowMatrix;
 #[cfg(feature = "alloc")]
 pub use run_time::RunTime;
-#[cfg(feature = "alloc")]
-pub(crate) use run_time::RunTimeMatrix;
 pub use sink::Sink;
 pub(crate) use square::SquareMatrix;
 pub use weights::Weights;
@@ -44,8 +41,9 @@ pub trait Space: Copy + Debug + PartialEq {
     /// Whether vectors live in the value itself, so that a new one on the stack costs nothing and may
     /// stay in registers. Where this does not hold, work space is kept from step to step.
     const ON_STACK: bool;
-    /// A point, a velocity or a covector: `dimension` numbers.
-    type Vector<T: Scalar>: Deref<Target = [T]> + DerefMut + Clone + Debug;
+    /// Something for each coordinate: the numbers of a point, a velocity or a covector, the indices of a
+    /// permutation.
+    type Vector<E: Clone + Debug>: Deref<Target = [E]> + DerefMut + Clone + Debug;
     /// A vector for the time of a function, where [`ON_STACK`](Self::ON_STACK) holds.
     type Local<T: Scalar>: Store<T>;
     /// A square matrix, `dimension`² numbers row by row.
@@ -56,23 +54,21 @@ pub trait Space: Copy + Debug + PartialEq {
     type Linear<T: Real>: LinearSolver<T> + Debug;
     /// What solves linear equations for several vectors at once.
     type Coupled<const NODES: usize, T: Real>: CoupledSolver<NODES, T>;
-    /// Something for each coordinate.
-    type Array<E: Clone + Debug>: Deref<Target = [E]> + DerefMut + Clone + Debug;
     /// A row of `dimension` numbers for each dimension of `C`.
     type Rows<C: Space, T: Scalar>: RowMatrix<T>;
-    /// A row permutation, `dimension` indices.
-    type Permutation: Deref<Target = [usize]> + DerefMut + Clone + Debug;
 
     /// The number of coordinates.
     fn dimension(self) -> usize;
     /// A vector of zeros.
-    fn vector<T: Scalar>(self) -> Self::Vector<T>;
+    fn vector<T: Scalar>(self) -> Self::Vector<T> {
+        self.array(|| T::lift(0.0))
+    }
     /// So many of them.
     fn vectors<T: Scalar, const COUNT: usize>(self) -> [Self::Vector<T>; COUNT] {
         core::array::from_fn(|_| self.vector())
     }
     /// What `of` makes, for each coordinate.
-    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> Self::Array<E>;
+    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> Self::Vector<E>;
     /// Rows of zeros, one for each dimension of `over`, with room for the entries that `entries` visits.
     fn rows<C: Space, T: Scalar>(
         self,
@@ -99,8 +95,6 @@ pub trait Space: Copy + Debug + PartialEq {
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T>;
-    /// A permutation, all zeros until it is written.
-    fn permutation(self) -> Self::Permutation;
 }
 
 /// The rows of a row-major matrix with so many columns: none where there are none.
@@ -131,3 +125,13 @@ macro_rules! scratch {
     };
 }
 pub(crate) use scratch;
+
+/// Numbers in (−1, 1) from a linear congruential generator.
+#[cfg(test)]
+pub(crate) fn numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

@@ -34,7 +34,7 @@ mod unilateral;
 use core::fmt::Debug;
 
 use crate::error::{IndexError, LengthError, OutsideError};
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::{Real, Scalar, Space};
 
 pub use crate::name::{Axis, Factor, Name};
@@ -43,8 +43,8 @@ pub use constrained::ConstrainedSystem;
 pub use degenerate::{DegenerateLagrangian, ProperlyDegenerate, TimeTransform, TimeTransformed};
 pub use held::Held;
 pub use holonomic::HolonomicLagrangian;
+pub use kind::Smooth;
 pub(crate) use kind::{Degenerate, Holonomic, Kind, Manifold, Nonholonomic, Regular, Unilateral};
-pub use kind::{Smooth, Unconstrained};
 pub use manifold::{ManifoldLagrangian, ManifoldSystem};
 pub use nondegenerate::{NondegenerateLagrangian, RegularLagrangian, Separable};
 pub use nonholonomic::NonholonomicLagrangian;
@@ -67,8 +67,6 @@ pub(crate) type Square<S, T> = <<S as System>::Space as Space>::Square<T>;
 pub(crate) type Linear<S, T> = <<S as System>::Space as Space>::Linear<T>;
 /// What solves linear equations for several vectors over the space of `S`.
 pub(crate) type Coupled<const NODES: usize, S, T> = <<S as System>::Space as Space>::Coupled<NODES, T>;
-/// A row permutation over the space of `S`.
-pub(crate) type Permutation<S> = <<S as System>::Space as Space>::Permutation;
 
 /// A state with named coordinates, as users see it: (q, v) for a regular system, q for a degenerate one.
 ///

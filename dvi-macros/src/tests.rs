@@ -120,15 +120,15 @@ fn vortices() {
                                                 / ((__r2 * __r2) + (__r11 * __r11));
                                             let __r15 = __r2 * __r14;
                                             let __r17 = __r11 * __r14;
-                                            __private::subtract_from(
+                                            __private::add_to(
                                                 __vector0,
                                                 __i1 - __first,
-                                                __r15,
+                                                (-__r15),
                                             );
-                                            __private::subtract_from(
+                                            __private::add_to(
                                                 __vector1,
                                                 __i1 - __first,
-                                                __r17,
+                                                (-__r17),
                                             );
                                             __sum16.add_terms(__r15);
                                             __sum18.add_terms(__r17);
@@ -181,8 +181,8 @@ fn vortices() {
                                             / ((__r2 * __r2) + (__r11 * __r11));
                                         let __r15 = __r2 * __r14;
                                         let __r17 = __r11 * __r14;
-                                        __private::subtract_from(__vector0, __i1, __r15);
-                                        __private::subtract_from(__vector1, __i1, __r17);
+                                        __private::add_to(__vector0, __i1, (-__r15));
+                                        __private::add_to(__vector1, __i1, (-__r17));
                                         __sum16.add_terms(__r15);
                                         __sum18.add_terms(__r17);
                                     }

@@ -2,7 +2,7 @@
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::{Real, State};
+use dvi_core::{Real, Scalar, State};
 
 pub mod steps;
 pub mod systems;
@@ -24,6 +24,11 @@ pub fn apart(a: &[f64], b: &[f64]) -> f64 {
 /// Numbers as bits, so that zeros have signs and what is no number is equal to itself.
 pub fn bits(x: &[f64]) -> Vec<u64> {
     x.iter().map(|x| x.to_bits()).collect()
+}
+
+/// What adds entries to a row-major matrix with so many columns.
+pub fn filling<T: Scalar>(matrix: &mut [T], columns: usize) -> impl FnMut(usize, usize, T) {
+    move |row, column, entry| matrix[row * columns + column] += entry
 }
 
 /// A state from flat coordinates, and velocities if there are any.

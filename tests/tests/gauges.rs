@@ -2,9 +2,9 @@
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_tests::Outcome;
+use dvi_tests::filling;
 use dvi_tests::larger;
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 
@@ -18,7 +18,7 @@ const POINTS: [[f64; 10]; 3] = [
 /// The matrix a Dα + b (Dα)ᵀ, row by row.
 fn jacobian<S: DegenerateLagrangian<f64>>(system: &S, q: &[f64], t: f64, [a, b]: [f64; 2]) -> Vec<f64> {
     let mut entries = vec![0.0; q.len() * q.len()];
-    system.one_form_jacobian(q, t, a, b, &mut Dense::new(&mut entries, q.len()));
+    system.one_form_jacobian(q, t, a, b, &mut filling(&mut entries, q.len()));
     entries
 }
 

@@ -3,7 +3,7 @@
 use dvi_core::Real;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
+use dvi_tests::filling;
 use dvi_tests::steps::{jacobian, stepped};
 use dvi_tests::systems::{LotkaVolterra, SphereForm, SphereFormState};
 use dvi_tests::zoo::particles::Mirror;
@@ -20,7 +20,7 @@ fn combined<S: DegenerateLagrangian<T>, T: Real>(system: &S, q: &[T], t: f64, [a
     let n = q.len();
     let mut entries = vec![T::lift(0.0); n * n];
     let [time, a, b] = [t, a, b].map(T::lift);
-    system.one_form_jacobian(q, time, a, b, &mut Dense::new(&mut entries, n));
+    system.one_form_jacobian(q, time, a, b, &mut filling(&mut entries, n));
     entries
 }
 

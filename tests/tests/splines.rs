@@ -3,7 +3,7 @@
 
 use approx::abs_diff_eq;
 use dvi_core::Scalar;
-use dvi_core::field::{Axis, AxisError, Expansion, ScalarField, Spline};
+use dvi_core::field::{Axis, Expansion, ScalarField, Spline, SplineError};
 use dvi_tests::Outcome;
 use dvi_tests::larger;
 use num_dual::HyperDual64;
@@ -34,7 +34,7 @@ impl Numbers {
 }
 
 /// Axes from −1 to 2, uniform, uneven, and periodic, one of the periodic ones with both ends.
-fn axes(count: usize) -> Result<[Axis; 4], AxisError> {
+fn axes(count: usize) -> Result<[Axis; 4], SplineError> {
     let mut uneven = Numbers(7).points(0.0, count, 1.0);
     let last = uneven[count - 1];
     uneven.iter_mut().for_each(|x| *x = (3.0 * *x / last - 1.0).min(2.0));

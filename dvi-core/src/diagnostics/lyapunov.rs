@@ -8,7 +8,6 @@ use crate::discrete::{DiscreteLagrangian, Interval};
 use crate::error::StepError;
 use crate::methods::{Method, VariationalMethod};
 use crate::run::{Integrator, Run, StepControl};
-use crate::space::sink::Product;
 use crate::system::start::step_error;
 use crate::{Held, Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
@@ -75,7 +74,7 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> LyapunovExponent<S,
         let [rest, mut l_q, mut l_v, mut dp]: [Vector<S, T>; 4] = space.vectors();
         let zero = T::lift(0.0);
         let weights = Weights { qq: zero, qv: zero, vq: T::lift(1.0), vv: zero };
-        let mut product = Product { x: dq, sum: &mut dp };
+        let mut product = |i: usize, j: usize, entry: T| dp[i] += entry * dq[j];
         system.linearize(q, &rest, t, weights, &mut l_q, &mut l_v, &mut product);
         dp
     }

@@ -17,7 +17,7 @@ use crate::methods::VariationalMethod;
 use crate::space::elimination::{self, multiply_add};
 #[cfg(feature = "alloc")]
 use crate::space::lines;
-use crate::{Lagrangian, Matrix, Permutation, Real, Space, System, Vector};
+use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
 
 /// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of the discrete Lagrangian `L`.
 ///
@@ -39,7 +39,7 @@ pub struct TangentMap<S: System, L, T: Real = f64> {
     discrete: L,
     hessian: [Matrix<S, T>; 4],
     factors: Matrix<S, T>,
-    permutation: Permutation<S>,
+    permutation: Vector<S, usize>,
     ends: [Vector<S, T>; 2],
     next: [Vector<S, T>; 2],
 }
@@ -53,7 +53,7 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T>
             discrete: method.discrete_lagrangian(system),
             hessian: [(); 4].map(|()| space.matrix()),
             factors: space.matrix(),
-            permutation: space.permutation(),
+            permutation: space.array(|| 0),
             ends: space.vectors(),
             next: space.vectors(),
         }
@@ -97,12 +97,12 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T>
         let [d11, _, d21, d22] = &self.hessian;
         let [dq1, dp1] = &mut self.next;
         dq1.copy_from_slice(dp);
-        multiply_add(d11, dq, dq1);
+        multiply_add(d11, T::lift(1.0), dq, dq1);
         elimination::solve(&self.factors, &self.permutation, dq1);
         dq1.iter_mut().for_each(|x| *x = -*x);
         dp1.fill(T::lift(0.0));
-        multiply_add(d21, dq, dp1);
-        multiply_add(d22, dq1, dp1);
+        multiply_add(d21, T::lift(1.0), dq, dp1);
+        multiply_add(d22, T::lift(1.0), dq1, dp1);
         dq.copy_from_slice(dq1);
         dp.copy_from_slice(dp1);
     }
@@ -113,8 +113,8 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T>
         let [_, _, d21, d22] = &before.hessian;
         let mut dp = self.ends[1].clone();
         dp.fill(T::lift(0.0));
-        multiply_add(d21, dq0, &mut dp);
-        multiply_add(d22, dq1, &mut dp);
+        multiply_add(d21, T::lift(1.0), dq0, &mut dp);
+        multiply_add(d22, T::lift(1.0), dq1, &mut dp);
         dq0.copy_from_slice(dq1);
         self.apply(dq1, &mut dp);
     }

@@ -12,7 +12,7 @@
 use super::basis::Basis;
 use super::{DiscreteLagrangian, Ends, Interval, Span};
 use crate::error::StepFailure;
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space, System, Vector, Weights};
 

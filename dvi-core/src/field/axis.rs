@@ -2,9 +2,7 @@
 
 use alloc::vec::Vec;
 
-use thiserror::Error;
-
-crate::error::said!(AxisError);
+use super::SplineError;
 
 /// The last point of a periodic axis is the first one, a period later, if the two differ by less than this
 /// part of the mean distance of its points, as it does when a table has few digits.
@@ -25,7 +23,7 @@ const CLOSE: f64 = 1e-2;
 /// let angle = Axis::periodic(&[0.0, 90.0, 180.0, 270.0], 360.0)?;
 /// assert_eq!(height.points(), [-1.0, -0.5, 0.0, 0.5, 1.0]);
 /// assert_eq!((radius.period(), angle.period()), (None, Some(360.0)));
-/// # Ok::<(), dvi_core::field::AxisError>(())
+/// # Ok::<(), dvi_core::field::SplineError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -39,25 +37,25 @@ impl Axis {
     /// An axis with these points, from the first to the last.
     ///
     /// # Errors
-    /// [`AxisError::NotFinite`], [`AxisError::NotIncreasing`] and [`AxisError::Distance`]. How many points
+    /// [`SplineError::Point`], [`SplineError::NotIncreasing`] and [`SplineError::Distance`]. How many points
     /// there must be is asked by the spline that is made on them.
-    pub fn new(points: &[f64]) -> Result<Self, AxisError> {
+    pub fn new(points: &[f64]) -> Result<Self, SplineError> {
         if let Some(index) = points.iter().position(|x| !x.is_finite()) {
-            return Err(AxisError::NotFinite { index, value: points[index] });
+            return Err(SplineError::Point { index, value: points[index] });
         }
         for (i, pair) in points.windows(2).enumerate() {
             let (before, after) = (pair[0], pair[1]);
             if before >= after {
-                return Err(AxisError::NotIncreasing { index: i + 1, before, after });
+                return Err(SplineError::NotIncreasing { index: i + 1, before, after });
             }
             if !is_usable(after - before) {
-                return Err(AxisError::Distance { index: i + 1, before, after });
+                return Err(SplineError::Distance { index: i + 1, before, after });
             }
         }
         if let (Some(&before), Some(&after)) = (points.first(), points.last())
             && !(after - before).is_finite()
         {
-            return Err(AxisError::Distance { index: points.len() - 1, before, after });
+            return Err(SplineError::Distance { index: points.len() - 1, before, after });
         }
         Ok(Self { points: points.to_vec(), period: None, distinct: points.len() })
     }
@@ -66,7 +64,7 @@ impl Axis {
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
-    pub fn uniform([from, to]: [f64; 2], count: usize) -> Result<Self, AxisError> {
+    pub fn uniform([from, to]: [f64; 2], count: usize) -> Result<Self, SplineError> {
         let last = count.saturating_sub(1).max(1);
         // The ends are met exactly, and halves of large numbers do not overflow.
         let point = |i: usize| {
@@ -84,13 +82,13 @@ impl Axis {
     /// from its end.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and [`AxisError::Period`].
-    pub fn periodic(points: &[f64], period: f64) -> Result<Self, AxisError> {
+    /// Those of [`new`](Self::new), and [`SplineError::Period`].
+    pub fn periodic(points: &[f64], period: f64) -> Result<Self, SplineError> {
         let axis = Self::new(points)?;
         let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
             return Ok(Self { period: Some(period), ..axis });
         };
-        let refused = AxisError::Period { period, first, last };
+        let refused = SplineError::Period { period, first, last };
         // The splines continue the points by less than one period on either side.
         let is_length = period > 0.0 && (first - period).is_finite() && (first + 2.0 * period).is_finite();
         if !is_length {
@@ -128,63 +126,4 @@ impl Axis {
 fn is_usable(distance: f64) -> bool {
     let curvature = 1.0 / (distance * distance);
     distance.is_finite() && curvature.is_finite() && curvature > 0.0
-}
-
-/// Points that are not those of an axis.
-///
-/// ```
-/// use dvi_core::field::{Axis, AxisError};
-///
-/// let Err(error) = Axis::new(&[0.0, 1.0, 1.0, 2.0]) else { panic!("a point stands twice") };
-/// assert!(matches!(error, AxisError::NotIncreasing { index: 2, .. }));
-/// ```
-#[derive(Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-pub enum AxisError {
-    /// A point is infinite or not a number.
-    #[error("point {index} of the axis is {value}, and a finite number is expected")]
-    NotFinite {
-        /// The point, counted from 0.
-        index: usize,
-        /// Its value.
-        value: f64,
-    },
-    /// A point is not larger than the one before it.
-    #[error(
-        "point {index} of the axis is {after} and the one before it is {before}, and an increase is expected"
-    )]
-    NotIncreasing {
-        /// The second of the two points, counted from 0.
-        index: usize,
-        /// The first of them.
-        before: f64,
-        /// The second.
-        after: f64,
-    },
-    /// Two points are so close to each other or so far apart that the square of their distance, or its
-    /// reciprocal, cannot be represented.
-    #[error(
-        "point {index} of the axis is {after:e} after {before:e}, a distance whose square is out of range"
-    )]
-    Distance {
-        /// The second of the two points, counted from 0.
-        index: usize,
-        /// The first of them.
-        before: f64,
-        /// The second.
-        after: f64,
-    },
-    /// The points are not those of one period.
-    #[error(
-        "the period {period} does not go with points from {first} to {last}: the last point is expected at the first one \
-         plus the period, or clearly before it"
-    )]
-    Period {
-        /// The period.
-        period: f64,
-        /// The first point.
-        first: f64,
-        /// The last point.
-        last: f64,
-    },
 }

@@ -74,7 +74,7 @@ pub(super) fn without_repetitions<const D: usize>(
     Ok(kept)
 }
 
-/// A table that no spline can be made of.
+/// An axis, or a table, that no spline can be made of.
 ///
 /// ```
 /// use dvi_core::field::{Axis, Spline, SplineError};
@@ -87,6 +87,52 @@ pub(super) fn without_repetitions<const D: usize>(
 #[derive(Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SplineError {
+    /// A point is infinite or not a number.
+    #[error("point {index} of the axis is {value}, and a finite number is expected")]
+    Point {
+        /// The point, counted from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A point is not larger than the one before it.
+    #[error(
+        "point {index} of the axis is {after} and the one before it is {before}, and an increase is expected"
+    )]
+    NotIncreasing {
+        /// The second of the two points, counted from 0.
+        index: usize,
+        /// The first of them.
+        before: f64,
+        /// The second.
+        after: f64,
+    },
+    /// Two points are so close to each other or so far apart that the square of their distance, or its
+    /// reciprocal, cannot be represented.
+    #[error(
+        "point {index} of the axis is {after:e} after {before:e}, a distance whose square is out of range"
+    )]
+    Distance {
+        /// The second of the two points, counted from 0.
+        index: usize,
+        /// The first of them.
+        before: f64,
+        /// The second.
+        after: f64,
+    },
+    /// The points are not those of one period.
+    #[error(
+        "the period {period} does not go with points from {first} to {last}: the last point is expected at the first one \
+         plus the period, or clearly before it"
+    )]
+    Period {
+        /// The period.
+        period: f64,
+        /// The first point.
+        first: f64,
+        /// The last point.
+        last: f64,
+    },
     /// An axis has fewer points than the degree asks for.
     #[error("axis {axis} has {found} different points, and at least {expected} are expected")]
     TooFewPoints {

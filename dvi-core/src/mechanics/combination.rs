@@ -8,11 +8,9 @@
 use core::ops::Range;
 
 use crate::error::StepFailure;
-use crate::scalar::blocks::blocks;
 use crate::scalar::{Lanes, norm};
 use crate::solve::sizes;
 use crate::space::linear::{power_below, set_scales};
-use crate::space::sink::{Places, Product as ProductSink};
 use crate::space::square::SquareMatrix;
 use crate::state::Statistics;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, Square, System, Vector};
@@ -46,7 +44,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
         let (space, Combination { a, b }) = (system.space(), combination);
         let square = || {
             space.square(|visit| {
-                let mut places = Places(|row: usize, column: usize, _| visit(row, column));
+                let mut places = |row: usize, column: usize, _| visit(row, column);
                 system.one_form_jacobian(q, t, a, b, &mut places);
             })
         };
@@ -107,6 +105,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     }
 }
 
+/// How many coordinates a block has: eight vectors of so many numbers are half of a first cache of 32 KiB.
+const BLOCK: usize = 256;
+
 /// Sets `x`, which begins with coordinate `first`, to the products of the reciprocals with the entries of
 /// the conjugates.
 #[inline]
@@ -148,7 +149,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             self.solve(system, rhs, x);
             return take(0..x.len(), x);
         }
-        for block in blocks(x.len()) {
+        let n = x.len();
+        for start in (0..n).step_by(BLOCK) {
+            let block = start..n.min(start + BLOCK);
             let x = &mut x[..block.len()];
             divide(system, &self.scales, rhs, (block.start, x));
             take(block, x);
@@ -229,7 +232,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Product<S, T> {
         if let (false, Some(Combination { a, b })) = (S::MATCHING, self.evaluated) {
             out.fill(T::lift(0.0));
             // Dα is the same at every point.
-            let mut sink = ProductSink { x, sum: out };
+            let mut sink = |i: usize, j: usize, entry: T| out[i] += entry * x[j];
             return system.one_form_jacobian(x, T::lift(0.0), a, b, &mut sink);
         }
         for (i, (out, &entry)) in out.iter_mut().zip(self.entries.iter()).enumerate() {

@@ -23,7 +23,6 @@ use crate::mechanics::Span;
 use crate::mechanics::legendre;
 use crate::scalar::norm;
 use crate::solve::{Due, Stopping, newton, sizes};
-use crate::space::sink::{Places, TransposedProduct};
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
 use crate::system::{Kind, Same};
@@ -143,16 +142,16 @@ impl<S: ConstrainedLagrangian<T>, T: Real, U: LinearEquations<T>> LinearEquation
         let (upper_b, lower_b) = b.split_at_mut(n);
         upper.evaluate(upper_b, sink)?;
         if let Some(At { q, t }) = forces {
-            let entries = |k: usize, j: usize, entry: T| {
+            let mut entries = |k: usize, j: usize, entry: T| {
                 if k < active {
                     upper_b[j] += entry * multipliers[k];
                     sink.add(j, n + k, entry);
                 }
             };
-            S::Kind::forces(system, q, *t, lower_b, &mut Places(entries));
+            S::Kind::forces(system, q, *t, lower_b, &mut entries);
         }
         let is_same = forces.is_none();
-        let entries = |k: usize, j: usize, entry: T| {
+        let mut entries = |k: usize, j: usize, entry: T| {
             if k < active {
                 sink.add(n + k, j, entry);
                 if is_same {
@@ -161,7 +160,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real, U: LinearEquations<T>> LinearEquation
                 }
             }
         };
-        lower.evaluate(system, lower_b, &mut Places(entries));
+        lower.evaluate(system, lower_b, &mut entries);
         for (k, c) in lower_b.iter_mut().enumerate().skip(active) {
             *c = T::lift(0.0);
             sink.add(n + k, n + k, T::lift(1.0));
@@ -250,6 +249,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     /// Adds Gᵀι at a point to a momentum.
     pub(crate) fn add_impulse(&mut self, system: &S, at: At<'_, T>, impulse: &[T], p: &mut [T]) {
         let values = &mut self.solution[at.q.len()..];
-        S::Kind::forces(system, at.q, at.t, values, &mut TransposedProduct { x: impulse, sum: p });
+        let mut product = |k: usize, j: usize, entry: T| p[j] += entry * impulse[k];
+        S::Kind::forces(system, at.q, at.t, values, &mut product);
     }
 }

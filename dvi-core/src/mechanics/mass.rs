@@ -6,9 +6,9 @@
 use super::pattern::of_entries;
 use crate::error::StepFailure;
 use crate::scalar::{norm, smallest_normal};
+use crate::space::Sink;
 use crate::space::SquareMatrix;
 use crate::space::linear::{scale, set_scales};
-use crate::space::sink::{Places, Sink};
 use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
 
 /// M and M⁻¹. Where M is not constant there are no numbers here, so that a step that divides by it fails.
@@ -50,11 +50,11 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
                 v.fill(T::lift(1.0));
                 system.conjugate_momentum(q, &v, t, &mut masses);
             } else {
-                let mut sink = Places(|row: usize, column: usize, entry: T| {
+                let mut sink = |row: usize, column: usize, entry: T| {
                     if row == column && entry != zero {
                         masses[row] += entry;
                     }
-                });
+                };
                 system.linearize(q, &v, t, Weights::mass(), &mut l_q, &mut l_v, &mut sink);
             }
             let mut reciprocals = v;
@@ -69,14 +69,14 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         let entries = matrix.cleared();
         // What is weighted by zero has no place in it.
         let [mut masses, mut reciprocals]: [Vector<S, T>; 2] = space.vectors();
-        let mut sink = Places(|row: usize, column: usize, entry: T| {
+        let mut sink = |row: usize, column: usize, entry: T| {
             if entry != zero {
                 entries.add(row, column, entry);
             }
             if row == column {
                 masses[row] += entry;
             }
-        });
+        };
         system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
         // The root of a mass is a weight of velocities.
         let (mut factors, mut scales) = (matrix.clone(), v);

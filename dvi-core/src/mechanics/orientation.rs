@@ -13,7 +13,6 @@ use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
 use crate::scalar::norm::reported;
 use crate::space::inertia::{Inertia, inertia};
-use crate::space::sink::Places;
 use crate::{
     DegenerateLagrangian, Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights,
 };
@@ -244,11 +243,11 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
         match entries {
             Entries::Diagonal(diagonal) => {
                 diagonal.fill(zero);
-                let mut sink = Places(|row: usize, column: usize, entry: T| {
+                let mut sink = |row: usize, column: usize, entry: T| {
                     if row == column {
                         diagonal[row] += entry;
                     }
-                });
+                };
                 system.linearize(q, v, t, weights, l_q, l_v, &mut sink);
                 Inertia::of_diagonal(diagonal)
             }

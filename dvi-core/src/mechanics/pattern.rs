@@ -1,7 +1,6 @@
 //! Matrices and solvers with room for the second derivatives of a system.
 
 use crate::space::Storing;
-use crate::space::sink::Places;
 use crate::{Coupled, Lagrangian, Linear, Real, Space, Square, Vector, Weights};
 
 /// A solver for Newton's method, with room for all second derivatives of L. Where they stand does not depend
@@ -60,10 +59,10 @@ fn visit_entries<S: Lagrangian<T>, T: Real>(
 ) {
     let space = system.space();
     let [mut l_q, mut l_v]: [Vector<S, T>; 2] = [space.vector(), space.vector()];
-    let mut places = Places(|row: usize, column: usize, entry: T| {
+    let mut places = |row: usize, column: usize, entry: T| {
         if counts(entry) {
             visit(row, column);
         }
-    });
+    };
     system.linearize(q, v, t, weights, &mut l_q, &mut l_v, &mut places);
 }

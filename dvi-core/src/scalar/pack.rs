@@ -26,8 +26,6 @@ pub trait Pack<T>: Scalar {
     fn parameters<P: Parameter<T>>(from: &[P], at: usize) -> Self;
     /// See [`add_to`].
     fn add(to: &mut [T], at: usize, terms: Self);
-    /// See [`subtract_from`].
-    fn subtract(to: &mut [T], at: usize, terms: Self);
     /// See [`Waiting::exchange`].
     fn exchange<const K: usize>(self, waiting: &mut [T; K]) -> Self;
 }
@@ -57,13 +55,6 @@ impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
         let to = &mut to[at..at + CHUNK];
         for term in 0..CHUNK {
             to[term] += terms.0[term];
-        }
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn subtract(to: &mut [T], at: usize, terms: Self) {
-        let to = &mut to[at..at + CHUNK];
-        for term in 0..CHUNK {
-            to[term] -= terms.0[term];
         }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -99,10 +90,6 @@ impl<const W: usize, T: Real> Pack<Self> for Lanes<W, T> {
         to[at] += terms;
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn subtract(to: &mut [Self], at: usize, terms: Self) {
-        to[at] -= terms;
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exchange<const K: usize>(self, waiting: &mut [Self; K]) -> Self {
         waiting.rotate_left(1);
         waiting.last_mut().map_or(self, |last| core::mem::replace(last, self))
@@ -133,12 +120,6 @@ pub fn add_to<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
     T::Pack::add(to, at, terms);
 }
 
-/// Subtracts each term from its entry of `to`, beginning at `at`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub fn subtract_from<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
-    T::Pack::subtract(to, at, terms);
-}
-
 /// The last terms of a pack, where each term is added `K` places behind the first entry that the pack adds
 /// to: they wait for the next pack, which adds to their entries.
 #[derive(Clone, Copy, Debug)]
@@ -157,14 +138,6 @@ impl<const K: usize, T: Scalar> Waiting<K, T> {
     pub fn add_to(self, to: &mut [T], at: usize) {
         for (entry, term) in to[at..].iter_mut().zip(self.0) {
             *entry += term;
-        }
-    }
-
-    /// Subtracts what waits from its entries of `to`, beginning at `at`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub fn subtract_from(self, to: &mut [T], at: usize) {
-        for (entry, term) in to[at..].iter_mut().zip(self.0) {
-            *entry -= term;
         }
     }
 }

@@ -303,12 +303,12 @@ pub(crate) fn scale_rows<T: Real>(matrix: &mut [T], scales: &[T]) {
     }
 }
 
-/// Adds A x to `out`, for a row-major A that has not been factored.
+/// Adds `factor` A x to `sum`, for a row-major A that has not been factored.
 #[inline]
-pub(crate) fn multiply_add<T: Real>(matrix: &[T], x: &[T], out: &mut [T]) {
-    let n = x.len();
-    for (out, line) in out.iter_mut().zip(lines(matrix, n)) {
-        *out = line.iter().zip(x).fold(*out, |sum, (&a, &x)| sum + a * x);
+pub(crate) fn multiply_add<T: Real>(matrix: &[T], factor: T, x: &[T], sum: &mut [T]) {
+    for (sum, line) in sum.iter_mut().zip(lines(matrix, x.len())) {
+        let product = line.iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x);
+        *sum += factor * product;
     }
 }
 

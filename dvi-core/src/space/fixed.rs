@@ -8,9 +8,9 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 use core::ops::{Deref, DerefMut};
 
-use super::linear::{FixedCoupled, FixedSolver, Storing};
+use super::linear::{Blocks, Stored, Storing};
 use super::rows::FullRows;
-use super::square::FixedSquare;
+use super::square::Full;
 use super::{InPlace, Room, Sink, Space, Store};
 use crate::{Real, Scalar};
 
@@ -113,23 +113,18 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     for Fixed<BLOCKS, N, SINGLES, R>
 {
     const ON_STACK: bool = Self::DIMENSION <= R::LARGEST;
-    type Vector<T: Scalar> = FixedVector<T, BLOCKS, N, SINGLES, R>;
+    type Vector<E: Clone + Debug> = FixedVector<E, BLOCKS, N, SINGLES, R>;
     type Local<T: Scalar> = R::Local<T, BLOCKS, N>;
     type Matrix<T: Scalar> = FixedMatrix<T, BLOCKS, N, SINGLES, R>;
-    type Square<T: Real> = FixedSquare<T, BLOCKS, N, SINGLES, R>;
-    type Linear<T: Real> = FixedSolver<T, BLOCKS, N, SINGLES, R>;
-    type Coupled<const NODES: usize, T: Real> = FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>;
-    type Array<E: Clone + Debug> = FixedVector<E, BLOCKS, N, SINGLES, R>;
-    type Rows<C: Space, T: Scalar> = FullRows<C::Array<FixedVector<T, BLOCKS, N, SINGLES, R>>>;
-    type Permutation = FixedVector<usize, BLOCKS, N, SINGLES, R>;
+    type Square<T: Real> = Full<Self, T>;
+    type Linear<T: Real> = Stored<Self, T>;
+    type Coupled<const NODES: usize, T: Real> = Blocks<NODES, Self, T>;
+    type Rows<C: Space, T: Scalar> = FullRows<C::Vector<Self::Vector<T>>>;
 
     fn dimension(self) -> usize {
         Self::DIMENSION
     }
-    fn vector<T: Scalar>(self) -> Self::Vector<T> {
-        FixedVector(Store::new(Self::DIMENSION, || T::lift(0.0)))
-    }
-    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> FixedVector<E, BLOCKS, N, SINGLES, R> {
+    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> Self::Vector<E> {
         FixedVector(Store::new(Self::DIMENSION, of))
     }
     fn rows<C: Space, T: Scalar>(
@@ -143,14 +138,14 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
         FixedMatrix(Store::new(Self::DIMENSION * Self::DIMENSION, || T::lift(0.0)))
     }
     fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
-        FixedSquare::new(self)
+        Full::new(self)
     }
     fn linear<T: Real>(
         self,
         _storing: Storing,
         _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Linear<T> {
-        FixedSolver::new(self)
+        Stored::new(self, Full::new(self))
     }
     fn coupled<const NODES: usize, T: Real>(
         self,
@@ -158,9 +153,6 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
         _storing: Storing,
         _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T> {
-        FixedCoupled::new(self)
-    }
-    fn permutation(self) -> Self::Permutation {
-        FixedVector(Store::new(Self::DIMENSION, || 0))
+        Blocks::new(self)
     }
 }

@@ -6,32 +6,24 @@ mod coupled;
 #[cfg(feature = "alloc")]
 mod krylov;
 
-#[cfg(feature = "alloc")]
-use alloc::vec;
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
-use core::cell::RefCell;
 use core::fmt::Debug;
 use core::ops::Deref;
 
+#[cfg(feature = "alloc")]
+use crate::RunTime;
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::space::sink::Places;
-#[cfg(feature = "alloc")]
-use crate::space::sink::Scaled;
-use crate::space::square::{FixedSquare, SquareMatrix};
-use crate::space::{Fixed, FixedVector, InPlace, Room, Sink, Space};
-
-use crate::space::Weights;
+use crate::space::square::SquareMatrix;
 #[cfg(feature = "alloc")]
 use crate::space::square::{Layout, Pattern, RunTimeSquare};
+use crate::space::{Sink, Space};
 use crate::{Real, Scalar};
 #[cfg(feature = "alloc")]
 use krylov::Krylov;
 
 #[cfg(feature = "alloc")]
 pub(crate) use coupled::RunTimeCoupled;
-pub(crate) use coupled::{CoupledSolver, FixedCoupled, NodeSum};
+pub(crate) use coupled::{Blocks, CoupledSolver, NodeSum, entries};
 
 /// A system of linear equations A x = b that can be evaluated as often as it is asked for.
 pub trait LinearEquations<T> {
@@ -54,7 +46,7 @@ pub(crate) fn residual<T: Real>(
     [b, sums]: [&mut [T]; 2],
 ) -> Result<T, StepFailure> {
     sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(given(i)));
-    equations.evaluate(b, &mut Places(|i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j))))?;
+    equations.evaluate(b, &mut |i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j)))?;
     relative(rows(b, sums))
 }
 
@@ -94,30 +86,12 @@ pub(crate) fn residual_of_nodes<
     let mut largest = T::lift(0.0);
     for (r, vector) in vectors.iter().enumerate().skip(M::FIRST) {
         sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(matrix.given(i)));
-        let sums = RefCell::new(&mut *sums);
-        let add = |i: usize, j: usize, entry: T| sums.borrow_mut()[i] += Scalar::abs(entry / weights[j]);
-        for node in 0..NODES {
-            matrix.place(node);
-            let of = |weight: fn(&Weights<T>) -> T| {
-                (M::FIRST..NODES)
-                    .fold(T::lift(0.0), |sum, k| sum + Scalar::abs(weight(&matrix.weights(r, k))))
-            };
-            let [qq, qv, vq, vv] = [of(|w| w.qq), of(|w| w.qv), of(|w| w.vq), of(|w| w.vv)];
-            matrix.second_derivatives(
-                &mut Places(|i, j, entry| add(i, j, qq * entry)),
-                &mut Places(|i, j, entry| {
-                    add(i, j, qv * entry);
-                    if M::MIXED_ARE_TRANSPOSED {
-                        add(j, i, vq * entry);
-                    }
-                }),
-                &mut Places(|i, j, entry| add(i, j, vv * entry)),
-            );
-            if !M::MIXED_ARE_TRANSPOSED {
-                matrix.momentum_by_position(&mut Places(|i, j, entry| add(i, j, vq * entry)));
+        entries(matrix, |[row, _], [i, j], entry| {
+            if row == r {
+                sums[i] += Scalar::abs(entry / weights[j]);
             }
-        }
-        largest = norm::larger(largest, relative(rows(vector, sums.into_inner()))?);
+        });
+        largest = norm::larger(largest, relative(rows(vector, sums))?);
     }
     Ok(largest)
 }
@@ -210,31 +184,21 @@ fn by_factors<T: Real, M: SquareMatrix<T>>(
     Ok(())
 }
 
-/// The linear solver of a [`Fixed`](crate::Fixed) space.
+/// What solves with a matrix that is stored.
 #[derive(Debug)]
-pub struct FixedSolver<
-    T: Clone + Debug,
-    const BLOCKS: usize,
-    const N: usize,
-    const SINGLES: usize = 0,
-    R: Room = InPlace,
-> {
-    matrix: FixedSquare<T, BLOCKS, N, SINGLES, R>,
-    scales: FixedVector<T, BLOCKS, N, SINGLES, R>,
+pub struct Stored<S: Space, T: Real> {
+    matrix: S::Square<T>,
+    scales: S::Vector<T>,
 }
 
-impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
-    FixedSolver<T, BLOCKS, N, SINGLES, R>
-{
+impl<S: Space, T: Real> Stored<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn new(space: Fixed<BLOCKS, N, SINGLES, R>) -> Self {
-        Self { matrix: FixedSquare::new(space), scales: space.vector() }
+    pub(crate) fn new(space: S, matrix: S::Square<T>) -> Self {
+        Self { matrix, scales: space.vector() }
     }
 }
 
-impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> LinearSolver<T>
-    for FixedSolver<T, BLOCKS, N, SINGLES, R>
-{
+impl<S: Space, T: Real> LinearSolver<T> for Stored<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(
         &mut self,
@@ -264,45 +228,36 @@ const NUMBERS_IN_A_ROW: usize = 1024;
 /// The linear solver of a [`RunTime`](crate::RunTime) space.
 #[cfg(feature = "alloc")]
 #[derive(Debug)]
-pub struct RunTimeSolver<T> {
-    storage: Storage<T>,
-    scales: Vec<T>,
-}
+pub struct RunTimeSolver<T: Real>(Storage<T>);
 
 #[cfg(feature = "alloc")]
 #[derive(Debug)]
-enum Storage<T> {
-    Matrix(RunTimeSquare<T>),
+enum Storage<T: Real> {
+    Matrix(Stored<RunTime, T>),
     Products(Krylov<T>),
 }
 
 #[cfg(feature = "alloc")]
-impl<T: Scalar> RunTimeSolver<T> {
+impl<T: Real> RunTimeSolver<T> {
     /// For a matrix with the entries that `entries` visits.
     pub(crate) fn new(
-        dimension: usize,
+        space: RunTime,
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self {
-        Self { storage: Storage::new(dimension, storing, entries), scales: vec![T::lift(1.0); dimension] }
-    }
-}
-
-#[cfg(feature = "alloc")]
-impl<T: Scalar> Storage<T> {
-    fn new(dimension: usize, storing: Storing, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
+        let RunTime { dimension } = space;
+        let products = || Self(Storage::Products(Krylov::new(dimension)));
         if storing == Storing::Never {
-            return Self::Products(Krylov::new(dimension));
+            return products();
         }
         let mut pattern = Pattern::new(dimension);
         entries(&mut |row, column| pattern.add(row, column));
         let layout = Layout::of(pattern);
         let is_large = layout.storage(dimension) > NUMBERS_IN_A_ROW.saturating_mul(dimension);
         if storing == Storing::IfSmall && is_large {
-            Self::Products(Krylov::new(dimension))
-        } else {
-            Self::Matrix(RunTimeSquare::in_layout(dimension, layout))
+            return products();
         }
+        Self(Storage::Matrix(Stored::new(space, RunTimeSquare::in_layout(dimension, layout))))
     }
 }
 
@@ -314,32 +269,9 @@ impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
         weights: &[T],
         x: &mut [T],
     ) -> Result<(), StepFailure> {
-        let Self { storage, scales } = self;
-        match storage {
-            Storage::Matrix(matrix) => eliminate((matrix, scales), equations, weights, x),
-            Storage::Products(krylov) => {
-                set_scales(scales, weights);
-                krylov.solve(&mut Balanced { equations, scales }, x)?;
-                scale(x, scales);
-                Ok(())
-            }
+        match &mut self.0 {
+            Storage::Matrix(stored) => stored.solve(equations, weights, x),
+            Storage::Products(krylov) => krylov.solve(equations, weights, x),
         }
-    }
-}
-
-/// Equations in units in which the unknowns are about one.
-#[cfg(feature = "alloc")]
-struct Balanced<'a, E, T> {
-    equations: &'a mut E,
-    scales: &'a [T],
-}
-
-#[cfg(feature = "alloc")]
-impl<T: Real, E: LinearEquations<T>> LinearEquations<T> for Balanced<'_, E, T> {
-    fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let Self { equations, scales } = self;
-        equations.evaluate(b, &mut Scaled { sink, factor: |i: usize, j: usize| scales[i] * scales[j] })?;
-        scale(b, scales);
-        Ok(())
     }
 }

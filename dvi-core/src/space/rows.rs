@@ -80,11 +80,11 @@ fn weighted<T: Scalar>(a: &[T], b: &[T], weights: impl Iterator<Item = T>) -> T 
 #[derive(Clone, Debug)]
 pub struct SparseRows<T> {
     /// Where each row begins, and where the last one ends.
-    begins: Vec<u32>,
+    begins: Vec<usize>,
     columns: Vec<u32>,
     entries: Vec<T>,
-    /// Whether an entry was added that has no place: no product is a number then.
-    is_outside: bool,
+    /// Row and column of an entry that was added and has no place: no product is a number then.
+    pub(super) outside: Option<(usize, usize)>,
 }
 
 #[cfg(feature = "alloc")]
@@ -98,29 +98,41 @@ impl<T: Scalar> SparseRows<T> {
                 columns[row].push(column);
             }
         });
+        Self::with_columns(&columns)
+    }
+
+    /// Rows with entries in these columns.
+    pub(super) fn with_columns(columns: &[Vec<u32>]) -> Self {
         let begins = core::iter::once(0).chain(columns.iter().scan(0, |end, row| {
-            *end += row.len() as u32;
+            *end += row.len();
             Some(*end)
         }));
         let begins = begins.collect();
         let columns: Vec<u32> = columns.concat();
         let entries = alloc::vec![T::lift(0.0); columns.len()];
-        Self { begins, columns, entries, is_outside: false }
+        Self { begins, columns, entries, outside: None }
     }
 
     fn places(&self, row: usize) -> core::ops::Range<usize> {
-        self.begins[row] as usize..self.begins[row + 1] as usize
+        self.begins[row]..self.begins[row + 1]
+    }
+
+    /// Multiplies row `k` by `scale`.
+    pub(super) fn scale(&mut self, k: usize, scale: T) {
+        let places = self.places(k);
+        self.entries[places].iter_mut().for_each(|entry| *entry = *entry * scale);
     }
 }
 
 #[cfg(feature = "alloc")]
 impl<T: Scalar> Sink<T> for SparseRows<T> {
+    #[inline]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         let places = self.places(row);
         let found = self.columns[places.clone()].iter().position(|&known| known as usize == column);
         match found {
             Some(place) => self.entries[places.start + place] += entry,
-            None => self.is_outside = true,
+            None => self.outside = Some((row, column)),
         }
     }
 }
@@ -134,10 +146,10 @@ impl<T: Copy> Memory<T> for SparseRows<T> {
 impl<T: Scalar> RowMatrix<T> for SparseRows<T> {
     fn clear(&mut self) {
         self.entries.fill(T::lift(0.0));
-        self.is_outside = false;
+        self.outside = None;
     }
     fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T {
-        if self.is_outside || other.is_outside {
+        if self.outside.is_some() || other.outside.is_some() {
             return T::lift(f64::NAN);
         }
         let places = self.places(k);

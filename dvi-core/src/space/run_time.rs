@@ -71,21 +71,16 @@ impl RunTime {
 
 impl Space for RunTime {
     const ON_STACK: bool = false;
-    type Vector<T: Scalar> = Vec<T>;
+    type Vector<E: Clone + Debug> = Vec<E>;
     type Local<T: Scalar> = Vec<T>;
     type Matrix<T: Scalar> = RunTimeMatrix<T>;
     type Square<T: Real> = RunTimeSquare<T>;
     type Linear<T: Real> = RunTimeSolver<T>;
     type Coupled<const NODES: usize, T: Real> = RunTimeCoupled<T>;
-    type Array<E: Clone + Debug> = Vec<E>;
     type Rows<C: Space, T: Scalar> = SparseRows<T>;
-    type Permutation = Vec<usize>;
 
     fn dimension(self) -> usize {
         self.dimension
-    }
-    fn vector<T: Scalar>(self) -> Self::Vector<T> {
-        vec![T::lift(0.0); self.dimension]
     }
     fn array<E: Clone + Debug>(self, mut of: impl FnMut() -> E) -> Vec<E> {
         (0..self.dimension).map(|_| of()).collect()
@@ -109,7 +104,7 @@ impl Space for RunTime {
         storing: Storing,
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Linear<T> {
-        RunTimeSolver::new(self.dimension, storing, entries)
+        RunTimeSolver::new(self, storing, entries)
     }
     fn coupled<const NODES: usize, T: Real>(
         self,
@@ -118,8 +113,5 @@ impl Space for RunTime {
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Coupled<NODES, T> {
         RunTimeCoupled::new(self, unknown, storing, entries)
-    }
-    fn permutation(self) -> Self::Permutation {
-        vec![0; self.dimension]
     }
 }

@@ -28,9 +28,8 @@ mod sparse;
 use core::fmt::Debug;
 
 use crate::error::StepFailure;
-use crate::space::sink::Sink;
-use crate::space::{FixedMatrix, FixedVector, InPlace, Room};
-use crate::space::{elimination, lines};
+use crate::space::linear::scale;
+use crate::space::{Sink, elimination};
 use crate::{Real, Scalar, Space};
 
 #[cfg(feature = "alloc")]
@@ -59,14 +58,24 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     /// # Errors
     /// [`StepFailure::Singular`] with the column that has no pivot, and the largest candidate for it;
     /// [`StepFailure::Pattern`] with an entry that has no room.
-    fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure>;
+    fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
+        if !scales.is_empty() {
+            self.scale_rows(scales);
+            scale(x, scales);
+        }
+        self.factor()?;
+        self.solve(x);
+        Ok(())
+    }
 
     /// The same of two equations for unknowns with these `weights`, for which there is a faster way, or
     /// there are not two; A stays as it is.
     ///
     /// # Errors
     /// [`StepFailure::Singular`], or [`StepFailure::NotFinite`] if x is no number then.
-    fn eliminate_two(&self, weights: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>>;
+    fn eliminate_two(&self, _weights: &[T], _x: &mut [T]) -> Option<Result<(), StepFailure>> {
+        None
+    }
 
     /// Replaces A by its factors.
     ///
@@ -79,14 +88,18 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     ///
     /// # Errors
     /// As [`eliminate`](Self::eliminate).
-    fn factor_in_any_units(&mut self) -> Result<(), StepFailure>;
+    fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
+        self.factor()
+    }
 
     /// The same, which also finds singular what rounding errors of its entries may make singular, if its
     /// storage has a way for it. `work` has room for two vectors.
     ///
     /// # Errors
     /// As [`eliminate`](Self::eliminate).
-    fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure>;
+    fn factor_with_care(&mut self, _work: [&mut [T]; 2]) -> Result<(), StepFailure> {
+        self.factor()
+    }
 
     /// Overwrites `x` with the solution of A y = x, for an A that has been factored.
     fn solve(&self, x: &mut [T]);
@@ -98,32 +111,22 @@ pub trait SquareMatrix<T: Real>: Clone + Debug {
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]);
 }
 
-/// The square matrix of a [`Fixed`](crate::Fixed) space: dense.
+/// A full matrix, and the permutation of its rows.
 #[derive(Clone, Debug)]
-pub struct FixedSquare<
-    T: Clone + Debug,
-    const BLOCKS: usize,
-    const N: usize,
-    const SINGLES: usize = 0,
-    R: Room = InPlace,
-> {
-    matrix: FixedMatrix<T, BLOCKS, N, SINGLES, R>,
-    permutation: FixedVector<usize, BLOCKS, N, SINGLES, R>,
+pub struct Full<S: Space, T: Scalar> {
+    matrix: S::Matrix<T>,
+    permutation: S::Vector<usize>,
 }
 
-impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
-    FixedSquare<T, BLOCKS, N, SINGLES, R>
-{
+impl<S: Space, T: Scalar> Full<S, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn new(space: crate::Fixed<BLOCKS, N, SINGLES, R>) -> Self {
-        Self { matrix: space.matrix(), permutation: space.permutation() }
+    pub(crate) fn new(space: S) -> Self {
+        Self { matrix: space.matrix(), permutation: space.array(|| 0) }
     }
 }
 
-impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> SquareMatrix<T>
-    for FixedSquare<T, BLOCKS, N, SINGLES, R>
-{
-    type Entries = FixedMatrix<T, BLOCKS, N, SINGLES, R>;
+impl<S: Space, T: Real> SquareMatrix<T> for Full<S, T> {
+    type Entries = S::Matrix<T>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn cleared(&mut self) -> &mut Self::Entries {
@@ -163,14 +166,9 @@ impl<T: Real, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room
     }
     #[inline]
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
-        multiply_add(&self.matrix, factor, x, sum);
+        elimination::multiply_add(&self.matrix, factor, x, sum);
     }
 }
 
-/// Adds `factor` A x to `sum`, for a row-major A.
-fn multiply_add<T: Real>(matrix: &[T], factor: T, x: &[T], sum: &mut [T]) {
-    for (sum, row) in sum.iter_mut().zip(lines(matrix, x.len())) {
-        let product = row.iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x);
-        *sum += factor * product;
-    }
-}
+#[cfg(test)]
+mod tests;

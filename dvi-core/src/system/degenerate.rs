@@ -1,7 +1,7 @@
 //! What the compiler knows of a Lagrangian that is affine in the velocities.
 
 use crate::error::StartError;
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::system::{Degenerate, Lagrangian, Same, System, start};
 use crate::{Real, Scalar};
 

@@ -1,7 +1,7 @@
 //! What the compiler knows of holonomic constraints g(q, t) = 0.
 
 use crate::Scalar;
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, System};
 
 /// A regular Lagrangian with holonomic constraints g(q, t) = 0, declared by `constraint = …`.

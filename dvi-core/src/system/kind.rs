@@ -47,19 +47,6 @@ impl Kind for Holonomic {}
 impl Kind for Nonholonomic {}
 impl Kind for Unilateral {}
 
-/// The kinds of systems without constraints or impacts.
-#[diagnostic::on_unimplemented(
-    message = "the system has constraints or impacts, rotations or unit vectors, and this would not keep them",
-    label = "it knows none of these",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
-    note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
-    note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
-)]
-pub trait Unconstrained: Kind {}
-
-impl Unconstrained for Degenerate {}
-impl Unconstrained for Regular {}
-
 /// The kinds of systems whose motion is a smooth curve of numbers, between two of which one may interpolate:
 /// all but [`Unilateral`] and [`Manifold`].
 #[diagnostic::on_unimplemented(

@@ -1,7 +1,7 @@
 //! What the compiler knows of constraints of the velocities, a(q, v, t) = 0.
 
 use crate::Scalar;
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::system::{ConstrainedSystem, NondegenerateLagrangian, Nonholonomic, System};
 
 /// A regular Lagrangian with nonholonomic constraints a(q, v, t) = A(q, t) v + b(q, t) = 0, declared by

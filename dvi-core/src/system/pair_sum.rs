@@ -1,6 +1,6 @@
 //! What a system says of a sum over all pairs of its bodies.
 
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::{Lagrangian, Scalar, Weights};
 
 /// A system whose energy has a sum over all pairs of `bodies` bodies, of a function of their distance:

@@ -4,7 +4,6 @@ use crate::error::{StartError, StepError, StepFailure};
 use crate::name::Name;
 use crate::scalar::norm::reported;
 use crate::scalar::smallest_normal;
-use crate::space::sink::Places;
 use crate::system::names::entries;
 use crate::system::{Factor, TimeTransform, TimeTransformed, spinors};
 use crate::{Lagrangian, Real, Scalar, Space, State, System, Vector, Weights};
@@ -61,7 +60,7 @@ pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     } else {
         (StepFailure::OMEGA, Weights { qq: zero, qv: one, vq: -one, vv: zero })
     };
-    let mut sink = Places(|row: usize, _: usize, entry: T| sizes[row] += Scalar::abs(entry));
+    let mut sink = |row: usize, _: usize, entry: T| sizes[row] += Scalar::abs(entry);
     system.linearize(q, &velocity, t, weights, &mut l_q, &mut l_v, &mut sink);
     let is_singular = |place: &usize| !(one / sizes[*place]).is_finite();
     let place = (0..sizes.len()).find(is_singular);

@@ -1,7 +1,7 @@
 //! What the compiler knows of impacts: gap functions g(q, t), which no motion makes negative.
 
 use crate::Scalar;
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::system::{ConstrainedSystem, NondegenerateLagrangian, Same, System, Unilateral};
 
 /// A regular Lagrangian whose motion stays where g(q, t) ≥ 0, declared by `impact = g`. Between impacts it

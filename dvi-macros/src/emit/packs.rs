@@ -13,7 +13,7 @@
 //!         let __r2 = __r1 - load(__q0, __i1);
 //!         …
 //!         add_to(__vector0, __i1, __waiting1.exchange(…));
-//!         subtract_from(__vector0, __i1, …);
+//!         add_to(__vector0, __i1, -…);
 //!         __sum9.add_terms(…);
 //!     }
 //!     let __i1 = __whole;
@@ -249,10 +249,9 @@ impl Function<'_> {
     }
 
     /// What waits before the first pack: nothing, which is zero with the sign that changes no number.
-    fn wait(&self, Addition { behind, waiting, value, .. }: &Addition<'_>) -> TokenStream {
+    fn wait(&self, Addition { behind, waiting, .. }: &Addition<'_>) -> TokenStream {
         let krate = self.emitter.krate();
-        let nothing = if value.negative { quote!(0.0) } else { quote!(-0.0) };
-        let nothing = (0..*behind).map(|_| quote!(<__T as #krate::Scalar>::lift(#nothing)));
+        let nothing = (0..*behind).map(|_| quote!(<__T as #krate::Scalar>::lift(-0.0)));
         if *behind == 0 {
             return TokenStream::new();
         }
@@ -262,17 +261,15 @@ impl Function<'_> {
     /// Adds the terms of a pack.
     fn add(&self, Addition { array, index, value, behind, waiting }: &Addition<'_>) -> TokenStream {
         let (array, index) = (output_array(array.0, array.1), self.entry(index));
-        let (krate, terms) = (self.emitter.krate(), self.register(value.register));
+        let (krate, terms) = (self.emitter.krate(), self.signed(**value));
         let terms = if *behind == 0 { terms } else { quote!(#waiting.exchange(#terms)) };
-        let add = if value.negative { quote!(subtract_from) } else { quote!(add_to) };
-        quote!(#krate::__private::#add(#array, #index, #terms);)
+        quote!(#krate::__private::add_to(#array, #index, #terms);)
     }
 
     /// Adds what waits after the last pack.
-    fn arrive(&self, Addition { array, index, value, behind, waiting }: &Addition<'_>) -> TokenStream {
+    fn arrive(&self, Addition { array, index, behind, waiting, .. }: &Addition<'_>) -> TokenStream {
         let (array, index) = (output_array(array.0, array.1), self.entry(index));
-        let add = if value.negative { quote!(subtract_from) } else { quote!(add_to) };
-        if *behind == 0 { TokenStream::new() } else { quote!(#waiting.#add(#array, #index);) }
+        if *behind == 0 { TokenStream::new() } else { quote!(#waiting.add_to(#array, #index);) }
     }
 
     /// The registers that the body of a loop reads and does not compute.

@@ -28,7 +28,7 @@ fn graded(s: f64) -> f64 {
     1.0 + 2.0 * s + 0.1 * (std::f64::consts::TAU * s).sin()
 }
 
-fn axis(grid: Grid, cells: usize) -> Result<Axis, dvi_core::field::AxisError> {
+fn axis(grid: Grid, cells: usize) -> Result<Axis, dvi_core::field::SplineError> {
     let points = |count: usize| (0..count).map(|i| graded(i as f64 / cells as f64)).collect::<Vec<f64>>();
     match grid {
         Grid::Uniform => Axis::uniform([1.0, 3.0], cells + 1),

@@ -2,11 +2,11 @@
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
 use dvi_core::{
     ConstrainedSystem, Fixed, HolonomicLagrangian, IndexError, NondegenerateLagrangian, RunTime, Space,
 };
 use dvi_core::{Lagrangian, ScalarField, Varied};
+use dvi_tests::filling;
 use num_dual::Dual64;
 
 use super::Outcome;
@@ -26,7 +26,7 @@ fn generated<S: HolonomicLagrangian>(system: &S, q: &[f64], v: &[f64], t: f64) -
     let set = || vec![7.0; m];
     let (mut g, mut again, mut curvature) = (set(), set(), set());
     system.constraint(q, t, &mut g);
-    system.constraint_jacobian(q, t, &mut again, &mut Dense::new(&mut vec![0.0; n * m], n));
+    system.constraint_jacobian(q, t, &mut again, &mut filling(&mut vec![0.0; n * m], n));
     system.constraint_curvature(q, v, t, &mut curvature);
     close(&again, &g, "g beside ∂g/∂q");
     [g, curvature]

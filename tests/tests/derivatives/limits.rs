@@ -2,8 +2,8 @@
 
 use approx::relative_eq;
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
 use dvi_core::{Space, Weights};
+use dvi_tests::filling;
 
 type Outcome = Result<(), String>;
 
@@ -132,7 +132,7 @@ macro_rules! in_space {
                 let (q, v) = ([0.0; 4], [0.0; 4]);
                 let (mut gradient, mut momentum, mut matrix) = ([0.0; 4], [0.0; 4], [0.0; 16]);
                 let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-                $name.linearize(&q, &v, 0.0, weights, &mut gradient, &mut momentum, &mut Dense::new(&mut matrix, 4));
+                $name.linearize(&q, &v, 0.0, weights, &mut gradient, &mut momentum, &mut filling(&mut matrix, 4));
                 if gradient != [0.0; 4] || matrix != [0.0; 16] {
                     return Err(format!("{}: {gradient:?}, {matrix:?}", stringify!($hamiltonian)));
                 }
@@ -175,7 +175,7 @@ struct Steep {
 fn position_derivatives<S: Lagrangian, const N: usize>(system: &S, q: [f64; N]) -> ([f64; N], Vec<f64>) {
     let (mut gradient, mut momentum, mut matrix) = ([0.0; N], [0.0; N], vec![0.0; N * N]);
     let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-    let sink = &mut Dense::new(&mut matrix, N);
+    let sink = &mut |i: usize, j: usize, entry: f64| matrix[N * i + j] += entry;
     system.linearize(&q, &[0.0; N], 0.0, weights, &mut gradient, &mut momentum, sink);
     (gradient, matrix)
 }

@@ -5,8 +5,8 @@
 //! be off by [`UNITS`]·ε·(the largest entry of it and of the (k+1)-th derivative; for k = 2, of it and
 //! of the first).
 
-use dvi_core::space::sink::Dense;
 use dvi_core::{DegenerateLagrangian, Lagrangian, Space, Weights};
+use dvi_tests::filling;
 use dvi_tests::larger;
 use num_dual::{DualNum, HyperDual64};
 
@@ -136,7 +136,7 @@ pub(crate) fn lagrangian<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t:
     let w = Weights { qq: weight(), qv: weight(), vq: weight(), vv: weight() };
     let before: Vec<f64> = (0..n * n).map(|_| weight()).collect();
     let (mut l_q, mut l_v, mut matrix) = (vec![f64::NAN; n], vec![f64::NAN; n], before.clone());
-    system.linearize(q, v, t, w, &mut l_q, &mut l_v, &mut Dense::new(&mut matrix, n));
+    system.linearize(q, v, t, w, &mut l_q, &mut l_v, &mut filling(&mut matrix, n));
     place.compare("gradient of linearize", &[l_q, l_v].concat(), &expected.gradient, larger(first, second));
     let block = |i: usize, j: usize| expected.hessian[2 * n * i + j];
     let sum = |at: usize| {
@@ -166,7 +166,7 @@ pub(crate) fn single_precision<S: ByHand>(system: &S, place: &Place<'_>, v: &[f6
     let scale = larger(largest(&expected.hessian), largest(&expected.gradient));
     let (mut l_q, mut l_v, mut matrix) = (vec![0.0; n], vec![0.0; n], vec![0.0; n * n]);
     let w = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-    system.linearize(&q, &v, t, w, &mut l_q, &mut l_v, &mut Dense::new(&mut matrix, n));
+    system.linearize(&q, &v, t, w, &mut l_q, &mut l_v, &mut filling(&mut matrix, n));
     place.compare("gradient in f32", &double(&[l_q, l_v].concat()), &expected.gradient, scale);
     let block: Vec<f64> = (0..n * n).map(|at| expected.hessian[2 * n * (at / n) + at % n]).collect();
     place.compare("linearize in f32", &double(&matrix), &block, scale);

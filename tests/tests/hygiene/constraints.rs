@@ -1,11 +1,11 @@
 //! The same unfriendliness for systems with constraints.
 
 use approx::assert_abs_diff_eq;
-use dvi_core::space::sink::Dense;
 use dvi_core::{
     ConstrainedSystem, HolonomicLagrangian, Lagrangian, ManifoldSystem, NonholonomicLagrangian, Space,
     System, UnilateralLagrangian,
 };
+use dvi_tests::filling;
 
 /// Fields and indices with the names of what generated code might use.
 mod names {
@@ -145,7 +145,7 @@ fn systems_with_constraints_of_velocities_and_unfriendly_names_work() {
     let m = rolling.multipliers().dimension();
     let (mut a, mut jacobian) = (vec![f64::NAN; m], vec![0.0; 3 * m]);
     let (q, v, weights) = ([0.5; 3], [0.25; 3], [1.0, 10.0]);
-    rolling.velocity_constraint_jacobian(&q, &v, 0.0, weights, &mut a, &mut Dense::new(&mut jacobian, 3));
+    rolling.velocity_constraint_jacobian(&q, &v, 0.0, weights, &mut a, &mut filling(&mut jacobian, 3));
     assert_eq!(a, [-0.5, -0.25, -4.875]);
     assert_eq!(jacobian, [18.0, 0.0, -2.0, 0.0, 28.0, -2.0, 0.0, 0.0, 5.25]);
 }
@@ -156,7 +156,7 @@ fn systems_with_impacts_and_unfriendly_names_work() {
     assert!(walled.check().is_ok());
     let (m, q, v, t) = (walled.multipliers().dimension(), [0.5; 3], [0.25; 3], 1.0);
     let (mut gap, mut rate, mut jacobian) = (vec![f64::NAN; m], vec![f64::NAN; m], vec![0.0; 3 * m]);
-    walled.gap_jacobian(&q, t, &mut gap, &mut Dense::new(&mut jacobian, 3));
+    walled.gap_jacobian(&q, t, &mut gap, &mut filling(&mut jacobian, 3));
     walled.gap_rate(&q, &v, t, &mut rate);
     assert_eq!(gap, [-1.0, -0.5, -4.75]);
     assert_eq!(rate, [-0.5, -0.25, -4.75]);

@@ -3,10 +3,10 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::error::{StartError, StepFailure};
 use dvi_core::prelude::*;
-use dvi_core::space::sink::Dense;
 use dvi_core::{Weights, rotations};
 use dvi_examples::models::{SphericalPendulum, SphericalPendulumState, SphericalPendulumStateOf};
 use dvi_tests::Outcome;
+use dvi_tests::filling;
 use dvi_tests::zoo::manifold::{Body, BodyState, BodyStateOf, FREE, UNEVEN};
 use num_dual::Dual64;
 
@@ -166,10 +166,10 @@ fn entries_of_a_rotation_are_read_row_by_row() {
     assert_eq!(UNEVEN.energy(&q, &v, 0.0), numbers.energy(&q, &v, 0.0));
     let weights = Weights { qq: 0.3, qv: -0.4, vq: 0.5, vv: 0.0 };
     let (mut l_q, mut l_v, mut matrix) = ([0.0; 9], [0.0; 9], [0.0; 81]);
-    UNEVEN.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut Dense::new(&mut matrix, 9));
+    UNEVEN.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut filling(&mut matrix, 9));
     let rotation = (l_q, l_v, matrix);
     matrix.fill(0.0);
-    numbers.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut Dense::new(&mut matrix, 9));
+    numbers.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut filling(&mut matrix, 9));
     let flat = (l_q, l_v, matrix);
     assert_eq!(rotation, flat);
 }

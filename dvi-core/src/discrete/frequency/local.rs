@@ -4,7 +4,6 @@ use super::{FrequencyIn, defined};
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::scalar::norm;
-use crate::space::sink::TransposedProduct;
 use crate::{NondegenerateLagrangian, Real, Space, System, Vector, Weights};
 
 /// ω and its gradient at one end of a step.
@@ -61,7 +60,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
         };
         self.omega = omega;
         mass.solve(da, acceleration);
-        let (zero, mut product) = (T::lift(0.0), TransposedProduct { x: acceleration, sum: dq });
+        let zero = T::lift(0.0);
+        let mut product = |i: usize, j: usize, entry: T| dq[j] += entry * acceleration[i];
         let weights = Weights { qq: T::lift(1.0), qv: zero, vq: zero, vv: zero };
         system.linearize(q, v, t, weights, l_q, l_v, &mut product);
         defined(self.omega)?;

@@ -9,7 +9,6 @@ use crate::mechanics::constraints::{
 use crate::mechanics::legendre;
 use crate::scalar::norm::{self, reported};
 use crate::scalar::smallest_normal;
-use crate::space::sink::Places;
 use crate::space::{LinearEquations, Sink};
 use crate::{Real, Scalar, Space, Vector};
 
@@ -62,7 +61,7 @@ fn worst<S: ConstrainedLagrangian<T>, T: Real>(
     error: impl Fn(usize) -> T,
 ) -> Option<(usize, f64)> {
     let [mut values, mut sizes]: [Multipliers<S, T>; 2] = system.multipliers().vectors();
-    let mut terms = Places(|k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j));
+    let mut terms = |k: usize, j: usize, entry: T| sizes[k] += Scalar::abs(entry) * error(j);
     S::Kind::forces(system, q, t, &mut values, &mut terms);
     farthest(&values, &sizes, 1.0)
 }

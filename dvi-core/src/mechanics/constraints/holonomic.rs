@@ -2,7 +2,7 @@
 
 use super::Constraints;
 use crate::mechanics::{Ends, Span};
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::system::Holonomic;
 use crate::{HolonomicLagrangian, Real};
 

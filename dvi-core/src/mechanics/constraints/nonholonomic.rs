@@ -3,7 +3,7 @@
 
 use super::Constraints;
 use crate::mechanics::{Ends, Span};
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::system::Nonholonomic;
 use crate::{NonholonomicLagrangian, Real};
 

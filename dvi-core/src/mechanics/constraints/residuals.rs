@@ -10,7 +10,6 @@
 use super::{At, ConstrainedLagrangian, Constraints, Multipliers};
 use crate::scalar::norm::{larger, largest, reported};
 use crate::scalar::smallest_normal;
-use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Scalar, Space, Vector};
 
 /// A state may be off the constraints by so many rounding errors.
@@ -67,10 +66,10 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         let Self { values, sizes, others: speeds, units, .. } = self;
         sizes.fill(T::lift(0.0));
         speeds.fill(T::lift(0.0));
-        let mut terms = Places(|k: usize, j: usize, entry: T| {
+        let mut terms = |k: usize, j: usize, entry: T| {
             sizes[k] += Scalar::abs(entry) * units[j];
             speeds[k] = larger(speeds[k], (scale(j) + smallest_normal()) / units[j]);
-        });
+        };
         S::Kind::of_velocity(system, q, v, t, values, &mut terms);
         for (size, &speed) in sizes.iter_mut().zip(speeds.iter()) {
             *size *= speed;
@@ -121,7 +120,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
                 *point = if is_time { q } else { q + q * by };
             }
             let time = if is_time { t + t * rounding } else { t };
-            S::Kind::of_velocity(system, point, v, time, others, &mut Places(|_, _, _: T| ()));
+            S::Kind::of_velocity(system, point, v, time, others, &mut |_, _, _: T| ());
             for ((size, &other), &value) in sizes.iter_mut().zip(others.iter()).zip(values.iter()) {
                 *size = larger(*size, Scalar::abs(other - value) / rounding);
             }

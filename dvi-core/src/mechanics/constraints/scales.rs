@@ -12,7 +12,6 @@
 
 use super::{At, ConstrainedLagrangian, Constraints, Multipliers};
 use crate::scalar::norm::reported;
-use crate::space::sink::Places;
 use crate::{Real, Scalar, Space, Vector, Weights};
 
 /// A scale that changes by no more than this factor is balanced.
@@ -31,10 +30,10 @@ pub(crate) fn balance<S: ConstrainedLagrangian<T>, T: Real>(
 ) {
     scale_coordinates(system, [q, v], t, of_coordinates);
     let mut values: Multipliers<S, T> = system.multipliers().vector();
-    let mut squares = Places(|k: usize, j: usize, entry: T| {
+    let mut squares = |k: usize, j: usize, entry: T| {
         let entry = entry * of_coordinates[j];
         of_constraints[k] += entry * entry;
-    });
+    };
     S::Kind::forces(system, q, t, &mut values, &mut squares);
     of_constraints.iter_mut().for_each(|square| *square = scale(*square));
     // In units in which the mass is one.
@@ -43,9 +42,9 @@ pub(crate) fn balance<S: ConstrainedLagrangian<T>, T: Real>(
     let mut totals: Multipliers<S, T> = system.multipliers().vector();
     for _ in 0..ROUNDS {
         sums.fill(T::lift(0.0));
-        let mut columns = Places(|k: usize, j: usize, entry: T| {
+        let mut columns = |k: usize, j: usize, entry: T| {
             sums[j] += Scalar::abs(entry) * of_constraints[k] * unit[j];
-        });
+        };
         S::Kind::forces(system, q, t, &mut values, &mut columns);
         let mut is_balanced = true;
         for ((scale, &unit), &sum) in of_coordinates.iter_mut().zip(unit.iter()).zip(sums.iter()) {
@@ -54,9 +53,9 @@ pub(crate) fn balance<S: ConstrainedLagrangian<T>, T: Real>(
             is_balanced &= change(scale, unit * T::lift(2.0) / (sum + root));
         }
         totals.fill(T::lift(0.0));
-        let mut rows = Places(|k: usize, j: usize, entry: T| {
+        let mut rows = |k: usize, j: usize, entry: T| {
             totals[k] += Scalar::abs(entry) * of_coordinates[j];
-        });
+        };
         S::Kind::forces(system, q, t, &mut values, &mut rows);
         for (scale, &total) in of_constraints.iter_mut().zip(totals.iter()) {
             is_balanced &= change(scale, T::lift(1.0) / total);
@@ -87,11 +86,11 @@ pub(crate) fn scale_coordinates<S: ConstrainedLagrangian<T>, T: Real>(
     scales: &mut [T],
 ) {
     let [mut l_q, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
-    let mut diagonal = Places(|i: usize, j: usize, entry: T| {
+    let mut diagonal = |i: usize, j: usize, entry: T| {
         if i == j {
             scales[i] += entry;
         }
-    });
+    };
     system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut diagonal);
     scales.iter_mut().for_each(|mass| *mass = scale(Scalar::abs(*mass)));
 }

@@ -16,8 +16,7 @@ use crate::mechanics::pattern::visit_second_derivatives;
 use crate::mechanics::{Ends, Interval, Span};
 use crate::memory::{Memory, lasting};
 use crate::scalar::norm;
-use crate::space::sink::{Places, Scaled};
-use crate::space::{LinearEquations, SquareMatrix, linear};
+use crate::space::{LinearEquations, Sink, SquareMatrix, linear};
 use crate::{ConstrainedSystem, Real, Space, Vector};
 
 /// What solves equations with multipliers on a system, with the storage that it needs.
@@ -56,12 +55,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             let [point, velocity] = &mut work;
             let interval = Interval { t, h: T::lift(1.0) };
             let span = Span { system, interval, ends: Ends { q0: q, delta: v } };
-            let mut below = Places(|k: usize, j: usize, _: T| visit(n + k, j));
+            let mut below = |k: usize, j: usize, _: T| visit(n + k, j);
             S::Kind::of_step(system, span, [point, velocity], &mut values, &mut below);
-            let mut both = Places(|k: usize, j: usize, _: T| {
+            let mut both = |k: usize, j: usize, _: T| {
                 visit(n + k, j);
                 visit(j, n + k);
-            });
+            };
             S::Kind::forces(system, q, t, &mut values, &mut both);
             (n..space.dimension()).for_each(|k| visit(k, k));
         });
@@ -134,7 +133,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
                 (false, false) => scale / alpha,
             }
         };
-        equations.evaluate(solution, &mut Scaled { sink: matrix.cleared(), factor })?;
+        let entries = matrix.cleared();
+        let mut scaled = |i: usize, j: usize, entry: T| entries.add(i, j, factor(i, j) * entry);
+        equations.evaluate(solution, &mut scaled)?;
         norm::finite(solution).map_err(|failure| of_row(failure, n))?;
         matrix.factor()?;
         for (k, (entry, &scale)) in solution.iter_mut().zip(scales.iter()).enumerate() {

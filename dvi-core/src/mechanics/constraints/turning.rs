@@ -14,7 +14,6 @@ use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{At, ConstrainedLagrangian, Constraints, Multipliers};
 use crate::memory::{Memory, lasting};
 use crate::space::RowMatrix;
-use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Space, System, Vector};
 
 type Rows<S, T> = <<S as System>::Space as Space>::Rows<<S as ConstrainedSystem>::Multipliers, T>;
@@ -42,7 +41,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
         let mut values: Multipliers<S, T> = system.multipliers().vector();
         let mut rows = || {
             system.space().rows(system.multipliers(), |visit| {
-                let mut places = Places(|k: usize, j: usize, _: T| visit(k, j));
+                let mut places = |k: usize, j: usize, _: T| visit(k, j);
                 S::Kind::forces(system, at.q, at.t, &mut values, &mut places);
             })
         };

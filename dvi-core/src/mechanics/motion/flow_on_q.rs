@@ -6,7 +6,6 @@ use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
 use crate::memory::{Memory, lasting};
 use crate::scalar::{Lanes, norm};
-use crate::space::sink::Product;
 use crate::state::Statistics;
 use crate::system::Degenerate;
 use crate::{DegenerateLagrangian, Real, Scalar, Sink, Space, System, Vector, Weights};
@@ -81,7 +80,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> StageEquations<S, T> for Degenerate {
         for (residual, &source) in residual.iter_mut().zip(force.iter()) {
             *residual = -source;
         }
-        system.one_form_jacobian(q, t, -one, one, &mut Product { x: v, sum: residual });
+        let mut product = |i: usize, j: usize, entry: T| residual[i] += entry * v[j];
+        system.one_form_jacobian(q, t, -one, one, &mut product);
     }
     fn newton_weights([of_row, of_column]: [bool; 2], [_, after]: [T; 2], [_, per_h]: [T; 2]) -> Weights<T> {
         let zero = T::lift(0.0);

@@ -8,7 +8,6 @@ use crate::mechanics::orientation::MassOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::memory::{Memory, lasting};
 use crate::scalar::{Lanes, norm};
-use crate::space::sink::Product;
 use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
 use crate::system::{Regular, Unilateral};
@@ -261,7 +260,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> LinearEquations<T> for SecondOrder<
             [[zero, one], [one, zero]].map(|[vq, vv]| Weights { qq: zero, qv: zero, vq, vv });
         system.linearize(q, v, *t, mass, b, l_v, sink);
         let mut transported: Vector<S, T> = system.space().vector();
-        let mut product = Product { x: v, sum: &mut transported };
+        let mut product = |i: usize, j: usize, entry: T| transported[i] += entry * v[j];
         system.linearize(q, v, *t, transport, b, l_v, &mut product);
         system.momentum_rate(q, v, *t, l_v);
         for ((b, &transported), &rate) in b.iter_mut().zip(transported.iter()).zip(l_v.iter()) {

@@ -5,10 +5,10 @@ use crate::mechanics::manifold::blocks;
 use crate::mechanics::pattern::visit_second_derivatives;
 use crate::space::Sink;
 use crate::system::{Factor, ManifoldSystem};
-use crate::{ManifoldLagrangian, Real, Space, System};
+use crate::{ManifoldLagrangian, Real, Space, System, Vector};
 
 /// The first tangent vector of the block of each coordinate, and how many the block has.
-pub(super) type Slots<S> = <<S as System>::Space as Space>::Array<[usize; 2]>;
+pub(super) type Slots<S> = Vector<S, [usize; 2]>;
 
 pub(super) fn slots<S: ManifoldSystem>(system: &S) -> Slots<S> {
     let mut slots = system.space().array(|| [0; 2]);

@@ -6,7 +6,6 @@ use crate::mechanics::manifold::{Block, blocks};
 use crate::memory::{Memory, lasting};
 use crate::space::inertia::inertia;
 
-use crate::space::sink::Places;
 use crate::space::{RowMatrix, Sink};
 use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
@@ -56,11 +55,11 @@ pub(super) fn mass_rows<S: ManifoldLagrangian<T>, T: Real>(
     let space = system.space();
     let [mut l_q, mut l_v]: [Vector<S, T>; 2] = space.vectors();
     let mut each = |add: &mut dyn FnMut(usize, usize, T)| {
-        let mut sink = Places(|row: usize, column: usize, entry: T| {
+        let mut sink = |row: usize, column: usize, entry: T| {
             if entry != T::lift(0.0) {
                 add(row, column, entry);
             }
-        });
+        };
         system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut sink);
     };
     let mut rows: MassRows<S, T> = space.rows(space, |visit| each(&mut |row, column, _| visit(row, column)));

@@ -8,7 +8,7 @@ use crate::mechanics::manifold::{Block, matrix, rotation, set, set_matrix, vecto
 use crate::{ManifoldLagrangian, Real, Scalar, Space, System};
 
 /// Three numbers for each coordinate: how it varies with the tangent vectors of its block.
-pub(super) type Rows<S, T> = <<S as System>::Space as Space>::Array<[T; 3]>;
+pub(super) type Rows<S, T> = <<S as System>::Space as Space>::Vector<[T; 3]>;
 
 /// How the point and the velocity of a node vary, in each row with the tangent vectors of its block.
 #[derive(Debug)]

@@ -3,7 +3,6 @@
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::Multipliers;
 use crate::scalar::norm::reported;
-use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Scalar, Space, UnilateralLagrangian};
 
 /// The gap functions at a point, and their rates of change there.
@@ -47,9 +46,9 @@ pub(super) fn terms<S: UnilateralLagrangian<T>, T: Real>(
     gap: &mut [T],
     mut add: impl FnMut(usize, T),
 ) {
-    let mut sizes = Places(|surface: usize, j: usize, entry: T| {
+    let mut sizes = |surface: usize, j: usize, entry: T| {
         add(surface, Scalar::abs(entry) * (Scalar::abs(q[j]) + Scalar::abs(h * v[j])));
-    });
+    };
     system.gap_jacobian(q, t, gap, &mut sizes);
 }
 

@@ -5,7 +5,6 @@ use super::memory::{ImpactsMemory, Wall};
 use super::passage::Passage;
 use crate::error::StepFailure;
 use crate::methods::FreeFlight;
-use crate::space::sink::Places;
 use crate::{Real, Scalar, UnilateralLagrangian, Vector, Weights};
 
 /// Iterations for the impulse.
@@ -30,7 +29,7 @@ fn inertia<S: UnilateralLagrangian<T>, T: Real>(
     let zero = T::lift(0.0);
     let mass = Weights::mass();
     let mut sum = zero;
-    let mut product = Places(|i: usize, j: usize, entry: T| sum += gradient[i] * entry * gradient[j]);
+    let mut product = |i: usize, j: usize, entry: T| sum += gradient[i] * entry * gradient[j];
     system.linearize(q, v, t, mass, l_q, l_v, &mut product);
     let squared = gradient.iter().fold(zero, |sum, &entry| sum + entry * entry);
     sum / (squared * squared)

@@ -9,7 +9,6 @@ use crate::discrete::{Ends, Interval, Span};
 use crate::error::StepFailure;
 use crate::methods::{FreeFlight, Here, Step};
 use crate::scalar::norm::reported;
-use crate::space::sink::Places;
 use crate::{Real, Scalar, UnilateralLagrangian};
 
 /// Flights that are shorter, as a part of the step, have no discrete energy of their own: Δ/s has the
@@ -166,11 +165,11 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         }
         wall.v.copy_from_slice(v);
         wall.gradient.fill(T::lift(0.0));
-        let mut row = Places(|row: usize, j: usize, entry: T| {
+        let mut row = |row: usize, j: usize, entry: T| {
             if row == surface {
                 wall.gradient[j] += entry;
             }
-        });
+        };
         system.gap_jacobian(q, *t, &mut there.gap, &mut row);
         wall.speed = wall.gradient.iter().zip(wall.v.iter()).fold(rate, |sum, (&g, &v)| sum - g * v);
         wall.direction.fill(T::lift(0.0));

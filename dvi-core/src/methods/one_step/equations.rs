@@ -11,7 +11,6 @@ use super::split::is_x;
 use crate::error::StepFailure;
 use crate::solve::{Linearize, residual};
 use crate::space::Sink;
-use crate::space::sink::Scaled;
 use crate::state::Statistics;
 use crate::{ProperlyDegenerate, Real, System, Vector, Weights};
 
@@ -125,7 +124,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for Equations<'_, S, T> {
             let row = |row: usize| weight * if is_x(system, row) { one - c } else { half };
             let column = |column: usize| if is_x(system, column) { c } else { one };
             let mut add = |w: Weights<T>, factor: &dyn Fn(usize, usize) -> T| {
-                let mut scaled = Scaled { sink: &mut *sink, factor };
+                let mut scaled = |i: usize, j: usize, entry: T| sink.add(i, j, factor(i, j) * entry);
                 system.linearize(point, velocity, time, w, gradient, one_form, &mut scaled);
             };
             // L_qv is in columns of x alone, and L_vq in rows of x. At either end of the step one of both has

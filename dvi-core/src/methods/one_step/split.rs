@@ -3,7 +3,6 @@
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::solve::{Course, Judge, Linearize, Stopping, residual, solve_by_newton};
-use crate::space::sink::Places;
 use crate::space::{LinearEquations, LinearSolver, Sink, elimination, linear};
 use crate::state::Statistics;
 use crate::{Matrix, ProperlyDegenerate, Real, Space, System, Vector};
@@ -115,11 +114,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> LinearSolver<T> for ByHalves<'_, S, T> {
         // Each row has one entry.
         let Self { system, work: [entries, _], names, .. } = self;
         entries.fill(T::lift(-0.0));
-        let in_row = Places(|row: usize, column: usize, entry: T| {
+        let in_row = |row: usize, column: usize, entry: T| {
             if !is_x(*system, column) {
                 entries[row] += entry;
             }
-        });
+        };
         equations.evaluate(x, &mut { in_row })?;
         for i in (0..x.len()).filter(|&i| is_x(*system, i)) {
             let (y, pivot) = (system.conjugate(i), entries[i]);
@@ -144,11 +143,11 @@ impl<S: ProperlyDegenerate<T>, T: Real> ByHalves<'_, S, T> {
         let (half, weights, x) = (n / 2, &weights[..n], &mut x[..n]);
         let (block, change) = (&mut block[..half * half], &mut change[..half]);
         block.fill(T::lift(0.0));
-        let mut places = Places(|row: usize, column: usize, entry: T| {
+        let mut places = |row: usize, column: usize, entry: T| {
             if let Some(column) = system.place(column).checked_sub(half) {
                 block[system.place(row) * half + column] += entry;
             }
-        });
+        };
         equations.evaluate(x, &mut places)?;
         // A row has the unit of the action over that of its x.
         let (scales, of_rows) = scales.split_at_mut(half);

@@ -6,7 +6,6 @@ use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::solve::{Course, Judge, Stopping, solve_by_newton};
 use crate::space::Storing;
-use crate::space::sink::Product;
 use crate::state::Statistics;
 use crate::{Linear, ProperlyDegenerate, Real, Space, System, Vector};
 
@@ -95,7 +94,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
             let r = one_form[i] - momentum[i] - half * gradient[i];
             rest[i] = if is_moved { r } else { T::lift(0.0) };
         }
-        let mut product = Product { x: d, sum: rest };
+        let mut product = |i: usize, j: usize, entry: T| rest[i] += entry * d[j];
         system.one_form_jacobian(point, centre, T::lift(-1.0), T::lift(0.0), &mut product);
         for i in (0..momentum.len()).filter(|&i| is_x(system, i)) {
             momentum[i] += T::lift(2.0) * (half * gradient[i] + rest[i]);

@@ -4,7 +4,6 @@
 
 use crate::error::StepFailure;
 use crate::solve::CoupledEquations;
-use crate::space::sink::Product;
 use crate::space::{NodeSum, Sink};
 use crate::state::Statistics;
 use crate::{DegenerateLagrangian, Real, System, Vector, Weights};
@@ -80,7 +79,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> CoupledEquations<NODES, S, T> for Step
         }
         for (row, factor, point, time) in [(&mut *r1, one, *q, *t), (&mut *r2, -one, &**end, after)] {
             // Dα(q)ᵀλ
-            let mut product = Product { x: lambda, sum: row };
+            let mut product = |i: usize, j: usize, entry: T| row[i] += entry * lambda[j];
             system.one_form_jacobian(point, time, zero, factor, &mut product);
         }
         system.one_form(end, after, one_form);

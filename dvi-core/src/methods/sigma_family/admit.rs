@@ -4,7 +4,6 @@ use super::{Sigma, Start};
 use crate::error::StartError;
 use crate::mechanics::VectorField;
 use crate::scalar::norm;
-use crate::space::sink::Places;
 use crate::state::summation::Summation;
 use crate::system::spinors;
 use crate::{DegenerateLagrangian, Real, Scalar, Space, Vector};
@@ -51,9 +50,9 @@ impl<T: Real> Sigma<T> {
             return Ok(());
         }
         let (zero, mut sizes): (T, Vector<S, T>) = (T::lift(0.0), system.space().vector());
-        let mut sink = Places(|row: usize, _: usize, entry: T| {
+        let mut sink = |row: usize, _: usize, entry: T| {
             sizes[row] = norm::larger(sizes[row], Scalar::abs(entry));
-        });
+        };
         system.one_form_jacobian(q, t, T::lift(1.0), zero, &mut sink);
         if sizes.contains(&zero) {
             // Where Ω is singular too, none of these helps.

@@ -13,7 +13,7 @@ use crate::error::{StartError, StepFailure};
 use crate::methods::step::{Begin, Equations, Kinetic, Share, set_force};
 use crate::methods::{InnerScheme, VariationalMethod};
 use crate::solve::{Solver, Stopping};
-use crate::space::sink::Sink;
+use crate::space::Sink;
 use crate::state::{Statistics, Summation};
 use crate::{NondegenerateLagrangian, Real, System};
 

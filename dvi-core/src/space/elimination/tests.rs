@@ -3,17 +3,13 @@
 use super::{eliminate, eliminate_two, factor, factor_with_care, multiply_add, solve};
 use crate::error::StepFailure;
 use crate::space::linear::set_scales;
+use crate::space::numbers;
 use alloc::{vec, vec::Vec};
 use nalgebra::{DMatrix, DVector};
 
-/// Entries in (−1, 1) from a linear congruential generator.
-fn entries(count: usize, seed: u64) -> alloc::vec::Vec<f64> {
-    let mut state = seed;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..count).map(|_| next()).collect()
+/// So many entries in (−1, 1).
+fn entries(count: usize, seed: u64) -> Vec<f64> {
+    core::iter::repeat_with(numbers(seed)).take(count).collect()
 }
 
 #[test]
@@ -27,7 +23,7 @@ fn solutions_agree_with_nalgebra() {
             let Some(expected) = expected else { panic!("nalgebra found no solution") };
             let condition = reference.clone().svd(false, false);
             let condition = condition.singular_values.max() / condition.singular_values.min();
-            let (mut factors, mut permutation, mut x) = (matrix.clone(), alloc::vec![0; n], rhs.clone());
+            let (mut factors, mut permutation, mut x) = (matrix.clone(), vec![0; n], rhs.clone());
             assert_eq!(factor(&mut factors, &mut permutation), Ok(()));
             solve(&factors, &permutation, &mut x);
             let (mut consumed, mut y) = (matrix, rhs);
@@ -103,8 +99,8 @@ fn products_agree_with_nalgebra() {
     let (matrix, x) = (entries(25, 3), entries(5, 4));
     let (a, v) = (DMatrix::from_row_slice(5, 5, &matrix), DVector::from_column_slice(&x));
     let mut direct = [0.5; 5];
-    multiply_add(&matrix, &x, &mut direct);
-    assert!((DVector::from_column_slice(&direct) - (&a * &v).add_scalar(0.5)).amax() < 1e-15);
+    multiply_add(&matrix, 2.0, &x, &mut direct);
+    assert!((DVector::from_column_slice(&direct) - (&a * &v * 2.0).add_scalar(0.5)).amax() < 1e-15);
 }
 
 #[test]
@@ -137,17 +133,16 @@ fn ranks_are_found_in_any_units() {
         let rank = n - seed as usize / 5 % 2;
         // Bᵀ S B with rank rows and signs S, in units of powers of two.
         let (b, signs) = (entries(rank * n, seed), entries(rank, seed + 5000));
-        let units: alloc::vec::Vec<f64> =
-            entries(n, seed + 9000).iter().map(|u| (u * 300.0).round().exp2()).collect();
-        let mut matrix = alloc::vec![0.0; n * n];
+        let units: Vec<f64> = entries(n, seed + 9000).iter().map(|u| (u * 300.0).round().exp2()).collect();
+        let mut matrix = vec![0.0; n * n];
         for (i, row) in matrix.chunks_exact_mut(n).enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
                 let terms = (0..rank).map(|r| b[r * n + i] * b[r * n + j] * signs[r].signum());
                 *entry = terms.sum::<f64>() * units[i] * units[j];
             }
         }
-        let (mut x, mut y) = (alloc::vec![0.0; n], alloc::vec![0.0; n]);
-        let found = factor_with_care(&mut matrix, &mut alloc::vec![0; n], [&mut x, &mut y]);
+        let (mut x, mut y) = (vec![0.0; n], vec![0.0; n]);
+        let found = factor_with_care(&mut matrix, &mut vec![0; n], [&mut x, &mut y]);
         let deficient = n - rank;
         kinds[deficient] += 1;
         wrong[deficient] += usize::from(found.is_ok() == (deficient == 1));

@@ -86,18 +86,14 @@ fn transpose<T>(matrix: &mut [T], n: usize) {
 #[cfg(test)]
 mod tests {
     use super::eliminate;
+    use crate::space::numbers;
     use alloc::vec::Vec;
     use nalgebra::{DMatrix, DVector};
 
     #[test]
     fn solutions_agree_with_nalgebra() {
         for n in 1..=4 {
-            let mut state = n as u64;
-            let mut entry = || {
-                state =
-                    state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-            };
+            let mut entry = numbers(n as u64);
             let dense = DMatrix::from_fn(3 * n, 3 * n, |i, j| entry() + if i == j { 3.0 } else { 0.0 });
             let rhs = DVector::from_fn(3 * n, |_, _| entry());
             let block = |r: usize, k: usize| -> Vec<f64> {

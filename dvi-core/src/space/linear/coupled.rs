@@ -1,6 +1,5 @@
 //! Linear equations for several vectors over a space at once, as those of the interior points of a step.
 
-#[cfg(feature = "alloc")]
 use core::cell::RefCell;
 use core::fmt::Debug;
 use core::ops::{Deref, DerefMut};
@@ -13,9 +12,6 @@ use crate::RunTime;
 use crate::error::StepFailure;
 use crate::memory::Aside;
 use crate::space::Weights;
-#[cfg(feature = "alloc")]
-use crate::space::sink::Places;
-use crate::space::{Fixed, FixedMatrix, FixedVector, InPlace, Room};
 #[cfg(feature = "alloc")]
 use crate::space::{lines, lines_mut};
 use crate::{Real, Scalar, Sink, Space};
@@ -60,39 +56,28 @@ pub trait CoupledSolver<const NODES: usize, T: Real>: Debug {
     ) -> Result<(), StepFailure>;
 }
 
-/// The solver of a [`Fixed`] space: block by block.
+/// Block by block, where sizes are known when the program is compiled.
 #[derive(Debug)]
-pub struct FixedCoupled<
-    T: Clone + Debug,
-    const NODES: usize,
-    const BLOCKS: usize,
-    const N: usize,
-    const SINGLES: usize = 0,
-    R: Room = InPlace,
-> {
+pub struct Blocks<const NODES: usize, S: Space, T: Scalar> {
     /// Transposed; those before the first unknown vector are not used.
-    rows: Aside<[[FixedMatrix<T, BLOCKS, N, SINGLES, R>; NODES]; NODES]>,
+    pub(crate) rows: Aside<[[S::Matrix<T>; NODES]; NODES]>,
     /// L_qq, L_qv, L_vv and, where it is not (L_qv)ᵀ, L_vq at a node.
-    second: [FixedMatrix<T, BLOCKS, N, SINGLES, R>; 4],
-    permutation: FixedVector<usize, BLOCKS, N, SINGLES, R>,
+    pub(crate) second: [S::Matrix<T>; 4],
+    pub(crate) permutation: S::Vector<usize>,
 }
 
-impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
-    FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>
-{
-    pub(crate) fn new(space: Fixed<BLOCKS, N, SINGLES, R>) -> Self {
+impl<const NODES: usize, S: Space, T: Scalar> Blocks<NODES, S, T> {
+    pub(crate) fn new(space: S) -> Self {
         let rows: [[_; NODES]; NODES] = core::array::from_fn(|_| core::array::from_fn(|_| space.matrix()));
         Self {
             rows: rows.into(),
             second: core::array::from_fn(|_| space.matrix()),
-            permutation: space.permutation(),
+            permutation: space.array(|| 0),
         }
     }
 }
 
-impl<T: Real, const NODES: usize, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room>
-    CoupledSolver<NODES, T> for FixedCoupled<T, NODES, BLOCKS, N, SINGLES, R>
-{
+impl<const NODES: usize, S: Space, T: Real> CoupledSolver<NODES, T> for Blocks<NODES, S, T> {
     fn solve<M: NodeSum<NODES, T>, V: DerefMut<Target = [T]>>(
         &mut self,
         matrix: &mut M,
@@ -151,17 +136,53 @@ fn add_transposed<T: Scalar, D: Deref<Target = [T]>, M: NodeSum<NODES, T>, const
     }
 }
 
+/// Gives the entries of the matrix to `add`, part by part: the equation and the unknown vector of the block, the
+/// row and the column in it.
+pub(crate) fn entries<const NODES: usize, T: Real, M: NodeSum<NODES, T>>(
+    matrix: &mut M,
+    add: impl FnMut([usize; 2], [usize; 2], T),
+) {
+    // Several sinks pass on to it, one at a time.
+    let add = RefCell::new(add);
+    for node in 0..NODES {
+        matrix.place(node);
+        let weights: [[_; NODES]; NODES] =
+            core::array::from_fn(|r| core::array::from_fn(|k| matrix.weights(r, k)));
+        // Adds an entry to each block, times what is asked of its weights.
+        let add = |i: usize, j: usize, entry: T, weight: fn(&Weights<T>) -> T| {
+            for (r, row) in weights.iter().enumerate().skip(M::FIRST) {
+                for (k, w) in row.iter().enumerate().skip(M::FIRST) {
+                    add.borrow_mut()([r, k], [i, j], weight(w) * entry);
+                }
+            }
+        };
+        matrix.second_derivatives(
+            &mut |i, j, entry| add(i, j, entry, |w| w.qq),
+            &mut |i, j, entry| {
+                add(i, j, entry, |w| w.qv);
+                if M::MIXED_ARE_TRANSPOSED {
+                    add(j, i, entry, |w| w.vq);
+                }
+            },
+            &mut |i, j, entry| add(i, j, entry, |w| w.vv),
+        );
+        if !M::MIXED_ARE_TRANSPOSED {
+            matrix.momentum_by_position(&mut |i, j, entry| add(i, j, entry, |w| w.vq));
+        }
+    }
+}
+
 /// The solver of a [`RunTime`] space: one system of linear equations for all vectors.
 #[cfg(feature = "alloc")]
 #[derive(Debug)]
-pub struct RunTimeCoupled<T> {
+pub struct RunTimeCoupled<T: Real> {
     solver: RunTimeSolver<T>,
     b: alloc::vec::Vec<T>,
     x: alloc::vec::Vec<T>,
 }
 
 #[cfg(feature = "alloc")]
-impl<T: Scalar> RunTimeCoupled<T> {
+impl<T: Real> RunTimeCoupled<T> {
     /// For so many unknown vectors, and blocks that each have the entries that `entries` visits.
     pub(crate) fn new(
         space: RunTime,
@@ -171,7 +192,7 @@ impl<T: Scalar> RunTimeCoupled<T> {
     ) -> Self {
         let n = space.dimension;
         let all = RunTime { dimension: n * unknown };
-        let solver = RunTimeSolver::new(all.dimension, storing, |visit| {
+        let solver = RunTimeSolver::new(all, storing, |visit| {
             entries(&mut |i, j| {
                 for k in 0..unknown * unknown {
                     visit(k / unknown * n + i, k % unknown * n + j);
@@ -194,35 +215,9 @@ impl<const NODES: usize, T: Real, M: NodeSum<NODES, T>> LinearEquations<T> for F
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { matrix, b: given, n } = self;
         b.copy_from_slice(given);
-        // Several sinks pass on to it, one at a time.
-        let sink = RefCell::new(sink);
-        for node in 0..NODES {
-            matrix.place(node);
-            let weights: [[_; NODES]; NODES] =
-                core::array::from_fn(|r| core::array::from_fn(|k| matrix.weights(r, k)));
-            // Adds an entry to each block, times what is asked of its weights.
-            let add = |i: usize, j: usize, entry: T, weight: fn(&Weights<T>) -> T| {
-                for (r, row) in weights.iter().enumerate().skip(M::FIRST) {
-                    for (k, w) in row.iter().enumerate().skip(M::FIRST) {
-                        let (row, column) = ((r - M::FIRST) * *n + i, (k - M::FIRST) * *n + j);
-                        sink.borrow_mut().add(row, column, weight(w) * entry);
-                    }
-                }
-            };
-            matrix.second_derivatives(
-                &mut Places(|i, j, entry| add(i, j, entry, |w| w.qq)),
-                &mut Places(|i, j, entry| {
-                    add(i, j, entry, |w| w.qv);
-                    if M::MIXED_ARE_TRANSPOSED {
-                        add(j, i, entry, |w| w.vq);
-                    }
-                }),
-                &mut Places(|i, j, entry| add(i, j, entry, |w| w.vv)),
-            );
-            if !M::MIXED_ARE_TRANSPOSED {
-                matrix.momentum_by_position(&mut Places(|i, j, entry| add(i, j, entry, |w| w.vq)));
-            }
-        }
+        entries(*matrix, |[r, k], [i, j], entry| {
+            sink.add((r - M::FIRST) * *n + i, (k - M::FIRST) * *n + j, entry);
+        });
         Ok(())
     }
 }

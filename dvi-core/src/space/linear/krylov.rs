@@ -8,10 +8,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::LinearEquations;
+use super::{LinearEquations, LinearSolver, scale, set_scales};
 use crate::error::StepFailure;
 use crate::scalar::norm::{self, reported};
-use crate::space::sink::{Places, Product};
 use crate::{Real, Scalar};
 
 /// The dimension of the spaces that residuals are minimised in.
@@ -41,6 +40,8 @@ pub(super) struct Krylov<T> {
     unused: Vec<T>,
     solution: Vec<T>,
     work: [Vec<T>; 2],
+    /// The sizes of the unknowns: in units of these, unknowns and equations are about one.
+    scales: Vec<T>,
 }
 
 impl<T: Scalar> Krylov<T> {
@@ -55,17 +56,19 @@ impl<T: Scalar> Krylov<T> {
             unused: vector(),
             solution: vector(),
             work: [vector(), vector()],
+            scales: vector(),
         }
     }
 }
 
-impl<T: Real> Krylov<T> {
-    /// Sets `x` to the solution of A x = b.
-    pub(super) fn solve(
+impl<T: Real> LinearSolver<T> for Krylov<T> {
+    fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,
+        weights: &[T],
         x: &mut [T],
     ) -> Result<(), StepFailure> {
+        set_scales(&mut self.scales, weights);
         self.find_pivots(equations, x)?;
         self.solution.fill(T::lift(0.0));
         let begin = length(x);
@@ -86,9 +89,12 @@ impl<T: Real> Krylov<T> {
             let [correction, tolerance] = [left, target].map(reported);
             return Err(StepFailure::NotConverged { iterations: products, correction, tolerance });
         }
+        scale(x, &self.scales);
         Ok(())
     }
+}
 
+impl<T: Real> Krylov<T> {
     /// Sets `b`, and the preconditioner: the identity if two rows have their largest entry in one column.
     fn find_pivots(
         &mut self,
@@ -96,18 +102,20 @@ impl<T: Real> Krylov<T> {
         b: &mut [T],
     ) -> Result<(), StepFailure> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let Self { pivots, unused, work: [diagonal, taken], .. } = self;
+        let Self { pivots, unused, work: [diagonal, taken], scales, .. } = self;
         pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, zero));
         diagonal.fill(zero);
         // Beside the diagonal, the largest part of an entry has to do for the entry.
-        let mut largest = Places(|row: usize, column: usize, entry: T| {
+        let mut largest = |row: usize, column: usize, entry: T| {
+            let entry = scales[row] * scales[column] * entry;
             if row == column {
                 diagonal[row] += entry;
             } else if Scalar::abs(entry) > Scalar::abs(pivots[row].1) {
                 pivots[row] = (column, entry);
             }
-        });
+        };
         equations.evaluate(b, &mut largest)?;
+        scale(b, scales);
         norm::finite(b)?;
         taken.fill(zero);
         for (row, pivot) in pivots.iter_mut().enumerate() {
@@ -121,11 +129,11 @@ impl<T: Real> Krylov<T> {
             pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, one));
             return Ok(());
         }
-        let mut sum = Places(|row: usize, column: usize, entry: T| {
+        let mut sum = |row: usize, column: usize, entry: T| {
             if column == pivots[row].0 {
-                pivots[row].1 += entry;
+                pivots[row].1 += scales[row] * scales[column] * entry;
             }
-        });
+        };
         equations.evaluate(unused, &mut sum)?;
         let usable = pivots.iter().all(|pivot| (one / pivot.1).is_finite());
         for (row, pivot) in pivots.iter_mut().enumerate() {
@@ -150,10 +158,8 @@ impl<T: Real> Krylov<T> {
         }
         let mut size = 0;
         while size < BASIS && Scalar::abs(rhs[size]) > target {
-            self.precondition(size * n);
-            let Self { basis, columns, rotations, unused, work: [direction, product], .. } = &mut *self;
-            product.fill(T::lift(0.0));
-            equations.evaluate(unused, &mut Product { x: direction, sum: product })?;
+            self.multiply(equations, size * n)?;
+            let Self { basis, columns, rotations, work: [_, product], .. } = &mut *self;
             let column = &mut columns[size];
             for (v, entry) in basis.chunks_exact(n).zip(column.iter_mut()).take(size + 1) {
                 *entry = dot(v, product);
@@ -213,10 +219,8 @@ impl<T: Real> Krylov<T> {
                 *sum += factor * v;
             }
         }
-        self.precondition(BASIS * n);
-        let Self { solution, unused, work: [direction, product], .. } = self;
-        product.fill(T::lift(0.0));
-        equations.evaluate(unused, &mut Product { x: direction, sum: product })?;
+        self.multiply(equations, BASIS * n)?;
+        let Self { solution, work: [direction, product], .. } = self;
         for i in 0..n {
             solution[i] += direction[i];
             residual[i] -= product[i];
@@ -224,12 +228,22 @@ impl<T: Real> Krylov<T> {
         Ok(())
     }
 
-    /// Sets the direction to M⁻¹ of the vector that begins at `begin` in the basis.
-    fn precondition(&mut self, begin: usize) {
-        let Self { basis, pivots, work: [direction, _], .. } = self;
+    /// Sets the direction to M⁻¹ of the vector that begins at `begin` in the basis, with the preconditioner M,
+    /// and the product to A times that.
+    fn multiply(
+        &mut self,
+        equations: &mut impl LinearEquations<T>,
+        begin: usize,
+    ) -> Result<(), StepFailure> {
+        let Self { basis, pivots, unused, work: [direction, product], scales, .. } = self;
         for (&(column, reciprocal), &v) in pivots.iter().zip(&basis[begin..]) {
             direction[column] = reciprocal * v;
         }
+        product.fill(T::lift(0.0));
+        let mut add = |row: usize, column: usize, entry: T| {
+            product[row] += scales[row] * scales[column] * entry * direction[column];
+        };
+        equations.evaluate(unused, &mut add)
     }
 }
 
@@ -245,8 +259,9 @@ fn length<T: Real>(x: &[T]) -> T {
 mod tests {
     use super::{BASIS, Krylov};
     use crate::error::StepFailure;
-    use crate::space::linear::LinearEquations;
-    use crate::space::sink::Sink;
+    use crate::space::Sink;
+    use crate::space::linear::{LinearEquations, LinearSolver};
+    use crate::space::numbers;
     use alloc::vec;
     use alloc::vec::Vec;
     use nalgebra::{DMatrix, DVector};
@@ -268,19 +283,13 @@ mod tests {
         }
     }
 
-    /// Entries in (−1, 1) from a linear congruential generator.
     fn entries(count: usize, seed: u64) -> Vec<f64> {
-        let mut state = seed;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        };
-        (0..count).map(|_| next()).collect()
+        core::iter::repeat_with(numbers(seed)).take(count).collect()
     }
 
     fn solve(matrix: &DMatrix<f64>, b: &[f64]) -> Result<Vec<f64>, StepFailure> {
         let mut x = vec![0.0; b.len()];
-        Krylov::new(b.len()).solve(&mut Given { matrix, b }, &mut x)?;
+        Krylov::new(b.len()).solve(&mut Given { matrix, b }, &vec![1.0; b.len()], &mut x)?;
         Ok(x)
     }
 

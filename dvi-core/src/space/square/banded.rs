@@ -9,12 +9,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::SquareMatrix;
 use super::exchanges::Exchanges;
 use super::ordering::Order;
 use crate::error::StepFailure;
 use crate::scalar::norm::{is_pivot, singular};
 use crate::space::elimination::LEAST;
-use crate::space::lines_mut;
+use crate::space::{Sink, lines_mut};
 use crate::{Real, Scalar};
 
 /// A banded matrix, in an order of its own.
@@ -47,17 +48,19 @@ impl<T: Scalar> Banded<T> {
         Self { place, coordinate, exchanges, bandwidth, entries, pivots: vec![0; n], outside: None }
     }
 
-    pub(super) fn clear(&mut self) {
-        self.entries.fill(T::lift(0.0));
-        self.outside = None;
-    }
-
     /// The width of a row of storage.
     fn width(&self) -> usize {
         3 * self.bandwidth + 1
     }
 
-    pub(super) fn add(&mut self, row: usize, column: usize, entry: T) {
+    /// The places of the entries of a row of A.
+    fn columns(&self, row: usize) -> core::ops::Range<usize> {
+        row.saturating_sub(self.bandwidth)..(row + self.bandwidth + 1).min(self.place.len())
+    }
+}
+
+impl<T: Real> Sink<T> for Banded<T> {
+    fn add(&mut self, row: usize, column: usize, entry: T) {
         let (i, j) = (self.place[row] as usize, self.place[column] as usize);
         if i.abs_diff(j) > self.bandwidth {
             self.outside = Some((row, column));
@@ -66,13 +69,18 @@ impl<T: Scalar> Banded<T> {
         let at = i * self.width() + self.bandwidth + j - i;
         self.entries[at] += entry;
     }
+}
 
-    /// The places of the entries of a row of A.
-    fn columns(&self, row: usize) -> core::ops::Range<usize> {
-        row.saturating_sub(self.bandwidth)..(row + self.bandwidth + 1).min(self.place.len())
+impl<T: Real> SquareMatrix<T> for Banded<T> {
+    type Entries = Self;
+
+    fn cleared(&mut self) -> &mut Self {
+        self.entries.fill(T::lift(0.0));
+        self.outside = None;
+        self
     }
 
-    pub(super) fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
+    fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
         for (row, &i) in self.coordinate.iter().enumerate() {
             let line = &self.entries[row * self.width()..];
             let terms = self
@@ -81,17 +89,15 @@ impl<T: Scalar> Banded<T> {
             sum[i as usize] += factor * terms.fold(T::lift(0.0), |sum, term| sum + term);
         }
     }
-}
 
-impl<T: Real> Banded<T> {
-    pub(super) fn scale_rows(&mut self, scales: &[T]) {
+    fn scale_rows(&mut self, scales: &[T]) {
         let width = self.width();
         for (line, &i) in lines_mut(&mut self.entries, width).zip(&self.coordinate) {
             line.iter_mut().for_each(|entry| *entry *= scales[i as usize]);
         }
     }
 
-    pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
+    fn factor(&mut self) -> Result<(), StepFailure> {
         if let Some((row, column)) = self.outside {
             return Err(StepFailure::Pattern { row, column });
         }
@@ -144,15 +150,14 @@ impl<T: Real> Banded<T> {
         Ok(())
     }
 
-    /// Whether the determinant is positive: the order of the coordinates is that of rows and of columns and
-    /// does not count.
-    pub(super) fn is_positive(&self) -> bool {
+    /// The order of the coordinates is that of rows and of columns and does not count.
+    fn is_positive(&self) -> bool {
         let is_negative = |k: usize| self.entries[k * self.width() + self.bandwidth] < T::lift(0.0);
         let pivots = self.pivots.iter().enumerate();
         pivots.fold(true, |positive, (k, &row)| positive ^ is_negative(k) ^ (row as usize != k))
     }
 
-    pub(super) fn solve(&self, x: &mut [T]) {
+    fn solve(&self, x: &mut [T]) {
         let (n, b, width) = (self.place.len(), self.bandwidth, self.width());
         self.exchanges.apply(x);
         for k in 0..n {
@@ -169,123 +174,5 @@ impl<T: Real> Banded<T> {
             x[k] = sum / line[0];
         }
         self.exchanges.revert(x);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use alloc::vec::Vec;
-
-    use nalgebra::{DMatrix, DVector};
-
-    use super::super::run_time::RunTimeSquare;
-    use crate::RunTime;
-    use crate::error::StepFailure;
-    use crate::space::sink::Sink;
-    use crate::space::square::SquareMatrix;
-
-    /// Numbers in (−1, 1) from a linear congruential generator.
-    fn numbers(seed: u64) -> impl FnMut() -> f64 {
-        let mut state = seed;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
-    }
-
-    /// A ring of n/2 sites with two coordinates each, of reach `reach`, declared block by block or shuffled.
-    fn places(n: usize, reach: usize, shuffled: bool) -> Vec<(usize, usize)> {
-        let sites = n / 2;
-        let number = |site: usize, block: usize| {
-            let declared = block * sites + site % sites;
-            // 37 is prime to the sizes below.
-            if shuffled { declared * 37 % n } else { declared }
-        };
-        let mut places = Vec::new();
-        for site in 0..sites {
-            for other in site..=site + reach {
-                for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    places.push((number(site, a), number(other, b)));
-                    places.push((number(other, b), number(site, a)));
-                }
-            }
-        }
-        places
-    }
-
-    #[test]
-    fn solutions_agree_with_nalgebra() {
-        let mut next = numbers(7);
-        for (n, reach, shuffled) in
-            [(40, 1, false), (60, 1, true), (90, 2, true), (200, 3, false), (8, 0, true)]
-        {
-            let places = places(n, reach, shuffled);
-            let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, |visit| {
-                places.iter().for_each(|&(i, j)| visit(i, j));
-            });
-            assert!(matrix.is_banded(), "{n} {reach} {shuffled}");
-            let mut reference = DMatrix::zeros(n, n);
-            matrix.cleared();
-            for &(i, j) in &places {
-                // Small diagonals, so that rows are exchanged.
-                let entry = if i == j { 1e-3 * next() } else { next() };
-                matrix.add(i, j, entry);
-                reference[(i, j)] += entry;
-            }
-            let x: Vec<f64> = (0..n).map(|_| next()).collect();
-            let mut product = Vec::from_iter((0..n).map(|_| 0.5));
-            matrix.multiply_add(2.0, &x, &mut product);
-            let expected: DVector<f64> = &reference * DVector::from_column_slice(&x) * 2.0;
-            let difference = DVector::from_column_slice(&product) - expected.add_scalar(0.5);
-            assert!(difference.amax() < 1e-13);
-            let Some(expected) = reference.clone().lu().solve(&DVector::from_column_slice(&x)) else {
-                panic!("nalgebra found no solution")
-            };
-            let mut found = x.clone();
-            assert_eq!(matrix.eliminate(&mut [], &mut found), Ok(()));
-            let condition = reference.singular_values().max() / reference.singular_values().min();
-            let error = (DVector::from_column_slice(&found) - &expected).amax() / expected.amax();
-            assert!(error < 1e-14 * condition, "{n} {reach} {shuffled}: {error:e} of {condition:e}");
-        }
-    }
-
-    #[test]
-    fn a_singular_matrix_names_a_coordinate_that_it_leaves_free() {
-        let n = 30;
-        let chain =
-            |visit: &mut dyn FnMut(usize, usize)| (1..n).for_each(|i| visit(i * 7 % n, (i - 1) * 7 % n));
-        let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, chain);
-        assert!(matrix.is_banded());
-        matrix.cleared();
-        (0..n).filter(|&i| i != 12).for_each(|i| matrix.add(i, i, 2.0));
-        let failure = matrix.eliminate(&mut [], &mut alloc::vec![1.0; n]);
-        assert_eq!(failure, Err(crate::scalar::norm::singular(0.0, 12)));
-    }
-
-    #[test]
-    fn full_matrices_are_dense() {
-        for n in [4, 50, 300] {
-            let all = |visit: &mut dyn FnMut(usize, usize)| {
-                for i in 0..n {
-                    (0..n).for_each(|j| visit(i, j));
-                }
-            };
-            let matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, all);
-            assert!(!matrix.is_banded());
-        }
-    }
-
-    #[test]
-    fn an_entry_outside_of_the_pattern_is_an_error() {
-        let n = 30;
-        let diagonal = |visit: &mut dyn FnMut(usize, usize)| (0..n).for_each(|i| visit(i, i));
-        let mut matrix: RunTimeSquare<f64> = RunTimeSquare::new(RunTime { dimension: n }, diagonal);
-        (0..n).for_each(|i| matrix.add(i, i, 1.0));
-        matrix.add(3, 4, 1.0);
-        let failure = matrix.eliminate(&mut [], &mut alloc::vec![1.0; n]);
-        assert_eq!(failure, Err(StepFailure::Pattern { row: 3, column: 4 }));
-        matrix.cleared();
-        (0..n).for_each(|i| matrix.add(i, i, 1.0));
-        assert_eq!(matrix.eliminate(&mut [], &mut alloc::vec![1.0; n]), Ok(()));
     }
 }

@@ -17,22 +17,19 @@ use core::ops::Range;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fronts {
     pub(super) fronts: Vec<Front>,
-    /// The columns of all fronts, one front after the other: first those that it eliminates.
-    columns: Vec<u32>,
-    /// The rows of A that each front begins with, one front after the other.
-    own: Vec<u32>,
-    /// Whose rows each front takes over, one front after the other.
-    children: Vec<u32>,
 }
 
 /// What is eliminated together, and where what belongs to it stands in lists that all fronts share.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Front {
-    columns: Range<usize>,
+    /// First those that it eliminates.
+    pub(super) columns: Vec<u32>,
     /// How many of its columns it eliminates.
     pub(super) pivots: usize,
-    own: Range<usize>,
-    children: Range<usize>,
+    /// The rows of A that it begins with.
+    pub(super) own: Vec<u32>,
+    /// The fronts whose rows it takes over.
+    children: Vec<u32>,
     /// Its rows, those that it takes over among them.
     pub(super) rows: Range<usize>,
     /// The numbers that solve with it.
@@ -79,19 +76,9 @@ impl Fronts {
         Some(elimination.in_order())
     }
 
-    /// The columns of a front: first those that it eliminates.
-    pub(super) fn columns(&self, front: &Front) -> &[u32] {
-        &self.columns[front.columns.clone()]
-    }
-
-    /// The rows of A that a front begins with.
-    pub(super) fn own(&self, front: &Front) -> &[u32] {
-        &self.own[front.own.clone()]
-    }
-
     /// The fronts whose rows a front takes over.
     pub(super) fn children(&self, front: &Front) -> impl Iterator<Item = &Front> {
-        self.children[front.children.clone()].iter().map(|&child| &self.fronts[child as usize])
+        front.children.iter().map(|&child| &self.fronts[child as usize])
     }
 
     /// How many rows all fronts have together.
@@ -125,27 +112,17 @@ impl Fronts {
     }
 
     /// Appends a front after those whose rows it takes over. `place` tells where each has got to.
-    fn push(&mut self, found: Found, place: &[u32]) {
-        let Found { columns, pivots, rows, own, children } = found;
-        let mut children = children.into_iter().map(|child| place[child as usize]).peekable();
+    fn push(&mut self, mut front: Front, place: &[u32]) {
+        front.children.iter_mut().for_each(|child| *child = place[*child as usize]);
         let [rows_before, factors_before] = [self.rows(), self.factors()];
-        let lists = [self.columns.len(), self.own.len(), self.children.len()];
         // Rows that wait are on top of those of fronts that this one does not take over.
         let top = self.fronts.last().map_or(0, |front| front.waiting.end);
-        let waiting = children.peek().map_or(top, |&child| self.fronts[child as usize].waiting.start);
-        let (left, width) = (rows - pivots, columns.len());
-        self.columns.extend(columns);
-        self.own.extend(own);
-        self.children.extend(children);
-        self.fronts.push(Front {
-            columns: lists[0]..self.columns.len(),
-            pivots,
-            own: lists[1]..self.own.len(),
-            children: lists[2]..self.children.len(),
-            rows: rows_before..rows_before + rows,
-            factors: factors_before..factors_before + pivots * (width + left),
-            waiting: waiting..waiting + left * (width - pivots),
-        });
+        let waiting = self.children(&front).next().map_or(top, |child| child.waiting.start);
+        let (rows, width, pivots) = (front.rows.len(), front.width(), front.pivots);
+        front.rows = rows_before..rows_before + rows;
+        front.factors = factors_before..factors_before + pivots * (width + rows - pivots);
+        front.waiting = waiting..waiting + (rows - pivots) * (width - pivots);
+        self.fronts.push(front);
     }
 }
 
@@ -155,7 +132,8 @@ const LOOKS: u64 = 4096;
 
 /// A matrix whose columns are being eliminated.
 struct Elimination {
-    /// Sets of rows that have entries in the same columns.
+    /// Sets of rows that have entries in the same columns: the rows of A one by one, then those that each front
+    /// hands on.
     sets: Vec<Rows>,
     /// The sets that have entries in each column.
     sets_of: Vec<Vec<u32>>,
@@ -166,7 +144,8 @@ struct Elimination {
     seen: Vec<u64>,
     searches: u64,
     looks: u64,
-    fronts: Vec<Found>,
+    /// In the order in which they were found, with as many rows.
+    fronts: Vec<Front>,
 }
 
 /// Rows that have entries in the same columns.
@@ -175,23 +154,6 @@ struct Rows {
     columns: Vec<u32>,
     /// How many rows.
     count: usize,
-    from: Source,
-}
-
-#[derive(Clone, Copy)]
-enum Source {
-    Row(u32),
-    Front(u32),
-}
-
-/// A front, in the order in which it was found.
-#[derive(Default)]
-struct Found {
-    columns: Vec<u32>,
-    pivots: usize,
-    rows: usize,
-    own: Vec<u32>,
-    children: Vec<u32>,
 }
 
 impl Elimination {
@@ -200,7 +162,7 @@ impl Elimination {
         let mut sets_of = vec![Vec::new(); n];
         let set = |(row, columns): (usize, Vec<u32>)| {
             columns.iter().for_each(|&column| sets_of[column as usize].push(row as u32));
-            Rows { columns, count: 1, from: Source::Row(row as u32) }
+            Rows { columns, count: 1 }
         };
         let sets = rows.into_iter().enumerate().map(set).collect();
         let mut elimination = Self {
@@ -249,15 +211,15 @@ impl Elimination {
     fn eliminate(&mut self, column: u32) -> usize {
         let mut columns = self.reach(column);
         columns.sort_unstable();
-        let (front, set) = (self.fronts.len() as u32, self.sets.len() as u32);
+        let (n, set) = (self.sets_of.len(), self.sets.len() as u32);
         let (mut rows, mut own, mut children) = (0, Vec::new(), Vec::new());
         for set in mem::take(&mut self.sets_of[column as usize]) {
-            let Rows { columns, count, from } = &mut self.sets[set as usize];
+            let Rows { columns, count } = &mut self.sets[set as usize];
             *columns = Vec::new();
             rows += *count;
-            match *from {
-                Source::Row(row) => own.push(row),
-                Source::Front(child) => children.push(child),
+            match (set as usize).checked_sub(n) {
+                None => own.push(set),
+                Some(child) => children.push(child as u32),
             }
         }
         let sets = &self.sets;
@@ -270,16 +232,14 @@ impl Elimination {
         let pivots = columns.len();
         columns.extend(&left);
         let numbers = pivots * (columns.len() + rows - pivots);
-        self.fronts.push(Found { columns, pivots, rows, own, children });
-        if !left.is_empty() {
-            left.iter().for_each(|&other| self.sets_of[other as usize].push(set));
-            self.sets.push(Rows { columns: left.clone(), count: rows - pivots, from: Source::Front(front) });
-            for other in left {
-                if self.takes_too_long() {
-                    break;
-                }
-                self.place(other);
+        self.fronts.push(Front { columns, pivots, own, children, rows: 0..rows, ..Front::default() });
+        left.iter().for_each(|&other| self.sets_of[other as usize].push(set));
+        self.sets.push(Rows { columns: left.clone(), count: rows - pivots });
+        for other in left {
+            if self.takes_too_long() {
+                break;
             }
+            self.place(other);
         }
         numbers
     }

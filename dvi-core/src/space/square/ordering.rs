@@ -63,20 +63,20 @@ impl Pattern {
     /// counts as full.
     pub(super) fn rows(&mut self) -> Option<Vec<Vec<u32>>> {
         self.tidy();
+        if self.is_full {
+            return None;
+        }
         let mut rows: Vec<Vec<u32>> = (0..self.dimension as u32).map(|i| vec![i]).collect();
         self.places.iter().for_each(|&(i, j)| rows[i as usize].push(j));
         rows.iter_mut().for_each(|row| row.sort_unstable());
-        (!self.is_full).then_some(rows)
+        Some(rows)
     }
 
     /// The order in which the matrix is banded, if that takes at most half of the storage of a full one.
     pub(super) fn banded(&mut self) -> Option<Order> {
-        self.tidy();
-        if self.is_full {
-            return None;
-        }
+        let rows = self.rows()?;
         let declared: Vec<u32> = (0..self.dimension as u32).collect();
-        let [declared, found] = [declared, self.cuthill_mckee()].map(|place| {
+        let [declared, found] = [declared, cuthill_mckee(&rows)].map(|place| {
             let distance = |&(i, j): &(u32, u32)| place[i as usize].abs_diff(place[j as usize]) as usize;
             let bandwidth = self.places.iter().map(distance).max().unwrap_or(0);
             Order { place, bandwidth }
@@ -84,62 +84,52 @@ impl Pattern {
         let best = if found.bandwidth < declared.bandwidth { found } else { declared };
         (2 * best.width() <= self.dimension).then_some(best)
     }
+}
 
-    /// The reversed order of Cuthill & McKee: breadth first from an end of each connected part, neighbours
-    /// of few neighbours first.
-    fn cuthill_mckee(&self) -> Vec<u32> {
-        let n = self.dimension;
-        let mut begins = vec![0_usize; n + 1];
-        for &(i, _) in &self.places {
-            begins[i as usize + 1] += 1;
-        }
-        for i in 0..n {
-            begins[i + 1] += begins[i];
-        }
-        let degree = |i: u32| begins[i as usize + 1] - begins[i as usize];
-        let neighbours =
-            |i: u32| self.places[begins[i as usize]..begins[i as usize + 1]].iter().map(|&(_, j)| j);
-        let mut visited = vec![false; n];
-        let mut order: Vec<u32> = Vec::with_capacity(n);
-        // Appends what is connected to `start`, and returns the last of it, which is as far away as any.
-        let mut walk = |start: u32, order: &mut Vec<u32>| {
-            let begin = order.len();
-            let mut next = begin;
-            order.push(start);
-            visited[start as usize] = true;
-            while let Some(&i) = order.get(next) {
-                let first = order.len();
-                for j in neighbours(i) {
-                    if !visited[j as usize] {
-                        visited[j as usize] = true;
-                        order.push(j);
-                    }
+/// The reversed order of Cuthill & McKee, of a matrix whose rows have entries in these columns: breadth first
+/// from an end of each connected part, neighbours of few neighbours first.
+fn cuthill_mckee(rows: &[Vec<u32>]) -> Vec<u32> {
+    let n = rows.len();
+    let mut visited = vec![false; n];
+    let mut order: Vec<u32> = Vec::with_capacity(n);
+    // Appends what is connected to `start`, and returns the last of it, which is as far away as any.
+    let mut walk = |start: u32, order: &mut Vec<u32>| {
+        let begin = order.len();
+        let mut next = begin;
+        order.push(start);
+        visited[start as usize] = true;
+        while let Some(&i) = order.get(next) {
+            let first = order.len();
+            for &j in &rows[i as usize] {
+                if !visited[j as usize] {
+                    visited[j as usize] = true;
+                    order.push(j);
                 }
-                order[first..].sort_by_key(|&j| degree(j));
-                next += 1;
             }
-            order[begin..].iter().for_each(|&i| visited[i as usize] = false);
-            order[order.len() - 1]
-        };
-        let mut placed = vec![false; n];
-        for start in 0..n as u32 {
-            if placed[start as usize] {
-                continue;
-            }
-            let begin = order.len();
-            let mut end = start;
-            // From its far end, twice, is from about its outermost point.
-            for _ in 0..2 {
-                end = walk(end, &mut order);
-                order.truncate(begin);
-            }
-            walk(end, &mut order);
-            order[begin..].iter().for_each(|&i| placed[i as usize] = true);
+            order[first..].sort_by_key(|&j| rows[j as usize].len());
+            next += 1;
         }
-        let mut place = vec![0_u32; n];
-        for (at, &i) in order.iter().rev().enumerate() {
-            place[i as usize] = at as u32;
+        order[begin..].iter().for_each(|&i| visited[i as usize] = false);
+        order[order.len() - 1]
+    };
+    let mut placed = vec![false; n];
+    for start in 0..n as u32 {
+        if placed[start as usize] {
+            continue;
         }
-        place
+        let begin = order.len();
+        let mut end = start;
+        // From its far end, twice, is from about its outermost point.
+        for _ in 0..2 {
+            end = walk(end, &mut order);
+            order.truncate(begin);
+        }
+        walk(end, &mut order);
+        order[begin..].iter().for_each(|&i| placed[i as usize] = true);
     }
+    let mut place = vec![0_u32; n];
+    for (at, &i) in order.iter().rev().enumerate() {
+        place[i as usize] = at as u32;
+    }
+    place
 }

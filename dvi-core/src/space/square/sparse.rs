@@ -11,32 +11,23 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::SquareMatrix;
 use super::exchanges::Exchanges;
 use super::fronts::{Front, Fronts};
 use crate::error::StepFailure;
 use crate::scalar::norm::{is_pivot, larger, singular};
+use crate::space::Sink;
 use crate::space::elimination::LEAST;
+use crate::space::rows::{RowMatrix, SparseRows};
 use crate::{Real, Scalar};
 
 /// A sparse matrix.
 #[derive(Clone, Debug)]
 pub(super) struct Sparse<T> {
-    entries: Entries<T>,
+    entries: SparseRows<T>,
     order: Fronts,
     factors: Factors<T>,
     work: Work<T>,
-}
-
-/// A, row by row.
-#[derive(Clone, Debug)]
-struct Entries<T> {
-    /// Where each row begins, and where the last ends.
-    begins: Vec<usize>,
-    /// The columns of the entries, ascending in a row.
-    columns: Vec<u32>,
-    values: Vec<T>,
-    /// Row and column of an entry that was added outside of the pattern.
-    outside: Option<(usize, usize)>,
 }
 
 /// What is left of A when it is factored.
@@ -72,14 +63,9 @@ impl<T: Scalar> Sparse<T> {
     /// Of a matrix whose rows have entries in these columns, ascending, and that has these fronts.
     pub(super) fn new(rows: &[Vec<u32>], order: Fronts) -> Self {
         let n = rows.len();
-        let mut begins = vec![0; n + 1];
-        for (i, row) in rows.iter().enumerate() {
-            begins[i + 1] = begins[i] + row.len();
-        }
-        let columns = rows.concat();
         let zeros = |count: usize| vec![T::lift(0.0); count];
         Self {
-            entries: Entries { begins, values: zeros(columns.len()), columns, outside: None },
+            entries: SparseRows::with_columns(rows),
             factors: Factors {
                 numbers: zeros(order.factors()),
                 rows: vec![0; order.rows()],
@@ -96,48 +82,32 @@ impl<T: Scalar> Sparse<T> {
             order,
         }
     }
+}
 
-    pub(super) fn clear(&mut self) {
-        self.entries.values.fill(T::lift(0.0));
-        self.entries.outside = None;
-    }
-
+impl<T: Real> Sink<T> for Sparse<T> {
     #[inline]
-    pub(super) fn add(&mut self, row: usize, column: usize, entry: T) {
-        let Entries { begins, columns, values, outside } = &mut self.entries;
-        let (from, to) = (begins[row], begins[row + 1]);
-        match columns[from..to].binary_search(&(column as u32)) {
-            Ok(at) => values[from + at] += entry,
-            Err(_) => *outside = Some((row, column)),
-        }
-    }
-
-    pub(super) fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
-        for (row, sum) in sum.iter_mut().enumerate() {
-            let terms = self.entries.row(row).map(|(column, a)| a * x[column]);
-            *sum += factor * terms.fold(T::lift(0.0), |sum, term| sum + term);
-        }
+    fn add(&mut self, row: usize, column: usize, entry: T) {
+        self.entries.add(row, column, entry);
     }
 }
 
-impl<T: Scalar> Entries<T> {
-    /// The columns and values of a row.
-    fn row(&self, row: usize) -> impl Iterator<Item = (usize, T)> {
-        let (from, to) = (self.begins[row], self.begins[row + 1]);
-        let columns = self.columns[from..to].iter().map(|&column| column as usize);
-        columns.zip(self.values[from..to].iter().copied())
-    }
-}
+impl<T: Real> SquareMatrix<T> for Sparse<T> {
+    type Entries = Self;
 
-impl<T: Real> Sparse<T> {
-    pub(super) fn scale_rows(&mut self, scales: &[T]) {
-        let Entries { begins, values, .. } = &mut self.entries;
-        for (row, &scale) in scales.iter().enumerate() {
-            values[begins[row]..begins[row + 1]].iter_mut().for_each(|value| *value *= scale);
-        }
+    fn cleared(&mut self) -> &mut Self {
+        self.entries.clear();
+        self
     }
 
-    pub(super) fn factor(&mut self) -> Result<(), StepFailure> {
+    fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
+        sum.iter_mut().enumerate().for_each(|(row, sum)| *sum += factor * self.entries.times(row, x));
+    }
+
+    fn scale_rows(&mut self, scales: &[T]) {
+        scales.iter().enumerate().for_each(|(row, &scale)| self.entries.scale(row, scale));
+    }
+
+    fn factor(&mut self) -> Result<(), StepFailure> {
         let Self { entries, order, factors, work } = self;
         if let Some((row, column)) = entries.outside {
             return Err(StepFailure::Pattern { row, column });
@@ -147,9 +117,9 @@ impl<T: Real> Sparse<T> {
         for front in &order.fronts {
             work.assemble(entries, order, front, &mut factors.rows);
             let rows = &mut factors.rows[front.rows.clone()];
-            factors.is_positive ^= work.eliminate(order.columns(front), front.pivots, rows)?;
+            factors.is_positive ^= work.eliminate(&front.columns, front.pivots, rows)?;
             work.hand_on(front, &mut factors.numbers[front.factors.clone()]);
-            for (&column, &row) in order.columns(front)[..front.pivots].iter().zip(&*rows) {
+            for (&column, &row) in front.columns[..front.pivots].iter().zip(&*rows) {
                 factors.pivot[column as usize] = row;
             }
         }
@@ -157,12 +127,11 @@ impl<T: Real> Sparse<T> {
         Ok(())
     }
 
-    /// Whether the determinant is positive.
-    pub(super) fn is_positive(&self) -> bool {
+    fn is_positive(&self) -> bool {
         self.factors.is_positive ^ self.factors.exchanges.is_odd()
     }
 
-    pub(super) fn solve(&self, x: &mut [T]) {
+    fn solve(&self, x: &mut [T]) {
         let Factors { numbers, rows, pivot, exchanges, .. } = &self.factors;
         for front in &self.order.fronts {
             let (pivots, rows) = (front.pivots, &rows[front.rows.clone()]);
@@ -176,7 +145,7 @@ impl<T: Real> Sparse<T> {
         }
         for front in self.order.fronts.iter().rev() {
             let upper = &numbers[front.factors.clone()][..front.pivots * front.width()];
-            let columns = self.order.columns(front);
+            let columns = &front.columns;
             for (k, line) in upper.chunks_exact(front.width()).enumerate().rev() {
                 let right = line[k + 1..].iter().zip(&columns[k + 1..]);
                 let row = pivot[columns[k] as usize] as usize;
@@ -198,16 +167,16 @@ fn take_off<T: Real>(factors: &[T], of: &[u32], row: u32, x: &mut [T]) {
 impl<T: Real> Work<T> {
     /// Puts a front together, of the rows that wait for it and those of A that begin there, and lists which
     /// these are.
-    fn assemble(&mut self, entries: &Entries<T>, order: &Fronts, front: &Front, rows: &mut [u32]) {
+    fn assemble(&mut self, entries: &SparseRows<T>, order: &Fronts, front: &Front, rows: &mut [u32]) {
         let width = front.width();
         let table = &mut self.front[..front.rows.len() * width];
         table.fill(T::lift(0.0));
-        for (place, &column) in order.columns(front).iter().enumerate() {
+        for (place, &column) in front.columns.iter().enumerate() {
             self.place[column as usize] = place as u32;
         }
         let mut lines = table.chunks_exact_mut(width).zip(front.rows.clone());
         for child in order.children(front) {
-            let columns = &order.columns(child)[child.pivots..];
+            let columns = &child.columns[child.pivots..];
             let from = self.waiting[child.waiting.clone()].chunks_exact(child.width_left());
             for ((from, row), (line, at)) in from.zip(child.rows_left()).zip(&mut lines) {
                 rows[at] = rows[row];
@@ -216,11 +185,9 @@ impl<T: Real> Work<T> {
                 }
             }
         }
-        for (&row, (line, at)) in order.own(front).iter().zip(&mut lines) {
+        for (&row, (line, at)) in front.own.iter().zip(&mut lines) {
             rows[at] = row;
-            for (column, value) in entries.row(row as usize) {
-                line[self.place[column] as usize] = value;
-            }
+            entries.row(row as usize, |column, value| line[self.place[column] as usize] = value);
         }
     }
 
@@ -291,6 +258,3 @@ fn subtracted<T: Real>(table: &[T], width: usize, row: usize, column: usize) -> 
     let terms = (0..column).map(|j| Scalar::abs(table[row * width + j] * table[j * width + column]));
     terms.fold(T::lift(LEAST), |sum, term| sum + term)
 }
-
-#[cfg(test)]
-mod tests;

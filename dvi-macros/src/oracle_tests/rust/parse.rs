@@ -354,9 +354,8 @@ fn called(path: &[String], arguments: Vec<Code>) -> Code {
         [.., "__private", "all"] => *next(),
         [.., "__private", "load"] => Code::Index(next(), next()),
         [.., "__private", "parameters"] => Code::Call(Callee::Number, vec![Code::Index(next(), next())]),
-        [.., "__private", add @ ("add_to" | "subtract_from")] => {
-            let operator = if *add == "add_to" { plus() } else { minus() };
-            Code::Assign(Some(operator), Box::new(Code::Index(next(), next())), next())
+        [.., "__private", "add_to"] => {
+            Code::Assign(Some(plus()), Box::new(Code::Index(next(), next())), next())
         }
         [.., "Sums", "empty"] => Code::Value(Value::Real(-0.0)),
         [.., "__private", "widest"] => {

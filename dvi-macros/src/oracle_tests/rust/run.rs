@@ -357,11 +357,10 @@ impl Machine<'_> {
                 waiting.push(arguments[0].real());
                 Ok(Value::Real(waiting.remove(0)))
             }
-            (Value::View { array, .. }, "add_to" | "subtract_from") => {
-                let sign = if name == "add_to" { 1.0 } else { -1.0 };
+            (Value::View { array, .. }, "add_to") => {
                 for (place, term) in self.arrays[*array].clone().into_iter().enumerate() {
                     let index = Value::Integer(arguments[1].integer() + place as i128, Kind::Usize);
-                    let sum = self.indexed(&arguments[0], &index)?.real() + sign * term;
+                    let sum = self.indexed(&arguments[0], &index)?.real() + term;
                     self.assign_entry(&arguments[0], &index, sum)?;
                 }
                 Ok(Value::Unit)

@@ -9,7 +9,6 @@ use crate::mechanics::mass::Mass;
 use crate::scalar::passes::kick;
 use crate::solve::{Course, Due, Iteration, Judge, Quick, Stopping, repeat, sizes};
 use crate::space::SquareMatrix;
-use crate::space::sink::Places;
 use crate::state::Statistics;
 use crate::{ConstrainedSystem, Real, Scalar};
 
@@ -111,7 +110,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
             }
         } else {
             mass.solve(p, v);
-            S::Kind::of_velocity(system, q, v, t, values, &mut Places(|_, _, _: T| ()));
+            S::Kind::of_velocity(system, q, v, t, values, &mut |_, _, _: T| ());
         }
         // Of one constraint the matrix is its square. A quotient by zero is no number, which is seen where
         // the stride ends.

@@ -5,11 +5,10 @@ use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints, Multipli
 use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
 use crate::methods::constrained::memory::Impulses;
-use crate::space::sink::Places;
 use crate::{ConstrainedSystem, Real, Space, Vector};
 
 /// A vector of coordinates for each constraint.
-pub(super) type Rows<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Array<Vector<S, T>>;
+pub(super) type Rows<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Vector<Vector<S, T>>;
 /// A square matrix over the constraints.
 pub(super) type Gram<S, T> = <<S as ConstrainedSystem>::Multipliers as Space>::Square<T>;
 
@@ -90,7 +89,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Place<S, T> {
     pub(super) fn constrain(&mut self, system: &S, q: &[T], t: T, values: &mut [T]) {
         let rows = &mut self.rows;
         rows.iter_mut().for_each(|row| row.fill(T::lift(NEUTRAL)));
-        S::Kind::forces(system, q, t, values, &mut Places(|k: usize, j: usize, entry| rows[k][j] += entry));
+        S::Kind::forces(system, q, t, values, &mut |k: usize, j: usize, entry| rows[k][j] += entry);
     }
 
     /// Sets M⁻¹Gᵀ and the diagonal of G M⁻¹ Gᵀ.
