@@ -31,7 +31,6 @@ pub(crate) fn widest<K: Task>(task: K) -> K::Output {
 
 /// Runs `task`.
 #[cfg(not(all(feature = "simd", not(debug_assertions))))]
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     task.run()
 }
