@@ -53,7 +53,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     }
 
     /// The Pfaffian, of which the compiler knows where there is none.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pfaffian(&mut self) -> Option<&mut Pfaffian<S, T>> {
         if S::CANONICAL { None } else { self.pfaffian.as_mut() }
     }

@@ -165,7 +165,6 @@ fn rows<const B: usize, T: Scalar>(
 }
 
 /// Adds to the entries at a place.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn add<const B: usize, T: Scalar>(entries: &mut [&mut [T]; B], place: usize, sums: [T; B]) {
     for output in 0..B {
         entries[output][place] += sums[output];

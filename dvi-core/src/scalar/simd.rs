@@ -14,7 +14,6 @@ pub(crate) trait Task {
 /// are debug assertions, nothing is forced inline, and all instructions are those of every processor: there
 /// code is compiled once, and not for each of them.
 #[cfg(all(feature = "simd", not(debug_assertions)))]
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     struct Dispatched<K>(K);
 
@@ -31,7 +30,6 @@ pub(crate) fn widest<K: Task>(task: K) -> K::Output {
 
 /// Runs `task`.
 #[cfg(not(all(feature = "simd", not(debug_assertions))))]
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widest<K: Task>(task: K) -> K::Output {
     task.run()
 }

@@ -98,7 +98,6 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
     /// Takes steps as long as they succeed from the guess that the last one gives, whose length was `last`,
     /// and returns how many; none at all, if they lead to what is no number. What no other function sees may
     /// stay in registers.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn stride(
         &mut self,
         steps: Steps<'_, S, T>,
@@ -152,7 +151,6 @@ struct Walk<'a, S: ConstrainedSystem, T: Real> {
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Walk<'_, S, T> {
     /// How many of them succeed, and in how many iterations. With `CHECKS` what is no number ends them.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn along<const CHECKS: bool>(
         &self,
         at: &mut Vector<S, T>,

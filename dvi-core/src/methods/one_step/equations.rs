@@ -23,7 +23,6 @@ pub(super) enum Rule {
 }
 
 impl Rule {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn nodes(self) -> &'static [Node] {
         match self {
             Self::A => &[Node::END],
@@ -33,7 +32,6 @@ impl Rule {
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_symmetric(self) -> bool {
         matches!(self, Self::Midpoint | Self::Trapezoid)
     }
@@ -65,12 +63,10 @@ pub(super) struct Step<'a, S: System, T: Real> {
 
 impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
     /// The part of Δ that is solved for.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn part(&self) -> T {
         T::lift(if self.is_centred() { 0.5 } else { 1.0 })
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_centred(&self) -> bool {
         self.nodes == [Node::CENTRE]
     }
@@ -145,7 +141,6 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for Equations<'_, S, T> {
         residual(&mut Equations { step, work: [point, velocity, gradient, one_form] }, at, storage)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cost(&self) -> [u64; 2] {
         [self.step.nodes.len() as u64, 1]
     }

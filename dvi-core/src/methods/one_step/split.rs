@@ -23,13 +23,11 @@ pub(super) struct Split<S: System, T: Real> {
 }
 
 /// Whether α has a component along coordinate `i`: the compiler knows it where sizes are literals.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn is_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, i: usize) -> bool {
     2 * system.place(i) < system.space().dimension()
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
         let [change, scales, form, correction, weights, zero] = space.vectors();
@@ -85,7 +83,6 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for End<'_, S, T> {
         residual(&mut End { form: &mut *self.form, ..*self }, at, storage)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cost(&self) -> [u64; 2] {
         [0, u64::from(!S::CANONICAL)]
     }
@@ -101,7 +98,6 @@ struct ByHalves<'a, S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> LinearSolver<T> for ByHalves<'_, S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,

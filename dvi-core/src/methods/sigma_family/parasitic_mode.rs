@@ -136,7 +136,6 @@ impl<S: System, T: Real> Monitor<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::ParasiticMode`] if the run is lost.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn look(&mut self, q: &[T]) -> Result<u64, StepFailure> {
         let (position, kept) = (self.steps & (self.period - 1), KEPT as u64);
         if position > 0 && position + kept < self.period {
@@ -160,7 +159,6 @@ impl<S: System, T: Real> Monitor<S, T> {
     }
 
     /// Keeps point number `step`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn note(&mut self, step: u64, q: &[T]) {
         self.points[(step % KEPT as u64) as usize].copy_from_slice(q);
     }

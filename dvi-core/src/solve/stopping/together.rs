@@ -24,7 +24,6 @@ pub(crate) struct Convergences<const W: usize> {
 
 impl<const W: usize> Convergences<W> {
     /// As a [`Quick`](super::Quick) of a fixed point in each lane.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
         let alone = Course::<f64>::fixed_point(stopping, budget);
         let zero = Lanes::all(0.0);
@@ -41,7 +40,6 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// Whether the next iteration takes the sizes of the coordinates first.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn takes_sizes(&self) -> bool {
         self.latest == 0
     }
@@ -53,7 +51,6 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// How many iterations each lane has taken.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn iterations(&self) -> [u64; W] {
         let mut iterations = [0; W];
         for lane in 0..W {

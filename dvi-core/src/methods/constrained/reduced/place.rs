@@ -85,7 +85,6 @@ impl<S: ConstrainedSystem, T: Real> Arrival<S, T> {
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Place<S, T> {
     /// Sets g, in `values`, and the rows of G at (`q`, `t`).
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn constrain(&mut self, system: &S, q: &[T], t: T, values: &mut [T]) {
         let rows = &mut self.rows;
         rows.iter_mut().for_each(|row| row.fill(T::lift(NEUTRAL)));
