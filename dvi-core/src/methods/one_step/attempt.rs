@@ -111,6 +111,7 @@ impl OneStep {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
         Self {
             stage: Stage::new(system, q, t),

@@ -31,6 +31,7 @@ pub(super) struct Stage<S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
         let [unknown, momentum, rates, gradient, one_form, point, velocity, correction, weights] =
             system.space().vectors();
@@ -42,6 +43,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solve<J: Judge<T>>(
         &mut self,
         step: &Step<'_, S, T>,
