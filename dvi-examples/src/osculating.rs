@@ -14,7 +14,7 @@ use dvi_core::methods::Carries;
 use dvi_core::prelude::*;
 use dvi_core::run::ControlledRun;
 use dvi_core::state::{Memory, Record};
-use dvi_core::{Sink, Space, Vector, Weights};
+use dvi_core::{Space, Vector, Weights};
 
 /// How far the centre of the osculating circle moves in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,18 +81,6 @@ impl<S: System> Memory<f64> for OsculatingMemory<S> {
     }
 }
 
-/// Adds the product of a matrix and a vector x to a sum.
-struct Product<'a> {
-    x: &'a [f64],
-    sum: &'a mut [f64],
-}
-
-impl Sink<f64> for Product<'_> {
-    fn add(&mut self, row: usize, column: usize, entry: f64) {
-        self.sum[row] += entry * self.x[column];
-    }
-}
-
 /// The osculating circle at (`q`, `v`), by one evaluation of the second derivatives.
 fn circle<S: RegularLagrangian>(
     system: &S,
@@ -103,7 +91,8 @@ fn circle<S: RegularLagrangian>(
     let [a, j, l_v] = work;
     j.fill(0.0);
     let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
-    system.linearize(q, v, t, weights, a, l_v, &mut Product { x: v, sum: j });
+    let mut jerk = |row: usize, column: usize, entry: f64| j[row] += entry * v[column];
+    system.linearize(q, v, t, weights, a, l_v, &mut jerk);
     let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).fold(0.0, |sum, (x, y)| sum + x * y);
     let (vv, va, aa, vj, aj) = (dot(v, v), dot(v, a), dot(a, a), dot(v, j), dot(a, j));
     let square = vv * aa - va * va;
