@@ -202,14 +202,15 @@ fn bad_arguments_are_refused_before_anything_is_written() {
 
 #[cfg(unix)]
 #[test]
-fn what_has_ended_is_there_when_ctrl_c_stops_the_rest() {
+fn what_has_ended_is_there_when_the_rest_is_stopped() {
     let folder = tempdir().expect("a folder");
     let mut command = gallery(&["--only", "fig5-chaotic", "momenta", "--threads", "1"], folder.path());
     let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("starts");
     let messages = BufReader::new(child.stderr.take().expect("piped")).lines();
     let mut messages = messages.map(|line| line.expect("readable"));
     assert!(messages.any(|line| line.starts_with("momenta ") && line.contains(" done, ")));
-    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill starts");
+    // As by Ctrl-C, which a process that a shell has put into the background ignores.
+    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("kill starts");
     assert!(kill.success() && !child.wait().expect("ends").success());
     let files = ["index.html", "momenta.csv", "momenta.png", "momenta.svg", "summary.csv", "summary.md"];
     assert_eq!(names(folder.path()).into_iter().collect::<Vec<_>>(), files);
