@@ -14,8 +14,9 @@ use crate::{Lagrangian, Real};
 /// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from its second derivatives.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian",
-    label = "its steps are not variational, or it reads a frequency from the motion",
-    note = "such methods are `Sigma`, `Variational` with a frequency that is given, and `EnergyLimit` around them"
+    label = "its steps are not variational, it reads a frequency from the motion, or it has displacements within a step",
+    note = "such methods are `Sigma`, `Variational` with a frequency that is given, and `EnergyLimit` around them",
+    note = "the tangent map of any method is its run in dual numbers"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
