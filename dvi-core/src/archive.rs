@@ -166,7 +166,8 @@ where
         Ok(())
     }
 
-    /// Keeps a checkpoint of the present state, if it is not kept already.
+    /// Keeps a checkpoint of the present state, if it is not kept already and a run can go on from there: where
+    /// a force is infinite none can, and the steps from the checkpoint before lead there again.
     ///
     /// # Errors
     /// [`ArchiveError::File`].
@@ -175,7 +176,8 @@ where
         if self.file.kept().last().is_some_and(|kept| kept.step == self.run.steps()) {
             return Ok(());
         }
-        self.file.append(&self.run.checkpoint())
+        let checkpoint = self.run.checkpoint();
+        if checkpoint.goes_on() { self.file.append(&checkpoint) } else { Ok(()) }
     }
 
     /// The run as it was after `steps` steps, counted as [`Run::steps`] does:

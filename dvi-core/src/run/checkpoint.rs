@@ -155,6 +155,11 @@ impl<T: Real> Checkpoint<T> {
         Self(Sealed { step_size: h, ..self.0 }.with_checksum())
     }
 
+    /// Whether a run can go on from there: not where what it carries is no number, as an infinite force is.
+    pub(crate) fn goes_on(&self) -> bool {
+        self.0.record.is_finite()
+    }
+
     /// The coordinates and velocities, for `system`, if all numbers and counts are those of a run.
     pub(crate) fn point<S: Lagrangian<T>>(&self, system: &S) -> Result<[Vector<S, T>; 2], StartError> {
         let found = self.0.v.len();
@@ -164,7 +169,7 @@ impl<T: Real> Checkpoint<T> {
             return Err(CheckpointError::Size { what, expected, found }.into());
         }
         finite(system, &self.0.q, &self.0.v)?;
-        if self.0.statistics.counts().iter().any(|&count| count > BEYOND) || !self.0.record.is_finite() {
+        if self.0.statistics.counts().iter().any(|&count| count > BEYOND) || !self.goes_on() {
             return Err(CheckpointError::Damaged.into());
         }
         let (mut q, mut v): (Vector<S, T>, Vector<S, T>) =

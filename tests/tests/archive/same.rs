@@ -142,3 +142,26 @@ fn a_step_that_fails_leaves_the_archive() -> Outcome {
     assert_eq!(Archive::new(&path, begin()?, Every::Steps(10))?.run().steps(), error.step / 10 * 10);
     Ok(())
 }
+
+/// V falls without bound at x = 1, where the energy is finite.
+#[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0 + (1.0 - x * x).sqrt() + 2.0 * x)]
+#[derive(Clone, Debug, PartialEq)]
+struct Edge;
+
+#[test]
+fn a_run_that_ends_where_none_begins_is_there_again() -> Outcome {
+    let path = file("edge")?;
+    let start = EdgeState { x: -0.5, dot_x: 0.0 };
+    let begin = || Integrator::controlled(&Edge, Gauss::<4>::new(), ErrorControl::new(1e-8, 0.05), start);
+    let mut archive = Archive::new(&path, begin()?, Every::Steps(1))?;
+    let error = archive.take_steps(1000).err().ok_or("it comes to x = 1")?;
+    let (steps, end) = (archive.run().steps(), bits(archive.run().q()));
+    assert!(matches!(error, ArchiveError::Step { .. }), "{error}");
+    assert_eq!(bits(archive.run_after(steps)?.q()), end);
+    drop(archive);
+    let mut again = Archive::new(&path, begin()?, Every::Steps(1))?;
+    assert_eq!(again.run().steps() + 1, steps);
+    assert!(again.take_steps(1000).is_err());
+    assert_eq!((again.run().steps(), bits(again.run().q())), (steps, end));
+    Ok(())
+}
