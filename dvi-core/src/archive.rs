@@ -166,8 +166,8 @@ where
         Ok(())
     }
 
-    /// Keeps a checkpoint of the present state, if it is not kept already and a run can go on from there: where
-    /// a force is infinite none can, and the steps from the checkpoint before lead there again.
+    /// Keeps a checkpoint of the present state, if it is not kept already and a run can go on from there:
+    /// where a force is infinite none can, and the steps from the checkpoint before lead there again.
     ///
     /// # Errors
     /// [`ArchiveError::File`].

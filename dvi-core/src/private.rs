@@ -129,8 +129,8 @@ pub fn to_blame<T: Real>(
     outside.filter(|_| !value.is_finite() && (!has_choices || with_constants.is_finite()))
 }
 
-/// Copies entries of a state, which have so many `components` each, to their places in a flat slice: all first
-/// components stand before all second ones.
+/// Copies entries of a state, which have so many `components` each, to their places in a flat slice: all
+/// first components stand before all second ones.
 ///
 /// # Errors
 /// [`LengthError`] if there are not as many as declared.
@@ -194,7 +194,8 @@ pub fn read<const D: usize, E, T: Copy>(
     move |i| entry(core::array::from_fn(|axis| flat[start + axis * len + i]))
 }
 
-/// Moves on behind the rows of an array with two indices, of so many entries, so many in each, and gives them.
+/// Moves on behind the rows of an array with two indices, of so many entries, so many in each, and gives
+/// them.
 pub fn rows<'f, T>(
     [all, length]: [usize; 2],
     at: &mut usize,

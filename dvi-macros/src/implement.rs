@@ -32,8 +32,8 @@ pub(crate) use state::{Names, State, state};
 /// A function of this many instructions at most is inlined wherever it is called.
 const SHORT: usize = 128;
 
-/// The item as written with its documentation continued, its state, and its implementations: the one that all
-/// systems have, with `members` more, and `special`.
+/// The item as written with its documentation continued, its state, and its implementations: the one that
+/// all systems have, with `members` more, and `special`.
 fn system(account: &Account<'_>, members: &TokenStream, special: &TokenStream) -> TokenStream {
     let Account { emitter, programs, .. } = *account;
     let (documentation, report) = (account.documentation(), account.report());

@@ -60,8 +60,8 @@ impl Record {
         let rows = reader.into_records().collect::<Result<Vec<_>, _>>()?;
         let column = |(place, name): (usize, String)| {
             let entries = || rows.iter().map(|row| &row[place]);
-            let numbers = entries().map(str::parse).collect::<Result<Vec<f64>, _>>();
-            let texts = |_| Values::Texts(entries().map(str::to_owned).collect());
+            let numbers = entries().map(number).collect::<Option<Vec<f64>>>();
+            let texts = || Values::Texts(entries().map(str::to_owned).collect());
             Column::new(name, numbers.map_or_else(texts, Values::Numbers))
         };
         let columns = names.into_iter().enumerate().map(column);
@@ -81,6 +81,12 @@ impl Record {
         let state = |row| system.state_of(columns.iter().map(|column| column[row]).collect::<Vec<f64>>());
         Ok((0..self.rows()).map(state).collect())
     }
+}
+
+/// The number that an entry is. Digits of a number beyond all of `f64` are text, and not infinite.
+pub(super) fn number(entry: &str) -> Option<f64> {
+    let number = entry.parse::<f64>().ok()?;
+    (number.is_finite() || !entry.contains(|letter: char| letter.is_ascii_digit())).then_some(number)
 }
 
 /// The line in which a row begins, behind empty ones.

@@ -7,6 +7,7 @@ use std::vec::Vec;
 
 use super::body::{self, Body};
 use super::column::{Column, Values};
+use super::csv::number;
 use super::{RecordError, npy, page};
 use crate::error::StepError;
 
@@ -166,7 +167,7 @@ impl Record {
             Values::Counts(_) => Err(RecordError::Texts { name: name.into() }),
             Values::Texts(texts) => {
                 let mut read = self.lines.iter().zip(texts);
-                Err(match read.find(|(_, text)| text.parse::<f64>().is_err()) {
+                Err(match read.find(|(_, text)| number(text).is_none()) {
                     Some((&line, text)) => {
                         RecordError::Number { line, column: name.into(), text: text.clone() }
                     }

@@ -1,8 +1,8 @@
 //! What becomes of the entries of a matrix.
 
 /// What takes the entries of a matrix, to which generated second derivatives go one by one: a matrix of a
-/// [`Space`](crate::Space), or a function of row, column and entry. An entry may come in several parts, which
-/// a sink adds.
+/// [`Space`](crate::Space), or a function of row, column and entry. An entry may come in several parts,
+/// which a sink adds.
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/pendulum.txt")]

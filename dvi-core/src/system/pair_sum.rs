@@ -57,7 +57,8 @@ pub trait PairSum<T: Scalar, const D: usize>: Lagrangian<T> {
     /// is not read, and may be empty.
     fn rest_energy(&self, q: &[T], v: &[T], t: T) -> T;
 
-    /// Of a regular system: sets what [`force`](crate::NondegenerateLagrangian::force) does, without the sum.
+    /// Of a regular system: sets what [`force`](crate::NondegenerateLagrangian::force) does, without the
+    /// sum.
     #[allow(unused_variables)]
     fn rest_force(&self, q: &[T], v: &[T], t: T, out: &mut [T]) {
         out.fill(T::lift(f64::NAN));

@@ -55,8 +55,8 @@ impl<'a> Account<'a> {
         self.sentences.push(sentence);
     }
 
-    /// Adds what was checked, the declared momenta and events, the forces with what they mean for the methods,
-    /// and where the formulas are not smooth.
+    /// Adds what was checked, the declared momenta and events, the forces with what they mean for the
+    /// methods, and where the formulas are not smooth.
     pub(super) fn observed(&mut self, checked: &Checked, momenta: &[Expr], events: &[Expr]) {
         self.sentence(checked.sentence());
         let (emitter, Model { momenta: names, events: others, .. }) = (self.emitter, self.emitter.model);

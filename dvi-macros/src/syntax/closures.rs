@@ -1,5 +1,5 @@
-//! What expressions are made of: functions that a `let` of a formula names, names that a pattern gives, places
-//! in arrays, and values of blocks.
+//! What expressions are made of: functions that a `let` of a formula names, names that a pattern gives,
+//! places in arrays, and values of blocks.
 
 use syn::{Block, Expr, ExprClosure, Ident, Member, Pat, Stmt};
 

@@ -185,8 +185,8 @@ pub(super) fn own(number: usize, x: &Jet) -> Jet {
     x.through([0, 1, 2, 3, 4].map(|order| stand_in(number, order, at)))
 }
 
-// A smooth function of several variables in place of the user's number n: 1.5 + sin(a·x + φ) + 0.3 cos(b·x + φ).
-// No two axes are alike in it.
+// A smooth function of several variables in place of the user's number n: 1.5 + sin(a·x + φ) + 0.3 cos(b·x +
+// φ). No two axes are alike in it.
 
 /// φ of the function that stands for number `number`.
 fn phase(number: usize) -> f64 {

@@ -23,8 +23,8 @@ const DEPTH: usize = 7;
 /// How many steps are taken, if parasites stay small in so many.
 const STEPS: usize = DEPTH + 16;
 
-/// Corrections by Newton's method from a first one on, until the next is nothing: θc/(1 − θ) with the ratio θ
-/// of the last two, which is c, or `stale` where the matrix is not that of the place.
+/// Corrections by Newton's method from a first one on, until the next is nothing: θc/(1 − θ) with the ratio
+/// θ of the last two, which is c, or `stale` where the matrix is not that of the place.
 fn by_newton(first: f64, stale: f64) -> f64 {
     let (mut before, mut now, mut count) = (first, first, 1.0);
     while now * now >= TOLERANCE * (before - now) {
@@ -106,8 +106,8 @@ fn steps_take_as_many_as_follow(case: &Case) -> Outcome {
     let guessed = if collocates { start.len() } else { case.subject.dimension() };
     let steps = STEPS.min(case.subject.steps as usize);
     let off = if is("Gauss") || is("Galerkin") { 100 } else { 10 };
-    // In the matrix of Gauss forms and masses are those of where the step begins, and in any a frequency is a
-    // number.
+    // In the matrix of Gauss forms and masses are those of where the step begins, and in any a frequency is
+    // a number.
     let is_stale = is("Gauss") && !case.subject.is_affine()
         || ["Radial(", "Curvature("].iter().any(|frequency| case.name.contains(frequency));
     let mut before = f64::INFINITY;

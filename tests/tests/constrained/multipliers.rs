@@ -1,5 +1,5 @@
-//! Multipliers, against the same motion in coordinates without constraints, and constraints of which there are
-//! none.
+//! Multipliers, against the same motion in coordinates without constraints, and constraints of which there
+//! are none.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::prelude::*;

@@ -47,6 +47,7 @@ fn mistakes_have_a_line_and_a_column() {
         said(read("x,y,dot_x,dot_y\n1,2,3\n"))
     );
     assert!(said(read("")).contains("no column `x`"));
+    assert_eq!(said(read("x,y,dot_x,dot_y\n1,1e400,3,4\n")), "line 2, column `y`: `1e400` is no number");
     // A column that nobody asks for may hold anything, and numbers that are none belong to the members.
     assert_eq!(said(read("name,x,y,dot_x,dot_y\nComet,1,NaN,3,inf\n")), "no error");
 }

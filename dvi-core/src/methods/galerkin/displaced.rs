@@ -8,8 +8,8 @@
 //!
 //! Of L = ½ v·M v − V(q, t) only forces are evaluated, beside M Σₖ Kᵣₖ xₖ/h with K = Σⱼ wⱼ ψ̂ⱼ ψⱼᵀ, and a
 //! fixed point solves the same equations, x ← x − h A⁻¹M⁻¹ r with A = K − u² Σⱼ wⱼ φ̂ⱼ φⱼᵀ: A contains the
-//! oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0 at the end and
-//! no displacement reaches it, an iteration needs the forces of the interior nodes alone.
+//! oscillator of the fitted frequency, so that only what differs from it is iterated. As b = 0 at the end
+//! and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
 
 use super::coefficients::{Fit, weighted};
 use crate::discrete::frequency::{FrequencyIn, Local};

@@ -123,8 +123,8 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for Equations<'_, S, T> {
                 let mut scaled = |i: usize, j: usize, entry: T| sink.add(i, j, factor(i, j) * entry);
                 system.linearize(point, velocity, time, w, gradient, one_form, &mut scaled);
             };
-            // L_qv is in columns of x alone, and L_vq in rows of x. At either end of the step one of both has
-            // the factors of L_qq, as those along x are 0 and 1 there.
+            // L_qv is in columns of x alone, and L_vq in rows of x. At either end of the step one of both
+            // has the factors of L_qq, as those along x are 0 and 1 there.
             add(Weights { qq: h, qv: c, vq: c - one, vv: zero }, &|i, j| row(i) * column(j));
             let rest = |row: usize| weight * if is_x(system, row) { one } else { half };
             add(Weights { qq: zero, qv: one - c, vq: -c, vv: zero }, &|i, _| rest(i));

@@ -136,8 +136,8 @@ fn add_transposed<T: Scalar, D: Deref<Target = [T]>, M: NodeSum<NODES, T>, const
     }
 }
 
-/// Gives the entries of the matrix to `add`, part by part: the equation and the unknown vector of the block, the
-/// row and the column in it.
+/// Gives the entries of the matrix to `add`, part by part: the equation and the unknown vector of the block,
+/// the row and the column in it.
 pub(crate) fn entries<const NODES: usize, T: Real, M: NodeSum<NODES, T>>(
     matrix: &mut M,
     add: impl FnMut([usize; 2], [usize; 2], T),

@@ -228,8 +228,8 @@ impl<T: Real> Krylov<T> {
         Ok(())
     }
 
-    /// Sets the direction to M⁻¹ of the vector that begins at `begin` in the basis, with the preconditioner M,
-    /// and the product to A times that.
+    /// Sets the direction to M⁻¹ of the vector that begins at `begin` in the basis, with the preconditioner
+    /// M, and the product to A times that.
     fn multiply(
         &mut self,
         equations: &mut impl LinearEquations<T>,

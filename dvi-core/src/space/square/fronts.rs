@@ -132,8 +132,8 @@ const LOOKS: u64 = 4096;
 
 /// A matrix whose columns are being eliminated.
 struct Elimination {
-    /// Sets of rows that have entries in the same columns: the rows of A one by one, then those that each front
-    /// hands on.
+    /// Sets of rows that have entries in the same columns: the rows of A one by one, then those that each
+    /// front hands on.
     sets: Vec<Rows>,
     /// The sets that have entries in each column.
     sets_of: Vec<Vec<u32>>,

@@ -86,8 +86,8 @@ impl Pattern {
     }
 }
 
-/// The reversed order of Cuthill & McKee, of a matrix whose rows have entries in these columns: breadth first
-/// from an end of each connected part, neighbours of few neighbours first.
+/// The reversed order of Cuthill & McKee, of a matrix whose rows have entries in these columns: breadth
+/// first from an end of each connected part, neighbours of few neighbours first.
 fn cuthill_mckee(rows: &[Vec<u32>]) -> Vec<u32> {
     let n = rows.len();
     let mut visited = vec![false; n];
