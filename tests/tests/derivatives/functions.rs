@@ -1,8 +1,8 @@
-//! Functions, branches and time by hand.
+//! The functions by hand.
 
 use std::f64::consts::PI;
 
-use dvi_tests::zoo::functions::{Branches, Driven, EveryFunction, OwnFunction};
+use dvi_tests::zoo::functions::{EveryFunction, OwnFunction};
 
 use crate::derivatives::oracle::{ByHand, Number, Random};
 
@@ -37,38 +37,6 @@ impl ByHand for EveryFunction {
     }
     fn point(&self, random: &mut Random) -> Vec<f64> {
         self.within(random, 0.2, 0.8)
-    }
-}
-
-impl ByHand for Branches {
-    fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
-        let (x, y) = (q[0], q[1]);
-        vec![if x.re() > self.edge { y * y * y } else { y + x * y }, x * 3.0]
-    }
-    fn energy<D: Number>(&self, q: &[D], _t: D) -> D {
-        let (x, y) = (q[0], q[1]);
-        let (u, v) = (x.re(), y.re());
-        let near = if u < -self.edge || (u < v && v <= self.edge) { x * x * x * y } else { (x + y).sin() };
-        let far = match (u * u + v * v > 1.0, v > 0.0) {
-            (true, _) => y * y,
-            (false, true) => x * y,
-            (false, false) => x * x,
-        };
-        near - far * x.cos() * 2.0
-    }
-}
-
-impl ByHand for Driven {
-    fn alpha<D: Number>(&self, q: &[D], t: D) -> Vec<D> {
-        let depth = (t * self.omega).cos() * self.depth;
-        let along_x = (0..3).map(|j| t * t * q[3 + j]);
-        along_x.chain((0..3).map(|j| q[j] + depth * q[3 + j] * q[3 + j] * q[j])).collect()
-    }
-    fn energy<D: Number>(&self, q: &[D], t: D) -> D {
-        let (x, y) = (&q[..3], &q[3..]);
-        let phase = t * self.omega;
-        let body = |j: usize| (x[j] * x[j] + y[j] * y[j]) / 2.0 - (x[j] - phase).cos() * (j + 1) as f64;
-        (0..3).map(body).sum::<D>() + x[0] * y[2] / t.exp()
     }
 }
 
