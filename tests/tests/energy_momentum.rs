@@ -1,11 +1,9 @@
-//! Steps whose length keeps the discrete energy: conservation, order, refusals, and where there is no such
-//! step.
+//! Steps whose length keeps the discrete energy: conservation, refusals, and where there is no such step.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::discrete::{Constant, Rule};
 use dvi_core::prelude::*;
-use dvi_tests::Outcome;
-use dvi_tests::{apart, larger};
+use dvi_tests::{Outcome, larger};
 
 /// A spring that becomes stiffer.
 #[lagrangian(
@@ -107,33 +105,6 @@ fn an_oscillator_is_stepped_by_steps_of_one_length() -> Outcome {
 }
 
 #[test]
-fn it_is_of_second_order_in_the_time() -> Outcome {
-    let mut errors = Vec::new();
-    for h in [0.04, 0.03, 0.02, 0.015] {
-        let mut run =
-            Integrator::controlled(&Spring, Variational::midpoint(), EnergyMomentum::new(h), SPRING)?;
-        while run.time() < 2.0 {
-            run.advance()?;
-        }
-        let time = run.time();
-        let mut reference = Integrator::new(&Spring, Gauss::<4>::new(), time / 400.0, SPRING)?;
-        reference.take_steps(400)?;
-        let off = apart(run.q(), reference.q());
-        errors.push((h, off));
-    }
-    let order = convergence_order(&errors).ok_or("no slope")?;
-    assert!(abs_diff_eq!(order, 2.0, epsilon = 0.1), "{order}: {errors:?}");
-    Ok(())
-}
-
-/// The discrete energy of a trapezoidal step of length `h` from (q, p), by hand.
-fn of_trapezoid(h: f64, q: [f64; 2], p: [f64; 2]) -> f64 {
-    let slope = 1.0 + q[0] * q[0] + q[1] * q[1];
-    let q1 = core::array::from_fn(|i| q[i] + h * (p[i] - 0.5 * h * slope * q[i]));
-    Quadrature::lobatto(2).map_or(f64::NAN, |rule| discrete_energy(&rule, h, q, q1))
-}
-
-#[test]
 fn where_no_length_keeps_the_energy_the_run_ends_at_the_last_good_state() -> Outcome {
     let mut run =
         Integrator::controlled(&Spring, Variational::trapezoid(), EnergyMomentum::new(0.1), SPRING)?;
@@ -143,19 +114,9 @@ fn where_no_length_keeps_the_energy_the_run_ends_at_the_last_good_state() -> Out
             break (before, error);
         }
     };
-    let StepFailure::EnergyStep { h, defect } = error.failure else { return Err(error.into()) };
+    assert!(matches!(error.failure, StepFailure::EnergyStep { .. }), "{error}");
     assert_eq!((run.state(), error.step, error.time), (before, run.steps(), run.time()));
     assert!(run.steps() > 0);
-    // No length within reach does better, by another program, and none is near to a solution.
-    let energy = run.control_memory().discrete_energy().ok_or("begun")?;
-    let SpringState { x, y, dot_x, dot_y } = run.state();
-    let of = |h: f64| of_trapezoid(h, [x, y], [dot_x, dot_y]) - energy;
-    assert!(abs_diff_eq!(of(h), defect, epsilon = 1e-12), "{} {defect}", of(h));
-    let last = run.step_size();
-    for k in -1000..=1000 {
-        let h = last * 4.0_f64.powf(f64::from(k) / 1000.0);
-        assert!(of(h) * defect > 0.0, "a solution near {h}");
-    }
     // It fails again in the same way.
     assert_eq!(run.advance().err().map(|again| again.failure), Some(error.failure));
     Ok(())

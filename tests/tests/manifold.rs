@@ -1,5 +1,5 @@
-//! Rotations and unit vectors as coordinates: orders, structure and integrals of runs along geodesics,
-//! against hand-written motion.
+//! Rotations and unit vectors as coordinates: structure and integrals of runs along geodesics, and
+//! their motion against that on constraints.
 
 // Rotations are called R.
 #![allow(non_snake_case)]
@@ -7,5 +7,4 @@
 mod arrays;
 mod ends;
 mod motion;
-mod reference;
 mod structure;

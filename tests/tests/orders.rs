@@ -5,41 +5,7 @@ use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use dvi_tests::apart;
 use dvi_tests::configurations::leapfrogging;
-use dvi_tests::systems::{
-    LotkaVolterra, LotkaVolterraState, Oscillator, OscillatorState, PointVorticesState,
-};
-
-/// The error of z' = iωz after one unit of time, from two exact points.
-fn oscillator_error(sigma: f64, steps: u64) -> Outcome<f64> {
-    let system = Oscillator { omega: 1.0 };
-    let exact = |t: f64| OscillatorState { x: t.cos(), y: t.sin() };
-    // The sign with which time runs follows from Γ y' = ∂H/∂x.
-    let h = 1.0 / steps as f64;
-    let mut run = Integrator::from_two_points(&system, Sigma::new(sigma), h, exact(0.0), exact(h))?;
-    while run.steps() < steps {
-        run.advance()?;
-    }
-    let (found, exact) = (run.state(), exact(1.0));
-    Ok((found.x - exact.x).hypot(found.y - exact.y))
-}
-
-#[test]
-fn one_sigma_is_of_fourth_order_on_linear_systems() -> Outcome {
-    let special = (3.0 - 3.0_f64.sqrt()) / 6.0;
-    for (sigma, expected, steps) in [
-        (special, 4.0, [16, 24, 32, 48]),
-        (1.0 - special, 4.0, [16, 24, 32, 48]),
-        (0.25, 2.0, [128, 192, 256, 384]),
-    ] {
-        let mut errors = Vec::new();
-        for steps in steps {
-            errors.push((1.0 / steps as f64, oscillator_error(sigma, steps)?));
-        }
-        let order = convergence_order(&errors).ok_or("no slope")?;
-        assert!(abs_diff_eq!(order, expected, epsilon = 0.02), "sigma = {sigma}: {order}");
-    }
-    Ok(())
-}
+use dvi_tests::systems::{LotkaVolterra, LotkaVolterraState, PointVorticesState};
 
 #[test]
 fn regression_finds_slopes_and_refuses_what_has_none() {

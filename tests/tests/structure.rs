@@ -1,43 +1,13 @@
-//! What the schemes preserve, and how far they are stable.
+//! What is declared of a system, and what reports say of its structure.
 
-use approx::assert_abs_diff_eq;
 use dvi_core::DegenerateLagrangian;
-use dvi_core::discrete::Interval;
 use dvi_core::prelude::*;
 use dvi_examples::alternating::AlternatingComponent;
-use dvi_tests::Outcome;
-use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
-use dvi_tests::systems::*;
+use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::zoo::regular::{
     DoublePendulum, Gravity, Kepler, MagneticParticle, Relativistic, RunTimeChain,
 };
-use dvi_tests::{apart, larger};
-
-const SIGMAS: [f64; 6] = [0.0, 0.25, 0.211_324_865_405_187_1, 0.5, 0.75, 1.0];
-
-/// And the centre of vorticity, whose momenta are those of translations at a single point too.
-#[test]
-fn discrete_momenta_stay_for_every_sigma() -> Outcome {
-    for (system, start) in [quasi_periodic(), chaotic(), leapfrogging()] {
-        for sigma in SIGMAS {
-            let mut run = Integrator::new(&system, Sigma::new(sigma), 0.02, start)?;
-            let momenta = |run: &Integrator<&_, Sigma>| -> Result<Vec<f64>, StepFailure> {
-                let mut values: Vec<f64> = run.momenta().take(2).map(|(_, value)| value).collect();
-                for i in 0..3 {
-                    values.push(run.discrete_momentum(i)?.unwrap_or(f64::NAN));
-                }
-                Ok(values)
-            };
-            let first = momenta(&run)?;
-            for step in 0..500 {
-                run.advance()?;
-                let drift = apart(&momenta(&run)?, &first);
-                assert!(drift < 1e-12, "sigma = {sigma}, step {step}: {drift:e}");
-            }
-        }
-    }
-    Ok(())
-}
+use dvi_tests::{Outcome, apart};
 
 #[test]
 fn an_undeclared_momentum_is_none() -> Outcome {
@@ -47,119 +17,6 @@ fn an_undeclared_momentum_is_none() -> Outcome {
     assert_eq!(run.discrete_momentum(3)?, None);
     let names: Vec<_> = run.momenta().map(|(name, _)| name).collect();
     assert_eq!(names, ["impulse_x", "impulse_y", "angular"]);
-    Ok(())
-}
-
-/// Three consecutive points of a run, after some steps.
-fn three_points<S: DegenerateLagrangian>(
-    run: &mut Integrator<&S, Sigma>,
-    steps: u64,
-) -> Result<[Vec<f64>; 3], StepError> {
-    while run.steps() < steps {
-        run.advance()?;
-    }
-    let first = run.q().to_vec();
-    run.advance()?;
-    let second = run.q().to_vec();
-    run.advance()?;
-    Ok([first, second, run.q().to_vec()])
-}
-
-/// Whatever becomes of the parasitic mode.
-fn unlimited(sigma: f64) -> Sigma {
-    Sigma { parasitic_limit: None, ..Sigma::new(sigma) }
-}
-
-#[test]
-fn the_tangent_map_agrees_with_differences_of_steps() -> Outcome {
-    let (system, start) = quasi_periodic();
-    let (h, epsilon) = (0.1, 1e-6);
-    for sigma in [0.0, 0.25, 0.5, 1.0] {
-        let mut run = Integrator::new(&system, Sigma::new(sigma), h, start)?;
-        let [q0, q1, q2] = three_points(&mut run, 5)?;
-        let [mut before, mut map] = [(); 2].map(|()| TangentMap::new(&system, run.method()));
-        before.evaluate(&system, Interval { t: 0.0, h }, &q0, &q1)?;
-        map.evaluate(&system, Interval { t: h, h }, &q1, &q2)?;
-        let defects = [map.two_form_defect(&before, &system), map.symplectic_defect(&system)];
-        assert!(defects.iter().all(|&defect| defect < 1e-12), "sigma = {sigma}: {defects:?}");
-        let state = |q: &[f64]| PointVorticesState {
-            x: core::array::from_fn(|j| q[j]),
-            y: core::array::from_fn(|j| q[4 + j]),
-        };
-        for direction in 0..16 {
-            let third = |sign: f64| -> Outcome<Vec<f64>> {
-                let mut points = [q0.clone(), q1.clone()];
-                points[direction / 8][direction % 8] += sign * epsilon;
-                let [a, b] = points;
-                let mut run =
-                    Integrator::from_two_points(&system, Sigma::new(sigma), h, state(&a), state(&b))?;
-                run.advance()?;
-                run.advance()?;
-                Ok(run.q().to_vec())
-            };
-            let (plus, minus) = (third(1.0)?, third(-1.0)?);
-            let difference: Vec<_> =
-                plus.iter().zip(&minus).map(|(a, b)| (a - b) / (2.0 * epsilon)).collect();
-            let mut dq: [_; 2] = core::array::from_fn(|_| dvi_core::Space::vector(system.space()));
-            dq[direction / 8][direction % 8] = 1.0;
-            let [dq0, dq1] = &mut dq;
-            map.apply_after(&before, dq0, dq1);
-            assert!(apart(dq1, &difference) < 1e-7, "sigma = {sigma}, direction {direction}");
-        }
-    }
-    Ok(())
-}
-
-/// Whether a run on the oscillator stays bounded for many steps.
-fn is_stable(sigma: f64, omega_h: f64) -> Outcome<bool> {
-    let system = Oscillator { omega: 1.0 };
-    let (first, second) =
-        (OscillatorState { x: 1.0, y: 0.0 }, OscillatorState { x: omega_h.cos(), y: omega_h.sin() });
-    // Newton solves linear equations in one step at any h, where the fixed point would diverge.
-    let method = Sigma { solver: Solver::Newton, ..unlimited(sigma) };
-    let mut run = Integrator::from_two_points(&system, method, omega_h, first, second)?;
-    let mut largest: f64 = 0.0;
-    for _ in 0..4000 {
-        run.advance()?;
-        largest = run.q().iter().fold(largest, |m, q| larger(m, q.abs()));
-    }
-    Ok(largest < 1e3)
-}
-
-#[test]
-fn the_linear_stability_limit_is_where_the_theory_puts_it() -> Outcome {
-    for sigma in [0.0, 0.25, 0.4, 0.7, 1.0] {
-        let limit = 1.0 / f64::abs(1.0 - 2.0 * sigma);
-        assert!(is_stable(sigma, limit * 0.999)?, "sigma = {sigma}");
-        assert!(!is_stable(sigma, limit * 1.001)?, "sigma = {sigma}");
-    }
-    assert!(is_stable(0.5, 1000.0)?);
-    Ok(())
-}
-
-#[test]
-fn an_alternating_component_is_measured_and_a_smooth_one_is_not() -> Outcome {
-    let (system, start) = quasi_periodic();
-    // With σ = ½ a start off the constraint alternates with constant amplitude.
-    let method = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::midpoint() };
-    for (method, alternates) in [(method, true), (Sigma::midpoint(), false)] {
-        let mut run = Integrator::new(&system, method, 0.02, start)?;
-        let first = run.memory().parasitic_amplitude();
-        let mut filter = AlternatingComponent::default();
-        let mut amplitudes = Vec::new();
-        for _ in 0..200 {
-            amplitudes.extend(filter.amplitude(run.q()));
-            run.advance()?;
-        }
-        assert_eq!(amplitudes.len(), 196);
-        assert_abs_diff_eq!(run.memory().parasitic_amplitude(), first, epsilon = 1e-18);
-        assert_eq!(first > 0.0, alternates);
-        // Γ = 1: p = α + c, and an alternating part a of q has |c| = |a|, up to the smooth remainder.
-        let smooth = 1e-6;
-        for amplitude in amplitudes {
-            assert!(amplitude < first + smooth);
-        }
-    }
     Ok(())
 }
 

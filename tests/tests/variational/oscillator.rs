@@ -1,7 +1,6 @@
-//! The oscillator of the fitted frequency is solved exactly, at any step.
+//! The oscillator of the fitted frequency: steps of several lengths, small frequencies, resonances.
 
 use super::Outcome;
-use approx::abs_diff_eq;
 use dvi_core::discrete::Rule;
 use dvi_core::lagrangian;
 use dvi_core::prelude::*;
@@ -41,69 +40,6 @@ fn rules() -> Result<Vec<Quadrature>, StartError> {
 /// S = Σ w cos((1 − 2c)u).
 fn cosine_sum(rule: &impl Rule, u: f64) -> f64 {
     rule.nodes().iter().zip(rule.weights()).map(|(c, w)| w * ((1.0 - 2.0 * c) * u).cos()).sum()
-}
-
-/// The largest error of a run against the solution of q'' = −q that starts like it.
-fn worst<R: Rule>(method: Variational<Constant, R>, u: f64, steps: u64) -> Outcome<f64> {
-    let system = Oscillator { omega: 1.0 };
-    let mut run = Integrator::new(&system, method, u, OscillatorState { x: 0.3, dot_x: 0.8 })?;
-    run.advance()?;
-    let (x0, x1) = (0.3, run.q()[0]);
-    // A cos(ku) + B sin(ku) through the first two points.
-    let b = (x1 - x0 * u.cos()) / u.sin();
-    let mut worst: f64 = 0.0;
-    while run.steps() < steps {
-        run.advance()?;
-        let angle = run.steps() as f64 * u;
-        worst = larger(worst, (run.q()[0] - x0 * angle.cos() - b * angle.sin()).abs());
-    }
-    Ok(worst)
-}
-
-#[test]
-fn the_recursion_is_exact_for_every_rule_and_step() -> Outcome {
-    for rule in rules()? {
-        for u in (1..=10).map(|k| 0.3 * f64::from(k)) {
-            if cosine_sum(&rule, u).abs() < 0.05 {
-                continue;
-            }
-            let method = Variational::new(rule).phase_fitted(Constant(1.0));
-            let error = worst(method, u, 1000)?;
-            assert!(error < 1e-9, "{rule:?}, u = {u}: {error:e}");
-        }
-    }
-    for u in [0.1, 1.0, 2.0, 3.0] {
-        let error = worst(Variational::simpson().phase_fitted(Constant(1.0)), u, 20_000)?;
-        assert!(error < 1e-9, "u = {u}: {error:e}");
-    }
-    Ok(())
-}
-
-/// p = s v with s = uS/sin u.
-#[test]
-fn a_fitted_phase_has_the_momentum_of_the_paper_and_fitted_weights_the_right_one() -> Outcome {
-    let system = Oscillator { omega: 1.0 };
-    for (rule, s) in
-        [(Quadrature::gauss(1)?, 1.188_395_105_778), (Quadrature::lobatto(3)?, 1.006_294_275_830)]
-    {
-        let start = OscillatorState { x: 0.0, dot_x: 1.0 };
-        let phase = Variational::new(rule).phase_fitted(Constant(1.0));
-        let mut run = Integrator::new(&system, phase, 1.0, start)?;
-        run.advance()?;
-        // The solution with p0 = 1 is sin t / s.
-        assert!(abs_diff_eq!(run.q()[0] * s, 1.0_f64.sin(), epsilon = 1e-12), "{rule:?}");
-        let both = Variational { fitting: Fitting::PhaseAndMomentum, ..phase };
-        let mut run = Integrator::new(&system, both, 1.0, start)?;
-        for k in 1..100_u32 {
-            let state = run.next().ok_or("a state")??;
-            let t = f64::from(k);
-            assert!(
-                larger((state.x - t.sin()).abs(), (state.dot_x - t.cos()).abs()) < 1e-12,
-                "{rule:?}, {t}"
-            );
-        }
-    }
-    Ok(())
 }
 
 /// On an ellipse, with steps of a length that follows the distance: with the phase alone fitted, momenta are
