@@ -1,13 +1,12 @@
 //! What a system says at one state: names and entries, and where it has no answer.
 
 use approx::abs_diff_eq;
+use dvi_core::Space;
 use dvi_core::prelude::*;
-use dvi_core::{Scalar, Space};
 use dvi_tests::Outcome;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::regular::*;
-use num_dual::HyperDual64;
 
 /// The entries of a state.
 fn entries<S: System>(system: &S, state: &S::State<f64>) -> Result<Vec<f64>, dvi_core::LengthError> {
@@ -114,20 +113,6 @@ fn single_coordinates_stand_beside_arrays_of_const_generic_size() -> Outcome {
     }
     check::<1>()?;
     check::<2>()
-}
-
-/// What is lifted is a number of the arithmetic in question.
-#[test]
-fn values_come_in_any_numbers() -> Outcome {
-    let state = KeplerStateOf::<HyperDual64> {
-        x: HyperDual64::lift(1.0),
-        y: HyperDual64::lift(2.0),
-        dot_x: HyperDual64::lift(3.0),
-        dot_y: HyperDual64::lift(4.0),
-    };
-    let values: Vec<f64> = Kepler { mu: 1.0 }.values(&state)?.map(|value| value.re).collect();
-    assert_eq!(values, [1.0, 2.0, 3.0, 4.0]);
-    Ok(())
 }
 
 /// A literal is a state of `f64`, whose numbers have methods without a type written anywhere, and is printed

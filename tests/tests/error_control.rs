@@ -75,23 +75,6 @@ fn errors_fall_with_the_tolerance_on_vortices() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn errors_fall_with_the_tolerance_where_the_mass_matrix_varies() -> Outcome {
-    let system = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 1.3], g: 9.81 };
-    let start = DoublePendulumState { a: 1.0, b: -0.5, dot_a: 0.0, dot_b: 0.0 };
-    let end = -3.0;
-    let mut fine = Integrator::new(&system, Gauss::<8>::new(), end / 3000.0, start)?;
-    fine.take_steps(3000)?;
-    for tolerance in TOLERANCES {
-        let control = ErrorControl::new(tolerance, -0.01);
-        let mut run = Integrator::controlled(&system, Gauss::<6>::new(), control, start)?;
-        run.advance_to(end)?;
-        let error = apart(run.q(), fine.q());
-        assert!(run.time() == end && error < 100.0 * tolerance, "{tolerance:e}: {error:e}");
-    }
-    Ok(())
-}
-
 /// The smallest and the largest ratio of the error of a step, in units of the tolerance, to its estimate.
 fn estimates<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
     system: &S,

@@ -1,6 +1,5 @@
 //! Dissipation functions R: the force is −∂R/∂v.
 
-use dvi_core::diagnostics::Work;
 use dvi_core::prelude::*;
 use dvi_core::{Report, Weights};
 
@@ -15,26 +14,6 @@ use super::Outcome;
 #[derive(Clone, Debug)]
 struct Oscillator {
     gamma: f64,
-}
-
-#[test]
-fn an_oscillator_decays_as_its_closed_form() -> Outcome {
-    let gamma = 0.3;
-    let start = OscillatorState { x: 1.0, dot_x: 0.0 };
-    let mut run = Integrator::new(Oscillator { gamma }, Galerkin::<4>::new(), 0.05, start)?;
-    let (mut work, begin) = (Work::new(&run), run.energy());
-    for _ in 0..400 {
-        run.advance()?;
-        work.record(&run);
-        let (t, omega) = (run.time(), (1.0 - gamma * gamma / 4.0_f64).sqrt());
-        let (s, c) = (omega * t).sin_cos();
-        let x = (-gamma * t / 2.0).exp() * (c + gamma / (2.0 * omega) * s);
-        assert!((run.state().x - x).abs() < 1e-9, "{} {x}", run.state().x);
-        // v ∂R/∂v = 2R
-        assert!((run.power() + gamma * run.state().dot_x.powi(2)).abs() < 1e-15);
-    }
-    assert!((run.energy() - begin - work.total()).abs() < 1e-6);
-    Ok(())
 }
 
 /// Bodies on a line that rub against each other and against the air, by one function and by forces.
