@@ -26,7 +26,7 @@ use crate::space::Sink;
 use crate::state::Statistics;
 use crate::{Lagrangian, Real};
 
-pub use crate::mechanics::{Ends, Interval, Span};
+pub use crate::mechanics::{Interval, Span};
 pub use frequency::{
     Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, Radial, Reading, Unfitted,
 };
@@ -96,7 +96,6 @@ impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> Linearize<T> for De
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { l_d, system, interval, q0 } = self;
-        let ends = Ends { q0, delta };
-        l_d.linearize(Span { system, interval: *interval, ends }, d1, sink, statistics)
+        l_d.linearize(Span { system, interval: *interval, q0, delta }, d1, sink, statistics)
     }
 }

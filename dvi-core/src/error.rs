@@ -263,12 +263,16 @@ pub enum StartError {
 #[derive(Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
-    /// It has less than the method carries.
-    #[error("the checkpoint has less than this method on this system carries: it is one of another run")]
-    Short,
-    /// It has more than the method carries.
+    /// It has less than method and step control carry.
     #[error(
-        "the checkpoint has {more} numbers more than this method on this system carries: it is one of another run"
+        "the checkpoint has less than this method and this step control carry on this system: it is one of another \
+         method or step control"
+    )]
+    Short,
+    /// It has more than method and step control carry.
+    #[error(
+        "the checkpoint has {more} numbers more than this method and this step control carry on this system: it is one of \
+         another method or step control"
     )]
     Long {
         /// How many numbers and counts were not read.

@@ -21,5 +21,5 @@ mod vector_field;
 pub use at_state::AtState;
 pub use motion::{FirstOrder, InLanes, Rates};
 pub use on_constraints::OnConstraints;
-pub use span::{Ends, Interval, Span};
+pub use span::{Interval, Span};
 pub use vector_field::VectorField;

@@ -98,14 +98,16 @@ impl<T: Copy> Record<T> {
         Ok(count)
     }
 
-    /// Whether all has been read.
+    /// Whether it is as long as another one.
     ///
     /// # Errors
-    /// [`CheckpointError`] with how much has not.
-    pub(crate) fn end(&self) -> Result<(), CheckpointError> {
-        match self.numbers.len() + self.counts.len() - self.read.iter().sum::<usize>() {
-            0 => Ok(()),
-            more => Err(CheckpointError::Long { more }),
+    /// [`CheckpointError::Short`] or [`CheckpointError::Long`].
+    pub(crate) fn fits(&self, expected: &Self) -> Result<(), CheckpointError> {
+        let missing = [expected.numbers.len(), expected.counts.len()];
+        match [self.numbers.len().checked_sub(missing[0]), self.counts.len().checked_sub(missing[1])] {
+            [Some(0), Some(0)] => Ok(()),
+            [Some(numbers), Some(counts)] => Err(CheckpointError::Long { more: numbers + counts }),
+            [None, _] | [_, None] => Err(CheckpointError::Short),
         }
     }
 

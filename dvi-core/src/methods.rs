@@ -108,9 +108,10 @@ pub use newmark::Newmark;
 pub use one_step::{OneStep, OneStepGauss};
 pub use projected::Projected;
 pub use runge_kutta::RungeKutta;
+pub(crate) use scheme::scheme;
 pub use scheme::{PreservedForm, Scheme};
 pub use sigma_family::{BeginsBetween, ParasiticMode, Sigma, Start};
-pub use suits::{Suits, SuitsAnyStep, VariableStep};
+pub use suits::{Suits, VariableStep};
 pub use tabulated::Tabulated;
 #[cfg(feature = "alloc")]
 pub(crate) use together::Companion;
@@ -229,7 +230,7 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         &self,
         _here: Here<'_, S, T>,
         _memory: &Self::Memory,
-        _v: &mut Vector<S, T>,
+        _v: &mut [T],
     ) -> Result<(), StepFailure> {
         Ok(())
     }

@@ -185,8 +185,7 @@ pub trait System: Held<System = Self> {
     where
         Self: Sized,
     {
-        let space = self.space();
-        let (mut q, mut v) = (space.vector(), space.vector());
+        let (mut q, mut v) = (self.space().vector(), self.space().vector());
         state.write(|block| self.block_len(block), &mut q, &mut v)?;
         spinors::lower_all(self, &mut q);
         Ok(names::entries(self).map(move |(name, place)| if name.is_velocity { v[place] } else { q[place] }))

@@ -152,9 +152,35 @@ fn a_checkpoint_of_another_run_is_refused() -> Outcome {
     let chain = RunTimeChain { mass: vec![1.0, 2.0, 3.0], coupling: 0.125 };
     let other = Integrator::resume(&chain, Variational::trapezoid(), &checkpoint).err();
     assert_eq!(refused(other)?, CheckpointError::Size { what: "coordinates", expected: 4, found: 2 });
+    // A control carries more than steps of one length do.
+    let control = Reversible::power(0.01, 1.5);
+    let other = Integrator::resume_controlled(&KEPLER, Variational::trapezoid(), control, &checkpoint).err();
+    assert_eq!(refused(other)?, CheckpointError::Short);
+    let of_gauss = Integrator::new(&KEPLER, Gauss::<2>::new(), 0.01, start)?.checkpoint();
+    let control = ErrorControl::new(1e-9, 0.01);
+    let other = Integrator::resume_controlled(&KEPLER, Gauss::<2>::new(), control, &of_gauss).err();
+    assert_eq!(refused(other)?, CheckpointError::Short);
     let beyond =
         Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint.with_step_size(0.0)).err();
     assert!(matches!(beyond, Some(StartError::Step { .. })), "{beyond:?}");
+    Ok(())
+}
+
+/// V falls without bound at x = 1, where the energy is finite.
+#[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0 + (1.0 - x * x).sqrt() + 2.0 * x)]
+#[derive(Clone, Debug)]
+struct Edge;
+
+#[test]
+fn where_a_force_is_infinite_no_run_goes_on_and_that_is_said() -> Outcome {
+    let control = ErrorControl::new(1e-8, 0.05);
+    let start = EdgeState { x: -0.5, dot_x: 0.0 };
+    let mut run = Integrator::controlled(&Edge, Gauss::<4>::new(), control, start)?;
+    assert!(run.take_steps(1000).is_err());
+    assert_eq!(run.q(), [1.0]);
+    let error = Integrator::resume_controlled(&Edge, Gauss::<4>::new(), control, &run.checkpoint()).err();
+    let Some(StartError::Undefined { quantity, value, .. }) = error else { panic!("{error:?}") };
+    assert_eq!((quantity, value), ("the force ∂L/∂q", f64::NEG_INFINITY));
     Ok(())
 }
 

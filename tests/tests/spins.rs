@@ -271,6 +271,23 @@ fn states_are_vectors_wherever_they_are_seen() -> Outcome {
 }
 
 #[test]
+fn a_record_has_the_vectors_and_the_energy_of_the_run() -> Outcome {
+    let ring = Ring { length: [1.0, 2.0, 1.5], anisotropy: 0.3 };
+    let begin = || Integrator::new(&ring, Gauss::<3>::new(), 0.1, RingState { s: spins() });
+    let (record, mut run) = (begin()?.record(1, 50)?, begin()?);
+    for row in 0..=50 {
+        let entries = run.state().s.concat();
+        let names = (0..3).flat_map(|i| ["x", "y", "z"].map(|axis| format!("s[{i}].{axis}")));
+        for (name, entry) in names.zip(entries) {
+            assert_eq!(record.numbers(&name)?[row].to_bits(), entry.to_bits(), "{name} in row {row}");
+        }
+        assert_eq!(record.numbers("energy")?[row].to_bits(), run.energy().to_bits());
+        run.advance()?;
+    }
+    Ok(())
+}
+
+#[test]
 fn starts_that_are_no_unit_vectors_are_named() {
     let refused = |s: [Vector; 5]| match Integrator::new(&RING, Sigma::midpoint(), 0.1, RingState { s }) {
         Err(error) => error,

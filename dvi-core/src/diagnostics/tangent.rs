@@ -11,7 +11,7 @@
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, Span};
+use crate::discrete::{DiscreteLagrangian, Interval, Span};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::space::elimination::{self, multiply_add};
@@ -78,8 +78,7 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T>
             (*start, *delta) = (from, to - from);
         }
         self.hessian.iter_mut().for_each(|matrix| matrix.fill(zero));
-        let ends = Ends { q0: start, delta };
-        self.discrete.hessian(Span { system, interval, ends }, self.hessian.each_mut())?;
+        self.discrete.hessian(Span { system, interval, q0: start, delta }, self.hessian.each_mut())?;
         self.factors.copy_from_slice(&self.hessian[1]);
         elimination::factor(&mut self.factors, &mut self.permutation)
     }

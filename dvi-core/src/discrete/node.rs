@@ -10,7 +10,7 @@
 //! eqs. 9, 10 and 17).
 
 use super::basis::Basis;
-use super::{DiscreteLagrangian, Ends, Interval, Span};
+use super::{DiscreteLagrangian, Interval, Span};
 use crate::error::StepFailure;
 use crate::space::Sink;
 use crate::state::Statistics;
@@ -94,7 +94,7 @@ pub trait Nodes<T: Real> {
     fn node(&self, j: usize) -> Node<T>;
 
     /// Sets `point` and `velocity` to those of node `j`.
-    fn place(&self, j: usize, h: T, Ends { q0, delta }: Ends<'_, T>, [point, velocity]: [&mut [T]; 2]) {
+    fn place(&self, j: usize, h: T, [q0, delta]: [&[T]; 2], [point, velocity]: [&mut [T]; 2]) {
         let (Node { right: [b_bar, d_bar], both: [b, d], .. }, per_h) = (self.node(j), T::lift(1.0) / h);
         for i in 0..q0.len() {
             point[i] = b * q0[i] + b_bar * delta[i];
@@ -120,7 +120,7 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn derivatives(
         &mut self,
-        Span { system, interval, ends }: Span<'_, S, T>,
+        Span { system, interval, q0, delta }: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
@@ -129,7 +129,7 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
         nodes.fit(h)?;
         for j in 0..nodes.count() {
             let Node { time, weight, left, both, .. } = nodes.node(j);
-            nodes.place(j, h, ends, [&mut work.point, &mut work.velocity]);
+            nodes.place(j, h, [q0, delta], [&mut work.point, &mut work.velocity]);
             let NodeWork { point, velocity, gradient, momentum } = &mut *work;
             system.gradient(point, velocity, interval.time(time), gradient, momentum);
             statistics.gradients += 1;
@@ -154,14 +154,14 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
 
     fn hessian<K: Sink<T>>(
         &mut self,
-        Span { system, interval, ends }: Span<'_, S, T>,
+        Span { system, interval, q0, delta }: Span<'_, S, T>,
         [d11, d12, d21, d22]: [&mut K; 4],
     ) -> Result<(), StepFailure> {
         let Self { nodes, work } = self;
         nodes.fit(interval.h)?;
         for j in 0..nodes.count() {
             let node @ Node { left, right, .. } = nodes.node(j);
-            nodes.place(j, interval.h, ends, [&mut work.point, &mut work.velocity]);
+            nodes.place(j, interval.h, [q0, delta], [&mut work.point, &mut work.velocity]);
             node.add_second([left, left], (system, interval), work, d11);
             node.add_second([left, right], (system, interval), work, d12);
             node.add_second([right, left], (system, interval), work, d21);
@@ -175,14 +175,14 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn linearize<S: Lagrangian<T>, T: Real, K: Sink<T>>(
     nodes: &impl Nodes<T>,
-    Span { system, interval, ends }: Span<'_, S, T>,
+    Span { system, interval, q0, delta }: Span<'_, S, T>,
     work: &mut NodeWork<S, T>,
     d1: &mut [T],
     sink: &mut K,
 ) {
     for j in 0..nodes.count() {
         let node = nodes.node(j);
-        nodes.place(j, interval.h, ends, [&mut work.point, &mut work.velocity]);
+        nodes.place(j, interval.h, [q0, delta], [&mut work.point, &mut work.velocity]);
         node.add_second([node.left, node.right], (system, interval), work, sink);
         work.add(node.weight, interval.h, node.left, d1);
     }
@@ -203,7 +203,7 @@ impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
 
     /// Sets `point` to q_σ and `velocity` to Δ/h.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn place(&mut self, h: T, ends: Ends<'_, T>) {
+    pub(crate) fn place(&mut self, h: T, ends: [&[T]; 2]) {
         self.nodes.place(0, h, ends, [&mut self.work.point, &mut self.work.velocity]);
     }
 }
@@ -222,7 +222,7 @@ impl<T: Real> Nodes<T> for Between<T> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn place(&self, _j: usize, h: T, Ends { q0, delta }: Ends<'_, T>, [point, velocity]: [&mut [T]; 2]) {
+    fn place(&self, _j: usize, h: T, [q0, delta]: [&[T]; 2], [point, velocity]: [&mut [T]; 2]) {
         let per_h = T::lift(1.0) / h;
         for i in 0..q0.len() {
             point[i] = q0[i] + self.0 * delta[i];

@@ -239,9 +239,9 @@ pub trait FirstOrder<S: System, T: Real>: Kind + StageEquations<S, T> {
     fn velocity(
         _equations: &Self::Equations,
         _system: &S,
-        _q: &Vector<S, T>,
+        _q: &[T],
         _t: T,
-        _v: &mut Vector<S, T>,
+        _v: &mut [T],
     ) -> Result<(), StepFailure> {
         Ok(())
     }

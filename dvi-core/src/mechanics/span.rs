@@ -19,24 +19,17 @@ impl<T: Real> Interval<T> {
     }
 }
 
-/// The two ends of an interval: q0, and Δ = q1 − q0.
-#[derive(Clone, Copy, Debug)]
-pub struct Ends<'a, T> {
-    /// The coordinates where it begins.
-    pub q0: &'a [T],
-    /// The difference of the two points.
-    pub delta: &'a [T],
-}
-
-/// An interval of the motion of a system, with its two ends.
+/// An interval of the motion of a system, with its two ends: q0, and Δ = q1 − q0.
 #[derive(Debug)]
 pub struct Span<'a, S, T> {
     /// The system.
     pub system: &'a S,
     /// The time.
     pub interval: Interval<T>,
-    /// The coordinates.
-    pub ends: Ends<'a, T>,
+    /// The coordinates where it begins.
+    pub q0: &'a [T],
+    /// The difference of the two points.
+    pub delta: &'a [T],
 }
 
 impl<S, T: Copy> Clone for Span<'_, S, T> {

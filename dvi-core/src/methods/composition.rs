@@ -8,7 +8,7 @@ mod table;
 
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, Here, Kept, Method, PreservedForm, Scheme, Step, VariableStep};
+use crate::methods::{Carries, Here, Kept, Method, Scheme, Step, VariableStep, scheme};
 use crate::{Lagrangian, Real, System, Vector};
 use table::{KAHAN_LI_6, KAHAN_LI_8, SUZUKI, SUZUKI_UMENO, TRIPLE_JUMP, Table, YOSHIDA};
 
@@ -118,25 +118,17 @@ impl<I: Memory<T>, V, T: Real> Memory<T> for CompositionMemory<I, V> {
     lasting!(T; part inner);
 }
 
-impl<M: Scheme> Scheme for Composition<M> {
+scheme! {
+    [M: Scheme] Composition<M>, |method|
     /// That of the composition, or of the composed method if this is higher. If the composed method is not
     /// symmetric, its error terms of even power remain: one order is gained at most.
-    fn order(&self) -> usize {
-        let (inner, table) = (self.method.order(), self.table.order);
-        if self.method.is_symmetric() {
-            inner.max(table)
-        } else if inner % 2 == 0 && inner + 2 <= table {
-            inner + 1
-        } else {
-            inner
-        }
-    }
-    fn is_symmetric(&self) -> bool {
-        self.method.is_symmetric()
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        self.method.preserved_form()
-    }
+    order: match (method.method.order(), method.table.order) {
+        (inner, table) if method.method.is_symmetric() => inner.max(table),
+        (inner, table) if inner % 2 == 0 && inner + 2 <= table => inner + 1,
+        (inner, _) => inner,
+    },
+    is_symmetric: method.method.is_symmetric(),
+    preserved_form: method.method.preserved_form(),
 }
 
 impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for Composition<M> {
@@ -144,7 +136,7 @@ impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for Composition<M> {
 }
 
 impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition<M> {
-    type Suited<X> = M::SuitedToAnyStep<X>;
+    type Suited<X> = <M as Method<S, T>>::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let begin = || self.method.begin(system, q, v, t, h);
@@ -169,19 +161,12 @@ impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composit
         Ok(())
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         self.method.velocity(here, &memory.inner, v)
     }
 }
 
-impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Composition<M> {
-    type SuitedToAnyStep<X> = M::SuitedToAnyStep<X>;
-}
+impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Composition<M> {}
 
 #[cfg(test)]
 mod tests {

@@ -9,7 +9,7 @@ use crate::discrete::quadrature::Trapezoid;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::check;
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints};
-use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
+use crate::methods::{Carries, Clock, Here, Method, Scheme, Step, Steps, VariableStep, scheme};
 use crate::methods::{InnerScheme, Variational};
 use crate::solve::Stopping;
 use crate::system::Same;
@@ -122,17 +122,7 @@ impl<M> Constrained<M> {
     }
 }
 
-impl<M: Scheme> Scheme for Constrained<M> {
-    fn order(&self) -> usize {
-        self.scheme.order()
-    }
-    fn is_symmetric(&self) -> bool {
-        self.scheme.is_symmetric()
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        self.scheme.preserved_form()
-    }
-}
+scheme! { [M: Scheme] Constrained<M>, as scheme }
 
 impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Carries<S, T> for Constrained<M> {
     type Memory = ConstrainedMemory<S, M::DiscreteLagrangian, T>;
@@ -199,16 +189,14 @@ where
         &self,
         _here: Here<'_, S, T>,
         memory: &Self::Memory,
-        v: &mut Vector<S, T>,
+        v: &mut [T],
     ) -> Result<(), StepFailure> {
         memory.velocity(v);
         Ok(())
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M> VariableStep<S, T> for Constrained<M>
-where
-    IfConstrained<S, M, T>: InnerScheme<S, T>,
+impl<S: ConstrainedLagrangian<T>, T: Real, M> VariableStep<S, T> for Constrained<M> where
+    IfConstrained<S, M, T>: InnerScheme<S, T>
 {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }

@@ -7,7 +7,7 @@
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::methods::{
-    Carries, Here, Kept, Method, PreservedForm, Scheme, Step, Tolerance, VariableStep, VariationalMethod,
+    Carries, Here, Kept, Method, Scheme, Step, Tolerance, VariableStep, VariationalMethod, scheme,
 };
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
@@ -72,17 +72,7 @@ fn watched<S: Lagrangian<T>, T: Real>(system: &S, q: &[T], v: &[T], t: T) -> T {
     }
 }
 
-impl<M: Scheme> Scheme for EnergyLimit<M> {
-    fn order(&self) -> usize {
-        self.method.order()
-    }
-    fn is_symmetric(&self) -> bool {
-        self.method.is_symmetric()
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        self.method.preserved_form()
-    }
-}
+scheme! { [M: Scheme] EnergyLimit<M>, as method }
 
 impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for EnergyLimit<M> {
     type Memory = EnergyLimitMemory<M::Memory, Vector<S, T>, T>;
@@ -140,12 +130,7 @@ where
         self.method.part_of_step(part, whole, &mut memory.inner)
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         self.method.velocity(here, &memory.inner, v)
     }
 
@@ -166,12 +151,7 @@ where
     }
 }
 
-impl<S: Lagrangian<T>, T: Real, M> VariableStep<S, T> for EnergyLimit<M>
-where
-    Itself<M>: VariableStep<S, T>,
-{
-    type SuitedToAnyStep<X> = <M as VariableStep<S, T>>::SuitedToAnyStep<X>;
-}
+impl<S: Lagrangian<T>, T: Real, M> VariableStep<S, T> for EnergyLimit<M> where Itself<M>: VariableStep<S, T> {}
 
 impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;

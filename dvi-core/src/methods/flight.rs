@@ -38,7 +38,7 @@ pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Scheme + Carries<S
         &self,
         here: Here<'_, S, T>,
         memory: &Self::Memory,
-        v: &mut Vector<S, T>,
+        v: &mut [T],
     ) -> Result<(), StepFailure>;
 
     /// Adds `impulse` to the momentum; `velocity` is about what that leads to.

@@ -23,7 +23,7 @@ mod second_order;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, InLanes, OneByOne, StageEvaluation};
 use crate::methods::{
-    Carries, Here, Method, PreservedForm, Scheme, Step, Tabulated, Tolerance, VariableStep,
+    Carries, Here, Method, PreservedForm, Step, Tabulated, Tolerance, VariableStep, scheme,
 };
 use crate::scalar::simd::widest_if;
 use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, from_either_guess, iterate};
@@ -115,16 +115,11 @@ where
     }
 }
 
-impl<const S: usize, E> Scheme for Gauss<S, E> {
-    fn order(&self) -> usize {
-        2 * S
-    }
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        PreservedForm::OmegaIfAffine
-    }
+scheme! {
+    [const S: usize, E] Gauss<S, E>, |_|
+    order: 2 * S,
+    is_symmetric: true,
+    preserved_form: PreservedForm::OmegaIfAffine,
 }
 
 impl<const STAGES: usize, E, S: System<Kind: FirstOrder<S, T>>, T: Real> Carries<S, T> for Gauss<STAGES, E> {
@@ -175,12 +170,7 @@ where
         )
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         let Here { system, q, t } = here;
         S::Kind::velocity(&memory.path.equations, system, q, t, v)
     }
@@ -234,7 +224,6 @@ where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
     E: StageEvaluation<STAGES, S, T>,
 {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }
 
 impl<const STAGES: usize, E> Gauss<STAGES, E> {

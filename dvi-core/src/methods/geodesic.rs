@@ -15,7 +15,7 @@ use crate::discrete::Interval;
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Trapezoid};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::manifold;
-use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
+use crate::methods::{Carries, Here, Method, PreservedForm, Step, VariableStep, scheme};
 use crate::solve::Stopping;
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
@@ -111,16 +111,11 @@ impl Geodesic<Trapezoid> {
     }
 }
 
-impl<R: Rule> Scheme for Geodesic<R> {
-    fn order(&self) -> usize {
-        if self.rule.is_exact_for_linear() { 2 } else { 1 }
-    }
-    fn is_symmetric(&self) -> bool {
-        self.rule.is_symmetric()
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        PreservedForm::Canonical
-    }
+scheme! {
+    [R: Rule] Geodesic<R>, |method|
+    order: if method.rule.is_exact_for_linear() { 2 } else { 1 },
+    is_symmetric: method.rule.is_symmetric(),
+    preserved_form: PreservedForm::Canonical,
 }
 
 impl<S: ManifoldSystem, R, T: Real> Carries<S, T> for Geodesic<R> {
@@ -166,18 +161,11 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         Ok(())
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         let Here { system, q, t } = here;
         memory.rates.extrapolate([v]);
         Legendre { system, q, p: &memory.p, t }.solve(v)
     }
 }
 
-impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> VariableStep<S, T> for Geodesic<R> {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
-}
+impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> VariableStep<S, T> for Geodesic<R> {}

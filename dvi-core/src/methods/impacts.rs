@@ -9,7 +9,7 @@ mod memory;
 mod passage;
 
 use crate::error::{StartError, StepFailure};
-use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step};
+use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step, scheme};
 use crate::system::Same;
 use crate::system::start::evaluate;
 use crate::{ConstrainedSystem, Real, UnilateralLagrangian, Vector};
@@ -129,19 +129,14 @@ impl<M> Impacts<M> {
     }
 }
 
-impl<M: Scheme> Scheme for Impacts<M> {
-    fn order(&self) -> usize {
-        self.scheme.order()
-    }
-    fn is_symmetric(&self) -> bool {
-        self.scheme.is_symmetric()
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        match self.collision {
-            Collision::Variational => self.scheme.preserved_form(),
-            Collision::Reflection => PreservedForm::Nothing,
-        }
-    }
+scheme! {
+    [M: Scheme] Impacts<M>, |method|
+    order: method.scheme.order(),
+    is_symmetric: method.scheme.is_symmetric(),
+    preserved_form: match method.collision {
+        Collision::Variational => method.scheme.preserved_form(),
+        Collision::Reflection => PreservedForm::Nothing,
+    },
 }
 
 impl<S: ConstrainedSystem, T: Real, M: Carries<S, T>> Carries<S, T> for Impacts<M> {
@@ -204,12 +199,7 @@ where
         })
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         self.scheme.velocity_in_flight(here, &memory.inner, v)
     }
 }

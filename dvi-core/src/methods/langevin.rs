@@ -18,7 +18,7 @@ use crate::mechanics::mass_root::MassRoot;
 use crate::mechanics::phase::Arrival;
 use crate::memory::{Memory, lasting};
 use crate::methods::step::{Carried, Work};
-use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
+use crate::methods::{Carries, Here, Method, PreservedForm, Step, scheme};
 use crate::scalar::norm;
 use crate::scalar::passes::kick;
 use crate::state::summation::Summation;
@@ -139,17 +139,12 @@ impl Langevin {
     }
 }
 
-impl Scheme for Langevin {
+scheme! {
+    [] Langevin, |_|
     /// That of averages.
-    fn order(&self) -> usize {
-        2
-    }
-    fn is_symmetric(&self) -> bool {
-        false
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        PreservedForm::Nothing
-    }
+    order: 2,
+    is_symmetric: false,
+    preserved_form: PreservedForm::Nothing,
 }
 
 impl<S: System, T: Real> Carries<S, T> for Langevin {
@@ -196,12 +191,7 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin 
         Ok(())
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         memory.carried.velocity(here, v)
     }
 }

@@ -15,7 +15,7 @@
 use crate::discrete::{Interval, NodeWork};
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::{Attempt, Begin, Equations, PhaseMemory, Share, set_force};
-use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step};
+use crate::methods::{Carries, Here, Method, PreservedForm, Step, scheme};
 use crate::scalar::norm::reported;
 use crate::solve::{Solver, Stopping};
 use crate::space::Sink;
@@ -167,16 +167,11 @@ impl<T: Real> Newmark<T> {
     }
 }
 
-impl<T: Real> Scheme for Newmark<T> {
-    fn order(&self) -> usize {
-        2
-    }
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        if self.is_verlet() { PreservedForm::Canonical } else { PreservedForm::Conjugate }
-    }
+scheme! {
+    [T: Real] Newmark<T>, |method|
+    order: 2,
+    is_symmetric: true,
+    preserved_form: if method.is_verlet() { PreservedForm::Canonical } else { PreservedForm::Conjugate },
 }
 
 impl<S: System, T: Real> Carries<S, T> for Newmark<T> {
@@ -204,12 +199,7 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
         )
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         memory.carried.velocity(here, v)
     }
 }

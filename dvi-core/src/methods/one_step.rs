@@ -21,7 +21,7 @@ mod stage;
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::methods::one_point::OnePoint;
-use crate::methods::{self, Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{self, Carries, Method, PreservedForm, VariableStep, scheme};
 use crate::solve::{Convergence, Guess, Quick, Stopping, from_either_guess};
 use crate::state::Statistics;
 use crate::{ProperlyDegenerate, Real, Space, System, Vector};
@@ -103,19 +103,14 @@ impl OneStep {
     }
 }
 
-impl Scheme for OneStep {
-    fn order(&self) -> usize {
-        match self.rule {
-            Rule::A | Rule::B => 1,
-            Rule::Midpoint | Rule::Trapezoid => 2,
-        }
-    }
-    fn is_symmetric(&self) -> bool {
-        self.rule.is_symmetric()
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        if self.is_symmetric() { PreservedForm::Omega } else { PreservedForm::Conjugate }
-    }
+scheme! {
+    [] OneStep, |method|
+    order: match method.rule {
+        Rule::A | Rule::B => 1,
+        Rule::Midpoint | Rule::Trapezoid => 2,
+    },
+    is_symmetric: method.rule.is_symmetric(),
+    preserved_form: if method.rule.is_symmetric() { PreservedForm::Omega } else { PreservedForm::Conjugate },
 }
 
 /// What a run of a one-step scheme carries.
@@ -180,9 +175,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
     }
 }
 
-impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStep {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
-}
+impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStep {}
 
 impl OneStep {
     /// A step from `guess`, of any rule and in any space.

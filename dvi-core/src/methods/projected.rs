@@ -15,7 +15,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::{Memory, lasting};
 use crate::methods::one_point::OnePoint;
-use crate::methods::{self, Carries, Method, PreservedForm, Scheme, VariableStep};
+use crate::methods::{self, Carries, Method, PreservedForm, VariableStep, scheme};
 use crate::scalar::norm;
 use crate::solve::{Stopping, from_either_guess, solve_coupled};
 use crate::space::Storing;
@@ -77,16 +77,11 @@ impl Projected {
     }
 }
 
-impl Scheme for Projected {
-    fn order(&self) -> usize {
-        2
-    }
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        PreservedForm::OmegaIfAffine
-    }
+scheme! {
+    [] Projected, |_|
+    order: 2,
+    is_symmetric: true,
+    preserved_form: PreservedForm::OmegaIfAffine,
 }
 
 /// What a run of a projected scheme carries.
@@ -165,6 +160,4 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
     }
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Projected {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
-}
+impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Projected {}

@@ -7,7 +7,7 @@ use core::fmt;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{EquationsOf, FirstOrder, PointOf};
 use crate::memory::{Memory, lasting};
-use crate::methods::{Carries, Here, Method, PreservedForm, Scheme, Step, VariableStep};
+use crate::methods::{Carries, Here, Method, PreservedForm, Step, VariableStep, scheme};
 use crate::scalar::passes::kick;
 use crate::{Lagrangian, Real, System, Vector};
 
@@ -98,16 +98,11 @@ impl<S: System<Kind: FirstOrder<S, T>>, T: Real> fmt::Debug for RungeKuttaMemory
     }
 }
 
-impl Scheme for RungeKutta {
-    fn order(&self) -> usize {
-        self.tableau.order
-    }
-    fn is_symmetric(&self) -> bool {
-        false
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        PreservedForm::Nothing
-    }
+scheme! {
+    [] RungeKutta, |method|
+    order: method.tableau.order,
+    is_symmetric: false,
+    preserved_form: PreservedForm::Nothing,
 }
 
 impl<S: System<Kind: FirstOrder<S, T>>, T: Real> Carries<S, T> for RungeKutta {
@@ -144,20 +139,13 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> fo
         S::Kind::arrive(equations, system, stage, q, t + h)
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         let Here { system, q, t } = here;
         S::Kind::velocity(&memory.equations, system, q, t, v)
     }
 }
 
-impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S, T> for RungeKutta {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
-}
+impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S, T> for RungeKutta {}
 
 /// Sets `out` to y + h Σ wⱼ kⱼ.
 fn combine<S: System<Kind: FirstOrder<S, T>>, T: Real>(

@@ -42,3 +42,42 @@ pub trait Scheme {
     /// them before it meets a system.
     fn preserved_form(&self) -> PreservedForm;
 }
+
+/// What is known of a method, from expressions of it, or of the method inside.
+macro_rules! scheme {
+    ([$($generics:tt)*] $Method:ty, as $inner:ident) => {
+        $crate::methods::scheme! {
+            [$($generics)*] $Method, |method|
+            order: method.$inner.order(),
+            is_symmetric: method.$inner.is_symmetric(),
+            preserved_form: method.$inner.preserved_form(),
+        }
+    };
+    (
+        [$($generics:tt)*] $Method:ty, |$method:pat_param|
+        $(#[$doc:meta])*
+        order: $order:expr,
+        is_symmetric: $is_symmetric:expr,
+        preserved_form: $form:expr,
+    ) => {
+        impl<$($generics)*> $crate::methods::Scheme for $Method {
+            $(#[$doc])*
+            #[allow(unused_variables)]
+            fn order(&self) -> usize {
+                let $method = self;
+                $order
+            }
+            #[allow(unused_variables)]
+            fn is_symmetric(&self) -> bool {
+                let $method = self;
+                $is_symmetric
+            }
+            #[allow(unused_variables)]
+            fn preserved_form(&self) -> $crate::methods::PreservedForm {
+                let $method = self;
+                $form
+            }
+        }
+    };
+}
+pub(crate) use scheme;

@@ -21,7 +21,7 @@ mod together;
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
-use crate::methods::{self, Carries, Clock, Method, PreservedForm, Scheme, Steps};
+use crate::methods::{self, Carries, Clock, Method, PreservedForm, Steps, scheme};
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, System, Vector};
@@ -189,18 +189,13 @@ impl<S, T: Real> Step<'_, S, T> {
     }
 }
 
-impl<T: Real> Scheme for Sigma<T> {
+scheme! {
+    [T: Real] Sigma<T>, |method|
     /// Two for σ = ½, and one for every other σ: that is the order on any one-form. On those of which
     /// [`Sigma`] says so, steps with σ ≠ ½ converge with a higher one.
-    fn order(&self) -> usize {
-        if self.is_midpoint() { 2 } else { 1 }
-    }
-    fn is_symmetric(&self) -> bool {
-        self.is_midpoint()
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        PreservedForm::Discrete
-    }
+    order: if method.is_midpoint() { 2 } else { 1 },
+    is_symmetric: method.is_midpoint(),
+    preserved_form: PreservedForm::Discrete,
 }
 
 impl<S: System, T: Real> Carries<S, T> for Sigma<T> {

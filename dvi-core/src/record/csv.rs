@@ -35,7 +35,7 @@ impl Record {
     /// numbers if all its entries are numbers, and texts otherwise.
     ///
     /// # Errors
-    /// [`RecordError::Csv`] and [`RecordError::Duplicate`].
+    /// [`RecordError::Csv`], [`RecordError::Quote`] and [`RecordError::Duplicate`].
     ///
     /// ```
     /// use dvi_core::prelude::*;
@@ -55,6 +55,9 @@ impl Record {
     pub fn read_csv(mut from: impl Read) -> Result<Self, RecordError> {
         let mut text = Vec::new();
         from.read_to_end(&mut text).map_err(csv::Error::from)?;
+        if let Some(line) = open_quote(&text) {
+            return Err(RecordError::Quote { line });
+        }
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&text[..]);
         let names: Vec<String> = reader.headers()?.iter().map(str::to_owned).collect();
         let rows = reader.into_records().collect::<Result<Vec<_>, _>>()?;
@@ -87,6 +90,31 @@ impl Record {
 pub(super) fn number(entry: &str) -> Option<f64> {
     let number = entry.parse::<f64>().ok()?;
     (number.is_finite() || !entry.contains(|letter: char| letter.is_ascii_digit())).then_some(number)
+}
+
+/// The line of a quote that is opened and not closed, at which a reader takes all that follows for one entry.
+fn open_quote(text: &[u8]) -> Option<u64> {
+    /// Where in an entry, with the line of the quote that it begins with.
+    enum At {
+        Begin,
+        Within,
+        Quoted(u64),
+        /// Behind a second quote, unless another one follows.
+        Closed(u64),
+    }
+    let (mut line, mut at) = (1, At::Begin);
+    for byte in text {
+        at = match (at, byte) {
+            (At::Begin, b'"') => At::Quoted(line),
+            (At::Quoted(opened), b'"') => At::Closed(opened),
+            (At::Closed(opened), b'"') => At::Quoted(opened),
+            (At::Quoted(opened), _) => At::Quoted(opened),
+            (_, b',' | b'\r' | b'\n') => At::Begin,
+            _ => At::Within,
+        };
+        line += u64::from(*byte == b'\n');
+    }
+    if let At::Quoted(opened) = at { Some(opened) } else { None }
 }
 
 /// The line in which a row begins, behind empty ones.

@@ -10,6 +10,7 @@ use super::column::{Column, Quantity, Values};
 use super::{Record, RecordError};
 use crate::error::{LengthError, StepError};
 use crate::run::Run;
+use crate::system::names::values;
 use crate::system::{Factor, Name};
 use crate::{Lagrangian, Space, State};
 
@@ -117,20 +118,40 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     /// is too short. There is no row then.
     pub fn push(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), RecordError> {
         system.check()?;
-        Ok(self.add(system, time, state)?)
+        Ok(self.add_state(system, time, state)?)
     }
 
     /// Adds a row for a system that is checked.
-    fn add(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), LengthError> {
+    fn add_state(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), LengthError> {
         let (mut q, mut v) = (system.space().vector(), system.space().vector());
         state.write(|block| system.block_len(block), &mut q, &mut v)?;
-        state.write(|block| self.lengths[block], &mut q, &mut v)?;
-        let momentum = |index| system.momentum(index, &q, &v, time);
+        self.add(system, time, state, [&q, &v])
+    }
+
+    /// Adds a row for where a run is: as its state is read from its coordinates, so are the entries.
+    fn add_present(&mut self, run: &impl Run<System = S, Scalar = f64>) -> Result<(), LengthError> {
+        self.add(run.system(), run.time(), &run.state(), [run.q(), &run.v()])
+    }
+
+    /// Adds a row for a state in both forms.
+    fn add(
+        &mut self,
+        system: &S,
+        time: f64,
+        state: &S::State<f64>,
+        [q, v]: [&[f64]; 2],
+    ) -> Result<(), LengthError> {
+        state.write(
+            |block| self.lengths[block],
+            &mut system.space().vector(),
+            &mut system.space().vector(),
+        )?;
+        let momentum = |index| system.momentum(index, q, v, time);
         let functions = self.functions.iter_mut().map(|function| function(system, state, time));
         let row = [time]
             .into_iter()
-            .chain(system.values(state)?)
-            .chain([system.energy(&q, &v, time)])
+            .chain(values(system, q, v))
+            .chain([system.energy(q, v, time)])
             .chain((0..S::REPORT.momenta.len()).map(momentum))
             .chain(functions);
         for (column, value) in self.record.columns.iter_mut().zip(row) {
@@ -154,12 +175,12 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         if every == 0 {
             return Err(RecordError::Every);
         }
-        self.add(run.system(), run.time(), &run.state())?;
+        self.add_present(run)?;
         for _ in 0..rows {
             if let Err(error) = run.take_steps(every) {
                 return Err(self.record.until(error));
             }
-            self.add(run.system(), run.time(), &run.state())?;
+            self.add_present(run)?;
         }
         Ok(self.record)
     }
@@ -180,7 +201,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
             match point {
                 Ok(point) => {
                     let (time, state) = point.into();
-                    self.add(system, time, &state)?;
+                    self.add_state(system, time, &state)?;
                 }
                 Err(error) => return Err(self.record.until(error)),
             }

@@ -34,13 +34,7 @@ pub trait Between<S: System, T: Real> {
     ///
     /// # Errors
     /// As [`Method::step`] and [`Method::velocity`]; [`StepFailure::LeftDomain`].
-    fn reach(
-        &mut self,
-        system: &S,
-        t: T,
-        lengths: [T; 2],
-        v: &mut Vector<S, T>,
-    ) -> Result<&[T], StepFailure>;
+    fn reach(&mut self, system: &S, t: T, lengths: [T; 2], v: &mut [T]) -> Result<&[T], StepFailure>;
 
     /// The coordinates at one of the places within the last step that are known, with the part of the step;
     /// their velocities are written to `v`.
@@ -50,7 +44,7 @@ pub trait Between<S: System, T: Real> {
     ///
     /// # Errors
     /// As [`Method::velocity`].
-    fn end(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<&[T], StepFailure>;
+    fn end(&self, system: &S, t: T, v: &mut [T]) -> Result<&[T], StepFailure>;
 }
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M, T> {
@@ -81,13 +75,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         method.steps(Steps { system, q, clock, count, statistics }, memory)
     }
 
-    fn reach(
-        &mut self,
-        system: &S,
-        t: T,
-        [h, whole]: [T; 2],
-        v: &mut Vector<S, T>,
-    ) -> Result<&[T], StepFailure> {
+    fn reach(&mut self, system: &S, t: T, [h, whole]: [T; 2], v: &mut [T]) -> Result<&[T], StepFailure> {
         let Self { method, points, .. } = self;
         let [begun, reached]: &mut [PointOf<S, M, T>; 2] = begun(points.as_mut(), t)?;
         reached.take(&begun.q, &begun.memory);
@@ -110,7 +98,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
     }
 
     #[inline]
-    fn end(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<&[T], StepFailure> {
+    fn end(&self, system: &S, t: T, v: &mut [T]) -> Result<&[T], StepFailure> {
         self.velocity(system, t, v)?;
         Ok(&self.q)
     }

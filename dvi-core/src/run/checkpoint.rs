@@ -8,7 +8,7 @@ use crate::methods::Method;
 use crate::run::Stepper;
 use crate::state::Statistics;
 use crate::state::fingerprint::Fingerprint;
-use crate::system::start::{finite, velocities};
+use crate::system::start::{evaluate, finite, velocities};
 use crate::{Lagrangian, Real, Space, Vector};
 
 /// A run as data. From it [`Integrator::resume`](crate::run::Integrator::resume) and
@@ -169,25 +169,26 @@ impl<T: Real> Checkpoint<T> {
             return Err(CheckpointError::Size { what, expected, found }.into());
         }
         finite(system, &self.0.q, &self.0.v)?;
-        if self.0.statistics.counts().iter().any(|&count| count > BEYOND) || !self.goes_on() {
+        if self.0.statistics.counts().iter().any(|&count| count > BEYOND) {
             return Err(CheckpointError::Damaged.into());
         }
         let (mut q, mut v): (Vector<S, T>, Vector<S, T>) =
             (system.space().vector(), system.space().vector());
         q.copy_from_slice(&self.0.q);
         v[..found].copy_from_slice(&self.0.v);
+        if !self.goes_on() {
+            // As a force that is infinite there.
+            evaluate(system, &q, &v[..velocities(system)], self.0.time)?;
+            return Err(CheckpointError::Damaged.into());
+        }
         Ok([q, v])
     }
 
-    /// Loads what has been saved into `memory`, and the rest by `load`.
-    pub(crate) fn load(
-        &self,
-        memory: &mut impl Memory<T>,
-        load: impl FnOnce(&mut Record<T>) -> Result<(), CheckpointError>,
-    ) -> Result<(), StartError> {
-        let mut record = self.0.record.clone();
-        memory.load(&mut record)?;
-        load(&mut record)?;
-        Ok(record.end()?)
+    /// What has been saved, to be read, if it is as much as `save` would append.
+    pub(crate) fn record(&self, save: impl FnOnce(&mut Record<T>)) -> Result<Record<T>, CheckpointError> {
+        let mut expected = Record::new();
+        save(&mut expected);
+        self.0.record.fits(&expected)?;
+        Ok(self.0.record.clone())
     }
 }

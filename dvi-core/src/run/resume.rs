@@ -49,18 +49,21 @@ pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T
     let mut begun =
         carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;
     let Begun { memory, control_memory, time, .. } = &mut begun;
-    checkpoint.load(memory, |record| {
-        control_memory.load(record)?;
-        time.load(record)?;
-        let is_length = C::ONE_LENGTH || (time.h == h && h != T::lift(0.0));
-        if time.after(statistics.steps).time() != t || !is_length {
-            return Err(CheckpointError::Damaged);
-        }
-        if time.h != h {
-            // No steps have been taken with this one.
-            *time = Time::new(t, h, statistics.steps);
-        }
-        Ok(())
+    let record = &mut checkpoint.record(|expected| {
+        memory.save(expected);
+        control_memory.save(expected);
+        time.save(expected);
     })?;
+    memory.load(record)?;
+    control_memory.load(record)?;
+    time.load(record)?;
+    let is_length = C::ONE_LENGTH || (time.h == h && h != T::lift(0.0));
+    if time.after(statistics.steps).time() != t || !is_length {
+        return Err(CheckpointError::Damaged.into());
+    }
+    if time.h != h {
+        // No steps have been taken with this one.
+        *time = Time::new(t, h, statistics.steps);
+    }
     Ok(Begun { statistics, ..begun })
 }

@@ -28,7 +28,7 @@ pub(super) type PointOf<S, M, T> = Kept<Vector<S, T>, <M as Carries<S, T>>::Memo
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Sets `v` to the velocity at the current point, which is reached at time `t`.
     #[inline]
-    pub(crate) fn velocity(&self, system: &S, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
+    pub(crate) fn velocity(&self, system: &S, t: T, v: &mut [T]) -> Result<(), StepFailure> {
         self.method.velocity(Here { system, q: &self.q, t }, &self.memory, v)
     }
 

@@ -78,7 +78,7 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
     }
 
     /// Sets `rates` to what those of the last steps lead to.
-    pub(crate) fn extrapolate(&self, rates: [&mut Vector<S, T>; KINDS]) {
+    pub(crate) fn extrapolate(&self, rates: [&mut [T]; KINDS]) {
         self.kinds
             .iter()
             .zip(rates)

@@ -13,6 +13,16 @@ pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
     Entries { system, is_velocity: false, block: 0, first: 0, index: 0 }
 }
 
+/// The entries of a state in flat form, in the order of [`System::names`].
+pub(crate) fn values<S: System, T: Scalar>(system: &S, q: &[T], v: &[T]) -> impl Iterator<Item = T> {
+    let lowered = spinors::lowered(system, q);
+    entries(system).map(move |(name, place)| match &lowered {
+        _ if name.is_velocity => v[place],
+        Some(lowered) => lowered[place],
+        None => q[place],
+    })
+}
+
 /// The state with these entries, in the order of [`System::names`]; those that are lacking are zero.
 pub(crate) fn state<S: System, T: Scalar>(system: &S, values: impl IntoIterator<Item = T>) -> S::State<T> {
     let (mut q, mut v) = (system.space().vector(), system.space().vector());

@@ -4,7 +4,7 @@ use crate::error::{StartError, StepError, StepFailure};
 use crate::name::Name;
 use crate::scalar::norm::reported;
 use crate::scalar::smallest_normal;
-use crate::system::names::entries;
+use crate::system::names::{entries, values};
 use crate::system::{Factor, TimeTransform, TimeTransformed, spinors};
 use crate::{Lagrangian, Real, Scalar, Space, State, System, Vector, Weights};
 
@@ -212,11 +212,7 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
 
 /// Checks that the entries of a state are finite.
 pub(crate) fn finite<S: System, T: Real>(system: &S, q: &[T], v: &[T]) -> Result<(), StartError> {
-    let lowered = spinors::lowered(system, q);
-    let q = lowered.as_deref().unwrap_or(q);
-    let mut values =
-        entries(system).map(|(name, place)| (name, if name.is_velocity { v[place] } else { q[place] }));
-    match values.find(|(_, x)| !x.is_finite()) {
+    match system.names().zip(values(system, q, v)).find(|(_, x)| !x.is_finite()) {
         Some((entry, value)) => Err(StartError::NotFinite { entry, value: reported(value) }),
         None => Ok(()),
     }

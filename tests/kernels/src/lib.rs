@@ -7,7 +7,7 @@ mod top_by_hand;
 pub mod vortices_by_hand;
 pub mod wide;
 
-use dvi_core::discrete::{DiscreteLagrangian, Ends, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
+use dvi_core::discrete::{DiscreteLagrangian, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_core::state::Statistics;
@@ -139,8 +139,8 @@ fn residual_and_matrix(steps: u64) -> f64 {
     for _ in 0..steps {
         residual.fill(0.0);
         matrix.fill(0.0);
-        let ends = Ends { q0: &z, delta: &delta };
-        let span = Span { system: &system, interval: Interval { t: 0.0, h: H }, ends };
+        let interval = Interval { t: 0.0, h: H };
+        let span = Span { system: &system, interval, q0: &z, delta: &delta };
         let result = l_d.linearize(span, &mut residual, &mut matrix, &mut statistics);
         if result.is_err() {
             return f64::NAN;

@@ -106,12 +106,7 @@ impl<S: RegularLagrangian<T>, T: Real> Method<S, T> for Mistaken {
         taken
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         Variational::midpoint().velocity(here, &memory.inner, v)
     }
 }

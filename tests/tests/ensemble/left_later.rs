@@ -77,7 +77,7 @@ impl<S: Lagrangian, M: Method<S, f64>> Method<S, f64> for Marked<M> {
         &self,
         here: Here<'_, S, f64>,
         memory: &Self::Memory,
-        v: &mut Vector<S, f64>,
+        v: &mut [f64],
     ) -> Result<(), StepFailure> {
         self.0.velocity(here, &memory.inner, v)
     }

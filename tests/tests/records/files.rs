@@ -4,7 +4,7 @@ use std::process::{Command, Stdio};
 use std::{fs, io::Write as _};
 
 use dvi_core::prelude::*;
-use dvi_core::record::{Column, Record, Values};
+use dvi_core::record::{Column, Record, RecordError, Values};
 
 use crate::records::{Checked, Kepler, START, bits};
 
@@ -13,7 +13,7 @@ const NUMBERS: [f64; 8] =
     [0.1, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 5e-324, f64::MAX, 0.1 + 0.2];
 
 /// Columns of all kinds, with names that are hard to write too.
-fn mixed() -> Result<Record, dvi_core::record::RecordError> {
+fn mixed() -> Result<Record, RecordError> {
     let texts = ["", "a", "two words", "α, \"β\"\n", "'", "\\", "𝛾𝛾𝛾𝛾𝛾𝛾𝛾𝛾𝛾𝛾", "end"].map(str::to_owned);
     Record::new("Mixed")
         .with_column(Column::new("a, \"b\"", NUMBERS.to_vec()))?
@@ -68,6 +68,26 @@ fn the_csv_reads_back_to_the_bit() -> Checked {
 }
 
 /// By the description of the format: the mark, the version, the length of the head, the head, the data.
+#[test]
+fn a_quote_that_is_not_closed_is_an_error_with_its_line() -> Checked {
+    for (text, expected) in [
+        ("x,remark\n1.0,\"open\n2.0,end\n", 2),
+        ("x,remark\n1.0,\"a \"\"b\"\" over\ntwo lines\"\n2.0,\"", 4),
+        ("x\r\n1.0\r\n\"2.0\"\"\r\n", 3),
+        ("\"x,remark\n", 1),
+    ] {
+        match Record::read_csv(text.as_bytes()) {
+            Err(RecordError::Quote { line }) => assert_eq!(line, expected, "{text:?}"),
+            other => panic!("{text:?}: {other:?}"),
+        }
+    }
+    // Within an entry, or doubled, a quote is a letter.
+    let record = Record::read_csv("x,remark\n1.0,5\" wide\n2.0,\"a \"\"b\"\"\"\n3.0, \"c\n".as_bytes())?;
+    let Values::Texts(texts) = &record.column("remark")?.values else { panic!("texts") };
+    assert_eq!(texts, &["5\" wide", "a \"b\"", "\"c"]);
+    Ok(())
+}
+
 #[test]
 fn the_array_has_the_format_of_numpy() -> Checked {
     let mut file = Vec::new();

@@ -1,7 +1,7 @@
 //! g(q, t) = 0: at the end of a step g(q1, t1) = 0, of velocities G v + ∂g/∂t = 0, with G = ∂g/∂q.
 
 use super::Constraints;
-use crate::mechanics::{Ends, Span};
+use crate::mechanics::Span;
 use crate::space::Sink;
 use crate::system::Holonomic;
 use crate::{HolonomicLagrangian, Real};
@@ -16,7 +16,7 @@ impl<S: HolonomicLagrangian<T>, T: Real> Constraints<S, T> for Holonomic {
     }
     fn of_step<K: Sink<T>>(
         system: &S,
-        Span { interval, ends: Ends { q0, delta }, .. }: Span<'_, S, T>,
+        Span { interval, q0, delta, .. }: Span<'_, S, T>,
         [point, _]: [&mut [T]; 2],
         out: &mut [T],
         sink: &mut K,

@@ -2,7 +2,7 @@
 //! Martínez 2001).
 
 use super::Constraints;
-use crate::mechanics::{Ends, Span};
+use crate::mechanics::Span;
 use crate::space::Sink;
 use crate::system::Nonholonomic;
 use crate::{NonholonomicLagrangian, Real};
@@ -18,7 +18,7 @@ impl<S: NonholonomicLagrangian<T>, T: Real> Constraints<S, T> for Nonholonomic {
     }
     fn of_step<K: Sink<T>>(
         system: &S,
-        Span { interval, ends: Ends { q0, delta }, .. }: Span<'_, S, T>,
+        Span { interval, q0, delta, .. }: Span<'_, S, T>,
         [point, velocity]: [&mut [T]; 2],
         out: &mut [T],
         sink: &mut K,

@@ -13,7 +13,7 @@ use super::residuals::Residuals;
 use super::{At, Augmented, Bordered, ConstrainedLagrangian, Constraints, Multipliers, scales};
 use crate::error::StepFailure;
 use crate::mechanics::pattern::visit_second_derivatives;
-use crate::mechanics::{Ends, Interval, Span};
+use crate::mechanics::{Interval, Span};
 use crate::memory::{Memory, lasting};
 use crate::scalar::norm;
 use crate::space::{LinearEquations, Sink, SquareMatrix, linear};
@@ -54,7 +54,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             let mut work: [Vector<S, T>; 2] = system.space().vectors();
             let [point, velocity] = &mut work;
             let interval = Interval { t, h: T::lift(1.0) };
-            let span = Span { system, interval, ends: Ends { q0: q, delta: v } };
+            let span = Span { system, interval, q0: q, delta: v };
             let mut below = |k: usize, j: usize, _: T| visit(n + k, j);
             S::Kind::of_step(system, span, [point, velocity], &mut values, &mut below);
             let mut both = |k: usize, j: usize, _: T| {

@@ -161,9 +161,9 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     fn velocity(
         equations: &HamiltonsEquations<S, T>,
         system: &S,
-        q: &Vector<S, T>,
+        q: &[T],
         t: T,
-        v: &mut Vector<S, T>,
+        v: &mut [T],
     ) -> Result<(), StepFailure> {
         match &equations.transform {
             Some(Transform { velocity, .. }) => v.copy_from_slice(velocity),

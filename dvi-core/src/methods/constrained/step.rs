@@ -1,7 +1,7 @@
 //! The step for all unknowns: Newton's method for Δ and ι0, and the tangent at the end for v1 and ι1.
 
 use super::memory::{Arrival, ConstrainedMemory, Place};
-use crate::discrete::{Departing, DiscreteLagrangian, Ends, Interval, Span};
+use crate::discrete::{Departing, DiscreteLagrangian, Interval, Span};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::{At, Bordered, ConstrainedLagrangian, Lower, Tangent};
 use crate::memory::Memory;
@@ -71,7 +71,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             due.prepare(system, weights, q, increment);
             statistics.linearizations += 1;
             statistics.factorisations += 1;
-            let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
+            let span = Span { system, interval, q0: q, delta: increment };
             let departing = &mut Departing { l_d, system, interval, q0: q };
             let upper = AtIncrement { equations: departing, p0: p, delta: increment, statistics };
             let lower = Lower::Step(span, [next, work]);
@@ -118,7 +118,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         let Place { p, v, impulses: [first, last] } = place;
         p.fill(T::lift(0.0));
         work.fill(T::lift(0.0));
-        let span = Span { system, interval, ends: Ends { q0: q, delta: increment } };
+        let span = Span { system, interval, q0: q, delta: increment };
         l_d.derivatives(span, work, p, statistics)?;
         solver.add_impulse(system, At { q, t: interval.t }, first, p);
         for ((p, &p0), (v, &delta)) in p.iter_mut().zip(p0.iter()).zip(v.iter_mut().zip(increment.iter())) {

@@ -8,7 +8,7 @@ use crate::discrete::Interval;
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::PhaseMemory;
-use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step, VariableStep};
+use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Step, VariableStep, scheme};
 use crate::scalar::simd::widest_if;
 use crate::solve::Solver;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
@@ -78,19 +78,14 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
     }
 }
 
-impl<const S: usize, F: Frequency, E> Scheme for Galerkin<S, F, E> {
-    fn order(&self) -> usize {
-        2 * S - 2
-    }
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        match self.frequency.reading() {
-            None => PreservedForm::Canonical,
-            Some(_) => PreservedForm::Nothing,
-        }
-    }
+scheme! {
+    [const S: usize, F: Frequency, E] Galerkin<S, F, E>, |method|
+    order: 2 * S - 2,
+    is_symmetric: true,
+    preserved_form: match method.frequency.reading() {
+        None => PreservedForm::Canonical,
+        Some(_) => PreservedForm::Nothing,
+    },
 }
 
 impl<const NODES: usize, S: System, F, T: Real, E: NodeEvaluation<NODES, S, T>> Carries<S, T>
@@ -116,12 +111,7 @@ where
         self.take(step, memory)
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         memory.carried.velocity(here, v)
     }
 }
@@ -132,7 +122,6 @@ where
     F: FrequencyIn<T>,
     E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }
 
 impl<const NODES: usize, S, T: Real, E> FreeFlight<S, T> for Galerkin<NODES, Unfitted, E>
@@ -152,7 +141,7 @@ where
         &self,
         here: Here<'_, S, T>,
         memory: &Self::Memory,
-        v: &mut Vector<S, T>,
+        v: &mut [T],
     ) -> Result<(), StepFailure> {
         memory.carried.velocity(here, v)
     }

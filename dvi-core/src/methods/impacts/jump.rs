@@ -5,7 +5,7 @@ use core::mem;
 use super::Collision;
 use super::memory::{ImpactsMemory, MOST, Wall};
 use super::passage::Passage;
-use crate::discrete::{Ends, Interval, Span};
+use crate::discrete::{Interval, Span};
 use crate::error::StepFailure;
 use crate::methods::{FreeFlight, Here, Step};
 use crate::scalar::norm::reported;
@@ -106,10 +106,9 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
             for (delta, (&q1, &q0)) in delta.iter_mut().zip(q.iter().zip(start.q.iter())) {
                 *delta = q1 - q0;
             }
-            let (interval, ends) = (Interval { t: *t, h: s }, Ends { q0: &start.q, delta });
-            if let Some(energy) =
-                method.scheme.energy_of_flight(Span { system: *system, interval, ends }, work)
-            {
+            let interval = Interval { t: *t, h: s };
+            let span = Span { system: *system, interval, q0: &start.q, delta };
+            if let Some(energy) = method.scheme.energy_of_flight(span, work) {
                 return Ok(energy);
             }
         }

@@ -13,7 +13,7 @@ use crate::memory::{Memory, lasting};
 use crate::methods::collocation::Collocation;
 use crate::methods::collocation::stages::{Departure, NewtonStages, weighted};
 use crate::methods::one_point::OnePoint;
-use crate::methods::{Carries, Method, PreservedForm, Scheme, Step, Tabulated, VariableStep};
+use crate::methods::{Carries, Method, PreservedForm, Step, Tabulated, VariableStep, scheme};
 use crate::scalar::norm;
 use crate::solve::{Convergence, Guess, Stopping, from_either_guess};
 use crate::space::Storing;
@@ -59,16 +59,11 @@ impl<const S: usize> OneStepGauss<S> {
     }
 }
 
-impl<const S: usize> Scheme for OneStepGauss<S> {
-    fn order(&self) -> usize {
-        2 * S
-    }
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        PreservedForm::Omega
-    }
+scheme! {
+    [const S: usize] OneStepGauss<S>, |_|
+    order: 2 * S,
+    is_symmetric: true,
+    preserved_form: PreservedForm::Omega,
 }
 
 /// What a run of a method with `STAGES` stages carries.
@@ -146,6 +141,4 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
     }
 }
 
-impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<STAGES> {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
-}
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<STAGES> {}

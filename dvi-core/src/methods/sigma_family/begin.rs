@@ -3,7 +3,7 @@
 use super::Sigma;
 use super::memory::{Carried, Leaps, SigmaMemory, Work};
 use super::parasitic_mode::{Monitor, Pace};
-use crate::discrete::{DiscreteLagrangian, Ends, Interval, OneNode, Span};
+use crate::discrete::{DiscreteLagrangian, Interval, OneNode, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::combination::{Combination, Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
@@ -52,7 +52,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         }
         // c0 = p0 − α(q0) = −D₁L_d − α(q0).
         defect.copy_from_slice(one_form);
-        let span = Span { system, interval: Interval { t, h }, ends: Ends { q0, delta: increment } };
+        let span = Span { system, interval: Interval { t, h }, q0, delta: increment };
         l_d.derivatives(span, defect, sum, &mut Statistics::default()).map_err(StartError::Starter)?;
         defect.iter_mut().for_each(|c| *c = -*c);
         norm::finite(defect).map_err(StartError::Starter)?;

@@ -15,7 +15,7 @@ use super::Step;
 use super::affine::fixed_point;
 use super::begin::scaled_matrix;
 use super::memory::{Carried, SigmaMemory, Work};
-use crate::discrete::{Departing, DiscreteLagrangian, Ends, Span};
+use crate::discrete::{Departing, DiscreteLagrangian, Span};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
@@ -87,14 +87,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         } else {
             history.extrapolate(increment);
         }
-        l_d.place(step.h, Ends { q0: q, delta: increment });
+        l_d.place(step.h, [q, increment]);
         let (_, matrix) = scaled_matrix::<S, T>(step.method, step.h);
         inverse.prepare(system, &l_d.work.point, step.node_time(), matrix, trial, statistics)?;
         let criterion = (!is_linear).then_some((step.method.stopping, *budget));
         let storage = [&mut increment[..], trial, weights];
         solve_by_fixed_point((system, q), storage, criterion, statistics, |delta, change, statistics| {
             add(defect, one_form, residual);
-            let span = Span { system, interval: step.interval(), ends: Ends { q0: q, delta } };
+            let span = Span { system, interval: step.interval(), q0: q, delta };
             l_d.derivatives(span, residual, sum, statistics)?;
             inverse.solve(system, residual, change);
             for (delta, &change) in delta.iter_mut().zip(change.iter()) {
@@ -140,7 +140,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
     fn evaluate_at_node(&mut self, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let Self { step, q, carried: Carried { l_d, work, .. }, .. } = self;
         add(&work.shift, &work.increment, &mut work.trial);
-        l_d.place(step.h, Ends { q0: q, delta: &work.trial });
+        l_d.place(step.h, [q, &work.trial]);
         let node = &mut l_d.work;
         step.system.hamiltonian_gradient(&node.point, step.node_time(), &mut node.gradient);
         statistics.gradients += 1;
@@ -197,7 +197,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
         let right_h = step.method.sigma * step.h;
         // At σ = 0 the node is q0, where the equations have been evaluated.
         if step.method.sigma != T::lift(0.0) {
-            l_d.place(step.h, Ends { q0: q, delta: increment });
+            l_d.place(step.h, [q, increment]);
             let node = &mut l_d.work;
             let [gradient, momentum] = [&mut node.gradient, &mut node.momentum];
             system.gradient(&node.point, &node.velocity, step.node_time(), gradient, momentum);

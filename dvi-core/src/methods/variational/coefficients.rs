@@ -8,7 +8,7 @@ use super::Variational;
 use crate::discrete::basis::{self, Bases, Basis};
 use crate::discrete::frequency::{self, FrequencyIn};
 use crate::discrete::quadrature::{NODES, Rule};
-use crate::discrete::{Ends, Node, NodeWork, Nodes, Span};
+use crate::discrete::{Node, NodeWork, Nodes, Span};
 use crate::error::StepFailure;
 use crate::methods::step::Kinetic;
 use crate::scalar::norm::reported;
@@ -148,7 +148,7 @@ impl<T: Real> Coefficients<T> {
 
     /// Sets `point` to qʲ of a node.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn place_point(&self, node: usize, Ends { q0, delta }: Ends<'_, T>, point: &mut [T]) {
+    pub(super) fn place_point(&self, node: usize, [q0, delta]: [&[T]; 2], point: &mut [T]) {
         let Basis { b, b_bar, .. } = self.bases[node];
         for ((point, &q), &delta) in point.iter_mut().zip(q0).zip(delta) {
             *point = (b + b_bar) * q + b_bar * delta;
@@ -159,7 +159,7 @@ impl<T: Real> Coefficients<T> {
     pub(super) fn slope<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule>(
         &self,
         Variational { rule, fitting, .. }: &Variational<F, R>,
-        Span { system, interval, ends }: Span<'_, S, T>,
+        Span { system, interval, q0, delta }: Span<'_, S, T>,
         work: &mut NodeWork<S, T>,
         twice_omega: T,
     ) -> T {
@@ -171,8 +171,8 @@ impl<T: Real> Coefficients<T> {
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {
             let NodeWork { point, velocity, gradient, momentum } = &mut *work;
-            Placed(rule, self).place(node, h, ends, [point, velocity]);
-            let (t, Ends { q0, delta }) = (interval.time(T::lift(c)), ends);
+            Placed(rule, self).place(node, h, [q0, delta], [point, velocity]);
+            let t = interval.time(T::lift(c));
             system.gradient(point, velocity, t, gradient, momentum);
             let Basis { b, b_bar, d, d_bar } = slopes[node];
             let mut along = T::lift(0.0);

@@ -8,7 +8,7 @@ use super::coefficients::{Coefficients, Placed};
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{FrequencyIn, GivenFrequency, Local};
 use crate::discrete::quadrature::Rule;
-use crate::discrete::{Ends, Interval, Node, NodeWork, Nodes, Span, SumOverNodes, linearize};
+use crate::discrete::{Interval, Node, NodeWork, Nodes, Span, SumOverNodes, linearize};
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::{Begin, Equations, Kinetic, Share, set_force};
 use crate::methods::{InnerScheme, VariationalMethod};
@@ -93,7 +93,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
         if READ != read::WITH_ITS_DERIVATIVES {
             return;
         }
-        let ([start, end], span) = (&*self.ends, Span { system, interval, ends: Ends { q0, delta } });
+        let ([start, end], span) = (&*self.ends, Span { system, interval, q0, delta });
         let slope = coefficients.slope(self.method, span, node, start.omega + end.omega);
         for (i, to) in to.iter_mut().enumerate() {
             let by_left = start.dq[i] - (start.dv[i] + end.dv[i]) / interval.h;
@@ -152,7 +152,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
     ) -> Result<(), StepFailure> {
         self.read_both_ends(begin, delta, share, (coefficients, node), statistics)?;
         let Begin { system, interval, q: q0, phase, .. } = *begin;
-        let (ends, h) = (Ends { q0, delta }, interval.h);
+        let (ends, h) = ([q0, delta], interval.h);
         for (j, &c) in self.method.rule.nodes().iter().enumerate() {
             let (time, weight) = (interval.time(T::lift(c)), coefficients.weights[j]);
             let Basis { b, b_bar, d, d_bar } = coefficients.bases[j];
@@ -199,7 +199,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
     ) -> Result<(), StepFailure> {
         self.read_both_ends(begin, delta, Share::Left, (coefficients, node), statistics)?;
         let &Begin { system, interval, q: q0, .. } = begin;
-        let span = Span { system, interval, ends: Ends { q0, delta } };
+        let span = Span { system, interval, q0, delta };
         linearize(&Placed(&self.method.rule, coefficients), span, node, d1, sink);
         self.vary_frequency(begin, delta, Share::Left, (coefficients, node), d1);
         Ok(())

@@ -2,27 +2,22 @@
 //! step, E_d = −∂L_d/∂h = Σⱼ wⱼ E(qʲ, Δ/h) with linear interpolation.
 
 use super::{Interpolation, Variational, verlet};
+use crate::discrete::Span;
 use crate::discrete::frequency::{Frequency, FrequencyIn, Reading, Unfitted};
 use crate::discrete::quadrature::Rule;
-use crate::discrete::{Ends, Span};
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::PhaseMemory;
-use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Scheme, Step, Steps, VariableStep};
+use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Step, Steps, VariableStep, scheme};
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
-impl<F: Frequency, R: Rule> Scheme for Variational<F, R> {
-    fn order(&self) -> usize {
-        if self.rule.is_exact_for_linear() { 2 } else { 1 }
-    }
-    fn is_symmetric(&self) -> bool {
-        self.rule.is_symmetric() && self.frequency.reading() != Some(Reading::LeftFrozen)
-    }
-    fn preserved_form(&self) -> PreservedForm {
-        match self.frequency.reading() {
-            None | Some(Reading::Variational) => PreservedForm::Canonical,
-            Some(Reading::LeftFrozen | Reading::Averaged) => PreservedForm::Nothing,
-        }
-    }
+scheme! {
+    [F: Frequency, R: Rule] Variational<F, R>, |method|
+    order: if method.rule.is_exact_for_linear() { 2 } else { 1 },
+    is_symmetric: method.rule.is_symmetric() && method.frequency.reading() != Some(Reading::LeftFrozen),
+    preserved_form: match method.frequency.reading() {
+        None | Some(Reading::Variational) => PreservedForm::Canonical,
+        Some(Reading::LeftFrozen | Reading::Averaged) => PreservedForm::Nothing,
+    },
 }
 
 impl<S: System, F, R, T: Real> Carries<S, T> for Variational<F, R> {
@@ -42,12 +37,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
         self.take(step, memory)
     }
 
-    fn velocity(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut Vector<S, T>,
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         memory.carried.velocity(here, v)
     }
 
@@ -73,15 +63,13 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
     }
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
-    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
-}
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
     /// Σ wⱼ E(qʲ, Δ/h), the discrete energy with linear interpolation.
     fn energy_of<S: NondegenerateLagrangian<T>, T: Real>(
         &self,
-        Span { system, interval, ends: Ends { q0, delta } }: Span<'_, S, T>,
+        Span { system, interval, q0, delta }: Span<'_, S, T>,
         [point, velocity]: &mut [Vector<S, T>; 2],
     ) -> T {
         let per_h = T::lift(1.0) / interval.h;
@@ -114,7 +102,7 @@ impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Varia
         &self,
         here: Here<'_, S, T>,
         memory: &Self::Memory,
-        v: &mut Vector<S, T>,
+        v: &mut [T],
     ) -> Result<(), StepFailure> {
         memory.carried.velocity(here, v)
     }

@@ -9,7 +9,7 @@ use crate::run::clock::Time;
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::is_length;
-use crate::{Lagrangian, Real, System, Vector};
+use crate::{Lagrangian, Real, System};
 
 /// A run as its [`StepControl`](super::StepControl) sees it: a point that can be moved on and, if the
 /// control [rejects](super::StepControl::REJECTS) steps, back.
@@ -36,7 +36,7 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> 
     /// # Errors
     /// As [`Method::velocity`].
     #[inline]
-    pub fn velocity(&self, t: T, v: &mut Vector<S, T>) -> Result<(), StepFailure> {
+    pub fn velocity(&self, t: T, v: &mut [T]) -> Result<(), StepFailure> {
         self.stepper.velocity(self.system, t, v)
     }
 

@@ -4,7 +4,7 @@
 
 use super::ControlledRun;
 use super::energy_momentum::EnergyMomentumMemory;
-use crate::discrete::{Ends, Interval, Span};
+use crate::discrete::{Interval, Span};
 use crate::error::StepFailure;
 use crate::methods::Method;
 use crate::scalar::norm::reported;
@@ -54,8 +54,7 @@ impl<S: RegularLagrangian<T>, M: Method<S, T>, T: Real> Search<'_, '_, S, M, T> 
         for (delta, (&q1, &q0)) in delta.iter_mut().zip(run.q().iter().zip(start.iter())) {
             *delta = q1 - q0;
         }
-        let span =
-            Span { system: run.system(), interval: Interval { t: *t, h }, ends: Ends { q0: start, delta } };
+        let span = Span { system: run.system(), interval: Interval { t: *t, h }, q0: start, delta };
         let energy = run.stepper.method.discrete_energy(span, node);
         let missing = StepFailure::EnergyStep { h: reported(h), defect: f64::NAN };
         if energy.is_finite() { Ok(energy) } else { Err(missing) }
