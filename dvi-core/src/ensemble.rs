@@ -94,6 +94,7 @@ use crate::diagnostics::LyapunovExponent;
 use crate::discrete::DiscreteLagrangian;
 use crate::methods::{InStep, Method, Suits, VariationalMethod};
 use crate::run::{Direction, Together};
+use crate::shown::shown;
 use limits::Condition;
 use plan::Plan;
 use rounds::{Checkpoints, Rounds};
@@ -387,13 +388,10 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     }
 }
 
-impl<S: Lagrangian, M: Method<S, f64> + fmt::Debug> fmt::Debug for Ensemble<'_, S, M> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Ensemble")
-            .field("system", &S::REPORT.system)
-            .field("method", &self.settings.method)
-            .field("members", &self.settings.states.len())
-            .field("shard", &self.shard)
-            .finish_non_exhaustive()
-    }
+shown! {
+    [S: Lagrangian, M: Method<S, f64> + fmt::Debug] Ensemble<'_, S, M>, |ensemble|
+    system: S::REPORT.system,
+    method: ensemble.settings.method,
+    members: ensemble.settings.states.len(),
+    shard: ensemble.shard
 }

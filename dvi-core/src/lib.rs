@@ -156,6 +156,7 @@ pub mod record;
 pub mod rotations;
 pub mod run;
 pub mod scalar;
+mod shown;
 pub mod solve;
 pub mod space;
 pub mod state;

@@ -125,8 +125,8 @@ impl<T: Copy> Record<T> {
     }
 }
 
-/// `lasting!(T; kind field, …)`: the functions of [`Memory`] for a struct, from the list of what it carries.
-/// The kinds are
+/// `lasting!([generics] Struct, T; kind field, …)`: [`Memory`] of a struct, from the list of what it carries;
+/// without the struct, the functions alone. The kinds are
 ///
 /// - `numbers`, a vector; `number`, a `T`; `count`, an integer; `flag`, a `bool`; `bits`, an `f64`; `size`,
 ///   a `T` that is no part of the motion and may be no number
@@ -137,7 +137,12 @@ impl<T: Copy> Record<T> {
 /// After `; name` stands a function that says whether what has been loaded can be gone on with: a file may
 /// be damaged.
 macro_rules! lasting {
-    ($T:ty; $($kind:ident $field:ident),* $(,)? $(; $sound:ident)?) => {
+    ([$($generics:tt)*] $Struct:ty, $T:ty; $($list:tt)*) => {
+        impl<$($generics)*> $crate::memory::Memory<$T> for $Struct {
+            $crate::memory::lasting!($T; $($list)*);
+        }
+    };
+    ($T:ty; $($kind:ident $field:tt),* $(,)? $(; $sound:ident)?) => {
         #[inline]
         fn restore(&mut self, #[allow(unused_variables)] from: &Self) {
             $($crate::memory::lasting!(@restore $T, $kind self.$field, from.$field);)*

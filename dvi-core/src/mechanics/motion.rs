@@ -9,12 +9,8 @@ mod stages;
 use core::fmt::Debug;
 use core::ops::{Deref, DerefMut};
 
-#[cfg(feature = "alloc")]
-use crate::error::CheckpointError;
 use crate::error::{StartError, StepFailure};
-use crate::memory::Memory;
-#[cfg(feature = "alloc")]
-use crate::memory::Record;
+use crate::memory::{Memory, lasting};
 use crate::state::Statistics;
 use crate::system::{Kind, Regular, Same};
 use crate::{Lagrangian, Real, Scalar, Sink, System, Vector, Weights};
@@ -43,21 +39,7 @@ impl<V, const K: usize> DerefMut for Point<V, K> {
     }
 }
 
-impl<T: Copy, V: DerefMut<Target = [T]>, const K: usize> Memory<T> for Point<V, K> {
-    fn restore(&mut self, from: &Self) {
-        for (to, from) in self.0.iter_mut().zip(&from.0) {
-            to.copy_from_slice(from);
-        }
-    }
-    #[cfg(feature = "alloc")]
-    fn save(&self, record: &mut Record<T>) {
-        self.0.iter().for_each(|vector| record.numbers(vector));
-    }
-    #[cfg(feature = "alloc")]
-    fn load(&mut self, record: &mut Record<T>) -> Result<(), CheckpointError> {
-        self.0.iter_mut().try_for_each(|vector| record.read(vector))
-    }
-}
+lasting!([T: Copy, V: DerefMut<Target = [T]>, const K: usize] Point<V, K>, T; vectors 0);
 
 /// The rates of change of a kind of system at a state.
 #[diagnostic::on_unimplemented(

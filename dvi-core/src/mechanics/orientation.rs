@@ -10,7 +10,7 @@
 //! The Pfaffian comes from skew elimination, A = P L T Lᵀ Pᵀ (Wimmer 2012, ACM TOMS 38, algorithm 923).
 
 use crate::error::StepFailure;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::norm::reported;
 use crate::space::inertia::{Inertia, inertia};
 use crate::{
@@ -129,13 +129,9 @@ fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
     Ok(())
 }
 
-impl<S: System, T: Real> Memory<T> for FormOrientation<S, T> {
-    lasting!(T; numbers entries, parts pfaffian);
-}
+lasting!([S: System, T: Real] FormOrientation<S, T>, T; numbers entries, parts pfaffian);
 
-impl<S: System, T: Real> Memory<T> for Pfaffian<S, T> {
-    lasting!(T; number last);
-}
+lasting!([S: System, T: Real] Pfaffian<S, T>, T; number last);
 
 /// The sign of the Pfaffian of a skew n×n matrix times its smallest pivot, zero if it is singular.
 fn pfaffian_sign<T: Real>(a: &mut [T], n: usize) -> T {
@@ -231,9 +227,7 @@ pub(crate) fn keep<T: Real>(last: &mut Inertia<T>, after: Inertia<T>) -> Result<
     Err(StepFailure::Orientation { matrix: "the mass matrix", before, after })
 }
 
-impl<S: System, T: Real> Memory<T> for MassOrientation<S, T> {
-    lasting!(T; part inertia);
-}
+lasting!([S: System, T: Real] MassOrientation<S, T>, T; part inertia);
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
     fn evaluate(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<Inertia<T>, StepFailure> {

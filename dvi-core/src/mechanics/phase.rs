@@ -5,7 +5,7 @@ use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::norm;
 use crate::state::history::History;
 use crate::state::rates::is_similar;
@@ -162,9 +162,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     }
 }
 
-impl<S: System, T: Real> Memory<T> for PhasePoint<S, T> {
-    lasting!(T; numbers p, numbers force, part history, number last_step, parts carried);
-}
+lasting!([S: System, T: Real] PhasePoint<S, T>, T;
+    numbers p, numbers force, part history, number last_step, parts carried);
 
 /// The mass matrix ∂²L/∂v∂v of a run.
 #[derive(Debug)]
@@ -233,6 +232,4 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
     }
 }
 
-impl<S: System, T: Real> Memory<T> for Inertial<S, T> {
-    lasting!(T; parts orientation);
-}
+lasting!([S: System, T: Real] Inertial<S, T>, T; parts orientation);

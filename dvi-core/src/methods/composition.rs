@@ -107,16 +107,7 @@ pub struct CompositionMemory<I, V> {
     before: Kept<V, I>,
 }
 
-impl<I, V> CompositionMemory<I, V> {
-    /// The memory of the composed method.
-    pub fn inner(&self) -> &I {
-        &self.inner
-    }
-}
-
-impl<I: Memory<T>, V, T: Real> Memory<T> for CompositionMemory<I, V> {
-    lasting!(T; part inner);
-}
+lasting!([I: Memory<T>, V, T: Real] CompositionMemory<I, V>, T; part inner);
 
 scheme! {
     [M: Scheme] Composition<M>, |method|

@@ -139,7 +139,6 @@ where
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
-        self.scheme.admit(system)?;
         let l_d = self.scheme.inside(system)?;
         evaluate(system, q, v, t)?;
         check(system, [q, v], t, Some((h, self.stopping.tolerance)))?;
@@ -185,12 +184,7 @@ where
         Ok(())
     }
 
-    fn velocity(
-        &self,
-        _here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut [T],
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, _: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         memory.velocity(v);
         Ok(())
     }

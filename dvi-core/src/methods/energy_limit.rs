@@ -52,16 +52,7 @@ pub struct EnergyLimitMemory<I, V, T> {
     start: T,
 }
 
-impl<I, V, T> EnergyLimitMemory<I, V, T> {
-    /// The memory of the method.
-    pub fn inner(&self) -> &I {
-        &self.inner
-    }
-}
-
-impl<I: Memory<T>, V, T: Real> Memory<T> for EnergyLimitMemory<I, V, T> {
-    lasting!(T; part inner, number start);
-}
+lasting!([I: Memory<T>, V, T: Real] EnergyLimitMemory<I, V, T>, T; part inner, number start);
 
 /// The energy; of a system whose time is transformed H − `energy`, as ρ (H − `energy`) says little where ρ
 /// is small.
@@ -155,10 +146,6 @@ impl<S: Lagrangian<T>, T: Real, M> VariableStep<S, T> for EnergyLimit<M> where I
 
 impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;
-
-    fn admit(&self, system: &S) -> Result<(), StartError> {
-        self.method.admit(system)
-    }
 
     fn discrete_lagrangian(&self, system: &S) -> M::DiscreteLagrangian {
         self.method.discrete_lagrangian(system)

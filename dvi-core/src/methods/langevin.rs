@@ -16,7 +16,7 @@ use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::mass_root::MassRoot;
 use crate::mechanics::phase::Arrival;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::step::{Carried, Work};
 use crate::methods::{Carries, Here, Method, PreservedForm, Step, scheme};
 use crate::scalar::norm;
@@ -86,9 +86,7 @@ pub struct LangevinMemory<S: System, T: Real> {
     root: Option<MassRoot<S, T>>,
 }
 
-impl<S: System, T: Real> Memory<T> for LangevinMemory<S, T> {
-    lasting!(T; part carried, count step);
-}
+lasting!([S: System, T: Real] LangevinMemory<S, T>, T; part carried, count step);
 
 impl<S: System, T: Real> LangevinMemory<S, T> {
     /// p = M v at the current point, one entry per coordinate.

@@ -3,7 +3,7 @@
 use crate::error::StartError;
 use crate::mechanics::motion;
 use crate::mechanics::orientation::FormOrientation;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::state::rates::Rates;
 use crate::system::Degenerate;
 use crate::{DegenerateLagrangian, Real, Space, System, Vector};
@@ -51,6 +51,5 @@ impl<S: DegenerateLagrangian<T>, T: Real, const KINDS: usize> OnePoint<S, T, KIN
     }
 }
 
-impl<S: System, T: Real, const KINDS: usize> Memory<T> for OnePoint<S, T, KINDS> {
-    lasting!(T; numbers p, part rates, part orientation);
-}
+lasting!([S: System, T: Real, const KINDS: usize] OnePoint<S, T, KINDS>, T;
+    numbers p, part rates, part orientation);

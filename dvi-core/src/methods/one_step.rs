@@ -19,7 +19,7 @@ mod split;
 mod stage;
 
 use crate::error::{StartError, StepFailure};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::one_point::OnePoint;
 use crate::methods::{self, Carries, Method, PreservedForm, VariableStep, scheme};
 use crate::solve::{Convergence, Guess, Quick, Stopping, from_either_guess};
@@ -122,9 +122,7 @@ pub struct OneStepMemory<S: System, T: Real> {
     work: Work<S, T>,
 }
 
-impl<S: System, T: Real> Memory<T> for OneStepMemory<S, T> {
-    lasting!(T; part point);
-}
+lasting!([S: System, T: Real] OneStepMemory<S, T>, T; part point);
 
 type Point<S, T> = OnePoint<S, T, 2>;
 
@@ -135,14 +133,7 @@ impl<S: System, T: Real> Carries<S, T> for OneStep {
 impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
     type Suited<X> = <S as ProperlyDegenerate<T>>::Suited<X>;
 
-    fn begin(
-        &self,
-        system: &S,
-        q: &Vector<S, T>,
-        _v: &[T],
-        t: T,
-        _h: T,
-    ) -> Result<Self::Memory, StartError> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _: &[T], t: T, _: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let point = Point::new(system, q, t, |rates| [rates, system.space().vector()])?;
         Ok(OneStepMemory { point, work: Work::new(system, q, t) })

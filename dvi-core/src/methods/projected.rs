@@ -13,7 +13,7 @@ mod equations;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::pattern::coupled_by_second_derivatives;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::one_point::OnePoint;
 use crate::methods::{self, Carries, Method, PreservedForm, VariableStep, scheme};
 use crate::scalar::norm;
@@ -98,9 +98,7 @@ pub struct ProjectedMemory<S: System, T: Real> {
     work: Work<S, T>,
 }
 
-impl<S: System, T: Real> Memory<T> for ProjectedMemory<S, T> {
-    lasting!(T; part point);
-}
+lasting!([S: System, T: Real] ProjectedMemory<S, T>, T; part point);
 
 impl<S: System, T: Real> Carries<S, T> for Projected {
     type Memory = ProjectedMemory<S, T>;
@@ -109,14 +107,7 @@ impl<S: System, T: Real> Carries<S, T> for Projected {
 impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
     type Suited<X> = S::Suited<X>;
 
-    fn begin(
-        &self,
-        system: &S,
-        q: &Vector<S, T>,
-        _v: &[T],
-        t: T,
-        _h: T,
-    ) -> Result<Self::Memory, StartError> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _: &[T], t: T, _: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         if !S::AFFINE {
             spinors::refuse::<S>("`Projected` where α is not affine")?;

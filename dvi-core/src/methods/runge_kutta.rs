@@ -2,13 +2,12 @@
 //!
 //! kᵢ = X(y + h Σⱼ aᵢⱼ kⱼ, t + cᵢh),   y⁺ = y + h Σᵢ bᵢ kᵢ
 
-use core::fmt;
-
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{EquationsOf, FirstOrder, PointOf};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::{Carries, Here, Method, PreservedForm, Step, VariableStep, scheme};
 use crate::scalar::passes::kick;
+use crate::shown::shown;
 use crate::{Lagrangian, Real, System, Vector};
 
 /// The largest number of stages.
@@ -88,15 +87,9 @@ pub struct RungeKuttaMemory<S: System<Kind: FirstOrder<S, T>>, T: Real> {
     stage: PointOf<S, T>,
 }
 
-impl<S: System<Kind: FirstOrder<S, T>>, T: Real> Memory<T> for RungeKuttaMemory<S, T> {
-    lasting!(T; part equations);
-}
+lasting!([S: System<Kind: FirstOrder<S, T>>, T: Real] RungeKuttaMemory<S, T>, T; part equations);
 
-impl<S: System<Kind: FirstOrder<S, T>>, T: Real> fmt::Debug for RungeKuttaMemory<S, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RungeKuttaMemory").field("slopes", &self.slopes).finish_non_exhaustive()
-    }
-}
+shown!([S: System<Kind: FirstOrder<S, T>>, T: Real] RungeKuttaMemory<S, T>, |memory| slopes: memory.slopes);
 
 scheme! {
     [] RungeKutta, |method|

@@ -265,10 +265,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
 impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
     type DiscreteLagrangian = OneNode<S, T>;
 
-    fn admit(&self, _system: &S) -> Result<(), StartError> {
-        self.validate::<S>()
-    }
-
     fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {
         OneNode::new(system, self.sigma)
     }

@@ -7,6 +7,7 @@
 
 use crate::methods::{Carries, Clock, Method};
 use crate::scalar::Lanes;
+use crate::shown::shown;
 use crate::state::Statistics;
 #[cfg(doc)]
 use crate::system::Packable;
@@ -19,14 +20,7 @@ pub struct Companion<'a, S: System, M: Carries<S, f64>> {
     pub(crate) statistics: &'a mut Statistics,
 }
 
-impl<S: System, M: Carries<S, f64>> core::fmt::Debug for Companion<'_, S, M> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Companion")
-            .field("q", &self.q)
-            .field("statistics", &self.statistics)
-            .finish_non_exhaustive()
-    }
-}
+shown!([S: System, M: Carries<S, f64>] Companion<'_, S, M>, |run| q: run.q, statistics: run.statistics);
 
 /// A method whose runs can be taken together, `W` at a time.
 ///

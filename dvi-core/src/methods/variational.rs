@@ -16,7 +16,7 @@ use crate::discrete::Interval;
 use crate::discrete::frequency::{self, Frequency, FrequencyIn, Local, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::error::{StartError, StepFailure};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::step::{Attempt, PhaseMemory};
 use crate::methods::{Clock, Step};
 use crate::solve::{Solver, Stopping};
@@ -250,6 +250,4 @@ pub struct Interpolation<S: System, T: Real> {
     ends: [Local<S, T>; 2],
 }
 
-impl<S: System, T: Real> Memory<T> for Interpolation<S, T> {
-    lasting!(T;);
-}
+lasting!([S: System, T: Real] Interpolation<S, T>, T;);

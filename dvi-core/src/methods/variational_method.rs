@@ -22,13 +22,6 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
     /// What one interval contributes.
     type DiscreteLagrangian: DiscreteLagrangian<S, T>;
 
-    /// Checks the options of the method.
-    ///
-    /// # Errors
-    /// [`StartError::Parameter`] names the option that is out of range, [`StartError::Unsupported`] what
-    /// does not go with the system.
-    fn admit(&self, system: &S) -> Result<(), StartError>;
-
     /// The discrete Lagrangian on `system`, with the storage that it needs.
     fn discrete_lagrangian(&self, system: &S) -> Self::DiscreteLagrangian;
 }
@@ -50,9 +43,11 @@ pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {
     /// Whether the compiler knows that without constraints the steps would be those of Störmer and Verlet.
     const IS_VERLET: bool;
 
-    /// The discrete Lagrangian on `system`, if no options are set that have no effect there.
+    /// The discrete Lagrangian on `system`, if the options are in range and none is set that has no effect
+    /// there.
     ///
     /// # Errors
-    /// [`StartError::Unsupported`] names the first that is not left at its default.
+    /// [`StartError::Parameter`] names the option that is out of range, [`StartError::Unsupported`] what
+    /// does not go with the system, or is not left at its default.
     fn inside(&self, system: &S) -> Result<Self::DiscreteLagrangian, StartError>;
 }

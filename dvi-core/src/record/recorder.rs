@@ -1,15 +1,16 @@
 //! What writes down states: those of a run, or any that come with a time.
 
 use std::boxed::Box;
+use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
-use std::{fmt, format};
 
 use super::body::Body;
 use super::column::{Column, Quantity, Values};
 use super::{Record, RecordError};
 use crate::error::{LengthError, StepError};
 use crate::run::Run;
+use crate::shown::shown;
 use crate::system::names::values;
 use crate::system::{Factor, Name};
 use crate::{Lagrangian, Space, State};
@@ -215,11 +216,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     }
 }
 
-impl<S: Lagrangian> fmt::Debug for Recorder<'_, S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Recorder").field("record", &self.record).finish_non_exhaustive()
-    }
-}
+shown!([S: Lagrangian] Recorder<'_, S>, |recorder| record: recorder.record);
 
 /// The ends of unit vectors, and of the three axes of bodies that turn, in space.
 fn turning<S: Lagrangian>(system: &S) -> Vec<Body> {

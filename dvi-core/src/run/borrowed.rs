@@ -4,10 +4,22 @@
 use super::Checkpoint;
 use super::Run;
 use super::between::Between;
+use super::dense::StateOf;
+use crate::Vector;
 use crate::error::{StartError, StepError};
 use crate::methods::Clock;
 use crate::state::Statistics;
-use crate::{System, Vector};
+
+/// Functions that are those of what `self` points to.
+macro_rules! forwarded {
+    ($($(#[$when:meta])? fn $name:ident($this:ident: $This:ty $(, $argument:ident: $Type:ty)*) -> $Out:ty;)*) => {$(
+        $(#[$when])?
+        #[inline]
+        fn $name($this: $This $(, $argument: $Type)*) -> $Out {
+            (**$this).$name($($argument),*)
+        }
+    )*};
+}
 
 /// What holds or borrows a run is one.
 macro_rules! run {
@@ -16,62 +28,19 @@ macro_rules! run {
             type System = R::System;
             type Scalar = R::Scalar;
 
-            #[inline]
-            fn system(&self) -> &R::System {
-                (**self).system()
-            }
-
-            #[inline]
-            fn between(&mut self) -> (&R::System, &mut dyn Between<R::System, R::Scalar>) {
-                (**self).between()
-            }
-
-            #[inline]
-            fn q(&self) -> &[R::Scalar] {
-                (**self).q()
-            }
-
-            #[inline]
-            fn v(&self) -> Vector<R::System, R::Scalar> {
-                (**self).v()
-            }
-
-            #[inline]
-            fn statistics(&self) -> Statistics {
-                (**self).statistics()
-            }
-
-            #[inline]
-            fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-                (**self).take_steps(count)
-            }
-
-            #[inline]
-            fn time(&self) -> R::Scalar {
-                (**self).time()
-            }
-
-            #[inline]
-            fn step_size(&self) -> R::Scalar {
-                (**self).step_size()
-            }
-
-            #[inline]
-            fn clock(&self) -> Option<Clock<R::Scalar>> {
-                (**self).clock()
-            }
-
-            fn set_state(
-                &mut self,
-                t: R::Scalar,
-                state: <R::System as System>::State<R::Scalar>,
-            ) -> Result<(), StartError> {
-                (**self).set_state(t, state)
-            }
-
-            #[cfg(feature = "alloc")]
-            fn checkpoint(&self) -> Checkpoint<R::Scalar> {
-                (**self).checkpoint()
+            forwarded! {
+                fn system(self: &Self) -> &R::System;
+                fn between(self: &mut Self) -> (&R::System, &mut dyn Between<R::System, R::Scalar>);
+                fn q(self: &Self) -> &[R::Scalar];
+                fn v(self: &Self) -> Vector<R::System, R::Scalar>;
+                fn statistics(self: &Self) -> Statistics;
+                fn take_steps(self: &mut Self, count: u64) -> Result<(), StepError>;
+                fn time(self: &Self) -> R::Scalar;
+                fn step_size(self: &Self) -> R::Scalar;
+                fn clock(self: &Self) -> Option<Clock<R::Scalar>>;
+                fn set_state(self: &mut Self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError>;
+                #[cfg(feature = "alloc")]
+                fn checkpoint(self: &Self) -> Checkpoint<R::Scalar>;
             }
         }
     };

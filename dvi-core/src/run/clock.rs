@@ -1,7 +1,7 @@
 //! The time of a run.
 
 use crate::Real;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::Clock;
 use crate::state::summation::left_out;
 
@@ -18,9 +18,7 @@ pub(super) struct Time<T> {
     step: u64,
 }
 
-impl<T: Real> Memory<T> for Time<T> {
-    lasting!(T; number start, number rest, number h, count step);
-}
+lasting!([T: Real] Time<T>, T; number start, number rest, number h, count step);
 
 impl<T: Real> Time<T> {
     /// Of a run that begins after `steps` steps with one of length `h`.

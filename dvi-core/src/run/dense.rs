@@ -1,7 +1,7 @@
 //! The state at any time within the last step of a run: that step, taken again in part. The run does not
 //! notice: what is moved is a copy.
 
-use core::fmt;
+use core::fmt::Debug;
 use core::iter::FusedIterator;
 use core::ops::Deref;
 
@@ -11,6 +11,7 @@ use crate::methods::Method;
 use crate::run::{Run, between::Flat};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
+use crate::shown::shown;
 use crate::system::start::step_error;
 use crate::{Scalar as _, Space, System, Vector};
 
@@ -293,8 +294,4 @@ impl<R: Run> Deref for Dense<R> {
     }
 }
 
-impl<R: Run + fmt::Debug> fmt::Debug for Dense<R> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Dense").field("run", &self.run).finish_non_exhaustive()
-    }
-}
+shown!([R: Run + Debug] Dense<R>, |dense| run: dense.run);

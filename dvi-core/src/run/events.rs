@@ -13,7 +13,7 @@ mod found;
 mod search;
 mod watch;
 
-use core::fmt;
+use core::fmt::Debug;
 use core::iter::FusedIterator;
 
 use super::dense::{Dense, StateOf};
@@ -21,6 +21,7 @@ use super::dense::{Dense, StateOf};
 use crate::error::StepFailure;
 use crate::error::{StartError, StepError};
 use crate::run::Run;
+use crate::shown::shown;
 pub(super) use conditions::Conditions;
 
 pub(super) use conditions::Declared;
@@ -217,11 +218,4 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Iterator fo
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> FusedIterator for Events<R, G, N> {}
 
-impl<R: Run + fmt::Debug, G, const N: usize> fmt::Debug for Events<R, G, N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Events")
-            .field("run", &self.dense)
-            .field("watch", &self.watch)
-            .finish_non_exhaustive()
-    }
-}
+shown!([R: Run + Debug, G, const N: usize] Events<R, G, N>, |events| run: events.dense, watch: events.watch);

@@ -1,6 +1,6 @@
 //! The steps of an integrator, and its states one after the other.
 
-use core::fmt;
+use core::fmt::Debug;
 
 #[cfg(feature = "alloc")]
 use super::Checkpoint;
@@ -11,6 +11,7 @@ use crate::error::{StartError, StepError, StepFailure};
 #[cfg(feature = "alloc")]
 use crate::memory::Memory;
 use crate::methods::{Clock, Method};
+use crate::shown::shown;
 use crate::state::Statistics;
 use crate::system::StateOf;
 use crate::{Held, Lagrangian, Real, Vector};
@@ -145,20 +146,14 @@ impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C: StepCon
 {
 }
 
-impl<H: Held<System = S>, S: Lagrangian<T>, M, T: Real, C> fmt::Debug for Integrator<H, M, T, C>
-where
-    M: Method<S, T> + fmt::Debug,
-    C: StepControl<S, T>,
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Integrator")
-            .field("system", &S::REPORT.system)
-            .field("method", &self.stepper.method)
-            .field("control", &self.control)
-            .field("time", &self.time())
-            .field("step_size", &self.step_size())
-            .field("state", &self.state())
-            .field("statistics", &self.stepper.statistics)
-            .finish_non_exhaustive()
-    }
+shown! {
+    [H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T> + Debug, T: Real, C: StepControl<S, T>]
+    Integrator<H, M, T, C>, |run|
+    system: S::REPORT.system,
+    method: run.stepper.method,
+    control: run.control,
+    time: run.time(),
+    step_size: run.step_size(),
+    state: run.state(),
+    statistics: run.stepper.statistics
 }

@@ -1,11 +1,11 @@
 //! Runs taken together, in the lanes of packs.
 
 use alloc::vec::Vec;
-use core::fmt;
 
 use super::{Integrator, Run, Stepper};
 use crate::error::StepError;
 use crate::methods::{Companion, InStep};
+use crate::shown::shown;
 #[cfg(doc)]
 use crate::system::Packable;
 use crate::{Held, Lagrangian, Space};
@@ -49,11 +49,7 @@ pub struct Together<const W: usize, S: Lagrangian, M: InStep<W, S>> {
     dimension: usize,
 }
 
-impl<const W: usize, S: Lagrangian, M: InStep<W, S>> fmt::Debug for Together<W, S, M> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Together").field("lanes", &W).finish_non_exhaustive()
-    }
-}
+shown!([const W: usize, S: Lagrangian, M: InStep<W, S>] Together<W, S, M>, |_run| lanes: W);
 
 impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Together<W, S, M> {
     /// Room for runs on the system of `run`, and on others with as many coordinates.

@@ -14,7 +14,7 @@ use super::{At, Augmented, Bordered, ConstrainedLagrangian, Constraints, Multipl
 use crate::error::StepFailure;
 use crate::mechanics::pattern::visit_second_derivatives;
 use crate::mechanics::{Interval, Span};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::norm;
 use crate::space::{LinearEquations, Sink, SquareMatrix, linear};
 use crate::{ConstrainedSystem, Real, Space, Vector};
@@ -39,10 +39,8 @@ pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
 /// light. Rounding errors grow by the square of it.
 const LIGHT: f64 = 1.0 / 32.0;
 
-/// In other units a run would be rounded in another way.
-impl<S: ConstrainedSystem, T: Real> Memory<T> for ConstraintSolver<S, T> {
-    lasting!(T; numbers scales);
-}
+// In other units a run would be rounded in another way.
+lasting!([S: ConstrainedSystem, T: Real] ConstraintSolver<S, T>, T; numbers scales);
 
 impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     /// For equations whose A has the entries of second derivatives of L, near (`q`, `v`, `t`).

@@ -12,7 +12,7 @@
 use crate::error::StepFailure;
 use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{At, ConstrainedLagrangian, Constraints, Multipliers};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::space::RowMatrix;
 use crate::{ConstrainedSystem, Real, Space, System, Vector};
 
@@ -28,9 +28,7 @@ pub(crate) struct Gradients<S: ConstrainedSystem, T: Real> {
     weights: Vector<S, T>,
 }
 
-impl<S: ConstrainedSystem, T: Real> Memory<T> for Gradients<S, T> {
-    lasting!(T; numbers weights);
-}
+lasting!([S: ConstrainedSystem, T: Real] Gradients<S, T>, T; numbers weights);
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Gradients<S, T> {
     /// At a point, where the velocity is `v`.

@@ -4,7 +4,7 @@ use super::{AtStages, FirstOrder, FirstOrderInLanes, Point, Rates, StageEquation
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::{Lanes, norm};
 use crate::state::Statistics;
 use crate::system::Degenerate;
@@ -17,9 +17,7 @@ pub struct FlowOnQ<S: System, T: Real> {
     orientation: FormOrientation<S, T>,
 }
 
-impl<S: System, T: Real> Memory<T> for FlowOnQ<S, T> {
-    lasting!(T; part orientation);
-}
+lasting!([S: System, T: Real] FlowOnQ<S, T>, T; part orientation);
 
 impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     type Suited<M> = M;

@@ -6,7 +6,7 @@ use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::{Lanes, norm};
 use crate::space::{LinearEquations, LinearSolver, Storing};
 use crate::state::Statistics;
@@ -57,13 +57,9 @@ struct Transform<S: System, T: Real> {
     between: Vector<S, T>,
 }
 
-impl<S: System, T: Real> Memory<T> for HamiltonsEquations<S, T> {
-    lasting!(T; numbers p, parts transform);
-}
+lasting!([S: System, T: Real] HamiltonsEquations<S, T>, T; numbers p, parts transform);
 
-impl<S: System, T: Real> Memory<T> for Transform<S, T> {
-    lasting!(T; part orientation, numbers velocity);
-}
+lasting!([S: System, T: Real] Transform<S, T>, T; part orientation, numbers velocity);
 
 impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     type Suited<M> = M;

@@ -89,9 +89,7 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
     }
 }
 
-impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
-    lasting!(T; numbers p, numbers v, vectors impulses);
-}
+lasting!([S: ConstrainedSystem, T: Real] Place<S, T>, T; numbers p, numbers v, vectors impulses);
 
 impl<S: ConstrainedSystem, L, T: Real> Memory<T> for ConstrainedMemory<S, L, T> {
     lasting!(

@@ -48,9 +48,7 @@ pub(super) struct Reduced<S: ConstrainedSystem, T: Real> {
     work: Arrival<S, T>,
 }
 
-impl<S: ConstrainedSystem, T: Real> Memory<T> for Reduced<S, T> {
-    lasting!(T; part here, flag is_positive, flag is_open);
-}
+lasting!([S: ConstrainedSystem, T: Real] Reduced<S, T>, T; part here, flag is_positive, flag is_open);
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
     /// At (`q`, `v`, `t`) with the momentum `p`; `None` where steps for all unknowns are better: with many

@@ -3,7 +3,7 @@
 use super::covectors::force;
 use super::tangents::{TangentMass, Tangents};
 use crate::mechanics::manifold::{Block, blocks};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::space::inertia::inertia;
 
 use crate::space::{RowMatrix, Sink};
@@ -98,9 +98,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Kicks<S, T> {
     }
 }
 
-impl<S: System, T: Real> Memory<T> for Kicks<S, T> {
-    lasting!(T; numbers force);
-}
+lasting!([S: System, T: Real] Kicks<S, T>, T; numbers force);
 
 /// The end of a step as it is being found.
 #[derive(Debug)]
@@ -144,6 +142,5 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
     }
 }
 
-impl<S: ManifoldSystem, T: Real> Memory<T> for GeodesicMemory<S, T> {
-    lasting!(T; numbers p, part rates, numbers lifted, part carried, parts kicks, parts orientation, flag is_positive);
-}
+lasting!([S: ManifoldSystem, T: Real] GeodesicMemory<S, T>, T;
+    numbers p, part rates, numbers lifted, part carried, parts kicks, parts orientation, flag is_positive);

@@ -12,7 +12,7 @@ use crate::error::StepFailure;
 use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{Block, blocks, set, vector};
 use crate::mechanics::orientation::keep;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::norm;
 use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::SquareMatrix;
@@ -177,6 +177,4 @@ impl<S: ManifoldLagrangian<T>, T: Real> TangentMass<S, T> {
     }
 }
 
-impl<S: ManifoldSystem, T: Real> Memory<T> for TangentMass<S, T> {
-    lasting!(T; part inertia);
-}
+lasting!([S: ManifoldSystem, T: Real] TangentMass<S, T>, T; part inertia);

@@ -153,6 +153,5 @@ impl<S: ConstrainedSystem, I, T: Real> ImpactsMemory<S, I, T> {
     }
 }
 
-impl<S: ConstrainedSystem, I: Memory<T>, T: Real> Memory<T> for ImpactsMemory<S, I, T> {
-    lasting!(T; part inner, count total, count grazing);
-}
+lasting!([S: ConstrainedSystem, I: Memory<T>, T: Real] ImpactsMemory<S, I, T>, T;
+    part inner, count total, count grazing);

@@ -9,7 +9,7 @@
 
 use super::split::{Split, is_x};
 use crate::error::{StartError, StepFailure};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::collocation::Collocation;
 use crate::methods::collocation::stages::{Departure, NewtonStages, weighted};
 use crate::methods::one_point::OnePoint;
@@ -80,9 +80,7 @@ pub struct OneStepGaussMemory<const STAGES: usize, S: System, T: Real> {
     middle: Vector<S, T>,
 }
 
-impl<const STAGES: usize, S: System, T: Real> Memory<T> for OneStepGaussMemory<STAGES, S, T> {
-    lasting!(T; part point);
-}
+lasting!([const STAGES: usize, S: System, T: Real] OneStepGaussMemory<STAGES, S, T>, T; part point);
 
 impl<const STAGES: usize, S: System, T: Real> Carries<S, T> for OneStepGauss<STAGES> {
     type Memory = OneStepGaussMemory<STAGES, S, T>;
@@ -91,14 +89,7 @@ impl<const STAGES: usize, S: System, T: Real> Carries<S, T> for OneStepGauss<STA
 impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStepGauss<STAGES> {
     type Suited<X> = <S as ProperlyDegenerate<T>>::Suited<X>;
 
-    fn begin(
-        &self,
-        system: &S,
-        q: &Vector<S, T>,
-        _v: &[T],
-        t: T,
-        _h: T,
-    ) -> Result<Self::Memory, StartError> {
+    fn begin(&self, system: &S, q: &Vector<S, T>, _: &[T], t: T, _: T) -> Result<Self::Memory, StartError> {
         self.stopping.validate()?;
         let [zero, next, momentum, middle] = system.space().vectors();
         Ok(OneStepGaussMemory {

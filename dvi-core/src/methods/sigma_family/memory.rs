@@ -75,13 +75,9 @@ pub(super) struct Leaps<S: System, T: Real> {
     pub(super) before: Vector<S, T>,
 }
 
-impl<S: System, T: Real> Memory<T> for Leaps<S, T> {
-    lasting!(T; numbers before);
-}
+lasting!([S: System, T: Real] Leaps<S, T>, T; numbers before);
 
-impl<S: System, T: Real> Memory<T> for SigmaMemory<S, T> {
-    lasting!(T; part carried, part ladder, part monitor);
-}
+lasting!([S: System, T: Real] SigmaMemory<S, T>, T; part carried, part ladder, part monitor);
 
 impl<S: System, T: Real> Memory<T> for Carried<S, T> {
     lasting!(

@@ -247,6 +247,4 @@ impl<S: System, T: Real> Memory<T> for Monitor<S, T> {
     );
 }
 
-impl<T: Real> Memory<T> for ParasiticMode<T> {
-    lasting!(T; size amplitude, size relative, flag is_significant);
-}
+lasting!([T: Real] ParasiticMode<T>, T; size amplitude, size relative, flag is_significant);

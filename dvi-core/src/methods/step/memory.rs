@@ -75,9 +75,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Carried<S, T> {
     }
 }
 
-impl<S: System, T: Real> Memory<T> for Carried<S, T> {
-    lasting!(T; part phase, part inertial);
-}
+lasting!([S: System, T: Real] Carried<S, T>, T; part phase, part inertial);
 
 /// What a run carries, how its steps are solved, and what its method has of its own.
 #[derive(Debug)]
@@ -112,6 +110,5 @@ impl<S: NondegenerateLagrangian<T>, T: Real, X> PhaseMemory<S, T, X> {
     }
 }
 
-impl<S: System, T: Real, X: Memory<T>, N> Memory<T> for PhaseMemory<S, T, X, N> {
-    lasting!(T; part carried, part own, part ladder);
-}
+lasting!([S: System, T: Real, X: Memory<T>, N] PhaseMemory<S, T, X, N>, T;
+    part carried, part own, part ladder);

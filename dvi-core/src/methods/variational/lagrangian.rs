@@ -245,10 +245,6 @@ where
 {
     type DiscreteLagrangian = SumOverNodes<S, RuleNodes<F, R, T>, T>;
 
-    fn admit(&self, system: &S) -> Result<(), StartError> {
-        self.validate::<S, T>(system)
-    }
-
     fn discrete_lagrangian(&self, system: &S) -> SumOverNodes<S, RuleNodes<F, R, T>, T> {
         let coefficients = Coefficients::linear(&self.rule);
         SumOverNodes::of(system, RuleNodes { method: self.clone(), coefficients })
@@ -267,6 +263,7 @@ where
     const IS_VERLET: bool = S::SEPARABLE && F::UNFITTED && R::TRAPEZOIDAL;
 
     fn inside(&self, system: &S) -> Result<Self::DiscreteLagrangian, StartError> {
+        self.validate::<S, T>(system)?;
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         if self.summation != Summation::default() {
             return unsupported(

@@ -1,7 +1,5 @@
 //! Conditions that are watched on a run that somebody else drives.
 
-use core::fmt;
-
 use super::conditions::Conditions;
 use super::course::{Course, Turn, Watched};
 use super::found::Found;
@@ -12,6 +10,7 @@ use crate::error::{StartError, StepError, StepFailure};
 use crate::run::Run;
 use crate::run::dense::{Dense, StateOf};
 use crate::scalar::carries_derivatives;
+use crate::shown::shown;
 
 /// Conditions that are watched on a run: [`Events`](super::Events) for those who take the steps themselves.
 /// Several can watch one run, each with conditions of its own.
@@ -264,8 +263,4 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     }
 }
 
-impl<R: Run, G, const N: usize> fmt::Debug for Watch<R, G, N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Watch").field("directions", &self.directions).finish_non_exhaustive()
-    }
-}
+shown!([R: Run, G, const N: usize] Watch<R, G, N>, |watch| directions: watch.directions);

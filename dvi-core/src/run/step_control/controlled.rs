@@ -1,12 +1,11 @@
 //! A run that a step control moves on, step by step, and back.
 
-use core::fmt;
-
 use crate::error::StepFailure;
 use crate::methods::{Carries, Clock, Method, Step, Tolerance};
 use crate::run::Stepper;
 use crate::run::clock::Time;
 use crate::scalar::norm::reported;
+use crate::shown::shown;
 use crate::state::Statistics;
 use crate::system::start::is_length;
 use crate::{Lagrangian, Real, System};
@@ -96,8 +95,4 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> 
     }
 }
 
-impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> fmt::Debug for ControlledRun<'_, S, M, T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ControlledRun").field("q", &self.q()).finish_non_exhaustive()
-    }
-}
+shown!([S: Lagrangian<T>, M: Method<S, T>, T: Real] ControlledRun<'_, S, M, T>, |run| q: run.q());

@@ -8,7 +8,7 @@
 use super::search::Search;
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::{Carries, Method};
 use crate::scalar::norm::{larger, reported};
 use crate::system::start::is_length;
@@ -102,9 +102,8 @@ pub struct EnergyMomentumMemory<S: System, T: Real> {
     force: Vector<S, T>,
 }
 
-impl<S: System, T: Real> Memory<T> for EnergyMomentumMemory<S, T> {
-    lasting!(T; number h, number before, number energy, flag has_begun, number defect, number scale);
-}
+lasting!([S: System, T: Real] EnergyMomentumMemory<S, T>, T;
+    number h, number before, number energy, flag has_begun, number defect, number scale);
 
 impl<S: RegularLagrangian<T>, T: Real> EnergyMomentumMemory<S, T> {
     /// e; `None` before the first step.

@@ -11,7 +11,7 @@ use super::seams::{AtSeam, Seams};
 use super::verdict::{FACTORS, Verdict, excess, within};
 use super::{ControlledRun, StepControl, breaks};
 use crate::error::{StartError, StepError, StepFailure};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::{Carries, Method, Tolerance};
 use crate::run::{Integrator, Run};
 use crate::scalar::norm::{larger, reported};
@@ -157,9 +157,8 @@ pub struct ErrorControlMemory<S: System, T: Real> {
     seams: Option<Seams<S, T>>,
 }
 
-impl<S: System, T: Real> Memory<T> for ErrorControlMemory<S, T> {
-    lasting!(T; number h, number error, number excess, number usual, parts seams; is_sound);
-}
+lasting!([S: System, T: Real] ErrorControlMemory<S, T>, T;
+    number h, number error, number excess, number usual, parts seams; is_sound);
 
 impl<S: System, T: Real> ErrorControlMemory<S, T> {
     /// The estimated error of the last step, in units of the tolerance; before the first step 1.

@@ -12,7 +12,7 @@ use core::fmt::Debug;
 
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::{Carries, Method};
 use crate::run::{Integrator, Run};
 use crate::scalar::norm::reported;
@@ -142,9 +142,7 @@ impl<S: System, T: Real> ReversibleMemory<S, T> {
     }
 }
 
-impl<S: System, T: Real> Memory<T> for ReversibleMemory<S, T> {
-    lasting!(T; number density; is_sound);
-}
+lasting!([S: System, T: Real] ReversibleMemory<S, T>, T; number density; is_sound);
 
 impl<D> Reversible<D> {
     fn validate(&self) -> Result<(), StartError> {

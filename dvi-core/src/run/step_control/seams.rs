@@ -13,7 +13,7 @@
 
 use super::ControlledRun;
 use crate::error::StepFailure;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::Method;
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported};
@@ -64,9 +64,7 @@ pub(super) struct AtSeam<T> {
     pub(super) behind: T,
 }
 
-impl<S: System, T: Real> Memory<T> for Seams<S, T> {
-    lasting!(T; count hops, number usual);
-}
+lasting!([S: System, T: Real] Seams<S, T>, T; count hops, number usual);
 
 impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     pub(super) fn new(system: &S) -> Self {

@@ -3,7 +3,7 @@
 use super::rows::{NEUTRAL, dot};
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints, Multipliers};
 use crate::mechanics::mass::Mass;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::constrained::memory::Impulses;
 use crate::{ConstrainedSystem, Real, Space, Vector};
 
@@ -44,9 +44,8 @@ pub(super) struct Arrival<S: ConstrainedSystem, T: Real> {
     pub(super) gram: Gram<S, T>,
 }
 
-impl<S: ConstrainedSystem, T: Real> Memory<T> for Place<S, T> {
-    lasting!(T; numbers p, numbers force, vectors rows, vectors solved, numbers squares, vectors impulses);
-}
+lasting!([S: ConstrainedSystem, T: Real] Place<S, T>, T;
+    numbers p, numbers force, vectors rows, vectors solved, numbers squares, vectors impulses);
 
 impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     pub(super) fn new(system: &S) -> Self {

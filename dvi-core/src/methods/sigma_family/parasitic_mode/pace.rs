@@ -1,7 +1,7 @@
 //! When a run is looked at for its parasitic mode: before that can have become too large.
 
 use super::{KEPT, Monitor, ParasiticMode};
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::methods::sigma_family::PARASITIC_LIMIT;
 use crate::methods::walk::BLOCK;
 use crate::scalar::norm::reported;
@@ -97,6 +97,4 @@ impl<S: System, T: Real> Monitor<S, T> {
     }
 }
 
-impl<T: Real> Memory<T> for First {
-    lasting!(T; count looks, bits relative, bits amplitude);
-}
+lasting!([T: Real] First, T; count looks, bits relative, bits amplitude);
