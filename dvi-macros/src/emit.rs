@@ -27,7 +27,7 @@ use crate::model::Model;
 use crate::routine::Routine;
 use crate::schedule::{Accumulated, Step};
 use crate::statement::{Output, Place};
-use crate::symbolic::{Coordinate, Fold, Graph, Loop};
+use crate::symbolic::{Coordinate, Fold, Graph, Loop, Node};
 
 mod indices;
 pub(crate) mod inlining;
@@ -169,6 +169,14 @@ impl Fold {
 }
 
 impl Function<'_> {
+    /// The leaf that a register is.
+    fn leaf_of(&self, register: Register) -> Option<&Node> {
+        match self.routine.code.get(register) {
+            Instruction::Leaf(id) => Some(self.emitter.graph.node(*id)),
+            _ => None,
+        }
+    }
+
     fn steps(&self, steps: &[Step]) -> TokenStream {
         steps.iter().map(|step| self.step(step)).collect()
     }
@@ -255,8 +263,7 @@ impl Function<'_> {
                 return quote!(#krate::Sink::add(__sink, #first + #member, #column, #value););
             }
         };
-        let register = self.register(value.register);
-        if value.negative { quote!(#target -= #register;) } else { quote!(#target += #register;) }
+        added(&target, value.negative, &self.register(value.register))
     }
 
     /// The number of a coordinate in the order of declaration.
@@ -283,6 +290,11 @@ impl Function<'_> {
         let register = self.register(value.register);
         if value.negative { quote!((-#register)) } else { register }
     }
+}
+
+/// `target += value`, or `target -= value`.
+fn added(target: &TokenStream, is_negative: bool, value: &TokenStream) -> TokenStream {
+    if is_negative { quote!(#target -= #value;) } else { quote!(#target += #value;) }
 }
 
 /// The function that calls the user's own: a mistake in its signature is one error, on its path.

@@ -1,7 +1,6 @@
 //! The formulas of a system, in the graph, and what they are differentiated by.
 
-use crate::internal::internal;
-use crate::symbolic::{Contribution, Coordinate, Count, Expr, Graph, Id, Loop, Node, SecondContribution};
+use crate::symbolic::{Contribution, Coordinate, Count, Expr, Graph, Loop, SecondContribution, Variable};
 use crate::syntax::Constrained;
 
 /// The formulas of a degenerate system.
@@ -77,31 +76,15 @@ impl Constraint {
     }
 }
 
-/// A variable of a derivative: position or velocity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Variable {
-    Position,
-    Velocity,
-}
-
-/// What a derivative is by.
-pub(crate) fn variable(graph: &Graph, id: Id) -> (Variable, Coordinate) {
-    match graph.node(id) {
-        Node::Coordinate(coordinate) => (Variable::Position, coordinate.clone()),
-        Node::Velocity(coordinate) => (Variable::Velocity, coordinate.clone()),
-        other => internal(format!("a derivative by {other:?}")),
-    }
-}
-
 /// The entries of Dα: ∂αᵢ/∂qʲ = ∂²(α·v)/∂vⁱ∂qʲ, as (i, j, entry).
 pub(crate) fn dalpha<'a>(
     graph: &Graph,
     entries: &'a [SecondContribution],
 ) -> Vec<(Coordinate, Coordinate, &'a SecondContribution)> {
     let pair =
-        |entry: &'a SecondContribution| match (variable(graph, entry.row), variable(graph, entry.column)) {
+        |entry: &'a SecondContribution| match (graph.variable(entry.row), graph.variable(entry.column)) {
             ((Variable::Velocity, i), (Variable::Position, j))
-            | ((Variable::Position, j), (Variable::Velocity, i)) => Some((i, j, entry)),
+            | ((Variable::Position, j), (Variable::Velocity, i)) => Some((i.clone(), j.clone(), entry)),
             // α·v is linear in v, and the position part of its second derivative is not in Dα.
             ((Variable::Position, _), (Variable::Position, _))
             | ((Variable::Velocity, _), (Variable::Velocity, _)) => None,

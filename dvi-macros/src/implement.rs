@@ -8,7 +8,6 @@ use syn::{Generics, Ident, Path, parse_quote};
 use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, own_function, scalar_field};
 use crate::program::Programs;
-use crate::statement::Output;
 use crate::symbolic::Node;
 use crate::syntax::{Constrained, Kind};
 
@@ -146,15 +145,9 @@ fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStr
 
 /// The same, of a trait that is given with its arguments.
 fn in_numbers_with(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStream) -> TokenStream {
-    let (krate, name, allow) = (emitter.krate(), &emitter.model.item.ident, allow());
-    let generics = over_numbers(emitter);
-    let (impl_generics, _, where_clause) = generics.split_for_impl();
-    let (_, type_generics, _) = emitter.model.item.generics.split_for_impl();
-    quote! {
-        #[automatically_derived]
-        #allow
-        impl #impl_generics #krate::#implemented for #name #type_generics #where_clause { #items }
-    }
+    let (krate, allow) = (emitter.krate(), allow());
+    let implementation = over(krate, emitter.model.named(), &over_numbers(emitter), implemented, items);
+    quote!(#[automatically_derived] #allow #implementation)
 }
 
 /// What stands in each trait by which a method asks for a kind of systems.
@@ -181,14 +174,16 @@ pub(crate) fn kind(
     }
 }
 
-/// The implementation of a trait that is not over numbers, without attributes.
-pub(crate) fn bare(
+/// The implementation of a trait for a type, over these generics, without attributes.
+pub(crate) fn over(
     krate: &Path,
-    (name, generics): (&Ident, &Generics),
+    (name, own): (&Ident, &Generics),
+    generics: &Generics,
     implemented: &TokenStream,
     items: &TokenStream,
 ) -> TokenStream {
-    let (impl_generics, type_generics, where_clause) = generics.split_for_impl();
+    let (impl_generics, _, where_clause) = generics.split_for_impl();
+    let (_, type_generics, _) = own.split_for_impl();
     quote!(impl #impl_generics #krate::#implemented for #name #type_generics #where_clause { #items })
 }
 
@@ -199,7 +194,7 @@ pub(crate) fn of_type(
     implemented: &TokenStream,
     items: &TokenStream,
 ) -> TokenStream {
-    let (allow, implementation) = (allow(), bare(krate, of, implemented, items));
+    let (allow, implementation) = (allow(), over(krate, of, of.1, implemented, items));
     quote!(#[automatically_derived] #allow #implementation)
 }
 
@@ -278,10 +273,8 @@ fn configuration(
 fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream) -> TokenStream {
     let krate = emitter.krate();
     let value = emitter.value(&programs.lagrangian);
-    let (read, body) = (emitter.read(&programs.gradient), emitter.body(&programs.gradient));
-    let (read_all, linearize) = (emitter.read(&programs.linearize), emitter.body(&programs.linearize));
-    let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
-    let offsets = emitter.offsets();
+    let (gradient, linearize) =
+        (emitter.gradient(&programs.gradient), emitter.linearized(&programs.linearize));
     // A call costs as much as a few terms of a sum.
     let always = (programs.linearize.code.len() <= SHORT).then(|| quote!((always)));
     let applied_force = programs.forces.as_ref().map(|forces| {
@@ -313,8 +306,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
     });
     let events = (!programs.events.is_empty()).then(|| events::events(emitter, &programs.events));
     let seams = (!programs.seams.is_empty()).then(|| events::seams(emitter, &programs.seams));
-    let indices = 0..programs.momenta.len();
-    let momenta = programs.momenta.iter().map(|value| emitter.value(value));
+    let momenta = by_index(programs.momenta.iter().map(|value| emitter.value(value)), &nothing(krate));
     let items = quote! {
             #[inline]
             fn lagrangian(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #value }
@@ -322,14 +314,14 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             fn gradient(
                 &self, __q: &[__T], __v: &[__T], __t: __T, __l_q: &mut [__T], __l_v: &mut [__T],
             ) {
-                #read #l_q #l_v #body
+                #gradient
             }
             #[inline #always]
             fn linearize<__K: #krate::Sink<__T>>(
                 &self, __q: &[__T], __v: &[__T], __t: __T, __w: #krate::Weights<__T>,
                 __l_q: &mut [__T], __l_v: &mut [__T], __sink: &mut __K,
             ) {
-                #read_all #l_q #l_v #offsets #linearize
+                #linearize
             }
             #applied_force
             #outside
@@ -337,15 +329,23 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             #members
             #[inline]
             fn momentum(&self, __index: ::core::primitive::usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
-                match __index {
-                    #(#indices => { #momenta })*
-                    _ => <__T as #krate::Scalar>::lift(::core::primitive::f64::NAN),
-                }
+                #momenta
             }
             #events
             #seams
     };
     in_numbers(emitter, &quote!(Lagrangian), &items)
+}
+
+/// The body of number `__index` among several, or `otherwise`.
+fn by_index(bodies: impl Iterator<Item = TokenStream>, otherwise: &TokenStream) -> TokenStream {
+    let (indices, bodies): (Vec<usize>, Vec<TokenStream>) = bodies.enumerate().unzip();
+    quote!(match __index { #(#indices => { #bodies })* _ => #otherwise, })
+}
+
+/// The value of a function that there is not.
+fn nothing(krate: &Path) -> TokenStream {
+    quote!(<__T as #krate::Scalar>::lift(::core::primitive::f64::NAN))
 }
 
 /// Generated code answers to no style lint: its names are those of the user's struct, with more behind them,

@@ -354,21 +354,14 @@ impl<'a> Lowering<'a> {
         declared.extend(self.model.sizes.iter().map(|size| size.text.clone()));
         declared.extend(self.scope.iter().map(|(name, _)| name.clone()));
         declared.push(words::PI.to_string());
-        if let Some(written) = self.velocity_called(name) {
-            let message = format!("{what} `{name}`; {written}");
-            self.errors.push_once(&format!("name {name}"), at, message);
-            return;
-        }
-        if let Some(written) = self.name_called(name) {
-            self.errors.push_once(&format!("name {name}"), at, format!("{what} `{name}`; {written}"));
-            return;
-        }
-        let hint = match nearest(name, declared.iter().map(String::as_str)) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None if name.chars().all(|letter| letter.is_uppercase() || letter == '_') => {
+        let called = self.velocity_called(name).or_else(|| self.name_called(name).map(str::to_string));
+        let hint = match (called, nearest(name, declared.iter().map(String::as_str))) {
+            (Some(written), _) => written,
+            (None, Some(near)) => format!("did you mean `{near}`?"),
+            (None, None) if name.chars().all(|letter| letter.is_uppercase() || letter == '_') => {
                 format!("a constant of your own is written with its path: `self::{name}` or `Self::{name}`")
             }
-            None => format!(
+            (None, None) => format!(
                 "a formula may use the coordinates {}, the fields of the struct, constants such as `PI`, and `t`",
                 listed(declared.iter().take(coordinates).map(String::as_str))
             ),

@@ -329,9 +329,14 @@ impl Model {
         self.blocks[block].array.as_ref().map_or_else(|| Index::literal(1), |(size, _)| size.clone())
     }
 
+    /// The number of the first coordinate of a block.
+    pub(crate) fn offset(&self, block: usize) -> Index {
+        (0..block).fold(Index::default(), |sum, before| sum.plus(&self.block_size(before), 1))
+    }
+
     /// The number of coordinates as an index expression.
     pub(crate) fn dimension(&self) -> Index {
-        (0..self.blocks.len()).fold(Index::default(), |sum, block| sum.plus(&self.block_size(block), 1))
+        self.offset(self.blocks.len())
     }
 
     /// Whether a function of the user's was declared with three derivatives, as a gauge needs them.

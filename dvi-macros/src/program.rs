@@ -4,10 +4,12 @@
 //! list of them here, by differentiation alone: the discrete equations of any scheme are weighted sums of
 //! these, and the schemes supply the weights. `degenerate` and `regular` add what is special to each.
 
-use crate::formulas::{Constraint, DeclaredConstraints, Force, Seams, Variable, variable};
+use crate::formulas::{Constraint, DeclaredConstraints, Force, Seams};
 use crate::routine::Routine;
 use crate::statement::{Output, Place, Statement};
-use crate::symbolic::{Contribution, Coordinate, Expr, Graph, Loop, Node, SecondContribution, Weight};
+use crate::symbolic::{
+    Contribution, Coordinate, Expr, Graph, Loop, Node, SecondContribution, Variable, Weight,
+};
 use crate::syntax::Constrained;
 
 mod constraints;
@@ -93,7 +95,6 @@ impl Programs {
     /// Adds the seams, each once, where it moves. They come last: what they make in the graph changes the
     /// order of no sum of another function.
     pub(crate) fn add_seams(&mut self, graph: &mut Graph, seams: &Seams) {
-        let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Velocity(_) | Node::Time);
         let mut known: Vec<Expr> = Vec::new();
         for &[a, b] in seams {
             let difference = graph.subtract(a, b);
@@ -106,7 +107,7 @@ impl Programs {
                 _ => difference.negated(),
             };
             let is_known = known.iter().any(|seam| [difference, opposite].contains(seam));
-            if !is_known && graph.depends(difference.node, varies) {
+            if !is_known && graph.depends(difference.node, Node::varies) {
                 known.push(difference);
                 self.seams.push(Routine::new(graph, result(difference)));
             }
@@ -198,7 +199,7 @@ impl Programs {
         let constraints = constraints.map(|constraints| &constraints.value);
         let routines = [&self.lagrangian].into_iter().chain(&self.forces).chain(constraints);
         let mut statements = routines.flat_map(|routine| &routine.statements);
-        statements.any(|statement| graph.depends(statement.value.node, |node| matches!(node, Node::Time)))
+        statements.any(|statement| graph.depends(statement.value.node, Node::is_time))
     }
 }
 
@@ -219,12 +220,12 @@ fn statements(
     velocity: Output,
 ) -> Vec<Statement> {
     let statement = |contribution: Contribution| {
-        let (kind, coordinate) = variable(graph, contribution.target);
+        let (kind, coordinate) = graph.variable(contribution.target);
         let output = match kind {
             Variable::Position => position,
             Variable::Velocity => velocity,
         };
-        let place = Place::Entry(output, coordinate);
+        let place = Place::Entry(output, coordinate.clone());
         Statement { loops: contribution.loops, place, value: contribution.value }
     };
     contributions.into_iter().map(statement).collect()
@@ -266,7 +267,10 @@ fn mirrored_pair(
 fn weighted_hessian(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Statement> {
     let mut statements = Vec::new();
     for entry in entries {
-        let ((row, r), (column, c)) = (variable(graph, entry.row), variable(graph, entry.column));
+        let [(row, r), (column, c)] = [entry.row, entry.column].map(|id| {
+            let (kind, coordinate) = graph.variable(id);
+            (kind, coordinate.clone())
+        });
         let weights = match (row, column) {
             (Variable::Position, Variable::Position) => [Weight::Qq, Weight::Qq],
             (Variable::Position, Variable::Velocity) => [Weight::Qv, Weight::Vq],

@@ -87,7 +87,7 @@ impl Builder<'_> {
         for id in self.reachable(statements) {
             match self.graph.node(id).clone() {
                 Node::Sum(parts) => parts.iter().for_each(|part| self.note_term(*part, &mut terms)),
-                Node::Reciprocal(of) => self.note(of.into()),
+                Node::Product(_) => {}
                 Node::Reduce { .. } => {
                     let (fold, over, body) = self.as_loop(id);
                     match fold {
@@ -95,13 +95,7 @@ impl Builder<'_> {
                         Fold::Product => self.note(body),
                     }
                 }
-                Node::Unary(_, of) | Node::Call(_, _, of) => self.note(of),
-                Node::Binary(_, a, b) => [a, b].into_iter().for_each(|part| self.note(part)),
-                Node::ScalarField(_, _, at) => at.into_iter().for_each(|argument| self.note(argument)),
-                Node::Choose { left, right, then, otherwise, .. } => {
-                    [left, right, then, otherwise].into_iter().for_each(|part| self.note(part));
-                }
-                Node::One | leaf!() | Node::Product(_) => {}
+                other => other.parts().into_iter().for_each(|part| self.note(part)),
             }
         }
         for (sum, over, body) in sums {

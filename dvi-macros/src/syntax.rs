@@ -20,7 +20,7 @@ pub(crate) mod tidy;
 mod unsaid;
 
 use argument::{Argument, Value};
-pub(crate) use closures::{bound, closure, indexed, last_value, name_of, own_field};
+pub(crate) use closures::{bound, closure, ident, indexed, last_value, literal, name_of, own_field};
 pub(crate) use constraint::{Constrained, Constraint, Member};
 use cut::{list, named, read, read_by, split_at_commas, value_of};
 use declared::Declared;

@@ -46,171 +46,25 @@ fn without_paths(code: &str) -> String {
         .replace("<T as Scalar>", "T")
 }
 
+/// The pairs of many bodies are cut into parts, which threads share, and those of a body are taken in packs, with
+/// one division for each pair.
 #[test]
-fn vortices() {
-    check(
-        degenerate_lagrangian(
-            quote! {
-                coordinates(x[N], y[N]),
-                one_form    = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-                hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
-                                  * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
-            },
-            quote! { struct PointVortices<const N: usize> { gamma: [f64; N] } },
-        ),
-        "hamiltonian_gradient",
-        &expect![[r#"
-            fn hamiltonian_gradient() {
-                let (__q0, __rest) = q_.split_at(N);
-                let (__q1, __rest) = __rest.split_at(N);
-                let _ = __rest;
-                out_.fill(T::lift(-0.0));
-                let (__vector0, __rest) = out_.split_at_mut(N);
-                let (__vector1, __rest) = __rest.split_at_mut(N);
-                let _ = __rest;
-                __private::widest::<
-                    T,
-                    _,
-                >(
-                    q_.len(),
-                    #[cfg_attr(not(debug_assertions), inline(always))]
-                    || {
-                        if __private::are_many(N) {
-                            let __p0 = &self.gamma[..];
-                            __private::halves(
-                                N,
-                                [&mut __vector0[..], &mut __vector1[..]],
-                                #[cfg_attr(not(debug_assertions), inline(always))]
-                                |
-                                    __i0: usize,
-                                    [__lower,
-                                    __upper,
-                                    __first,
-                                    ]: [usize; 3],
-                                    [__vector0,
-                                    __vector1,
-                                    ]: &mut [&mut [T]; 2usize]|
-                                {
-                                    let __r0 = __q0[__i0];
-                                    let __r6 = T::lift(
-                                        0.15915494309189535f64,
-                                    )
-                                        * T::lift(
-                                            __private::Number::number(__p0[__i0]),
-                                        );
-                                    let __r9 = __q1[__i0];
-                                    let mut __r16 = T::lift(-0.0);
-                                    let mut __r18 = T::lift(-0.0);
-                                    let __whole = __private::whole(__lower, __upper);
-                                    {
-                                        let __r0 = __private::all(__r0);
-                                        let __r6 = __private::all(__r6);
-                                        let __r9 = __private::all(__r9);
-                                        let mut __sum16 = __private::Sums::<T>::empty();
-                                        let mut __sum18 = __private::Sums::<T>::empty();
-                                        for __i1 in __private::packs::<
-                                            T,
-                                        >(__lower, __whole) {
-                                            let __r2 = __r0 - __private::load(__q0, __i1);
-                                            let __r11 = __r9 - __private::load(__q1, __i1);
-                                            let __r14 = (__private::parameters::<
-                                                T,
-                                                _,
-                                            >(&__p0[..], __i1) * __r6)
-                                                / ((__r2 * __r2) + (__r11 * __r11));
-                                            let __r15 = __r2 * __r14;
-                                            let __r17 = __r11 * __r14;
-                                            __private::add_to(
-                                                __vector0,
-                                                __i1 - __first,
-                                                (-__r15),
-                                            );
-                                            __private::add_to(
-                                                __vector1,
-                                                __i1 - __first,
-                                                (-__r17),
-                                            );
-                                            __sum16.add_terms(__r15);
-                                            __sum18.add_terms(__r17);
-                                        }
-                                        __r16 += __sum16.total();
-                                        __r18 += __sum18.total();
-                                    }
-                                    for __i1 in __whole..__upper {
-                                        let __r2 = __r0 - __q0[__i1];
-                                        let __r11 = __r9 - __q1[__i1];
-                                        let __r14 = (T::lift(
-                                            __private::Number::number(__p0[__i1]),
-                                        ) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
-                                        let __r15 = __r2 * __r14;
-                                        let __r17 = __r11 * __r14;
-                                        __vector0[__i1 - __first] -= __r15;
-                                        __vector1[__i1 - __first] -= __r17;
-                                        __r16 += __r15;
-                                        __r18 += __r17;
-                                    }
-                                    [__r16, __r18]
-                                },
-                            );
-                        } else {
-                            for __i0 in (0usize)..(N) {
-                                let __r0 = __q0[__i0];
-                                let __r6 = T::lift(0.15915494309189535f64)
-                                    * T::lift(
-                                        __private::Number::number(self.gamma[__i0]),
-                                    );
-                                let __r9 = __q1[__i0];
-                                let mut __r16 = T::lift(-0.0);
-                                let mut __r18 = T::lift(-0.0);
-                                let __whole = __private::whole(__i0 + 1usize, N);
-                                {
-                                    let __r0 = __private::all(__r0);
-                                    let __r6 = __private::all(__r6);
-                                    let __r9 = __private::all(__r9);
-                                    let mut __sum16 = __private::Sums::<T>::empty();
-                                    let mut __sum18 = __private::Sums::<T>::empty();
-                                    for __i1 in __private::packs::<
-                                        T,
-                                    >(__i0 + 1usize, __whole) {
-                                        let __r2 = __r0 - __private::load(__q0, __i1);
-                                        let __r11 = __r9 - __private::load(__q1, __i1);
-                                        let __r14 = (__private::parameters::<
-                                            T,
-                                            _,
-                                        >(&self.gamma[..], __i1) * __r6)
-                                            / ((__r2 * __r2) + (__r11 * __r11));
-                                        let __r15 = __r2 * __r14;
-                                        let __r17 = __r11 * __r14;
-                                        __private::add_to(__vector0, __i1, (-__r15));
-                                        __private::add_to(__vector1, __i1, (-__r17));
-                                        __sum16.add_terms(__r15);
-                                        __sum18.add_terms(__r17);
-                                    }
-                                    __r16 += __sum16.total();
-                                    __r18 += __sum18.total();
-                                }
-                                for __i1 in __whole..N {
-                                    let __r2 = __r0 - __q0[__i1];
-                                    let __r11 = __r9 - __q1[__i1];
-                                    let __r14 = (T::lift(
-                                        __private::Number::number(self.gamma[__i1]),
-                                    ) * __r6) / ((__r2 * __r2) + (__r11 * __r11));
-                                    let __r15 = __r2 * __r14;
-                                    let __r17 = __r11 * __r14;
-                                    __vector0[__i1] -= __r15;
-                                    __vector1[__i1] -= __r17;
-                                    __r16 += __r15;
-                                    __r18 += __r17;
-                                }
-                                __vector0[__i0] += __r16;
-                                __vector1[__i0] += __r18;
-                            }
-                        }
-                    },
-                );
-            }
-        "#]],
+fn pairs_are_cut_into_parts_and_taken_in_packs() {
+    let vortices = degenerate_lagrangian(
+        quote! {
+            coordinates(x[N], y[N]),
+            one_form    = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
+            hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
+                              * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
+        },
+        quote! { struct PointVortices<const N: usize> { gamma: [f64; N] } },
     );
+    let gradient = body(vortices, "hamiltonian_gradient");
+    for (what, count) in
+        [("widest::<", 1), ("are_many(N)", 1), ("halves(", 1), ("packs::<", 2), ("for ", 5), ("/", 4)]
+    {
+        assert_eq!(gradient.matches(what).count(), count, "{what} in {gradient}");
+    }
 }
 
 /// Neighbours and run-time sizes are checked once, before the first step.

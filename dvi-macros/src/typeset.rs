@@ -111,13 +111,7 @@ impl Typesetter {
     /// `name` = `formula`, with the `let`s in it.
     pub(crate) fn equation(&mut self, name: impl Into<String>, formula: &Expr) -> Equation {
         let terms = self.terms(formula);
-        Equation {
-            name: name.into(),
-            terms,
-            relation: "=",
-            range: None,
-            lets: std::mem::take(&mut self.lets),
-        }
+        Equation::new(name.into(), terms, std::mem::take(&mut self.lets))
     }
 
     /// The LaTeX of a formula without `let`s, such as the place of a coordinate.
@@ -154,9 +148,7 @@ impl Typesetter {
     pub(crate) fn definition(&mut self, local: &Local) -> Vec<Equation> {
         self.define(local);
         let lets = std::mem::take(&mut self.lets).into_iter();
-        let equation =
-            |(name, terms)| Equation { name, terms, relation: "=", range: None, lets: Vec::new() };
-        lets.map(equation).collect()
+        lets.map(|(name, terms)| Equation::new(name, terms, Vec::new())).collect()
     }
 
     /// Takes down the `let`s of a block.

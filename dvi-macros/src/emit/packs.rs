@@ -132,12 +132,9 @@ impl Function<'_> {
     /// How far before and behind a term are the places on rings that it needs.
     fn reach(&self, body: &[Step]) -> [u64; 2] {
         let indices = body.iter().filter_map(|step| match step {
-            Step::Let(register) => match self.routine.code.get(*register) {
-                Instruction::Leaf(id) => match self.emitter.graph.node(*id) {
-                    Node::Coordinate(entry) | Node::Velocity(entry) => Some(&entry.index),
-                    Node::Parameter(parameter) => parameter.indices.first(),
-                    _ => None,
-                },
+            Step::Let(register) => match self.leaf_of(*register)? {
+                Node::Coordinate(entry) | Node::Velocity(entry) => Some(&entry.index),
+                Node::Parameter(parameter) => parameter.indices.first(),
                 _ => None,
             },
             Step::Write(statement, _) => {

@@ -30,7 +30,7 @@ use syn::Ident;
 use super::indices::open;
 use super::inlining::ForceInline;
 use super::values::parameter_slice;
-use super::{Element, Function, local, output_array};
+use super::{Element, Function, added, local, output_array};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::schedule::{Accumulated, Step};
 use crate::statement::Output;
@@ -194,8 +194,8 @@ impl Function<'_> {
     /// Whether a register, if it is a leaf, is read from a slice at a place that the loops know.
     fn is_of_slices(&self, register: Register) -> bool {
         let is_of_loops = |index: &Index| index.terms.iter().all(|(atom, _)| matches!(atom, Atom::Open(_)));
-        let Instruction::Leaf(id) = self.routine.code.get(register) else { return true };
-        match self.emitter.graph.node(*id) {
+        let Some(leaf) = self.leaf_of(register) else { return true };
+        match leaf {
             Node::Coordinate(entry) | Node::Velocity(entry) => is_of_loops(&entry.index),
             Node::Parameter(parameter) => {
                 let known = &self.emitter.model.parameters[parameter.field as usize];
@@ -212,17 +212,8 @@ impl Function<'_> {
         let is_free = |register: &Register| of(register) == Dependence::Free;
         if instruction.operands().iter().all(is_free) {
             let is_read = match instruction {
-                Instruction::Leaf(_) => self.is_of_slices(register),
                 Instruction::Expansion(..) | Instruction::Part(..) | Instruction::Reduce(..) => false,
-                Instruction::Literal(_)
-                | Instruction::Multiply(..)
-                | Instruction::Divide(..)
-                | Instruction::Sum(_)
-                | Instruction::Unary(..)
-                | Instruction::Binary(..)
-                | Instruction::Power(..)
-                | Instruction::Call(..)
-                | Instruction::Choose(..) => true,
+                _ => self.is_of_slices(register),
             };
             return is_read.then_some(Dependence::Free);
         }
@@ -251,18 +242,14 @@ impl Function<'_> {
     /// The fields whose parameters the parts read.
     fn parameters_of(&self, nest: &Nest<'_>) -> Vec<u32> {
         let steps = nest.body.iter().chain(nest.terms);
-        let mut fields: Vec<u32> = steps
-            .filter_map(|step| match step {
-                Step::Let(register) => match self.routine.code.get(*register) {
-                    Instruction::Leaf(id) => Some(self.emitter.graph.node(*id)),
-                    _ => None,
-                },
-                Step::Loop { .. } | Step::Write(..) => None,
-            })
-            .filter_map(
-                |leaf| if let Node::Parameter(parameter) = leaf { Some(parameter.field) } else { None },
-            )
-            .collect();
+        let field = |step: &Step| match step {
+            Step::Let(register) => match self.leaf_of(*register)? {
+                Node::Parameter(parameter) => Some(parameter.field),
+                _ => None,
+            },
+            Step::Loop { .. } | Step::Write(..) => None,
+        };
+        let mut fields: Vec<u32> = steps.filter_map(field).collect();
         fields.sort_unstable();
         fields.dedup();
         fields
@@ -270,7 +257,7 @@ impl Function<'_> {
 
     /// What is added to the entries of each body whatever the others do.
     fn alone(&self, over: &Loop, nest: &Nest<'_>) -> TokenStream {
-        let added: TokenStream = nest
+        let alone: TokenStream = nest
             .own
             .iter()
             .map(|own| {
@@ -280,19 +267,15 @@ impl Function<'_> {
                     Dependence::Linear => return TokenStream::new(),
                 };
                 let (array, index) = (output_array(own.output, own.block), open(over.depth));
-                if own.value.negative {
-                    quote!(#array[#index] -= #value;)
-                } else {
-                    quote!(#array[#index] += #value;)
-                }
+                added(&quote!(#array[#index]), own.value.negative, &value)
             })
             .collect();
-        if added.is_empty() {
-            return added;
+        if alone.is_empty() {
+            return alone;
         }
         let free = nest.known.iter().filter(|(_, dependence)| *dependence == Dependence::Free);
         let values: TokenStream = free.map(|(register, _)| self.step(&Step::Let(*register))).collect();
-        self.emitter.loop_over(over, &quote!(#values #added))
+        self.emitter.loop_over(over, &quote!(#values #alone))
     }
 
     /// The pairs of one body with some of those that come after: what is to be added to its own entries.

@@ -8,7 +8,7 @@ use crate::internal::internal;
 use crate::lower::{Lowering, Role, all};
 use crate::model::Extended;
 use crate::structure::gauge::{self, Effort, Search};
-use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Id, Index, Node};
+use crate::symbolic::{Atom, Coordinate, Expr, Fold, Graph, Index, Node};
 use crate::syntax::{self, Attribute, Gauge, Named};
 
 impl Stages {
@@ -88,7 +88,7 @@ impl Stages {
     /// Reports a gauge without coordinates, or with functions that have too few derivatives.
     fn can_be_gauge(&mut self, gauge: Expr) -> Option<()> {
         let formula = self.attribute.gauge()?;
-        if !self.graph.depends(gauge.node, |node| matches!(node, Node::Coordinate(_))) {
+        if !self.graph.depends(gauge.node, Node::is_position) {
             let message = "a gauge without coordinates in it changes nothing: write a function of the coordinates, or \
                            leave it out";
             return self.errors.refuse(formula, message);
@@ -296,8 +296,7 @@ fn split(graph: &mut Graph, lagrangian: Expr) -> (Expr, Expr) {
 
 /// An affine expression as (its value at v = 0, what is linear in v).
 fn split_parts(graph: &mut Graph, value: Expr) -> (Expr, Expr) {
-    let at_rest = |graph: &mut Graph, id| matches!(graph.node(id), Node::Velocity(_)).then_some(Expr::ZERO);
-    let rest = graph.rebuild(value.node, at_rest).scaled(value.scale);
+    let rest = graph.at_rest(value);
     let linear = match graph.node(value.node).clone() {
         // Term by term, so that what has no velocity disappears instead of being subtracted.
         Node::Sum(terms) => {
@@ -309,23 +308,16 @@ fn split_parts(graph: &mut Graph, value: Expr) -> (Expr, Expr) {
             let (_, body) = split_parts(graph, body);
             graph.fold(Fold::Sum, Atom::Bound(height), range, body).scaled(value.scale)
         }
-        Node::Product(factors) => match moving(graph, &factors)[..] {
-            [(affine, 1)] => {
-                let others = factors.iter().filter(|(factor, _)| *factor != affine);
-                let mut parts: Vec<Expr> =
-                    others.map(|&(factor, exponent)| graph.power(factor.into(), exponent)).collect();
-                parts.push(split_parts(graph, affine.into()).1);
-                graph.product(&parts).scaled(value.scale)
-            }
-            _ => graph.subtract(value, rest),
-        },
+        Node::Product(factors) => {
+            let (moving, others): (Vec<_>, Vec<_>) =
+                factors.into_iter().partition(|(factor, _)| graph.has_velocity(*factor));
+            let [(affine, 1)] = moving[..] else { return (rest, graph.subtract(value, rest)) };
+            let mut parts: Vec<Expr> =
+                others.into_iter().map(|(factor, exponent)| graph.power(factor.into(), exponent)).collect();
+            parts.push(split_parts(graph, affine.into()).1);
+            graph.product(&parts).scaled(value.scale)
+        }
         _ => graph.subtract(value, rest),
     };
     (rest, linear)
-}
-
-/// The factors of a product that depend on velocities.
-fn moving(graph: &Graph, factors: &[(Id, u32)]) -> Vec<(Id, u32)> {
-    let moves = |node: &Node| matches!(node, Node::Velocity(_));
-    factors.iter().copied().filter(|(factor, _)| graph.depends(*factor, moves)).collect()
 }

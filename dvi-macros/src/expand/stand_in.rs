@@ -77,7 +77,7 @@ impl StandIn<'_> {
             fn check(&self) -> ::core::result::Result<(), #krate::IndexError> #never
         };
         let system = implement::of_type(krate, *of, &quote!(System), &items);
-        let bare = |implemented, items| implement::bare(krate, *of, &implemented, &items);
+        let bare = |implemented, items| implement::over(krate, *of, of.1, &implemented, &items);
         let stand_in = bare(quote!(__private::StandIn), implement::suited());
         let time_transformed = self.time_transformed.then(|| self.time_transformed(&never));
         let constrained = (is_regular && self.constrained.is_some()).then(|| {
@@ -101,16 +101,12 @@ impl StandIn<'_> {
 
     /// The trait that systems have with a time transformation only.
     fn time_transformed(&self, never: &TokenStream) -> TokenStream {
-        let Self { of: (name, generics), krate, .. } = self;
-        let mut with_numbers = (*generics).clone();
-        with_numbers.params.push(syn::parse_quote!(__T: #krate::Scalar));
-        let (impl_generics, _, where_clause) = with_numbers.split_for_impl();
-        let (_, type_generics, _) = generics.split_for_impl();
-        quote! {
-            impl #impl_generics #krate::TimeTransformed<__T> for #name #type_generics #where_clause {
-                fn time_transform_at(&self, _: &[__T]) -> #krate::system::TimeTransform<__T> #never
-            }
-        }
+        let Self { of, krate, .. } = self;
+        let mut generics = of.1.clone();
+        generics.params.push(syn::parse_quote!(__T: #krate::Scalar));
+        let items =
+            quote!(fn time_transform_at(&self, _: &[__T]) -> #krate::system::TimeTransform<__T> #never);
+        implement::over(krate, *of, &generics, &quote!(TimeTransformed<__T>), &items)
     }
 }
 

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::document::Account;
 use super::pairs::pairs;
-use super::{in_numbers, over_numbers, suited};
+use super::{by_index, in_numbers, over, over_numbers, suited};
 use crate::emit::Emitter;
 use crate::emit::inlining::ForceInline;
 use crate::errors::listed;
@@ -102,11 +102,10 @@ pub(crate) fn degenerate(
 /// The parameters in denominators of a function in which neither coordinates stand nor the time.
 fn divisors(emitter: &Emitter<'_>, function: Expr) -> Vec<String> {
     let graph = emitter.graph;
-    let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Time);
     let mut names = Vec::new();
     for id in graph.reachable([function.node]) {
         let Node::Reciprocal(of) = *graph.node(id) else { continue };
-        if graph.depends(of, varies) {
+        if graph.depends(of, Node::varies) {
             continue;
         }
         for below in graph.reachable([of]) {
@@ -133,8 +132,9 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let jacobian = emitter.body(&programs.one_form_jacobian);
     let conjugate_entries = emitter.vector(&programs.conjugate_entries);
     let [conjugate, conjugates_end] = conjugates(emitter, structure);
-    let indices = 0..programs.momentum_gradients.len();
+    let nothing = super::nothing(krate);
     let gradients = programs.momentum_gradients.iter().map(|gradient| emitter.vector(gradient));
+    let gradients = by_index(gradients, &quote!(__vector.fill(#nothing)));
     let suited = suited();
     let items = quote! {
             #suited
@@ -174,10 +174,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
             fn momentum_gradient(
                 &self, __index: ::core::primitive::usize, __q: &[__T], __t: __T, __vector: &mut [__T],
             ) {
-                match __index {
-                    #(#indices => { #gradients })*
-                    _ => __vector.fill(<__T as #krate::Scalar>::lift(::core::primitive::f64::NAN)),
-                }
+                #gradients
             }
     };
     let lagrangian = in_numbers(emitter, &quote!(DegenerateLagrangian), &items);
@@ -238,8 +235,11 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
     let lacking = format_ident!("{name}InClass");
     let mut generics = over_numbers(emitter);
     generics.make_where_clause().predicates.push(syn::parse_quote!(__T: #lacking));
-    let (impl_generics, _, where_clause) = generics.split_for_impl();
-    let (_, type_generics, _) = model.item.generics.split_for_impl();
+    let items = quote! {
+        type Suited<__M> = <__T as #lacking>::Suited<__M>;
+        fn place(&self, __coordinate: ::core::primitive::usize) -> ::core::primitive::usize { __coordinate }
+    };
+    let refused = over(krate, model.named(), &generics, &quote!(ProperlyDegenerate<__T>), &items);
     quote! {
         #[diagnostic::on_unimplemented(
             message = #message,
@@ -252,22 +252,16 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
             type Suited<__M>: #krate::system::Same<__M, As = __M>;
         }
         #allow
-        impl #impl_generics #krate::ProperlyDegenerate<__T> for #name #type_generics #where_clause {
-            type Suited<__M> = <__T as #lacking>::Suited<__M>;
-            fn place(&self, __coordinate: ::core::primitive::usize) -> ::core::primitive::usize { __coordinate }
-        }
+        #refused
     }
 }
 
 /// Block by block: `if i < end { return place of the first + i − offset }`.
 fn place(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
     let model = emitter.model;
-    let mut offset = Index::default();
     let mut places = [Index::default(), class.size(model, true)];
     let cases = (0..model.blocks.len()).map(|block| {
-        let start = emitter.index(&offset);
-        offset = offset.plus(&model.block_size(block), 1);
-        let end = emitter.index(&offset);
+        let [start, end] = [block, block + 1].map(|block| emitter.index(&model.offset(block)));
         let [with, without] = [0, 1].map(|half| emitter.index(&places[half]));
         for (half, place) in places.iter_mut().enumerate() {
             *place = place.plus(&class.size_in(model, block, half == 0), 1);
@@ -295,18 +289,13 @@ fn place(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
 
 /// Block by block: `if i < end { return i − offset + conjugate's offset }` and `if i < end { return end }`.
 fn conjugates(emitter: &Emitter<'_>, structure: &OneForm) -> [TokenStream; 2] {
-    let model = emitter.model;
-    let mut offsets = vec![Index::default()];
-    for block in 0..model.blocks.len() {
-        offsets.push(offsets[block].plus(&model.block_size(block), 1));
-    }
-    let ends = (0..model.blocks.len()).map(|block| {
-        let end = emitter.index(&offsets[block + 1]);
+    let offset = |block| emitter.index(&emitter.model.offset(block));
+    let ends = (0..emitter.model.blocks.len()).map(|block| {
+        let end = offset(block + 1);
         quote!(if __i < #end { return #end; })
     });
     let cases = structure.conjugates.iter().enumerate().map(|(block, conjugate)| {
-        let end = emitter.index(&offsets[block + 1]);
-        let (from, to) = (emitter.index(&offsets[block]), emitter.index(&offsets[*conjugate]));
+        let [end, from, to] = [block + 1, block, *conjugate].map(offset);
         quote!(if __i < #end { return __i - (#from) + (#to); })
     });
     [quote!(#(#cases)* __i), quote!(#(#ends)* __i + 1)]

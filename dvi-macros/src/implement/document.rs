@@ -6,13 +6,12 @@ use syn::ext::IdentExt as _;
 
 use crate::emit::Emitter;
 use crate::errors::text;
-use crate::formulas::{Variable, variable};
 use crate::model::{Axis, Model};
 use crate::operations::Operations;
 use crate::print::{print_coordinate, print_expr, print_index, print_loops, print_velocity, write_expr};
 use crate::program::Programs;
 use crate::statement::{Output, Place, Row, Statement};
-use crate::symbolic::{Coordinate, Count, Expr, Index, Rows};
+use crate::symbolic::{Coordinate, Count, Expr, Index, Rows, Variable};
 use crate::syntax::{Attribute, Constrained, Factor, Force, closure, value};
 use crate::typeset::{Equation, Typesetter, block, declared, plain};
 use crate::validate::Checked;
@@ -305,9 +304,9 @@ fn sparsity(emitter: &Emitter<'_>, programs: &Programs) -> TokenStream {
     let krate = emitter.krate();
     let mut places: Vec<[String; 3]> = Vec::new();
     for entry in &programs.entries {
-        let [(_, row), (_, column)] = [entry.row, entry.column].map(|id| variable(emitter.graph, id));
         let loops = print_loops(&entry.loops, emitter.model);
-        let [row, column] = [row, column].map(|coordinate| print_coordinate(&coordinate, emitter.model));
+        let [row, column] = [entry.row, entry.column]
+            .map(|id| print_coordinate(emitter.graph.variable(id).1, emitter.model));
         let mirrored = entry.mirrored.then(|| [column.clone(), row.clone(), loops.clone()]);
         for place in [[row, column, loops]].into_iter().chain(mirrored) {
             if !places.contains(&place) {

@@ -3,57 +3,40 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::{by_index, nothing};
 use crate::emit::Emitter;
 use crate::program::EventPrograms;
 use crate::routine::Routine;
-use crate::statement::Output;
 
 /// `event` and `event_gradient` of `Lagrangian`.
 pub(super) fn events(emitter: &Emitter<'_>, events: &[EventPrograms]) -> TokenStream {
-    let (indices, again) = (0..events.len(), 0..events.len());
-    let values = events.iter().map(|event| emitter.value(&event.value));
-    let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
+    let nothing = nothing(emitter.krate());
+    let values = by_index(events.iter().map(|event| emitter.value(&event.value)), &nothing);
     let gradients = events.iter().map(|EventPrograms { gradient, by_time, .. }| {
-        let (read, body, by_time) = (emitter.read(gradient), emitter.body(gradient), emitter.value(by_time));
-        quote!({ #read #l_q #l_v #body } #by_time)
+        let (gradient, by_time) = (emitter.gradient(gradient), emitter.value(by_time));
+        quote!({ #gradient } #by_time)
     });
-    let nothing = nothing(emitter);
+    let gradients = by_index(gradients, &nothing);
     quote! {
         #[inline]
         fn event(&self, __index: ::core::primitive::usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
-            match __index {
-                #(#indices => { #values })*
-                _ => #nothing,
-            }
+            #values
         }
         fn event_gradient(
             &self, __index: ::core::primitive::usize, __q: &[__T], __v: &[__T], __t: __T,
             __l_q: &mut [__T], __l_v: &mut [__T],
         ) -> __T {
-            match __index {
-                #(#again => { #gradients })*
-                _ => #nothing,
-            }
+            #gradients
         }
     }
 }
 
 /// `seam` of `Lagrangian`.
 pub(super) fn seams(emitter: &Emitter<'_>, seams: &[Routine]) -> TokenStream {
-    let (indices, nothing) = (0..seams.len(), nothing(emitter));
-    let values = seams.iter().map(|seam| emitter.value(seam));
+    let values = by_index(seams.iter().map(|seam| emitter.value(seam)), &nothing(emitter.krate()));
     quote! {
         fn seam(&self, __index: ::core::primitive::usize, __q: &[__T], __v: &[__T], __t: __T) -> __T {
-            match __index {
-                #(#indices => { #values })*
-                _ => #nothing,
-            }
+            #values
         }
     }
-}
-
-/// The value of a function that there is not.
-fn nothing(emitter: &Emitter<'_>) -> TokenStream {
-    let krate = emitter.krate();
-    quote!(<__T as #krate::Scalar>::lift(::core::primitive::f64::NAN))
 }

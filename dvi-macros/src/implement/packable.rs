@@ -21,7 +21,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::{ToTokens as _, quote};
 use syn::{Field, GenericParam, Ident, ItemStruct, Path, TypeParam, TypeParamBound};
 
-use super::allow;
+use super::{allow, over};
 
 pub(super) fn packable(krate: &Path, item: &ItemStruct) -> TokenStream {
     match generic(item) {
@@ -50,21 +50,17 @@ fn generic(item: &ItemStruct) -> Option<&TypeParam> {
 
 /// Systems that share packs if they are equal.
 fn as_one(krate: &Path, item: &ItemStruct) -> TokenStream {
-    let (name, allow) = (&item.ident, allow());
+    let (of, allow) = ((&item.ident, &item.generics), allow());
     let mut generics = item.generics.clone();
     generics.params.push(syn::parse_quote!(const __W: ::core::primitive::usize));
-    let (impl_generics, _, where_clause) = generics.split_for_impl();
-    let (_, type_generics, _) = item.generics.split_for_impl();
-    quote! {
-        #[automatically_derived]
-        #allow
-        impl #impl_generics #krate::__private::Packable<__W> for #name #type_generics #where_clause {
-            type Packed = Self;
-            fn packed<__R>(__systems: &[&Self; __W], __f: impl ::core::ops::FnOnce(&Self) -> __R) -> __R {
-                __f(__systems[0])
-            }
+    let items = quote! {
+        type Packed = Self;
+        fn packed<__R>(__systems: &[&Self; __W], __f: impl ::core::ops::FnOnce(&Self) -> __R) -> __R {
+            __f(__systems[0])
         }
-    }
+    };
+    let implementation = over(krate, of, &generics, &quote!(__private::Packable<__W>), &items);
+    quote!(#[automatically_derived] #allow #implementation)
 }
 
 /// Systems whose parameters of type `generic` are packed.

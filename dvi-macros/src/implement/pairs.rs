@@ -7,8 +7,6 @@ use super::in_numbers_with;
 use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, local};
 use crate::program::PairPrograms;
-use crate::statement::Output;
-use crate::symbolic::Index;
 
 pub(super) fn pairs(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {
     let vector = emitter.vector(&pairs.vector);
@@ -30,17 +28,14 @@ pub(super) fn pairs(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream 
     let axes = pairs.sum.blocks.len();
     let bodies = emitter.index(&pairs.sum.bodies);
     let places = pairs.sum.blocks.iter().enumerate().map(|(axis, block)| {
-        let place = emitter.index(&offset(emitter, *block));
+        let place = emitter.index(&emitter.model.offset(*block as usize));
         quote!(#axis => #place,)
     });
     let weight = weight(emitter, pairs);
     let square = local(format_args!("q{}", pairs.sum.blocks[0]));
     let [kernel, kernel_slope] = [&pairs.kernel, &pairs.kernel_slope].map(|routine| emitter.body(routine));
     let [lagrangian, energy] = [&pairs.lagrangian, &pairs.energy].map(|routine| emitter.value(routine));
-    let (read, body) = (emitter.read(&pairs.gradient), emitter.body(&pairs.gradient));
-    let (read_all, linearize) = (emitter.read(&pairs.linearize), emitter.body(&pairs.linearize));
-    let (l_q, l_v) = (emitter.output("l_q", Output::Lq), emitter.output("l_v", Output::Lv));
-    let offsets = emitter.offsets();
+    let (gradient, linearize) = (emitter.gradient(&pairs.gradient), emitter.linearized(&pairs.linearize));
     let items = quote! {
         fn bodies(&self) -> ::core::primitive::usize { #bodies }
         fn place(&self, __axis: ::core::primitive::usize) -> ::core::primitive::usize {
@@ -62,23 +57,18 @@ pub(super) fn pairs(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream 
         fn rest_gradient(
             &self, __q: &[__T], __v: &[__T], __t: __T, __l_q: &mut [__T], __l_v: &mut [__T],
         ) {
-            #read #l_q #l_v #body
+            #gradient
         }
         fn rest_linearize<__K: #krate::Sink<__T>>(
             &self, __q: &[__T], __v: &[__T], __t: __T, __w: #krate::Weights<__T>,
             __l_q: &mut [__T], __l_v: &mut [__T], __sink: &mut __K,
         ) {
-            #read_all #l_q #l_v #offsets #linearize
+            #linearize
         }
         fn rest_energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
         #special
     };
     in_numbers_with(emitter, &quote!(PairSum<__T, #axes>), &items)
-}
-
-/// The number of the first coordinate of a block.
-fn offset(emitter: &Emitter<'_>, block: u32) -> Index {
-    (0..block as usize).fold(Index::default(), |sum, before| sum.plus(&emitter.model.block_size(before), 1))
 }
 
 fn weight(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {

@@ -16,7 +16,7 @@ use syn::Ident;
 use crate::emit::{Emitter, local, output_block};
 use crate::routine::Routine;
 use crate::statement::Output;
-use crate::symbolic::{Index, Node};
+use crate::symbolic::Node;
 
 impl Emitter<'_> {
     /// One slice for each block of coordinates.
@@ -35,8 +35,8 @@ impl Emitter<'_> {
             let is_read = nodes.iter().any(|id| is_read(self.graph.node(*id)));
             is_read.then(|| self.split(array, |block| format!("{array}{block}"), "split_at"))
         };
-        let q = cut("q", |node| matches!(node, Node::Coordinate(_)));
-        let v = cut("v", |node| matches!(node, Node::Velocity(_)));
+        let q = cut("q", Node::is_position);
+        let v = cut("v", Node::is_velocity);
         quote!(#q #v)
     }
 
@@ -50,20 +50,32 @@ impl Emitter<'_> {
 
     /// The number of the first coordinate of each block.
     pub(super) fn offsets(&self) -> TokenStream {
-        let mut offset = Index::default();
-        let mut tokens = TokenStream::new();
-        for block in 0..self.model.blocks.len() {
-            let (name, value) = (local(format_args!("offset{block}")), self.index(&offset));
-            tokens.extend(quote!(let #name: ::core::primitive::usize = #value;));
-            offset = offset.plus(&self.model.block_size(block), 1);
-        }
-        tokens
+        let offset = |block| {
+            let (name, value) =
+                (local(format_args!("offset{block}")), self.index(&self.model.offset(block)));
+            quote!(let #name: ::core::primitive::usize = #value;)
+        };
+        (0..self.model.blocks.len()).map(offset).collect()
     }
 
     /// The body of a function that returns a value.
     pub(super) fn value(&self, routine: &Routine) -> TokenStream {
         let (read, body) = (self.read(routine), self.body(routine));
         quote!(#read #body)
+    }
+
+    /// The body of a function that sets ∂/∂q and ∂/∂v.
+    pub(super) fn gradient(&self, routine: &Routine) -> TokenStream {
+        let (read, body) = (self.read(routine), self.body(routine));
+        let (l_q, l_v) = (self.output("l_q", Output::Lq), self.output("l_v", Output::Lv));
+        quote!(#read #l_q #l_v #body)
+    }
+
+    /// The body of a function that sets these and adds second derivatives to a sink.
+    pub(super) fn linearized(&self, routine: &Routine) -> TokenStream {
+        let (read, offsets, body) = (self.read(routine), self.offsets(), self.body(routine));
+        let (l_q, l_v) = (self.output("l_q", Output::Lq), self.output("l_v", Output::Lv));
+        quote!(#read #l_q #l_v #offsets #body)
     }
 
     /// The body of a function that sets one vector.

@@ -5,11 +5,13 @@ use syn::{Expr as Syntax, ExprCall, ExprMethodCall, Ident};
 
 use super::admit::LARGEST_EXPONENT;
 use super::habits::{as_receiver, meant};
+use super::sums::signed_literal;
 use super::{Binding, Lowering, Value, all};
 use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
 use crate::symbolic::{Expr, Partial, Relation, Unary};
+use crate::syntax::ident;
 use crate::words::{AREA, Method, SUMS, VELOCITIES, VectorMethod, callable, is_method};
 
 impl Lowering<'_> {
@@ -41,9 +43,7 @@ impl Lowering<'_> {
             return self.vector_method(method, call, &arguments);
         }
         let Some(method) = Method::by_name(&name) else {
-            if let Syntax::Path(of) = &*call.receiver
-                && let Some(function) = of.path.get_ident().filter(|function| self.is_scalar_field(function))
-            {
+            if let Some(function) = ident(&call.receiver).filter(|function| self.is_scalar_field(function)) {
                 let listed = call.args.iter().map(text).collect::<Vec<_>>().join(", ");
                 let message = format!(
                     "a function of several variables is called by its name, and derivatives are taken of \
@@ -66,8 +66,7 @@ impl Lowering<'_> {
             return None;
         };
         if call.args.len() == method.arity() + 1
-            && let Syntax::Path(module) = &*call.receiver
-            && module.path.get_ident().is_some_and(|module| !self.is_declared(&module.to_string()))
+            && ident(&call.receiver).is_some_and(|module| !self.is_declared(&module.to_string()))
         {
             let rest: Vec<&Syntax> = call.args.iter().skip(1).collect();
             let written = Self::as_method(&name, call.args.first(), &rest);
@@ -131,7 +130,7 @@ impl Lowering<'_> {
 
     /// A literal exponent.
     fn integer(&mut self, syntax: &Syntax) -> Option<i32> {
-        let value = self.literal_index(syntax).and_then(|value| i32::try_from(value).ok());
+        let value = signed_literal(syntax).and_then(|value| i32::try_from(value).ok());
         if value.is_none_or(|value| value.unsigned_abs() > LARGEST_EXPONENT) {
             return self.refuse(
                 syntax,
@@ -264,11 +263,7 @@ impl Lowering<'_> {
     /// A function of several variables, if there is one of this name; nothing inside if it is called in a
     /// wrong way.
     fn scalar_field(&mut self, name: &str, call: &ExprCall) -> Option<Option<Expr>> {
-        let Syntax::Path(path) = &*call.func else { return None };
-        let ident = path.path.get_ident()?;
-        if is_method(name) {
-            return None;
-        }
+        let ident = ident(&call.func).filter(|_| !is_method(name))?;
         let parameter = self.parameter(ident);
         if let Some(Shape::Number | Shape::Count | Shape::Array(..)) =
             parameter.map(|field| self.shape_of(field))

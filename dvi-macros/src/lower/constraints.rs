@@ -134,9 +134,9 @@ impl Lowering<'_> {
 
     /// Reports a constraint that leaves all positions free, or all velocities.
     fn constrains(&mut self, of: Constrained, formula: &Syntax, value: Expr) -> Option<()> {
-        let is_constrained = |node: &Node| match of {
-            Constrained::Positions | Constrained::Gaps => matches!(node, Node::Coordinate(_)),
-            Constrained::Velocities => matches!(node, Node::Velocity(_)),
+        let is_constrained = match of {
+            Constrained::Positions | Constrained::Gaps => Node::is_position,
+            Constrained::Velocities => Node::is_velocity,
         };
         if self.graph.depends(value.node, is_constrained) {
             return Some(());

@@ -2,57 +2,44 @@
 
 use syn::{BinOp, Expr as Syntax, ExprLit, ExprMethodCall, Ident, Lit, Pat};
 
+use super::sums::signed_literal;
 use super::{Lowering, Role, is_number_type};
 use crate::errors::text;
-use crate::syntax::{Constrained, Factor};
+use crate::syntax::{Constrained, Factor, ident};
 use crate::words::{Method, is_method};
 
 /// Functions by other names, and functions of functions, as they are written behind a number.
 #[rustfmt::skip]
-const OTHER_NAMES: [(&str, &str); 43] = [
-    ("log",      "ln()"),
-    ("loge",     "ln()"),
-    ("lg",       "log10()"),
-    ("lb",       "log2()"),
-    ("log1p",    "ln_1p()"),
-    ("expm1",    "exp_m1()"),
-    ("root",     "sqrt()"),
-    ("arcsin",   "asin()"),
-    ("arccos",   "acos()"),
-    ("arctan",   "atan()"),
-    ("arctan2",  "atan2()"),
-    ("arsinh",   "asinh()"),
-    ("arcsinh",  "asinh()"),
-    ("arcosh",   "acosh()"),
-    ("arccosh",  "acosh()"),
-    ("artanh",   "atanh()"),
-    ("arctanh",  "atanh()"),
-    ("sgn",      "signum()"),
-    ("sign",     "signum()"),
-    ("fabs",     "abs()"),
-    ("inv",      "recip()"),
-    ("cot",      "tan().recip()"),
-    ("sec",      "cos().recip()"),
-    ("csc",      "sin().recip()"),
-    ("cosec",    "sin().recip()"),
-    ("coth",     "tanh().recip()"),
-    ("sech",     "cosh().recip()"),
-    ("csch",     "sinh().recip()"),
-    ("acot",     "recip().atan()"),
-    ("arccot",   "recip().atan()"),
-    ("asec",     "recip().acos()"),
-    ("acsc",     "recip().asin()"),
-    ("acoth",    "recip().atanh()"),
-    ("sq",       "powi(2)"),
-    ("sqr",      "powi(2)"),
-    ("square",   "powi(2)"),
-    ("squared",  "powi(2)"),
-    ("cube",     "powi(3)"),
-    ("cubed",    "powi(3)"),
-    ("clone",    ""),
-    ("into",     ""),
-    ("to_owned", ""),
-    ("from",     ""),
+const OTHER_NAMES: [(&[&str], &str); 29] = [
+    (&["log", "loge"],         "ln()"),
+    (&["lg"],                  "log10()"),
+    (&["lb"],                  "log2()"),
+    (&["log1p"],               "ln_1p()"),
+    (&["expm1"],               "exp_m1()"),
+    (&["root"],                "sqrt()"),
+    (&["arcsin"],              "asin()"),
+    (&["arccos"],              "acos()"),
+    (&["arctan"],              "atan()"),
+    (&["arctan2"],             "atan2()"),
+    (&["arsinh", "arcsinh"],   "asinh()"),
+    (&["arcosh", "arccosh"],   "acosh()"),
+    (&["artanh", "arctanh"],   "atanh()"),
+    (&["sgn", "sign"],         "signum()"),
+    (&["fabs"],                "abs()"),
+    (&["inv"],                 "recip()"),
+    (&["cot"],                 "tan().recip()"),
+    (&["sec"],                 "cos().recip()"),
+    (&["csc", "cosec"],        "sin().recip()"),
+    (&["coth"],                "tanh().recip()"),
+    (&["sech"],                "cosh().recip()"),
+    (&["csch"],                "sinh().recip()"),
+    (&["acot", "arccot"],      "recip().atan()"),
+    (&["asec"],                "recip().acos()"),
+    (&["acsc"],                "recip().asin()"),
+    (&["acoth"],               "recip().atanh()"),
+    (&["sq", "sqr", "square", "squared"],       "powi(2)"),
+    (&["cube", "cubed"],                        "powi(3)"),
+    (&["clone", "into", "to_owned", "from"],    ""),
 ];
 
 /// Functions that jump.
@@ -87,8 +74,8 @@ pub(super) fn meant(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]
         ("sinpi", []) => format!("({x} * PI).sin()"),
         ("cospi", []) => format!("({x} * PI).cos()"),
         ("pow2" | "pow3" | "pow4", []) => format!("{x}.powi({})", lower.trim_start_matches("pow")),
-        (other, []) if OTHER_NAMES.iter().any(|(known, _)| *known == other) => {
-            let (_, meant) = OTHER_NAMES.iter().find(|(known, _)| *known == other)?;
+        (other, []) if OTHER_NAMES.iter().any(|(names, _)| names.contains(&other)) => {
+            let (_, meant) = OTHER_NAMES.iter().find(|(names, _)| names.contains(&other))?;
             if meant.is_empty() { x } else { format!("{x}.{meant}") }
         }
         (other, given) => {
@@ -143,8 +130,7 @@ fn is_function(name: &Ident) -> bool {
 /// An expression in front of a method.
 pub(super) fn as_receiver(syntax: &Syntax) -> String {
     match syntax {
-        Syntax::Call(call) if matches!(&*call.func, Syntax::Path(path) if path.path.get_ident().is_some_and(is_function)) =>
-        {
+        Syntax::Call(call) if ident(&call.func).is_some_and(is_function) => {
             let (first, rest) = (call.args.first(), call.args.iter().skip(1).map(text));
             let first = first.map_or_else(|| "x".to_string(), as_receiver);
             format!("{first}.{}({})", text(&call.func), rest.collect::<Vec<_>>().join(", "))
@@ -180,12 +166,9 @@ impl Lowering<'_> {
         while let Syntax::Binary(product) = exponent {
             exponent = &product.left;
         }
-        let is_name = |syntax: &Syntax, is: &dyn Fn(&Ident) -> bool| match syntax {
-            Syntax::Path(path) => path.path.get_ident().is_some_and(is),
-            _ => false,
-        };
+        let is_name = |syntax: &Syntax, is: &dyn Fn(&Ident) -> bool| ident(syntax).is_some_and(is);
         let is_differential = |syntax: &Syntax| matches!(syntax, Syntax::Call(call) if is_name(&call.func, &|name| name == "d"));
-        let literal = self.literal_index(exponent);
+        let literal = signed_literal(exponent);
         let (function, power) = (if literal.is_some() { "powi" } else { "powf" }, text(exponent));
         let meant = match (base, exponent) {
             // sin^2(x)

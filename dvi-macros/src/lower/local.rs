@@ -15,7 +15,7 @@ use syn::{Expr as Syntax, ExprCall, ExprClosure, Pat, Stmt};
 use super::{Binding, Lowering, Role, Value, Written, bound_name};
 use crate::errors::{Errors, here};
 use crate::symbolic::Unary;
-use crate::syntax::{bound, closure};
+use crate::syntax::{bound, closure, ident};
 use crate::words::SUMS;
 
 /// So many calls of functions of their own have the formulas of a system.
@@ -245,10 +245,7 @@ impl<'ast> Visit<'ast> for Places<'_, '_> {
     }
 
     fn visit_expr_call(&mut self, call: &'ast ExprCall) {
-        let name = match &*call.func {
-            Syntax::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
-            _ => String::new(),
-        };
+        let name = ident(&call.func).map(ToString::to_string).unwrap_or_default();
         let uses = self.uses(&name);
         for (place, argument) in call.args.iter().enumerate() {
             match uses.as_ref().and_then(|uses| uses.get(place)) {

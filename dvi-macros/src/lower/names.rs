@@ -9,7 +9,7 @@ use super::{Binding, Lowering, Value, all};
 use crate::errors::here;
 use crate::model::{Axis, Block, Grid, Shape, are_components};
 use crate::symbolic::{Coordinate, Expr, Index, Node};
-use crate::syntax::{indexed, name_of, own_field};
+use crate::syntax::{ident, indexed, name_of, own_field};
 use crate::words;
 
 impl Lowering<'_> {
@@ -146,10 +146,7 @@ impl Lowering<'_> {
     fn is_bound_root(&self, syntax: &Syntax) -> bool {
         match syntax {
             Syntax::Field(field) => self.is_bound_root(&field.base),
-            Syntax::Path(path) => {
-                path.path.get_ident().is_some_and(|name| self.binding_of(&name.to_string()).is_some())
-            }
-            _ => false,
+            _ => ident(syntax).is_some_and(|name| self.binding_of(&name.to_string()).is_some()),
         }
     }
 

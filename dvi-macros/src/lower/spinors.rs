@@ -10,6 +10,7 @@ use super::{Lowering, Value};
 use crate::errors::{here, text};
 use crate::model::SPINOR;
 use crate::symbolic::{Coordinate, Expr, Graph, Id, Index, Node};
+use crate::syntax::ident;
 use crate::words::AREA;
 
 impl Lowering<'_> {
@@ -59,11 +60,7 @@ impl Lowering<'_> {
             Syntax::Index(index) => (&*index.expr, Some(&*index.index)),
             other => (other, None),
         };
-        let ident = match name {
-            Syntax::Path(path) => path.path.get_ident(),
-            _ => None,
-        };
-        let ident = ident.filter(|name| self.binding_of(&name.to_string()).is_none());
+        let ident = ident(name).filter(|name| self.binding_of(&name.to_string()).is_none());
         let first = ident.and_then(|name| self.model.coordinate_of(name)).map(|blocks| blocks.start);
         let first = first.filter(|&first| self.model.blocks[first].is_spinor());
         match (first, index) {
@@ -117,5 +114,5 @@ fn has_area(graph: &Graph, model: &crate::model::Model, id: Id) -> bool {
 
 /// Whether neither coordinates nor the time stand in an expression.
 pub(crate) fn is_constant(graph: &Graph, id: Id) -> bool {
-    !graph.depends(id, |node| matches!(node, Node::Coordinate(_) | Node::Time))
+    !graph.depends(id, |node| node.is_position() || node.is_time())
 }

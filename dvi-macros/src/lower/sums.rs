@@ -6,6 +6,7 @@ use syn::{BinOp, Expr as Syntax, ExprCall, ExprClosure, Lit, RangeLimits, UnOp};
 use super::{Binding, DEEPEST_SUM, Lowering, Role, Value, bound_name};
 use crate::errors::here;
 use crate::symbolic::{Atom, Fold, Free, Index, Loop, Range};
+use crate::syntax::{ident, literal};
 
 /// Beyond all sizes, and far from where sums of indices overflow.
 const LARGEST: u64 = 1 << 48;
@@ -213,29 +214,24 @@ impl Lowering<'_> {
     /// has nothing in it for one component may have something for the next.
     fn names_index(&self, syntax: &Syntax) -> bool {
         match syntax {
-            Syntax::Path(path) => path.path.get_ident().is_some_and(|name| {
-                matches!(self.binding_of(&name.to_string()), Some(Binding::Index { .. }))
-            }),
             Syntax::Paren(inner) => self.names_index(&inner.expr),
             Syntax::Binary(binary) => self.names_index(&binary.left) || self.names_index(&binary.right),
-            _ => false,
+            _ => ident(syntax).is_some_and(|name| {
+                matches!(self.binding_of(&name.to_string()), Some(Binding::Index { .. }))
+            }),
         }
     }
 
     /// Whether an expression is index arithmetic: it names a bound index or a size.
     pub(super) fn is_index(&mut self, syntax: &Syntax) -> bool {
         match syntax {
-            Syntax::Path(path) => match path.path.get_ident().map(ToString::to_string) {
-                Some(name) => match self.binding_of(&name) {
-                    Some(binding) => matches!(binding, Binding::Index { .. }),
-                    None => self.model.size(syntax).is_some(),
-                },
-                None => false,
-            },
             Syntax::Paren(inner) => self.is_index(&inner.expr),
             Syntax::Binary(binary) => self.is_index(&binary.left) || self.is_index(&binary.right),
             Syntax::MethodCall(call) => call.method == "len",
-            _ => false,
+            _ => ident(syntax).is_some_and(|name| match self.binding_of(&name.to_string()) {
+                Some(binding) => matches!(binding, Binding::Index { .. }),
+                None => self.model.size(syntax).is_some(),
+            }),
         }
     }
 
@@ -345,19 +341,16 @@ impl Lowering<'_> {
             |near| format!("; did you mean `{near}`?"),
         )
     }
+}
 
-    pub(super) fn literal_index(&mut self, syntax: &Syntax) -> Option<i64> {
-        match syntax {
-            Syntax::Lit(literal) => match &literal.lit {
-                Lit::Int(value) => value.base10_parse().ok(),
-                _ => None,
-            },
-            Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
-                self.literal_index(&unary.expr).map(|value| -value)
-            }
-            Syntax::Paren(inner) => self.literal_index(&inner.expr),
-            _ => None,
+/// The value of an integer literal, with a sign or without.
+pub(super) fn signed_literal(syntax: &Syntax) -> Option<i64> {
+    match syntax {
+        Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
+            signed_literal(&unary.expr).map(|value| -value)
         }
+        Syntax::Paren(inner) => signed_literal(&inner.expr),
+        _ => literal(syntax),
     }
 }
 

@@ -4,7 +4,7 @@ use syn::{BinOp, Expr as Syntax, Member, Pat, UnOp};
 
 use super::{Binding, Lowering, Value};
 use crate::errors::text;
-use crate::syntax::indexed;
+use crate::syntax::{ident, indexed};
 
 impl Lowering<'_> {
     pub(super) fn unsupported(&mut self, syntax: &Syntax) {
@@ -22,8 +22,7 @@ impl Lowering<'_> {
     fn component_called(&self, field: &syn::ExprField) -> Option<String> {
         let Member::Named(name) = &field.member else { return None };
         let component = ["x", "y", "z"].iter().position(|axis| name == axis)?;
-        let Syntax::Path(path) = indexed(&field.base).0 else { return None };
-        let root = path.path.get_ident()?;
+        let root = ident(indexed(&field.base).0)?;
         let index = match self.binding_of(&root.to_string()) {
             Some(Binding::Value { value: Some(Value::Vector(_)), .. }) => "",
             Some(_) => return None,

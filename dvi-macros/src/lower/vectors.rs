@@ -9,6 +9,7 @@ use super::{Lowering, Role, all};
 use crate::errors::text;
 use crate::model::{COMPONENTS, Shape};
 use crate::symbolic::{Expr, Unary};
+use crate::syntax::ident;
 use crate::words::VectorMethod;
 
 /// What an expression stands for.
@@ -336,11 +337,8 @@ impl Lowering<'_> {
 
     /// Whether this is an array of numbers that is no vector: sums are taken over it.
     pub(super) fn is_long_array(&self, syntax: &Syntax) -> bool {
-        let Syntax::Path(path) = syntax else { return false };
-        let Some(name) = path.path.get_ident().filter(|name| self.binding_of(&name.to_string()).is_none())
-        else {
-            return false;
-        };
+        let name = ident(syntax).filter(|name| self.binding_of(&name.to_string()).is_none());
+        let Some(name) = name else { return false };
         match self.model.coordinate_of(name) {
             Some(blocks) => {
                 let block = &self.model.blocks[blocks.start];

@@ -5,7 +5,7 @@ use syn::{Expr as Syntax, ExprCall};
 use super::{Lowering, Role, Value};
 use crate::errors::{here, text};
 use crate::symbolic::{Expr, Node};
-use crate::syntax::{Constrained, Kind};
+use crate::syntax::{Constrained, Kind, ident};
 use crate::words::AREA;
 
 impl Lowering<'_> {
@@ -118,7 +118,6 @@ fn root(place: &Syntax) -> Option<String> {
     match place {
         Syntax::Paren(inner) => root(&inner.expr),
         Syntax::Index(index) => root(&index.expr),
-        Syntax::Path(path) => path.path.get_ident().map(ToString::to_string),
-        _ => None,
+        _ => ident(place).map(ToString::to_string),
     }
 }

@@ -3,11 +3,12 @@
 
 use syn::{Expr, Ident};
 
-use super::vectors::{COMPONENTS, literal};
+use super::vectors::COMPONENTS;
 use super::{Block, Model};
 use crate::errors::Errors;
 use crate::internal::internal;
 use crate::symbolic::Index;
+use crate::syntax::literal;
 
 /// The number of rows, and their length.
 #[derive(Clone, Debug)]

@@ -4,11 +4,11 @@
 use std::ops::{Range, RangeInclusive};
 
 use syn::ext::IdentExt as _;
-use syn::{Expr, ExprLit, Ident, Lit};
+use syn::{Expr, Ident};
 
 use super::{Block, Model, Shape};
 use crate::symbolic::Index;
-use crate::syntax::Factor;
+use crate::syntax::{Factor, literal};
 
 /// The numbers of components that a vector may have. Formulas have a term for each.
 pub(crate) const COMPONENTS: RangeInclusive<i64> = 2..=16;
@@ -147,15 +147,6 @@ impl Model {
 /// Whether an array of so many of these is a vector: of numbers, for all that is known of their type.
 pub(crate) fn are_components(length: i64, entry: &Shape) -> bool {
     COMPONENTS.contains(&length) && !matches!(entry, Shape::Array(..) | Shape::Other)
-}
-
-/// The value of a literal.
-pub(super) fn literal(size: &Expr) -> Option<i64> {
-    match size {
-        Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => value.base10_parse().ok(),
-        Expr::Paren(inner) => literal(&inner.expr),
-        _ => None,
-    }
 }
 
 /// The number of components in `r[n][3]`.

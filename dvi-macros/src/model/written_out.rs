@@ -7,8 +7,8 @@ use syn::visit::{self, Visit};
 use syn::{Expr, ExprClosure, ExprIndex, ExprPath, Ident, Pat, PatIdent, RangeLimits};
 
 use super::Model;
-use super::vectors::{COMPONENTS, literal};
-use crate::syntax::indexed;
+use super::vectors::COMPONENTS;
+use crate::syntax::{indexed, literal};
 
 impl Model {
     /// The values of the indices of a sum, where its range is literal and one of them numbers components in

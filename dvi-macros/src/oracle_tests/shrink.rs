@@ -16,24 +16,19 @@ pub(super) fn smallest(system: &System, fails: impl Fn(&System) -> bool) -> Syst
 }
 
 fn smaller_systems(system: &System) -> Vec<System> {
-    let without = |momentum: usize| {
-        let mut smaller = system.clone();
-        smaller.momenta.remove(momentum);
-        smaller
+    let mut candidates = Vec::new();
+    let mut each = |count: usize, remove: fn(&mut System, usize)| {
+        candidates.extend((0..count).map(|number| {
+            let mut smaller = system.clone();
+            remove(&mut smaller, number);
+            smaller
+        }));
     };
-    let mut candidates: Vec<System> = (0..system.momenta.len()).map(without).collect();
+    each(system.momenta.len(), |system, number| drop(system.momenta.remove(number)));
+    each(system.forces.len(), |system, number| drop(system.forces.remove(number)));
+    each(system.constraints.len(), |system, number| drop(system.constraints.remove(number)));
     if system.gauge != Gauge::None {
         candidates.push(System { gauge: Gauge::None, ..system.clone() });
-    }
-    for force in 0..system.forces.len() {
-        let mut smaller = system.clone();
-        smaller.forces.remove(force);
-        candidates.push(smaller);
-    }
-    for constraint in 0..system.constraints.len() {
-        let mut smaller = system.clone();
-        smaller.constraints.remove(constraint);
-        candidates.push(smaller);
     }
     if system.dissipation.is_some() {
         candidates.push(System { dissipation: None, ..system.clone() });

@@ -1,10 +1,10 @@
 //! Constraints of the positions, g(q, t) = 0, or of the velocities, a(q, v, t) = 0, or gaps, g(q, t) ≥ 0:
 //! their values, their derivatives, and how they change along a motion.
 
-use crate::formulas::{Constraint, DeclaredConstraints, Variable, variable};
+use crate::formulas::{Constraint, DeclaredConstraints};
 use crate::routine::Routine;
 use crate::statement::{Place, Row, Statement};
-use crate::symbolic::{Contribution, Count, Expr, Graph, Node, Weight};
+use crate::symbolic::{Contribution, Count, Expr, Graph, Node, Variable, Weight};
 use crate::syntax::Constrained;
 
 /// What is generated for the constraints of a system.
@@ -86,8 +86,8 @@ fn derivatives(graph: &mut Graph, constraints: &[Constraint]) -> Vec<(Variable, 
     let mut entries = Vec::new();
     for (number, constraint) in constraints.iter().enumerate() {
         for Contribution { loops, target, value } in graph.gradient(constraint.value, &constraint.loops) {
-            let (by, column) = variable(graph, target);
-            let place = Place::ConstraintDerivative(row(number, constraint), column);
+            let (by, column) = graph.variable(target);
+            let place = Place::ConstraintDerivative(row(number, constraint), column.clone());
             entries.push((by, Statement { loops, place, value }));
         }
     }

@@ -4,9 +4,8 @@
 //! al. 2018). It is a property of the one-form as it is written: α and α + dF have the same motion.
 
 use super::gauge::{self, Effort, Found, Search};
-use crate::formulas::{Variable, variable};
 use crate::model::Model;
-use crate::symbolic::{Coordinate, Expr, Graph, Index, Loop};
+use crate::symbolic::{Coordinate, Expr, Graph, Index, Loop, Variable};
 
 /// Along which coordinates of a block the one-form has components.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,8 +59,8 @@ impl Class {
     pub(crate) fn new(graph: &mut Graph, model: &Model, one_form: Expr) -> Self {
         let mut components: Vec<Components> = vec![Components::Block(false); model.blocks.len()];
         for contribution in graph.gradient(one_form, &[]) {
-            if let (Variable::Velocity, coordinate) = variable(graph, contribution.target) {
-                touch(&mut components, model, &coordinate, &contribution.loops);
+            if let (Variable::Velocity, coordinate) = graph.variable(contribution.target) {
+                touch(&mut components, model, coordinate, &contribution.loops);
             }
         }
         let mut class = Self { components, is_proper: false, advice: None };

@@ -11,7 +11,6 @@ use syn::Expr as Syntax;
 use super::Class;
 use super::one_form::omega;
 use crate::errors::listed;
-use crate::formulas::variable;
 use crate::model::Model;
 use crate::print::{print_expr, print_loops, write_expr};
 use crate::symbolic::{Contribution, Expr, Graph, Id, Index, Node, Terms};
@@ -108,7 +107,7 @@ pub(crate) fn search(graph: &Graph, model: &Model, one_form: Expr, effort: Effor
             let attempt = clear(&mut graph, model, one_form, half, terms).and_then(|function| {
                 let form = graph.with_differential(one_form, function);
                 let found = found(&mut graph, model, form, function)?;
-                let depends_on_time = graph.depends(function.node, |node| matches!(node, Node::Time));
+                let depends_on_time = graph.depends(function.node, Node::is_time);
                 Ok(((depends_on_time, graph.reachable([form.node]).len()), found))
             });
             match attempt {
@@ -217,7 +216,7 @@ fn clear(
         }
         let left = components.into_iter().find(|part| half.contains(&block_of(graph, part.target)));
         let Some(part) = left else { return Ok(function) };
-        let (_, coordinate) = variable(graph, part.target);
+        let coordinate = graph.variable(part.target).1.clone();
         let position = graph.intern(Node::Coordinate(coordinate));
         let Some(integral) = graph.antiderivative(part.value, position, terms) else {
             return Err(Lacking::Antiderivative(part));
@@ -233,7 +232,7 @@ fn clear(
 }
 
 fn block_of(graph: &Graph, velocity: Id) -> usize {
-    variable(graph, velocity).1.block as usize
+    graph.variable(velocity).1.block as usize
 }
 
 impl Lacking {

@@ -5,10 +5,10 @@ use syn::Expr as Syntax;
 use super::singular::{is_numerically_singular, skipped};
 use super::{Entry, collected, has_matching};
 use crate::errors::{Errors, listed};
-use crate::formulas::{RegularFormulas, Variable, variable};
+use crate::formulas::RegularFormulas;
 use crate::model::{Block, Grid, Model};
 use crate::symbolic::{
-    Binary, Contribution, Coordinate, Expr, Graph, Id, Index, Node, SecondContribution, Unary,
+    Binary, Coordinate, Expr, Graph, Id, Index, Node, SecondContribution, Unary, Variable,
 };
 use crate::syntax::{Constrained, Factor, Kind};
 
@@ -58,7 +58,7 @@ impl MassMatrix {
             && !mixes_position_and_velocity(graph, entries)
             && force_is_at_rest(graph, formulas.lagrangian)
             && momentum_vanishes_at_rest(graph, formulas.lagrangian);
-        let separable = constant && !formulas.force.iter().any(|part| depends_on_velocity(graph, part));
+        let separable = constant && !formulas.force.iter().any(|part| graph.has_velocity(part.value.node));
         let mentioned = mentioned(graph, formulas.lagrangian);
         let involved = |block: usize| {
             mass.iter().any(|entry| [&entry.row, &entry.column].map(block_of).contains(&block))
@@ -268,14 +268,15 @@ fn kinetic_energy(model: &Model, block: usize) -> String {
 
 /// M entry by entry, on one side of its diagonal.
 fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry> {
-    let entry =
-        |entry: &SecondContribution| match (variable(graph, entry.row), variable(graph, entry.column)) {
-            ((Variable::Velocity, i), (Variable::Velocity, j)) => {
-                let (row, column) = if j < i { (j, i) } else { (i, j) };
-                Some(Entry { loops: entry.loops.clone(), row, column, value: entry.value })
-            }
-            _ => None,
-        };
+    let entry = |entry: &SecondContribution| match (graph.variable(entry.row), graph.variable(entry.column))
+    {
+        ((Variable::Velocity, i), (Variable::Velocity, j)) => {
+            let (row, column) = if j < i { (j, i) } else { (i, j) };
+            let (row, column) = (row.clone(), column.clone());
+            Some(Entry { loops: entry.loops.clone(), row, column, value: entry.value })
+        }
+        _ => None,
+    };
     let entries: Vec<Entry> = entries.iter().filter_map(entry).collect();
     collected(graph, entries)
 }
@@ -283,11 +284,7 @@ fn mass_entries(graph: &mut Graph, entries: &[SecondContribution]) -> Vec<Entry>
 fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {
     let reachable = graph.reachable(mass.iter().map(|entry| entry.value.node));
     let any = |property: fn(&Node) -> bool| reachable.iter().any(|id| property(graph.node(*id)));
-    let found = [
-        ("q", any(|node| matches!(node, Node::Coordinate(_)))),
-        ("v", any(|node| matches!(node, Node::Velocity(_)))),
-        ("t", any(|node| matches!(node, Node::Time))),
-    ];
+    let found = [("q", any(Node::is_position)), ("v", any(Node::is_velocity)), ("t", any(Node::is_time))];
     found.into_iter().filter(|(_, found)| *found).map(|(name, _)| name).collect()
 }
 
@@ -311,20 +308,20 @@ fn has_pole_where_bodies_meet(graph: &Graph, lagrangian: Expr) -> bool {
     let place = Coordinate { block: 0, index: Index::literal(0) };
     let place: Expr = graph.intern(Node::Coordinate(place)).into();
     poles.into_iter().any(|of| {
-        let meeting = |graph: &mut Graph, id| matches!(graph.node(id), Node::Coordinate(_)).then_some(place);
+        let meeting = |graph: &mut Graph, id| graph.node(id).is_position().then_some(place);
         graph.rebuild(of, meeting).is_zero()
     })
 }
 
 fn mixes_position_and_velocity(graph: &Graph, entries: &[SecondContribution]) -> bool {
-    let kind = |id: Id| variable(graph, id).0;
+    let kind = |id: Id| graph.variable(id).0;
     entries.iter().any(|entry| kind(entry.row) != kind(entry.column))
 }
 
 /// Those of the blocks without mass that L is affine in, with functions of other coordinates as factors.
 fn multipliers(graph: &Graph, entries: &[SecondContribution], massless: &[(usize, bool)]) -> Vec<usize> {
     let blocks = |entry: &SecondContribution| {
-        let variables = [entry.row, entry.column].map(|id| variable(graph, id));
+        let variables = [entry.row, entry.column].map(|id| graph.variable(id));
         let positions = variables.iter().all(|(kind, _)| *kind == Variable::Position);
         positions.then(|| variables.map(|(_, at)| at.block as usize))
     };
@@ -340,27 +337,15 @@ fn multipliers(graph: &Graph, entries: &[SecondContribution], massless: &[(usize
 /// Whether ∂L/∂q is written without velocities.
 fn force_is_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
     let first = graph.gradient(lagrangian, &[]);
-    first
-        .iter()
-        .filter(|first| matches!(graph.node(first.target), Node::Coordinate(_)))
-        .all(|first| !depends_on_velocity(graph, first))
-}
-
-fn depends_on_velocity(graph: &Graph, part: &Contribution) -> bool {
-    graph.depends(part.value.node, |node| matches!(node, Node::Velocity(_)))
+    let mut forces = first.iter().filter(|first| graph.node(first.target).is_position());
+    forces.all(|first| !graph.has_velocity(first.value.node))
 }
 
 /// Whether ∂L/∂v = 0 where v = 0.
 fn momentum_vanishes_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
-    let at_rest = |graph: &mut Graph, id| matches!(graph.node(id), Node::Velocity(_)).then_some(Expr::ZERO);
-    let first = graph.gradient(lagrangian, &[]);
-    first
-        .iter()
-        .filter(|first| matches!(graph.node(first.target), Node::Velocity(_)))
-        .map(|first| first.value.node)
-        .collect::<Vec<_>>()
-        .into_iter()
-        .all(|value| graph.rebuild(value, at_rest).is_zero())
+    let mut first = graph.gradient(lagrangian, &[]);
+    first.retain(|first| graph.node(first.target).is_velocity());
+    first.into_iter().all(|first| graph.at_rest(first.value).is_zero())
 }
 
 /// The blocks whose velocities stand in L.

@@ -90,9 +90,8 @@ impl OneForm {
         entries: &[SecondContribution],
         declared: Expr,
     ) -> Self {
-        let varies = |node: &Node| matches!(node, Node::Coordinate(_));
-        let linear = entries.iter().all(|entry| !graph.depends(entry.value.node, varies))
-            && !graph.depends(one_form.node, |node| matches!(node, Node::Time));
+        let linear = entries.iter().all(|entry| !graph.depends(entry.value.node, Node::is_position))
+            && !graph.depends(one_form.node, Node::is_time);
         let places: Vec<(Coordinate, Coordinate)> =
             dalpha(graph, entries).into_iter().map(|(i, j, _)| (i, j)).collect();
         let diagonal = places.iter().any(|(i, j)| i.block == j.block);
@@ -133,6 +132,7 @@ impl OneForm {
 
     /// Reports what makes Ω singular for certain; `at` is the formula of α or L.
     pub(crate) fn check(&self, model: &Model, at: Option<&Syntax>, errors: &mut Errors) {
+        let Some(at) = at else { return };
         // Those of a spinor are four.
         let numbers: Vec<usize> =
             (0..model.blocks.len()).filter(|block| !model.blocks[*block].is_spinor()).collect();
@@ -148,18 +148,13 @@ impl OneForm {
             errors.push(&model.blocks[*last].name, message);
             return;
         }
-        if self.untouched.len() == model.blocks.len()
-            && let Some(at) = at
-        {
+        if self.untouched.len() == model.blocks.len() {
             let message = "Ω = -dα is zero here, so nothing determines the motion; the one-form needs a term such as \
                            `p * d(q)` that is not the differential of a function";
             errors.push(at, message);
             return;
         }
-        if self.untouched.is_empty()
-            && self.class.is_too_small(model)
-            && let Some(at) = at
-        {
+        if self.untouched.is_empty() && self.class.is_too_small(model) {
             let message = format!(
                 "Ω = -dα is singular for all parameters: α has components along {} only, less than half of the \
                  coordinates",
@@ -168,17 +163,12 @@ impl OneForm {
             errors.push(at, message);
             return;
         }
-        if self.untouched.is_empty()
-            && !self.invertible
-            && let Some(at) = at
-        {
+        if self.untouched.is_empty() && !self.invertible {
             let message = "Ω = -dα is singular for all parameters: its nonzero entries leave a coordinate without a \
                            conjugate; the one-form needs more terms such as `p * d(q)`";
             errors.push(at, message);
         }
-        if self.bends_areas
-            && let Some(at) = at
-        {
+        if self.bends_areas {
             errors.push(at, STRENGTH);
         }
         for block in &self.untouched {

@@ -144,9 +144,8 @@ impl Integral<'_> {
     fn divides_by_more(&self, ratio: Expr, factors: &[(Id, i32)]) -> bool {
         let may_divide = self.terms.may_divide;
         let varies = |node: &Node| match node {
-            Node::Coordinate(_) | Node::Velocity(_) | Node::Time => true,
             Node::Parameter(_) => !may_divide,
-            _ => false,
+            node => node.varies(),
         };
         let denominators = |id: Id| -> Vec<Id> {
             let below = self.graph.quotient_factors(id).into_iter().filter(|(_, exponent)| *exponent < 0);

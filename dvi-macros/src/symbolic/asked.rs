@@ -25,8 +25,7 @@ impl Graph {
 
     /// `value` where it is finite, else zero.
     pub(crate) fn where_finite(&mut self, value: Expr) -> Expr {
-        let varies = |node: &Node| matches!(node, Node::Coordinate(_) | Node::Velocity(_) | Node::Time);
-        if !self.has_domain(value.node) || !self.depends(value.node, varies) {
+        if !self.has_domain(value.node) || !self.depends(value.node, Node::varies) {
             return value;
         }
         let size = self.unary(Unary::Abs, value);

@@ -9,9 +9,8 @@
 //! coordinates a scatter, weighted by ∂f/∂(the sum). [`Graph::hessian`] does this twice.
 
 use super::functions::Unary;
-use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, leaf};
+use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Variable, leaf};
 use super::index::{Atom, Index, Loop, Range, Renaming};
-use crate::internal::internal;
 use crate::work::step;
 
 /// `value`, added to the entry `target` in every pass of the loops.
@@ -39,7 +38,7 @@ pub(crate) struct SecondContribution {
 /// decide its value.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Family {
-    is_velocity: bool,
+    variable: Variable,
     block: u32,
     index: Index,
     ranges: Vec<Range>,
@@ -256,11 +255,7 @@ impl Graph {
     }
 
     fn family(&self, target: Id, loops: &[Loop]) -> Family {
-        let (is_velocity, Coordinate { block, index }) = match self.node(target) {
-            Node::Coordinate(coordinate) => (false, coordinate),
-            Node::Velocity(coordinate) => (true, coordinate),
-            other => internal(format!("a derivative by {other:?}")),
-        };
+        let (variable, Coordinate { block, index }) = self.variable(target);
         let mut needed = index.free().open;
         for outer in loops.iter().rev() {
             if needed & (1 << outer.depth) != 0 {
@@ -277,6 +272,6 @@ impl Graph {
             numbers.push(Renaming { from: Atom::Open(outer.depth), to });
         }
         let index = numbers.iter().fold(index.clone(), |index, number| index.renamed(number));
-        Family { is_velocity, block: *block, index, ranges }
+        Family { variable, block: *block, index, ranges }
     }
 }

@@ -7,7 +7,6 @@ use super::derivative::Contribution;
 use super::functions::Unary;
 use super::graph::{Expr, Fold, Graph, Id, Node};
 use super::index::{Atom, Loop};
-use crate::internal::internal;
 
 impl Graph {
     /// (α + ∂F/∂q)·v from α·v and F.
@@ -20,7 +19,7 @@ impl Graph {
     /// The components of α + ∂F/∂q that do not vanish, each as the value at a velocity, in loops.
     pub(crate) fn components(&mut self, one_form: Expr, function: Expr) -> Vec<Contribution> {
         let form = self.gradient(one_form, &[]);
-        let form = form.into_iter().filter(|part| matches!(self.node(part.target), Node::Velocity(_)));
+        let form = form.into_iter().filter(|part| self.node(part.target).is_velocity());
         let mut parts: Vec<Contribution> = form.collect();
         for part in self.gradient(function, &[]) {
             let target = self.velocity_of(part.target);
@@ -49,13 +48,6 @@ impl Graph {
             }
         }
         found
-    }
-
-    fn velocity_of(&mut self, position: Id) -> Id {
-        match self.node(position).clone() {
-            Node::Coordinate(coordinate) => self.intern(Node::Velocity(coordinate)),
-            other => internal(format!("a derivative of a gauge by {other:?}")),
-        }
     }
 
     /// Innermost loops that the target does not depend on become sums in the value.

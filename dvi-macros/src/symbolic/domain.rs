@@ -79,10 +79,6 @@ impl Graph {
 
     /// Whether positions or the time decide on its value, and no velocities.
     fn is_of_positions(&self, id: Id) -> bool {
-        self.depends(id, |node| matches!(node, Node::Coordinate(_) | Node::Time)) && !self.has_velocity(id)
-    }
-
-    fn has_velocity(&self, id: Id) -> bool {
-        self.depends(id, |node| matches!(node, Node::Velocity(_)))
+        self.depends(id, |node| node.is_position() || node.is_time()) && !self.has_velocity(id)
     }
 }

@@ -142,7 +142,7 @@ impl Energy<'_> {
         let graph = &mut *self.graph;
         let factor = graph.intern(Node::Weight(Weight::A));
         let stretch = |graph: &mut Graph, id: Id| {
-            let velocity = matches!(graph.node(id), Node::Velocity(_));
+            let velocity = graph.node(id).is_velocity();
             velocity.then(|| graph.multiply(factor.into(), id.into()))
         };
         let stretched = graph.rebuild(of, stretch);

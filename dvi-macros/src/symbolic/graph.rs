@@ -215,20 +215,46 @@ impl From<Id> for Expr {
     }
 }
 
+/// A variable of a derivative: position or velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Variable {
+    Position,
+    Velocity,
+}
+
 impl Node {
-    pub(crate) fn operands(&self) -> Vec<Id> {
+    pub(crate) fn is_position(&self) -> bool {
+        matches!(self, Self::Coordinate(_))
+    }
+
+    pub(crate) fn is_velocity(&self) -> bool {
+        matches!(self, Self::Velocity(_))
+    }
+
+    pub(crate) fn is_time(&self) -> bool {
+        matches!(self, Self::Time)
+    }
+
+    /// Whether it changes along a motion.
+    pub(crate) fn varies(&self) -> bool {
+        self.is_position() || self.is_velocity() || self.is_time()
+    }
+
+    /// The operands; of a product its factors, without their exponents.
+    pub(crate) fn parts(&self) -> Vec<Expr> {
         match self {
             Self::One | leaf!() => Vec::new(),
-            Self::Sum(terms) => terms.iter().map(|term| term.node).collect(),
-            Self::Product(factors) => factors.iter().map(|(factor, _)| *factor).collect(),
-            Self::Reciprocal(of) => vec![*of],
-            Self::Unary(_, of) | Self::Call(_, _, of) | Self::Reduce { body: of, .. } => vec![of.node],
-            Self::Binary(_, a, b) => vec![a.node, b.node],
-            Self::ScalarField(_, _, at) => at.iter().map(|argument| argument.node).collect(),
-            Self::Choose { left, right, then, otherwise, .. } => {
-                vec![left.node, right.node, then.node, otherwise.node]
-            }
+            Self::Sum(terms) | Self::ScalarField(_, _, terms) => terms.clone(),
+            Self::Product(factors) => factors.iter().map(|(factor, _)| (*factor).into()).collect(),
+            Self::Reciprocal(of) => vec![(*of).into()],
+            Self::Unary(_, of) | Self::Call(_, _, of) | Self::Reduce { body: of, .. } => vec![*of],
+            Self::Binary(_, a, b) => vec![*a, *b],
+            Self::Choose { left, right, then, otherwise, .. } => vec![*left, *right, *then, *otherwise],
         }
+    }
+
+    pub(crate) fn operands(&self) -> Vec<Id> {
+        self.parts().into_iter().map(|part| part.node).collect()
     }
 }
 
@@ -324,6 +350,31 @@ impl Graph {
     /// Whether any node below `root` (itself included) has the property.
     pub(crate) fn depends(&self, root: Id, property: impl Fn(&Node) -> bool) -> bool {
         self.reachable([root]).into_iter().any(|id| property(self.node(id)))
+    }
+
+    pub(crate) fn has_velocity(&self, root: Id) -> bool {
+        self.depends(root, Node::is_velocity)
+    }
+
+    /// What a derivative is by.
+    pub(crate) fn variable(&self, id: Id) -> (Variable, &Coordinate) {
+        match self.node(id) {
+            Node::Coordinate(coordinate) => (Variable::Position, coordinate),
+            Node::Velocity(coordinate) => (Variable::Velocity, coordinate),
+            other => internal(format!("a derivative by {other:?}")),
+        }
+    }
+
+    /// The velocity of a position.
+    pub(super) fn velocity_of(&mut self, position: Id) -> Id {
+        let coordinate = self.variable(position).1.clone();
+        self.intern(Node::Velocity(coordinate))
+    }
+
+    /// The value at v = 0.
+    pub(crate) fn at_rest(&mut self, of: Expr) -> Expr {
+        let still = |graph: &mut Self, id| graph.node(id).is_velocity().then_some(Expr::ZERO);
+        self.rebuild(of.node, still).scaled(of.scale)
     }
 
     /// A function of several variables that stands below `root`.

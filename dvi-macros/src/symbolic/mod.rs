@@ -29,7 +29,9 @@ pub(crate) use antiderivative::Terms;
 pub(crate) use count::{Count, Rows};
 pub(crate) use derivative::{Contribution, SecondContribution};
 pub(crate) use functions::{Unary, unary_by_name, unary_names};
-pub(crate) use graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Parameter, Relation, Weight, leaf};
+pub(crate) use graph::{
+    Binary, Coordinate, Expr, Fold, Graph, Id, Node, Parameter, Relation, Variable, Weight, leaf,
+};
 pub(crate) use index::{Atom, Free, Index, Loop, Range, Renaming, Size};
 pub(crate) use partial::Partial;
 pub(crate) use rules::{binary_by_name, binary_names};

@@ -3,7 +3,6 @@
 use super::derivative::Contribution;
 use super::graph::{Expr, Graph, Node};
 use super::index::Loop;
-use crate::internal::internal;
 
 impl Graph {
     /// v·∂f/∂q + ∂f/∂t of a function that stands inside `loops`. Velocities in it do not change: there is no
@@ -12,11 +11,10 @@ impl Graph {
         let time = self.intern(Node::Time);
         let mut terms = vec![self.derivative(of, time)];
         for Contribution { loops: around, target, value } in self.gradient(of, loops) {
-            let velocity = match self.node(target).clone() {
-                Node::Coordinate(coordinate) => self.intern(Node::Velocity(coordinate)).into(),
-                Node::Velocity(_) => continue,
-                other => internal(format!("a derivative by {other:?}")),
-            };
+            if self.node(target).is_velocity() {
+                continue;
+            }
+            let velocity = self.velocity_of(target).into();
             let term = self.multiply(value, velocity);
             let sums = around.into_iter().skip(loops.len()).collect::<Vec<Loop>>();
             terms.push(sums.into_iter().rev().fold(term, |term, over| self.summed(term, over)));

@@ -106,9 +106,7 @@ impl Graph {
                 let power = self.binary(Binary::Powf, a, less);
                 let logarithm = self.unary(Unary::Ln, a);
                 let mut slope = self.multiply(b, power);
-                let varies =
-                    |node: &Node| matches!(node, Node::Coordinate(_) | Node::Velocity(_) | Node::Time);
-                if !self.depends(b.node, varies) {
+                if !self.depends(b.node, Node::varies) {
                     // a⁰ does not change with a, not even where a⁻¹ is no number.
                     let squared = self.power(b, 2);
                     slope = self.where_asked(squared, slope);

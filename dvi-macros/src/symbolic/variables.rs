@@ -32,7 +32,7 @@ impl Graph {
     pub(super) fn variables_below(&mut self, node: &Node, operands: &[Id]) -> Variables {
         let mut variables = Variables::default();
         operands.iter().for_each(|operand| variables.join(&self.variables[operand.0 as usize]));
-        if matches!(node, Node::Coordinate(_) | Node::Velocity(_) | Node::Time | Node::Reduce { .. }) {
+        if node.varies() || matches!(node, Node::Reduce { .. }) {
             variables.insert(self.numbers.len());
             self.numbers.insert(self.next(), self.numbers.len());
         }

@@ -1,7 +1,7 @@
 //! What expressions are made of: functions that a `let` of a formula names, names that a pattern gives,
 //! places in arrays, and values of blocks.
 
-use syn::{Block, Expr, ExprClosure, Ident, Member, Pat, Stmt};
+use syn::{Block, Expr, ExprClosure, ExprLit, Ident, Lit, Member, Pat, Stmt};
 
 /// `|a, b| …`, in parentheses or not.
 pub(crate) fn closure(syntax: &Expr) -> Option<&ExprClosure> {
@@ -22,11 +22,24 @@ pub(crate) fn bound(pattern: &Pat) -> Vec<&Ident> {
     }
 }
 
-/// `name` in `name` and in `self.name`.
-pub(crate) fn name_of(syntax: &Expr) -> Option<&Ident> {
+/// The name that an expression is.
+pub(crate) fn ident(syntax: &Expr) -> Option<&Ident> {
     match syntax {
         Expr::Path(path) => path.path.get_ident(),
-        Expr::Field(_) => own_field(syntax),
+        _ => None,
+    }
+}
+
+/// `name` in `name` and in `self.name`.
+pub(crate) fn name_of(syntax: &Expr) -> Option<&Ident> {
+    ident(syntax).or_else(|| own_field(syntax))
+}
+
+/// The value of an integer literal, in parentheses or not.
+pub(crate) fn literal(syntax: &Expr) -> Option<i64> {
+    match syntax {
+        Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => value.base10_parse().ok(),
+        Expr::Paren(inner) => literal(&inner.expr),
         _ => None,
     }
 }

@@ -9,6 +9,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Expr, Path, Token, Type};
 
+use super::closures::ident;
 use super::cut::expression;
 use crate::errors::text;
 
@@ -138,10 +139,7 @@ impl Force {
 
 impl Gauge {
     pub(super) fn new(formula: Expr) -> Self {
-        let word = match &formula {
-            Expr::Path(path) => path.path.get_ident().filter(|word| **word == "auto").cloned(),
-            _ => None,
-        };
+        let word = ident(&formula).filter(|word| **word == "auto").cloned();
         word.map_or(Self::Formula(formula), Self::Auto)
     }
 }

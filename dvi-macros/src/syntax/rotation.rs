@@ -9,9 +9,9 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 use syn::spanned::Spanned;
 use syn::visit_mut::{self, VisitMut};
-use syn::{Block, Expr, ExprClosure, Lit, Local, Pat, parse_quote_spanned};
+use syn::{Block, Expr, ExprClosure, Local, Pat, parse_quote_spanned};
 
-use super::{Attribute, Declaration, Factor, Kind, bound};
+use super::{Attribute, Declaration, Factor, Kind, bound, ident, literal};
 use crate::errors::{Errors, text};
 
 /// The angular velocity of a rotation, in the body.
@@ -96,12 +96,9 @@ pub(super) fn unwrapped(syntax: &Expr) -> &Expr {
     }
 }
 
-/// The name that an expression is.
+/// The name that an expression is, in parentheses or not.
 fn name(syntax: &Expr) -> Option<&Ident> {
-    match unwrapped(syntax) {
-        Expr::Path(path) => path.path.get_ident(),
-        _ => None,
-    }
+    ident(unwrapped(syntax))
 }
 
 /// The arguments of a call of `function`.
@@ -184,18 +181,15 @@ impl Entries<'_> {
 
     /// An index of a matrix or vector of three; 0 where it is reported as none.
     fn index(&mut self, syntax: &Expr) -> usize {
-        let value = match unwrapped(syntax) {
-            Expr::Lit(literal) => match &literal.lit {
-                Lit::Int(value) => value.base10_parse().ok(),
-                _ => None,
+        let value = literal(syntax).filter(|value| *value < 3);
+        value.map_or_else(
+            || {
+                let message = "an index of a rotation or of its angular velocity is 0, 1 or 2, as a literal";
+                self.errors.push(syntax, message);
+                0
             },
-            _ => None,
-        };
-        value.filter(|value| *value < 3).unwrap_or_else(|| {
-            let message = "an index of a rotation or of its angular velocity is 0, 1 or 2, as a literal";
-            self.errors.push(syntax, message);
-            0
-        })
+            |value| value as usize,
+        )
     }
 
     /// What takes the place of this, if that is written of a rotation.

@@ -4,6 +4,7 @@ use syn::{Expr, ExprCall, ExprClosure};
 
 use super::{Strength, Tex, Typesetter, bound, plain};
 use crate::errors::text;
+use crate::syntax::literal;
 use crate::words::{AREA, SUMS, VELOCITIES};
 
 /// Functions that LaTeX has under another name than Rust.
@@ -116,13 +117,6 @@ impl Typesetter {
 
     /// The last value of a range, which is one less than its end.
     fn last(&mut self, end: &Expr) -> String {
-        let literal = |part: &Expr| match part {
-            Expr::Lit(literal) => match &literal.lit {
-                syn::Lit::Int(digits) => digits.base10_parse::<i64>().ok(),
-                _ => None,
-            },
-            _ => None,
-        };
         if let Some(end) = literal(end) {
             return (end - 1).to_string();
         }

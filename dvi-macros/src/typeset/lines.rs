@@ -20,6 +20,10 @@ pub(crate) struct Equation {
 }
 
 impl Equation {
+    pub(super) fn new(name: String, terms: Vec<String>, lets: Vec<(String, Vec<String>)>) -> Self {
+        Self { name, terms, relation: "=", range: None, lets }
+    }
+
     /// Whether it is too long to be read.
     pub(crate) fn is_endless(&self) -> bool {
         let lets = self.lets.iter().flat_map(|(_, terms)| terms);
