@@ -4,12 +4,7 @@
 //! equations, and an order where that on these systems is not the one that it has everywhere. Every law
 //! in `tests` is asked of every row.
 
-mod by_hand;
 pub mod case;
-pub mod equations;
-pub mod formula;
-pub mod fuse;
-pub mod systems;
 
 use std::rc::Rc;
 
@@ -20,6 +15,7 @@ use dvi_core::methods::{Composition, EnergyLimit};
 use dvi_core::prelude::*;
 
 pub use case::{Case, Fused, Options};
+pub use dvi_tests::twice::{equations, formula, fuse, systems};
 use equations::{Equations, Nodes};
 use formula::{Formula, Subject};
 use systems::*;
