@@ -6,6 +6,7 @@ use dvi_core::{Real, Scalar, State};
 
 pub mod steps;
 pub mod systems;
+pub mod twice;
 pub mod zoo;
 
 /// What a test comes to: a value, or what is wrong.

@@ -116,7 +116,7 @@ fn two_crossings_within_a_step_are_seen() -> Outcome {
         let mut run = Integrator::new(&PLANE, Gauss::<8>::new(), h, PLANAR)?;
         let half = level.acos();
         let events = run.events([Direction::Either], |_, state| [state.x - level])?;
-        for (k, crossing) in events.take(200).enumerate() {
+        for (k, crossing) in events.take(60).enumerate() {
             let nearest = TAU * k.div_ceil(2) as f64;
             let exact = if k % 2 == 0 { nearest + half } else { nearest - half };
             let time = crossing?.time;

@@ -1,9 +1,8 @@
-//! Interior displacements: how steps are solved, many nodes, the oscillator, and failures.
+//! Interior displacements: how steps are solved, many nodes, and failures.
 
 mod equations;
 mod failures;
 mod many_nodes;
-mod oscillator;
 mod structure;
 mod systems;
 

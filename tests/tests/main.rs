@@ -1,8 +1,7 @@
 //! What is taken in few steps, or in none, without optimisation.
 //!
 //! It is one program, so that what several tests run is compiled once, and the long tests run beside the
-//! others. Apart from it are the tests that are programs of their own: one counts allocations, the other is
-//! compiled under other lints.
+//! others. Apart from it is a test that is compiled under other lints.
 
 mod archive;
 mod at_state;

@@ -4,8 +4,8 @@ use approx::assert_relative_eq;
 use dvi_core::prelude::*;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_examples::models::{TokamakInClass, TokamakInClassState};
-use dvi_laws::systems::{Belt, Mixed};
 use dvi_tests::systems::{SphereForm, SphereFormState};
+use dvi_tests::twice::systems::{Belt, Mixed};
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 use dvi_tests::{Outcome, failing};
 

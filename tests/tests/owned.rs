@@ -11,7 +11,7 @@ use dvi_tests::configurations::leapfrogging;
 use dvi_tests::zoo::regular::{KEPLER, Kepler, KeplerState};
 use dvi_tests::{Outcome, bits};
 
-const STEPS: u64 = 300;
+const STEPS: u64 = 100;
 const START: KeplerState = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.8 };
 
 /// The end of a run, as a checkpoint, which has all of it, and the state.

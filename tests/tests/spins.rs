@@ -152,23 +152,6 @@ fn methods_have_their_orders_and_keep_the_lengths() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn the_total_spin_and_the_energy_are_kept() -> Outcome {
-    let ring = Ring { anisotropy: 0.0, ..RING };
-    let mut run = Integrator::new(&ring, Sigma::midpoint(), 0.05, RingState { s: spins() })?;
-    let total = |state: RingState<5>| -> Vector {
-        core::array::from_fn(|k| state.s.iter().zip(ring.length).map(|(s, length)| length * s[k]).sum())
-    };
-    let (before, energy, mut largest) = (total(run.state()), run.energy(), 0.0);
-    for _ in 0..200 {
-        run.take_steps(20)?;
-        largest = larger(largest, (run.energy() - energy).abs());
-    }
-    assert!(apart(&before, &total(run.state())) < 1e-13);
-    assert!(largest < 1e-3, "{largest:e}");
-    Ok(())
-}
-
 fn chart(places: [Vector; 3]) -> SphereVorticesState<3> {
     SphereVorticesState { phi: places.map(|[x, y, _]| y.atan2(x)), z: places.map(|[_, _, z]| z) }
 }

@@ -11,7 +11,6 @@ mod events;
 mod exponents;
 mod impacts;
 mod langevin;
-mod loop_integrals;
 mod manifold;
 mod nonholonomic;
 mod one_step;

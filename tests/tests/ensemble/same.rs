@@ -31,13 +31,15 @@ where
     let expected = bytes(&whole)?;
     let is_same = |results: &Results| Ok::<_, Box<dyn std::error::Error>>(bytes(results)? == expected);
     let alone: Changed<'a, S, M> = |ensemble| ensemble;
-    for changed in [&[alone], in_lanes].concat() {
-        for threads in [1, 2, 3, 7] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    for (number, changed) in [&[alone], in_lanes].concat().into_iter().enumerate() {
+        // In lanes it is one number of threads and one of shards after the other.
+        let asked = |all: &[u64]| if number == 0 { all.to_vec() } else { vec![all[number % all.len()]] };
+        for threads in asked(&[1, 2, 3, 7]) {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build()?;
             let results = pool.install(|| changed(ensemble()).take_steps(steps))?;
             assert!(is_same(&results)?, "{name}: {threads} threads");
         }
-        for of in [1, 3, 50] {
+        for of in asked(&[1, 3, 50]) {
             let shard = |index| Ok(changed(ensemble()).shard(Shard::new(index, of)?).take_steps(steps)?);
             // In any order.
             let shards = (0..of).rev().map(shard).collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;

@@ -30,14 +30,14 @@ fn none_is_lost_within_long_steps() -> Checked {
         for level in [-0.99, -0.4, 0.0, 0.5, 0.95, 0.999, 0.999_999] {
             let phases: Vec<f64> = Draws::new(5).take(6, |draw| draw.uniform(0.1, TAU - 0.1)).collect();
             // Where x rises in time, and where it falls: where −x rises.
-            let end = 40.0 * h;
+            let end = 20.0 * h;
             let up = |phase: f64| rises(level, phase, end);
             let down = |phase: f64| rises(-level, phase + PI, end);
             for direction in [Direction::Rising, Direction::Falling, Direction::Either] {
                 let results =
                     Ensemble::new(&SPRING, Gauss::<8>::new(), h, phases.iter().copied().map(spring))
                         .section(direction, move |_, state| state.x - level)
-                        .take_steps(40)?;
+                        .take_steps(20)?;
                 for (member, &phase) in results.members().iter().zip(&phases) {
                     let expected = match direction {
                         Direction::Rising => {

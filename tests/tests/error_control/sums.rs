@@ -75,19 +75,20 @@ fn state_at<S: Lagrangian, M: VariableStep<S, f64>>(
 macro_rules! check {
     ($motion:expr, $end:expr, $exact:expr) => {
         for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
-            let ends = [
-                state_at($motion, Gauss::<2>::new(), tolerance, $end)?,
-                state_at($motion, Gauss::<4>::new(), tolerance, $end)?,
-                state_at($motion, Gauss::<8>::new(), tolerance, $end)?,
+            let mut ends = vec![
+                (state_at($motion, Gauss::<4>::new(), tolerance, $end)?, 30.0),
+                (state_at($motion, Gauss::<8>::new(), tolerance, $end)?, 30.0),
             ];
-            let errors = ends.map(|end| {
-                let pairs = end.iter().zip($exact.iter());
-                pairs.fold(0.0, |most, (value, exact)| {
-                    larger(most, (value - exact).abs() / (tolerance * (1.0 + exact.abs())))
-                })
-            });
-            println!("{} | {tolerance:e} | {errors:.2?}", stringify!($motion));
-            assert!(errors[0] < 200.0 && errors[1] < 30.0 && errors[2] < 30.0, "{tolerance:e}: {errors:?}");
+            // For the last one two stages would take as many steps as for all others.
+            if tolerance > 1e-12 {
+                ends.push((state_at($motion, Gauss::<2>::new(), tolerance, $end)?, 200.0));
+            }
+            for (end, most) in ends {
+                let off =
+                    |(value, exact): (&f64, &f64)| (value - exact).abs() / (tolerance * (1.0 + exact.abs()));
+                let error = end.iter().zip(&$exact).map(off).fold(0.0, larger);
+                assert!(error < most, "{} at {tolerance:e}: {error}", stringify!($motion));
+            }
         }
     };
 }

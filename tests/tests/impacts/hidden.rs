@@ -44,7 +44,7 @@ fn a_post_is_not_passed() -> Outcome {
 /// Elastic bounces that fall on the end of a step, but for rounding.
 #[test]
 fn a_bounce_at_the_end_of_a_step_is_one() -> Outcome {
-    for k in 0..1000 {
+    for k in (0..1000).step_by(7) {
         for parts in [1.0, 2.0, 5.0, 10.0] {
             let height = 0.1 + f64::from(k) * 0.00137;
             let ball = Ball { m: 1.0 };

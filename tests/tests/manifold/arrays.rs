@@ -77,10 +77,10 @@ fn a_chain_of_any_size_moves_as_one_with_names() -> Outcome {
         let mut fixed = Integrator::new(Fixed { m, g }, method, 0.05, FixedState { s: S, dot_s: DOT_S })?;
         let (system, start) = listed();
         let mut listed = Integrator::new(system, method, 0.05, start)?;
-        named.take_steps(200)?;
-        three.take_steps(200)?;
-        fixed.take_steps(200)?;
-        listed.take_steps(200)?;
+        named.take_steps(50)?;
+        three.take_steps(50)?;
+        fixed.take_steps(50)?;
+        listed.take_steps(50)?;
         let NamedState { s0, s1, s2, dot_s0, dot_s1, dot_s2 } = named.state();
         let expected = [s0, s1, s2, dot_s0, dot_s1, dot_s2].concat();
         let three = three.state();
@@ -156,9 +156,9 @@ fn bodies_of_any_number_move_as_those_with_names() -> Outcome {
         let system = ListedBodies { inertia: INERTIA.to_vec(), pull };
         let mut listed = Integrator::new(system, method, 0.05, start)?;
         let vertical = fixed.momentum(0);
-        named.take_steps(200)?;
-        fixed.take_steps(200)?;
-        listed.take_steps(200)?;
+        named.take_steps(50)?;
+        fixed.take_steps(50)?;
+        listed.take_steps(50)?;
         assert_abs_diff_eq!(fixed.momentum(0).unwrap_or(0.0), vertical.unwrap_or(1.0), epsilon = 1e-13);
         let NamedBodiesState { x, R0, R1, dot_x, omega_R0, omega_R1 } = named.state();
         let expected = [&[x, dot_x], &R0[..], &R1, &omega_R0, &omega_R1].concat();
@@ -209,7 +209,7 @@ fn rotors_keep_their_length_and_the_momenta() -> Outcome {
     let momenta = [0, 1, 2].map(|k| run.momentum(k));
     let mut off: f64 = 0.0;
     for _ in 0..100 {
-        run.take_steps(100)?;
+        run.take_steps(20)?;
         off = off.max((run.energy() - energy).abs());
     }
     assert!(off < 2e-2 && off > 0.0, "{off:e}");

@@ -68,33 +68,6 @@ fn a_knife_edge_moves_as_in_closed_form() -> Outcome {
 const PARTICLE: ParticleState =
     ParticleState { x: 1.0, y: 0.5, z: 0.2, dot_x: 0.4, dot_y: -0.8, dot_z: 0.2 };
 
-/// p0 = −D₁L_d − Aᵀ(q0)ι0 and p1 = D₂L_d + Aᵀ(q1)ι1, the constraint at the middle of the step and that of
-/// v1.
-#[test]
-fn the_equations_of_a_step_by_hand() -> Outcome {
-    let (h, multiplier) = (0.1, (0.4 * -0.8 - 1.0 * 0.5) / (1.0 + 0.25));
-    assert_abs_diff_eq!(Particle.multipliers_at(0.0, &PARTICLE)?[0], multiplier, epsilon = 1e-15);
-    let mut run = Integrator::new(&Particle, Constrained::new(Variational::trapezoid()), h, PARTICLE)?;
-    for _ in 0..50 {
-        let (q0, p0) = (run.q().to_vec(), run.memory().p().to_vec());
-        run.advance()?;
-        let (q1, p1) = (run.q().to_vec(), run.memory().p().to_vec());
-        let [first, last] = run.memory().impulses().map(|impulse| impulse[0]);
-        let v: Vec<f64> = (0..3).map(|i| (q1[i] - q0[i]) / h).collect();
-        let middle = v[2] - (q0[1] + q1[1]) / 2.0 * v[0];
-        let along = p1[2] - q1[1] * p1[0];
-        assert!(middle.abs() < 1e-14 && along.abs() < 1e-15, "{middle:e} {along:e}");
-        for i in 0..3 {
-            let row = |q: &[f64]| [-q[1], 0.0, 1.0][i];
-            let force = |q: &[f64]| [-q[0], -q[1], 0.0][i];
-            let left = p0[i] + h / 2.0 * force(&q0) - v[i] + row(&q0) * first;
-            let right = v[i] + h / 2.0 * force(&q1) + row(&q1) * last - p1[i];
-            assert!(left.abs() < 1e-14 && right.abs() < 1e-14, "{left:e} {right:e}");
-        }
-    }
-    Ok(())
-}
-
 /// The energy of the particle has no trend over twenty thousand steps.
 #[test]
 fn the_energy_of_a_reversible_motion_has_no_trend() -> Outcome {

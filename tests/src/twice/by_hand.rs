@@ -5,12 +5,12 @@ use nalgebra::RealField;
 
 use super::formula::Formula;
 use super::systems::{Damped, real};
-use dvi_tests::systems::{Curved, LotkaVolterra, ManyVortices, PointVortices, Quadratic, SphereForm};
-use dvi_tests::zoo::constrained::{Bead, Charge, Double, Links, Spherical, Swing};
-use dvi_tests::zoo::gauges::OneSided;
-use dvi_tests::zoo::nonholonomic::{Particle, Steered};
-use dvi_tests::zoo::particles::Mirror;
-use dvi_tests::zoo::regular::{
+use crate::systems::{Curved, LotkaVolterra, ManyVortices, PointVortices, Quadratic, SphereForm};
+use crate::zoo::constrained::{Bead, Charge, Double, Links, Spherical, Swing};
+use crate::zoo::gauges::OneSided;
+use crate::zoo::nonholonomic::{Particle, Steered};
+use crate::zoo::particles::Mirror;
+use crate::zoo::regular::{
     DoublePendulum, DrivenOscillator, GrowingMass, Kepler, MagneticParticle, MixedVelocities, Relativistic,
     Ring, RunTimeChain, SphericalPendulum, Surface,
 };

@@ -11,7 +11,7 @@ use dvi_core::prelude::*;
 use nalgebra::{DMatrix, DVector, RealField};
 use num_dual::{Dual64, HyperDual64};
 
-use dvi_tests::{larger, state};
+use crate::{larger, state};
 
 /// A Lagrangian in plain Rust, with its forces and constraints.
 pub trait Formula {
@@ -120,7 +120,8 @@ impl core::fmt::Debug for Subject {
 }
 
 impl Subject {
-    pub(crate) fn new<S>(system: &'static S, start: [&[f64]; 2], [t, h]: [f64; 2]) -> Self
+    /// Of a run from `start` at time `t` with steps of length `h`.
+    pub fn new<S>(system: &'static S, start: [&[f64]; 2], [t, h]: [f64; 2]) -> Self
     where
         S: Lagrangian + Formula + System<Kind: Rates<S, f64>>,
     {
@@ -155,7 +156,9 @@ impl Subject {
         (self.field)(t, values)
     }
 
-    pub(crate) fn few(self, steps: u32) -> Self {
+    /// With so few steps.
+    #[must_use]
+    pub fn few(self, steps: u32) -> Self {
         Self { steps, time: 1.0, ..self }
     }
 

@@ -2,7 +2,7 @@
 
 use dvi_core::Real;
 
-use dvi_tests::larger;
+use crate::larger;
 
 /// Of a scheme.
 #[derive(Clone, Debug)]
@@ -224,5 +224,5 @@ impl Tableau {
 /// Whether every number is one, and none is far from the others.
 pub fn apart(a: &[f64], b: &[f64]) -> f64 {
     let scale = b.iter().fold(1.0, |scale: f64, x| larger(scale, x.abs()));
-    if a.len() == b.len() { dvi_tests::apart(a, b) / scale } else { f64::NAN }
+    if a.len() == b.len() { crate::apart(a, b) / scale } else { f64::NAN }
 }
