@@ -153,7 +153,7 @@ fn once(mut item: ItemStruct, errors: &mut Errors) -> ItemStruct {
 fn read_item(kind: Kind, item: TokenStream) -> Result<ItemStruct, TokenStream> {
     let advice =
         format!("`{}` stands on a struct whose fields are the parameters of the system", kind.attribute());
-    let parsed = depth::check_item(&item).and_then(|()| syn::parse2::<Item>(item.clone()));
+    let parsed = depth::check(&item, depth::LONGEST_TERM).and_then(|()| syn::parse2::<Item>(item.clone()));
     let mut errors = Errors::default();
     let replaced = match parsed {
         Ok(Item::Struct(item)) => return Ok(item),

@@ -21,7 +21,7 @@ pub(crate) mod functions;
 mod generate;
 mod jet;
 mod parts;
-mod random;
+pub(crate) mod random;
 mod rate;
 mod read;
 mod rotations;

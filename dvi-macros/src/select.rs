@@ -52,7 +52,7 @@ struct Builder<'a> {
     loops: HashMap<Id, (Fold, Loop, Expr)>,
     pairs: Vec<Pair>,
     /// Reciprocals with a single use.
-    divisors: HashSet<Id>,
+    divisors: HashSet<Factor>,
     out: Instructions,
     values: HashMap<Id, Register>,
 }
@@ -212,22 +212,21 @@ impl Builder<'_> {
     }
 
     fn find_divisors(&mut self) {
-        let mut uses: HashMap<Id, u32> = HashMap::default();
+        let mut uses: HashMap<Factor, u32> = HashMap::default();
         let pairs = self.pairs.iter().flat_map(|pair| pair.factors).map(|factor| (factor, 1));
         for (factor, exponent) in self.products.values().flatten().copied().chain(pairs) {
-            if let Factor::Node(id) = factor {
-                *uses.entry(id).or_default() += exponent;
-            }
+            *uses.entry(factor).or_default() += exponent;
         }
-        let reciprocal = |id: &Id| matches!(self.graph.node(*id), Node::Reciprocal(_));
-        self.divisors =
-            uses.into_iter().filter(|(_, uses)| *uses == 1).map(|(id, _)| id).filter(reciprocal).collect();
+        let single = uses.into_iter().filter(|(_, uses)| *uses == 1).map(|(factor, _)| factor);
+        self.divisors = single.filter(|factor| self.reciprocal_of(*factor).is_some()).collect();
     }
 
-    fn is_reciprocal(&self, factor: Factor) -> bool {
-        match factor {
-            Factor::Node(id) => matches!(self.graph.node(id), Node::Reciprocal(_)),
-            _ => false,
+    /// What a factor is the reciprocal of.
+    fn reciprocal_of(&self, factor: Factor) -> Option<Id> {
+        let Factor::Node(id) = factor else { return None };
+        match self.graph.node(id) {
+            Node::Reciprocal(of) => Some(*of),
+            _ => None,
         }
     }
 
@@ -279,8 +278,8 @@ impl Builder<'_> {
         let mut product: Option<Register> = None;
         let mut divisor: Option<Id> = None;
         for factor in factors {
-            if let (None, Some(of)) = (divisor, self.divided_by(*factor)) {
-                divisor = Some(of);
+            if divisor.is_none() && self.divisors.contains(factor) {
+                divisor = self.reciprocal_of(*factor);
                 continue;
             }
             let factor = self.factor(*factor);
@@ -296,17 +295,6 @@ impl Builder<'_> {
                 self.out.push(Instruction::Divide(numerator, divisor))
             }
             None => numerator,
-        }
-    }
-
-    /// What to divide by instead of multiplying with this factor.
-    fn divided_by(&self, factor: Factor) -> Option<Id> {
-        match factor {
-            Factor::Node(id) if self.divisors.contains(&id) => match self.graph.node(id) {
-                Node::Reciprocal(of) => Some(*of),
-                _ => None,
-            },
-            _ => None,
         }
     }
 

@@ -20,7 +20,9 @@ pub(crate) mod tidy;
 mod unsaid;
 
 use argument::{Argument, Value};
-pub(crate) use closures::{bound, closure, ident, indexed, last_value, literal, name_of, own_field};
+pub(crate) use closures::{
+    bound, closure, elements, ident, indexed, last_value, literal, name_of, own_field,
+};
 pub(crate) use constraint::{Constrained, Constraint, Member};
 use cut::{list, named, read, read_by, split_at_commas, value_of};
 use declared::Declared;
@@ -175,7 +177,7 @@ impl Kind {
 
 pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Errors) -> Attribute {
     let mut attribute = Attribute { kind, ..Attribute::default() };
-    if let Err(error) = depth::check_formulas(&tokens) {
+    if let Err(error) = depth::check(&tokens, depth::LONGEST) {
         errors.push_syn(error);
         attribute.lost_coordinates = true;
         return attribute;

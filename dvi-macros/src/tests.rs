@@ -46,8 +46,8 @@ fn without_paths(code: &str) -> String {
         .replace("<T as Scalar>", "T")
 }
 
-/// The pairs of many bodies are cut into parts, which threads share, and those of a body are taken in packs, with
-/// one division for each pair.
+/// The pairs of many bodies are cut into parts, which threads share, and those of a body are taken in packs,
+/// with one division for each pair.
 #[test]
 fn pairs_are_cut_into_parts_and_taken_in_packs() {
     let vortices = degenerate_lagrangian(

@@ -115,9 +115,7 @@ impl<'a> Account<'a> {
         let Some(constraints) = &self.programs.constraints else { return };
         let number = |row: &Row| {
             let before = &constraints.lengths[..row.constraint as usize];
-            let first = before.iter().fold(Index::default(), |sum, length| sum.plus(&length.rest, 1));
-            let rows = before.iter().chain([&row.member]).filter_map(|count| count.rows.as_ref());
-            in_rows(emitter, rows, &first.plus(&row.member.rest, 1))
+            together(emitter, before.iter().chain([&row.member]))
         };
         let (letter, model) = (constraints.of.words().letter, emitter.model);
         for statement in &constraints.value.statements {
@@ -133,8 +131,6 @@ impl<'a> Account<'a> {
             };
             self.formulas.push((format!("∂{letter}[{}]/∂{by}", number(row)), in_loops(emitter, statement)));
         }
-        let rest =
-            constraints.lengths.iter().fold(Index::default(), |sum, length| sum.plus(&length.rest, 1));
         let literals = constraints.lengths.iter().map(Count::as_literal);
         let literal = literals.sum::<Option<i64>>();
         let nouns = constraints.of.words().nouns;
@@ -143,8 +139,8 @@ impl<'a> Account<'a> {
         let may_end_early = constraints.lengths.iter().any(|length| !length.is_natural());
         let condition =
             if may_end_early && constraints.lengths.len() > 1 { ", where no range is empty" } else { "" };
-        let rows = constraints.lengths.iter().filter_map(|length| length.rows.as_ref());
-        let count = literal.map_or_else(|| in_rows(emitter, rows, &rest), |literal| literal.to_string());
+        let count = literal
+            .map_or_else(|| together(emitter, constraints.lengths.iter()), |literal| literal.to_string());
         let adjective = match constraints.of {
             Constrained::Positions | Constrained::Velocities => {
                 format!("{} ", constraints.of.words().adjective)
@@ -245,8 +241,9 @@ fn quantity(emitter: &Emitter<'_>, expr: Expr) -> String {
     print_expr(emitter.graph, expr, 0, emitter.model)
 }
 
-/// A number with the passes of loops in loops in it.
-fn in_rows<'a>(emitter: &Emitter<'_>, rows: impl Iterator<Item = &'a Rows>, rest: &Index) -> String {
+/// The sum of these, with the passes of loops in loops in it.
+fn together<'a>(emitter: &Emitter<'_>, counts: impl Iterator<Item = &'a Count> + Clone) -> String {
+    let rest = counts.clone().fold(Index::default(), |sum, count| sum.plus(&count.rest, 1));
     let print = |index: &Index| print_index(index, emitter.model);
     let one = |Rows { first, step, count }: &Rows| {
         let [first, count] = [first, count].map(print);
@@ -259,9 +256,9 @@ fn in_rows<'a>(emitter: &Emitter<'_>, rows: impl Iterator<Item = &'a Rows>, rest
             ),
         }
     };
-    let mut parts: Vec<String> = rows.map(one).collect();
-    if parts.is_empty() || *rest != Index::default() {
-        parts.push(print(rest));
+    let mut parts: Vec<String> = counts.filter_map(|count| count.rows.as_ref()).map(one).collect();
+    if parts.is_empty() || rest != Index::default() {
+        parts.push(print(&rest));
     }
     parts.join(" + ")
 }

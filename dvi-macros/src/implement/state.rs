@@ -112,13 +112,12 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
     let summary_of_f64 = format!("A state of [`{system}`]: its {contents} by name.");
     let written = of_f64.unraw().to_string();
     let labels: Vec<String> = fields.iter().map(|field| field.unraw().to_string()).collect();
-    let copy =
-        (0..model.blocks.len()).all(|block| on_stack(emitter, block)).then(|| quote!(::core::marker::Copy,));
+    let is_on_stack = (0..model.blocks.len()).all(|block| on_stack(emitter, block));
+    let copy = is_on_stack.then(|| quote!(::core::marker::Copy,));
     let derives = &model.derives;
     let Transfers { write, read, refill } = transfers(emitter, &fields);
-    let is_on_heap = (0..model.blocks.len()).any(|block| !on_stack(emitter, block));
     // What is read anew without allocation needs no other way.
-    let refill = is_on_heap.then(|| {
+    let refill = (!is_on_stack).then(|| {
         quote! {
             fn refill(
                 &mut self,

@@ -11,7 +11,7 @@ use crate::errors::{here, nearest, text};
 use crate::internal::internal;
 use crate::model::Shape;
 use crate::symbolic::{Expr, Partial, Relation, Unary};
-use crate::syntax::ident;
+use crate::syntax::{elements, ident};
 use crate::words::{AREA, Method, SUMS, VELOCITIES, VectorMethod, callable, is_method};
 
 impl Lowering<'_> {
@@ -274,12 +274,9 @@ impl Lowering<'_> {
             self.errors.push(&call.func, message);
             return Some(None);
         }
-        let list = match call.args.first() {
-            Some(Syntax::Array(list)) => Some(&list.elems),
-            Some(Syntax::Tuple(list)) => Some(&list.elems),
-            _ => None,
-        };
-        if let (Some(list), 1, true) = (list, call.args.len(), self.is_scalar_field(ident)) {
+        if let (Some(list), 1, true) =
+            (call.args.first().and_then(elements), call.args.len(), self.is_scalar_field(ident))
+        {
             let listed = list.iter().map(text).collect::<Vec<_>>().join(", ");
             let message = format!("arguments are written one by one: `{name}({listed})`");
             self.errors.push(&call.args[0], message);

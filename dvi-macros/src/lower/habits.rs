@@ -5,7 +5,7 @@ use syn::{BinOp, Expr as Syntax, ExprLit, ExprMethodCall, Ident, Lit, Pat};
 use super::sums::signed_literal;
 use super::{Lowering, Role, is_number_type};
 use crate::errors::text;
-use crate::syntax::{Constrained, Factor, ident};
+use crate::syntax::{Constrained, Factor, elements, ident};
 use crate::words::{Method, is_method};
 
 /// Functions by other names, and functions of functions, as they are written behind a number.
@@ -252,8 +252,7 @@ impl Lowering<'_> {
         }
         if is_norm(name) {
             let list = match all.as_slice() {
-                [Syntax::Array(list)] => list.elems.iter().collect(),
-                [Syntax::Tuple(list)] => list.elems.iter().collect(),
+                [one] => elements(one).map_or_else(|| vec![*one], |list| list.iter().collect()),
                 _ => all,
             };
             let is_square = name == "norm_squared";

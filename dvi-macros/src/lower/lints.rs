@@ -78,25 +78,18 @@ pub(crate) fn warnings<'a>(
 impl Names {
     fn define(&mut self, local: &syn::Local) {
         match value(local).map(|value| (closure(value), value)) {
-            Some((Some(closure), _)) => self.visit_function(closure),
+            Some((Some(closure), _)) => self.visit_body(closure, false, false),
             Some((None, value)) => self.visit_expr(value),
             None => {}
         }
         self.bind(&local.pat, false);
     }
 
-    /// A function of the formula, whose parameters hide no index by mistake.
-    fn visit_function(&mut self, closure: &syn::ExprClosure) {
+    /// A body with names bound around it, which are used in any case or not: indices, or parameters, which
+    /// hide no index by mistake.
+    fn visit_body(&mut self, closure: &syn::ExprClosure, index: bool, used: bool) {
         let outside = self.open.len();
-        closure.inputs.iter().for_each(|input| self.bind(input, false));
-        self.visit_expr(&closure.body);
-        self.close(outside);
-    }
-
-    /// A body with indices bound around it, which are used in any case or not.
-    fn visit_sum(&mut self, closure: &syn::ExprClosure, used: bool) {
-        let outside = self.open.len();
-        closure.inputs.iter().for_each(|input| self.bind(input, true));
+        closure.inputs.iter().for_each(|input| self.bind(input, index));
         self.open[outside..].iter_mut().for_each(|local| local.used = used);
         self.visit_expr(&closure.body);
         self.close(outside);
@@ -132,14 +125,14 @@ impl<'ast> Visit<'ast> for Names {
     }
 
     fn visit_expr_closure(&mut self, closure: &'ast syn::ExprClosure) {
-        self.visit_sum(closure, false);
+        self.visit_body(closure, true, false);
     }
 
     /// A component `|j| 0.0` of a one-form has its index by its place in the list.
     fn visit_expr_array(&mut self, list: &'ast syn::ExprArray) {
         for component in &list.elems {
             match component {
-                Expr::Closure(closure) => self.visit_sum(closure, true),
+                Expr::Closure(closure) => self.visit_body(closure, true, true),
                 other => self.visit_expr(other),
             }
         }

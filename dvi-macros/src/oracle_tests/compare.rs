@@ -158,7 +158,7 @@ impl<'a> Comparison<'a> {
         found: &[f64],
         expected: impl Fn(usize, usize) -> Sized,
     ) -> Result<(), Difference> {
-        let n = self.system.dimension();
+        let n = found.len().isqrt();
         found.iter().enumerate().try_for_each(|(place, found)| {
             let (i, j) = (place / n, place % n);
             self.same(what, &[i, j], expected(i, j), *found)

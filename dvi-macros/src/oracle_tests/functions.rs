@@ -25,6 +25,14 @@ pub(super) enum BinaryFunction {
     Max,
 }
 
+impl BinaryFunction {
+    pub(super) const ALL: [Self; 5] = [Self::Atan2, Self::Hypot, Self::Powf, Self::Min, Self::Max];
+
+    pub(super) fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
+}
+
 impl std::fmt::Debug for UnaryFunction {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name)

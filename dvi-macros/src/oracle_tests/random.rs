@@ -3,10 +3,10 @@
 //! SplitMix64 (Steele, Lea & Flood 2014, figure 17).
 
 #[derive(Clone, Debug)]
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -19,7 +19,7 @@ impl Random {
     }
 
     /// One of 0..n.
-    pub(super) fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
 
@@ -28,7 +28,7 @@ impl Random {
         self.below(100) < percent
     }
 
-    pub(super) fn pick<'a, V>(&mut self, values: &'a [V]) -> &'a V {
+    pub(crate) fn pick<'a, V>(&mut self, values: &'a [V]) -> &'a V {
         &values[self.below(values.len())]
     }
 

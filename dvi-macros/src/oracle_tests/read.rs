@@ -61,23 +61,15 @@ impl<'a> Reader<'a> {
                 let of = self.boxed(&call.receiver);
                 let name = call.method.to_string();
                 let argument = call.args.first();
-                match name.as_str() {
-                    "powi" => Formula::Power(of, self.index(argument.expect("an exponent")).constant as i32),
-                    "atan2" | "hypot" | "powf" | "min" | "max" => {
-                        let function = match name.as_str() {
-                            "atan2" => BinaryFunction::Atan2,
-                            "hypot" => BinaryFunction::Hypot,
-                            "powf" => BinaryFunction::Powf,
-                            "min" => BinaryFunction::Min,
-                            _ => BinaryFunction::Max,
-                        };
-                        Formula::Binary(function, of, self.boxed(argument.expect("an argument")))
-                    }
-                    _ => {
-                        let function = UNARY.iter().find(|function| function.name == name);
-                        Formula::Unary(*function.unwrap_or_else(|| panic!("no function {name}")), of)
-                    }
+                if name == "powi" {
+                    return Formula::Power(of, self.index(argument.expect("an exponent")).constant as i32);
                 }
+                let binary = BinaryFunction::ALL.into_iter().find(|function| function.name() == name);
+                if let Some(function) = binary {
+                    return Formula::Binary(function, of, self.boxed(argument.expect("an argument")));
+                }
+                let function = UNARY.iter().find(|function| function.name == name);
+                Formula::Unary(*function.unwrap_or_else(|| panic!("no function {name}")), of)
             }
             Expr::Call(call) => {
                 let Expr::Path(path) = &*call.func else { panic!("only names are called") };

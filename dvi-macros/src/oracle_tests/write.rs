@@ -252,9 +252,7 @@ impl<'a> Writer<'a> {
                 postfix(format!("f64::{}({})", function.name, self.text(of)))
             }
             Formula::Unary(function, of) => method(of, function.name, String::new()),
-            Formula::Binary(function, a, b) => {
-                method(a, &format!("{function:?}").to_lowercase(), self.text(b))
-            }
+            Formula::Binary(function, a, b) => method(a, &function.name(), self.text(b)),
             Formula::MultiplyAdd(a, b, c) => {
                 method(a, "mul_add", format!("{}, {}", self.text(b), self.text(c)))
             }

@@ -87,7 +87,7 @@ impl Sharing {
     /// The number of a factor that comes behind all others.
     fn number(&mut self, builder: &Builder<'_>, factor: Factor) -> Number {
         self.factors.push(factor);
-        self.ranks.push((builder.is_reciprocal(factor), builder.depth(factor)));
+        self.ranks.push((builder.reciprocal_of(factor).is_some(), builder.depth(factor)));
         self.factors.len() - 1
     }
 

@@ -56,8 +56,7 @@ impl MassMatrix {
         let uniform = formulas.quadratic && depends_on.is_empty();
         let constant = uniform
             && !mixes_position_and_velocity(graph, entries)
-            && force_is_at_rest(graph, formulas.lagrangian)
-            && momentum_vanishes_at_rest(graph, formulas.lagrangian);
+            && is_still_at_rest(graph, formulas.lagrangian);
         let separable = constant && !formulas.force.iter().any(|part| graph.has_velocity(part.value.node));
         let mentioned = mentioned(graph, formulas.lagrangian);
         let involved = |block: usize| {
@@ -334,18 +333,13 @@ fn multipliers(graph: &Graph, entries: &[SecondContribution], massless: &[(usize
     unmentioned.map(|(block, _)| *block).filter(|block| multiplies(*block)).collect()
 }
 
-/// Whether ∂L/∂q is written without velocities.
-fn force_is_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
+/// Whether ∂L/∂q is written without velocities, and ∂L/∂v = 0 where v = 0.
+fn is_still_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
     let first = graph.gradient(lagrangian, &[]);
-    let mut forces = first.iter().filter(|first| graph.node(first.target).is_position());
-    forces.all(|first| !graph.has_velocity(first.value.node))
-}
-
-/// Whether ∂L/∂v = 0 where v = 0.
-fn momentum_vanishes_at_rest(graph: &mut Graph, lagrangian: Expr) -> bool {
-    let mut first = graph.gradient(lagrangian, &[]);
-    first.retain(|first| graph.node(first.target).is_velocity());
-    first.into_iter().all(|first| graph.at_rest(first.value).is_zero())
+    let (forces, momenta): (Vec<_>, Vec<_>) =
+        first.into_iter().partition(|first| graph.node(first.target).is_position());
+    forces.iter().all(|force| !graph.has_velocity(force.value.node))
+        && momenta.into_iter().all(|momentum| graph.at_rest(momentum.value).is_zero())
 }
 
 /// The blocks whose velocities stand in L.

@@ -1,7 +1,8 @@
 //! What expressions are made of: functions that a `let` of a formula names, names that a pattern gives,
 //! places in arrays, and values of blocks.
 
-use syn::{Block, Expr, ExprClosure, ExprLit, Ident, Lit, Member, Pat, Stmt};
+use syn::punctuated::Punctuated;
+use syn::{Block, Expr, ExprArray, ExprClosure, ExprLit, ExprTuple, Ident, Lit, Member, Pat, Stmt, Token};
 
 /// `|a, b| …`, in parentheses or not.
 pub(crate) fn closure(syntax: &Expr) -> Option<&ExprClosure> {
@@ -49,6 +50,14 @@ pub(crate) fn own_field(syntax: &Expr) -> Option<&Ident> {
     let Expr::Field(field) = syntax else { return None };
     match (&*field.base, &field.member) {
         (Expr::Path(base), Member::Named(name)) if base.path.is_ident("self") => Some(name),
+        _ => None,
+    }
+}
+
+/// `a` and `b` of `[a, b]` and of `(a, b)`.
+pub(crate) fn elements(syntax: &Expr) -> Option<&Punctuated<Expr, Token![,]>> {
+    match syntax {
+        Expr::Array(ExprArray { elems, .. }) | Expr::Tuple(ExprTuple { elems, .. }) => Some(elems),
         _ => None,
     }
 }

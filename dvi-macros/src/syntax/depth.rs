@@ -9,11 +9,11 @@ use proc_macro2::{TokenStream, TokenTree};
 
 const DEEPEST: usize = 200;
 
-/// Tokens between two separators.
-const LONGEST: usize = 100_000;
+/// Tokens between two separators of formulas.
+pub(super) const LONGEST: usize = 100_000;
 
 /// Tokens between two separators where they are in no formula, and between two signs of a sum.
-const LONGEST_TERM: usize = 4096;
+pub(crate) const LONGEST_TERM: usize = 4096;
 
 /// Operators between two separators that bind more loosely than `+`, with the tokens that they are made of.
 const MOST_LOOSE: usize = 1024;
@@ -25,20 +25,12 @@ pub(super) const OPENING: [&str; 20] = [
     "let", "loop", "match", "move", "mut", "raw", "return", "unsafe", "while", "yield",
 ];
 
-/// What holds for formulas.
+/// Whether no more than the `longest` stand between two separators, and none are too deep.
 ///
 /// # Errors
 /// The first token that is too deep or too far behind.
-pub(super) fn check_formulas(tokens: &TokenStream) -> syn::Result<()> {
-    check_inside(tokens, DEEPEST, LONGEST)
-}
-
-/// What holds for other tokens.
-///
-/// # Errors
-/// The first token that is too deep or too far behind.
-pub(crate) fn check_item(tokens: &TokenStream) -> syn::Result<()> {
-    check_inside(tokens, DEEPEST, LONGEST_TERM)
+pub(crate) fn check(tokens: &TokenStream, longest: usize) -> syn::Result<()> {
+    check_inside(tokens, DEEPEST, longest)
 }
 
 fn check_inside(tokens: &TokenStream, room: usize, longest: usize) -> syn::Result<()> {

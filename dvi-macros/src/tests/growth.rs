@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::expand::{degenerate_lagrangian, lagrangian};
+use crate::oracle_tests::random::Random;
 use crate::work::steps_of;
 
 /// A sum, cut into `let`s of 50 terms, each with its kinetic energy beside it.
@@ -37,21 +38,12 @@ fn steps(expand: fn(TokenStream, TokenStream) -> TokenStream, attribute: &str) -
     })
 }
 
-/// Numbers without a pattern (Park & Miller 1988).
-fn random() -> impl FnMut(u64) -> u64 {
-    let mut state = 20_u64;
-    move |below| {
-        state = state * 48_271 % 2_147_483_647;
-        state % below
-    }
-}
-
 /// Σ a xⁱyʲ
 fn monomials(count: usize) -> u64 {
-    let mut random = random();
+    let mut random = Random::new(20);
     let terms = (0..count).map(|_| {
-        let (a, i, j) = (1 + random(999_999), random(71), random(71));
-        format!("{}e-6 * x.powi({i}) * y.powi({j})", a)
+        let (a, i, j) = (1 + random.below(999_999), random.below(71), random.below(71));
+        format!("{a}e-6 * x.powi({i}) * y.powi({j})")
     });
     system(&["x".to_string(), "y".to_string()], &terms.collect::<Vec<_>>())
 }
@@ -65,11 +57,12 @@ fn chain(count: usize) -> u64 {
 
 /// Charges on a line, each two of them with a term of their own.
 fn pairs(count: usize) -> u64 {
-    let mut random = random();
+    let mut random = Random::new(20);
     let bodies = (2.0 * count as f64).sqrt().ceil() as usize;
     let names: Vec<String> = (0..bodies).map(|number| format!("x{number}")).collect();
     let pairs = (0..bodies).flat_map(|j| (0..j).map(move |k| (j, k))).take(count);
-    let terms = pairs.map(|(j, k)| format!("{}e-3 / (1.0 + (x{j} - x{k}).powi(2)).sqrt()", 1 + random(999)));
+    let terms =
+        pairs.map(|(j, k)| format!("{}e-3 / (1.0 + (x{j} - x{k}).powi(2)).sqrt()", 1 + random.below(999)));
     system(&names, &terms.collect::<Vec<_>>())
 }
 

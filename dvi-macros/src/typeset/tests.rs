@@ -1,6 +1,7 @@
 //! What is read in the LaTeX of random formulas is what was written.
 
 use super::Typesetter;
+use crate::oracle_tests::random::Random;
 
 /// A formula in three variables.
 enum Tree {
@@ -55,22 +56,16 @@ impl Number {
     }
 }
 
-/// Numbers without a pattern, from 0 to below `end` (Knuth's generator).
-fn draw(seed: &mut u64, end: u64) -> u64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 33) % end
-}
-
 impl Tree {
-    fn random(seed: &mut u64, depth: u32) -> Self {
-        let part = |seed: &mut u64| Box::new(Self::random(seed, depth - 1));
-        match if depth == 0 { draw(seed, 2) } else { draw(seed, 9) } {
-            0 => Self::Variable(draw(seed, 3) as usize),
-            1 => Self::Number(draw(seed, 5) + 1),
-            2 => Self::Negative(part(seed)),
-            3 => Self::Power(part(seed), draw(seed, 3) + 1),
-            4 => Self::Sine(part(seed)),
-            _ => Self::Binary(['+', '-', '*', '/'][draw(seed, 4) as usize], [part(seed), part(seed)]),
+    fn random(random: &mut Random, depth: u32) -> Self {
+        let part = |random: &mut Random| Box::new(Self::random(random, depth - 1));
+        match random.below(if depth == 0 { 2 } else { 9 }) {
+            0 => Self::Variable(random.below(3)),
+            1 => Self::Number(random.below(5) as u64 + 1),
+            2 => Self::Negative(part(random)),
+            3 => Self::Power(part(random), random.below(3) as u64 + 1),
+            4 => Self::Sine(part(random)),
+            _ => Self::Binary(*random.pick(&['+', '-', '*', '/']), [part(random), part(random)]),
         }
     }
 
@@ -176,9 +171,9 @@ impl Reader<'_> {
 #[test]
 fn what_is_read_is_what_was_written() {
     let at = [123_457, 765_433, 31_337].map(Number);
-    let mut seed = 2002;
+    let mut random = Random::new(2002);
     for _ in 0..10_000 {
-        let tree = Tree::random(&mut seed, 5);
+        let tree = Tree::random(&mut random, 5);
         let written = tree.written();
         let formula = syn::parse_str(&written).expect("a formula");
         let mut typesetter = Typesetter::default();

@@ -4,7 +4,10 @@ use std::collections::HashMap;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
-use syn::{BinOp, Expr, FnArg, ImplItem, ItemImpl, Lit, Pat, RangeLimits, Stmt, UnOp};
+use syn::{
+    BinOp, Expr, ExprArray, ExprGroup, ExprParen, ExprReference, ExprTuple, FnArg, ImplItem, ItemImpl, Lit,
+    Pat, PatSlice, PatTuple, RangeLimits, Stmt, UnOp,
+};
 
 use super::code::{Code, Function, Pattern};
 use super::functions::{Callee, callee};
@@ -166,11 +169,8 @@ impl Parser {
             }
             Pat::Wild(_) => Pattern::Ignored,
             Pat::Type(typed) => self.pattern(&typed.pat),
-            Pat::Tuple(tuple) => {
-                Pattern::Tuple(tuple.elems.iter().map(|element| self.pattern(element)).collect())
-            }
-            Pat::Slice(slice) => {
-                Pattern::Tuple(slice.elems.iter().map(|element| self.pattern(element)).collect())
+            Pat::Tuple(PatTuple { elems, .. }) | Pat::Slice(PatSlice { elems, .. }) => {
+                Pattern::Tuple(elems.iter().map(|element| self.pattern(element)).collect())
             }
             other => unknown("pattern", other),
         }
@@ -206,9 +206,9 @@ impl Parser {
 
     fn expr(&mut self, expr: &Expr) -> Code {
         match expr {
-            Expr::Paren(inner) => self.expr(&inner.expr),
-            Expr::Group(inner) => self.expr(&inner.expr),
-            Expr::Reference(inner) => self.expr(&inner.expr),
+            Expr::Paren(ExprParen { expr, .. })
+            | Expr::Group(ExprGroup { expr, .. })
+            | Expr::Reference(ExprReference { expr, .. }) => self.expr(expr),
             Expr::Block(block) => self.block(&block.block),
             Expr::Lit(literal) => Code::Value(literal_value(&literal.lit)),
             Expr::Path(path) => self.path(path),
@@ -243,11 +243,8 @@ impl Parser {
             Expr::Closure(closure) if closure.inputs.is_empty() => self.expr(&closure.body),
             Expr::Cast(cast) => Code::Cast(self.boxed(&cast.expr), kind(&cast.ty)),
             Expr::Tuple(tuple) if tuple.elems.is_empty() => Code::Value(Value::Unit),
-            Expr::Array(array) => {
-                Code::Tuple(array.elems.iter().map(|element| self.expr(element)).collect())
-            }
-            Expr::Tuple(tuple) => {
-                Code::Tuple(tuple.elems.iter().map(|element| self.expr(element)).collect())
+            Expr::Array(ExprArray { elems, .. }) | Expr::Tuple(ExprTuple { elems, .. }) => {
+                Code::Tuple(elems.iter().map(|element| self.expr(element)).collect())
             }
             Expr::If(choice) => {
                 let (condition, then) = (self.boxed(&choice.cond), self.block(&choice.then_branch));

@@ -79,6 +79,12 @@ impl Plane {
         Self { graph, x, y }
     }
 
+    /// x² + y²
+    fn square(&mut self) -> Expr {
+        let squares = [self.x, self.y].map(|of| self.graph.power(of.into(), 2));
+        self.graph.sum(&squares)
+    }
+
     fn at(&self, of: Expr, x: f64, y: f64) -> f64 {
         evaluate(&self.graph, of, [x, y])
     }
@@ -170,10 +176,8 @@ fn powers_of_a_distance_at_the_origin() {
     for power in [2_u32, 3, 5] {
         for way in 0..3 {
             let mut plane = Plane::new();
-            let (x, y) = (Expr::from(plane.x), Expr::from(plane.y));
+            let (square, x, y) = (plane.square(), plane.x.into(), plane.y.into());
             let graph = &mut plane.graph;
-            let squares = [graph.power(x, 2), graph.power(y, 2)];
-            let square = graph.sum(&squares);
             let f = match way {
                 0 => graph.binary(Binary::Powf, square, Expr::number(f64::from(power) / 2.0)),
                 1 => {
@@ -219,10 +223,8 @@ fn powers_of_a_distance_at_the_origin() {
 fn what_has_no_derivative_has_no_number() {
     for way in 0..2 {
         let mut plane = Plane::new();
-        let (x, y) = (Expr::from(plane.x), Expr::from(plane.y));
+        let (square, x, y) = (plane.square(), plane.x.into(), plane.y.into());
         let graph = &mut plane.graph;
-        let squares = [graph.power(x, 2), graph.power(y, 2)];
-        let square = graph.sum(&squares);
         let r = if way == 0 { graph.unary(Unary::Sqrt, square) } else { graph.binary(Binary::Hypot, x, y) };
         let stretched = graph.multiply(x, r);
         let found = plane.expanded(r, 0.0, 0.0);
