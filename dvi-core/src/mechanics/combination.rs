@@ -8,6 +8,7 @@
 use core::ops::Range;
 
 use crate::error::StepFailure;
+use crate::scalar::passes::blocks;
 use crate::scalar::{Lanes, norm};
 use crate::solve::sizes;
 use crate::space::linear::{power_below, set_scales};
@@ -105,12 +106,9 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     }
 }
 
-/// How many coordinates a block has: eight vectors of so many numbers are half of a first cache of 32 KiB.
-const BLOCK: usize = 256;
-
 /// Sets `x`, which begins with coordinate `first`, to the products of the reciprocals with the entries of
 /// the conjugates.
-#[inline]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn divide<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
     reciprocals: &[T],
@@ -137,7 +135,7 @@ fn divide<S: DegenerateLagrangian<T>, T: Real>(
 
 impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
     /// Gives the solution x, as of [`solve`](Self::solve), to `take`, block by block.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve_in_blocks(
         &self,
         system: &S,
@@ -149,9 +147,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
             self.solve(system, rhs, x);
             return take(0..x.len(), x);
         }
-        let n = x.len();
-        for start in (0..n).step_by(BLOCK) {
-            let block = start..n.min(start + BLOCK);
+        for block in blocks(x.len()) {
             let x = &mut x[..block.len()];
             divide(system, &self.scales, rhs, (block.start, x));
             take(block, x);

@@ -246,7 +246,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         S::Kind::gather(&mut path.equations, q, &mut path.y);
         path.guess(guess, h);
         // Where equations are of second order, this sets the positions that are guessed.
-        path.place(h);
+        path.place(system, h);
         let convergence = Convergence::fixed_point(stopping, budget);
         // Corrections are those of h times a velocity, or of positions: the momenta follow from these.
         iterate(
@@ -263,7 +263,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
                     }
                     path.evaluate_part::<E>(part, system, [t, h], statistics)?;
                 }
-                if let Some(change) = path.place(h) {
+                if let Some(change) = path.place(system, h) {
                     return Ok(change);
                 }
                 path.reach(1 % path.y.len());

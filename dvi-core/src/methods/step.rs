@@ -18,10 +18,10 @@ use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
 use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
 use crate::scalar::norm;
-use crate::scalar::passes::add;
+use crate::scalar::passes::{add, blocks};
 use crate::scalar::simd::widest_if;
 use crate::solve::{Convergence, Guess, Ladder, Linearize, Stopping};
-use crate::solve::{solve_by_fixed_point, solve_by_newton};
+use crate::solve::{sizes, solve_by_fixed_point, solve_by_newton};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -173,7 +173,7 @@ fn iterate_by_mass<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E:
         (!is_explicit).then_some(criterion),
         statistics,
         #[cfg_attr(not(debug_assertions), inline(always))]
-        |delta, change, statistics| {
+        |[delta, change], weights, statistics| {
             if PLAIN {
                 impulse.copy_from_slice(&begin.phase.p);
                 equations.evaluate(begin, delta, Share::Left, (coefficients, node), impulse, statistics)?;
@@ -182,16 +182,30 @@ fn iterate_by_mass<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E:
                 equations.evaluate(begin, delta, Share::Left, (coefficients, node), sum, statistics)?;
                 begin.phase.kick(sum, impulse);
             }
-            begin.mass.solve(impulse, change);
-            let Kinetic { mixed, left, per_stiffness, .. } = equations.kinetic(coefficients);
-            for ((v, delta), &q) in change.iter_mut().zip(delta.iter_mut()).zip(begin.q) {
-                let displacement = h * *v;
-                let missing =
-                    if S::SEPARABLE { displacement + left * q - mixed * *delta } else { displacement };
-                *v = missing * per_stiffness;
-                *delta += *v;
+            let reciprocals = begin.mass.reciprocals();
+            if reciprocals.is_none() {
+                begin.mass.solve_in_place(impulse);
             }
-            Ok(())
+            let Kinetic { mixed, left, per_stiffness, .. } = equations.kinetic(coefficients);
+            let mut largest = T::lift(0.0);
+            for block in blocks(delta.len()) {
+                let (change, delta) = (&mut change[..block.len()], &mut delta[block.clone()]);
+                let (impulse, q) = (&impulse[block.clone()], &begin.q[block.clone()]);
+                let reciprocals = reciprocals.map(|reciprocals| &reciprocals[block.clone()]);
+                for i in 0..change.len() {
+                    let velocity = reciprocals.map_or(impulse[i], |reciprocals| impulse[i] * reciprocals[i]);
+                    let mut missing = h * velocity;
+                    if S::SEPARABLE && E::FITTED {
+                        missing += left * q[i];
+                    }
+                    if S::SEPARABLE {
+                        missing -= mixed * delta[i];
+                    }
+                    change[i] = missing * per_stiffness;
+                }
+                largest = norm::larger(largest, sizes::add(&weights[block], delta, change));
+            }
+            Ok(largest)
         },
     )
 }

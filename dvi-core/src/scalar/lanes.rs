@@ -6,7 +6,7 @@
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use crate::scalar::Comparison;
+use crate::scalar::{Comparison, norm};
 use crate::{Real, Scalar};
 
 /// A pack of `W` numbers, the lanes, on which formulas are evaluated at once.
@@ -43,21 +43,30 @@ impl<const W: usize, T: Real> Lanes<W, T> {
         Self([value; W])
     }
 
-    // Loops, and no closures in functions of the library: these are not always inlined.
+    /// The larger number in each lane, as [`norm::larger`].
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn each(mut self, f: impl Fn(T) -> T) -> Self {
+    pub(crate) fn larger(self, other: Self) -> Self {
+        self.with(other, norm::larger)
+    }
+
+    // Loops, and no closures in functions of the library: these are not always inlined. Over the numbers, as
+    // what stands behind fewer than eight would be copied with a pack.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn each(self, f: impl Fn(T) -> T) -> Self {
+        let Self(mut numbers) = self;
         for lane in 0..W {
-            self.0[lane] = f(self.0[lane]);
+            numbers[lane] = f(numbers[lane]);
         }
-        self
+        Self(numbers)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn with(mut self, other: Self, f: impl Fn(T, T) -> T) -> Self {
+    fn with(self, Self(others): Self, f: impl Fn(T, T) -> T) -> Self {
+        let Self(mut numbers) = self;
         for lane in 0..W {
-            self.0[lane] = f(self.0[lane], other.0[lane]);
+            numbers[lane] = f(numbers[lane], others[lane]);
         }
-        self
+        Self(numbers)
     }
 }
 

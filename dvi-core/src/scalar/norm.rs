@@ -36,9 +36,12 @@ fn fold<T: Real>(x: &[T], start: T, value: impl Fn(T) -> T, join: impl Fn(T, T) 
     partial.into_iter().fold(one_by_one(rest), join)
 }
 
-/// The same of a few entries that are numbers; if one is not, some number or none.
+/// The same of entries that are numbers; if one is not, some number or none.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest_number<T: Real>(x: &[T]) -> T {
+    if x.len() >= MANY {
+        return largest(x);
+    }
     let mut sizes = x.iter().map(|&x| Scalar::abs(x));
     let first = sizes.next().unwrap_or(T::lift(0.0));
     sizes.fold(first, larger)

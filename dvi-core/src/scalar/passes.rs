@@ -1,5 +1,6 @@
 //! Passes over vectors.
 
+use core::ops::Range;
 use core::sync::atomic::{Ordering, compiler_fence};
 
 use crate::scalar::pack::Pack;
@@ -15,6 +16,16 @@ pub(crate) fn lanes_stay_together<T: Scalar>() {
     }
 }
 
+/// How many coordinates a block has: eight vectors of so many numbers are half of a first cache of 32 KiB.
+const BLOCK: usize = 256;
+
+/// The blocks of `n` coordinates, for what passes over them several times: what they are read for stays in
+/// the first cache meanwhile.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn blocks(n: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..n).step_by(BLOCK).map(move |start| start..n.min(start + BLOCK))
+}
+
 /// Sets `sum` to x + Δ.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn add<T: Real>(x: &[T], delta: &[T], sum: &mut [T]) {
@@ -24,6 +35,7 @@ pub(crate) fn add<T: Real>(x: &[T], delta: &[T], sum: &mut [T]) {
 }
 
 /// A kick of the momentum, p ← p + a F, or a drift of the point, q ← q + a v.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn kick<T: Real>(p: &mut [T], a: T, force: &[T]) {
     for (p, &force) in p.iter_mut().zip(force) {
         *p += a * force;

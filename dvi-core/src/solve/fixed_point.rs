@@ -1,6 +1,6 @@
 //! A fixed point for the increment of a step.
 
-use super::{Convergence, Due, Iteration, Stopping, repeat, sizes};
+use super::{Convergence, Due, Iteration, Stopping, repeat};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::state::Statistics;
@@ -17,8 +17,8 @@ struct FixedPoint<'a, S, T, F> {
 }
 
 /// Corrects the increment `delta` of `q0` until corrections count no longer, in up to so many iterations;
-/// without a criterion once, from zero. `correct` adds a correction, and sets the other vector to it; what
-/// comes with `delta` is storage for it, and for weights.
+/// without a criterion once, from zero. `correct` adds a correction, and returns its size by the weights that
+/// it is given; what comes with `delta` is storage for the correction, and for the weights.
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], [`StepFailure::NotFinite`], or that of a correction.
@@ -28,14 +28,14 @@ pub(crate) fn solve_by_fixed_point<S: System, T: Real>(
     [delta, change, weights]: [&mut [T]; 3],
     criterion: Option<(Stopping, usize)>,
     statistics: &mut Statistics,
-    mut correct: impl FnMut(&mut [T], &mut [T], &mut Statistics) -> Result<(), StepFailure>,
+    mut correct: impl FnMut([&mut [T]; 2], &[T], &mut Statistics) -> Result<T, StepFailure>,
 ) -> Result<(), StepFailure> {
     if let Some((stopping, budget)) = criterion {
         let iteration = FixedPoint { system, q0, delta: &mut *delta, change, weights, correct };
         repeat(Convergence::fixed_point(stopping, budget), statistics, iteration)?;
     } else {
         delta.fill(T::lift(0.0));
-        correct(delta, change, statistics)?;
+        correct([delta, change], weights, statistics)?;
     }
     norm::finite(delta)
 }
@@ -44,7 +44,7 @@ impl<S, T, F> Iteration<T> for FixedPoint<'_, S, T, F>
 where
     S: System,
     T: Real,
-    F: FnMut(&mut [T], &mut [T], &mut Statistics) -> Result<(), StepFailure>,
+    F: FnMut([&mut [T]; 2], &[T], &mut Statistics) -> Result<T, StepFailure>,
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare(&mut self, due: &mut Due) {
@@ -53,7 +53,6 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn improve(&mut self, _due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure> {
-        (self.correct)(self.delta, self.change, statistics)?;
-        Ok(sizes::largest(self.weights, self.change))
+        (self.correct)([self.delta, self.change], self.weights, statistics)
     }
 }

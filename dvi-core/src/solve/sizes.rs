@@ -69,12 +69,13 @@ fn set_weights<S: System, T: Real>(
     size: impl Fn(usize, T) -> T,
 ) {
     for block in blocks(system) {
-        // Of what is no number the end of a step takes care. A zero to begin with would be compared too.
-        let Some(last) = block.clone().next_back() else { continue };
-        let others = block.start..last;
-        let largest =
-            others.fold(size(last, weights[last]), |largest, k| larger(largest, size(k, weights[k])));
-        weights[block].fill(unit * weight_of(largest));
+        let weights = &mut weights[block.clone()];
+        for (weight, k) in weights.iter_mut().zip(block) {
+            *weight = size(k, *weight);
+        }
+        // Of what is no number the end of a step takes care.
+        let largest = largest_number(weights);
+        weights.fill(unit * weight_of(largest));
     }
 }
 
@@ -91,6 +92,7 @@ impl Due {
         q: &[T],
         delta: &mut [T],
     ) -> bool {
+        let q = &q[..delta.len()];
         let size = |k: usize, &delta: &T| Scalar::abs(q[k]) + Scalar::abs(delta);
         self.carry_out(system, (weights, T::lift(1.0)), size, delta)
     }
@@ -183,7 +185,7 @@ impl Due {
         if *self != Self::Sizes {
             return *self != Self::Nothing && self.test(system, (weights, unit), size, x);
         }
-        set_weights(system, (weights, unit), |k, _| size(k, &x[k]));
+        set_weights(system, (&mut weights[..x.len()], unit), |k, _| size(k, &x[k]));
         *self = Self::Nothing;
         false
     }
@@ -293,24 +295,40 @@ pub(crate) fn size_of<S: System, T: Real>(system: &S, weights: &[T], change: &[T
 /// not count.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn renew<T: Real>(weights: &[T], x: &mut [T], new: &[T]) -> T {
-    let one_by_one = |weights: &[T], x: &mut [T], new: &[T]| {
-        x.iter_mut().zip(new).zip(weights).fold(T::lift(0.0), |largest, ((x, &new), &weight)| {
-            let size = Scalar::abs(new - *x) * weight;
-            *x = new;
-            larger(largest, size)
+    improve(weights, x, new, |x, new| new - core::mem::replace(x, new))
+}
+
+/// Adds `change` to the unknown `x`, and returns the size of the largest; as [`renew`].
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn add<T: Real>(weights: &[T], x: &mut [T], change: &[T]) -> T {
+    improve(weights, x, change, |x, change| {
+        *x += change;
+        change
+    })
+}
+
+/// Improves each unknown by a number, and returns the size of the largest change: eight that do not wait for
+/// one another if there are many.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn improve<T: Real>(weights: &[T], x: &mut [T], by: &[T], one: impl Fn(&mut T, T) -> T) -> T {
+    let one_by_one = |weights: &[T], x: &mut [T], by: &[T]| {
+        x.iter_mut().zip(by).zip(weights).fold(T::lift(0.0), |largest, ((x, &by), &weight)| {
+            larger(largest, Scalar::abs(one(x, by)) * weight)
         })
     };
     if x.len() < MANY {
-        return one_by_one(weights, x, new);
+        return one_by_one(weights, x, by);
     }
-    let ((chunks, rest), (new_chunks, new_rest)) = (x.as_chunks_mut::<8>(), new.as_chunks::<8>());
+    let ((chunks, rest), (by_chunks, by_rest)) = (x.as_chunks_mut::<8>(), by.as_chunks::<8>());
     let (weight_chunks, weight_rest) = weights.as_chunks::<8>();
     let mut partial = [T::lift(0.0); 8];
-    for ((chunk, new), weights) in chunks.iter_mut().zip(new_chunks).zip(weight_chunks) {
+    for ((chunk, by), weights) in chunks.iter_mut().zip(by_chunks).zip(weight_chunks) {
+        // What is read before anything is written is read at once.
+        let (mut x, by, weights) = (*chunk, *by, *weights);
         for (lane, partial) in partial.iter_mut().enumerate() {
-            *partial = larger(*partial, Scalar::abs(new[lane] - chunk[lane]) * weights[lane]);
-            chunk[lane] = new[lane];
+            *partial = larger(*partial, Scalar::abs(one(&mut x[lane], by[lane])) * weights[lane]);
         }
+        *chunk = x;
     }
-    partial.into_iter().fold(one_by_one(weight_rest, rest, new_rest), larger)
+    partial.into_iter().fold(one_by_one(weight_rest, rest, by_rest), larger)
 }

@@ -110,11 +110,11 @@ impl<E: Clone + Debug, const FEW: usize> Store<E> for FewOrHeap<E, FEW> {
     }
     #[inline]
     fn entries(&self, count: usize) -> &[E] {
-        if count <= FEW { &self.few[..count] } else { &self.heap }
+        if count <= FEW { &self.few[..count] } else { &self.heap[..count] }
     }
     #[inline]
     fn entries_mut(&mut self, count: usize) -> &mut [E] {
-        if count <= FEW { &mut self.few[..count] } else { &mut self.heap }
+        if count <= FEW { &mut self.few[..count] } else { &mut self.heap[..count] }
     }
 }
 

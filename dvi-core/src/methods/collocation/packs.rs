@@ -3,8 +3,10 @@
 //! Σⱼ aⱼ xⱼ, where a number x of each stage has a lane, is a sum of columns aⱼ. It is taken of several
 //! numbers at once, so that each column is read once for all of them while their sums stay in registers.
 
+use crate::scalar::passes::lanes_stay_together;
 use crate::scalar::{Lanes, norm};
-use crate::{Real, Scalar};
+use crate::solve::sizes;
+use crate::{Real, Scalar, System};
 
 /// How many numbers of a point are combined at once.
 const BLOCK: usize = 4;
@@ -71,8 +73,9 @@ impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
     /// change of one. For coordinate k, `from`(k) is q and what is added to the sum; changes are in units of
     /// `weights`. `renewed` is storage.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(in crate::methods) fn place(
+    pub(in crate::methods) fn place<S: System>(
         &self,
+        system: &S,
         count: usize,
         displacements: &[Lanes<STAGES, T>],
         from: impl Fn(usize) -> (T, Lanes<STAGES, T>),
@@ -80,26 +83,32 @@ impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
         [places, renewed]: [&mut [Lanes<STAGES, T>]; 2],
     ) -> T {
         combine(&self.nu[..count], displacements, from, renewed);
-        replace(weights, places, renewed)
+        replace(system, weights, places, renewed)
     }
 }
 
-/// Sets packs to new ones, and returns the largest change of a number in units of `weights`.
+/// Sets packs to new ones, and returns the largest change of a number in units of `weights`, which are those
+/// of blocks.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(in crate::methods) fn replace<const STAGES: usize, T: Real>(
+pub(in crate::methods) fn replace<const STAGES: usize, S: System, T: Real>(
+    system: &S,
     weights: &[T],
     packs: &mut [Lanes<STAGES, T>],
     new: &[Lanes<STAGES, T>],
 ) -> T {
-    let mut changes = [T::lift(0.0); STAGES];
-    for ((pack, &new), &weight) in packs.iter_mut().zip(new).zip(weights) {
-        for stage in 0..STAGES {
-            let change = Scalar::abs(new.0[stage] - pack.0[stage]) * weight;
-            changes[stage] = norm::larger(changes[stage], change);
+    let none = Lanes::all(T::lift(0.0));
+    let mut largest = none;
+    for block in sizes::blocks(system) {
+        let Some(&weight) = weights.get(block.start) else { continue };
+        let mut changes = none;
+        for (pack, new) in packs[block.clone()].iter_mut().zip(&new[block]) {
+            lanes_stay_together::<Lanes<STAGES, T>>();
+            changes = changes.larger(Scalar::abs(*new - *pack));
+            pack.0 = new.0;
         }
-        *pack = new;
+        largest = largest.larger(changes * Lanes::all(weight));
     }
-    largest_of(changes)
+    largest_of(largest.0)
 }
 
 /// The sum over stages.

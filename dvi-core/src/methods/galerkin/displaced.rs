@@ -17,7 +17,7 @@ use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
 use crate::methods::step::Begin;
 use crate::scalar::norm;
-use crate::solve::{CoupledEquations, Stopping, solve_by_fixed_point};
+use crate::solve::{CoupledEquations, Stopping, sizes, solve_by_fixed_point};
 use crate::space::{NodeSum, Sink, scratch};
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Scalar, System, Vector, Weights};
@@ -91,7 +91,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
             [&mut *delta, change, weights],
             Some(limits),
             statistics,
-            |delta, change, statistics| {
+            |[delta, change], weights, statistics| {
                 self.unknowns[last].copy_from_slice(delta);
                 self.evaluate(residuals, statistics)?;
                 residuals[1..].iter_mut().for_each(|residual| mass.solve_in_place(residual));
@@ -104,7 +104,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
                     }
                 }
                 delta.copy_from_slice(&self.unknowns[last]);
-                Ok(())
+                Ok(sizes::size_of(system, weights, change))
             },
         )?;
         self.evaluate(residuals, statistics)

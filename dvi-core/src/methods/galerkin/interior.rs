@@ -248,7 +248,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
     /// coordinates.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, at: &Begin<'_, S, T>) -> T {
-        let Begin { interval: Interval { h, .. }, q, phase, mass, .. } = *at;
+        let Begin { system, interval: Interval { h, .. }, q, phase, mass } = *at;
         let Self { nystrom, terms, displacements, places, renewed, drift, kick, work, sizes, .. } = self;
         if let Some(reciprocals) = mass.reciprocals() {
             weigh(|k| Lanes::all(h * reciprocals[k]), terms, displacements);
@@ -262,6 +262,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
         }
         let nodes = nystrom.nodes;
         nystrom.place(
+            system,
             Self::COUNT,
             displacements,
             #[cfg_attr(not(debug_assertions), inline(always))]

@@ -167,7 +167,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         }
         E::evaluate_part(equations, &at, work, renewed, statistics)?;
         weigh(|_| weights, renewed, &mut terms[0]);
-        Ok(replace(units, &mut velocity[0], renewed))
+        Ok(replace(system, units, &mut velocity[0], renewed))
     }
 
     /// Does what is `due` before an iteration from `q`.

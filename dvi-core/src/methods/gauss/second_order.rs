@@ -18,7 +18,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the
     /// equations are not of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn place(&mut self, h: T) -> Option<T> {
+    pub(super) fn place(&mut self, system: &S, h: T) -> Option<T> {
         let Self { equations, coefficients, terms, stages, y, rest, weights, .. } = self;
         let reciprocals = S::Kind::reciprocal_masses(equations)?;
         let ([displacements, momenta], [places, renewed]) = (&mut terms[..], &mut stages[..]) else {
@@ -32,7 +32,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             let small = Lanes::all(rest[0][k]) + nodes * Lanes::all(by * rest[1][k]);
             (y[0][k], small + nodes * Lanes::all(by * y[1][k]))
         };
-        Some(nystrom.place(STAGES, displacements, from, weights, [places, renewed]))
+        Some(nystrom.place(system, STAGES, displacements, from, weights, [places, renewed]))
     }
 
     /// Sets the increment of the coordinates, if the equations are of second order.

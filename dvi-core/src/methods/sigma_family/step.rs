@@ -19,7 +19,7 @@ use crate::discrete::{Departing, DiscreteLagrangian, Span};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::scalar::passes::add;
-use crate::solve::{Convergence, Guess, solve_by_fixed_point, solve_by_newton};
+use crate::solve::{Convergence, Guess, sizes, solve_by_fixed_point, solve_by_newton};
 use crate::space::scratch;
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -92,16 +92,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         inverse.prepare(system, &l_d.work.point, step.node_time(), matrix, trial, statistics)?;
         let criterion = (!is_linear).then_some((step.method.stopping, *budget));
         let storage = [&mut increment[..], trial, weights];
-        solve_by_fixed_point((system, q), storage, criterion, statistics, |delta, change, statistics| {
+        let correct = |[delta, change]: [&mut [T]; 2], weights: &[T], statistics: &mut Statistics| {
             add(defect, one_form, residual);
             let span = Span { system, interval: step.interval(), q0: q, delta };
             l_d.derivatives(span, residual, sum, statistics)?;
             inverse.solve(system, residual, change);
-            for (delta, &change) in delta.iter_mut().zip(change.iter()) {
-                *delta += change;
-            }
-            Ok(())
-        })
+            Ok(sizes::add(weights, delta, change))
+        };
+        solve_by_fixed_point((system, q), storage, criterion, statistics, correct)
     }
 
     /// Newton on Δ.

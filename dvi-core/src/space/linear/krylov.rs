@@ -89,7 +89,6 @@ impl<T: Real> LinearSolver<T> for Krylov<T> {
             let [correction, tolerance] = [left, target].map(reported);
             return Err(StepFailure::NotConverged { iterations: products, correction, tolerance });
         }
-        scale(x, &self.scales);
         Ok(())
     }
 }
@@ -228,8 +227,8 @@ impl<T: Real> Krylov<T> {
         Ok(())
     }
 
-    /// Sets the direction to M⁻¹ of the vector that begins at `begin` in the basis, with the preconditioner
-    /// M, and the product to A times that.
+    /// Sets the direction to S M⁻¹ of the vector that begins at `begin` in the basis, with the preconditioner
+    /// M and the scales S, and the product to S A times that.
     fn multiply(
         &mut self,
         equations: &mut impl LinearEquations<T>,
@@ -237,13 +236,13 @@ impl<T: Real> Krylov<T> {
     ) -> Result<(), StepFailure> {
         let Self { basis, pivots, unused, work: [direction, product], scales, .. } = self;
         for (&(column, reciprocal), &v) in pivots.iter().zip(&basis[begin..]) {
-            direction[column] = reciprocal * v;
+            direction[column] = scales[column] * (reciprocal * v);
         }
         product.fill(T::lift(0.0));
-        let mut add = |row: usize, column: usize, entry: T| {
-            product[row] += scales[row] * scales[column] * entry * direction[column];
-        };
-        equations.evaluate(unused, &mut add)
+        let mut add = |row: usize, column: usize, entry: T| product[row] += entry * direction[column];
+        equations.evaluate(unused, &mut add)?;
+        scale(product, scales);
+        Ok(())
     }
 }
 

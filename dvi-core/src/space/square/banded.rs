@@ -60,6 +60,7 @@ impl<T: Scalar> Banded<T> {
 }
 
 impl<T: Real> Sink<T> for Banded<T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         let (i, j) = (self.place[row] as usize, self.place[column] as usize);
         if i.abs_diff(j) > self.bandwidth {

@@ -43,6 +43,7 @@ impl<T: Scalar> RunTimeSquare<T> {
 }
 
 impl<T: Real> Sink<T> for RunTimeSquare<T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         match &mut self.0 {
             Storage::Full(full) => full.matrix.add(row, column, entry),

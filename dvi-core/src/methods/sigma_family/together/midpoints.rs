@@ -129,7 +129,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     fn take_sizes(&mut self) {
         for block in sizes::blocks(self.system) {
             let of = |k: usize| Scalar::abs(self.q[k]) + Scalar::abs(self.increment[k]);
-            let size = block.clone().map(of).fold(Lanes::all(0.0), larger);
+            let size = block.clone().map(of).fold(Lanes::all(0.0), Lanes::larger);
             let weight = Lanes::all(1.0) / (size + Lanes::all(smallest_normal::<f64>()));
             self.weights[block].fill(weight);
         }
@@ -180,16 +180,11 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         for ((j, &reciprocal), (&s, corrected)) in self.reciprocals.iter().enumerate().zip(increments) {
             lanes_stay_together::<Lanes<W>>();
             let trial = self.gradient[self.system.conjugate(j)] * reciprocal;
-            correction = larger(correction, Scalar::abs(trial - s) * self.weights[j]);
+            correction = correction.larger(Scalar::abs(trial - s) * self.weights[j]);
             *corrected = Lanes::choose(active, Comparison::Greater, Lanes::all(0.0), trial, s);
         }
         // In another place, as what is stored with a mask is slow to load.
         core::mem::swap(&mut self.increment, &mut self.corrected);
         correction
     }
-}
-
-/// As [`norm::larger`](crate::scalar::norm::larger).
-fn larger<const W: usize>(a: Lanes<W>, b: Lanes<W>) -> Lanes<W> {
-    Lanes::choose(b, Comparison::Greater, a, b, a)
 }
