@@ -49,7 +49,7 @@ fn discrete_energy_and_momentum_are_conserved_to_rounding() -> Outcome {
             let (mut first, mut lengths, mut worst, mut ratio) =
                 (None, [f64::INFINITY, 0.0_f64], 0.0, 1.0_f64);
             let mut last = h;
-            for _ in 0..1000 {
+            for _ in 0..3000 {
                 let (q0, t) = ([run.q()[0], run.q()[1]], run.time());
                 run.advance()?;
                 let step = run.step_size();

@@ -35,7 +35,7 @@ fn off(system: &Joint, state: &JointState) -> [f64; 2] {
 fn follow<M: Method<Joint, f64>>(system: &Joint, method: M, start: JointState) -> Outcome<[f64; 2]> {
     let mut run = Integrator::new(system, method, 1e-3, start)?;
     let mut most = [0.0; 2];
-    for _ in 0..250 {
+    for _ in 0..1000 {
         run.advance()?;
         let [g, rate] = off(system, &run.state());
         most = [larger(most[0], g), larger(most[1], rate)];
@@ -111,7 +111,7 @@ struct Slide {
 fn slide<M: Method<Slide, f64>>(system: &Slide, method: M, start: SlideState) -> Outcome<[f64; 2]> {
     let mut run = Integrator::new(system, method, 1e-2, start)?;
     let mut most = [0.0; 2];
-    for _ in 0..250 {
+    for _ in 0..1000 {
         run.advance()?;
         let SlideState { x, y, z, dot_x, dot_y, dot_z } = run.state();
         let g = [x + y - z, x - y + 0.1 * y * y].map(f64::abs);

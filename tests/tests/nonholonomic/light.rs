@@ -106,7 +106,7 @@ fn states_off_the_constraints_have_no_multipliers() -> Outcome {
 #[test]
 fn what_is_projected_is_a_start() -> Outcome {
     let mut numbers = Numbers(5);
-    for number in 0..1000 {
+    for number in 0..3000 {
         let m = core::array::from_fn(|_| (20.0 * numbers.next()).exp());
         let a = core::array::from_fn(|_| core::array::from_fn(|_| numbers.next()));
         let b = core::array::from_fn(|_| core::array::from_fn(|_| core::array::from_fn(|_| numbers.next())));
