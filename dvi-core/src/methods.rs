@@ -111,7 +111,7 @@ pub use runge_kutta::RungeKutta;
 pub(crate) use scheme::scheme;
 pub use scheme::{PreservedForm, Scheme};
 pub use sigma_family::{BeginsBetween, ParasiticMode, Sigma, Start};
-pub use suits::{Suits, VariableStep};
+pub use suits::{Suits, SuitsAnyStep, VariableStep};
 pub use tabulated::Tabulated;
 #[cfg(feature = "alloc")]
 pub(crate) use together::Companion;

@@ -127,7 +127,7 @@ impl<S: System, T: Real, M: Carries<S, T>> Carries<S, T> for Composition<M> {
 }
 
 impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composition<M> {
-    type Suited<X> = <M as Method<S, T>>::Suited<X>;
+    type Suited<X> = M::SuitedToAnyStep<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let begin = || self.method.begin(system, q, v, t, h);
@@ -157,7 +157,9 @@ impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> Method<S, T> for Composit
     }
 }
 
-impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Composition<M> {}
+impl<S: Lagrangian<T>, T: Real, M: VariableStep<S, T>> VariableStep<S, T> for Composition<M> {
+    type SuitedToAnyStep<X> = M::SuitedToAnyStep<X>;
+}
 
 #[cfg(test)]
 mod tests {

@@ -190,7 +190,9 @@ where
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M> VariableStep<S, T> for Constrained<M> where
-    IfConstrained<S, M, T>: InnerScheme<S, T>
+impl<S: ConstrainedLagrangian<T>, T: Real, M> VariableStep<S, T> for Constrained<M>
+where
+    IfConstrained<S, M, T>: InnerScheme<S, T>,
 {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }

@@ -142,7 +142,12 @@ where
     }
 }
 
-impl<S: Lagrangian<T>, T: Real, M> VariableStep<S, T> for EnergyLimit<M> where Itself<M>: VariableStep<S, T> {}
+impl<S: Lagrangian<T>, T: Real, M> VariableStep<S, T> for EnergyLimit<M>
+where
+    Itself<M>: VariableStep<S, T>,
+{
+    type SuitedToAnyStep<X> = <M as VariableStep<S, T>>::SuitedToAnyStep<X>;
+}
 
 impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
     type DiscreteLagrangian = M::DiscreteLagrangian;

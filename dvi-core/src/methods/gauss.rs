@@ -224,6 +224,7 @@ where
     S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
     E: StageEvaluation<STAGES, S, T>,
 {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }
 
 impl<const STAGES: usize, E> Gauss<STAGES, E> {

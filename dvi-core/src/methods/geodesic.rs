@@ -168,4 +168,6 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
     }
 }
 
-impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> VariableStep<S, T> for Geodesic<R> {}
+impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> VariableStep<S, T> for Geodesic<R> {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}

@@ -166,7 +166,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
     }
 }
 
-impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStep {}
+impl<S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStep {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}
 
 impl OneStep {
     /// A step from `guess`, of any rule and in any space.

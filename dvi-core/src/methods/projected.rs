@@ -151,4 +151,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
     }
 }
 
-impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Projected {}
+impl<S: DegenerateLagrangian<T>, T: Real> VariableStep<S, T> for Projected {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}

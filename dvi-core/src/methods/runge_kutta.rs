@@ -138,7 +138,9 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> fo
     }
 }
 
-impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S, T> for RungeKutta {}
+impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> VariableStep<S, T> for RungeKutta {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}
 
 /// Sets `out` to y + h Σ wⱼ kⱼ.
 fn combine<S: System<Kind: FirstOrder<S, T>>, T: Real>(

@@ -11,7 +11,7 @@ pub trait Suits<S: Lagrangian<T>, T: Real, M: Carries<S, T>> {
     /// The method as it is.
     fn suited(self) -> M;
     /// The method as it is, as what steps `S`.
-    fn as_method(method: &M) -> &Self::Method;
+    fn steps(method: &M) -> &Self::Method;
 }
 
 impl<S: Lagrangian<T>, T: Real, M, X> Suits<S, T, M> for X
@@ -25,7 +25,7 @@ where
         X::Suited::<X>::same(self)
     }
     #[inline]
-    fn as_method(method: &M) -> &M {
+    fn steps(method: &M) -> &M {
         method
     }
 }
@@ -34,10 +34,47 @@ where
 /// may follow one another.
 #[diagnostic::on_unimplemented(
     message = "the steps of `{Self}` are all of one length",
-    label = "a composition, or a step control, takes steps of different lengths",
+    label = "a composition takes steps of different lengths",
     note = "degenerate systems are stepped in any length by `OneStep`, `Projected`, `Gauss` and \
         `RungeKutta`",
     note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, \
         `Rattle` and `Geodesic`"
 )]
-pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {}
+pub trait VariableStep<S: Lagrangian<T>, T: Real>: Method<S, T> {
+    /// As [`Method::Suited`].
+    type SuitedToAnyStep<M>: Same<M, As = M>;
+}
+
+/// A [`VariableStep`] method for `S` that is `M`, as a method [`Suits`] a system.
+#[diagnostic::on_unimplemented(
+    message = "the steps of `{Self}` are all of one length",
+    label = "a step control takes steps of different lengths",
+    note = "degenerate systems are stepped in any length by `OneStep`, `Projected`, `Gauss` and \
+        `RungeKutta`",
+    note = "regular systems by `Variational`, `Galerkin`, `Gauss` and `RungeKutta`, or by `Constrained`, \
+        `Rattle` and `Geodesic`"
+)]
+pub trait SuitsAnyStep<S: Lagrangian<T>, T: Real, M: Carries<S, T>> {
+    /// As [`Suits::Method`].
+    type Method: VariableStep<S, T, Memory = M::Memory>;
+    /// As [`Suits::suited`].
+    fn suited(self) -> M;
+    /// As [`Suits::steps`].
+    fn steps(method: &M) -> &Self::Method;
+}
+
+impl<S: Lagrangian<T>, T: Real, M, X> SuitsAnyStep<S, T, M> for X
+where
+    X: VariableStep<S, T, SuitedToAnyStep<X>: Same<X, As = M>>,
+    M: VariableStep<S, T>,
+{
+    type Method = M;
+    #[inline]
+    fn suited(self) -> M {
+        X::SuitedToAnyStep::<X>::same(self)
+    }
+    #[inline]
+    fn steps(method: &M) -> &M {
+        method
+    }
+}

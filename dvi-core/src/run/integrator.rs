@@ -14,7 +14,7 @@ use crate::error::StartError;
 use crate::error::StepFailure;
 #[cfg(doc)]
 use crate::methods::Sigma;
-use crate::methods::{BeginsBetween, Carries, Suits, VariableStep};
+use crate::methods::{BeginsBetween, Carries, Suits, SuitsAnyStep};
 use crate::system::StateOf;
 use crate::system::start::{evaluate, flatten};
 use crate::{Held, Lagrangian, Real};
@@ -77,7 +77,7 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
         X: Suits<H::System, T, M>,
     {
         let (method, length) = (method.suited(), OneLength(h));
-        let begun = begun(system.held(), X::as_method(&method), &length, t, &start)?;
+        let begun = begun(system.held(), X::steps(&method), &length, t, &start)?;
         Ok(Self::of(system, method, length, begun))
     }
 
@@ -117,7 +117,7 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
         X: Suits<H::System, T, M>,
     {
         let (method, length) = (method.suited(), OneLength(checkpoint.step_size()));
-        let begun = resumed(system.held(), X::as_method(&method), &length, checkpoint)?;
+        let begun = resumed(system.held(), X::steps(&method), &length, checkpoint)?;
         Ok(Self::of(system, method, length, begun))
     }
 }
@@ -140,7 +140,7 @@ where
         start: StateOf<H, T>,
     ) -> Result<Self, StartError>
     where
-        X: Suits<H::System, T, M> + VariableStep<H::System, T>,
+        X: SuitsAnyStep<H::System, T, M>,
         M: Obeys<Y, H::System, T, C>,
     {
         Self::controlled_at(system, method, control, T::lift(0.0), start)
@@ -158,11 +158,11 @@ where
         start: StateOf<H, T>,
     ) -> Result<Self, StartError>
     where
-        X: Suits<H::System, T, M> + VariableStep<H::System, T>,
+        X: SuitsAnyStep<H::System, T, M>,
         M: Obeys<Y, H::System, T, C>,
     {
         let (method, control) = (method.suited(), M::suited(control));
-        let begun = begun(system.held(), X::as_method(&method), M::lengths(&control), t, &start)?;
+        let begun = begun(system.held(), X::steps(&method), M::lengths(&control), t, &start)?;
         Ok(Self::of(system, method, control, begun))
     }
 
@@ -181,11 +181,11 @@ where
         checkpoint: &Checkpoint<T>,
     ) -> Result<Self, StartError>
     where
-        X: Suits<H::System, T, M> + VariableStep<H::System, T>,
+        X: SuitsAnyStep<H::System, T, M>,
         M: Obeys<Y, H::System, T, C>,
     {
         let (method, control) = (method.suited(), M::suited(control));
-        let begun = resumed(system.held(), X::as_method(&method), M::lengths(&control), checkpoint)?;
+        let begun = resumed(system.held(), X::steps(&method), M::lengths(&control), checkpoint)?;
         Ok(Self::of(system, method, control, begun))
     }
 

@@ -122,6 +122,7 @@ where
     F: FrequencyIn<T>,
     E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }
 
 impl<const NODES: usize, S, T: Real, E> FreeFlight<S, T> for Galerkin<NODES, Unfitted, E>

@@ -132,4 +132,6 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
     }
 }
 
-impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<STAGES> {}
+impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> VariableStep<S, T> for OneStepGauss<STAGES> {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}

@@ -63,7 +63,9 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
     }
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {}
+impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
+    type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
+}
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
     /// Σ wⱼ E(qʲ, Δ/h), the discrete energy with linear interpolation.

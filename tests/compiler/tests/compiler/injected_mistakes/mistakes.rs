@@ -126,7 +126,7 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("lower/components.rs", "self.along(«blocks», formula, Role::Force)", "0..1"),
     mistake(
         "structure/mass.rs",
-        "constant && !formulas.force.iter().any(|part| depends_on_velocity(graph, part))",
+        "constant && !formulas.force.iter().any(|part| graph.has_velocity(part.value.node))",
         "constant",
     ),
     // Constraints: the second rate of the constraints themselves, a rate without the time or with sums that
@@ -135,8 +135,12 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake("program/constraints.rs", "let curvatures = changes(graph, «&rates»);", "constraints"),
     mistake("symbolic/motion.rs", "let mut terms = «vec![self.derivative(of, time)]»;", "Vec::new()"),
     mistake("symbolic/motion.rs", "around.into_iter().skip(«loops.len()»)", "loops.len() + 1"),
-    mistake("symbolic/motion.rs", "Node::Velocity(_) => «continue»,", "value"),
-    mistake("program/constraints.rs", "Place::ConstraintDerivative(row(«number», constraint), column)", "0"),
+    mistake("symbolic/motion.rs", "let velocity = «self.velocity_of(target).into()»;", "target.into()"),
+    mistake(
+        "program/constraints.rs",
+        "Place::ConstraintDerivative(row(«number», constraint), column.clone())",
+        "0",
+    ),
     mistake(
         "program/constraints.rs",
         "constraint: number as u32, member: «constraint.member()»",
