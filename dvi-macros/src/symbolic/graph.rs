@@ -9,7 +9,7 @@ use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
 use super::functions::Unary;
-use super::index::{Atom, Free, Index, Range};
+use super::index::{Free, Index, Range};
 use super::partial::Partial;
 use super::polynomial::Polynomial;
 use super::variables::Variables;
@@ -371,12 +371,6 @@ impl Graph {
         self.intern(Node::Velocity(coordinate))
     }
 
-    /// The value at v = 0.
-    pub(crate) fn at_rest(&mut self, of: Expr) -> Expr {
-        let still = |graph: &mut Self, id| graph.node(id).is_velocity().then_some(Expr::ZERO);
-        self.rebuild(of.node, still).scaled(of.scale)
-    }
-
     /// A function of several variables that stands below `root`.
     pub(crate) fn scalar_field_below(&self, root: Expr) -> Option<u32> {
         self.reachable([root.node]).into_iter().find_map(|id| match self.node(id) {
@@ -393,56 +387,5 @@ impl Graph {
     /// The id that the next new node gets.
     pub(crate) fn next(&self) -> Id {
         Id(self.nodes.len() as u32)
-    }
-
-    /// Rebuilds `root` with some nodes replaced, everything else through the constructors.
-    pub(crate) fn rebuild(&mut self, root: Id, replace: impl FnMut(&mut Self, Id) -> Option<Expr>) -> Expr {
-        self.rebuild_with(root, replace, Range::clone)
-    }
-
-    pub(super) fn rebuild_with(
-        &mut self,
-        root: Id,
-        mut replace: impl FnMut(&mut Self, Id) -> Option<Expr>,
-        range: impl Fn(&Range) -> Range,
-    ) -> Expr {
-        let mut new: HashMap<Id, Expr> = HashMap::default();
-        for id in self.reachable([root]) {
-            let value = match replace(self, id) {
-                Some(value) => value,
-                None => self.rebuilt(id, &new, &range),
-            };
-            new.insert(id, value);
-        }
-        new[&root]
-    }
-
-    fn rebuilt(&mut self, id: Id, new: &HashMap<Id, Expr>, range: &impl Fn(&Range) -> Range) -> Expr {
-        let of = |old: &Expr| new[&old.node].scaled(old.scale);
-        match self.node(id).clone() {
-            Node::Sum(terms) => {
-                let terms: Vec<Expr> = terms.iter().map(of).collect();
-                if self.unsigned_sums.contains(&id) { self.unsigned_sum(&terms) } else { self.sum(&terms) }
-            }
-            Node::Product(factors) => {
-                let powers: Vec<Expr> =
-                    factors.iter().map(|(factor, exponent)| self.power(new[factor], *exponent)).collect();
-                self.product(&powers)
-            }
-            Node::Reciprocal(operand) => self.reciprocal(new[&operand]),
-            Node::Unary(function, operand) => self.unary(function, of(&operand)),
-            Node::Binary(function, a, b) => self.binary(function, of(&a), of(&b)),
-            Node::Call(function, order, operand) => self.call(function, order, of(&operand)),
-            Node::ScalarField(field, partial, at) => {
-                self.scalar_field(field, partial, at.iter().map(of).collect())
-            }
-            Node::Choose { left, relation, right, then, otherwise } => {
-                self.choose(of(&left), relation, of(&right), of(&then), of(&otherwise))
-            }
-            Node::Reduce { fold, height, range: known, body } => {
-                self.fold(fold, Atom::Bound(height), range(&known), of(&body))
-            }
-            Node::One | leaf!() => id.into(),
-        }
     }
 }

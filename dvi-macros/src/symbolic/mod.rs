@@ -19,6 +19,7 @@ mod motion;
 mod partial;
 mod polynomial;
 mod powers;
+mod rebuild;
 mod rules;
 mod simplify;
 #[cfg(test)]
