@@ -74,7 +74,6 @@ impl<T: Real> Pair<T> {
     }
 
     /// The pair at 2u.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn doubled(self, u: T) -> Self {
         let sine = u * self.sinc;
         Self { cosine: T::lift(1.0) - T::lift(2.0) * sine * sine, sinc: self.sinc * self.cosine }
@@ -102,13 +101,11 @@ impl<T: Real> Bases<T> {
     }
 
     /// σ = sin u/u.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn sinc(&self) -> T {
         self.whole.sinc
     }
 
     /// 1/σ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn reciprocal(&self) -> T {
         self.reciprocal
     }
@@ -129,7 +126,6 @@ impl<T: Real> Bases<T> {
     }
 
     /// The coefficients of a node with these pairs.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn basis(&self, c: f64, [left, right]: [Pair<T>; 2]) -> Basis<T> {
         Basis {
             b: T::lift(1.0 - c) * left.sinc * self.reciprocal,

@@ -346,7 +346,6 @@ const RESONANCE: f64 = 1e-4;
 ///
 /// # Errors
 /// [`StepFailure::Resonance`] where there is none, and [`StepFailure::Frequency`].
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn determined<T: Real>(u: T, sinc: T, cosine_sum: T) -> Result<(), StepFailure> {
     let small = T::lift(RESONANCE);
     if Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small {

@@ -16,7 +16,6 @@ pub(super) struct Chebyshev<T> {
 
 impl<T: Scalar> Chebyshev<T> {
     /// Not yet known.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn none() -> Self {
         let zero = T::lift(0.0);
         Self { value: [zero; MOST], slope: [zero; MOST] }

@@ -136,7 +136,6 @@ impl Matrix {
 }
 
 /// Cuts packs into as few parts as are not longer than `most`, all of about one length.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn parts(packs: usize, most: usize) -> impl Iterator<Item = Range<usize>> {
     let count = packs.div_ceil(most);
     (0..count).map(move |part| packs * part / count..packs * (part + 1) / count)

@@ -145,7 +145,6 @@ impl<Q: Quantity<D>, F: Fn(Pack) -> Pack, const D: usize> Nearby<'_, Q, F, D> {
 }
 
 /// What the quantity has of others at their `places` for some bodies `at` theirs, but for the weights.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn of_pair<Q: Quantity<D>, const D: usize>(
     factor: &impl Fn(Pack) -> Pack,
     at: [Pack; D],
@@ -161,7 +160,6 @@ pub(super) fn of_pair<Q: Quantity<D>, const D: usize>(
 }
 
 /// Adds terms times a weight.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn add(sums: &mut [Pack], terms: &[Pack], weight: Pack) {
     for (sum, term) in sums.iter_mut().zip(terms) {
         *sum += *term * weight;
@@ -172,7 +170,6 @@ fn add(sums: &mut [Pack], terms: &[Pack], weight: Pack) {
 const TOGETHER: usize = 64;
 
 /// Numbers one after the other, and again from the first.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn repeat(numbers: &[f64]) -> [f64; 2 * LANES] {
     core::array::from_fn(|place| numbers[place % numbers.len()])
 }

@@ -34,11 +34,9 @@ impl<const D: usize> Quantity<D> for Potential {
     type Sums = [Pack; 1];
     const NONE: Self::Sums = [NOTHING; 1];
     const EXCHANGED: f64 = 1.0;
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_pair(factor: Pack, _difference: &[Pack; D]) -> Self::Sums {
         [factor]
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_row(
         sums: &mut Self::Sums,
         at: &[Chebyshev<Pack>; D],
@@ -58,7 +56,6 @@ impl<const D: usize> Quantity<D> for Gradient {
     type Sums = [Pack; D];
     const NONE: Self::Sums = [NOTHING; D];
     const EXCHANGED: f64 = -1.0;
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_pair(factor: Pack, difference: &[Pack; D]) -> Self::Sums {
         let mut parts = *difference;
         for axis in 0..D {
@@ -66,7 +63,6 @@ impl<const D: usize> Quantity<D> for Gradient {
         }
         parts
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_row(
         sums: &mut Self::Sums,
         at: &[Chebyshev<Pack>; D],

@@ -13,7 +13,6 @@ pub struct Interval<T = f64> {
 
 impl<T: Real> Interval<T> {
     /// t + ch.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn time(&self, c: T) -> T {
         self.t + c * self.h
     }

@@ -121,7 +121,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         self.solve(system, q, t, xi, &mut Statistics::default())
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(
         &mut self,
         system: &S,

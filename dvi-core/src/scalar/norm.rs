@@ -12,7 +12,6 @@ pub(crate) fn reported<T: Real>(value: T) -> f64 {
 pub(crate) const MANY: usize = 32;
 
 /// maxᵢ |xᵢ|; an entry that is not a number does not count.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     fold(x, T::lift(0.0), Scalar::abs, larger)
 }
@@ -37,7 +36,6 @@ fn fold<T: Real>(x: &[T], start: T, value: impl Fn(T) -> T, join: impl Fn(T, T) 
 }
 
 /// The same of entries that are numbers; if one is not, some number or none.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest_number<T: Real>(x: &[T]) -> T {
     if x.len() >= MANY {
         return largest(x);
@@ -48,7 +46,6 @@ pub(crate) fn largest_number<T: Real>(x: &[T]) -> T {
 }
 
 /// Sets `mean` to (a + b)/2.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn mean<T: Real>(a: &[T], b: &[T], mean: &mut [T]) {
     for ((mean, &a), &b) in mean.iter_mut().zip(a).zip(b) {
         *mean = T::lift(0.5) * (a + b);
@@ -76,12 +73,10 @@ pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
     StepFailure::Singular { matrix, column, pivot: reported(pivot) }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
     if b < a { b } else { a }
 }
@@ -90,13 +85,11 @@ pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
 ///
 /// The sum of the entries is finite only if they all are, or overflows; so one comparison settles the
 /// usual case and only the unusual one looks at each entry.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
     if nothing(x) == T::lift(0.0) { Ok(()) } else { each_finite(x) }
 }
 
 /// Zero if all entries are finite, and else, or if their sum overflows, not a number.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
     // Four partial sums do not wait for one another. They begin at −0, which the compiler knows to add
     // nothing.

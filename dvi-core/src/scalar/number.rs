@@ -15,7 +15,6 @@ pub trait Number: Copy + Sync {
 macro_rules! number {
     ($($type:ty),*) => {$(
         impl Number for $type {
-            #[cfg_attr(not(debug_assertions), inline(always))]
             fn number(self) -> f64 {
                 self as f64
             }
@@ -27,7 +26,6 @@ number!(f64, f32, i8, i16, i32, i64, isize, u8, u16, u32, u64, usize);
 
 #[diagnostic::do_not_recommend]
 impl<N: Number> Number for &N {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn number(self) -> f64 {
         (*self).number()
     }
@@ -72,7 +70,6 @@ pub trait Parameter<T>: Copy + Sync {
 
 #[diagnostic::do_not_recommend]
 impl<N: Number, T: Scalar> Parameter<T> for N {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value(self) -> T {
         T::lift(self.number())
     }
@@ -87,7 +84,6 @@ pub struct Varied<T>(
 );
 
 impl<T: Scalar> Parameter<T> for Varied<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value(self) -> T {
         self.0
     }

@@ -119,7 +119,6 @@ pub struct Full<S: Space, T: Scalar> {
 }
 
 impl<S: Space, T: Scalar> Full<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(space: S) -> Self {
         Self { matrix: space.matrix(), permutation: space.array(|| 0) }
     }
@@ -128,7 +127,6 @@ impl<S: Space, T: Scalar> Full<S, T> {
 impl<S: Space, T: Real> SquareMatrix<T> for Full<S, T> {
     type Entries = S::Matrix<T>;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cleared(&mut self) -> &mut Self::Entries {
         // −0 is neutral for every number, so that the first addition to an entry may be dropped.
         self.matrix.fill(T::lift(-0.0));

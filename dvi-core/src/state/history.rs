@@ -119,7 +119,6 @@ impl<S: System, T: Real> History<S, T> {
     }
 
     /// Remembers the increment of a completed step.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn push(&mut self, increment: &[T]) {
         self.ring[self.next].copy_from_slice(increment);
         self.advance();
@@ -134,7 +133,6 @@ impl<S: System, T: Real> History<S, T> {
         self.advance();
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance(&mut self) {
         self.next = if self.next + 1 < DEPTH { self.next + 1 } else { 0 };
         if self.len < DEPTH {

@@ -126,7 +126,6 @@ impl<S: System, T: Real> Memory<T> for Kind<S, T> {
 
 /// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the
 /// same sign, and neither is twice as long as the other.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_similar<T: Real>(h: T, last: T) -> bool {
     let [size, last_size] = [h, last].map(Scalar::abs);
     h == last || h * last > T::lift(0.0) && size + size > last_size && last_size + last_size > size

@@ -48,7 +48,6 @@ pub(crate) struct Carried<S: System, T: Real> {
 }
 
 impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(system: &S, summation: Summation) -> Self {
         let rest = match summation {
             Summation::Plain => None,
@@ -58,7 +57,6 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
     }
 
     /// What rounding has left out of number `k`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn left_out_of(&self, k: usize) -> T {
         match &self.rest {
             Some(rest) => rest[k],
@@ -75,7 +73,6 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
     }
 
     /// Moves `x` to `sum`, as [`add`](Self::add) has made it, and takes note of what rounding has left out.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn advance(&mut self, x: &mut [T], increment: &[T], sum: &[T]) {
         if let Some(rest) = &mut self.rest {
             carry(rest, x, increment, sum);
@@ -119,7 +116,6 @@ fn carry<T: Real>(rest: &mut [T], x: &[T], increment: &[T], sum: &[T]) {
 }
 
 /// What rounding has left out of `sum`, that of x and `added`.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn left_out<T: Real>(x: T, added: T, sum: T) -> T {
     let x_is_larger = Scalar::abs(x) >= Scalar::abs(added);
     if x_is_larger { (x - sum) + added } else { (added - sum) + x }

@@ -124,7 +124,6 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         }
         Ok(())
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn reciprocal_masses(equations: &HamiltonsEquations<S, T>) -> Option<&[T]> {
         if S::SEPARABLE { equations.mass.reciprocals() } else { None }
     }

@@ -112,13 +112,11 @@ pub(in crate::methods) fn replace<const STAGES: usize, S: System, T: Real>(
 }
 
 /// The sum over stages.
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn sum<T: Real>(stages: &[T]) -> T {
     stages.iter().fold(T::lift(0.0), |sum, &number| sum + number)
 }
 
 /// The largest of a few numbers that are not negative, by halves, which do not wait for one another.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
     let mut count = N;
     while count > 1 {

@@ -16,7 +16,6 @@ use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, Space, Vector};
 
 /// Sets `work.increment` to s, and the gradient of the node to ∇H(q_σ).
-#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn fixed_point<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     q: &Vector<S, T>,
@@ -226,7 +225,6 @@ where
 
 /// Sets `point`, which begins with coordinate `first`, to `origin` + σs, in which σs is what `part` makes of
 /// it.
-#[cfg_attr(not(debug_assertions), inline(always))]
 fn place<T: Real>(
     [origin, s]: [&[T]; 2],
     sigma: T,

@@ -81,17 +81,14 @@ impl<S: DegenerateLagrangian<T>, T: Real> Walk for Leapfrog<'_, '_, S, T> {
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn block(&self) -> u64 {
         self.monitor.period
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn watch(&mut self, number: u64) {
         self.monitor.note(self.monitor.steps + number, self.q1);
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn admit(&mut self, number: u64) -> Result<(), StepFailure> {
         self.monitor.examine(self.monitor.steps + number, self.kept.q)
     }
@@ -120,7 +117,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> Walk for Leapfrog<'_, '_, S, T> {
         product.apply(system, delta, defect);
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_back(&mut self) {
         self.q1.copy_from_slice(self.kept.q);
         self.q0.copy_from_slice(self.kept.before);

@@ -12,12 +12,10 @@ pub(crate) struct Quick<T>(Course<T>);
 impl<T: Real> Judge<T> for Quick<T> {
     const NAMES: bool = false;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(course: Course<T>) -> Self {
         Self(course)
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn judge(&mut self, correction: T) -> Verdict {
         let course = &mut self.0;
         let shrunk = course.take(correction) - correction;
@@ -51,7 +49,6 @@ impl<T: Real> Judge<T> for Quick<T> {
         course.go_on()
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn course(&mut self) -> &mut Course<T> {
         &mut self.0
     }

@@ -45,7 +45,6 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// 1 in the lanes that go on, and 0 in the others.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn active(&self) -> Lanes<W> {
         self.active
     }
@@ -101,7 +100,6 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// Whether all corrections that follow are within the tolerances.
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_small_later(&self, shrunk: Lanes<W>) -> Lanes<W> {
         let (square, most) = (self.correction * self.correction, self.tolerance * shrunk);
         Lanes::choose(most, Comparison::Greater, square, Lanes::all(1.0), Lanes::all(0.0))
