@@ -265,14 +265,14 @@ pub enum StartError {
 pub enum CheckpointError {
     /// It has less than method and step control carry.
     #[error(
-        "the checkpoint has less than this method and this step control carry on this system: it is one of another \
-         method or step control"
+        "the checkpoint has less than this method and this step control carry on this system: it is one of \
+         another method or step control"
     )]
     Short,
     /// It has more than method and step control carry.
     #[error(
-        "the checkpoint has {more} numbers more than this method and this step control carry on this system: it is one of \
-         another method or step control"
+        "the checkpoint has {more} numbers more than this method and this step control carry on this system: \
+         it is one of another method or step control"
     )]
     Long {
         /// How many numbers and counts were not read.
