@@ -191,6 +191,15 @@ pub trait System: Held<System = Self> {
         Ok(names::entries(self).map(move |(name, place)| if name.is_velocity { v[place] } else { q[place] }))
     }
 
+    /// The entries of a state from coordinates and velocities as a run has them, in the order of
+    /// [`names`](Self::names).
+    fn values_of<T: Scalar>(&self, q: &[T], v: &[T]) -> impl Iterator<Item = T>
+    where
+        Self: Sized,
+    {
+        names::values(self, q, v)
+    }
+
     /// The state with these entries, in the order of [`names`](Self::names); those that are lacking are zero.
     fn state_of<T: Scalar>(&self, values: impl IntoIterator<Item = T>) -> Self::State<T>
     where

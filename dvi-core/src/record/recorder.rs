@@ -11,7 +11,6 @@ use super::{Record, RecordError};
 use crate::error::{LengthError, StepError};
 use crate::run::Run;
 use crate::shown::shown;
-use crate::system::names::values;
 use crate::system::{Factor, Name};
 use crate::{Lagrangian, Space, State};
 
@@ -151,7 +150,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         let functions = self.functions.iter_mut().map(|function| function(system, state, time));
         let row = [time]
             .into_iter()
-            .chain(values(system, q, v))
+            .chain(system.values_of(q, v))
             .chain([system.energy(q, v, time)])
             .chain((0..S::REPORT.momenta.len()).map(momentum))
             .chain(functions);
