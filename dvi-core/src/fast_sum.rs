@@ -314,6 +314,7 @@ where
         let mut energy = 0.0;
         let found = self.sums::<Potential>(
             q,
+            #[inline]
             |r2| self.system.kernel(r2),
             |_, weight, sums| energy += 0.5 * weight * sums[0],
         );
@@ -325,6 +326,7 @@ where
     fn pair_gradient(&self, q: &[f64], mut each: impl FnMut(usize, [f64; D])) -> bool {
         let found = self.sums::<Gradient>(
             q,
+            #[inline]
             |r2| self.system.kernel_slope(r2),
             |body, weight, sums| each(body, sums.map(|sum| 2.0 * weight * sum)),
         );

@@ -95,6 +95,7 @@ pub(crate) trait Iteration<T> {
     fn improve(&mut self, due: &mut Due, statistics: &mut Statistics) -> Result<T, StepFailure>;
 
     /// Counts what `times` improvements have cost, if they have not counted it themselves.
+    #[inline]
     fn count(&self, _times: u64, _statistics: &mut Statistics) {}
 }
 
@@ -109,6 +110,7 @@ impl<T, F: FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>> Iteration
 ///
 /// # Errors
 /// [`StepFailure::NotConverged`], or that of an iteration.
+#[inline]
 pub(crate) fn iterate<T: Real>(
     convergence: impl Judge<T>,
     statistics: &mut Statistics,
@@ -160,6 +162,7 @@ pub(crate) fn repeat<T: Real>(
 ///
 /// # Errors
 /// As [`iterate`].
+#[inline]
 pub(crate) fn newton<T: Real>(
     stopping: Stopping,
     statistics: &mut Statistics,
@@ -254,6 +257,7 @@ impl<N> Ladder<N> {
     }
 
     /// How many iterations the fixed point gets of at most `max`; fewer, `patience`, where Newton stands by.
+    #[inline]
     pub(crate) fn budget(&self, max: usize, patience: usize) -> usize {
         if self.newton.is_some() { max.min(patience) } else { max }
     }

@@ -74,6 +74,7 @@ impl<T: Real> Pair<T> {
     }
 
     /// The pair at 2u.
+    #[inline]
     fn doubled(self, u: T) -> Self {
         let sine = u * self.sinc;
         Self { cosine: T::lift(1.0) - T::lift(2.0) * sine * sine, sinc: self.sinc * self.cosine }
@@ -101,11 +102,13 @@ impl<T: Real> Bases<T> {
     }
 
     /// σ = sin u/u.
+    #[inline]
     pub(crate) fn sinc(&self) -> T {
         self.whole.sinc
     }
 
     /// 1/σ.
+    #[inline]
     pub(crate) fn reciprocal(&self) -> T {
         self.reciprocal
     }
@@ -126,6 +129,7 @@ impl<T: Real> Bases<T> {
     }
 
     /// The coefficients of a node with these pairs.
+    #[inline]
     pub(crate) fn basis(&self, c: f64, [left, right]: [Pair<T>; 2]) -> Basis<T> {
         Basis {
             b: T::lift(1.0 - c) * left.sinc * self.reciprocal,

@@ -346,6 +346,7 @@ const RESONANCE: f64 = 1e-4;
 ///
 /// # Errors
 /// [`StepFailure::Resonance`] where there is none, and [`StepFailure::Frequency`].
+#[inline]
 pub(crate) fn determined<T: Real>(u: T, sinc: T, cosine_sum: T) -> Result<(), StepFailure> {
     let small = T::lift(RESONANCE);
     if Scalar::abs(sinc) > small && Scalar::abs(cosine_sum) > small {

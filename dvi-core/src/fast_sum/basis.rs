@@ -16,6 +16,7 @@ pub(super) struct Chebyshev<T> {
 
 impl<T: Scalar> Chebyshev<T> {
     /// Not yet known.
+    #[inline]
     pub(super) fn none() -> Self {
         let zero = T::lift(0.0);
         Self { value: [zero; MOST], slope: [zero; MOST] }

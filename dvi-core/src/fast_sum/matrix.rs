@@ -136,6 +136,7 @@ impl Matrix {
 }
 
 /// Cuts packs into as few parts as are not longer than `most`, all of about one length.
+#[inline]
 fn parts(packs: usize, most: usize) -> impl Iterator<Item = Range<usize>> {
     let count = packs.div_ceil(most);
     (0..count).map(move |part| packs * part / count..packs * (part + 1) / count)

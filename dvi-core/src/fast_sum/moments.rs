@@ -115,6 +115,7 @@ impl<const D: usize> Sources<'_, D> {
 type Values<const D: usize> = [[[Pack; TOGETHER]; MOST]; D];
 
 /// Sets the polynomials of a pack of bodies at u.
+#[inline]
 fn set_values(at: &mut [[Pack; TOGETHER]; MOST], pack: usize, u: Pack, order: usize) {
     let [mut before, mut last] = [Pack::all(1.0), u];
     (at[0][pack], at[1][pack]) = (before, last);

@@ -145,6 +145,7 @@ impl<Q: Quantity<D>, F: Fn(Pack) -> Pack, const D: usize> Nearby<'_, Q, F, D> {
 }
 
 /// What the quantity has of others at their `places` for some bodies `at` theirs, but for the weights.
+#[inline]
 pub(super) fn of_pair<Q: Quantity<D>, const D: usize>(
     factor: &impl Fn(Pack) -> Pack,
     at: [Pack; D],
@@ -160,6 +161,7 @@ pub(super) fn of_pair<Q: Quantity<D>, const D: usize>(
 }
 
 /// Adds terms times a weight.
+#[inline]
 fn add(sums: &mut [Pack], terms: &[Pack], weight: Pack) {
     for (sum, term) in sums.iter_mut().zip(terms) {
         *sum += *term * weight;
@@ -170,6 +172,7 @@ fn add(sums: &mut [Pack], terms: &[Pack], weight: Pack) {
 const TOGETHER: usize = 64;
 
 /// Numbers one after the other, and again from the first.
+#[inline]
 fn repeat(numbers: &[f64]) -> [f64; 2 * LANES] {
     core::array::from_fn(|place| numbers[place % numbers.len()])
 }

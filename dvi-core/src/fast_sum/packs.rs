@@ -10,6 +10,7 @@ pub(super) type Pack = Lanes<LANES>;
 pub(super) const NOTHING: Pack = Lanes([0.0; LANES]);
 
 /// Some numbers.
+#[inline]
 pub(super) fn load(from: &[f64], first: usize) -> Pack {
     let mut pack = [0.0; LANES];
     pack.copy_from_slice(&from[first..first + LANES]);
@@ -17,6 +18,7 @@ pub(super) fn load(from: &[f64], first: usize) -> Pack {
 }
 
 /// Some numbers, zero from `past` on.
+#[inline]
 pub(super) fn load_before(past: usize, from: &[f64], first: usize) -> Pack {
     let mut pack = load(from, first);
     for lane in 0..LANES {
@@ -28,6 +30,7 @@ pub(super) fn load_before(past: usize, from: &[f64], first: usize) -> Pack {
 }
 
 /// The places of some bodies, one in each lane.
+#[inline]
 pub(super) fn load_places<const D: usize>(places: &[Vec<f64>; D], first: usize) -> [Pack; D] {
     let mut found = [NOTHING; D];
     for axis in 0..D {
@@ -56,6 +59,7 @@ pub(super) fn load_places_before<const D: usize>(
 }
 
 /// The place of a body in all lanes.
+#[inline]
 pub(super) fn repeat_place<const D: usize>(places: &[Vec<f64>; D], body: usize) -> [Pack; D] {
     let mut found = [NOTHING; D];
     for axis in 0..D {

@@ -34,9 +34,11 @@ impl<const D: usize> Quantity<D> for Potential {
     type Sums = [Pack; 1];
     const NONE: Self::Sums = [NOTHING; 1];
     const EXCHANGED: f64 = 1.0;
+    #[inline]
     fn of_pair(factor: Pack, _difference: &[Pack; D]) -> Self::Sums {
         [factor]
     }
+    #[inline]
     fn add_row(
         sums: &mut Self::Sums,
         at: &[Chebyshev<Pack>; D],
@@ -56,6 +58,7 @@ impl<const D: usize> Quantity<D> for Gradient {
     type Sums = [Pack; D];
     const NONE: Self::Sums = [NOTHING; D];
     const EXCHANGED: f64 = -1.0;
+    #[inline]
     fn of_pair(factor: Pack, difference: &[Pack; D]) -> Self::Sums {
         let mut parts = *difference;
         for axis in 0..D {
@@ -63,6 +66,7 @@ impl<const D: usize> Quantity<D> for Gradient {
         }
         parts
     }
+    #[inline]
     fn add_row(
         sums: &mut Self::Sums,
         at: &[Chebyshev<Pack>; D],

@@ -65,6 +65,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     }
 
     /// Whether the last steps may be extrapolated to one of length `h`.
+    #[inline]
     pub(crate) fn extrapolates_to(&self, h: T) -> bool {
         is_similar(h, self.last_step)
     }
@@ -188,6 +189,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Inertial<S, T> {
 
     /// Whether the matrix has kept its orientation at (`q`, `t`), which was reached with Δ = `increment`;
     /// `velocity` is storage.
+    #[inline]
     pub(crate) fn check(
         &mut self,
         system: &S,

@@ -13,6 +13,7 @@ pub struct Interval<T = f64> {
 
 impl<T: Real> Interval<T> {
     /// t + ch.
+    #[inline]
     pub fn time(&self, c: T) -> T {
         self.t + c * self.h
     }

@@ -121,6 +121,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         self.solve(system, q, t, xi, &mut Statistics::default())
     }
 
+    #[inline]
     fn solve(
         &mut self,
         system: &S,

@@ -144,6 +144,7 @@ impl<F, R> Variational<F, R> {
 
 impl<F: Frequency, R: Rule> Variational<F, R> {
     /// Whether the step is Störmer–Verlet with plain sums, for separable systems.
+    #[inline]
     fn is_verlet(&self) -> bool {
         F::UNFITTED
             && self.summation == Summation::Plain
@@ -152,10 +153,12 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     }
 
     /// Whether p0 = −D₁L_d is linear in q1, for separable systems.
+    #[inline]
     fn is_explicit(&self) -> bool {
         self.rule.interior_nodes() == 0 && !self.reads_both_ends()
     }
 
+    #[inline]
     fn reads_both_ends(&self) -> bool {
         matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
     }

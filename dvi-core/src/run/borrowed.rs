@@ -12,7 +12,10 @@ use crate::state::Statistics;
 
 /// Functions that are those of what `self` points to.
 macro_rules! forwarded {
-    ($($(#[$when:meta])? fn $name:ident($this:ident: $This:ty $(, $argument:ident: $Type:ty)*) -> $Out:ty;)*) => {$(
+    ($(
+        $(#[$when:meta])?
+        fn $name:ident($this:ident: $This:ty $(, $argument:ident: $Type:ty)*) -> $Out:ty;
+    )*) => {$(
         $(#[$when])?
         #[inline]
         fn $name($this: $This $(, $argument: $Type)*) -> $Out {

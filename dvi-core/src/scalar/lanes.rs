@@ -38,6 +38,7 @@ pub struct Lanes<const W: usize, T = f64>(
 
 impl<const W: usize, T: Real> Lanes<W, T> {
     /// `value` in all lanes.
+    #[inline]
     pub fn all(value: T) -> Self {
         Self([value; W])
     }
@@ -50,6 +51,7 @@ impl<const W: usize, T: Real> Lanes<W, T> {
 
     // Loops, and no closures in functions of the library: these are not always inlined. Over the numbers, as
     // what stands behind fewer than eight would be copied with a pack.
+    #[inline]
     fn each(self, f: impl Fn(T) -> T) -> Self {
         let Self(mut numbers) = self;
         for lane in 0..W {
@@ -84,6 +86,7 @@ operators!(Add add, Sub sub, Mul mul, Div div);
 
 impl<const W: usize, T: Real> Neg for Lanes<W, T> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         self.each(Neg::neg)
     }
@@ -115,9 +118,11 @@ macro_rules! lane_by_lane {
 #[diagnostic::do_not_recommend]
 impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
     type Pack = Self;
+    #[inline]
     fn lift(value: f64) -> Self {
         Self::all(T::lift(value))
     }
+    #[inline]
     fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self {
         let mut chosen = then;
         for lane in 0..W {
@@ -125,18 +130,23 @@ impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
         }
         chosen
     }
+    #[inline]
     fn piecewise(self, of: impl Fn(f64) -> f64) -> Self {
         self.each(|x| x.piecewise(&of))
     }
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         self.with(x, Scalar::atan2)
     }
+    #[inline]
     fn hypot(self, y: Self) -> Self {
         self.with(y, Scalar::hypot)
     }
+    #[inline]
     fn powf(self, exponent: Self) -> Self {
         self.with(exponent, Scalar::powf)
     }
+    #[inline]
     fn powi(self, exponent: i32) -> Self {
         self.each(|x| Scalar::powi(x, exponent))
     }
@@ -147,6 +157,7 @@ impl<const W: usize, T: Real> Scalar for Lanes<W, T> {
 }
 
 /// Sets `vector` to one lane of `packs`.
+#[inline]
 pub(crate) fn read_lane<const W: usize, T: Real>(lane: usize, packs: &[Lanes<W, T>], vector: &mut [T]) {
     for (number, pack) in vector.iter_mut().zip(packs) {
         *number = pack.0[lane];
@@ -154,6 +165,7 @@ pub(crate) fn read_lane<const W: usize, T: Real>(lane: usize, packs: &[Lanes<W, 
 }
 
 /// Sets one lane of `packs` to `vector`.
+#[inline]
 pub(crate) fn write_lane<const W: usize, T: Real>(lane: usize, vector: &[T], packs: &mut [Lanes<W, T>]) {
     for (pack, &number) in packs.iter_mut().zip(vector) {
         pack.0[lane] = number;

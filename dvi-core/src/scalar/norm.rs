@@ -12,6 +12,7 @@ pub(crate) fn reported<T: Real>(value: T) -> f64 {
 pub(crate) const MANY: usize = 32;
 
 /// maxᵢ |xᵢ|; an entry that is not a number does not count.
+#[inline]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     fold(x, T::lift(0.0), Scalar::abs, larger)
 }
@@ -36,6 +37,7 @@ fn fold<T: Real>(x: &[T], start: T, value: impl Fn(T) -> T, join: impl Fn(T, T) 
 }
 
 /// The same of entries that are numbers; if one is not, some number or none.
+#[inline]
 pub(crate) fn largest_number<T: Real>(x: &[T]) -> T {
     if x.len() >= MANY {
         return largest(x);
@@ -46,6 +48,7 @@ pub(crate) fn largest_number<T: Real>(x: &[T]) -> T {
 }
 
 /// Sets `mean` to (a + b)/2.
+#[inline]
 pub(crate) fn mean<T: Real>(a: &[T], b: &[T], mean: &mut [T]) {
     for ((mean, &a), &b) in mean.iter_mut().zip(a).zip(b) {
         *mean = T::lift(0.5) * (a + b);
@@ -73,10 +76,12 @@ pub(crate) fn singular<T: Real>(pivot: T, column: usize) -> StepFailure {
     StepFailure::Singular { matrix, column, pivot: reported(pivot) }
 }
 
+#[inline]
 pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
+#[inline]
 pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
     if b < a { b } else { a }
 }
@@ -85,11 +90,13 @@ pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
 ///
 /// The sum of the entries is finite only if they all are, or overflows; so one comparison settles the
 /// usual case and only the unusual one looks at each entry.
+#[inline]
 pub(crate) fn finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
     if nothing(x) == T::lift(0.0) { Ok(()) } else { each_finite(x) }
 }
 
 /// Zero if all entries are finite, and else, or if their sum overflows, not a number.
+#[inline]
 pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
     // Four partial sums do not wait for one another. They begin at −0, which the compiler knows to add
     // nothing.

@@ -15,6 +15,7 @@ pub trait Number: Copy + Sync {
 macro_rules! number {
     ($($type:ty),*) => {$(
         impl Number for $type {
+            #[inline]
             fn number(self) -> f64 {
                 self as f64
             }
@@ -26,6 +27,7 @@ number!(f64, f32, i8, i16, i32, i64, isize, u8, u16, u32, u64, usize);
 
 #[diagnostic::do_not_recommend]
 impl<N: Number> Number for &N {
+    #[inline]
     fn number(self) -> f64 {
         (*self).number()
     }
@@ -70,6 +72,7 @@ pub trait Parameter<T>: Copy + Sync {
 
 #[diagnostic::do_not_recommend]
 impl<N: Number, T: Scalar> Parameter<T> for N {
+    #[inline]
     fn value(self) -> T {
         T::lift(self.number())
     }
@@ -84,6 +87,7 @@ pub struct Varied<T>(
 );
 
 impl<T: Scalar> Parameter<T> for Varied<T> {
+    #[inline]
     fn value(self) -> T {
         self.0
     }

@@ -32,14 +32,17 @@ pub trait Pack<T>: Scalar {
 
 impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
     const WIDTH: usize = CHUNK;
+    #[inline]
     fn all(value: T) -> Self {
         Lanes::all(value)
     }
+    #[inline]
     fn load(from: &[T], at: usize) -> Self {
         let mut terms = [T::lift(0.0); CHUNK];
         terms.copy_from_slice(&from[at..at + CHUNK]);
         Self(terms)
     }
+    #[inline]
     fn parameters<P: Parameter<T>>(from: &[P], at: usize) -> Self {
         let (from, mut terms) = (&from[at..at + CHUNK], [T::lift(0.0); CHUNK]);
         for term in 0..CHUNK {
@@ -47,12 +50,14 @@ impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
         }
         Self(terms)
     }
+    #[inline]
     fn add(to: &mut [T], at: usize, terms: Self) {
         let to = &mut to[at..at + CHUNK];
         for term in 0..CHUNK {
             to[term] += terms.0[term];
         }
     }
+    #[inline]
     fn exchange<const K: usize>(self, waiting: &mut [T; K]) -> Self {
         const { assert!(K <= CHUNK) };
         let mut terms = self;
@@ -68,18 +73,23 @@ impl<T: Real> Pack<T> for Lanes<CHUNK, T> {
 
 impl<const W: usize, T: Real> Pack<Self> for Lanes<W, T> {
     const WIDTH: usize = 1;
+    #[inline]
     fn all(value: Self) -> Self {
         value
     }
+    #[inline]
     fn load(from: &[Self], at: usize) -> Self {
         from[at]
     }
+    #[inline]
     fn parameters<P: Parameter<Self>>(from: &[P], at: usize) -> Self {
         from[at].value()
     }
+    #[inline]
     fn add(to: &mut [Self], at: usize, terms: Self) {
         to[at] += terms;
     }
+    #[inline]
     fn exchange<const K: usize>(self, waiting: &mut [Self; K]) -> Self {
         waiting.rotate_left(1);
         waiting.last_mut().map_or(self, |last| core::mem::replace(last, self))
@@ -87,21 +97,25 @@ impl<const W: usize, T: Real> Pack<Self> for Lanes<W, T> {
 }
 
 /// `value` in all terms.
+#[inline]
 pub fn all<T: Scalar>(value: T) -> T::Pack {
     T::Pack::all(value)
 }
 
 /// The entries of `from` that begin at `at`.
+#[inline]
 pub fn load<T: Scalar>(from: &[T], at: usize) -> T::Pack {
     T::Pack::load(from, at)
 }
 
 /// The parameters `from` that begin at `at`.
+#[inline]
 pub fn parameters<T: Scalar, P: Parameter<T>>(from: &[P], at: usize) -> T::Pack {
     T::Pack::parameters(from, at)
 }
 
 /// Adds each term to its entry of `to`, beginning at `at`.
+#[inline]
 pub fn add_to<T: Scalar>(to: &mut [T], at: usize, terms: T::Pack) {
     T::Pack::add(to, at, terms);
 }
@@ -114,11 +128,13 @@ pub struct Waiting<const K: usize, T>(pub [T; K]);
 impl<const K: usize, T: Scalar> Waiting<K, T> {
     /// The terms that belong to the entries of a pack: those that have waited, and then the first of
     /// `terms`. The others wait.
+    #[inline]
     pub fn exchange(&mut self, terms: T::Pack) -> T::Pack {
         terms.exchange(&mut self.0)
     }
 
     /// Adds what waits to its entries of `to`, beginning at `at`.
+    #[inline]
     pub fn add_to(self, to: &mut [T], at: usize) {
         for (entry, term) in to[at..].iter_mut().zip(self.0) {
             *entry += term;
@@ -136,17 +152,20 @@ pub struct Sums<T> {
 
 impl<T: Scalar> Sums<T> {
     /// No terms yet: −0, which is neutral for every number.
+    #[inline]
     pub fn empty() -> Self {
         Self { partial: [T::lift(-0.0); CHUNK], next: 0 }
     }
 
     /// Adds terms, each to the partial sum of its place.
+    #[inline]
     pub fn add_terms(&mut self, terms: T::Pack) {
         T::Pack::add(&mut self.partial, self.next, terms);
         self.next = (self.next + T::Pack::WIDTH) % CHUNK;
     }
 
     /// The sum of all terms.
+    #[inline]
     pub fn total(self) -> T {
         let [mut sum, rest @ ..] = self.partial;
         for partial in rest {
@@ -157,22 +176,26 @@ impl<T: Scalar> Sums<T> {
 }
 
 /// The end of the last whole chunk of a range.
+#[inline]
 pub fn whole(lower: usize, upper: usize) -> usize {
     upper - upper.saturating_sub(lower) % CHUNK
 }
 
 /// The first place of a range for which none of the `before` places before it is beyond the end of a ring.
+#[inline]
 pub fn first_unturned(lower: usize, upper: usize, before: usize) -> usize {
     lower.max(before).min(upper)
 }
 
 /// The end of the places, from `first` on, for which none of the `behind` places behind them is beyond the
 /// end, `length`, of a ring.
+#[inline]
 pub fn past_unturned(first: usize, length: usize, behind: usize) -> usize {
     length.saturating_sub(behind).max(first)
 }
 
 /// Where the packs of numbers `T` begin in a range of whole chunks.
+#[inline]
 pub fn packs<T: Scalar>(lower: usize, upper: usize) -> Packs<T> {
     Packs { next: lower, upper, numbers: PhantomData }
 }
@@ -187,6 +210,7 @@ pub struct Packs<T> {
 
 impl<T: Scalar> Iterator for Packs<T> {
     type Item = usize;
+    #[inline]
     fn next(&mut self) -> Option<usize> {
         let here = self.next;
         (here < self.upper).then(|| {

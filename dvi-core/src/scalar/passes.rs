@@ -9,6 +9,7 @@ use crate::{Real, Scalar};
 /// What an iteration over coordinates begins with where these may be packs: the optimiser takes each by
 /// itself. Else it gathers equal lanes of different coordinates, and eight runs of four vortices take 2.4
 /// times as long (`cargo bench -p dvi-benches --bench lanes`). It is no instruction.
+#[inline]
 pub(crate) fn lanes_stay_together<T: Scalar>() {
     if T::Pack::WIDTH == 1 {
         compiler_fence(Ordering::SeqCst);
@@ -26,6 +27,7 @@ pub(crate) fn blocks(n: usize) -> impl Iterator<Item = Range<usize>> {
 }
 
 /// Sets `sum` to x + Δ.
+#[inline]
 pub(crate) fn add<T: Real>(x: &[T], delta: &[T], sum: &mut [T]) {
     for ((sum, &x), &delta) in sum.iter_mut().zip(x).zip(delta) {
         *sum = x + delta;

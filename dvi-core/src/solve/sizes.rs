@@ -28,11 +28,13 @@ pub(crate) enum Due {
 }
 
 /// One over `size`. Rounding errors of numbers below the smallest normal one are absolute.
+#[inline]
 pub(crate) fn weight_of<T: Real>(size: T) -> T {
     T::lift(1.0) / (size + smallest_normal::<T>())
 }
 
 /// The coordinates of each block, all components of vectors together.
+#[inline]
 pub(crate) fn blocks<S: System>(system: &S) -> impl Iterator<Item = Range<usize>> {
     let mut end = 0;
     // The loop over blocks asks for components where there are vectors only.
@@ -96,6 +98,7 @@ impl Due {
     }
 
     /// The same where the unknown is `q1` = q + Δ, in sizes |q| + |q1|.
+    #[inline]
     pub(crate) fn prepare_end<S: System, T: Real>(
         &mut self,
         system: &S,
@@ -108,6 +111,7 @@ impl Due {
     }
 
     /// The same where `x` is the unknown, and no increment.
+    #[inline]
     pub(crate) fn prepare_alone<S: System, T: Real>(&mut self, system: &S, weights: &mut [T], x: &mut [T]) {
         self.carry_out(system, (weights, T::lift(1.0)), |_, &x: &T| Scalar::abs(x), x);
     }
@@ -139,6 +143,7 @@ impl Due {
     }
 
     /// The same of positions of several stages, in the lanes of packs.
+    #[inline]
     pub(crate) fn prepare_places<const W: usize, S: System, T: Real>(
         &mut self,
         system: &S,
@@ -223,9 +228,11 @@ trait Unknowns<T> {
 
 impl<T: Real> Unknowns<T> for T {
     const COUNT: usize = 1;
+    #[inline]
     fn last(&self) -> T {
         *self
     }
+    #[inline]
     fn add(&mut self, by: impl Fn(usize) -> T) {
         *self += by(0);
     }
@@ -233,9 +240,11 @@ impl<T: Real> Unknowns<T> for T {
 
 impl<const W: usize, T: Real> Unknowns<T> for Lanes<W, T> {
     const COUNT: usize = W;
+    #[inline]
     fn last(&self) -> T {
         self.0[W - 1]
     }
+    #[inline]
     fn add(&mut self, by: impl Fn(usize) -> T) {
         self.0.iter_mut().enumerate().for_each(|(lane, x)| *x += by(lane));
     }
@@ -250,6 +259,7 @@ fn shaken<T: Real>(k: usize, weight: T) -> T {
 
 /// The size of the largest of several changes, one for each coordinate; one that is not a number does not
 /// count.
+#[inline]
 pub(crate) fn largest<T: Real>(weights: &[T], changes: &[T]) -> T {
     let sizes = changes.iter().zip(weights);
     sizes.fold(T::lift(0.0), |largest, (&change, &weight)| larger(largest, Scalar::abs(change) * weight))

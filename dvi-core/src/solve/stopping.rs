@@ -183,6 +183,7 @@ fn is_below_rounding<T: Real>(stopping: Stopping) -> bool {
 }
 
 impl<T: Real> Course<T> {
+    #[inline]
     pub(crate) fn new(stopping: Stopping, budget: usize) -> Self {
         Self {
             due: Due::Sizes,
@@ -197,6 +198,7 @@ impl<T: Real> Course<T> {
         }
     }
 
+    #[inline]
     pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
         let mut new = Self { is_fixed_point: true, ..Self::new(stopping, budget) };
         if carries_derivatives::<T>() {
@@ -210,21 +212,25 @@ impl<T: Real> Course<T> {
     }
 
     /// Takes note of a correction, and returns the one before.
+    #[inline]
     fn take(&mut self, correction: T) -> T {
         self.iterations += 1;
         core::mem::replace(&mut self.correction, correction)
     }
 
+    #[inline]
     fn is_shrinking(&self, shrunk: T) -> bool {
         shrunk > self.stalling * self.correction
     }
 
     /// Whether a correction that does not shrink is a rounding error, beside which nothing is left to gain.
+    #[inline]
     fn is_noise(&self) -> bool {
         let size = self.correction / T::default_epsilon();
         size <= T::lift(FINE) || size <= T::lift(FLOOR) && (self.stalling > T::lift(0.0) || self.in_vain > 0)
     }
 
+    #[inline]
     fn go_on(&self) -> Verdict {
         if self.iterations >= self.last { Verdict::GiveUp } else { Verdict::Continue }
     }
@@ -246,11 +252,13 @@ impl<T: Real> Course<T> {
 
 impl<T: Real> Convergence<T> {
     /// Of an iteration that may take `budget` iterations.
+    #[inline]
     pub(crate) fn new(stopping: Stopping, budget: usize) -> Self {
         Self::of(Course::new(stopping, budget))
     }
 
     /// The same for a fixed point, which gains a constant factor in each iteration.
+    #[inline]
     pub(crate) fn fixed_point(stopping: Stopping, budget: usize) -> Self {
         Self::of(Course::fixed_point(stopping, budget))
     }
@@ -323,6 +331,7 @@ impl<T: Real> Convergence<T> {
 impl<T: Real> Judge<T> for Convergence<T> {
     const NAMES: bool = true;
 
+    #[inline]
     fn of(course: Course<T>) -> Self {
         let kept = course.tolerance;
         Self { course, trial: Trial::None, kept, least: T::lift(f64::INFINITY) }
@@ -357,6 +366,7 @@ impl<T: Real> Judge<T> for Convergence<T> {
         self.course.go_on()
     }
 
+    #[inline]
     fn course(&mut self) -> &mut Course<T> {
         &mut self.course
     }

@@ -119,6 +119,7 @@ pub struct Full<S: Space, T: Scalar> {
 }
 
 impl<S: Space, T: Scalar> Full<S, T> {
+    #[inline]
     pub(crate) fn new(space: S) -> Self {
         Self { matrix: space.matrix(), permutation: space.array(|| 0) }
     }
@@ -127,6 +128,7 @@ impl<S: Space, T: Scalar> Full<S, T> {
 impl<S: Space, T: Real> SquareMatrix<T> for Full<S, T> {
     type Entries = S::Matrix<T>;
 
+    #[inline]
     fn cleared(&mut self) -> &mut Self::Entries {
         // −0 is neutral for every number, so that the first addition to an entry may be dropped.
         self.matrix.fill(T::lift(-0.0));

@@ -119,6 +119,7 @@ impl<S: System, T: Real> History<S, T> {
     }
 
     /// Remembers the increment of a completed step.
+    #[inline]
     pub(crate) fn push(&mut self, increment: &[T]) {
         self.ring[self.next].copy_from_slice(increment);
         self.advance();
@@ -133,6 +134,7 @@ impl<S: System, T: Real> History<S, T> {
         self.advance();
     }
 
+    #[inline]
     fn advance(&mut self) {
         self.next = if self.next + 1 < DEPTH { self.next + 1 } else { 0 };
         if self.len < DEPTH {

@@ -126,6 +126,7 @@ impl<S: System, T: Real> Memory<T> for Kind<S, T> {
 
 /// Whether what a step of length `last` has left may be extrapolated to one of length `h`: both have the
 /// same sign, and neither is twice as long as the other.
+#[inline]
 pub(crate) fn is_similar<T: Real>(h: T, last: T) -> bool {
     let [size, last_size] = [h, last].map(Scalar::abs);
     h == last || h * last > T::lift(0.0) && size + size > last_size && last_size + last_size > size

@@ -48,6 +48,7 @@ pub(crate) struct Carried<S: System, T: Real> {
 }
 
 impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
+    #[inline]
     pub(crate) fn new(system: &S, summation: Summation) -> Self {
         let rest = match summation {
             Summation::Plain => None,
@@ -57,6 +58,7 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
     }
 
     /// What rounding has left out of number `k`.
+    #[inline]
     pub(crate) fn left_out_of(&self, k: usize) -> T {
         match &self.rest {
             Some(rest) => rest[k],
@@ -73,6 +75,7 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
     }
 
     /// Moves `x` to `sum`, as [`add`](Self::add) has made it, and takes note of what rounding has left out.
+    #[inline]
     pub(crate) fn advance(&mut self, x: &mut [T], increment: &[T], sum: &[T]) {
         if let Some(rest) = &mut self.rest {
             carry(rest, x, increment, sum);
@@ -116,6 +119,7 @@ fn carry<T: Real>(rest: &mut [T], x: &[T], increment: &[T], sum: &[T]) {
 }
 
 /// What rounding has left out of `sum`, that of x and `added`.
+#[inline]
 pub(crate) fn left_out<T: Real>(x: T, added: T, sum: T) -> T {
     let x_is_larger = Scalar::abs(x) >= Scalar::abs(added);
     if x_is_larger { (x - sum) + added } else { (added - sum) + x }

@@ -1,4 +1,5 @@
-//! One-step schemes in many steps: the energy of predators and prey; one-forms with several branches; momenta that are rounded more than coordinates.
+//! One-step schemes in many steps: the energy of predators and prey; one-forms with several branches; momenta
+//! that are rounded more than coordinates.
 
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;

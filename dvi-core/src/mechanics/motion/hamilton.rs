@@ -124,6 +124,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
         }
         Ok(())
     }
+    #[inline]
     fn reciprocal_masses(equations: &HamiltonsEquations<S, T>) -> Option<&[T]> {
         if S::SEPARABLE { equations.mass.reciprocals() } else { None }
     }

@@ -99,8 +99,10 @@ pub(in crate::methods) fn replace<const STAGES: usize, S: System, T: Real>(
     let none = Lanes::all(T::lift(0.0));
     let mut largest = none;
     for block in sizes::blocks(system) {
-        let Some(&weight) = weights.get(block.start) else { continue };
-        let mut changes = none;
+        if block.is_empty() {
+            continue;
+        }
+        let (mut changes, weight) = (none, weights[block.start]);
         for (pack, new) in packs[block.clone()].iter_mut().zip(&new[block]) {
             lanes_stay_together::<Lanes<STAGES, T>>();
             changes = changes.larger(Scalar::abs(*new - *pack));
@@ -112,11 +114,13 @@ pub(in crate::methods) fn replace<const STAGES: usize, S: System, T: Real>(
 }
 
 /// The sum over stages.
+#[inline]
 pub(in crate::methods) fn sum<T: Real>(stages: &[T]) -> T {
     stages.iter().fold(T::lift(0.0), |sum, &number| sum + number)
 }
 
 /// The largest of a few numbers that are not negative, by halves, which do not wait for one another.
+#[inline]
 fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
     let mut count = N;
     while count > 1 {

@@ -225,6 +225,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
 
 /// The first part whose slopes are carried from step to step. Of equations of second order, of which only
 /// forces are evaluated, that is the second.
+#[inline]
 pub(super) fn first_part<S: System<Kind: FirstOrder<S, T>>, T: Real>(
     equations: &EquationsOf<S, T>,
 ) -> usize {

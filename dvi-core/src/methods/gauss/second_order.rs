@@ -36,6 +36,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     }
 
     /// Sets the increment of the coordinates, if the equations are of second order.
+    #[inline]
     pub(super) fn displace(&mut self, h: T) {
         let Self { equations, coefficients, terms, y, rest, increment, .. } = self;
         let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };

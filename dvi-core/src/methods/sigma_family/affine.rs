@@ -16,6 +16,7 @@ use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, Space, Vector};
 
 /// Sets `work.increment` to s, and the gradient of the node to ∇H(q_σ).
+#[inline]
 pub(super) fn fixed_point<S: DegenerateLagrangian<T>, T: Real>(
     step: &Step<'_, S, T>,
     q: &Vector<S, T>,
@@ -225,6 +226,7 @@ where
 
 /// Sets `point`, which begins with coordinate `first`, to `origin` + σs, in which σs is what `part` makes of
 /// it.
+#[inline]
 fn place<T: Real>(
     [origin, s]: [&[T]; 2],
     sigma: T,

@@ -81,14 +81,17 @@ impl<S: DegenerateLagrangian<T>, T: Real> Walk for Leapfrog<'_, '_, S, T> {
         }
     }
 
+    #[inline]
     fn block(&self) -> u64 {
         self.monitor.period
     }
 
+    #[inline]
     fn watch(&mut self, number: u64) {
         self.monitor.note(self.monitor.steps + number, self.q1);
     }
 
+    #[inline]
     fn admit(&mut self, number: u64) -> Result<(), StepFailure> {
         self.monitor.examine(self.monitor.steps + number, self.kept.q)
     }
@@ -117,6 +120,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Walk for Leapfrog<'_, '_, S, T> {
         product.apply(system, delta, defect);
     }
 
+    #[inline]
     fn go_back(&mut self) {
         self.q1.copy_from_slice(self.kept.q);
         self.q0.copy_from_slice(self.kept.before);

@@ -44,6 +44,7 @@ pub(in crate::methods) struct Kinetic<T> {
 
 impl<T: Real> Kinetic<T> {
     /// That of the mean velocity Δ/h.
+    #[inline]
     pub(in crate::methods) fn of_mean_velocity() -> Self {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         Self { mixed: one, left: zero, right: zero, per_stiffness: one }

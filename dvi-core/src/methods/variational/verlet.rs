@@ -60,6 +60,7 @@ struct Kicks<'a, S: NondegenerateLagrangian<T>, T: Real> {
 
 impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
     /// Kicks the momentum by (h/2)F, in the way that is given, and moves the point on.
+    #[inline]
     fn move_on(&mut self, kick: impl Fn(T, T) -> T) {
         let Self { half, q1, p1, f1, v, .. } = self;
         if let Some(reciprocals) = self.mass.reciprocals() {

@@ -12,10 +12,12 @@ pub(crate) struct Quick<T>(Course<T>);
 impl<T: Real> Judge<T> for Quick<T> {
     const NAMES: bool = false;
 
+    #[inline]
     fn of(course: Course<T>) -> Self {
         Self(course)
     }
 
+    #[inline]
     fn judge(&mut self, correction: T) -> Verdict {
         let course = &mut self.0;
         let shrunk = course.take(correction) - correction;
@@ -49,6 +51,7 @@ impl<T: Real> Judge<T> for Quick<T> {
         course.go_on()
     }
 
+    #[inline]
     fn course(&mut self) -> &mut Course<T> {
         &mut self.0
     }

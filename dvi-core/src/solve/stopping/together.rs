@@ -45,6 +45,7 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// 1 in the lanes that go on, and 0 in the others.
+    #[inline]
     pub(crate) fn active(&self) -> Lanes<W> {
         self.active
     }
@@ -100,6 +101,7 @@ impl<const W: usize> Convergences<W> {
     }
 
     /// Whether all corrections that follow are within the tolerances.
+    #[inline]
     fn are_small_later(&self, shrunk: Lanes<W>) -> Lanes<W> {
         let (square, most) = (self.correction * self.correction, self.tolerance * shrunk);
         Lanes::choose(most, Comparison::Greater, square, Lanes::all(1.0), Lanes::all(0.0))
