@@ -20,6 +20,7 @@ pub enum Factor {
 
 impl Factor {
     /// How many velocities belong to so many coordinates, those of one rotation or one unit vector.
+    #[inline]
     pub fn velocities(self, coordinates: usize) -> usize {
         match self {
             Self::Line | Self::Sphere => coordinates,
@@ -28,6 +29,7 @@ impl Factor {
     }
 
     /// The dimension of so many coordinates, those of one rotation or one unit vector.
+    #[inline]
     pub fn dimension(self, coordinates: usize) -> usize {
         match self {
             Self::Line => coordinates,

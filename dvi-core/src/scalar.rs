@@ -67,6 +67,7 @@ macro_rules! scalar {
             /// `self` raised to an integer power.
             fn powi(self, exponent: i32) -> Self;
             /// −1, 0 or 1: the derivative of |`self`|, taken to be 0 at 0.
+            #[inline]
             fn sign(self) -> Self {
                 let (zero, one) = (Self::lift(0.0), Self::lift(1.0));
                 let below = Self::choose(self, Comparison::Less, zero, -one, zero * self);
@@ -74,12 +75,14 @@ macro_rules! scalar {
             }
             /// `self`/`root` for a `root` ≥ |`self`|, and 0 where `root` is 0: derivatives hold such a
             /// quotient where the term that it stands in has the limit 0.
+            #[inline]
             fn over_root(self, root: Self) -> Self {
                 let zero = Self::lift(0.0);
                 Self::choose(root, Comparison::LessOrEqual, zero, zero * self, self / root)
             }
             /// `self`/(`self`² + `other`²) without undue overflow: derivatives of [`atan2`](Self::atan2) are
             /// made of it. The larger of the two is taken out of the squares (Smith 1962, algorithm 116).
+            #[inline]
             fn over_squares(self, other: Self) -> Self {
                 let (size, other_size) = (self.abs(), other.abs());
                 let if_less =
@@ -115,9 +118,11 @@ macro_rules! scalar {
         #[diagnostic::do_not_recommend]
         impl<T: RealField + Copy> Scalar for T {
             type Pack = Lanes<{ pack::CHUNK }, T>;
+            #[inline]
             fn lift(value: f64) -> Self {
                 nalgebra::convert(value)
             }
+            #[inline]
             fn choose(a: Self, comparison: Comparison, b: Self, then: Self, otherwise: Self) -> Self {
                 let holds = match comparison {
                     Comparison::Less => a < b,
@@ -127,22 +132,27 @@ macro_rules! scalar {
                 };
                 if holds { then } else { otherwise }
             }
+            #[inline]
             fn piecewise(self, of: impl Fn(f64) -> f64) -> Self {
                 Self::lift(of(norm::reported(self)))
             }
+            #[inline]
             fn atan2(self, x: Self) -> Self {
                 RealField::atan2(self, x)
             }
+            #[inline]
             fn hypot(self, y: Self) -> Self {
                 nalgebra::ComplexField::hypot(self, y)
             }
+            #[inline]
             fn powf(self, exponent: Self) -> Self {
                 nalgebra::ComplexField::powf(self, exponent)
             }
+            #[inline]
             fn powi(self, exponent: i32) -> Self {
                 nalgebra::ComplexField::powi(self, exponent)
             }
-            $(fn $name(self) -> Self {
+            $(#[inline] fn $name(self) -> Self {
                 nalgebra::ComplexField::$name(self)
             })*
         }

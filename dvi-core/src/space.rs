@@ -60,10 +60,12 @@ pub trait Space: Copy + Debug + PartialEq {
     /// The number of coordinates.
     fn dimension(self) -> usize;
     /// A vector of zeros.
+    #[inline]
     fn vector<T: Scalar>(self) -> Self::Vector<T> {
         self.array(|| T::lift(0.0))
     }
     /// So many of them.
+    #[inline]
     fn vectors<T: Scalar, const COUNT: usize>(self) -> [Self::Vector<T>; COUNT] {
         core::array::from_fn(|_| self.vector())
     }

@@ -58,9 +58,11 @@ macro_rules! rules {
                 matches!(nodes, [0.0, 1.0])
             };
 
+            #[inline]
             fn nodes(&self) -> &[f64] {
                 &$nodes
             }
+            #[inline]
             fn weights(&self) -> &[f64] {
                 &$weights
             }
@@ -244,9 +246,11 @@ impl Quadrature {
 }
 
 impl Rule for Quadrature {
+    #[inline]
     fn nodes(&self) -> &[f64] {
         &self.nodes[..self.len]
     }
+    #[inline]
     fn weights(&self) -> &[f64] {
         &self.weights[..self.len]
     }

@@ -24,31 +24,37 @@ use crate::{Real, Scalar};
 pub(crate) use crate::system::blocks::{Block, blocks};
 
 /// The three numbers at these places.
+#[inline]
 pub(crate) fn vector<T: Real>(numbers: &[T], block: Block) -> Vector3<T> {
     Vector3::from(block.vector().map(|place| numbers[place]))
 }
 
 /// Sets the three numbers at these places.
+#[inline]
 pub(crate) fn set<T: Real>(numbers: &mut [T], block: Block, value: Vector3<T>) {
     block.vector().into_iter().zip(value.iter()).for_each(|(place, &value)| numbers[place] = value);
 }
 
 /// Sets all numbers of a block.
+#[inline]
 pub(crate) fn fill<T: Copy>(numbers: &mut [T], block: Block, value: T) {
     block.places().for_each(|place| numbers[place] = value);
 }
 
 /// Copies the numbers of a block.
+#[inline]
 pub(crate) fn copy<T: Copy>(from: &[T], block: Block, to: &mut [T]) {
     block.places().for_each(|place| to[place] = from[place]);
 }
 
 /// The matrix with the numbers of a block, row by row.
+#[inline]
 pub(crate) fn matrix<T: Real>(numbers: &[T], block: Block) -> Matrix3<T> {
     Matrix3::from_fn(|row, column| numbers[block.place(3 * row + column)])
 }
 
 /// Sets the numbers of a block to the entries of a matrix, row by row.
+#[inline]
 pub(crate) fn set_matrix<T: Real>(numbers: &mut [T], block: Block, matrix: &Matrix3<T>) {
     for row in 0..3 {
         for column in 0..3 {
@@ -69,6 +75,7 @@ pub(crate) fn lift<S: ManifoldSystem, T: Real>(system: &S, q: &[T], lifted: &mut
 }
 
 /// Sets the coordinates to those that belong to what is carried.
+#[inline]
 pub(crate) fn lower<S: ManifoldSystem, T: Real>(system: &S, lifted: &[T], q: &mut [T]) {
     for block in blocks(system) {
         match block.factor {
@@ -85,11 +92,13 @@ pub(crate) fn lower<S: ManifoldSystem, T: Real>(system: &S, lifted: &[T], q: &mu
 }
 
 /// The quaternion that is carried of a rotation.
+#[inline]
 pub(crate) fn quaternion<T: Real>(lifted: &[T], block: Block) -> Quaternion<T> {
     Quaternion::from(Vector4::from_fn(|number, _| lifted[block.place(number)]))
 }
 
 /// Sets what is carried, or is added to it, of a rotation.
+#[inline]
 pub(crate) fn set_quaternion<T: Real>(lifted: &mut [T], block: Block, quaternion: &Quaternion<T>) {
     quaternion.coords.iter().enumerate().for_each(|(number, &entry)| lifted[block.place(number)] = entry);
 }

@@ -154,6 +154,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         Ok(memory)
     }
 
+    #[inline]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         memory.solve(&self.rule, (system, q), Interval { t, h }, self.stopping, statistics)?;

@@ -26,6 +26,7 @@ pub struct Fixed<const BLOCKS: usize, const N: usize, const SINGLES: usize = 0, 
 
 impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Fixed<BLOCKS, N, SINGLES, R> {
     /// The space.
+    #[inline]
     pub fn new() -> Self {
         Self::default()
     }
@@ -69,6 +70,7 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
     for FixedVector<T, BLOCKS, N, SINGLES, R>
 {
     type Target = [T];
+    #[inline]
     fn deref(&self) -> &[T] {
         self.0.entries(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
     }
@@ -77,6 +79,7 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
 impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
     for FixedVector<T, BLOCKS, N, SINGLES, R>
 {
+    #[inline]
     fn deref_mut(&mut self) -> &mut [T] {
         self.0.entries_mut(Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION)
     }
@@ -86,6 +89,7 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
     for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
     type Target = [T];
+    #[inline]
     fn deref(&self) -> &[T] {
         let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
         self.0.entries(dimension * dimension)
@@ -95,6 +99,7 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
 impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> DerefMut
     for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
+    #[inline]
     fn deref_mut(&mut self) -> &mut [T] {
         let dimension = Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION;
         self.0.entries_mut(dimension * dimension)
@@ -104,6 +109,7 @@ impl<T: Clone + Debug, const BLOCKS: usize, const N: usize, const SINGLES: usize
 impl<T: Scalar, const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Sink<T>
     for FixedMatrix<T, BLOCKS, N, SINGLES, R>
 {
+    #[inline]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self[row * Fixed::<BLOCKS, N, SINGLES, R>::DIMENSION + column] += entry;
     }
@@ -121,12 +127,15 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     type Coupled<const NODES: usize, T: Real> = Blocks<NODES, Self, T>;
     type Rows<C: Space, T: Scalar> = FullRows<C::Vector<Self::Vector<T>>>;
 
+    #[inline]
     fn dimension(self) -> usize {
         Self::DIMENSION
     }
+    #[inline]
     fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> Self::Vector<E> {
         FixedVector(Store::new(Self::DIMENSION, of))
     }
+    #[inline]
     fn rows<C: Space, T: Scalar>(
         self,
         over: C,
@@ -134,12 +143,15 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     ) -> Self::Rows<C, T> {
         FullRows(over.array(|| self.vector()))
     }
+    #[inline]
     fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
         FixedMatrix(Store::new(Self::DIMENSION * Self::DIMENSION, || T::lift(0.0)))
     }
+    #[inline]
     fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {
         Full::new(self)
     }
+    #[inline]
     fn linear<T: Real>(
         self,
         _storing: Storing,
@@ -147,6 +159,7 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
     ) -> Self::Linear<T> {
         Stored::new(self, Full::new(self))
     }
+    #[inline]
     fn coupled<const NODES: usize, T: Real>(
         self,
         _unknown: usize,

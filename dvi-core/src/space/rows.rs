@@ -33,6 +33,7 @@ pub trait RowMatrix<T>: Sink<T> + Memory<T> + Debug {
 pub struct FullRows<A>(pub(crate) A);
 
 impl<T: Scalar, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Sink<T> for FullRows<A> {
+    #[inline]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self.0[row][column] += entry;
     }
@@ -57,20 +58,25 @@ impl<T: Copy, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Memory<T> fo
 impl<T: Scalar, V: DerefMut<Target = [T]> + Debug, A: DerefMut<Target = [V]> + Debug> RowMatrix<T>
     for FullRows<A>
 {
+    #[inline]
     fn clear(&mut self) {
         self.0.iter_mut().for_each(|row| row.fill(T::lift(0.0)));
     }
+    #[inline]
     fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T {
         weighted(&self.0[k], &other.0[k], weights.iter().copied())
     }
+    #[inline]
     fn row(&self, k: usize, mut each: impl FnMut(usize, T)) {
         self.0[k].iter().enumerate().for_each(|(column, &entry)| each(column, entry));
     }
+    #[inline]
     fn times(&self, k: usize, x: &[T]) -> T {
         self.0[k].iter().zip(x).fold(T::lift(0.0), |sum, (&a, &x)| sum + a * x)
     }
 }
 
+#[inline]
 fn weighted<T: Scalar>(a: &[T], b: &[T], weights: impl Iterator<Item = T>) -> T {
     a.iter().zip(b).zip(weights).fold(T::lift(0.0), |sum, ((&a, &b), w)| sum + w * a * b)
 }
@@ -144,10 +150,12 @@ impl<T: Copy> Memory<T> for SparseRows<T> {
 
 #[cfg(feature = "alloc")]
 impl<T: Scalar> RowMatrix<T> for SparseRows<T> {
+    #[inline]
     fn clear(&mut self) {
         self.entries.fill(T::lift(0.0));
         self.outside = None;
     }
+    #[inline]
     fn dot(&self, k: usize, other: &Self, weights: &[T]) -> T {
         if self.outside.is_some() || other.outside.is_some() {
             return T::lift(f64::NAN);
@@ -156,11 +164,13 @@ impl<T: Scalar> RowMatrix<T> for SparseRows<T> {
         let of_columns = self.columns[places.clone()].iter().map(|&column| weights[column as usize]);
         weighted(&self.entries[places.clone()], &other.entries[places], of_columns)
     }
+    #[inline]
     fn row(&self, k: usize, mut each: impl FnMut(usize, T)) {
         let places = self.places(k);
         let columns = self.columns[places.clone()].iter();
         columns.zip(&self.entries[places]).for_each(|(&column, &entry)| each(column as usize, entry));
     }
+    #[inline]
     fn times(&self, k: usize, x: &[T]) -> T {
         let places = self.places(k);
         let of_columns = self.columns[places.clone()].iter().map(|&column| x[column as usize]);

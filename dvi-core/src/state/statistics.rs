@@ -41,6 +41,7 @@ impl Statistics {
 }
 
 impl AddAssign for Statistics {
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         self.steps += other.steps;
         self.rejected += other.rejected;

@@ -67,6 +67,7 @@ impl<S: Lagrangian<T>, T: Real> Carried<S, T> {
     }
 
     /// Sets `sum` to x + Δ, or x + (Δ + e).
+    #[inline]
     pub(crate) fn add(&self, x: &[T], increment: &[T], sum: &mut [T]) {
         for i in 0..x.len() {
             let delta = self.rest.as_ref().map_or(increment[i], |rest| increment[i] + rest[i]);

@@ -22,37 +22,44 @@ pub(crate) struct Block {
 
 impl Block {
     /// The place of its coordinate of this number.
+    #[inline]
     pub(crate) fn place(self, number: usize) -> usize {
         self.at + number * self.stride
     }
 
     /// The places of its coordinates.
+    #[inline]
     pub(crate) fn places(self) -> impl Iterator<Item = usize> {
         (0..self.coordinates).map(move |number| self.place(number))
     }
 
     /// The places of its velocities.
+    #[inline]
     pub(crate) fn velocities(self) -> impl Iterator<Item = usize> {
         (0..self.factor.velocities(self.coordinates)).map(move |number| self.place(number))
     }
 
     /// The places of the first three coordinates, of a rotation or a unit vector.
+    #[inline]
     pub(crate) fn vector(self) -> [usize; 3] {
         [0, 1, 2].map(|number| self.place(number))
     }
 
     /// Its tangent vectors in that basis.
+    #[inline]
     pub(crate) fn slots(self) -> Range<usize> {
         self.slot..self.slot + self.dimension()
     }
 
     /// The number of its tangent vectors.
+    #[inline]
     pub(crate) fn dimension(self) -> usize {
         self.factor.dimension(self.coordinates)
     }
 }
 
 /// The blocks of coordinates of `system`.
+#[inline]
 pub(crate) fn blocks<S: System>(system: &S) -> Blocks<'_, S> {
     Blocks { system, number: 0, index: 0, at: 0, slot: 0 }
 }

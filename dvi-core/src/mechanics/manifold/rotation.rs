@@ -22,6 +22,7 @@ pub(crate) fn quaternion<T: Real>(rotation: &Matrix3<T>) -> Quaternion<T> {
 }
 
 /// The rotation of a quaternion of any length.
+#[inline]
 pub(crate) fn of_quaternion<T: Real>(quaternion: &Quaternion<T>) -> Matrix3<T> {
     let axis = quaternion.imag();
     let once = axis.cross_matrix();
@@ -30,6 +31,7 @@ pub(crate) fn of_quaternion<T: Real>(quaternion: &Quaternion<T>) -> Matrix3<T> {
 }
 
 /// What a turn by u in the body adds to a quaternion of the length one.
+#[inline]
 pub(crate) fn increment<T: Real>(quaternion: &Quaternion<T>, u: Vector3<T>) -> Quaternion<T> {
     let half = u * T::lift(0.5);
     let square = half.dot(&half);
@@ -39,11 +41,13 @@ pub(crate) fn increment<T: Real>(quaternion: &Quaternion<T>, u: Vector3<T>) -> Q
 
 /// f with f·η = A : R η̂, from M = RᵀA: what a derivative A with respect to the entries of R is as a torque
 /// in the body.
+#[inline]
 pub(crate) fn torque<T: Real>(m: &Matrix3<T>) -> Vector3<T> {
     Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)])
 }
 
 /// How that torque changes with η where A is the same: ∂fᵢ/∂ηⱼ = A : R êⱼ êᵢ = Mᵢⱼ − δᵢⱼ tr M.
+#[inline]
 pub(crate) fn torque_change<T: Real>(m: &Matrix3<T>) -> Matrix3<T> {
     m - Matrix3::identity() * m.trace()
 }

@@ -75,6 +75,7 @@ const COTANGENT: [f64; TERMS] = [
 ];
 
 /// Σ `terms`ₖ θ²ᵏ and its derivative by θ².
+#[inline]
 fn power_series<T: Real>(terms: &[f64; TERMS], square: T) -> [T; 2] {
     let sum = |terms: &[f64]| {
         terms.iter().rev().fold([T::lift(0.0); 2], |[value, slope], &term| {
@@ -85,6 +86,7 @@ fn power_series<T: Real>(terms: &[f64; TERMS], square: T) -> [T; 2] {
 }
 
 /// λₙ(θ²) = Σₖ (−θ²)ᵏ/(2k + n)!, n = 1 to 5: sin θ/θ, (1 − cos θ)/θ², (θ − sin θ)/θ³, …
+#[inline]
 fn lambda<const FROM: usize, const COUNT: usize, T: Real>(square: T) -> [T; COUNT] {
     if square <= T::lift(NEAR) {
         return core::array::from_fn(|n| power_series(&LAMBDA[FROM - 1 + n], square)[0]);
@@ -93,6 +95,7 @@ fn lambda<const FROM: usize, const COUNT: usize, T: Real>(square: T) -> [T; COUN
 }
 
 /// sin θ/θ and (1 − cos θ)/θ², from θ².
+#[inline]
 pub(crate) fn sines<T: Real>(square: T) -> [T; 2] {
     lambda::<1, 2, T>(square)
 }
@@ -112,6 +115,7 @@ fn far<const COUNT: usize, T: Real>(from: usize, square: T) -> [T; COUNT] {
     })
 }
 
+#[inline]
 fn cotangent<T: Real>(square: T) -> [T; 2] {
     if square <= T::lift(NEAR) { power_series(&COTANGENT, square) } else { cotangent_far(square) }
 }
@@ -129,24 +133,28 @@ fn cotangent_far<T: Real>(square: T) -> [T; 2] {
 
 impl<T: Real> Series<T> {
     /// exp(û).
+    #[inline]
     pub(crate) fn exp(u: Vector3<T>) -> Self {
         let [a, b] = lambda::<1, 2, T>(u.dot(&u));
         Self { u, a, b, map: Map::Exponential }
     }
 
     /// J(u).
+    #[inline]
     pub(crate) fn mean(u: Vector3<T>) -> Self {
         let [a, b] = lambda::<2, 2, T>(u.dot(&u));
         Self { u, a, b, map: Map::Mean }
     }
 
     /// J(u)⁻¹.
+    #[inline]
     pub(crate) fn mean_inverse(u: Vector3<T>) -> Self {
         let [b, _] = cotangent(u.dot(&u));
         Self { u, a: T::lift(-0.5), b, map: Map::Inverse }
     }
 
     /// The derivatives of a and b by θ². Those of λₙ are (n λₙ₊₂ − λₙ₊₁)/2.
+    #[inline]
     fn slopes(&self) -> [T; 2] {
         let (square, half) = (self.u.dot(&self.u), T::lift(0.5));
         match self.map {
@@ -163,23 +171,27 @@ impl<T: Real> Series<T> {
     }
 
     /// What the map does to `f`, without `f` itself.
+    #[inline]
     pub(crate) fn change(&self, f: &Vector3<T>) -> Vector3<T> {
         let once = self.u.cross(f);
         once * self.a + self.u.cross(&once) * self.b
     }
 
     /// The image of `f`.
+    #[inline]
     pub(crate) fn of(&self, f: &Vector3<T>) -> Vector3<T> {
         f + self.change(f)
     }
 
     /// The matrix of the map.
+    #[inline]
     pub(crate) fn matrix(&self) -> Matrix3<T> {
         let once = self.u.cross_matrix();
         Matrix3::identity() + once * self.a + once * once * self.b
     }
 
     /// The derivative of the image of `f` with respect to u.
+    #[inline]
     pub(crate) fn derivative(&self, f: &Vector3<T>) -> Matrix3<T> {
         let &Self { u, a, b, .. } = self;
         let [a_slope, b_slope] = self.slopes();

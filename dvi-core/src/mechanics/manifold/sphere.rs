@@ -29,6 +29,7 @@ const NEAR: f64 = 1e-8;
 impl<T: Real> GreatCircle<T> {
     /// The circle from a unit vector along the rotation vector `w`, of which the part along the unit vector
     /// is left out. Where nothing is left, its direction is any.
+    #[inline]
     pub(crate) fn new(start: Vector3<T>, w: Vector3<T>) -> Self {
         let along = w - start * start.dot(&w);
         let angle = along.norm();
@@ -36,6 +37,7 @@ impl<T: Real> GreatCircle<T> {
         Self { start, direction: axis.cross(&start), axis, angle }
     }
 
+    #[inline]
     pub(crate) fn at(&self, c: T) -> Passing<T> {
         let Self { start, direction, angle, .. } = self;
         let (sine, cosine) = (Scalar::sin(c * *angle), Scalar::cos(c * *angle));
@@ -45,6 +47,7 @@ impl<T: Real> GreatCircle<T> {
 
     /// How D₁L_d at the part `c`, along the circle and across, changes with the end of the circle, where
     /// ∂L/∂q and ∂L/∂v/h there are the same: the directions along and across turn with it.
+    #[inline]
     pub(crate) fn bend(&self, c: T, [l_q, l_v]: [Vector3<T>; 2]) -> Matrix2<T> {
         let (one, zero, theta) = (T::lift(1.0), T::lift(0.0), self.angle);
         let (rest, here, end) = (one - c, self.at(c), self.at(one));
@@ -74,6 +77,7 @@ impl<T: Real> GreatCircle<T> {
     }
 
     /// s(1) − s0.
+    #[inline]
     pub(crate) fn increment(&self) -> Vector3<T> {
         let half = Scalar::sin(T::lift(0.5) * self.angle);
         self.direction * Scalar::sin(self.angle) - self.start * (T::lift(2.0) * half * half)

@@ -76,6 +76,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
     }
 
     /// Moves to a point with the momentum p, where a step with these impulses has led.
+    #[inline]
     pub(super) fn stand(&mut self, system: &S, [q, p]: [&[T]; 2], t: T, impulses: &Impulses<S, T>) {
         let Self { here, mass, work, .. } = self;
         here.p.copy_from_slice(p);
@@ -88,6 +89,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
     }
 
     /// Sets `bend` to Δ − h v0 of a step of length `h` with the last impulse.
+    #[inline]
     pub(super) fn bend(&self, h: T, bend: &mut [T]) {
         let Place { force, rows, impulses, .. } = &self.here;
         bend.iter_mut().zip(force.iter()).for_each(|(bend, &force)| *bend = T::lift(0.5) * h * force);
@@ -99,6 +101,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
     /// Takes steps as long as they succeed from the guess that the last one gives, whose length was `last`,
     /// and returns how many; none at all, if they lead to what is no number. What no other function sees may
     /// stay in registers.
+    #[inline]
     pub(super) fn stride(
         &mut self,
         steps: Steps<'_, S, T>,
@@ -152,6 +155,7 @@ struct Walk<'a, S: ConstrainedSystem, T: Real> {
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Walk<'_, S, T> {
     /// How many of them succeed, and in how many iterations. With `CHECKS` what is no number ends them.
+    #[inline]
     fn along<const CHECKS: bool>(
         &self,
         at: &mut Vector<S, T>,

@@ -29,6 +29,7 @@ pub(super) fn momentum<S: ManifoldSystem, T: Real>(system: &S, q: &[T], l_v: &[T
 }
 
 /// Sets `v` to the velocity at `q` of a motion with these rates of displacement.
+#[inline]
 pub(super) fn velocity<S: ManifoldSystem, T: Real>(system: &S, q: &[T], v: &mut [T]) {
     for block in blocks(system).filter(|block| block.factor == Factor::Sphere) {
         let rate = vector(v, block);
@@ -38,6 +39,7 @@ pub(super) fn velocity<S: ManifoldSystem, T: Real>(system: &S, q: &[T], v: &mut 
 
 /// What a derivative by the coordinates is as a torque: in the body of a rotation, about the centre of a
 /// unit vector.
+#[inline]
 fn torque<T: Real>(block: Block, q: &[T], l_q: &[T]) -> Vector3<T> {
     if block.factor == Factor::Sphere {
         return vector(q, block).cross(&vector(l_q, block));
@@ -46,6 +48,7 @@ fn torque<T: Real>(block: Block, q: &[T], l_q: &[T]) -> Vector3<T> {
 }
 
 /// Makes a force the covector of the manifold that it is at `q`.
+#[inline]
 pub(super) fn force<S: ManifoldSystem, T: Real>(system: &S, q: &[T], force: &mut [T]) {
     for block in blocks(system).filter(|block| block.factor != Factor::Line) {
         let torque = torque(block, q, force);
@@ -55,6 +58,7 @@ pub(super) fn force<S: ManifoldSystem, T: Real>(system: &S, q: &[T], force: &mut
 }
 
 /// Subtracts a momentum from the residual, of a unit vector in the directions of a circle.
+#[inline]
 pub(super) fn subtract_momentum<T: Real>(
     block: Block,
     p: &[T],
@@ -77,6 +81,7 @@ pub(super) fn subtract_momentum<T: Real>(
 }
 
 /// Sets what a displacement adds to what is carried of the coordinates.
+#[inline]
 pub(super) fn increment_of<T: Real>(block: Block, path: Path<'_, T>, lifted: &[T], increment: &mut [T]) {
     match block.factor {
         Factor::Line => copy(path.displacement, block, increment),
@@ -89,6 +94,7 @@ pub(super) fn increment_of<T: Real>(block: Block, path: Path<'_, T>, lifted: &[T
 }
 
 /// Sets `p` to p0, seen from the end of the step.
+#[inline]
 pub(super) fn depart<T: Real>(block: Block, path: Path<'_, T>, p0: &[T], p: &mut [T]) {
     match block.factor {
         Factor::Line | Factor::Sphere => copy(p0, block, p),
@@ -102,6 +108,7 @@ pub(super) fn depart<T: Real>(block: Block, path: Path<'_, T>, p0: &[T], p: &mut
 
 /// Adds what L at a node does to the momentum in the step, as it is seen from its end; ∂L/∂v alone, which
 /// turns with unit vectors only, where `forces` are none.
+#[inline]
 pub(super) fn push<S: System, T: Real>(
     block: Block,
     path: Path<'_, T>,

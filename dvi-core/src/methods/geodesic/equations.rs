@@ -29,21 +29,25 @@ pub(super) struct Begin<'a, S: System, R, T: Real> {
 
 /// Whether a coordinate of `S` is a unit vector. Without these what a drift needs is the same at all its
 /// nodes.
+#[inline]
 pub(super) fn has_spheres<S: ManifoldLagrangian<T>, T: Real>() -> bool {
     S::REPORT.coordinates.iter().any(|&CoordinateBlock { factor, .. }| factor == Factor::Sphere)
 }
 
 /// The nodes cⱼ of a rule with h wⱼ.
+#[inline]
 pub(super) fn nodes<R: Rule, T: Real>(rule: &R, h: T) -> impl Iterator<Item = [T; 2]> {
     rule.nodes().iter().zip(rule.weights()).map(move |(&c, &weight)| [T::lift(c), h * T::lift(weight)])
 }
 
 impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
+    #[inline]
     pub(super) fn path<'b>(&'b self, displacement: &'b [T]) -> Path<'b, T> {
         Path { q: self.q, displacement, h: self.interval.h }
     }
 
     /// The nodes of a drift with their weights.
+    #[inline]
     fn drifts(&self) -> impl Iterator<Item = [T; 2]> {
         let once = (!has_spheres::<S, T>()).then(|| [T::lift(0.0), self.interval.h]);
         let each = has_spheres::<S, T>().then(|| nodes(self.rule, self.interval.h));
@@ -51,6 +55,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
     }
 
     /// Sets `p` to the momentum at the end of the displacement.
+    #[inline]
     pub(super) fn balance(
         &self,
         displacement: &[T],
@@ -88,6 +93,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
 
 impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S, R, T> {
     /// Angles are judged as they are.
+    #[inline]
     fn size(&self, block: Block, displacement: &[T]) -> T {
         match block.factor {
             Factor::Line => block.places().fold(T::lift(0.0), |largest, place| {
@@ -98,6 +104,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S
     }
 
     /// The residual is −D₁L_d − p0.
+    #[inline]
     fn linearize(&self, displacement: &[T], tangents: &mut Tangents<S, T>, statistics: &mut Statistics) {
         let (system, path) = (self.system, self.path(displacement));
         let Tangents { node, residual, matrix, .. } = tangents;

@@ -45,6 +45,7 @@ pub(super) struct Path<'a, T> {
 
 impl<T: Real> Path<'_, T> {
     /// The great circle of a unit vector.
+    #[inline]
     pub(super) fn circle(&self, block: Block) -> GreatCircle<T> {
         GreatCircle::new(vector(self.q, block), vector(self.displacement, block))
     }
@@ -61,6 +62,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// Goes to the part `c` of a step, with all that varies there.
+    #[inline]
     pub(super) fn place(&mut self, system: &S, path: Path<'_, T>, c: T) {
         self.swing(system, path, c);
         for block in blocks(system) {
@@ -127,6 +129,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
 
     /// Evaluates L with its derivatives, and adds `weight` times the second ones, by the first point and the
     /// displacement.
+    #[inline]
     pub(super) fn add_second_derivatives<K: Sink<T>>(&mut self, system: &S, t: T, weight: T, sink: &mut K) {
         let Self { work: NodeWork { point, velocity, gradient, momentum }, first, displacement, slots } =
             self;
@@ -147,6 +150,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// Adds `weight` times the second derivatives of ½ v·M v.
+    #[inline]
     pub(super) fn add_kinetic<K: Sink<T>>(
         &self,
         system: &S,
@@ -202,6 +206,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// Adds `factor` times the derivative of L by the point, by the variation of that, to `sum`.
+    #[inline]
     pub(super) fn project_force(&self, factor: T, sum: &mut [T]) {
         let rows = self.work.gradient.iter().zip(self.first.point.iter());
         for (&[slot, count], (&l_q, by_point)) in self.slots.iter().zip(rows) {

@@ -26,6 +26,7 @@ use crate::system::Factor;
 use crate::{ManifoldLagrangian, Real};
 
 /// The weights h w of the two ends.
+#[inline]
 fn impulses<R: Rule, T: Real>(rule: &R, h: T) -> [T; 2] {
     nodes(rule, h).fold([T::lift(0.0); 2], |[first, last], [c, weight]| {
         if c == T::lift(0.0) { [first + weight, last] } else { [first, last + weight] }
@@ -34,6 +35,7 @@ fn impulses<R: Rule, T: Real>(rule: &R, h: T) -> [T; 2] {
 
 impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
     /// Finds the end of a step from time t, of length h.
+    #[inline]
     pub(super) fn solve<R: Rule>(
         &mut self,
         rule: &R,
@@ -88,6 +90,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
     }
 
     /// Moves to the end of the step.
+    #[inline]
     pub(super) fn keep(&mut self, q: &mut [T], h: T) {
         let Self { p, rates, lifted, carried, kicks, arrival, .. } = self;
         if let Some(Kicks { force, .. }) = kicks {
@@ -101,6 +104,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
 }
 
 /// Beyond half a turn a geodesic is not the shortest way.
+#[inline]
 fn check_angles<S: ManifoldLagrangian<T>, T: Real>(
     system: &S,
     displacement: &[T],

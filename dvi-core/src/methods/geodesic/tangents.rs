@@ -59,6 +59,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
+    #[inline]
     pub(super) fn solve(
         &mut self,
         equations: &impl Equations<S, T>,

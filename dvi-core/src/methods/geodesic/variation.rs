@@ -24,6 +24,7 @@ impl<S: System, T: Real> Variation<S, T> {
     }
 
     /// In the three places of `block`: a variation by each of its tangent vectors, as columns.
+    #[inline]
     pub(super) fn set(rows: &mut Rows<S, T>, block: Block, columns: &Matrix3<T>) {
         for (number, place) in block.vector().into_iter().enumerate() {
             rows[place] = [0, 1, 2].map(|column| columns[(number, column)]);
@@ -31,6 +32,7 @@ impl<S: System, T: Real> Variation<S, T> {
     }
 
     /// The same for the nine entries of a rotation matrix R: R η̂ for η in the columns.
+    #[inline]
     pub(super) fn turn(rows: &mut Rows<S, T>, block: Block, matrix: &Matrix3<T>, columns: &Matrix3<T>) {
         for column in 0..3 {
             let turned = matrix * columns.column(column).into_owned().cross_matrix();
@@ -43,6 +45,7 @@ impl<S: System, T: Real> Variation<S, T> {
 
 impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     /// Δ/h
+    #[inline]
     pub(super) fn swing_on_line(&mut self, block: Block, Path { displacement, h, .. }: Path<'_, T>) {
         let (zero, per_h) = (T::lift(0.0), T::lift(1.0) / h);
         for i in block.places() {
@@ -53,6 +56,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// x(c) = x0 + c Δ
+    #[inline]
     pub(super) fn stand_on_line(&mut self, block: Block, Path { q, displacement, .. }: Path<'_, T>, c: T) {
         let zero = T::lift(0.0);
         for i in block.places() {
@@ -63,6 +67,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// ω = u/h. With R0 by η, where R1 is held, δu = −J(u)⁻¹η.
+    #[inline]
     pub(super) fn swing_on_rotations(&mut self, block: Block, Path { displacement, h, .. }: Path<'_, T>) {
         let (u, per_h) = (vector(displacement, block), T::lift(1.0) / h);
         let inverse = Series::mean_inverse(u).matrix();
@@ -73,6 +78,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
 
     /// R(c) = R0 exp(cû). With u varies R(c)ᵀδR = c J(−cu) δu; with R0 by η, where R1 is held, R(c)ᵀδR =
     /// exp(−cu) η + c J(−cu) δu.
+    #[inline]
     pub(super) fn stand_on_rotations(
         &mut self,
         block: Block,
@@ -90,6 +96,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// γ'(c)/h, with tangent vectors along the circle and across.
+    #[inline]
     pub(super) fn swing_on_sphere(&mut self, block: Block, path: Path<'_, T>, c: T) {
         let circle = path.circle(block);
         let (here, rest) = (circle.at(c), circle.at(T::lift(1.0) - c));
@@ -108,6 +115,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     }
 
     /// s(c) = cos(cθ) s0 + sin(cθ) d, with the same tangent vectors.
+    #[inline]
     pub(super) fn stand_on_sphere(&mut self, block: Block, path: Path<'_, T>, c: T) {
         let circle = path.circle(block);
         let (here, rest, theta) = (circle.at(c), T::lift(1.0) - c, circle.angle);
@@ -123,6 +131,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
         set(&mut self.displacement.point, block, &columns(here.direction * c, across));
     }
 
+    #[inline]
     pub(super) fn bend_of_rotation(
         &self,
         block: Block,

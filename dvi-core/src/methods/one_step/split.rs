@@ -28,6 +28,7 @@ pub(super) fn is_x<S: ProperlyDegenerate<T>, T: Real>(system: &S, i: usize) -> b
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
+    #[inline]
     pub(super) fn new(system: &S) -> Self {
         let space = system.space();
         let [change, scales, form, correction, weights, zero] = space.vectors();
@@ -98,6 +99,7 @@ struct ByHalves<'a, S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> LinearSolver<T> for ByHalves<'_, S, T> {
+    #[inline]
     fn solve(
         &mut self,
         equations: &mut impl LinearEquations<T>,

@@ -83,6 +83,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
     }
 
     /// Ends the last step.
+    #[inline]
     fn complete(&mut self) {
         if core::mem::take(&mut self.owed) {
             for (p, &f) in self.p1.iter_mut().zip(self.f1.iter()) {
@@ -105,6 +106,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
         self.system.force(q1, &[], self.clock.after(number + 1).time(), f1);
     }
 
+    #[inline]
     fn examine(&mut self, _steps: u64) -> Result<(), StepFailure> {
         self.complete();
         scratch!(examined = self.system, *self.v);
@@ -115,10 +117,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Walk for Kicks<'_, S, T> {
         norm::finite(examined)
     }
 
+    #[inline]
     fn keep(&mut self) {
         self.phase.set(self.q, &Arrival { q: self.q1, p: self.p1, force: self.f1 });
     }
 
+    #[inline]
     fn go_back(&mut self) {
         self.owed = false;
         self.q1.copy_from_slice(self.q);

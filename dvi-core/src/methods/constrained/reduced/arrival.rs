@@ -30,6 +30,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Begin<'_, S, T> {
     /// turned. Such a pivot is the product of the gradients before and after the step, in the metric of M.
     /// It is held against half the square of the first, so that what the last correction changes of it does
     /// not matter.
+    #[inline]
     fn trusts_pivot(&self) -> bool {
         S::DIAGONAL_MASS && self.here.rows.len() == 1
     }
@@ -39,6 +40,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Begin<'_, S, T> {
 /// has turned by a right angle in the metric of M, the determinant of G(q1) M⁻¹ G(q0)ᵀ has the sign of that
 /// of G(q0) M⁻¹ G(q0)ᵀ, and the displacement, h times the velocity v = M⁻¹p, makes no larger angle than 45°
 /// with the constraints, if M is a metric and the constraints do not move.
+#[inline]
 fn is_on_branch<S: ConstrainedLagrangian<T>, T: Real>(
     begin: &Begin<'_, S, T>,
     gram: &mut Gram<S, T>,
@@ -66,6 +68,7 @@ fn is_on_branch<S: ConstrainedLagrangian<T>, T: Real>(
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
     /// Sets q1, which is on the constraints, ι0 and the momentum between both ends, from the guess of ι0.
+    #[inline]
     pub(super) fn shake(&mut self, begin: &Begin<'_, S, T>, statistics: &mut Statistics) -> Option<()> {
         let Begin { system, mass, q, here, t, h, stopping, .. } = *begin;
         let Self { q: q1, place: Place { p, impulses: [first, _], .. }, vector, .. } = self;
@@ -92,6 +95,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
     }
 
     /// Sets p1, with its velocity along the constraints, and ι1.
+    #[inline]
     pub(super) fn rattle(&mut self, begin: &Begin<'_, S, T>) -> Option<()> {
         let Begin { system, mass, t, h, .. } = *begin;
         let (t, half) = (t + h, T::lift(0.5) * h);
@@ -130,6 +134,7 @@ struct Newton<'a, 's, S: ConstrainedSystem, T: Real> {
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T> {
+    #[inline]
     fn prepare(&mut self, due: &mut Due) {
         let Self { begin: Begin { system, q, here, .. }, arrival } = self;
         due.prepare_end(*system, &mut arrival.weights, q, &mut arrival.q);
@@ -138,6 +143,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T>
         }
     }
 
+    #[inline]
     fn improve(&mut self, _due: &mut Due, _statistics: &mut Statistics) -> Result<T, StepFailure> {
         let Begin { system, here, t, h, .. } = *self.begin;
         let Arrival { q, place, vector, weights, of_impulse, values, gram } = &mut *self.arrival;

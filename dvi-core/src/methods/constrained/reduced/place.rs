@@ -48,6 +48,7 @@ lasting!([S: ConstrainedSystem, T: Real] Place<S, T>, T;
     numbers p, numbers force, vectors rows, vectors solved, numbers squares, vectors impulses);
 
 impl<S: ConstrainedSystem, T: Real> Place<S, T> {
+    #[inline]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let rows = || system.multipliers().array(vector);
@@ -57,6 +58,7 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
 }
 
 impl<S: ConstrainedSystem, T: Real> Arrival<S, T> {
+    #[inline]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         let m = system.multipliers().dimension();
@@ -75,6 +77,7 @@ impl<S: ConstrainedSystem, T: Real> Arrival<S, T> {
     }
 
     /// Sets the guess of ι0 to `ratio` times `last`.
+    #[inline]
     pub(super) fn guess(&mut self, ratio: T, last: &[T]) {
         for (impulse, &last) in self.place.impulses[0].iter_mut().zip(last) {
             *impulse = ratio * last;
@@ -84,6 +87,7 @@ impl<S: ConstrainedSystem, T: Real> Arrival<S, T> {
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Place<S, T> {
     /// Sets g, in `values`, and the rows of G at (`q`, `t`).
+    #[inline]
     pub(super) fn constrain(&mut self, system: &S, q: &[T], t: T, values: &mut [T]) {
         let rows = &mut self.rows;
         rows.iter_mut().for_each(|row| row.fill(T::lift(NEUTRAL)));
@@ -91,6 +95,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Place<S, T> {
     }
 
     /// Sets M⁻¹Gᵀ and the diagonal of G M⁻¹ Gᵀ.
+    #[inline]
     pub(super) fn measure(&mut self, mass: &Mass<S, T>) {
         let Self { rows, solved, squares, .. } = self;
         for ((row, solved), square) in rows.iter().zip(solved.iter_mut()).zip(squares.iter_mut()) {

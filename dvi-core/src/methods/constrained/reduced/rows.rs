@@ -12,6 +12,7 @@ use crate::{Real, Scalar};
 pub(super) const NEUTRAL: f64 = -0.0;
 
 /// Adds Σ `factors`ₖ `rows`ₖ to `sum`.
+#[inline]
 pub(super) fn combine<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T], sum: &mut [T]) {
     for (row, &factor) in rows.iter().zip(factors) {
         for (sum, &entry) in sum.iter_mut().zip(row.iter()) {
@@ -22,18 +23,21 @@ pub(super) fn combine<T: Real, V: Deref<Target = [T]>>(rows: &[V], factors: &[T]
 
 /// a·b, from the last entry to the first: of three entries the compiler then packs the first two, as it does
 /// elsewhere.
+#[inline]
 pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).rev().fold(T::lift(NEUTRAL), |sum, (&a, &b)| sum + a * b)
 }
 
 /// One over the length of a gradient with this square: constraints have units of their own, and may be
 /// compared where their gradients are as long as one.
+#[inline]
 fn scale<T: Real>(square: T) -> T {
     weight_of(Scalar::sqrt(Scalar::abs(square)))
 }
 
 /// Sets a matrix to A Bᵀ, where A and B have these rows, times the scales of constraints whose gradients
 /// have these `squares`.
+#[inline]
 pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
     [a, b]: [&[V]; 2],
@@ -50,6 +54,7 @@ pub(super) fn fill<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
 
 /// Overwrites `x` with the solution of A Bᵀ y = x, where A and B have these rows, for constraints whose
 /// gradients have these `squares`; `None` where the matrix is singular.
+#[inline]
 pub(super) fn solve<T: Real, V: Deref<Target = [T]>, Q: SquareMatrix<T>>(
     gram: &mut Q,
     rows: [&[V]; 2],
