@@ -66,7 +66,7 @@ pub(crate) fn random_system(seed: u64) -> (Kind, String, String) {
 
 fn random_systems(part: u64) {
     on_large_stack(move || {
-        let (count, seed) = (setting("DVI_SYSTEMS", 1000), setting("DVI_SEED", 0));
+        let (count, seed) = (setting("DVI_SYSTEMS", 500), setting("DVI_SEED", 0));
         let mut summary = Summary::default();
         for number in (0..count).filter(|number| number % 2 == part) {
             let seed = (seed << 40) + number;

@@ -51,9 +51,9 @@ fn runs_and_their_checkpoints_go_on(
 }
 
 pub(super) fn runs_go_on(case: &Case) -> Outcome {
-    // Guesses are made from seven steps; what is seen of parasites, on degenerate systems, from more.
-    let steps =
-        u64::from(if case.subject.regular { case.subject.steps.min(40) } else { case.subject.steps });
+    // Guesses are made from seven steps; what is seen of parasites, where states have momenta of their own,
+    // from more.
+    let steps = case.subject.steps.min(if case.has_hidden_state() { u32::MAX } else { 24 }).into();
     runs_and_their_checkpoints_go_on(steps, || case.run(), |checkpoint| case.resume(checkpoint))?;
     [0, 1, steps / 2].iter().try_for_each(|&before| case.goes_on_from_a_copy(before as u32))
 }
