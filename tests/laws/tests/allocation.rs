@@ -9,19 +9,26 @@ use dvi_examples::osculating::Osculating;
 use dvi_tests::systems::{ManyVortices, ManyVorticesState, PointVortices, PointVorticesState};
 use dvi_tests::zoo::constrained::Links;
 use dvi_tests::zoo::regular::{Kepler, KeplerState, RunTimeChain, RunTimeChainState};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, Stats, StatsAlloc};
 
 #[global_allocator]
-static ALLOCATOR: dhat::Alloc = dhat::Alloc;
+static ALLOCATOR: &StatsAlloc<std::alloc::System> = &INSTRUMENTED_SYSTEM;
 
-/// Allocations of what is done.
-fn blocks(act: &mut impl FnMut()) -> u64 {
-    let before = dhat::HeapStats::get().total_blocks;
+/// What is allocated for what is done, by all threads.
+fn allocated(act: impl FnOnce()) -> Stats {
+    let region = Region::new(ALLOCATOR);
     act();
-    dhat::HeapStats::get().total_blocks - before
+    region.change()
+}
+
+/// How often.
+fn blocks(act: &mut impl FnMut()) -> usize {
+    let Stats { allocations, reallocations, .. } = allocated(act);
+    allocations + reallocations
 }
 
 /// Of a hundred steps.
-fn of_steps(mut advance: impl FnMut()) -> u64 {
+fn of_steps(mut advance: impl FnMut()) -> usize {
     blocks(&mut || (0..100).for_each(|_| advance()))
 }
 
@@ -50,10 +57,11 @@ fn bytes<S: Lagrangian, M: Method<S, f64>>(
     (h, steps): (f64, u64),
     start: S::State<f64>,
 ) -> f64 {
-    let before = dhat::HeapStats::get().total_bytes;
-    let mut run = Integrator::new(system, method, h, start).expect("starts");
-    run.take_steps(steps).expect("steps");
-    (dhat::HeapStats::get().total_bytes - before) as f64
+    let stats = allocated(|| {
+        let mut run = Integrator::new(system, method, h, start).expect("starts");
+        run.take_steps(steps).expect("steps");
+    });
+    stats.bytes_allocated as f64
 }
 
 /// Bytes that a run of a chain of `n` masses takes.
@@ -137,12 +145,13 @@ fn of_links(n: usize) -> f64 {
 /// Bytes that a run of `n` such bodies takes.
 fn of_bodies<M: Method<Rubbed, f64>>(method: M, n: usize) -> f64 {
     let (system, q) = (Rubbed { n }, (0..n).map(|j| (j as f64).sin()).collect());
-    let before = dhat::HeapStats::get().total_bytes;
-    let mut run =
-        Integrator::new(&system, method, 0.1, RubbedState { q, dot_q: vec![0.0; n] }).expect("starts");
-    run.take_steps(3).expect("steps");
-    let _ = (run.state(), run.power());
-    (dhat::HeapStats::get().total_bytes - before) as f64
+    let stats = allocated(|| {
+        let start = RubbedState { q, dot_q: vec![0.0; n] };
+        let mut run = Integrator::new(&system, method, 0.1, start).expect("starts");
+        run.take_steps(3).expect("steps");
+        let _ = (run.state(), run.power());
+    });
+    stats.bytes_allocated as f64
 }
 
 /// Masses on springs between each and the two below it.
@@ -191,7 +200,6 @@ macro_rules! assert_linear {
 
 #[test]
 fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
-    let _profiler = dhat::Profiler::builder().testing().build();
     let counted = of_steps(|| drop(std::hint::black_box(vec![0_u8; 16])));
     assert_eq!(counted, 100, "the counter counts");
 
