@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::Write as _;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
 
 use anyhow::{Context as _, Result};
-use jiff::Timestamp;
 
 /// Writes the file under a provisional name and renames it when it is complete, so that whatever
 /// happens in between, nothing incomplete ever bears the final name.
@@ -69,12 +69,17 @@ impl Table {
     }
 }
 
+/// The first second of the year 10000, since 1970: there are no words for it.
+const BEYOND_WORDS: u64 = 253_402_300_800;
+
 /// When a run is made, in words; `SOURCE_DATE_EPOCH` in the environment, in seconds since 1970, stands for
 /// the clock.
 pub fn now() -> String {
     let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
-    let time = given.and_then(|seconds| Timestamp::from_second(seconds).ok()).unwrap_or_else(Timestamp::now);
-    time.strftime("%Y-%m-%d %H:%M UTC").to_string()
+    let given = given.filter(|&seconds| seconds < BEYOND_WORDS).map(Duration::from_secs);
+    let time = given.map_or_else(SystemTime::now, |since| SystemTime::UNIX_EPOCH + since);
+    let text = humantime::format_rfc3339_seconds(time).to_string();
+    format!("{} {} UTC", &text[..10], &text[11..16])
 }
 
 #[cfg(test)]
