@@ -117,7 +117,7 @@ pub(in crate::methods) fn replace<const STAGES: usize, S: System, T: Real>(
         }
         largest = largest.larger(changes * Lanes::all(weight));
     }
-    // Packs are whole up to here: the compiler would take halves of all, which is what their lanes are joined by.
+    // Packs are whole up to here: the compiler would take halves of all, by which their lanes are joined.
     black_box(largest).largest()
 }
 
