@@ -85,7 +85,6 @@ use std::fmt;
 use std::format;
 use std::path::Path;
 use std::string::String;
-use std::sync::Arc;
 use std::time::Duration;
 use std::vec::Vec;
 
@@ -95,7 +94,7 @@ use crate::discrete::DiscreteLagrangian;
 use crate::methods::{InStep, Method, Suits, VariationalMethod};
 use crate::run::{Direction, Together};
 use crate::shown::shown;
-use limits::Condition;
+use limits::Given;
 use plan::Plan;
 use rounds::{Checkpoints, Rounds};
 use settings::{Settings, Systems};
@@ -194,7 +193,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
             vary: None,
             h,
             stride: 100,
-            limits: Vec::new(),
+            limits: None,
             section: None,
             packs: None,
             growth: None,
@@ -263,12 +262,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         reasons: [&'static str; N],
         g: impl Fn(&S, &S::State<f64>, f64) -> [f64; N] + Send + Sync + 'a,
     ) -> Self {
-        let g = Arc::new(g);
-        let limit = |number: usize| -> Condition<'a, S> {
-            let g = Arc::clone(&g);
-            Box::new(move |system, state, t| g(system, state, t)[number])
-        };
-        self.settings.limits = (0..N).map(|number| (reasons[number], limit(number))).collect();
+        let given = Given { directions: [Direction::Rising; N], g };
+        self.settings.limits = Some((reasons.into(), Box::new(given)));
         self
     }
 
@@ -297,7 +292,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         direction: Direction,
         g: impl Fn(&S, &S::State<f64>) -> f64 + Send + Sync + 'a,
     ) -> Self {
-        self.settings.section = Some((direction, Box::new(move |system, state, _| g(system, state))));
+        let g = move |system: &S, state: &S::State<f64>, _| [g(system, state)];
+        self.settings.section = Some((direction, Box::new(Given { directions: [direction], g })));
         self
     }
 

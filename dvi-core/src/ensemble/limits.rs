@@ -5,25 +5,93 @@ use std::boxed::Box;
 use std::vec::Vec;
 
 use super::settings::{AnyGrowth, Settings};
-use crate::error::{CheckpointError, StartError, StepError, StepFailure};
+use crate::error::{CheckpointError, StartError, StepError};
 use crate::methods::Method;
 use crate::run::{Dense, Direction, Event, Integrator, Run, Watch};
 use crate::{Lagrangian, System};
 
 type RunOf<'a, S, M> = Integrator<&'a S, M>;
 type EventOf<S> = Event<<S as System>::State<f64>, f64>;
-/// A condition g(system, state, t).
-pub(super) type Condition<'a, S> =
-    Box<dyn Fn(&S, &<S as System>::State<f64>, f64) -> f64 + Send + Sync + 'a>;
-/// The same on the system of one member.
-type OnSystem<'s, S> = Box<dyn FnMut(f64, &<S as System>::State<f64>) -> [f64; 1] + 's>;
+pub(super) type AnyWatch<'s, 'a, S, M> = Box<dyn Watched<'a, S, M> + 's>;
 
 /// An event at which a member ends, and why.
 pub(super) type Exit<S> = (EventOf<S>, &'static str);
 
-/// Parts of a step that differ by no more than this are one: of limits that are met at once the first
-/// counts.
-const TOGETHER: f64 = 16.0 * f64::EPSILON;
+/// Conditions g(system, state, t), each with the direction in which it is crossed.
+pub(super) struct Given<G, const N: usize> {
+    pub(super) directions: [Direction; N],
+    pub(super) g: G,
+}
+
+/// Conditions for the members of an ensemble, all evaluated at once. It hides how many there are.
+pub(super) trait Conditions<'a, S: Lagrangian, M: Method<S, f64>>: Send + Sync {
+    /// Their values where a run is.
+    fn values(&self, run: &RunOf<'a, S, M>) -> Vec<f64>;
+
+    /// Watches a run of `system` from where it is on.
+    ///
+    /// # Errors
+    /// As [`Watch::new`].
+    fn watch<'s>(
+        &'s self,
+        system: &'a S,
+        run: &mut Dense<RunOf<'a, S, M>>,
+    ) -> Result<AnyWatch<'s, 'a, S, M>, StartError>
+    where
+        'a: 's,
+        S: 's,
+        M: 's;
+}
+
+/// A [`Watch`].
+pub(super) trait Watched<'a, S: Lagrangian, M: Method<S, f64>> {
+    fn search(&mut self, run: &mut Dense<RunOf<'a, S, M>>) -> Result<(), StepError>;
+    fn next(&mut self, run: &mut Dense<RunOf<'a, S, M>>, t: f64) -> Result<Option<EventOf<S>>, StepError>;
+    fn save(&self) -> Vec<f64>;
+    fn load(&mut self, saved: &[f64]) -> Option<()>;
+}
+
+impl<'a, S: Lagrangian, M: Method<S, f64>, G, const N: usize> Conditions<'a, S, M> for Given<G, N>
+where
+    G: Fn(&S, &S::State<f64>, f64) -> [f64; N] + Send + Sync,
+{
+    fn values(&self, run: &RunOf<'a, S, M>) -> Vec<f64> {
+        (self.g)(run.system(), &run.state(), run.time()).into()
+    }
+
+    fn watch<'s>(
+        &'s self,
+        system: &'a S,
+        run: &mut Dense<RunOf<'a, S, M>>,
+    ) -> Result<AnyWatch<'s, 'a, S, M>, StartError>
+    where
+        'a: 's,
+        S: 's,
+        M: 's,
+    {
+        let g = move |t: f64, state: &S::State<f64>| (self.g)(system, state, t);
+        Ok(Box::new(Watch::new(run, self.directions, g)?))
+    }
+}
+
+impl<'a, S: Lagrangian, M: Method<S, f64>, G, const N: usize> Watched<'a, S, M>
+    for Watch<RunOf<'a, S, M>, G, N>
+where
+    G: FnMut(f64, &S::State<f64>) -> [f64; N],
+{
+    fn search(&mut self, run: &mut Dense<RunOf<'a, S, M>>) -> Result<(), StepError> {
+        Watch::search(self, run)
+    }
+    fn next(&mut self, run: &mut Dense<RunOf<'a, S, M>>, t: f64) -> Result<Option<EventOf<S>>, StepError> {
+        self.next_until(run, t)
+    }
+    fn save(&self) -> Vec<f64> {
+        Watch::save(self)
+    }
+    fn load(&mut self, saved: &[f64]) -> Option<()> {
+        Watch::load(self, saved)
+    }
+}
 
 /// What is known of limits and section, for a run that goes on.
 pub(super) type Saved = Vec<Vec<f64>>;
@@ -31,9 +99,9 @@ pub(super) type Saved = Vec<Vec<f64>>;
 /// A run that is watched in each step.
 pub(super) struct WatchedRun<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
     run: Dense<RunOf<'a, S, M>>,
-    limits: &'s [(&'static str, Condition<'a, S>)],
-    /// Those of the limits, and behind them that of the section if there is one.
-    watches: Vec<Watch<RunOf<'a, S, M>, OnSystem<'s, S>, 1>>,
+    reasons: &'s [&'static str],
+    /// That of the limits and that of the section, if there are any.
+    watches: [Option<AnyWatch<'s, 'a, S, M>>; 2],
 }
 
 impl<'s, 'a, S: Lagrangian, M: Method<S, f64>> WatchedRun<'s, 'a, S, M> {
@@ -48,20 +116,17 @@ impl<'s, 'a, S: Lagrangian, M: Method<S, f64>> WatchedRun<'s, 'a, S, M> {
         saved: Option<&Saved>,
     ) -> Result<Self, StartError> {
         let mut run = Dense::new(run)?;
-        let limits = &limits[..];
-        let conditions = limits.iter().map(|(_, g)| (Direction::Rising, g));
-        let conditions = conditions.chain(section.iter().map(|(direction, g)| (*direction, g)));
-        let watch = |(direction, g): (Direction, &'s Condition<'a, S>)| {
-            let g: OnSystem<'s, S> = Box::new(move |t, state| [g(system, state, t)]);
-            Watch::new(&mut run, [direction], g)
-        };
-        let mut watches = conditions.map(watch).collect::<Result<Vec<_>, _>>()?;
+        let of_limits = limits.as_ref().map(|(_, limits)| limits.watch(system, &mut run)).transpose()?;
+        let of_section = section.as_ref().map(|(_, section)| section.watch(system, &mut run)).transpose()?;
+        let mut watches = [of_limits, of_section];
         if let Some(saved) = saved {
-            let are_as_many = saved.len() == watches.len();
-            let loaded = watches.iter_mut().zip(saved).try_for_each(|(watch, saved)| watch.load(saved));
+            let are_as_many = saved.len() == watches.iter().flatten().count();
+            let mut pairs = watches.iter_mut().flatten().zip(saved);
+            let loaded = pairs.try_for_each(|(watch, saved)| watch.load(saved));
             loaded.filter(|()| are_as_many).ok_or(CheckpointError::Damaged)?;
         }
-        Ok(Self { run, limits, watches })
+        let reasons = limits.as_ref().map_or(&[][..], |(reasons, _)| reasons);
+        Ok(Self { run, reasons, watches })
     }
 
     pub(super) fn run(&self) -> &RunOf<'a, S, M> {
@@ -78,25 +143,23 @@ impl<'s, 'a, S: Lagrangian, M: Method<S, f64>> WatchedRun<'s, 'a, S, M> {
         count: u64,
         crossings: &mut u64,
     ) -> Result<Option<Exit<S>>, StepError> {
-        let Self { run, limits, watches } = self;
-        let (of_limits, of_section) = watches.split_at_mut(limits.len());
+        let Self { run, reasons, watches: [limits, section] } = self;
         for _ in 0..count {
             run.advance_by(|run| match growth {
                 Some(growth) => growth.take_steps(run, 1),
                 None => run.advance(),
             })?;
             let (mut exit, mut end) = (None, run.time());
-            for (number, (watch, (reason, _))) in of_limits.iter_mut().zip(*limits).enumerate() {
-                watch.search(run).map_err(|error| numbered(error, number))?;
-                let first = watch.next_until(run, end)?;
-                let is_earlier = |event: &EventOf<S>| (end - event.time) / run.step_size() > TOGETHER;
-                if let Some(event) = first.filter(|event| exit.is_none() || is_earlier(event)) {
-                    (end, exit) = (event.time, Some((event, *reason)));
+            if let Some(limits) = limits {
+                limits.search(run)?;
+                if let Some(event) = limits.next(run, end)? {
+                    let reason = reasons[event.index];
+                    (end, exit) = (event.time, Some((event, reason)));
                 }
             }
-            for section in of_section.iter_mut() {
+            if let Some(section) = section {
                 section.search(run)?;
-                while section.next_until(run, end)?.is_some() {
+                while section.next(run, end)?.is_some() {
                     *crossings += 1;
                 }
             }
@@ -108,16 +171,8 @@ impl<'s, 'a, S: Lagrangian, M: Method<S, f64>> WatchedRun<'s, 'a, S, M> {
     }
 
     pub(super) fn save(&self) -> Saved {
-        self.watches.iter().map(Watch::save).collect()
+        self.watches.iter().flatten().map(|watch| watch.save()).collect()
     }
-}
-
-/// An error that counts the condition as one of the limits.
-fn numbered(mut error: StepError, number: usize) -> StepError {
-    if let StepFailure::UndefinedEvent { event } = &mut error.failure {
-        *event = number;
-    }
-    error
 }
 
 /// Of the first step, what tells where a limit leads that is zero at the start.
@@ -134,19 +189,16 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
         number: u64,
         run: &RunOf<'a, S, M>,
     ) -> Result<Option<Exit<S>>, StartError> {
-        for (index, (reason, g)) in self.limits.iter().enumerate() {
-            let value = |run: &RunOf<'a, S, M>| g(system, &run.state(), run.time());
-            let mut here = value(run);
-            if here == 0.0 {
-                let (method, h) = (self.method(number), SOON * self.h);
-                let mut soon = Integrator::new_at(system, method, run.time(), h, run.state())?;
-                soon.advance().map_err(|error| StartError::Starter(error.failure))?;
-                here = value(&soon);
-            }
-            if here > 0.0 {
-                return Ok(Some((Event { index, time: run.time(), state: run.state() }, reason)));
-            }
+        let Some((reasons, limits)) = &self.limits else { return Ok(None) };
+        let mut values = limits.values(run);
+        if values.contains(&0.0) {
+            let (method, h) = (self.method(number), SOON * self.h);
+            let mut soon = Integrator::new_at(system, method, run.time(), h, run.state())?;
+            soon.advance().map_err(|error| StartError::Starter(error.failure))?;
+            let later = values.iter_mut().zip(limits.values(&soon)).filter(|(g, _)| **g == 0.0);
+            later.for_each(|(g, soon)| *g = soon);
         }
-        Ok(None)
+        let index = values.iter().position(|&g| g > 0.0);
+        Ok(index.map(|index| (Event { index, time: run.time(), state: run.state() }, reasons[index])))
     }
 }

@@ -66,7 +66,7 @@ impl Plan {
         if settings.vary.is_some() {
             (0..states.len() as u64).for_each(|number| varied.text(&method_text(&settings.method(number))));
         }
-        let reasons: Vec<&str> = settings.limits.iter().map(|(reason, _)| *reason).collect();
+        let reasons = settings.limits.as_ref().map_or(&[][..], |(reasons, _)| reasons);
         let direction = section.as_ref().map(|(direction, _)| direction);
         let facts = [
             ("version of the library", env!("CARGO_PKG_VERSION").to_string()),

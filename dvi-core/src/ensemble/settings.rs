@@ -5,13 +5,15 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::growth::Growth;
-use super::limits::Condition;
+use super::limits::Conditions;
 use crate::Lagrangian;
 use crate::error::StepError;
 use crate::methods::Method;
 use crate::run::Direction;
 use crate::run::Integrator;
 
+/// Limits, or a section.
+pub(super) type AnyConditions<'a, S, M> = Box<dyn Conditions<'a, S, M> + 'a>;
 /// The name of a parameter, and what it is of a system and its first state.
 pub(super) type Swept<'a, S, Q> = (String, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
 /// What is special to the method of one member.
@@ -41,9 +43,9 @@ pub(super) struct Settings<'a, S: Lagrangian, M: Method<S, f64>> {
     pub(super) h: f64,
     pub(super) stride: u64,
     /// The limits at which members end, with the reasons.
-    pub(super) limits: Vec<(&'static str, Condition<'a, S>)>,
+    pub(super) limits: Option<(Vec<&'static str>, AnyConditions<'a, S, M>)>,
     /// The section, with its direction.
-    pub(super) section: Option<(Direction, Condition<'a, S>)>,
+    pub(super) section: Option<(Direction, AnyConditions<'a, S, M>)>,
     /// With the number of lanes.
     pub(super) packs: Option<(usize, NewPacks<'a, S, M>)>,
     pub(super) growth: Option<NewGrowth<'a, S, M>>,
@@ -73,7 +75,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Settings<'a, S, M> {
 
     /// Whether there is something to look for in each step.
     pub(super) fn is_watched(&self) -> bool {
-        !self.limits.is_empty() || self.section.is_some()
+        self.limits.is_some() || self.section.is_some()
     }
 
     /// The lanes that members go in, which none do that are followed from step to step.

@@ -26,7 +26,7 @@ use crate::methods::{
     Carries, Here, Method, PreservedForm, Step, Tabulated, Tolerance, VariableStep, scheme,
 };
 use crate::scalar::simd::widest_if;
-use crate::solve::{Convergence, Guess, Ladder, Solver, Stopping, from_either_guess, iterate};
+use crate::solve::{Convergence, Due, Guess, Ladder, Solver, Stopping, from_either_guess, repeat};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
 use crate::{Lagrangian, Real, System, Vector};
@@ -246,15 +246,14 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         let Self { stopping, summation, .. } = *self;
         S::Kind::gather(&mut path.equations, q, &mut path.y);
         path.guess(guess, h);
-        // Where equations are of second order, this sets the positions that are guessed.
-        path.place(system, h);
+        path.depart(system, h);
         let convergence = Convergence::fixed_point(stopping, budget);
         // Corrections are those of h times a velocity, or of positions: the momenta follow from these.
-        iterate(
+        repeat(
             convergence,
             statistics,
             #[cfg_attr(not(debug_assertions), inline(always))]
-            |due, statistics| {
+            |due: &mut Due, statistics: &mut Statistics| {
                 path.prepare(system, due, q, h);
                 // Forces depend on coordinates and velocities, velocities on momenta and, as these, on
                 // coordinates that are in place.

@@ -49,6 +49,20 @@ impl<const W: usize, T: Real> Lanes<W, T> {
         self.with(other, norm::larger)
     }
 
+    /// The largest of the numbers, which are not negative: by halves, which do not wait for one another.
+    #[inline]
+    pub(crate) fn largest(self) -> T {
+        let (Self(mut numbers), mut count) = (self, W);
+        while count > 1 {
+            let half = count.div_ceil(2);
+            for lane in 0..count - half {
+                numbers[lane] = norm::larger(numbers[lane], numbers[lane + half]);
+            }
+            count = half;
+        }
+        numbers[0]
+    }
+
     // Loops, and no closures in functions of the library: these are not always inlined. Over the numbers, as
     // what stands behind fewer than eight would be copied with a pack.
     #[inline]

@@ -10,6 +10,7 @@ use core::ops::{DerefMut, Range};
 
 use crate::name::Axis;
 use crate::scalar::norm::{MANY, larger, largest_number};
+use crate::scalar::passes::lanes_stay_together;
 use crate::scalar::{Lanes, smallest_normal};
 use crate::{Real, Report, Scalar, System};
 
@@ -152,7 +153,8 @@ impl Due {
         places: &mut [Lanes<W, T>],
     ) {
         let size = |k: usize, place: &Lanes<W, T>| {
-            Scalar::abs(q[k]) + largest_number(&place.0.map(|place| place - q[k]))
+            lanes_stay_together::<Lanes<W, T>>();
+            Scalar::abs(q[k]) + Scalar::abs(*place - Lanes::all(q[k])).largest()
         };
         self.carry_out(system, (weights, T::lift(1.0)), size, places);
     }
@@ -168,7 +170,10 @@ impl Due {
         slopes: &mut [Lanes<W, T>],
     ) -> bool {
         let h = Scalar::abs(h);
-        let size = |k: usize, slope: &Lanes<W, T>| Scalar::abs(q[k]) + h * largest_number(&slope.0);
+        let size = |k: usize, slope: &Lanes<W, T>| {
+            lanes_stay_together::<Lanes<W, T>>();
+            Scalar::abs(q[k]) + h * Scalar::abs(*slope).largest()
+        };
         self.carry_out(system, (weights, h), size, slopes)
     }
 

@@ -3,6 +3,8 @@
 //! Σⱼ aⱼ xⱼ, where a number x of each stage has a lane, is a sum of columns aⱼ. It is taken of several
 //! numbers at once, so that each column is read once for all of them while their sums stay in registers.
 
+use core::hint::black_box;
+
 use crate::scalar::passes::lanes_stay_together;
 use crate::scalar::{Lanes, norm};
 use crate::solve::sizes;
@@ -83,18 +85,19 @@ impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
         [places, renewed]: [&mut [Lanes<STAGES, T>]; 2],
     ) -> T {
         combine(&self.nu[..count], displacements, from, renewed);
-        replace(system, weights, places, renewed)
+        replace(system, weights, places, renewed, |_, _| ())
     }
 }
 
-/// Sets packs to new ones, and returns the largest change of a number in units of `weights`, which are those
-/// of blocks.
+/// Sets packs to new ones, each of which it shows to `see` with its place, and returns the largest change of
+/// a number in units of `weights`, which are those of blocks.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::methods) fn replace<const STAGES: usize, S: System, T: Real>(
     system: &S,
     weights: &[T],
     packs: &mut [Lanes<STAGES, T>],
     new: &[Lanes<STAGES, T>],
+    mut see: impl FnMut(usize, Lanes<STAGES, T>),
 ) -> T {
     let none = Lanes::all(T::lift(0.0));
     let mut largest = none;
@@ -103,34 +106,25 @@ pub(in crate::methods) fn replace<const STAGES: usize, S: System, T: Real>(
             continue;
         }
         let (mut changes, weight) = (none, weights[block.start]);
-        for (pack, new) in packs[block.clone()].iter_mut().zip(&new[block]) {
+        for (k, (pack, new)) in block.clone().zip(packs[block.clone()].iter_mut().zip(&new[block])) {
             lanes_stay_together::<Lanes<STAGES, T>>();
             changes = changes.larger(Scalar::abs(*new - *pack));
-            pack.0 = new.0;
+            // Number by number, so that none is loaded once more.
+            for stage in 0..STAGES {
+                pack.0[stage] = new.0[stage];
+            }
+            see(k, *new);
         }
         largest = largest.larger(changes * Lanes::all(weight));
     }
-    largest_of(largest.0)
+    // Packs are whole up to here: the compiler would take halves of all, by which their lanes are joined.
+    black_box(largest).largest()
 }
 
 /// The sum over stages.
 #[inline]
 pub(in crate::methods) fn sum<T: Real>(stages: &[T]) -> T {
     stages.iter().fold(T::lift(0.0), |sum, &number| sum + number)
-}
-
-/// The largest of a few numbers that are not negative, by halves, which do not wait for one another.
-#[inline]
-fn largest_of<const N: usize, T: Real>(mut numbers: [T; N]) -> T {
-    let mut count = N;
-    while count > 1 {
-        let half = count.div_ceil(2);
-        for i in 0..count - half {
-            numbers[i] = norm::larger(numbers[i], numbers[i + half]);
-        }
-        count = half;
-    }
-    numbers[0]
 }
 
 /// So far the polynomial of a step is continued, in units of that step: to the end of one that is twice as

@@ -25,7 +25,7 @@ use crate::methods::collocation::packs::{Nystrom, combine, continuation, sum};
 use crate::methods::step::Begin;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::{Lanes, norm};
-use crate::solve::{Convergence, Stopping, iterate};
+use crate::solve::{Convergence, Due, Stopping, repeat};
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, Space, System, Vector};
 
@@ -56,6 +56,8 @@ pub struct Interior<const NODES: usize, const W: usize, S: System, T: Real, E> {
     /// h M⁻¹p0, and h M⁻¹ of what the first kick adds to it.
     drift: Vector<S, T>,
     kick: Vector<S, T>,
+    /// What these add to q0 at the nodes.
+    free: Vector<S, Lanes<W, T>>,
     work: [Vector<S, T>; 2],
     /// In which the iteration judges coordinates.
     sizes: Vector<S, T>,
@@ -124,6 +126,7 @@ where
             renewed: packs(),
             drift: system.space().vector(),
             kick: system.space().vector(),
+            free: packs(),
             work: system.space().vectors(),
             sizes: system.space().vector(),
             evaluation: PhantomData,
@@ -149,11 +152,11 @@ where
         // The momentum is that of the forces before the last correction, whose size counts, and not that of
         // the next one alone.
         let convergence = Convergence::fixed_point(stopping, budget);
-        iterate(
+        repeat(
             convergence,
             statistics,
             #[cfg_attr(not(debug_assertions), inline(always))]
-            |due, statistics| {
+            |due: &mut Due, statistics: &mut Statistics| {
                 due.prepare_places(at.system, &mut self.sizes, at.q, &mut self.places);
                 self.evaluate(at, statistics);
                 Ok(self.place(at))
@@ -188,6 +191,13 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             *impulse = h * self.end * phase.force[k] + phase.carried[1].left_out_of(k);
         }
         mass.displace(h, impulse, &mut self.kick);
+        let nodes = self.nystrom.nodes;
+        for (k, (free, (&drift, &kick))) in
+            self.free.iter_mut().zip(self.drift.iter().zip(self.kick.iter())).enumerate()
+        {
+            let small = Lanes::all(phase.carried[0].left_out_of(k)) + nodes * Lanes::all(kick);
+            *free = small + nodes * Lanes::all(drift);
+        }
         self.place(at);
     }
 
@@ -234,11 +244,16 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
                 other = continuation(lagrange, nystrom.nodes, h / *last);
                 &other
             };
-            let from = |k: usize| {
-                let ends = columns[0] * Lanes::all(first[k]) + columns[NODES - 1] * Lanes::all(force[k]);
-                (T::lift(0.0), ends)
-            };
-            combine(&columns[1..=Self::COUNT], &completed[0], from, forces);
+            combine(
+                &columns[1..=Self::COUNT],
+                &completed[0],
+                #[cfg_attr(not(debug_assertions), inline(always))]
+                |k| {
+                    let ends = columns[0] * Lanes::all(first[k]) + columns[NODES - 1] * Lanes::all(force[k]);
+                    (T::lift(0.0), ends)
+                },
+                forces,
+            );
         }
         let by = Lanes::all(h) * *weights;
         weigh(|_| by, forces, terms);
@@ -248,8 +263,8 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
     /// coordinates.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&mut self, at: &Begin<'_, S, T>) -> T {
-        let Begin { system, interval: Interval { h, .. }, q, phase, mass } = *at;
-        let Self { nystrom, terms, displacements, places, renewed, drift, kick, work, sizes, .. } = self;
+        let Begin { system, interval: Interval { h, .. }, q, mass, .. } = *at;
+        let Self { nystrom, terms, displacements, places, renewed, free, work, sizes, .. } = self;
         if let Some(reciprocals) = mass.reciprocals() {
             weigh(|k| Lanes::all(h * reciprocals[k]), terms, displacements);
         } else {
@@ -260,18 +275,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
                 write_lane(lane, displacement, displacements);
             }
         }
-        let nodes = nystrom.nodes;
-        nystrom.place(
-            system,
-            Self::COUNT,
-            displacements,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            |k| {
-                let small = Lanes::all(phase.carried[0].left_out_of(k)) + nodes * Lanes::all(kick[k]);
-                (q[k], small + nodes * Lanes::all(drift[k]))
-            },
-            sizes,
-            [places, renewed],
-        )
+        let from = |k: usize| (q[k], free[k]);
+        nystrom.place(system, Self::COUNT, displacements, from, sizes, [places, renewed])
     }
 }

@@ -38,7 +38,8 @@ pub(super) struct Path<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T
     /// L, of these slopes.
     pub(super) terms: StagesOf<STAGES, S, T>,
     pub(super) stages: StagesOf<STAGES, S, T>,
-    /// New slopes, where changes of the old ones count.
+    /// New slopes, where changes of the old ones count; of equations of second order, what a free motion
+    /// adds to q at the stages.
     pub(super) renewed: Vector<S, Lanes<STAGES, T>>,
     /// Where the step begins, its increment, and where it ends.
     pub(super) y: PointOf<S, T>,
@@ -114,8 +115,11 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         };
         for part in first_part::<S, T>(equations)..y.len() {
             let nothing = |_| (T::lift(0.0), Lanes::all(T::lift(0.0)));
-            guess
-                .begin(&mut slopes[part], |slopes| combine(continuation, &completed[part], nothing, slopes));
+            guess.begin(
+                &mut slopes[part],
+                #[cfg_attr(not(debug_assertions), inline(always))]
+                |slopes| combine(continuation, &completed[part], nothing, slopes),
+            );
             weigh(|_| weights, &slopes[part], &mut terms[part]);
         }
     }
@@ -166,8 +170,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             return Ok(T::lift(0.0));
         }
         E::evaluate_part(equations, &at, work, renewed, statistics)?;
-        weigh(|_| weights, renewed, &mut terms[0]);
-        Ok(replace(system, units, &mut velocity[0], renewed))
+        let terms = &mut terms[0];
+        let weigh = |k: usize, slope| terms[k] = weights * slope;
+        Ok(replace(system, units, &mut velocity[0], renewed, weigh))
     }
 
     /// Does what is `due` before an iteration from `q`.

@@ -15,23 +15,32 @@ use crate::scalar::Lanes;
 use crate::{Real, System};
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
+    /// Sets the positions of all stages by the forces that are guessed, if the equations are of second order.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn depart(&mut self, system: &S, h: T) {
+        let Self { equations, coefficients, renewed: free, y, rest, .. } = self;
+        let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
+        let nodes = coefficients.nystrom.nodes;
+        for (k, (free, &reciprocal)) in free.iter_mut().zip(reciprocals).enumerate() {
+            let by = h * reciprocal;
+            let small = Lanes::all(rest[0][k]) + nodes * Lanes::all(by * rest[1][k]);
+            *free = small + nodes * Lanes::all(by * y[1][k]);
+        }
+        self.place(system, h);
+    }
+
     /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the
     /// equations are not of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn place(&mut self, system: &S, h: T) -> Option<T> {
-        let Self { equations, coefficients, terms, stages, y, rest, weights, .. } = self;
+        let Self { equations, coefficients, terms, stages, y, renewed: free, weights, .. } = self;
         let reciprocals = S::Kind::reciprocal_masses(equations)?;
         let ([displacements, momenta], [places, renewed]) = (&mut terms[..], &mut stages[..]) else {
             return None;
         };
         weigh(|k| Lanes::all(h * reciprocals[k]), momenta, displacements);
+        let from = |k: usize| (y[0][k], free[k]);
         let nystrom = &coefficients.nystrom;
-        let nodes = nystrom.nodes;
-        let from = |k: usize| {
-            let by = h * reciprocals[k];
-            let small = Lanes::all(rest[0][k]) + nodes * Lanes::all(by * rest[1][k]);
-            (y[0][k], small + nodes * Lanes::all(by * y[1][k]))
-        };
         Some(nystrom.place(system, STAGES, displacements, from, weights, [places, renewed]))
     }
 

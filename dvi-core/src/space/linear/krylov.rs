@@ -102,6 +102,7 @@ impl<T: Real> Krylov<T> {
     ) -> Result<(), StepFailure> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let Self { pivots, unused, work: [diagonal, taken], scales, .. } = self;
+        let (pivots, diagonal, scales) = (&mut pivots[..], &mut diagonal[..], &scales[..]);
         pivots.iter_mut().enumerate().for_each(|(row, pivot)| *pivot = (row, zero));
         diagonal.fill(zero);
         // Beside the diagonal, the largest part of an entry has to do for the entry.
@@ -238,6 +239,8 @@ impl<T: Real> Krylov<T> {
         for (&(column, reciprocal), &v) in pivots.iter().zip(&basis[begin..]) {
             direction[column] = scales[column] * (reciprocal * v);
         }
+        // Slices, whose lengths do not stand behind a pointer.
+        let (direction, product) = (&direction[..], &mut product[..]);
         product.fill(T::lift(0.0));
         let mut add = |row: usize, column: usize, entry: T| product[row] += entry * direction[column];
         equations.evaluate(unused, &mut add)?;

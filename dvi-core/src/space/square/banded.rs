@@ -92,9 +92,9 @@ impl<T: Real> SquareMatrix<T> for Banded<T> {
     }
 
     fn scale_rows(&mut self, scales: &[T]) {
-        let width = self.width();
+        let (width, bandwidth) = (self.width(), self.bandwidth);
         for (line, &i) in lines_mut(&mut self.entries, width).zip(&self.coordinate) {
-            line.iter_mut().for_each(|entry| *entry *= scales[i as usize]);
+            line[..=2 * bandwidth].iter_mut().for_each(|entry| *entry *= scales[i as usize]);
         }
     }
 
@@ -115,18 +115,24 @@ impl<T: Real> SquareMatrix<T> for Banded<T> {
                     (row, pivot) = (i, size);
                 }
             }
-            // Its multipliers stand where its row was before later exchanges.
-            let (mut subtracted, mut place) = (T::lift(LEAST), row);
-            for j in (k.saturating_sub(2 * b)..k).rev() {
-                if place <= j + b {
-                    subtracted += Scalar::abs(entries[at(place, j)] * entries[at(j, k)]);
+            // Multipliers are no larger than one but for rounding, so that most pivots need no closer look.
+            let reach = k.min(2 * b);
+            let above = entries[at(k - reach, k)..].iter().step_by((width - 1).max(1)).take(reach);
+            let most = above.fold(T::lift(LEAST), |sum, &entry| sum + Scalar::abs(entry));
+            if !is_pivot(pivot, T::lift(2.0) * rounding * most) {
+                // The multipliers of the row stand where it was before later exchanges.
+                let (mut subtracted, mut place) = (T::lift(LEAST), row);
+                for j in (k - reach..k).rev() {
+                    if place <= j + b {
+                        subtracted += Scalar::abs(entries[at(place, j)] * entries[at(j, k)]);
+                    }
+                    if place == self.pivots[j] as usize {
+                        place = j;
+                    }
                 }
-                if place == self.pivots[j] as usize {
-                    place = j;
+                if !is_pivot(pivot, rounding * subtracted) {
+                    return Err(singular(pivot, self.coordinate[k] as usize));
                 }
-            }
-            if !is_pivot(pivot, rounding * subtracted) {
-                return Err(singular(pivot, self.coordinate[k] as usize));
             }
             self.pivots[k] = row as u32;
             let columns = (k + 2 * b + 1).min(n) - k;
