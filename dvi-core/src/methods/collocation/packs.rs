@@ -110,6 +110,7 @@ pub(in crate::methods) fn replace<const STAGES: usize, S: System, T: Real>(
             lanes_stay_together::<Lanes<STAGES, T>>();
             changes = changes.larger(Scalar::abs(*new - *pack));
             // Number by number, so that none is loaded once more.
+            #[allow(clippy::manual_memcpy)]
             for stage in 0..STAGES {
                 pack.0[stage] = new.0[stage];
             }

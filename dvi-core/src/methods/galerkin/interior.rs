@@ -275,6 +275,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
                 write_lane(lane, displacement, displacements);
             }
         }
+        let free = &free[..];
         let from = |k: usize| (q[k], free[k]);
         nystrom.place(system, Self::COUNT, displacements, from, sizes, [places, renewed])
     }

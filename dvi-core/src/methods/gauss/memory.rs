@@ -170,7 +170,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             return Ok(T::lift(0.0));
         }
         E::evaluate_part(equations, &at, work, renewed, statistics)?;
-        let terms = &mut terms[0];
+        let terms = &mut terms[0][..];
         let weigh = |k: usize, slope| terms[k] = weights * slope;
         Ok(replace(system, units, &mut velocity[0], renewed, weigh))
     }

@@ -39,7 +39,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             return None;
         };
         weigh(|k| Lanes::all(h * reciprocals[k]), momenta, displacements);
-        let from = |k: usize| (y[0][k], free[k]);
+        let (q, free) = (&y[0][..], &free[..]);
+        let from = |k: usize| (q[k], free[k]);
         let nystrom = &coefficients.nystrom;
         Some(nystrom.place(system, STAGES, displacements, from, weights, [places, renewed]))
     }
