@@ -65,8 +65,8 @@ fn count(folder: &Path) -> Outcome<Vec<(String, f64)>> {
     let counted = cases.lines().enumerate().map(|(number, case)| {
         // The files are numbered from 1 on, and every other one ends with the steps of a case.
         let total = total(&folder.join(format!("counts.{}", 2 * number + 2)))?;
-        let steps: f64 = case.split('\t').next().unwrap_or_default().parse()?;
-        Ok((case.to_owned(), total / steps.max(1.0)))
+        let (steps, _) = case.split_once('\t').ok_or("no case")?;
+        Ok((case.to_owned(), total / f64::max(steps.parse()?, 1.0)))
     });
     counted.collect()
 }

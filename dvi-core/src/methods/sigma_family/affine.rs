@@ -1,5 +1,5 @@
 //! The fixed point of affine α, a fast path: s ← −(1−σ)h K⁻¹∇H(q0 + σK⁻¹c0 + σs), with ∇H in place of the
-//! derivatives of L_d. A step of the midpoint rule on four vortices takes 1390 instructions and 113 ns, and
+//! derivatives of L_d. A step of the midpoint rule on four vortices takes 1396 instructions and 113 ns, and
 //! with the derivatives 2635 and 161 ns (`cargo bench -p dvi-kernels --bench instructions`, with this path
 //! and without).
 
