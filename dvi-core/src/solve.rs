@@ -106,19 +106,6 @@ impl<T, F: FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>> Iteration
     }
 }
 
-/// Iterates until a correction counts as the last. `improve` is as [`Iteration::improve`].
-///
-/// # Errors
-/// [`StepFailure::NotConverged`], or that of an iteration.
-#[inline]
-pub(crate) fn iterate<T: Real>(
-    convergence: impl Judge<T>,
-    statistics: &mut Statistics,
-    improve: impl FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>,
-) -> Result<(), StepFailure> {
-    repeat(convergence, statistics, improve)
-}
-
 /// Repeats an iteration until a correction counts as the last.
 ///
 /// # Errors
@@ -161,14 +148,14 @@ pub(crate) fn repeat<T: Real>(
 /// Newton's method: iterates until a correction counts as the last. `improve` is as [`Iteration::improve`].
 ///
 /// # Errors
-/// As [`iterate`].
+/// As [`repeat`].
 #[inline]
 pub(crate) fn newton<T: Real>(
     stopping: Stopping,
     statistics: &mut Statistics,
     improve: impl FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>,
 ) -> Result<(), StepFailure> {
-    iterate(Convergence::new(stopping, stopping.max_iterations), statistics, improve)
+    repeat(Convergence::new(stopping, stopping.max_iterations), statistics, improve)
 }
 
 /// Attempts a step from what the last steps let expect, and from zero where that fails: where steps are

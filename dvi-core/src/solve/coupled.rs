@@ -1,6 +1,6 @@
 //! Newton's method for several vectors of unknowns at once.
 
-use super::{Convergence, Due, Judge, Stopping, iterate, sizes};
+use super::{Convergence, Due, Judge, Stopping, repeat, sizes};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::{CoupledSolver, NodeSum, linear};
@@ -63,7 +63,7 @@ pub(crate) fn solve_coupled<const COUNT: usize, S: System, T: Real, E: CoupledEq
 ) -> Result<(), StepFailure> {
     let mut convergence = Convergence::new(stopping, stopping.max_iterations);
     convergence.course().more *= E::PER_ORDER;
-    iterate(convergence, statistics, |due, statistics| {
+    repeat(convergence, statistics, |due: &mut Due, statistics: &mut Statistics| {
         due.prepare_all(system, weights, q, &mut equations.unknowns()[E::FIRST..]);
         equations.evaluate(residuals, statistics)?;
         residuals[E::FIRST..].iter().try_for_each(|residual| norm::finite(residual))?;

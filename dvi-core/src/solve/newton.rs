@@ -1,6 +1,6 @@
 //! Newton's method for the increment of a step.
 
-use super::{Due, Judge, iterate, sizes};
+use super::{Due, Judge, repeat, sizes};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::space::{LinearEquations, LinearSolver, Sink, linear};
@@ -89,11 +89,11 @@ pub(crate) fn solve_by_newton<S: System, T: Real, J: Judge<T>>(
     judge: J,
     statistics: &mut Statistics,
 ) -> Result<(), StepFailure> {
-    iterate(
+    repeat(
         judge,
         statistics,
         #[cfg_attr(not(debug_assertions), inline(always))]
-        |due, statistics| {
+        |due: &mut Due, statistics: &mut Statistics| {
             due.prepare(system, weights, q0, delta);
             let [linearizations, factorisations] = equations.cost();
             statistics.linearizations += linearizations;
