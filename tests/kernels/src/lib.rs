@@ -3,6 +3,7 @@
 mod kepler_by_hand;
 mod predators_by_hand;
 mod rattle_by_hand;
+mod systems;
 mod top_by_hand;
 pub mod vortices_by_hand;
 pub mod wide;
@@ -12,11 +13,11 @@ use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_core::state::Statistics;
 use dvi_core::{Space, Vector};
-use dvi_tests::configurations;
-use dvi_tests::systems::{PointVortices, PointVorticesState};
-use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
-use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use std::hint::black_box;
+use systems::{
+    Kepler, KeplerState, Neumann, NeumannState, OneSided, OneSidedState, PointVortices, PointVorticesState,
+    Top, TopState,
+};
 
 /// The names, pairwise: generated, by hand.
 pub const KERNELS: [[&str; 2]; 12] = [
@@ -40,7 +41,7 @@ const LONG: f64 = 1.0;
 const GAMMA: [f64; 4] = [1.0; 4];
 
 fn start() -> vortices_by_hand::State {
-    let (_, state) = configurations::quasi_periodic();
+    let (_, state) = systems::quasi_periodic();
     std::array::from_fn(|i| if i < 4 { state.x[i] } else { state.y[i - 4] })
 }
 
@@ -131,7 +132,7 @@ pub fn run(name: &str, steps: u64) -> f64 {
 /// moves the first vortex.
 #[inline(never)]
 fn residual_and_matrix(steps: u64) -> f64 {
-    let system = black_box(configurations::quasi_periodic().0);
+    let system = black_box(systems::quasi_periodic().0);
     let space = system.space();
     let (mut z, delta, mut statistics) = (start(), [0.0; 8], Statistics::default());
     let mut l_d = OneNode::new(&system, 0.5);
@@ -184,18 +185,6 @@ fn one_step(steps: u64) -> f64 {
     }
 }
 
-/// A mass on a sphere with springs to three planes: Neumann's problem.
-#[lagrangian(
-    coordinates(r[3]),
-    lagrangian = sum(0..3, |i| m * dot(r[i]).powi(2) - k[i] * r[i].powi(2)) / 2.0,
-    constraint = sum(0..3, |i| r[i].powi(2)) - 1.0,
-)]
-#[derive(Clone, Copy, Debug)]
-struct Neumann {
-    m: f64,
-    k: [f64; 3],
-}
-
 const NEUMANN: (f64, [f64; 3]) = (1.0, [1.0, 2.0, 3.5]);
 const ON_SPHERE: NeumannState = NeumannState { r: [0.6, 0.0, -0.8], dot_r: [0.4, 1.0, 0.3] };
 
@@ -209,18 +198,6 @@ fn rattle(steps: u64) -> f64 {
         Ok(()) => run.q()[0],
         Err(_) => f64::NAN,
     }
-}
-
-/// A heavy symmetric top that turns about its tip.
-#[lagrangian(
-    coordinates(R: SO3),
-    lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2) + inertia[2] * omega(R)[2].powi(2)) / 2.0
-        - weight * R[2][2],
-)]
-#[derive(Clone, Copy, Debug)]
-struct Top {
-    inertia: [f64; 3],
-    weight: f64,
 }
 
 const TOP: ([f64; 3], f64) = ([1.0, 1.0, 0.5], 1.2);
@@ -268,12 +245,12 @@ fn explicit() -> Sigma {
 #[inline(never)]
 fn limited(steps: u64) -> f64 {
     let limited = Sigma { start: Start::RungeKutta(RungeKutta::midpoint()), ..Sigma::leapfrog() };
-    generated_from(configurations::leapfrogging(), limited, LONG, |run| run.take_steps(steps))
+    generated_from(systems::leapfrogging(), limited, LONG, |run| run.take_steps(steps))
 }
 
 #[inline(never)]
 fn limited_by_hand(steps: u64) -> f64 {
-    let (PointVortices { gamma }, PointVorticesState { x, y }) = configurations::leapfrogging();
+    let (PointVortices { gamma }, PointVorticesState { x, y }) = systems::leapfrogging();
     let field = vortices_by_hand::Field::new(black_box(gamma));
     let start = std::array::from_fn(|i| if i < 4 { x[i] } else { y[i - 4] });
     let mut leapfrog = vortices_by_hand::Leapfrog::new(field, LONG, start);
@@ -285,7 +262,7 @@ type SigmaRun<'a> = Integrator<&'a PointVortices<4>, Sigma>;
 
 #[inline(always)]
 fn generated(method: Sigma, take: impl FnOnce(&mut SigmaRun<'_>) -> Result<(), StepError>) -> f64 {
-    generated_from(configurations::quasi_periodic(), method, H, take)
+    generated_from(systems::quasi_periodic(), method, H, take)
 }
 
 #[inline(always)]

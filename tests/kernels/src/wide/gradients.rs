@@ -3,7 +3,8 @@
 use dvi_core::DegenerateLagrangian;
 use dvi_core::fast_sum::FastSum;
 use dvi_core::prelude::*;
-use dvi_tests::systems::{ManyVortices, ManyVorticesState};
+
+use crate::systems::{ManyVortices, ManyVorticesState};
 
 /// A chain of Fermi, Pasta, Ulam and Tsingou.
 #[lagrangian(

@@ -4,9 +4,9 @@ use dvi_core::Lagrangian;
 use dvi_core::methods::{InStep, Method};
 use dvi_core::prelude::*;
 use dvi_core::run::Together;
-use dvi_tests::systems::ManyVorticesState;
 
 use super::gradients::{Chain, ChainState, numbers, vortices};
+use crate::systems::ManyVorticesState;
 
 /// Four vortices. Systems that are measured have types of their own: what else steps them changes what is
 /// inlined.
