@@ -62,15 +62,15 @@ pub trait Space: Copy + Debug + PartialEq {
     /// A vector of zeros.
     #[inline]
     fn vector<T: Scalar>(self) -> Self::Vector<T> {
-        self.array(|| T::lift(0.0))
+        self.array(T::lift(0.0))
     }
     /// So many of them.
     #[inline]
     fn vectors<T: Scalar, const COUNT: usize>(self) -> [Self::Vector<T>; COUNT] {
         core::array::from_fn(|_| self.vector())
     }
-    /// What `of` makes, for each coordinate.
-    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> Self::Vector<E>;
+    /// `entry` for each coordinate.
+    fn array<E: Clone + Debug>(self, entry: E) -> Self::Vector<E>;
     /// Rows of zeros, one for each dimension of `over`, with room for the entries that `entries` visits.
     fn rows<C: Space, T: Scalar>(
         self,
@@ -115,11 +115,9 @@ macro_rules! scratch {
     ($name:ident = $system:expr, $field:expr) => {
         let mut on_stack;
         let $name: &mut [T] = if <S::Space as $crate::Space>::ON_STACK {
-            let dimension = $crate::Space::dimension($system.space());
+            let (dimension, zero) = ($crate::Space::dimension($system.space()), T::lift(0.0));
             on_stack =
-                <<S::Space as $crate::Space>::Local<T> as $crate::space::Store<T>>::new(dimension, || {
-                    T::lift(0.0)
-                });
+                <<S::Space as $crate::Space>::Local<T> as $crate::space::Store<T>>::new(dimension, zero);
             $crate::space::Store::entries_mut(&mut on_stack, dimension)
         } else {
             &mut $field

@@ -8,6 +8,7 @@ use crate::discrete::{DiscreteLagrangian, Interval};
 use crate::error::StepError;
 use crate::methods::{Method, VariationalMethod};
 use crate::run::{Integrator, Run, StepControl};
+use crate::scalar::passes::divide;
 use crate::system::start::step_error;
 use crate::{Held, Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 
@@ -108,9 +109,8 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> LyapunovExponent<S,
     fn renormalise(&mut self) -> T {
         let squares = |x: &[T]| x.iter().fold(T::lift(0.0), |sum, &x| sum + x * x);
         let length = Scalar::sqrt(squares(&self.dq) + squares(&self.dp));
-        for x in self.dq.iter_mut().chain(self.dp.iter_mut()) {
-            *x /= length;
-        }
+        divide(&mut self.dq, length);
+        divide(&mut self.dp, length);
         length
     }
 

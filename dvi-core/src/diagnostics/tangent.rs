@@ -14,6 +14,7 @@ use alloc::vec::Vec;
 use crate::discrete::{DiscreteLagrangian, Interval, Span};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
+use crate::scalar::passes::negate;
 use crate::space::elimination::{self, multiply_add};
 #[cfg(feature = "alloc")]
 use crate::space::lines;
@@ -53,7 +54,7 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T>
             discrete: method.discrete_lagrangian(system),
             hessian: [(); 4].map(|()| space.matrix()),
             factors: space.matrix(),
-            permutation: space.array(|| 0),
+            permutation: space.array(0),
             ends: space.vectors(),
             next: space.vectors(),
         }
@@ -98,7 +99,7 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T>
         dq1.copy_from_slice(dp);
         multiply_add(d11, T::lift(1.0), dq, dq1);
         elimination::solve(&self.factors, &self.permutation, dq1);
-        dq1.iter_mut().for_each(|x| *x = -*x);
+        negate(dq1);
         dp1.fill(T::lift(0.0));
         multiply_add(d21, T::lift(1.0), dq, dp1);
         multiply_add(d22, T::lift(1.0), dq1, dp1);

@@ -22,6 +22,7 @@ use crate::error::StepFailure;
 use crate::mechanics::Span;
 use crate::mechanics::legendre;
 use crate::scalar::norm;
+use crate::scalar::passes::negate;
 use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::{LinearEquations, Sink};
 use crate::state::Statistics;
@@ -219,7 +220,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
             self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         }
         // In the equations the impulse is subtracted.
-        impulse.iter_mut().for_each(|impulse| *impulse = -*impulse);
+        negate(impulse);
         self.add_impulse(system, at, impulse, p);
         norm::finite(v).and(norm::finite(p))
     }

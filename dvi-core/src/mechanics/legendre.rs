@@ -6,6 +6,7 @@
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
+use crate::scalar::passes::subtract;
 use crate::solve::{Due, Stopping, newton, sizes};
 use crate::space::{LinearEquations, LinearSolver, Sink, Storing, linear};
 use crate::state::Statistics;
@@ -89,9 +90,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Legendre<S, T> {
         }
         solved?;
         core::mem::swap(&mut self.correction, &mut self.next);
-        for (v, &correction) in v.iter_mut().zip(self.correction.iter()) {
-            *v -= correction;
-        }
+        subtract(v, &self.correction);
         Ok(())
     }
 
@@ -122,9 +121,7 @@ impl<S: Lagrangian<T>, T: Real> LinearEquations<T> for Equations<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let [q, v, p] = self.points;
         self.system.linearize(q, v, self.t, Weights::mass(), self.l_q, b, sink);
-        for (b, &p) in b.iter_mut().zip(p) {
-            *b -= p;
-        }
+        subtract(b, p);
         Ok(())
     }
 }

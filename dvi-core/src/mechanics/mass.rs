@@ -5,6 +5,7 @@
 
 use super::pattern::of_entries;
 use crate::error::StepFailure;
+use crate::scalar::passes::multiply;
 use crate::scalar::{norm, smallest_normal};
 use crate::space::Sink;
 use crate::space::SquareMatrix;
@@ -140,7 +141,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         match &self.coupled {
             Some(_) if !S::DIAGONAL_MASS => {
                 self.solve(p, delta);
-                delta.iter_mut().for_each(|delta| *delta *= h);
+                multiply(delta, h);
             }
             _ => {
                 for ((delta, &p), &reciprocal) in delta.iter_mut().zip(p).zip(self.reciprocals.iter()) {

@@ -17,7 +17,7 @@ use crate::{Lagrangian, Real, Scalar, Sink, System, Vector, Weights};
 
 use stages::FirstOrderInLanes;
 pub use stages::InLanes;
-pub(crate) use stages::{AtStages, StageWork, weigh};
+pub(crate) use stages::{AtStages, StageWork, weigh, weigh_each};
 pub(crate) use stages::{Evaluation, OneByOne, StageEvaluation};
 
 /// A point y, or its velocity: `K` vectors of the space.

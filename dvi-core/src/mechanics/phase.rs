@@ -7,6 +7,7 @@ use crate::mechanics::mass::Mass;
 use crate::mechanics::orientation::MassOrientation;
 use crate::memory::lasting;
 use crate::scalar::norm;
+use crate::scalar::passes::multiply;
 use crate::state::history::History;
 use crate::state::rates::is_similar;
 use crate::state::summation::{Carried, Summation};
@@ -80,9 +81,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         } else {
             self.history.extrapolate(increment);
         }
-        for delta in increment {
-            *delta *= h;
-        }
+        multiply(increment, h);
     }
 
     /// Sets `q1` to q0 + Δ.

@@ -20,7 +20,7 @@ use crate::memory::lasting;
 use crate::methods::step::{Carried, Work};
 use crate::methods::{Carries, Here, Method, PreservedForm, Step, scheme};
 use crate::scalar::norm;
-use crate::scalar::passes::kick;
+use crate::scalar::passes::{kick, multiply};
 use crate::state::summation::Summation;
 use crate::system::Same;
 use crate::{Real, RegularLagrangian, Scalar, Separable, System, Vector};
@@ -120,7 +120,7 @@ impl Langevin {
     ) {
         let kept = Scalar::exp(T::lift(-self.friction) * h);
         let Some(root) = root else {
-            p.iter_mut().for_each(|p| *p *= kept);
+            multiply(p, kept);
             return;
         };
         // 1 − c² without its cancellation.

@@ -17,6 +17,7 @@ use crate::error::{StartError, StepFailure};
 use crate::methods::step::{Attempt, Begin, Equations, PhaseMemory, Share, set_force};
 use crate::methods::{Carries, Here, Method, PreservedForm, Step, scheme};
 use crate::scalar::norm::reported;
+use crate::scalar::passes::subtract;
 use crate::solve::{Solver, Stopping};
 use crate::space::Sink;
 use crate::state::Statistics;
@@ -144,7 +145,7 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
         // ∂L/∂q and ∂L/∂v come along: F1 and MΔ/h.
         system.linearize(point, velocity, interval.time(T::lift(1.0)), weights, gradient, momentum, sink);
         self.add_impulse(h, [&phase.force, gradient], r);
-        r.iter_mut().zip(momentum.iter()).for_each(|(r, &momentum)| *r -= momentum);
+        subtract(r, momentum);
         Ok(())
     }
 

@@ -17,6 +17,7 @@ use crate::memory::lasting;
 use crate::methods::one_point::OnePoint;
 use crate::methods::{self, Carries, Method, PreservedForm, VariableStep, scheme};
 use crate::scalar::norm;
+use crate::scalar::passes::{divide, multiply};
 use crate::solve::{Stopping, from_either_guess, solve_coupled};
 use crate::space::Storing;
 use crate::system::spinors;
@@ -132,7 +133,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
             // λ is smaller than the error of Δ.
             let [_, delta, lambda] = &mut *unknowns;
             rates.guess(h, guess, [&mut *delta]);
-            delta.iter_mut().for_each(|delta| *delta *= h);
+            multiply(delta, h);
             lambda.fill(T::lift(0.0));
             let mut step = Step { system, q, p, t, h, unknowns, work, node: 0 };
             solve_coupled(&mut step, (system, q), solver, (residuals, weights), self.stopping, statistics)?;
@@ -145,7 +146,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Projected {
             orientation.pass(system, &[(middle, centre)], (end, after))
         })?;
         let [_, delta, _] = unknowns;
-        delta.iter_mut().for_each(|delta| *delta /= h);
+        divide(delta, h);
         point.arrive(q, (&work.end, &work.one_form), h, [delta]);
         Ok(())
     }

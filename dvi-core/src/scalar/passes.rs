@@ -41,3 +41,35 @@ pub(crate) fn kick<T: Real>(p: &mut [T], a: T, force: &[T]) {
         *p += a * force;
     }
 }
+
+/// Multiplies the entries of `x` by a number.
+#[inline]
+pub(crate) fn multiply<T: Real>(x: &mut [T], by: T) {
+    for x in x {
+        *x *= by;
+    }
+}
+
+/// Divides the entries of `x` by a number.
+#[inline]
+pub(crate) fn divide<T: Real>(x: &mut [T], by: T) {
+    for x in x {
+        *x /= by;
+    }
+}
+
+/// Takes `change` from `x`.
+#[inline]
+pub(crate) fn subtract<T: Real>(x: &mut [T], change: &[T]) {
+    for (x, &change) in x.iter_mut().zip(change) {
+        *x -= change;
+    }
+}
+
+/// Changes the signs of the entries of `x`.
+#[inline]
+pub(crate) fn negate<T: Real>(x: &mut [T]) {
+    for x in x {
+        *x = -*x;
+    }
+}

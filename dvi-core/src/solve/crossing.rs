@@ -30,7 +30,7 @@ pub(crate) const APART: f64 = 1e-5;
 pub(crate) fn dip<T: Real, E>(
     [mut from, mut to]: [Sample<T>; 2],
     sure: usize,
-    mut look: impl FnMut(T) -> Result<Sample<T>, E>,
+    look: &mut dyn FnMut(T) -> Result<Sample<T>, E>,
 ) -> Result<Option<T>, E> {
     for iteration in 0..SOUGHT {
         let length = to.place - from.place;
@@ -74,7 +74,7 @@ pub(crate) struct Zero<T> {
 /// Those of `look`.
 pub(crate) fn zero<T: Real, E>(
     [mut a, mut b]: [[T; 2]; 2],
-    mut look: impl FnMut(T) -> Result<T, E>,
+    look: &mut dyn FnMut(T) -> Result<T, E>,
 ) -> Result<Zero<T>, E> {
     let [zero, half, one] = [0.0, 0.5, 1.0].map(T::lift);
     let mut slope = (b[1] - a[1]) / (b[0] - a[0]);

@@ -8,9 +8,8 @@
 
 use core::ops::{DerefMut, Range};
 
-use crate::name::Axis;
 use crate::scalar::norm::{MANY, larger, largest_number};
-use crate::scalar::passes::lanes_stay_together;
+use crate::scalar::passes::{lanes_stay_together, subtract};
 use crate::scalar::{Lanes, smallest_normal};
 use crate::{Real, Report, Scalar, System};
 
@@ -36,19 +35,33 @@ pub(crate) fn weight_of<T: Real>(size: T) -> T {
 
 /// The coordinates of each block, all components of vectors together.
 #[inline]
-pub(crate) fn blocks<S: System>(system: &S) -> impl Iterator<Item = Range<usize>> {
-    let mut end = 0;
-    // The loop over blocks asks for components where there are vectors only.
-    let axis = |block: usize| {
-        const { has_vectors(&S::REPORT) }.then(|| S::REPORT.coordinates[block].axis).flatten()
-    };
-    let firsts = (0..S::REPORT.coordinates.len())
-        .filter(move |&block| axis(block).is_none_or(|axis: Axis| axis.number == 0));
-    firsts.map(move |block| {
-        let begin = end;
-        end += axis(block).map_or(1, |axis| usize::from(axis.of)) * system.block_len(block);
-        begin..end
-    })
+pub(crate) fn blocks<S: System>(system: &S) -> Blocks<'_, S> {
+    Blocks { system, block: 0, end: 0 }
+}
+
+/// Stands before a block, whose first coordinate is `end`.
+pub(crate) struct Blocks<'a, S> {
+    system: &'a S,
+    block: usize,
+    end: usize,
+}
+
+impl<S: System> Iterator for Blocks<'_, S> {
+    type Item = Range<usize>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Range<usize>> {
+        let (coordinates, begin) = (S::REPORT.coordinates, self.end);
+        if self.block == coordinates.len() {
+            return None;
+        }
+        // The loop over blocks asks for components where there are vectors only.
+        let axis = if const { has_vectors(&S::REPORT) } { coordinates[self.block].axis } else { None };
+        let components = axis.map_or(1, |axis| usize::from(axis.of));
+        self.end += components * self.system.block_len(self.block);
+        self.block += components;
+        Some(begin..self.end)
+    }
 }
 
 const fn has_vectors(report: &Report) -> bool {
@@ -273,9 +286,7 @@ pub(crate) fn largest<T: Real>(weights: &[T], changes: &[T]) -> T {
 /// Takes `change` from the unknown `x`, and returns its size.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn reduce<S: System, T: Real>(system: &S, weights: &[T], x: &mut [T], change: &[T]) -> T {
-    for (x, &change) in x.iter_mut().zip(change) {
-        *x -= change;
-    }
+    subtract(x, change);
     larger(T::lift(0.0), size_of(system, weights, change))
 }
 

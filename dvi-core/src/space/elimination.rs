@@ -15,6 +15,7 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm::{finite, is_pivot, larger, singular};
+use crate::scalar::passes::multiply;
 use crate::space::linear::set_scales;
 use crate::space::{lines, lines_mut};
 use crate::{Real, Scalar};
@@ -299,7 +300,7 @@ fn by_elimination<T: Real>(
 #[inline]
 pub(crate) fn scale_rows<T: Real>(matrix: &mut [T], scales: &[T]) {
     for (line, &scale) in lines_mut(matrix, scales.len()).zip(scales) {
-        line.iter_mut().for_each(|entry| *entry *= scale);
+        multiply(line, scale);
     }
 }
 

@@ -132,8 +132,8 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
         Self::DIMENSION
     }
     #[inline]
-    fn array<E: Clone + Debug>(self, of: impl FnMut() -> E) -> Self::Vector<E> {
-        FixedVector(Store::new(Self::DIMENSION, of))
+    fn array<E: Clone + Debug>(self, entry: E) -> Self::Vector<E> {
+        FixedVector(Store::new(Self::DIMENSION, entry))
     }
     #[inline]
     fn rows<C: Space, T: Scalar>(
@@ -141,11 +141,11 @@ impl<const BLOCKS: usize, const N: usize, const SINGLES: usize, R: Room> Space
         over: C,
         _entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self::Rows<C, T> {
-        FullRows(over.array(|| self.vector()))
+        FullRows(over.array(self.vector()))
     }
     #[inline]
     fn matrix<T: Scalar>(self) -> Self::Matrix<T> {
-        FixedMatrix(Store::new(Self::DIMENSION * Self::DIMENSION, || T::lift(0.0)))
+        FixedMatrix(Store::new(Self::DIMENSION * Self::DIMENSION, T::lift(0.0)))
     }
     #[inline]
     fn square<T: Real>(self, _entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self::Square<T> {

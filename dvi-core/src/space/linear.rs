@@ -45,7 +45,9 @@ pub(crate) fn residual<T: Real>(
     given: impl Fn(usize) -> T,
     [b, sums]: [&mut [T]; 2],
 ) -> Result<T, StepFailure> {
-    sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(given(i)));
+    for (i, sum) in sums.iter_mut().enumerate() {
+        *sum = Scalar::abs(given(i));
+    }
     equations.evaluate(b, &mut |i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j)))?;
     relative(rows(b, sums))
 }
@@ -85,7 +87,9 @@ pub(crate) fn residual_of_nodes<
 ) -> Result<T, StepFailure> {
     let mut largest = T::lift(0.0);
     for (r, vector) in vectors.iter().enumerate().skip(M::FIRST) {
-        sums.iter_mut().enumerate().for_each(|(i, sum)| *sum = Scalar::abs(matrix.given(i)));
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum = Scalar::abs(matrix.given(i));
+        }
         entries(matrix, |[row, _], [i, j], entry| {
             if row == r {
                 sums[i] += Scalar::abs(entry / weights[j]);

@@ -21,8 +21,8 @@ pub trait Room: Copy + Debug + Default + PartialEq {
 
 /// Entries, in the value or on the heap. How many there are is known where they are asked for.
 pub trait Store<E>: Clone + Debug {
-    /// So many entries.
-    fn new(count: usize, of: impl FnMut() -> E) -> Self;
+    /// So many entries, all the same.
+    fn new(count: usize, entry: E) -> Self;
     /// All of them.
     fn entries(&self, count: usize) -> &[E];
     /// All of them.
@@ -42,8 +42,8 @@ impl Room for InPlace {
 
 impl<E: Clone + Debug, const BLOCKS: usize, const N: usize> Store<E> for [[E; N]; BLOCKS] {
     #[inline]
-    fn new(_count: usize, mut of: impl FnMut() -> E) -> Self {
-        core::array::from_fn(|_| core::array::from_fn(|_| of()))
+    fn new(_count: usize, entry: E) -> Self {
+        core::array::from_fn(|_| core::array::from_fn(|_| entry.clone()))
     }
     #[inline]
     fn entries(&self, count: usize) -> &[E] {
@@ -57,8 +57,8 @@ impl<E: Clone + Debug, const BLOCKS: usize, const N: usize> Store<E> for [[E; N]
 
 impl<E: Clone + Debug, const BLOCKS: usize, const N: usize> Store<E> for [[[[E; N]; BLOCKS]; N]; BLOCKS] {
     #[inline]
-    fn new(count: usize, mut of: impl FnMut() -> E) -> Self {
-        core::array::from_fn(|_| core::array::from_fn(|_| Store::new(count, &mut of)))
+    fn new(count: usize, entry: E) -> Self {
+        core::array::from_fn(|_| core::array::from_fn(|_| Store::new(count, entry.clone())))
     }
     #[inline]
     fn entries(&self, count: usize) -> &[E] {
@@ -103,10 +103,10 @@ pub struct FewOrHeap<E, const FEW: usize> {
 #[cfg(feature = "alloc")]
 impl<E: Clone + Debug, const FEW: usize> Store<E> for FewOrHeap<E, FEW> {
     #[inline]
-    fn new(count: usize, mut of: impl FnMut() -> E) -> Self {
-        let few = core::array::from_fn(|_| of());
+    fn new(count: usize, entry: E) -> Self {
+        let few = core::array::from_fn(|_| entry.clone());
         let more = if count <= FEW { 0 } else { count };
-        Self { few, heap: (0..more).map(|_| of()).collect() }
+        Self { few, heap: alloc::vec![entry; more].into() }
     }
     #[inline]
     fn entries(&self, count: usize) -> &[E] {
@@ -120,8 +120,8 @@ impl<E: Clone + Debug, const FEW: usize> Store<E> for FewOrHeap<E, FEW> {
 
 #[cfg(feature = "alloc")]
 impl<E: Clone + Debug> Store<E> for alloc::vec::Vec<E> {
-    fn new(count: usize, of: impl FnMut() -> E) -> Self {
-        core::iter::repeat_with(of).take(count).collect()
+    fn new(count: usize, entry: E) -> Self {
+        alloc::vec![entry; count]
     }
     fn entries(&self, _count: usize) -> &[E] {
         self

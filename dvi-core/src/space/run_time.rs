@@ -82,8 +82,8 @@ impl Space for RunTime {
     fn dimension(self) -> usize {
         self.dimension
     }
-    fn array<E: Clone + Debug>(self, mut of: impl FnMut() -> E) -> Vec<E> {
-        (0..self.dimension).map(|_| of()).collect()
+    fn array<E: Clone + Debug>(self, entry: E) -> Vec<E> {
+        vec![entry; self.dimension]
     }
     fn rows<C: Space, T: Scalar>(
         self,

@@ -121,7 +121,7 @@ pub struct Full<S: Space, T: Scalar> {
 impl<S: Space, T: Scalar> Full<S, T> {
     #[inline]
     pub(crate) fn new(space: S) -> Self {
-        Self { matrix: space.matrix(), permutation: space.array(|| 0) }
+        Self { matrix: space.matrix(), permutation: space.array(0) }
     }
 }
 

@@ -8,6 +8,7 @@ use crate::mechanics::constraints::{
 };
 use crate::mechanics::legendre;
 use crate::scalar::norm::{self, reported};
+use crate::scalar::passes::subtract;
 use crate::scalar::smallest_normal;
 use crate::space::{LinearEquations, Sink};
 use crate::{Real, Scalar, Space, Vector};
@@ -160,7 +161,7 @@ fn align<S: ConstrainedLagrangian<T>, T: Real>(
     let mut worst = None;
     for iteration in 0..ITERATIONS {
         let change = projection.change([q, v], Lower::Velocity(at, v)).map_err(StartError::Projection)?;
-        v.iter_mut().zip(change).for_each(|(v, &change)| *v -= change);
+        subtract(v, change);
         let residuals = &mut projection.solver.residuals;
         residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + smallest_normal());
         worst = residuals.worst(system, at, v);
@@ -200,9 +201,7 @@ fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
             }
             (Err(failure), None) => return Err(StartError::Projection(failure)),
         };
-        for (q, &change) in q.iter_mut().zip(change) {
-            *q -= change;
-        }
+        subtract(q, change);
         off = worst(system, At { q, t }, |j| rounding * Scalar::abs(q[j]));
         kept = if off.is_none() { kept + 1 } else { 0 };
         if kept > LAST_MOVES {

@@ -2,6 +2,7 @@
 
 use super::Constraints;
 use crate::mechanics::Span;
+use crate::scalar::passes::negate;
 use crate::space::Sink;
 use crate::system::Holonomic;
 use crate::{HolonomicLagrangian, Real};
@@ -33,6 +34,6 @@ impl<S: HolonomicLagrangian<T>, T: Real> Constraints<S, T> for Holonomic {
     fn of_acceleration<K: Sink<T>>(system: &S, q: &[T], v: &[T], t: T, out: &mut [T], sink: &mut K) {
         system.constraint_jacobian(q, t, out, sink);
         system.constraint_curvature(q, v, t, out);
-        out.iter_mut().for_each(|c| *c = -*c);
+        negate(out);
     }
 }

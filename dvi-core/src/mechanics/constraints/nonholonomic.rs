@@ -3,6 +3,7 @@
 
 use super::Constraints;
 use crate::mechanics::Span;
+use crate::scalar::passes::{multiply, negate};
 use crate::space::Sink;
 use crate::system::Nonholonomic;
 use crate::{NonholonomicLagrangian, Real};
@@ -30,7 +31,7 @@ impl<S: NonholonomicLagrangian<T>, T: Real> Constraints<S, T> for Nonholonomic {
         }
         let (t, weights) = (interval.time(half), [half * h, T::lift(1.0)]);
         system.velocity_constraint_jacobian(point, velocity, t, weights, out, sink);
-        out.iter_mut().for_each(|c| *c *= h);
+        multiply(out, h);
     }
     fn of_velocity<K: Sink<T>>(system: &S, q: &[T], v: &[T], t: T, out: &mut [T], sink: &mut K) {
         system.velocity_constraint_jacobian(q, v, t, [T::lift(0.0), T::lift(1.0)], out, sink);
@@ -38,6 +39,6 @@ impl<S: NonholonomicLagrangian<T>, T: Real> Constraints<S, T> for Nonholonomic {
     fn of_acceleration<K: Sink<T>>(system: &S, q: &[T], v: &[T], t: T, out: &mut [T], sink: &mut K) {
         system.velocity_constraint_jacobian(q, v, t, [T::lift(0.0), T::lift(1.0)], out, sink);
         system.velocity_constraint_rate(q, v, t, out);
-        out.iter_mut().for_each(|c| *c = -*c);
+        negate(out);
     }
 }

@@ -60,10 +60,31 @@ pub struct AtStages<'a, const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Re
     pub(crate) t: Lanes<W, T>,
 }
 
-/// Sets `terms`ₖ to `weights`(k) times `packs`ₖ. The loop is one over blocks, because over single packs the
-/// compiler would take lanes of several packs together, and load and store them one by one.
+/// Sets `terms`ₖ to `weights` times `packs`ₖ.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn weigh<const W: usize, T: Real>(
+    weights: Lanes<W, T>,
+    packs: &[Lanes<W, T>],
+    terms: &mut [Lanes<W, T>],
+) {
+    weigh_by(|_| weights, packs, terms);
+}
+
+/// Sets `terms`ₖ to `h` times `factors`ₖ and `packs`ₖ.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn weigh_each<const W: usize, T: Real>(
+    h: T,
+    factors: &[T],
+    packs: &[Lanes<W, T>],
+    terms: &mut [Lanes<W, T>],
+) {
+    weigh_by(|k| Lanes::all(h * factors[k]), packs, terms);
+}
+
+/// The loop is one over blocks, because over single packs the compiler would take lanes of several packs
+/// together, and load and store them one by one.
+#[inline]
+fn weigh_by<const W: usize, T: Real>(
     weights: impl Fn(usize) -> Lanes<W, T>,
     packs: &[Lanes<W, T>],
     terms: &mut [Lanes<W, T>],

@@ -13,6 +13,38 @@ use crate::{Real, Scalar, System};
 /// How many numbers of a point are combined at once.
 const BLOCK: usize = 4;
 
+/// From nothing: for [`combine`], as the next three, none of which knows a system.
+#[inline]
+pub(in crate::methods) fn nothing<const STAGES: usize, T: Real>(_: usize) -> (T, Lanes<STAGES, T>) {
+    (T::lift(0.0), Lanes::all(T::lift(0.0)))
+}
+
+/// From numbers.
+#[inline]
+pub(in crate::methods) fn at<const STAGES: usize, T: Real>(
+    y: &[T],
+) -> impl Fn(usize) -> (T, Lanes<STAGES, T>) {
+    |k| (y[k], Lanes::all(T::lift(0.0)))
+}
+
+/// From numbers, with what rounding has left out of them.
+#[inline]
+pub(in crate::methods) fn beside<const STAGES: usize, T: Real>(
+    y: &[T],
+    rest: &[T],
+) -> impl Fn(usize) -> (T, Lanes<STAGES, T>) {
+    |k| (y[k], Lanes::all(rest[k]))
+}
+
+/// From numbers that are moved freely.
+#[inline]
+pub(in crate::methods) fn moved<const STAGES: usize, T: Real>(
+    q: &[T],
+    free: &[Lanes<STAGES, T>],
+) -> impl Fn(usize) -> (T, Lanes<STAGES, T>) {
+    |k| (q[k], free[k])
+}
+
 /// Sets pack k of `out` to y + (e + Σⱼ `columns`ⱼ xⱼ), for the numbers x in the first lanes of that pack of
 /// `packs` and `from`(k) = (y, e), where y is the same for all stages.
 #[cfg_attr(not(debug_assertions), inline(always))]

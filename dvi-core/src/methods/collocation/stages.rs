@@ -13,6 +13,7 @@ use crate::error::StepFailure;
 use crate::mechanics::motion::StageEquations;
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::scalar::norm;
+use crate::scalar::passes::subtract;
 use crate::solve::{CoupledEquations, Guess, Stopping, solve_coupled};
 use crate::space::{NodeSum, Sink, Storing};
 use crate::state::Statistics;
@@ -159,12 +160,13 @@ impl<const STAGES: usize, E: StageEquations<S, T>, S: Lagrangian<T>, T: Real> St
         self.system.linearize(point, velocity, time, weights, gradient, momentum, sink);
     }
 
-    /// The largest Σⱼ aᵢⱼ xⱼ.
-    fn displacement(&self, x: [T; STAGES]) -> T {
-        self.tableau.a.iter().fold(T::lift(0.0), |largest, row| {
-            let sum = row.iter().zip(x).fold(T::lift(0.0), |sum, (&a, x)| sum + T::lift(a) * x);
-            norm::larger(largest, Scalar::abs(sum))
-        })
+    /// The largest Σⱼ aᵢⱼ xⱼ of entry `n`.
+    fn displacement(&self, x: &[Vector<S, T>; STAGES], n: usize) -> T {
+        let mut largest = T::lift(0.0);
+        for row in &self.tableau.a {
+            largest = norm::larger(largest, Scalar::abs(weighted(row, x, n)));
+        }
+        largest
     }
 }
 
@@ -193,8 +195,7 @@ impl<const STAGES: usize, E: StageEquations<S, T>, S: Lagrangian<T>, T: Real> Co
         for (stage, residual) in residuals.iter_mut().enumerate() {
             self.stage = stage;
             self.set_momentum();
-            let momenta = self.node.momentum.iter().take(self.from.p[0].len());
-            residual.iter_mut().zip(momenta).for_each(|(residual, &momentum)| *residual -= momentum);
+            subtract(&mut residual[..self.from.p[0].len()], &self.node.momentum);
         }
         Ok(())
     }
@@ -211,10 +212,11 @@ impl<const STAGES: usize, E: StageEquations<S, T>, S: Lagrangian<T>, T: Real> Co
     ) -> Result<T, StepFailure> {
         let (mut largest, mut was_farther) = (T::lift(0.0), false);
         for (n, &weight) in weights.iter().enumerate() {
-            self.increments.iter_mut().zip(corrections).for_each(|(w, change)| w[n] -= change[n]);
-            let change = self.displacement(corrections.each_ref().map(|change| change[n]));
-            was_farther |=
-                self.extrapolated && change > self.displacement(self.increments.each_ref().map(|w| w[n]));
+            for (w, change) in self.increments.iter_mut().zip(corrections) {
+                w[n] -= change[n];
+            }
+            let change = self.displacement(corrections, n);
+            was_farther |= self.extrapolated && change > self.displacement(self.increments, n);
             largest = norm::larger(largest, change * weight);
         }
         if core::mem::take(&mut self.extrapolated) && was_farther {

@@ -20,6 +20,7 @@ use crate::mechanics::mass::Mass;
 use crate::memory::{Memory, lasting};
 use crate::methods::{Clock, Steps};
 use crate::scalar::norm;
+use crate::scalar::passes::multiply;
 use crate::solve::Stopping;
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
@@ -95,7 +96,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
         bend.iter_mut().zip(force.iter()).for_each(|(bend, &force)| *bend = T::lift(0.5) * h * force);
         combine(rows, &impulses[0], bend);
         self.mass.solve_in_place(bend);
-        bend.iter_mut().for_each(|bend| *bend *= h);
+        multiply(bend, h);
     }
 
     /// Takes steps as long as they succeed from the guess that the last one gives, whose length was `last`,
@@ -123,7 +124,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Reduced<S, T> {
         let (taken, iterations) = if is_short {
             let (mut at, mut from, mut work) = (q.clone(), Place::new(system), Arrival::new(system));
             from.restore(here);
-            from.impulses[0].iter_mut().for_each(|impulse| *impulse *= ratio);
+            multiply(&mut from.impulses[0], ratio);
             let walked = walk.along::<false>(&mut at, &mut from, &mut work, T::lift(1.0));
             if walked.0 > 0 {
                 norm::finite(&from.p).and(norm::finite(&at)).ok()?;

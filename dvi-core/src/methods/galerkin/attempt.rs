@@ -10,6 +10,7 @@ use crate::error::StepFailure;
 use crate::mechanics::phase::{Arrival, Increments};
 use crate::methods::step::{Begin, Carried, Work};
 use crate::scalar::norm;
+use crate::scalar::passes::multiply;
 use crate::solve::{CoupledEquations, Guess, Stopping, solve_coupled};
 use crate::state::Statistics;
 use crate::{Coupled, NondegenerateLagrangian, Real, System, Vector};
@@ -104,7 +105,7 @@ where
             match displacements {
                 Some(displacements) if phase.extrapolates_to(*h) => {
                     displacements.nodes[node].extrapolate(displacement);
-                    displacement.iter_mut().for_each(|delta| *delta *= *h * *h);
+                    multiply(displacement, *h * *h);
                 }
                 _ => displacement.fill(T::lift(0.0)),
             }

@@ -18,10 +18,10 @@ use core::marker::PhantomData;
 use super::evaluation::NodeForces;
 use crate::discrete::{Interval, Rule as _};
 use crate::error::StepFailure;
-use crate::mechanics::motion::weigh;
+use crate::mechanics::motion::{weigh, weigh_each};
 use crate::memory::{Memory, lasting};
 use crate::methods::collocation::lobatto::Lobatto;
-use crate::methods::collocation::packs::{Nystrom, combine, continuation, sum};
+use crate::methods::collocation::packs::{Nystrom, combine, continuation, moved, sum};
 use crate::methods::step::Begin;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::{Lanes, norm};
@@ -213,7 +213,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
         E::evaluate(at.system, Self::COUNT, places, times, forces, [place, force]);
         statistics.gradients += Self::COUNT as u64;
         let by = Lanes::all(h) * *weights;
-        weigh(|_| by, forces, terms);
+        weigh(by, forces, terms);
     }
 
     /// Continues the polynomial through the forces of the step before into a step of length `h`, where the
@@ -256,7 +256,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
             );
         }
         let by = Lanes::all(h) * *weights;
-        weigh(|_| by, forces, terms);
+        weigh(by, forces, terms);
     }
 
     /// Moves the nodes by the forces, and returns the largest change of a position in units of the
@@ -266,7 +266,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
         let Begin { system, interval: Interval { h, .. }, q, mass, .. } = *at;
         let Self { nystrom, terms, displacements, places, renewed, free, work, sizes, .. } = self;
         if let Some(reciprocals) = mass.reciprocals() {
-            weigh(|k| Lanes::all(h * reciprocals[k]), terms, displacements);
+            weigh_each(h, reciprocals, terms, displacements);
         } else {
             let [impulse, displacement] = work;
             for lane in 0..Self::COUNT {
@@ -275,8 +275,6 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
                 write_lane(lane, displacement, displacements);
             }
         }
-        let free = &free[..];
-        let from = |k: usize| (q[k], free[k]);
-        nystrom.place(system, Self::COUNT, displacements, from, sizes, [places, renewed])
+        nystrom.place(system, Self::COUNT, displacements, moved(q, free), sizes, [places, renewed])
     }
 }

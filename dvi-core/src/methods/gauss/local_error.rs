@@ -30,7 +30,7 @@
 use super::memory::{Path, first_part};
 use crate::error::StepFailure;
 use crate::mechanics::motion::{AtStages, FirstOrder, StageEvaluation};
-use crate::methods::collocation::packs::{combine, sum};
+use crate::methods::collocation::packs::{at, combine, sum};
 use crate::methods::tolerance::{Tolerance, in_units_of};
 use crate::scalar::simd::widest_if;
 use crate::scalar::{Lanes, norm};
@@ -82,10 +82,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             completed[part].copy_from_slice(&slopes[part]);
         }
         // Forces depend on positions and, where they depend on momenta too, on all parts.
-        let (zero, integrals) =
-            (Lanes::all(T::lift(0.0)), extrema.integrals.map(|column| column * Lanes::all(h)));
+        let integrals = extrema.integrals.map(|column| column * Lanes::all(h));
         for part in 0..y.len() - first {
-            combine(&integrals, &completed[part], |k| (y[part][k], zero), &mut stages[part]);
+            combine(&integrals, &completed[part], at(&y[part]), &mut stages[part]);
         }
         for part in first..y.len() {
             let t = Lanes::all(t) + extrema.c * Lanes::all(h);

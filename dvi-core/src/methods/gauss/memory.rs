@@ -8,7 +8,7 @@ use crate::mechanics::motion::{
     AtStages, EquationsOf, FirstOrder, PackedOf, PointOf, StageEvaluation, StageWork, weigh,
 };
 use crate::memory::{Aside, Memory, lasting};
-use crate::methods::collocation::packs::{combine, replace, sum};
+use crate::methods::collocation::packs::{at, beside, combine, nothing, replace, sum};
 use crate::methods::collocation::stages::NewtonStages;
 use crate::scalar::Lanes;
 use crate::solve::{Due, Guess, Ladder};
@@ -114,13 +114,12 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             &continued
         };
         for part in first_part::<S, T>(equations)..y.len() {
-            let nothing = |_| (T::lift(0.0), Lanes::all(T::lift(0.0)));
             guess.begin(
                 &mut slopes[part],
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 |slopes| combine(continuation, &completed[part], nothing, slopes),
             );
-            weigh(|_| weights, &slopes[part], &mut terms[part]);
+            weigh(weights, &slopes[part], &mut terms[part]);
         }
     }
 
@@ -128,8 +127,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn reach(&mut self, part: usize) {
         let Self { coefficients, terms, stages, y, rest, .. } = self;
-        let from = |k: usize| (y[part][k], Lanes::all(rest[part][k]));
-        combine(&coefficients.mu, &terms[part], from, &mut stages[part]);
+        combine(&coefficients.mu, &terms[part], beside(&y[part], &rest[part]), &mut stages[part]);
     }
 
     /// Sets the positions of the stages of the last step, and their velocities.
@@ -142,9 +140,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         if !is_reduced {
             slopes[0].copy_from_slice(&completed[0]);
         }
-        weigh(|_| Lanes::all(*last) * coefficients.b, &slopes[0], &mut terms[0]);
-        let from = |k: usize| (y[0][k], Lanes::all(T::lift(0.0)));
-        combine(&coefficients.mu, &terms[0], from, &mut stages[0]);
+        weigh(Lanes::all(*last) * coefficients.b, &slopes[0], &mut terms[0]);
+        combine(&coefficients.mu, &terms[0], at(&y[0]), &mut stages[0]);
     }
 
     /// Evaluates one part of the slopes at the points of all stages, and returns the largest change of a
@@ -166,7 +163,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         if part > 0 {
             let force = &mut forces[part - 1];
             E::evaluate_part(equations, &at, work, force, statistics)?;
-            weigh(|_| weights, force, &mut terms[part]);
+            weigh(weights, force, &mut terms[part]);
             return Ok(T::lift(0.0));
         }
         E::evaluate_part(equations, &at, work, renewed, statistics)?;
@@ -184,7 +181,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         }
         if due.prepare_slopes(system, weights, (q, h), &mut slopes[0]) {
             let weights = Lanes::all(h) * coefficients.b;
-            weigh(|_| weights, &slopes[0], &mut terms[0]);
+            weigh(weights, &slopes[0], &mut terms[0]);
         }
     }
 

@@ -1,5 +1,7 @@
 //! Steps of Gauss collocation by Newton's method.
 
+use core::ops::Deref;
+
 use super::memory::Path;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, StageWork, weigh};
@@ -7,6 +9,7 @@ use crate::memory::Aside;
 use crate::methods::collocation::stages::{Departure, NewtonStages, Stage};
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
+use crate::scalar::passes::multiply;
 use crate::solve::{Guess, Solver, Stopping};
 use crate::space::Storing;
 use crate::state::Statistics;
@@ -72,13 +75,11 @@ where
     }
     for (stage, increment) in newton.increments.iter_mut().enumerate() {
         read_lane(stage, &path.slopes[0], increment);
-        increment.iter_mut().for_each(|w| *w *= h);
+        multiply(increment, h);
     }
     let Path { equations, coefficients, slopes, terms, y, rest, work, .. } = path;
     let StageWork { point, slope, .. } = work;
-    let ends = [&*y, &*rest];
-    let part = |part: usize| ends.map(|point| point.get(part).map_or(&[][..], |vector| &**vector));
-    let from = Departure { q: part(0), p: part(1), t, h };
+    let from = Departure { q: [part(y, 0), part(rest, 0)], p: [part(y, 1), part(rest, 1)], t, h };
     let take = |stage: usize, found: Stage<'_, T>, statistics: &mut Statistics| {
         let Stage { point: place, velocity, force, momentum, time } = found;
         for (slopes, slope) in slopes.iter_mut().zip([velocity, force]) {
@@ -99,7 +100,12 @@ where
     solved.map_err(|failure| failure.of(StepFailure::STAGES))?;
     let weights = Lanes::all(h) * coefficients.b;
     for (slopes, terms) in slopes.iter().zip(terms.iter_mut()) {
-        weigh(|_| weights, slopes, terms);
+        weigh(weights, slopes, terms);
     }
     Ok(())
+}
+
+/// q, or p where there are momenta.
+fn part<V: Deref<Target = [T]>, T>(point: &[V], part: usize) -> &[T] {
+    point.get(part).map_or(&[], |vector| vector)
 }

@@ -9,8 +9,8 @@
 //! symplectic in the arithmetic (Antoñana, Makazaga & Murua 2025).
 
 use super::memory::Path;
-use crate::mechanics::motion::{FirstOrder, weigh};
-use crate::methods::collocation::packs::{combine, sum};
+use crate::mechanics::motion::{FirstOrder, weigh_each};
+use crate::methods::collocation::packs::{at, combine, moved, sum};
 use crate::scalar::Lanes;
 use crate::{Real, System};
 
@@ -38,11 +38,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         let ([displacements, momenta], [places, renewed]) = (&mut terms[..], &mut stages[..]) else {
             return None;
         };
-        weigh(|k| Lanes::all(h * reciprocals[k]), momenta, displacements);
-        let (q, free) = (&y[0][..], &free[..]);
-        let from = |k: usize| (q[k], free[k]);
+        weigh_each(h, reciprocals, momenta, displacements);
         let nystrom = &coefficients.nystrom;
-        Some(nystrom.place(system, STAGES, displacements, from, weights, [places, renewed]))
+        Some(nystrom.place(system, STAGES, displacements, moved(&y[0], free), weights, [places, renewed]))
     }
 
     /// Sets the increment of the coordinates, if the equations are of second order.
@@ -61,8 +59,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     pub(super) fn set_velocities(&mut self) {
         let Self { equations, coefficients, slopes, terms, y, .. } = self;
         let Some(reciprocals) = S::Kind::reciprocal_masses(equations) else { return };
-        let from = |k: usize| (y[1][k], Lanes::all(T::lift(0.0)));
-        combine(&coefficients.mu, &terms[1], from, &mut slopes[0]);
+        combine(&coefficients.mu, &terms[1], at(&y[1]), &mut slopes[0]);
         for (velocity, &reciprocal) in slopes[0].iter_mut().zip(reciprocals) {
             *velocity = *velocity * Lanes::all(reciprocal);
         }

@@ -11,7 +11,7 @@ use crate::{ManifoldLagrangian, Real, Space, System, Vector};
 pub(super) type Slots<S> = Vector<S, [usize; 2]>;
 
 pub(super) fn slots<S: ManifoldSystem>(system: &S) -> Slots<S> {
-    let mut slots = system.space().array(|| [0; 2]);
+    let mut slots = system.space().array([0; 2]);
     for block in blocks(system) {
         for (number, place) in block.places().enumerate() {
             slots[place] = match block.factor {

@@ -18,7 +18,7 @@ use crate::discrete::quadrature::Rule;
 use crate::error::StepFailure;
 use crate::mechanics::manifold::{self, blocks, vector};
 use crate::scalar::norm::{self, reported};
-use crate::scalar::passes::kick;
+use crate::scalar::passes::{divide, kick, multiply};
 use crate::solve::{Stopping, from_either_guess};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
@@ -57,7 +57,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
         from_either_guess(|guess| {
             let displacement = &mut arrival.displacement;
             rates.guess(h, guess, [&mut *displacement]);
-            displacement.iter_mut().for_each(|displacement| *displacement *= h);
+            multiply(displacement, h);
             tangents.solve(&begin, system, displacement, stopping, statistics)?;
             check_angles(system, displacement)
         })?;
@@ -80,7 +80,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
             kick(p1, last, f1);
         }
         norm::finite(q1).and(norm::finite(p1))?;
-        displacement.iter_mut().for_each(|displacement| *displacement /= h);
+        divide(displacement, h);
         if let Some(orientation) = orientation {
             v.copy_from_slice(displacement);
             velocity(system, q1, v);

@@ -19,7 +19,7 @@ pub(super) struct Variation<S: System, T: Real> {
 
 impl<S: System, T: Real> Variation<S, T> {
     pub(super) fn new(system: &S) -> Self {
-        let rows = || system.space().array(|| [T::lift(0.0); 3]);
+        let rows = || system.space().array([T::lift(0.0); 3]);
         Self { point: rows(), velocity: rows() }
     }
 

@@ -81,7 +81,7 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         let [from, to] = [T::lift(0.0), T::lift(1.0)];
         let from = Sample { place: from, value: first, slope: here.rate[surface] * end };
         let to = Sample { place: to, value: there.gap[surface], slope: there.rate[surface] * end };
-        let low = dip([from, to], 0, |place| {
+        let low = dip([from, to], 0, &mut |place| {
             self.try_flight(place * end)?;
             let there = &self.memory.there;
             Ok(Sample { place, value: there.gap[surface], slope: there.rate[surface] * end })
@@ -125,7 +125,7 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         let is_begun = open > T::lift(0.0);
         let a = [open, if is_begun { at(self, open)? } else { self.memory.here.gap[surface] }];
         let b = [closed, at(self, closed)?];
-        let found = zero([a, b], |part| at(self, part))?;
+        let found = zero([a, b], &mut |part| at(self, part))?;
         let mut part = found.place;
         // What is left is less than rounding, but not in the derivatives of numbers that carry some.
         for _ in 0..POLISHED {

@@ -15,6 +15,7 @@ use crate::methods::collocation::stages::{Departure, NewtonStages, weighted};
 use crate::methods::one_point::OnePoint;
 use crate::methods::{Carries, Method, PreservedForm, Step, Tabulated, VariableStep, scheme};
 use crate::scalar::norm;
+use crate::scalar::passes::{divide, multiply};
 use crate::solve::{Convergence, Guess, Stopping, from_either_guess};
 use crate::space::Storing;
 use crate::system::Regular;
@@ -109,7 +110,7 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
         from_either_guess(|guess: Guess| {
             let OnePoint { p, rates, orientation } = &mut *point;
             rates.guess(h, guess, stages.increments.each_mut());
-            stages.increments.iter_mut().for_each(|w| w.iter_mut().for_each(|w| *w *= h));
+            stages.increments.iter_mut().for_each(|w| multiply(w, h));
             let from = Departure { q: [q, zero], p: [p, zero], t, h };
             // Between two branches Ω changes its sign.
             stages.solve::<Regular>(system, from, guess, stopping, statistics, |_, stage, _| {
@@ -126,7 +127,7 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
             norm::mean(q, next, middle);
             orientation.pass(system, &[(middle, t + T::lift(0.5) * h)], (next, t + h))
         })?;
-        stages.increments.iter_mut().for_each(|w| w.iter_mut().for_each(|w| *w /= h));
+        stages.increments.iter_mut().for_each(|w| divide(w, h));
         point.arrive(q, (next, momentum), h, stages.increments.each_ref());
         Ok(())
     }

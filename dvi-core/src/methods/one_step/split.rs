@@ -2,6 +2,7 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm;
+use crate::scalar::passes::subtract;
 use crate::solve::{Course, Judge, Linearize, Stopping, residual, solve_by_newton};
 use crate::space::{LinearEquations, LinearSolver, Sink, elimination, linear};
 use crate::state::Statistics;
@@ -75,7 +76,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for End<'_, S, T> {
     ) -> Result<(), StepFailure> {
         let Self { system, t, form } = self;
         system.one_form(q, *t, form);
-        r.iter_mut().zip(form.iter()).for_each(|(r, &form)| *r -= form);
+        subtract(r, form);
         system.one_form_jacobian(q, *t, T::lift(-1.0), T::lift(0.0), sink);
         Ok(())
     }

@@ -9,7 +9,7 @@ use crate::mechanics::combination::{Combination, Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::scalar::passes::add;
+use crate::scalar::passes::{add, multiply, negate};
 use crate::solve::{Ladder, Solver};
 use crate::state::Statistics;
 use crate::state::history::History;
@@ -54,7 +54,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         defect.copy_from_slice(one_form);
         let span = Span { system, interval: Interval { t, h }, q0, delta: increment };
         l_d.derivatives(span, defect, sum, &mut Statistics::default()).map_err(StartError::Starter)?;
-        defect.iter_mut().for_each(|c| *c = -*c);
+        negate(defect);
         norm::finite(defect).map_err(StartError::Starter)?;
         memory.aim(system, method, q0);
         Ok(memory)
@@ -147,7 +147,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         }
         let part = h / whole;
         let factor = if method.is_midpoint() { part * part } else { part };
-        defect.iter_mut().for_each(|c| *c *= factor);
+        multiply(defect, factor);
         work.increment.fill(T::lift(0.0));
         self.ladder.begin_again();
         self.aim(system, method, q);

@@ -18,7 +18,7 @@ use super::memory::{Carried, SigmaMemory, Work};
 use crate::discrete::{Departing, DiscreteLagrangian, Span};
 use crate::error::StepFailure;
 use crate::scalar::norm;
-use crate::scalar::passes::add;
+use crate::scalar::passes::{add, negate, subtract};
 use crate::solve::{Convergence, Guess, sizes, solve_by_fixed_point, solve_by_newton};
 use crate::space::scratch;
 use crate::state::Statistics;
@@ -129,7 +129,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         let judge = Convergence::new(method.stopping, method.stopping.max_iterations);
         solve_by_newton(departing, system, points, increment, storage, judge, statistics)?;
         if let Some(shift) = shift {
-            increment.iter_mut().zip(shift.iter()).for_each(|(delta, &shift)| *delta -= shift);
+            subtract(increment, shift);
         }
         if S::AFFINE && !method.is_midpoint() { self.evaluate_at_node(statistics) } else { Ok(()) }
     }
@@ -169,7 +169,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
         }
         match product {
             _ if *defect_vanishes => {}
-            None => defect.iter_mut().for_each(|c| *c = -*c),
+            None => negate(defect),
             Some(product) => {
                 product.apply(step.system, delta, defect);
                 let right = step.method.sigma * step.h;

@@ -105,7 +105,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
             return Ok([hop, self.locate([[begin, a], [end, b]])?, last]);
         }
         let [from, to] = [self.sample(side, [begin, a])?, self.sample(side, [end, b])?];
-        let low = dip([from, to], SURE, |place| {
+        let low = dip([from, to], SURE, &mut |place| {
             let value = self.look(place)?;
             self.sample(side, [place, value])
         })?;
@@ -140,11 +140,11 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         let [nothing, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
         let before = larger(from, to - chord);
         if b != nothing || before == from || self.look(before)? != nothing {
-            return zero([[from, a], [to, b]], |part| self.look(part));
+            return zero([[from, a], [to, b]], &mut |part| self.look(part));
         }
         // By signs: to where values end in a corner no secant leads.
         let sign = if a < nothing { -one } else { one };
-        zero([[from, sign], [before, -sign]], |part| {
+        zero([[from, sign], [before, -sign]], &mut |part| {
             Ok(if self.look(part)? * sign > nothing { sign } else { -sign })
         })
     }

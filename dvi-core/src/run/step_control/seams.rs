@@ -113,7 +113,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
             return Ok(None);
         }
         let (at_begin, half) = (self.look(run, nothing)?, T::lift(0.5));
-        let mut found = zero([[nothing, at_begin], last], |place| self.look(run, place * h))?;
+        let mut found = zero([[nothing, at_begin], last], &mut |place| self.look(run, place * h))?;
         loop {
             // A long step may have crossed it three times.
             let middle = half * found.place;
@@ -122,7 +122,8 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
             if is_first {
                 break;
             }
-            found = zero([[nothing, at_begin], [middle, at_middle]], |place| self.look(run, place * h))?;
+            found =
+                zero([[nothing, at_begin], [middle, at_middle]], &mut |place| self.look(run, place * h))?;
         }
         let mut place = found.place;
         if carries_derivatives::<T>() {

@@ -139,7 +139,7 @@ impl<S: RegularLagrangian<T>, M: Method<S, T>, T: Real> Search<'_, '_, S, M, T> 
 
     /// Between two lengths at which the defect has different signs, until it is small enough.
     fn between(&mut self, ends: [Trial<T>; 2]) -> Option<()> {
-        let look = |h| self.trial(h).filter(|_| !self.is_solved()).map(|trial| trial.defect).ok_or(());
+        let look = &mut |h| self.trial(h).filter(|_| !self.is_solved()).map(|trial| trial.defect).ok_or(());
         // The end of the search is the error.
         let _ = zero(ends.map(|trial| [trial.h, trial.defect]), look);
         self.is_solved().then_some(())

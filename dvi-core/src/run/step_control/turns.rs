@@ -93,7 +93,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
             let (from, to) = (self.sample(run, seam, [nothing, h]), self.sample(run, seam, [one, h]));
             let rounding = T::lift(TOUCHING) * T::default_epsilon() * (from.value + to.value);
             let mut is_moved = false;
-            let low = dip([from, to], SURE, |place| {
+            let low = dip([from, to], SURE, &mut |place| {
                 is_moved = true;
                 self.look(run, place * h)?;
                 let here = self.sample(run, seam, [place, h]);

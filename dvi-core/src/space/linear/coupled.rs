@@ -72,7 +72,7 @@ impl<const NODES: usize, S: Space, T: Scalar> Blocks<NODES, S, T> {
         Self {
             rows: rows.into(),
             second: core::array::from_fn(|_| space.matrix()),
-            permutation: space.array(|| 0),
+            permutation: space.array(0),
         }
     }
 }
@@ -102,10 +102,14 @@ pub(crate) fn assemble<const NODES: usize, T: Real, M: NodeSum<NODES, T>, D>(
 ) where
     D: DerefMut<Target = [T]> + Sink<T>,
 {
-    rows[first..].iter_mut().flatten().for_each(|block| block.fill(T::lift(0.0)));
+    for block in rows[first..].as_flattened_mut() {
+        block.fill(T::lift(0.0));
+    }
     for j in 0..NODES {
         matrix.place(j);
-        second.iter_mut().for_each(|derivative| derivative.fill(T::lift(0.0)));
+        for derivative in &mut *second {
+            derivative.fill(T::lift(0.0));
+        }
         let [qq, qv, vv, vq] = &mut *second;
         matrix.second_derivatives(qq, qv, vv);
         if !M::MIXED_ARE_TRANSPOSED {

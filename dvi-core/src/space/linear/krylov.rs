@@ -26,6 +26,9 @@ const REDUCTION: f64 = 1e-10;
 /// A residual that is larger than this part of what it was is no progress.
 const PROGRESS: f64 = 0.1;
 
+/// [`Krylov::multiply`] by the matrix of some equations.
+type Multiply<'a, T> = dyn FnMut(&mut Krylov<T>, usize) -> Result<(), StepFailure> + 'a;
+
 /// Storage for the method.
 #[derive(Debug)]
 pub(super) struct Krylov<T> {
@@ -80,7 +83,8 @@ impl<T: Real> LinearSolver<T> for Krylov<T> {
             if !unfinished {
                 break;
             }
-            products += self.minimise(equations, x, [left, target])?;
+            let multiply = &mut |krylov: &mut Self, begin| krylov.multiply(equations, begin);
+            products += self.minimise(multiply, x, [left, target])?;
             left = length(x);
         }
         x.copy_from_slice(&self.solution);
@@ -146,7 +150,7 @@ impl<T: Real> Krylov<T> {
     /// it off there; returns the number of products.
     fn minimise(
         &mut self,
-        equations: &mut impl LinearEquations<T>,
+        multiply: &mut Multiply<'_, T>,
         residual: &mut [T],
         [left, target]: [T; 2],
     ) -> Result<usize, StepFailure> {
@@ -158,7 +162,7 @@ impl<T: Real> Krylov<T> {
         }
         let mut size = 0;
         while size < BASIS && Scalar::abs(rhs[size]) > target {
-            self.multiply(equations, size * n)?;
+            multiply(self, size * n)?;
             let Self { basis, columns, rotations, work: [_, product], .. } = &mut *self;
             let column = &mut columns[size];
             for (v, entry) in basis.chunks_exact(n).zip(column.iter_mut()).take(size + 1) {
@@ -191,14 +195,14 @@ impl<T: Real> Krylov<T> {
                 break;
             }
         }
-        self.combine(equations, residual, &mut rhs, size)?;
+        self.combine(multiply, residual, &mut rhs, size)?;
         Ok(size + 1)
     }
 
     /// Adds the combination of the first `size` vectors that the triangle asks for.
     fn combine(
         &mut self,
-        equations: &mut impl LinearEquations<T>,
+        multiply: &mut Multiply<'_, T>,
         residual: &mut [T],
         rhs: &mut [T; BASIS + 1],
         size: usize,
@@ -219,7 +223,7 @@ impl<T: Real> Krylov<T> {
                 *sum += factor * v;
             }
         }
-        self.multiply(equations, BASIS * n)?;
+        multiply(self, BASIS * n)?;
         let Self { solution, work: [direction, product], .. } = self;
         for i in 0..n {
             solution[i] += direction[i];

@@ -14,6 +14,7 @@ use super::exchanges::Exchanges;
 use super::ordering::Order;
 use crate::error::StepFailure;
 use crate::scalar::norm::{is_pivot, singular};
+use crate::scalar::passes::multiply;
 use crate::space::elimination::LEAST;
 use crate::space::{Sink, lines_mut};
 use crate::{Real, Scalar};
@@ -94,7 +95,7 @@ impl<T: Real> SquareMatrix<T> for Banded<T> {
     fn scale_rows(&mut self, scales: &[T]) {
         let (width, bandwidth) = (self.width(), self.bandwidth);
         for (line, &i) in lines_mut(&mut self.entries, width).zip(&self.coordinate) {
-            line[..=2 * bandwidth].iter_mut().for_each(|entry| *entry *= scales[i as usize]);
+            multiply(&mut line[..=2 * bandwidth], scales[i as usize]);
         }
     }
 

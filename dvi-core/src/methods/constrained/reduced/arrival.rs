@@ -6,7 +6,7 @@ use crate::error::StepFailure;
 use crate::mechanics::constraints::turning::is_along;
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints};
 use crate::mechanics::mass::Mass;
-use crate::scalar::passes::kick;
+use crate::scalar::passes::{kick, multiply, subtract};
 use crate::solve::{Course, Due, Iteration, Judge, Quick, Stopping, repeat, sizes};
 use crate::space::SquareMatrix;
 use crate::state::Statistics;
@@ -76,7 +76,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
         for ((p, &p0), &f) in p.iter_mut().zip(here.p.iter()).zip(here.force.iter()) {
             *p = p0 + half * f;
         }
-        first.iter_mut().for_each(|impulse| *impulse *= h);
+        multiply(first, h);
         mass.displace(h, p, vector);
         combine(&here.solved, first, vector);
         for ((q1, &q), &delta) in q1.iter_mut().zip(q).zip(vector.iter()) {
@@ -88,7 +88,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Arrival<S, T> {
         place.constrain(system, q1, t + h, values);
         place.measure(mass);
         let (reciprocal, Place { p, rows, impulses: [first, _], .. }) = (T::lift(1.0) / h, place);
-        first.iter_mut().for_each(|impulse| *impulse *= reciprocal);
+        multiply(first, reciprocal);
         combine(&here.rows, first, p);
         mass.solve(p, vector);
         is_on_branch(begin, gram, rows, [q1, p, vector]).then_some(())
@@ -160,7 +160,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T>
             // What a quick look cannot solve is no failure of the step.
             solve(gram, [rows, &here.solved], &here.squares, values).ok_or(StepFailure::Branch)?;
         }
-        impulses[0].iter_mut().zip(values.iter()).for_each(|(impulse, &change)| *impulse -= change);
+        subtract(&mut impulses[0], values);
         vector.fill(T::lift(NEUTRAL));
         combine(&here.solved, values, vector);
         let size = sizes::reduce(system, weights, q, vector);

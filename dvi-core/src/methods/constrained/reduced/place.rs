@@ -51,7 +51,7 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     #[inline]
     pub(super) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
-        let rows = || system.multipliers().array(vector);
+        let rows = || system.multipliers().array(vector());
         let (squares, impulses) = (system.multipliers().vector(), system.multipliers().vectors());
         Self { p: vector(), force: vector(), rows: rows(), solved: rows(), squares, impulses }
     }
