@@ -83,10 +83,9 @@ fn steps_of_many_stages_stay_in_a_rough_table() -> Outcome {
         ($($stages:literal)*) => {$(
             let of_regular = error(&regular, methods!($stages), start, 0.2, &motion)?;
             let of_degenerate = error(&degenerate, methods!($stages), start_of_flow, 0.2, &flow)?;
-            println!("{} stages: {of_regular:e} {of_degenerate:e}", $stages);
             assert!(larger(of_regular, of_degenerate) < 2e-3, "{} stages: {of_regular:e} {of_degenerate:e}", $stages);
         )*};
     }
-    check!(4 5 6 7 8);
+    check!(5 8);
     Ok(())
 }
