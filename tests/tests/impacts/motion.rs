@@ -73,12 +73,10 @@ fn on_a_wavy_floor() -> Outcome {
     of_order! { Wavy { a: 0.5 }, start =>
         Impacts::new(Variational::trapezoid()), 2.0, 100;
         Impacts::new(Variational::midpoint()), 2.0, 100;
-        Impacts::new(Variational::simpson()), 2.0, 100;
         Impacts::new(Variational::sigma(0.3)), 1.0, 400;
         Impacts::reflecting(Variational::trapezoid()), 2.0, 100;
         Impacts::reflecting(Variational::sigma(0.0)), 1.0, 400;
         Impacts::reflecting(Galerkin::<3>::new()), 4.0, 40;
-        Impacts::reflecting(Galerkin::<4>::new()), 6.0, 10;
     }
     Ok(())
 }
@@ -89,7 +87,6 @@ fn in_a_bowl_with_a_mass_matrix_that_varies() -> Outcome {
     of_order! { Bowl { b: 0.7 }, start =>
         Impacts::new(Variational::midpoint()), 2.0, 100;
         Impacts::new(Variational::trapezoid()), 2.0, 100;
-        Impacts::reflecting(Variational::midpoint()), 2.0, 100;
         Impacts::reflecting(Galerkin::<3>::new()), 4.0, 40;
     }
     Ok(())
@@ -101,7 +98,6 @@ fn with_a_momentum_that_is_no_affine_function_of_the_velocity() -> Outcome {
     of_order! { Fast, start =>
         Impacts::new(Variational::midpoint()), 2.0, 60;
         Impacts::reflecting(Variational::trapezoid()), 2.0, 60;
-        Impacts::reflecting(Galerkin::<3>::new()), 4.0, 40;
     }
     Ok(())
 }
@@ -110,7 +106,6 @@ fn with_a_momentum_that_is_no_affine_function_of_the_velocity() -> Outcome {
 fn with_forces_on_a_table_that_moves() -> Outcome {
     let start = TableState { y: 0.5, dot_y: 0.2 };
     of_order! { Table { a: 0.1 }, start =>
-        Impacts::reflecting(Variational::midpoint()), 2.0, 60;
         Impacts::reflecting(Variational::trapezoid()), 2.0, 60;
         Impacts::reflecting(Galerkin::<3>::new()), 4.0, 40;
     }
@@ -169,7 +164,7 @@ fn without_an_impact_a_run_is_that_of_the_method_bit_by_bit() -> Outcome {
             assert_eq!(free.statistics(), far.statistics());
         )+};
     }
-    same!(Variational::trapezoid(), Variational::midpoint(), Galerkin::<4>::new());
+    same!(Variational::trapezoid(), Galerkin::<4>::new());
     Ok(())
 }
 
