@@ -83,12 +83,11 @@ fn banded_newton_steps_are_those_without_a_matrix() {
         Ring,
         RingState,
         Variational::midpoint(),
-        Variational::simpson(),
         Variational::midpoint().phase_fitted(Constant(0.7)),
         Newmark::new(0.25),
         Galerkin::<3>::new(),
     );
-    regular!(Chain, ChainState, Variational::midpoint(), Newmark::new(0.25));
+    regular!(Chain, ChainState, Variational::midpoint());
     regular!(Bent, BentState, Variational::midpoint(), Variational::trapezoid(), Galerkin::<3>::new());
 }
 
