@@ -39,6 +39,17 @@ fn errors<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
     TOLERANCES.iter().map(error).collect()
 }
 
+/// Coordinates and velocities at time `end`.
+fn values_at<S: Lagrangian, M: VariableStep<S, f64>>(
+    (system, start): (&S, &S::State<f64>),
+    (method, control): (M, ErrorControl<'_>),
+    end: f64,
+) -> Outcome<Vec<f64>> {
+    let mut run = Integrator::controlled(system, method, control, start.clone())?;
+    run.advance_to(end)?;
+    Ok(system.values(&run.state())?.collect())
+}
+
 /// Errors are within `most` tolerances, smaller for a tolerance that is a hundredth, and fall with it as the
 /// local error of this order lets expect: error and steps of one length are as hᵖ where the tolerance is as
 /// hᵖ⁺¹.

@@ -13,7 +13,7 @@ use dvi_tests::zoo::regular::{
 
 use super::breaks::{Pushed, PushedState};
 use super::seams::{Dry, DryState, Well, WellState};
-use super::{DoublePendulum, DoublePendulumState, KEPLER, Outcome, larger, pericentre};
+use super::{DoublePendulum, DoublePendulumState, KEPLER, Outcome, larger, pericentre, values_at};
 
 #[lagrangian(
     coordinates(x),
@@ -29,13 +29,11 @@ pub(super) struct Splined {
 
 /// The largest error at time `end`, in units of what the tolerance allows there: ε (1 + |y|).
 fn error<S: Lagrangian, M: VariableStep<S, f64>>(
-    (system, start): (&S, &S::State<f64>),
+    motion: (&S, &S::State<f64>),
     (method, control): (M, ErrorControl<'_>),
     (end, exact): (f64, &[f64]),
 ) -> Outcome<f64> {
-    let mut run = Integrator::controlled(system, method, control, start.clone())?;
-    run.advance_to(end)?;
-    let state: Vec<f64> = system.values(&run.state())?.collect();
+    let state = values_at(motion, (method, control), end)?;
     assert_eq!(state.len(), exact.len());
     let allowed = |value: f64| control.tolerance.relative * (1.0 + value.abs());
     Ok(state
