@@ -8,7 +8,7 @@ use std::thread;
 use dvi_core::IndexError;
 use dvi_core::diagnostics::{LyapunovExponent, TangentMap};
 use dvi_core::ensemble::{Ensemble, Outcome};
-use dvi_core::methods::{Composition, Method};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::space::Space;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
@@ -151,7 +151,6 @@ fn none_and_one_of_a_regular_system() -> Checked {
         LongBentState { u, dot_u },
         exact,
         Variational::trapezoid(),
-        Galerkin::<3>::new(),
         Gauss::<2>::new(),
     );
     Ok(())
@@ -215,13 +214,11 @@ fn a_thousand_fit_on_a_small_stack() -> Checked {
         1000; Waves::<1000> {}, WavesState { q, p },
         Sigma::midpoint(),
         Gauss::<8>::new().in_lanes(),
-        RungeKutta::classical(),
     );
     fit!(
         1000; Free::<1000> {}, FreeState { q, dot_q },
         Variational::trapezoid(),
         Galerkin::<3>::new(),
-        Composition::kahan_li_8(Variational::trapezoid()),
         Gauss::<8>::new().in_lanes(),
         Langevin { friction: 0.0, temperature: 0.0, seed: 1 },
     );

@@ -218,13 +218,9 @@ fn parameters_that_are_not_numbers_are_refused_and_so_are_starts_outside_of_the_
     assert!(message.starts_with("the one-form α along `x[2]` is NaN at the initial state: "), "{message}");
     let prey = LotkaVolterra { a: [1.0, f64::INFINITY], b: [-1.0, -2.0] };
     let inside = LotkaVolterraState { x: 1.3, y: 1.6 };
-    for error in [
-        Integrator::new(&prey, Gauss::<1>::new(), 0.1, inside).err(),
-        Integrator::new(&prey, RungeKutta::classical(), 0.1, inside).err(),
-    ] {
-        let message = error.map(|error| error.to_string()).unwrap_or_default();
-        assert!(message.starts_with("the gradient of H along `y` is -inf at"), "{message}");
-    }
+    let error = Integrator::new(&prey, Gauss::<1>::new(), 0.1, inside).err();
+    let message = error.map(|error| error.to_string()).unwrap_or_default();
+    assert!(message.starts_with("the gradient of H along `y` is -inf at"), "{message}");
     // α has no logarithm; H alone has none.
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let outside = LotkaVolterraState { x: -1.3, y: 1.6 };
