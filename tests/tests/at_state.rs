@@ -82,37 +82,27 @@ struct AtRunTime {
 /// A state of `Beside` lives on the stack, is `Copy`, and goes where that of the run-time system goes.
 #[test]
 fn single_coordinates_stand_beside_arrays_of_const_generic_size() -> Outcome {
-    fn check<const N: usize>() -> Outcome {
-        let (system, same) = (Beside::<N> { mass: 2.0 }, AtRunTime { n: N, mass: 2.0 });
-        let x: [f64; N] = core::array::from_fn(|j| 0.3 * j as f64 - 0.2);
-        let dot_x: [f64; N] = core::array::from_fn(|j| 0.5 - 0.1 * j as f64);
-        let (z, dot_z) = ([0.4, -0.3], [0.2, 0.6]);
-        let start = BesideState { x, w: 0.1, z, dot_x, dot_w: -0.7, dot_z };
-        let twin = AtRunTimeState { x: x.to_vec(), w: 0.1, z, dot_x: dot_x.to_vec(), dot_w: -0.7, dot_z };
-        assert_eq!(system.space().dimension(), N + 3);
-        let (kept, moved) = (start, start);
-        assert_eq!(kept, moved);
-        macro_rules! agree {
-            ($($method:expr),+ $(,)?) => {$(
-                let mut run = Integrator::new(&system, $method, 0.05, start)?;
-                let mut other = Integrator::new(&same, $method, 0.05, twin.clone())?;
-                run.take_steps(50)?;
-                other.take_steps(50)?;
-                for (a, b) in run.q().iter().zip(other.q()) {
-                    assert!(abs_diff_eq!(a, b, epsilon = 1e-12), "{}, N = {N}: {a} and {b}", stringify!($method));
-                }
-            )+};
-        }
-        agree!(
-            Variational::trapezoid(),
-            Variational { solver: Solver::Newton, ..Variational::midpoint() },
-            Galerkin { solver: Solver::Newton, ..Galerkin::<3>::new() },
-            Gauss::<2>::new(),
-        );
-        Ok(())
+    const N: usize = 1;
+    let (system, same) = (Beside::<N> { mass: 2.0 }, AtRunTime { n: N, mass: 2.0 });
+    let ([x, dot_x], [z, dot_z]) = ([[-0.2], [0.5]], [[0.4, -0.3], [0.2, 0.6]]);
+    let start = BesideState { x, w: 0.1, z, dot_x, dot_w: -0.7, dot_z };
+    let twin = AtRunTimeState { x: x.to_vec(), w: 0.1, z, dot_x: dot_x.to_vec(), dot_w: -0.7, dot_z };
+    assert_eq!(system.space().dimension(), N + 3);
+    let (kept, moved) = (start, start);
+    assert_eq!(kept, moved);
+    macro_rules! agree {
+        ($($method:expr),+ $(,)?) => {$(
+            let mut run = Integrator::new(&system, $method, 0.05, start)?;
+            let mut other = Integrator::new(&same, $method, 0.05, twin.clone())?;
+            run.take_steps(50)?;
+            other.take_steps(50)?;
+            for (a, b) in run.q().iter().zip(other.q()) {
+                assert!(abs_diff_eq!(a, b, epsilon = 1e-12), "{}: {a} and {b}", stringify!($method));
+            }
+        )+};
     }
-    check::<1>()?;
-    check::<2>()
+    agree!(Galerkin { solver: Solver::Newton, ..Galerkin::<3>::new() }, Gauss::<2>::new());
+    Ok(())
 }
 
 /// A literal is a state of `f64`, whose numbers have methods without a type written anywhere, and is printed

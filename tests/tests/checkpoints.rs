@@ -10,6 +10,7 @@ use dvi_tests::Outcome;
 use dvi_tests::bits;
 use dvi_tests::configurations::leapfrogging;
 use dvi_tests::systems::*;
+use dvi_tests::zoo::constrained::{Pendulum, PendulumState};
 use dvi_tests::zoo::regular::{KEPLER, Kepler, KeplerState, KeplerStateOf, RunTimeChain};
 
 /// As a text, and back.
@@ -46,31 +47,25 @@ where
 }
 
 /// A pendulum, whose steps leave as much of its constraint as their tolerance allows.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - 9.8 * y,
-    constraint = x * x + y * y - 1.0,
-)]
-#[derive(Clone, Debug)]
-struct Pendulum;
+const PENDULUM: Pendulum = Pendulum { m: 1.0, g: 9.8, length: 1.0 };
 
 #[test]
 fn constrained_runs_of_a_loose_tolerance_go_on_from_everywhere() -> Outcome {
     fn check<M: Method<Pendulum, f64> + Copy>(method: M, h: f64) -> Outcome {
         let start = PendulumState { x: 0.6, y: -0.8, dot_x: 0.8, dot_y: 0.6 };
-        let mut run = Integrator::new(&Pendulum, method, h, start)?;
+        let mut run = Integrator::new(&PENDULUM, method, h, start)?;
         for _ in 0..100 {
             run.advance()?;
-            let mut again = Integrator::resume(&Pendulum, method, &run.checkpoint())?;
+            let mut again = Integrator::resume(&PENDULUM, method, &run.checkpoint())?;
             let before = run.checkpoint();
             run.advance()?;
             again.advance()?;
             assert_eq!(again.checkpoint(), run.checkpoint());
-            run = Integrator::resume(&Pendulum, method, &before)?;
+            run = Integrator::resume(&PENDULUM, method, &before)?;
         }
         // A start that is farther away is not one.
         let away = PendulumState { x: 0.61, y: -0.8, dot_x: 0.8, dot_y: 0.6 };
-        let refused = Integrator::new(&Pendulum, method, h, away).err();
+        let refused = Integrator::new(&PENDULUM, method, h, away).err();
         assert!(matches!(refused, Some(StartError::OffConstraint { .. })), "{refused:?}");
         Ok(())
     }

@@ -1,7 +1,6 @@
 //! Generated functions of compiled systems against an independent oracle: all functions of the language.
 //! Formulas of every form are held against the oracle of `dvi-macros`, and compiled systems in laws.
 
-mod asked;
 mod functions;
 mod indices;
 mod limits;

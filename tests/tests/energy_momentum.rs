@@ -3,6 +3,9 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::discrete::{Constant, Rule};
 use dvi_core::prelude::*;
+use dvi_tests::zoo::regular::{
+    DoublePendulum, DoublePendulumState, DrivenOscillator, DrivenOscillatorState, Sliding, SlidingState,
+};
 use dvi_tests::{Outcome, larger};
 
 /// A spring that becomes stiffer.
@@ -15,16 +18,6 @@ use dvi_tests::{Outcome, larger};
 struct Spring;
 
 const SPRING: SpringState = SpringState { x: 1.0, y: 0.3, dot_x: 0.0, dot_y: 0.5 };
-
-/// A double pendulum's kind of mass, so that no step is explicit.
-#[lagrangian(
-    coordinates(a, b),
-    lagrangian = dot(a).powi(2) + dot(b).powi(2) / 2.0 + dot(a) * dot(b) * (a - b).cos() + 2.0 * a.cos() + b.cos(),
-)]
-#[derive(Clone, Debug)]
-struct DoublePendulum;
-
-const PENDULUM: DoublePendulumState = DoublePendulumState { a: 0.4, b: 0.3, dot_a: 0.3, dot_b: -0.1 };
 
 /// E_d of a step of a rule with linear interpolation, by hand.
 fn discrete_energy(rule: &Quadrature, h: f64, q0: [f64; 2], q1: [f64; 2]) -> f64 {
@@ -74,12 +67,10 @@ fn discrete_energy_and_momentum_are_conserved_to_rounding() -> Outcome {
 
 #[test]
 fn steps_of_any_lagrangian_keep_their_discrete_energy() -> Outcome {
-    let mut run = Integrator::controlled(
-        &DoublePendulum,
-        Variational::midpoint(),
-        EnergyMomentum::new(0.05),
-        PENDULUM,
-    )?;
+    let pendulums = DoublePendulum { mass: [1.0, 1.0], length: [1.0, 1.0], g: 1.0 };
+    let start = DoublePendulumState { a: 0.4, b: 0.3, dot_a: 0.3, dot_b: -0.1 };
+    let control = EnergyMomentum::new(0.05);
+    let mut run = Integrator::controlled(&pendulums, Variational::midpoint(), control, start)?;
     assert_eq!(run.control_memory().discrete_energy(), None);
     for _ in 0..500 {
         run.advance()?;
@@ -92,11 +83,8 @@ fn steps_of_any_lagrangian_keep_their_discrete_energy() -> Outcome {
 /// On an oscillator E_d of the midpoint rule does not depend on the point.
 #[test]
 fn an_oscillator_is_stepped_by_steps_of_one_length() -> Outcome {
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - 4.0 * x * x / 2.0)]
-    struct Oscillator;
-    let start = OscillatorState { x: 1.0, dot_x: 0.2 };
-    let mut run =
-        Integrator::controlled(&Oscillator, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
+    let (system, start) = (Particle { g: 0.0, k: 4.0, x0: 0.0 }, ParticleState { x: 1.0, dot_x: 0.2 });
+    let mut run = Integrator::controlled(&system, Variational::midpoint(), EnergyMomentum::new(0.1), start)?;
     for _ in 0..200 {
         run.advance()?;
         assert!(abs_diff_eq!(run.step_size(), 0.1, epsilon = 1e-10), "{}", run.step_size());
@@ -124,18 +112,13 @@ fn where_no_length_keeps_the_energy_the_run_ends_at_the_last_good_state() -> Out
 
 #[test]
 fn what_has_no_conserved_energy_is_refused() {
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0, force(x) = -dot(x))]
-    struct Friction;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x * t.cos())]
-    struct Driven;
     let control = EnergyMomentum::new(0.1);
-    let friction = FrictionState { x: 1.0, dot_x: 0.0 };
-    let driven = DrivenState { x: 1.0, dot_x: 0.0 };
+    let friction = SlidingState { x: 1.0, dot_x: 0.0 };
+    let (driven, pushed) =
+        (DrivenOscillator { depth: 0.3, omega: 2.0 }, DrivenOscillatorState { x: 1.0, dot_x: 0.0 });
     let unsupported = |error: Option<StartError>| matches!(error, Some(StartError::Unsupported { .. }));
-    assert!(unsupported(
-        Integrator::controlled(&Friction, Variational::midpoint(), control, friction).err()
-    ));
-    assert!(unsupported(Integrator::controlled(&Driven, Variational::midpoint(), control, driven).err()));
+    assert!(unsupported(Integrator::controlled(&Sliding, Variational::midpoint(), control, friction).err()));
+    assert!(unsupported(Integrator::controlled(&driven, Variational::midpoint(), control, pushed).err()));
     let fitted = Variational::midpoint().phase_fitted(Constant(1.0));
     assert!(unsupported(Integrator::controlled(&Spring, fitted, control, SPRING).err()));
     assert!(unsupported(Integrator::controlled(&Spring, RungeKutta::classical(), control, SPRING).err()));

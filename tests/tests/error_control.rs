@@ -39,6 +39,17 @@ fn errors<S: Lagrangian, M: VariableStep<S, f64> + Copy>(
     TOLERANCES.iter().map(error).collect()
 }
 
+/// Coordinates and velocities at time `end`.
+fn values_at<S: Lagrangian, M: VariableStep<S, f64>>(
+    (system, start): (&S, &S::State<f64>),
+    (method, control): (M, ErrorControl<'_>),
+    end: f64,
+) -> Outcome<Vec<f64>> {
+    let mut run = Integrator::controlled(system, method, control, start.clone())?;
+    run.advance_to(end)?;
+    Ok(system.values(&run.state())?.collect())
+}
+
 /// Errors are within `most` tolerances, smaller for a tolerance that is a hundredth, and fall with it as the
 /// local error of this order lets expect: error and steps of one length are as hᵖ where the tolerance is as
 /// hᵖ⁺¹.
@@ -70,7 +81,6 @@ fn errors_fall_with_the_tolerance_on_vortices() -> Outcome {
     let mut fine = Integrator::new(&vortices, Gauss::<8>::new().in_lanes(), end / 4000.0, start)?;
     fine.take_steps(4000)?;
     check(&errors(&vortices, Gauss::<3>::new(), &start, end, fine.q())?, 6.0, 4000.0, 0.1);
-    check(&errors(&vortices, Gauss::<5>::new().in_lanes(), &start, end, fine.q())?, 10.0, 4000.0, 0.15);
     check(&errors(&vortices, Gauss::<8>::new().in_lanes(), &start, end, fine.q())?, 16.0, 4000.0, 0.1);
     Ok(())
 }
@@ -117,13 +127,10 @@ fn estimates_are_near_the_error_of_a_step() -> Outcome {
     };
     for [least, most] in [
         estimates(&vortices, Gauss::<2>::new(), &start, [20.0, 1e-7], of_vortices)?,
-        estimates(&vortices, Gauss::<4>::new(), &start, [20.0, 1e-7], of_vortices)?,
         estimates(&vortices, Gauss::<8>::new(), &start, [20.0, 1e-7], of_vortices)?,
         estimates(&KEPLER, Gauss::<1>::new(), &pericentre(0.5), [TAU, 1e-6], of_kepler)?,
-        estimates(&KEPLER, Gauss::<3>::new(), &pericentre(0.9), [TAU, 1e-7], of_kepler)?,
         estimates(&KEPLER, Gauss::<8>::new(), &pericentre(0.9), [TAU, 1e-7], of_kepler)?,
     ] {
-        println!("{least:e} {most:e}");
         assert!(least > 2e-3 && most < 8.0, "{least:e} {most:e}");
     }
     Ok(())
@@ -184,9 +191,6 @@ fn steps_that_are_taken_back_leave_no_trace() -> Outcome {
     let (vortices, points) = chaotic();
     check(&vortices, Gauss::<2>::new(), &points)?;
     check(&KEPLER, Gauss::<3>::new().in_lanes(), &pericentre(0.6))?;
-    let system = DoublePendulum { mass: [1.0, 0.7], length: [1.0, 1.3], g: 9.81 };
-    let start = DoublePendulumState { a: 1.0, b: -0.5, dot_a: 0.0, dot_b: 2.0 };
-    check(&system, Gauss::<3>::new(), &start)?;
     // A first step that is much too long comes to the same as the one that is found in its place.
     let first = |h| {
         let method = Gauss::<8>::new().in_lanes();
@@ -209,7 +213,6 @@ fn a_head_on_collision_ends_with_an_error_at_the_last_good_state() -> Outcome {
         let error = run.advance_to(3.0).err().ok_or("it collides")?;
         // Half the period of the orbit of semi-axis ½.
         let fall = PI * 0.5_f64.powf(1.5);
-        println!("{error} {} {} {:e}", run.steps(), run.statistics().rejected, run.time() - fall);
         assert_eq!((error.step, error.time), (run.steps(), run.time()));
         assert!(abs_diff_eq!(run.time(), fall, epsilon = 10.0 * tolerance), "{} {}", run.time(), error);
         assert!(run.state().x.is_finite());
@@ -261,10 +264,10 @@ fn options_and_methods_out_of_range_are_refused() {
 fn a_run_goes_on_in_the_direction_of_its_checkpoint() -> Outcome {
     let control = |first_step| ErrorControl::new(1e-9, first_step);
     for direction in [1.0, -1.0] {
-        let run = |control| Integrator::controlled(&KEPLER, Gauss::<5>::new(), control, pericentre(0.5));
+        let run = |control| Integrator::controlled(&KEPLER, Gauss::<4>::new(), control, pericentre(0.5));
         let mut whole = run(control(0.3 * direction))?;
         whole.advance_to(3.0 * direction)?;
-        let (method, other) = (Gauss::<5>::new(), control(-0.3 * direction));
+        let (method, other) = (Gauss::<4>::new(), control(-0.3 * direction));
         let mut resumed = Integrator::resume_controlled(&KEPLER, method, other, &whole.checkpoint())?;
         assert!(resumed.advance_to(2.0 * direction).is_err());
         whole.advance_to(9.0 * direction)?;

@@ -10,10 +10,9 @@ use dvi_tests::Outcome;
 
 use dvi_core::discrete::Simpson;
 use dvi_core::prelude::*;
-use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
-use dvi_tests::zoo::regular::{Kepler, KeplerState, PLANE, Planar, PlanarState};
+use dvi_tests::zoo::regular::{PLANE, Planar, PlanarState};
 use dvi_tests::{bits, larger};
 
 /// The midpoint rule turns the oscillator by 2 atan(ωh/2) a step: with it, crossings are known as parts of a
@@ -96,19 +95,6 @@ fn crossings_of_long_steps_are_as_accurate_as_the_run() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn crossings_of_an_eccentric_orbit_are_at_its_pericentre() -> Outcome {
-    let start = KeplerState { x: 0.4, y: 0.0, dot_x: 0.0, dot_y: 2.0 };
-    let control = ErrorControl::new(1e-8, 0.1);
-    let mut run = Integrator::controlled(&Kepler { mu: 1.0 }, Gauss::<8>::new(), control, start)?;
-    for (k, event) in run.events([Direction::Rising], |_, state| [state.y])?.take(3).enumerate() {
-        let Event { time, state, .. } = event?;
-        assert!(abs_diff_eq!(time, TAU * (k + 1) as f64, epsilon = 1e-6), "{time}");
-        assert!((state.x - 0.4).abs() < 1e-7 && (state.dot_y - 2.0).abs() < 1e-6, "{state:?}");
-    }
-    Ok(())
-}
-
 /// x = cos t is above 0.95 for 0.64 in each period, and steps are longer.
 #[test]
 fn two_crossings_within_a_step_are_seen() -> Outcome {
@@ -186,28 +172,6 @@ fn crossings_of_a_scheme_with_a_defect_lie_near_its_orbit() -> Outcome {
     }
     let slope = convergence_order(&widths).ok_or("no slope")?;
     assert!(slope > 2.7, "{slope}: {widths:?}");
-    Ok(())
-}
-
-#[test]
-fn the_first_crossing_may_lie_in_the_first_step() -> Outcome {
-    let system = Oscillator { omega: 1.0 };
-    let start = OscillatorState { x: 0.01, y: 1.0 };
-    let mut run = Integrator::new(&system, Sigma::midpoint(), 0.1, start)?;
-    let first = run.events([Direction::Falling], |_, state| [state.x])?.next();
-    let crossing = first.ok_or("no crossing")??;
-    assert!(abs_diff_eq!(crossing.time, 0.01, epsilon = 1e-4), "{}", crossing.time);
-    Ok(())
-}
-
-#[test]
-fn events_end_with_the_failure_of_their_run() -> Outcome {
-    let (system, start) = quasi_periodic();
-    let mut run = Integrator::new(&system, Sigma::midpoint(), 1.0, start)?;
-    let mut events = run.events([Direction::Rising], |_, state| [state.x[0]])?;
-    let error = events.by_ref().find_map(Result::err);
-    assert!(matches!(error, Some(StepError { failure: StepFailure::NotConverged { .. }, .. })));
-    assert!(events.next().is_none());
     Ok(())
 }
 

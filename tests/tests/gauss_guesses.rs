@@ -65,13 +65,6 @@ fn error<S: Lagrangian, M: Method<S, f64>, L: Method<S, f64>>(
     Ok(largest)
 }
 
-/// With so many stages, one by one and in lanes.
-macro_rules! methods {
-    ($stages:expr) => {
-        (Gauss::<{ $stages }>::new(), Gauss::<{ $stages }>::new().in_lanes())
-    };
-}
-
 #[test]
 fn steps_of_many_stages_stay_in_a_rough_table() -> Outcome {
     let (regular, degenerate) = (Tabulated { psi: rough()? }, TabulatedFlow { psi: rough()? });
@@ -79,14 +72,9 @@ fn steps_of_many_stages_stay_in_a_rough_table() -> Outcome {
     let start_of_flow = TabulatedFlowState { x: -0.9, y: 0.0 };
     let motion = reference(&regular, start, 0.2, 200)?;
     let flow = reference(&degenerate, start_of_flow, 0.2, 200)?;
-    macro_rules! check {
-        ($($stages:literal)*) => {$(
-            let of_regular = error(&regular, methods!($stages), start, 0.2, &motion)?;
-            let of_degenerate = error(&degenerate, methods!($stages), start_of_flow, 0.2, &flow)?;
-            println!("{} stages: {of_regular:e} {of_degenerate:e}", $stages);
-            assert!(larger(of_regular, of_degenerate) < 2e-3, "{} stages: {of_regular:e} {of_degenerate:e}", $stages);
-        )*};
-    }
-    check!(4 5 6 7 8);
+    let methods = (Gauss::<8>::new(), Gauss::<8>::new().in_lanes());
+    let of_regular = error(&regular, methods, start, 0.2, &motion)?;
+    let of_degenerate = error(&degenerate, methods, start_of_flow, 0.2, &flow)?;
+    assert!(larger(of_regular, of_degenerate) < 2e-3, "{of_regular:e} {of_degenerate:e}");
     Ok(())
 }

@@ -28,7 +28,6 @@ macro_rules! lattice {
 lattice!(Constant [const N: usize, const M: usize] N, M, {});
 lattice!(RunTime [] n, m, { n: usize, m: usize });
 lattice!(Rows [const M: usize] n, M, { n: usize });
-lattice!(LongRows [const N: usize] N, m, { m: usize });
 lattice!(Literal [] 3, 20, {});
 
 /// The same with one index.
@@ -88,9 +87,6 @@ fn two_indices_are_one_with_the_same_numbers() -> Outcome {
     let start = RowsState { q: q.into(), dot_q: dot_q.into() };
     assert_eq!(moved(&rows, Variational::midpoint(), start)?, expected);
     let [q, dot_q] = [q, dot_q].map(|rows| vectors(&rows));
-    let long_rows = LongRows::<N> { m: M, k: k.clone() };
-    let start = LongRowsState { q: q.clone(), dot_q: dot_q.clone() };
-    assert_eq!(moved(&long_rows, Variational::midpoint(), start)?, expected);
     let run_time = RunTime { n: N, m: M, k };
     assert_eq!(moved(&run_time, Variational::midpoint(), RunTimeState { q, dot_q })?, expected);
     Ok(())

@@ -83,12 +83,11 @@ fn banded_newton_steps_are_those_without_a_matrix() {
         Ring,
         RingState,
         Variational::midpoint(),
-        Variational::simpson(),
         Variational::midpoint().phase_fitted(Constant(0.7)),
         Newmark::new(0.25),
         Galerkin::<3>::new(),
     );
-    regular!(Chain, ChainState, Variational::midpoint(), Newmark::new(0.25));
+    regular!(Chain, ChainState, Variational::midpoint());
     regular!(Bent, BentState, Variational::midpoint(), Variational::trapezoid(), Galerkin::<3>::new());
 }
 
@@ -152,8 +151,7 @@ fn disc(n: usize) -> [Vec<f64>; 2] {
 fn products_with_vectors_are_enough_for_many_bodies() {
     let n = 40;
     let [x, y] = disc(n);
-    let distance =
-        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, dvi_tests::larger);
+    let distance = dvi_tests::apart;
     fn steps<S: Lagrangian, M: Method<S, f64>>(
         system: &S,
         method: M,
@@ -169,10 +167,6 @@ fn products_with_vectors_are_enough_for_many_bodies() {
     let swarm = Swarm { m, k: 1.0, g: 1.0 / n as f64 };
     let start = SwarmState { x: x.clone(), y: y.clone(), dot_x: y.clone(), dot_y: x.clone() };
     let by = |solver| Variational { solver, ..Variational::midpoint() };
-    let (expected, _) = steps(&swarm, by(Solver::FixedPoint), 0.05, start.clone());
-    let (found, iterations) = steps(&swarm, by(Solver::NewtonKrylov), 0.05, start.clone());
-    assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");
-    let by = |solver| Newmark { solver, ..Newmark::new(0.25) };
     let (expected, _) = steps(&swarm, by(Solver::FixedPoint), 0.05, start.clone());
     let (found, iterations) = steps(&swarm, by(Solver::NewtonKrylov), 0.05, start.clone());
     assert!(distance(&found, &expected) < 1e-13 && iterations <= 12, "{iterations}");

@@ -168,39 +168,26 @@ fn runs_at_an_equilibrium_are_differentiated_too() -> Outcome {
     run.take_steps(n)?;
     assert_abs_diff_eq!(run.q()[0].eps, turned, epsilon = 1e-13);
 
-    // Second derivatives, against differences of first ones.
-    let first = |a: f64| -> Outcome<f64> {
-        let start = WellStateOf { x: one(0.0), dot_x: one(0.0) };
-        let system = Well { a: varied(a) };
-        let mut run = Integrator::new(&system, Variational::midpoint(), one(h), start)?;
-        run.take_steps(n)?;
-        Ok(run.q()[0].eps)
+    macro_rules! end {
+        ($a:expr) => {{
+            let zero = $a - $a;
+            let start = WellStateOf { x: zero, dot_x: zero };
+            let system = Well { a: Varied($a) };
+            let mut run = Integrator::new(&system, Variational::midpoint(), zero + h, start)?;
+            run.take_steps(n)?;
+            run.q()[0]
+        }};
+    }
+    // Second and third derivatives, against differences of those of one order less.
+    let first = |a: f64| -> Outcome<f64> { Ok(end!(Dual64::new(a, 1.0)).eps) };
+    let second = |a: f64| -> Outcome<f64> { Ok(end!(HyperDual64::new(a, 1.0, 1.0, 0.0)).eps1eps2) };
+    let slope = |f: &dyn Fn(f64) -> Outcome<f64>| -> Outcome<f64> {
+        Ok((f(-2e-3)? - 8.0 * f(-1e-3)? + 8.0 * f(1e-3)? - f(2e-3)?) / 12e-3)
     };
-    let expected = (first(-2e-3)? - 8.0 * first(-1e-3)? + 8.0 * first(1e-3)? - first(2e-3)?) / 12e-3;
-    let real = |x: f64| HyperDual64::from_re(x);
-    let system = Well { a: Varied(HyperDual64::new(0.0, 1.0, 1.0, 0.0)) };
-    let start = WellStateOf { x: real(0.0), dot_x: real(0.0) };
-    let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
-    run.take_steps(n)?;
-    let error = run.q()[0].eps1eps2 - expected;
-    assert!(error.abs() < 1e-8 * expected.abs(), "{} {expected}", run.q()[0].eps1eps2);
-
-    // Third derivatives, against differences of second ones.
-    let second = |a: f64| -> Outcome<f64> {
-        let start = WellStateOf { x: real(0.0), dot_x: real(0.0) };
-        let system = Well { a: Varied(HyperDual64::new(a, 1.0, 1.0, 0.0)) };
-        let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
-        run.take_steps(n)?;
-        Ok(run.q()[0].eps1eps2)
-    };
-    let expected = (second(-2e-3)? - 8.0 * second(-1e-3)? + 8.0 * second(1e-3)? - second(2e-3)?) / 12e-3;
-    let real = |x: f64| Dual3_64::from_re(x);
-    let system = Well { a: Varied(Dual3_64::new(0.0, 1.0, 0.0, 0.0)) };
-    let start = WellStateOf { x: real(0.0), dot_x: real(0.0) };
-    let mut run = Integrator::new(&system, Variational::midpoint(), real(h), start)?;
-    run.take_steps(n)?;
-    let error = run.q()[0].v3 - expected;
-    assert!(error.abs() < 1e-8 * expected.abs(), "{} {expected}", run.q()[0].v3);
+    let third = end!(Dual3_64::new(0.0, 1.0, 0.0, 0.0)).v3;
+    for (found, expected) in [(second(0.0)?, slope(&first)?), (third, slope(&second)?)] {
+        assert!((found - expected).abs() < 1e-8 * expected.abs(), "{found} {expected}");
+    }
     Ok(())
 }
 

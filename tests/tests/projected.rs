@@ -1,19 +1,16 @@
-//! Projected schemes: what becomes of Ω, and failures.
+//! Projected schemes: what becomes of Ω.
 
 use dvi_core::Real;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_tests::Outcome;
 use dvi_tests::filling;
 use dvi_tests::steps::{jacobian, stepped};
-use dvi_tests::systems::{LotkaVolterra, SphereForm, SphereFormState};
 use dvi_tests::zoo::particles::Mirror;
-use dvi_tests::{Outcome, failing};
 use nalgebra::DMatrix;
 use num_dual::Dual64;
 
 const MIRROR: [f64; 4] = [0.4, 0.3, 0.2, 0.5];
-
-const PREY: LotkaVolterra = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
 
 /// a Dα + b (Dα)ᵀ
 fn combined<S: DegenerateLagrangian<T>, T: Real>(system: &S, q: &[T], t: f64, [a, b]: [f64; 2]) -> Vec<T> {
@@ -134,20 +131,5 @@ fn a_step_preserves_the_form_of_its_ends() -> Outcome {
         let (lost, without) = ((&at_end - &at_start).amax(), defect(&Mirror, &method, &MIRROR, h, 1)?);
         assert!(lost < 1e-13, "h = {h}: {lost:e}, and {without:e} of Ω");
     }
-    Ok(())
-}
-
-#[test]
-fn failures_are_values() -> Outcome {
-    // Ω is zero for γ = 0.
-    let none = SphereForm { gamma: 0.0 };
-    let start = SphereFormState { phi: 0.4, z: 0.3 };
-    let error = Integrator::new(&none, Projected::symmetric(), 0.1, start).err();
-    assert!(matches!(error, Some(StartError::Singular { matrix: "Ω = −dα", .. })), "{error:?}");
-    // Prey beyond zero has no logarithm; the last good state is kept.
-    let q0 = [1e-3, 30.0];
-    let start = dvi_tests::systems::LotkaVolterraState { x: q0[0], y: q0[1] };
-    let (run, error) = failing(&PREY, Projected::symmetric(), 2.0, start)?;
-    assert!(run.state().x > 0.0 && run.state().y > 0.0, "{error}");
     Ok(())
 }

@@ -31,9 +31,8 @@ fn ends<S: Lagrangian, M: Method<S, f64> + Copy>(
 fn a_limit_of_the_energy_error_ends_any_run() -> Outcome {
     let leapfrog = Sigma { parasitic_limit: None, ..Sigma::leapfrog() };
     ends(&Oblique, leapfrog, [0.01, 0.1], ObliqueState { x: 1.0, y: 0.0 })?;
-    // Verlet, which β = 0 is too, steps over the centre of a head-on orbit.
+    // Verlet steps over the centre of a head-on orbit.
     let (kepler, start) = (Kepler { mu: 1.0 }, KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 });
-    ends(&kepler, Newmark::new(0.0), [0.1, 0.01], start)?;
     ends(&kepler, Variational::trapezoid(), [0.1, 0.01], start)?;
     for limit in [0.0, -1.0, f64::NAN] {
         let limited = EnergyLimit { method: Variational::trapezoid(), limit };

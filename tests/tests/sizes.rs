@@ -8,9 +8,10 @@ use std::thread;
 use dvi_core::IndexError;
 use dvi_core::diagnostics::{LyapunovExponent, TangentMap};
 use dvi_core::ensemble::{Ensemble, Outcome};
-use dvi_core::methods::{Composition, EnergyLimit, Method};
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::space::Space;
+use dvi_tests::systems::{PointVortices, PointVorticesState};
 
 type Checked = Result<(), Box<dyn Error + Send + Sync>>;
 
@@ -84,8 +85,8 @@ fn oscillation(steps: u64) -> f64 {
     START[0] * cos + START[1] * sin
 }
 
-/// No coordinates stay none, and one moves as the closed form says, whether the size is a const generic or a
-/// field.
+/// No coordinates stay none, whether the size is a const generic or a field, and one moves as the closed form
+/// says.
 macro_rules! none_and_one {
     ($fixed:ident, $long:ident, $state:ident, $long_state:ident { $q:ident, $v:ident }, $exact:expr, $($method:expr),+ $(,)?) => {$({
         let name = concat!(stringify!($fixed), ", ", stringify!($method));
@@ -95,11 +96,8 @@ macro_rules! none_and_one {
             end(&$long { n }, $method, 100, $long_state { $q: vec![START[0]; n], $v: vec![START[1]; n] })
         };
         assert_eq!(long(0)?, [0.0; 0], "{name}");
-        let one = end(&$fixed::<1> {}, $method, 100, $state { $q: [START[0]], $v: [START[1]] })?;
-        let exact: f64 = $exact;
+        let (one, exact): (_, f64) = (long(1)?, $exact);
         assert!(abs_diff_eq!(one[0], exact, epsilon = 4e-5), "{name}: {one:?}, not {exact}");
-        let long = long(1)?;
-        assert!(abs_diff_eq!(one[0], long[0], epsilon = 1e-12), "{name}: {one:?} and {long:?}");
     })+};
 }
 
@@ -115,13 +113,11 @@ fn none_and_one_of_a_degenerate_system() -> Checked {
         Sigma { solver: NEWTON, ..Sigma::midpoint() },
         Sigma { solver: Solver::FixedPoint, ..Sigma::midpoint() },
         OneStep::midpoint(),
-        Composition::triple_jump(OneStep::midpoint()),
         OneStepGauss::<2>::new(),
         Projected::symmetric(),
         Gauss::<2>::new(),
         Gauss::<2>::new().in_lanes(),
         RungeKutta::classical(),
-        EnergyLimit { method: Sigma::midpoint(), limit: 1.0 },
     );
     Ok(())
 }
@@ -136,15 +132,12 @@ fn none_and_one_of_a_regular_system() -> Checked {
         oscillation(100),
         Variational::trapezoid(),
         Variational { solver: NEWTON, ..Variational::midpoint() },
-        Variational { solver: NEWTON, ..Variational::simpson() },
         Variational { summation: Summation::Compensated, ..Variational::midpoint() },
         Newmark { solver: NEWTON, ..Newmark::new(0.25) },
         Galerkin::<3>::new(),
         Galerkin { solver: NEWTON, ..Galerkin::<3>::new() },
         Galerkin::<4>::new().in_lanes(),
-        Composition::kahan_li_8(Variational::trapezoid()),
         Gauss::<2>::new(),
-        Gauss::<2>::new().in_lanes(),
         RungeKutta::classical(),
         Langevin { friction: 0.0, temperature: 0.0, seed: 1 },
     );
@@ -158,11 +151,7 @@ fn none_and_one_of_a_regular_system() -> Checked {
         LongBentState { u, dot_u },
         exact,
         Variational::trapezoid(),
-        Variational::midpoint(),
-        Galerkin::<3>::new(),
         Gauss::<2>::new(),
-        Gauss::<2>::new().in_lanes(),
-        RungeKutta::classical(),
     );
     Ok(())
 }
@@ -207,82 +196,11 @@ fn on_a_small_stack(run: impl FnOnce() -> Checked + Send + 'static) -> Checked {
     run.join().map_err(|_| "the thread panicked")?
 }
 
-macro_rules! many {
-    ($n:literal, $steps:literal; $system:ident, $state:ident { $q:ident, $v:ident }, $($method:expr),+ $(,)?) => {$(
+macro_rules! fit {
+    ($n:literal; $system:expr, $state:ident { $q:ident, $v:ident }, $($method:expr),+ $(,)?) => {$(
         on_a_small_stack(|| {
             let start = $state { $q: [START[0]; $n], $v: [START[1]; $n] };
-            let found = end(&$system::<$n> {}, $method, $steps, start)?;
-            let (name, exact) = (stringify!($method), oscillation($steps));
-            assert_eq!(found.len() % $n, 0);
-            let worst = found[..$n].iter().map(|q| (q - exact).abs()).fold(0.0, dvi_tests::larger);
-            assert!(worst < 1e-6, "{} times {}, {name}: {worst:e}", $n, stringify!($system));
-            Ok(())
-        })?;
-    )+};
-}
-
-#[test]
-fn a_thousand_fit_on_a_small_stack() -> Checked {
-    many!(
-        1000, 2; Waves, WavesState { q, p },
-        Sigma::midpoint(),
-        EnergyLimit { method: Sigma::midpoint(), limit: 1.0 },
-        Gauss::<2>::new(),
-        Gauss::<8>::new().in_lanes(),
-        RungeKutta::classical(),
-    );
-    many!(
-        1000, 2; Free, FreeState { q, dot_q },
-        Variational::trapezoid(),
-        Variational::midpoint(),
-        Newmark::new(0.25),
-        Galerkin::<3>::new(),
-        Composition::kahan_li_8(Variational::trapezoid()),
-        Gauss::<8>::new().in_lanes(),
-        Langevin { friction: 0.0, temperature: 0.0, seed: 1 },
-    );
-    Ok(())
-}
-
-#[test]
-fn forty_fit_on_a_small_stack_with_matrices() -> Checked {
-    many!(
-        40, 2; Waves, WavesState { q, p },
-        Sigma { solver: NEWTON, ..Sigma::midpoint() },
-        OneStep::midpoint(),
-        OneStepGauss::<3>::new(),
-        Projected::symmetric(),
-    );
-    many!(
-        40, 2; Free, FreeState { q, dot_q },
-        Variational { solver: NEWTON, ..Variational::midpoint() },
-        Galerkin { solver: NEWTON, ..Galerkin::<3>::new() },
-        Galerkin::<8>::new().in_lanes(),
-    );
-    Ok(())
-}
-
-/// Sizes that are numbers: of a dozen, all is in the values.
-#[degenerate_lagrangian(
-    coordinates(q[6], p[6]),
-    one_form = sum(0..6, |j| p[j] * d(q[j])),
-    hamiltonian = sum(0..6, |j| p[j] * p[j] + q[j] * q[j]) / 2.0,
-)]
-#[derive(Debug)]
-struct SixWaves;
-
-#[lagrangian(coordinates(q[12]), lagrangian = sum(0..12, |j| dot(q[j]) * dot(q[j]) - q[j] * q[j]) / 2.0)]
-#[derive(Debug)]
-struct Dozen;
-
-#[lagrangian(coordinates(q[1000]), lagrangian = sum(0..1000, |j| dot(q[j]) * dot(q[j]) - q[j] * q[j]) / 2.0)]
-#[derive(Debug)]
-struct Thousand;
-
-macro_rules! literal {
-    ($n:literal; $system:ident, $state:ident { $q:ident, $v:ident }, $($method:expr),+ $(,)?) => {$(
-        on_a_small_stack(|| {
-            let found = end(&$system, $method, 2, $state { $q: [START[0]; $n], $v: [START[1]; $n] })?;
+            let found = end(&$system, $method, 2, start)?;
             let worst = found[..$n].iter().map(|q| (q - oscillation(2)).abs()).fold(0.0, dvi_tests::larger);
             assert!(worst < 1e-6, "{}, {}: {worst:e}", stringify!($system), stringify!($method));
             Ok(())
@@ -291,34 +209,55 @@ macro_rules! literal {
 }
 
 #[test]
-fn literal_sizes_fit_on_a_small_stack() -> Checked {
-    literal!(6; SixWaves, SixWavesState { q, p }, OneStepGauss::<3>::new(), Projected::symmetric());
-    literal!(
-        12; Dozen, DozenState { q, dot_q },
-        Galerkin { solver: NEWTON, ..Galerkin::<9>::new() },
-        Galerkin::<9>::new().in_lanes(),
+fn a_thousand_fit_on_a_small_stack() -> Checked {
+    fit!(
+        1000; Waves::<1000> {}, WavesState { q, p },
+        Sigma::midpoint(),
+        Gauss::<8>::new().in_lanes(),
     );
-    literal!(1000; Thousand, ThousandState { q, dot_q }, Variational::trapezoid(), Gauss::<8>::new().in_lanes());
+    fit!(
+        1000; Free::<1000> {}, FreeState { q, dot_q },
+        Variational::trapezoid(),
+        Galerkin::<3>::new(),
+        Gauss::<8>::new().in_lanes(),
+        Langevin { friction: 0.0, temperature: 0.0, seed: 1 },
+    );
     Ok(())
 }
 
-/// As they stand in the example `vortices`.
-#[degenerate_lagrangian(
-    coordinates(x[N], y[N]),
-    one_form = sum(0..N, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = sum_pairs(0..N, |j, k| gamma[j] * gamma[k]
-        * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
-    momenta(angular = sum(0..N, |j| gamma[j] * (x[j].powi(2) + y[j].powi(2)))),
-)]
-#[derive(Clone, Debug, PartialEq)]
-struct Vortices<const N: usize> {
-    gamma: [f64; N],
+#[test]
+fn forty_fit_on_a_small_stack_with_matrices() -> Checked {
+    fit!(
+        40; Waves::<40> {}, WavesState { q, p },
+        Sigma { solver: NEWTON, ..Sigma::midpoint() },
+        OneStepGauss::<3>::new(),
+        Projected::symmetric(),
+    );
+    fit!(
+        40; Free::<40> {}, FreeState { q, dot_q },
+        Variational { solver: NEWTON, ..Variational::midpoint() },
+        Galerkin::<8>::new().in_lanes(),
+    );
+    Ok(())
+}
+
+// Sizes that are numbers: of a dozen, all is in the values.
+degenerate!(SixWaves [] {} 6);
+regular!(Dozen [] {} 12, 0.0);
+regular!(Thousand [] {} 1000, 0.0);
+
+#[test]
+fn literal_sizes_fit_on_a_small_stack() -> Checked {
+    fit!(6; SixWaves {}, SixWavesState { q, p }, OneStepGauss::<3>::new(), Projected::symmetric());
+    fit!(12; Dozen {}, DozenState { q, dot_q }, Galerkin { solver: NEWTON, ..Galerkin::<9>::new() });
+    fit!(1000; Thousand {}, ThousandState { q, dot_q }, Gauss::<8>::new().in_lanes());
+    Ok(())
 }
 
 /// A polygon of `N` equal vortices on the unit circle turns at the rate Γ(N − 1)/4π (Thomson 1883).
-fn polygon<const N: usize>(angle: f64) -> VorticesState<N> {
+fn polygon<const N: usize>(angle: f64) -> PointVorticesState<N> {
     let place = |j: usize| angle + core::f64::consts::TAU * j as f64 / N as f64;
-    VorticesState {
+    PointVorticesState {
         x: core::array::from_fn(|j| place(j).cos()),
         y: core::array::from_fn(|j| place(j).sin()),
     }
@@ -326,7 +265,7 @@ fn polygon<const N: usize>(angle: f64) -> VorticesState<N> {
 
 fn turns<const N: usize>(method: Sigma) -> Checked {
     on_a_small_stack(move || {
-        let (system, h) = (Vortices::<N> { gamma: [1.0; N] }, 6e-3 / N as f64);
+        let (system, h) = (PointVortices::<N> { gamma: [1.0; N] }, 6e-3 / N as f64);
         let mut run = Integrator::new(&system, method, h, polygon(0.0))?;
         // A tangent map takes a matrix of all coordinates.
         if N <= 60 {
@@ -354,9 +293,7 @@ fn turns<const N: usize>(method: Sigma) -> Checked {
 }
 
 #[test]
-fn vortices_of_every_number_fit_on_a_small_stack() -> Checked {
-    turns::<4>(Sigma::midpoint())?;
-    turns::<10>(Sigma::midpoint())?;
+fn many_vortices_fit_on_a_small_stack() -> Checked {
     turns::<60>(Sigma::midpoint())?;
     turns::<1000>(Sigma::midpoint())?;
     turns::<60>(Sigma::leapfrog())

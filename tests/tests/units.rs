@@ -9,13 +9,15 @@
 mod systems;
 
 use approx::relative_eq;
+use core::fmt::Debug;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, State};
+use dvi_tests::apart;
 
 use systems::{
-    Amplitudes, Bead, Blade, Centre, Chain, Charge, CoupledMasses, DoublePendulum, Kepler, Oscillator,
-    Pendulum, Predators, Tangled, Vortices,
+    Amplitudes, Bead, Blade, Centre, Chain, Charge, CoupledMasses, DoublePendulum, Kepler, Predators,
+    Tangled, Vortices,
 };
 
 /// Exponents of the units of coordinates, and of time.
@@ -70,7 +72,8 @@ fn end<const N: usize, S: InUnits<N>, M: Method<S, f64>>(
     Ok(values.map(|(k, value)| value / factor(k)).collect())
 }
 
-fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone>(name: &str, method: M) {
+fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone + Debug>(method: M) {
+    let name = format!("{method:?} on {}", S::REPORT.system);
     // The guess is that of all increments after the seventh.
     let steps = 12;
     let plain =
@@ -84,79 +87,61 @@ fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone>(name: &str, m
     }
 }
 
+/// Each method on each system, which has so many units.
+macro_rules! check {
+    ($($system:ident[$units:literal]: $($method:expr),+;)+) => {$($(check::<$units, $system, _>($method);)+)+};
+}
+
 const SOLVERS: [Solver; 4] = [Solver::Automatic, Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov];
 
 #[test]
 fn of_degenerate_systems() {
     for solver in SOLVERS {
-        let sigma = |sigma| Sigma { solver, ..Sigma::new(sigma) };
-        check::<3, Oscillator, _>("oscillator, midpoint", sigma(0.5));
-        check::<2, Vortices, _>("vortices, midpoint", sigma(0.5));
-        check::<3, Predators, _>("predators, midpoint", sigma(0.5));
-        check::<4, Centre, _>("centre, midpoint", sigma(0.5));
-        check::<2, Amplitudes, _>("amplitudes, midpoint", sigma(0.5));
-        check::<4, Tangled, _>("tangled, midpoint", sigma(0.5));
+        let midpoint = Sigma { solver, ..Sigma::midpoint() };
+        check! {
+            Vortices[2]: midpoint;
+            Predators[3]: midpoint;
+            Centre[4]: midpoint;
+            Amplitudes[2]: midpoint;
+            Tangled[4]: midpoint;
+        }
     }
-    check::<4, Tangled, _>("tangled, Gauss", Gauss::<2>::new());
-    check::<4, Tangled, _>("tangled, projected", Projected::symmetric());
-    check::<4, Tangled, _>("tangled, Runge-Kutta", RungeKutta::classical());
-    check::<2, Vortices, _>("vortices, leapfrog", Sigma::leapfrog());
-    check::<3, Oscillator, _>("oscillator, one step", OneStep::midpoint());
-    check::<3, Oscillator, _>("oscillator, Gauss", Gauss::<2>::new());
-    check::<3, Oscillator, _>("oscillator, Gauss in lanes", Gauss::<8>::new().in_lanes());
-    check::<3, Predators, _>("predators, one step", OneStep::midpoint());
-    check::<3, Predators, _>("predators, trapezoid", OneStep::trapezoid());
-    check::<3, Predators, _>("predators, one-step Gauss", OneStepGauss::<2>::new());
-    check::<2, Amplitudes, _>("amplitudes, one step", OneStep::midpoint());
-    check::<3, Predators, _>("predators, projected", Projected::symmetric());
-    check::<4, Centre, _>("centre, projected", Projected::symmetric());
-    check::<2, Vortices, _>("vortices, projected", Projected::symmetric());
-    check::<2, Vortices, _>("vortices, Gauss", Gauss::<4>::new());
-    check::<2, Vortices, _>("vortices, Gauss in lanes", Gauss::<8>::new().in_lanes());
-    check::<4, Centre, _>("centre, Gauss", Gauss::<3>::new());
-    check::<2, Amplitudes, _>("amplitudes, Gauss", Gauss::<2>::new());
-    check::<3, Predators, _>("predators, composition", Composition::suzuki(OneStep::midpoint()));
-    check::<2, Vortices, _>("vortices, Runge-Kutta", RungeKutta::classical());
+    check! {
+        Tangled[4]: Gauss::<2>::new(), Projected::symmetric(), RungeKutta::classical();
+        Vortices[2]: Sigma::leapfrog();
+        Predators[3]: OneStep::midpoint(), OneStep::trapezoid(), OneStepGauss::<2>::new();
+        Amplitudes[2]: OneStep::midpoint();
+        Centre[4]: Projected::symmetric(), Gauss::<2>::new();
+    }
 }
 
 #[test]
 fn of_regular_systems() {
     for solver in [Solver::Automatic, Solver::Newton, Solver::NewtonKrylov] {
         let midpoint = Variational { solver, ..Variational::midpoint() };
-        check::<3, Kepler, _>("Kepler, midpoint", midpoint);
-        check::<2, DoublePendulum, _>("double pendulum, midpoint", midpoint);
-        check::<3, Charge, _>("charge, midpoint", midpoint);
-        check::<2, Chain, _>("chain, midpoint", midpoint);
-        check::<3, CoupledMasses, _>("coupled masses, midpoint", midpoint);
-        check::<2, Chain, _>("chain, Newmark", Newmark { solver, ..Newmark::new(0.25) });
-        check::<3, Kepler, _>("Kepler, Galerkin", Galerkin { solver, ..Galerkin::<4>::new() });
-        check::<2, DoublePendulum, _>(
-            "double pendulum, Galerkin",
-            Galerkin { solver, ..Galerkin::<4>::new() },
-        );
-        check::<2, Chain, _>("chain, Galerkin", Galerkin { solver, ..Galerkin::<3>::new() });
+        check! {
+            Kepler[3]: midpoint, Galerkin { solver, ..Galerkin::<4>::new() };
+            DoublePendulum[2]: midpoint;
+            Charge[3]: midpoint;
+            Chain[2]: midpoint, Newmark { solver, ..Newmark::new(0.25) };
+            Chain[2]: Galerkin { solver, ..Galerkin::<3>::new() };
+            CoupledMasses[3]: midpoint;
+        }
     }
-    check::<3, Kepler, _>("Kepler, Verlet", Variational::trapezoid());
-    check::<3, Kepler, _>("Kepler, Simpson", Variational::simpson());
-    check::<3, CoupledMasses, _>("coupled masses, Verlet", Variational::trapezoid());
-    check::<3, Kepler, _>("Kepler, Galerkin in lanes", Galerkin::<6>::new().in_lanes());
-    check::<3, Kepler, _>("Kepler, Gauss", Gauss::<1>::new());
-    check::<3, Kepler, _>("Kepler, Gauss", Gauss::<2>::new());
-    check::<3, Kepler, _>("Kepler, Gauss in lanes", Gauss::<8>::new().in_lanes());
-    check::<2, DoublePendulum, _>("double pendulum, Gauss", Gauss::<2>::new());
-    check::<3, Charge, _>("charge, Gauss", Gauss::<4>::new());
-    check::<3, CoupledMasses, _>("coupled masses, Gauss", Gauss::<2>::new());
-    check::<3, Kepler, _>("Kepler, composition", Composition::kahan_li_8(Variational::trapezoid()));
-    check::<2, DoublePendulum, _>("double pendulum, Runge-Kutta", RungeKutta::classical());
+    check! {
+        Kepler[3]: Variational::trapezoid(), Gauss::<8>::new().in_lanes();
+        CoupledMasses[3]: Variational::trapezoid(), Gauss::<2>::new();
+        DoublePendulum[2]: Gauss::<2>::new();
+        Charge[3]: Gauss::<2>::new();
+    }
 }
 
 #[test]
 fn of_systems_with_constraints() {
-    check::<2, Pendulum, _>("pendulum, RATTLE", Rattle::default());
-    check::<2, Pendulum, _>("pendulum, midpoint", Constrained::new(Variational::midpoint()));
-    check::<5, Bead, _>("bead, RATTLE", Rattle::default());
-    check::<5, Bead, _>("bead, midpoint", Constrained::new(Variational::midpoint()));
-    check::<3, Blade, _>("blade", Constrained::new(Variational::midpoint()));
+    check! {
+        Bead[5]: Rattle::default(), Constrained::new(Variational::midpoint());
+        Blade[3]: Constrained::new(Variational::midpoint());
+    }
 }
 
 /// A mass on a spring whose rest is far from the origin: where a correction no longer shrinks, its residual
@@ -220,8 +205,7 @@ fn where_a_wave_has_not_arrived() {
             let fixed_point: Vec<f64> = compare(n, Solver::FixedPoint);
             for solver in [Solver::Automatic, Solver::Newton, Solver::NewtonKrylov] {
                 let other = compare(n, solver);
-                let apart = fixed_point.iter().zip(&other).map(|(a, b)| (a - b).abs());
-                let farthest = apart.fold(0.0, |far: f64, apart| far.max(apart));
+                let farthest = apart(&fixed_point, &other);
                 assert!(farthest < 1e-14, "{n} masses, {solver:?}: {farthest:e}");
             }
         }
@@ -261,9 +245,7 @@ fn a_coordinate_that_is_rounding_errors() {
         }
         stays_on_its_circle(m, OneStep::midpoint());
         stays_on_its_circle(m, OneStep::trapezoid());
-        stays_on_its_circle(m, OneStepGauss::<1>::new());
         stays_on_its_circle(m, OneStepGauss::<2>::new());
-        stays_on_its_circle(m, OneStepGauss::<4>::new());
         stays_on_its_circle(m, Projected::symmetric());
         stays_on_its_circle(m, Gauss::<2>::new());
     }

@@ -1,4 +1,4 @@
-//! Every function that a formula may use, the user's own ones, `if`, and time.
+//! Every function that a formula may use, the user's own ones, and `if`.
 
 use dvi_core::{Scalar, degenerate_lagrangian};
 
@@ -47,22 +47,6 @@ pub struct EveryFunction {}
 pub struct Branches {
     /// Where the branches change.
     pub edge: f64,
-}
-
-/// Explicit time in α and in H.
-#[degenerate_lagrangian(
-    coordinates(x[3], y[3]),
-    one_form    = sum(0..3, |j| (1.0 + depth * (omega * t).cos() * y[j] * y[j]) * x[j] * d(y[j]) + t * t * y[j] * d(x[j])),
-    hamiltonian = sum(0..3, |j| (x[j].powi(2) + y[j].powi(2)) / 2.0 - (x[j] - omega * t).cos() * (j as f64 + 1.0))
-                      + (-t).exp() * x[0] * y[2],
-    momenta(moving = sum(0..3, |j| x[j] - t * y[j] * y[j])),
-)]
-#[derive(Clone, Debug)]
-pub struct Driven {
-    /// Depth of the modulation of α.
-    pub depth: f64,
-    /// Frequency.
-    pub omega: f64,
 }
 
 /// φ(s) = ln cosh s

@@ -38,3 +38,19 @@ pub struct Particle;
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Steered;
+
+/// A blade on an inclined plane, which slides along itself only. The slope leads along x.
+#[lagrangian(
+    coordinates(x, y, angle),
+    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + inertia * dot(angle).powi(2) / 2.0 + m * slope * x,
+    nonholonomic = dot(x) * angle.sin() - dot(y) * angle.cos(),
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct KnifeEdge {
+    /// Mass.
+    pub m: f64,
+    /// Moment of inertia.
+    pub inertia: f64,
+    /// Acceleration along x.
+    pub slope: f64,
+}

@@ -1,4 +1,4 @@
-//! Ways to declare a system: run-time sizes, borrowed parameters, generics, a full Lagrangian.
+//! Ways to declare a system: run-time sizes, borrowed parameters, generics.
 
 use dvi_core::degenerate_lagrangian;
 
@@ -34,20 +34,4 @@ pub struct Borrowing<'a, const N: usize> {
     pub coupling: &'a [[f64; N]; N],
     /// Overall factor.
     pub scale: &'a f64,
-}
-
-/// A full Lagrangian, split into α and H by the macro.
-#[degenerate_lagrangian(
-    coordinates(x, y, u[2], w[2]),
-    lagrangian  = (x * x + dot(y)) * (x.exp() + y * y)
-                      - 2.0 * (dot(x) - x) / (1.0 + x * x)
-                      + (if x > y { dot(x) * y + x } else { y * dot(x) - y.powi(3) })
-                      + sum(0..2, |j| u[j] * (dot(w[j]) + c * w[j]) * (1.0 + x * u[j]))
-                      + dot(u[0]) * sum(0..2, |j| w[j].sin())
-                      - sum(0..2, |j| w[j] * w[j] + u[j].cosh()),
-)]
-#[derive(Clone, Debug)]
-pub struct FullLagrangian {
-    /// A coupling.
-    pub c: f64,
 }

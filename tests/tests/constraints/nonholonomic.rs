@@ -5,19 +5,8 @@ use dvi_core::{
     ConstrainedSystem, Fixed, NondegenerateLagrangian, NonholonomicLagrangian, RunTime, Space, System,
     Varied,
 };
+use dvi_tests::zoo::nonholonomic::KnifeEdge;
 use num_dual::Dual64;
-
-/// A blade on an inclined plane, which does not slip to the side.
-#[lagrangian(
-    coordinates(x, y, theta),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + inertia * dot(theta).powi(2)) / 2.0 + slope * x,
-    nonholonomic = dot(x) * theta.sin() - dot(y) * theta.cos(),
-)]
-#[derive(Clone, Debug)]
-struct KnifeEdge {
-    inertia: f64,
-    slope: f64,
-}
 
 /// A disc that rolls upright on a plane, with a force and a parameter of any type of numbers.
 #[lagrangian(
@@ -59,7 +48,7 @@ fn is<S: ConstrainedSystem<Multipliers = M, Augmented = A>, M: Space, A: Space>(
 
 #[test]
 fn members_are_numbered_in_the_order_of_declaration() {
-    is(&KnifeEdge { inertia: 1.0, slope: 0.0 }, Fixed::<1, 1>::new(), Fixed::<1, 4>::new());
+    is(&KnifeEdge { m: 1.0, inertia: 1.0, slope: 0.0 }, Fixed::<1, 1>::new(), Fixed::<1, 4>::new());
     is(&Disc { radius: 1.0 }, Fixed::<1, 2>::new(), Fixed::<1, 6>::new());
     is(&Ring::<5>, Fixed::<1, 5, 0, _>::new(), Fixed::<3, 5, 0, _>::new());
     let run_time = |dimension: usize| RunTime { dimension };
@@ -99,8 +88,8 @@ fn reports_name_the_constraints() {
     let text = KnifeEdge::REPORT.to_string();
     for line in [
         "constraint a[0] = ",
-        "∂a[0]/∂theta = dot(x)·cos(theta) + dot(y)·sin(theta)",
-        "∂a[0]/∂dot(x) = sin(theta)",
+        "∂a[0]/∂angle = dot(x)·cos(angle) + dot(y)·sin(angle)",
+        "∂a[0]/∂dot(x) = sin(angle)",
         "1 nonholonomic constraint a(q, v, t) = 0.",
         "Begin with `Constrained`",
     ] {

@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 
 use dvi_tests::zoo::functions::{EveryFunction, OwnFunction};
 
-use crate::derivatives::oracle::{ByHand, Number, Random};
+use dvi_tests::Numbers;
+
+use crate::derivatives::oracle::{ByHand, Number};
 
 impl ByHand for EveryFunction {
     fn alpha<D: Number>(&self, q: &[D], _t: D) -> Vec<D> {
@@ -35,7 +37,7 @@ impl ByHand for EveryFunction {
             (s * 3.0).sph_j0(), s.recip(), s + r, x * 100.0 * (PI / 180.0), y * (180.0 / PI), r.sin(), x * 3.0,
         ].into_iter().sum()
     }
-    fn point(&self, random: &mut Random) -> Vec<f64> {
+    fn point(&self, random: &mut Numbers) -> Vec<f64> {
         self.within(random, 0.2, 0.8)
     }
 }

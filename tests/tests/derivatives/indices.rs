@@ -36,24 +36,6 @@ struct Weighted {
     g: Vec<f64>,
 }
 
-/// A sum over the length of another array.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form    = sum(0..n, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..k.len(), |j| k[j] * x[j] * y[0]),
-)]
-struct OtherRange {
-    n: usize,
-    k: Vec<f64>,
-}
-
-#[test]
-fn a_range_that_is_not_of_the_coordinates() {
-    let system = |k: usize| OtherRange { n: 3, k: vec![1.0; k] };
-    assert_eq!(system(3).check(), Ok(()));
-    assert_eq!(system(5).check(), Err(IndexError { array: "x", index: 3, len: 3 }));
-}
-
 #[test]
 fn a_short_parameter_array() {
     let chain = |n: usize, springs: usize| Chain { n, k: vec![1.0; springs], mass: 1.0 };

@@ -6,8 +6,7 @@
 //! of the first).
 
 use dvi_core::{DegenerateLagrangian, Lagrangian, Space, Weights};
-use dvi_tests::filling;
-use dvi_tests::larger;
+use dvi_tests::{Numbers, filling, larger};
 use num_dual::{DualNum, HyperDual64};
 
 pub(crate) const UNITS: f64 = 16.0;
@@ -26,31 +25,11 @@ pub(crate) trait ByHand: DegenerateLagrangian + Lagrangian<f32> + Lagrangian<Hyp
         self.alpha(q, t).iter().zip(v).map(|(&a, &v)| a * v).sum::<D>() - ByHand::energy(self, q, t)
     }
     /// A point in the domain of the formulas.
-    fn point(&self, random: &mut Random) -> Vec<f64> {
+    fn point(&self, random: &mut Numbers) -> Vec<f64> {
         self.within(random, -1.0, 1.0)
     }
-    fn within(&self, random: &mut Random, low: f64, high: f64) -> Vec<f64> {
-        random.several(self.space().dimension(), low, high)
-    }
-}
-
-/// The sequence of Steele, Lea and Flood (2014), SplitMix64.
-pub(crate) struct Random(u64);
-
-impl Random {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    pub(crate) fn several(&mut self, count: usize, low: f64, high: f64) -> Vec<f64> {
-        (0..count).map(|_| self.between(low, high)).collect()
-    }
-
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    fn within(&self, random: &mut Numbers, low: f64, high: f64) -> Vec<f64> {
+        (0..self.space().dimension()).map(|_| low + (high - low) * (1.0 + random.next()) / 2.0).collect()
     }
 }
 
@@ -108,11 +87,11 @@ impl Place<'_> {
 /// Compares all of `system` with the oracle on random points.
 pub(crate) fn agrees<S: ByHand>(system: &S) {
     assert_eq!(system.check(), Ok(()));
-    let mut random = Random::new(20_021_023);
+    let mut random = Numbers(20_021_023);
     for _ in 0..POINTS {
         let q = system.point(&mut random);
-        let v: Vec<f64> = q.iter().map(|_| random.between(-1.0, 1.0)).collect();
-        let t = random.between(-2.0, 2.0);
+        let v: Vec<f64> = q.iter().map(|_| random.next()).collect();
+        let t = 2.0 * random.next();
         let place = Place { system: S::REPORT.system, q: &q, epsilon: f64::EPSILON };
         lagrangian(system, &place, &v, t, &mut random);
         single_precision(system, &place, &v, t);
@@ -120,7 +99,7 @@ pub(crate) fn agrees<S: ByHand>(system: &S) {
 }
 
 /// Value, gradient and all four blocks of the second derivative of L.
-pub(crate) fn lagrangian<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64, random: &mut Random) {
+pub(crate) fn lagrangian<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t: f64, random: &mut Numbers) {
     let (q, n) = (place.q, place.q.len());
     let variables = [q, v].concat();
     let expected = expanded(&variables, &|z| system.whole(&z[..n], &z[n..], HyperDual64::from(t)));
@@ -132,7 +111,7 @@ pub(crate) fn lagrangian<S: ByHand>(system: &S, place: &Place<'_>, v: &[f64], t:
     system.gradient(q, v, t, &mut l_q, &mut l_v);
     place.compare("gradient", &[l_q, l_v].concat(), &expected.gradient, larger(first, second));
 
-    let mut weight = || random.between(-1.0, 1.0);
+    let mut weight = || random.next();
     let w = Weights { qq: weight(), qv: weight(), vq: weight(), vv: weight() };
     let before: Vec<f64> = (0..n * n).map(|_| weight()).collect();
     let (mut l_q, mut l_v, mut matrix) = (vec![f64::NAN; n], vec![f64::NAN; n], before.clone());

@@ -1,5 +1,4 @@
-//! Twelve motions, four of them not smooth, beside those of DOP853: errors at the end are within 30
-//! tolerances.
+//! Twelve motions, four of them not smooth: errors at the end are within 30 tolerances.
 
 use core::f64::consts::{PI, SQRT_2};
 
@@ -14,7 +13,7 @@ use dvi_tests::zoo::regular::{
 
 use super::breaks::{Pushed, PushedState};
 use super::seams::{Dry, DryState, Well, WellState};
-use super::{DoublePendulum, DoublePendulumState, KEPLER, Outcome, larger, pericentre};
+use super::{DoublePendulum, DoublePendulumState, KEPLER, Outcome, larger, pericentre, values_at};
 
 #[lagrangian(
     coordinates(x),
@@ -30,13 +29,11 @@ pub(super) struct Splined {
 
 /// The largest error at time `end`, in units of what the tolerance allows there: ε (1 + |y|).
 fn error<S: Lagrangian, M: VariableStep<S, f64>>(
-    (system, start): (&S, &S::State<f64>),
+    motion: (&S, &S::State<f64>),
     (method, control): (M, ErrorControl<'_>),
     (end, exact): (f64, &[f64]),
 ) -> Outcome<f64> {
-    let mut run = Integrator::controlled(system, method, control, start.clone())?;
-    run.advance_to(end)?;
-    let state: Vec<f64> = system.values(&run.state())?.collect();
+    let state = values_at(motion, (method, control), end)?;
     assert_eq!(state.len(), exact.len());
     let allowed = |value: f64| control.tolerance.relative * (1.0 + value.abs());
     Ok(state
@@ -46,14 +43,12 @@ fn error<S: Lagrangian, M: VariableStep<S, f64>>(
 }
 
 /// Holds the errors of a motion at its end against 30 tolerances, those of two stages against 200: `exact`
-/// are coordinates and, of a regular system, velocities. `dop853` are the errors of `solve_ivp` of SciPy
-/// 1.17 with rtol = atol = 10⁻⁶, 10⁻⁹ and 10⁻¹², in the same units.
+/// are coordinates and, of a regular system, velocities.
 fn check<S: Lagrangian>(
     name: &str,
     motion: (&S, &S::State<f64>),
     breaks: &[f64],
     end: (f64, &[f64]),
-    dop853: [f64; 3],
 ) -> Outcome
 where
     Gauss<2>: VariableStep<S, f64>,
@@ -70,9 +65,6 @@ where
         four.push(error(motion, (Gauss::<4>::new(), control), end)?);
         eight.push(error(motion, (Gauss::<8>::new(), control), end)?);
     }
-    let text =
-        |errors: &[f64]| errors.iter().map(|error| format!("{error:.2}")).collect::<Vec<_>>().join(" | ");
-    println!("| {name} | {} | {} | {} | {} |", text(&dop853), text(&two), text(&four), text(&eight));
     assert!(two.iter().all(|error| *error < 200.0), "{name}: {two:?}");
     assert!(four.iter().chain(&eight).all(|error| *error < 30.0), "{name}: {four:?} {eight:?}");
     Ok(())
@@ -88,14 +80,12 @@ fn errors_at_the_end_of_smooth_motions_are_within_thirty_tolerances() -> Outcome
         (&KEPLER, &pericentre(0.6)),
         &[],
         (20.0, &[-0.7700755784112404, 0.7883448169944244, -0.8941837319886915, -0.12346176415844096]),
-        [59.2, 61.6, 31.4],
     )?;
     check(
         "Kepler, e = 0.9",
         (&KEPLER, &pericentre(0.9)),
         &[],
         (20.0, &[-1.2952662509875743, 0.4003938963792322, -0.6775390924707566, -0.12708381542786862]),
-        [78.4, 42.1, 9.1],
     )?;
     // Nearly the period of the orbit of Arenstorf.
     check(
@@ -106,7 +96,6 @@ fn errors_at_the_end_of_smooth_motions_are_within_thirty_tolerances() -> Outcome
         ),
         &[],
         (17.0, &[0.9412992937212814, 0.035312350938363636, 0.6983751692182714, -0.1852922833329095]),
-        [163.5, 92.1, 101.4],
     )?;
     check(
         "double pendulum",
@@ -116,7 +105,6 @@ fn errors_at_the_end_of_smooth_motions_are_within_thirty_tolerances() -> Outcome
         ),
         &[],
         (5.0, &[-0.07636996856662882, 0.44302122094488217, 3.625542874391284, -2.9129106266378675]),
-        [1.4, 11.0, 8.9],
     )?;
     check(
         "four vortices",
@@ -133,28 +121,24 @@ fn errors_at_the_end_of_smooth_motions_are_within_thirty_tolerances() -> Outcome
             ]
             .concat(),
         ),
-        [36.4, 6.9, 10.2],
     )?;
     check(
         "Hénon & Heiles",
         (&HenonHeiles, &HenonHeilesState { x: 0.1, y: 0.3, dot_x: 0.35, dot_y: 0.2 }),
         &[],
         (50.0, &[-0.04365473523222416, -0.287083680290677, -0.13309160201191736, -0.3657654121920469]),
-        [66.5, 43.2, 24.8],
     )?;
     check(
         "van der Pol",
         (&VanDerPol, &VanDerPolState { x: 2.0, dot_x: 0.0 }),
         &[],
         (20.0, &[-1.7283079289533112, 0.39788159580404836]),
-        [0.5, 0.4, 0.5],
     )?;
     check(
         "Lotka & Volterra",
         (&OneSided { a: [-1.0; 2], b: [1.0; 2] }, &OneSidedState { x: 2.0, y: 0.5 }),
         &[],
         (30.0, &[0.3380138710218476, 1.4463853991621933]),
-        [1.9, 1.4, 0.8],
     )
 }
 
@@ -168,14 +152,12 @@ fn errors_at_the_end_of_rough_motions_are_within_thirty_tolerances() -> Outcome 
         (&Well, &WellState { x: 1.0, dot_x: 0.0 }),
         &[],
         (2.0, &[after * after / 2.0 - SQRT_2 * after, after - SQRT_2]),
-        [34.9, 32.4, 40.7],
     )?;
     check(
         "pulse, with breaks",
         (&Pushed { on: 50.0, off: 50.2 }, &PushedState { x: 0.0, dot_x: 0.0 }),
         &[50.0, 50.2],
         (100.0, &[9.98, 0.2]),
-        [9.1e5, 9.1e8, 9.1e11],
     )?;
     check(
         "cubic spline",
@@ -189,7 +171,6 @@ fn errors_at_the_end_of_rough_motions_are_within_thirty_tolerances() -> Outcome 
         ),
         &[],
         (50.0, &[3.0001294543221926, -0.0075387104383347]),
-        [1217.0, 2688.0, 3711.0],
     )?;
     // Each half period takes 2μ from the amplitude.
     let (mu, halves) = (0.01, 6.0);
@@ -199,6 +180,5 @@ fn errors_at_the_end_of_rough_motions_are_within_thirty_tolerances() -> Outcome 
         (&Dry { friction: mu }, &DryState { x: 1.0, dot_x: 0.0 }),
         &[],
         (20.0, &[mu + amplitude * angle.cos(), -amplitude * angle.sin()]),
-        [39.4, 15.6, 68.8],
     )
 }

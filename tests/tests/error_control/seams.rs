@@ -115,13 +115,8 @@ fn a_long_motion_over_a_kink_takes_few_steps() -> Outcome {
             let motion = (&Well, &WellState { x: start, dot_x: 0.0 });
             let (error, steps, rejected) = measured(motion, (method, control), (50.0, well(start, 50.0)))?;
             let motion = (&Hidden, &HiddenState { x: hidden, dot_x: 0.0 });
-            let (without, more_steps, more_rejected) =
-                measured(motion, (method, control), (50.0, well(hidden, 50.0)))?;
+            let (_, more_steps, _) = measured(motion, (method, control), (50.0, well(hidden, 50.0)))?;
             let tolerance = control.tolerance.relative;
-            println!(
-                "{tolerance:e}: {error:.2} in {steps} + {rejected}, \
-                 {without:.2} in {more_steps} + {more_rejected}"
-            );
             // The kink is met 18 times.
             assert!(
                 error < 10.0 && steps < 80 && rejected < 30,
@@ -131,7 +126,6 @@ fn a_long_motion_over_a_kink_takes_few_steps() -> Outcome {
             Ok(())
         }
         let (control, starts) = (ErrorControl::new(tolerance, 0.01), [start.x, hidden.x]);
-        compare(Gauss::<2>::new(), control, starts)?;
         compare(Gauss::<4>::new(), control, starts)?;
         compare(Gauss::<8>::new().in_lanes(), control, starts)?;
         // And back.
@@ -257,14 +251,13 @@ fn no_step_sees_both_sides() -> Outcome {
     let well = (&Well, &WellState { x: 1.0, dot_x: 0.0 });
     let of_x = |_, state: WellState| vec![state.x > 0.0];
     check(well, (Gauss::<2>::new(), 0.01, 20.0), of_x)?;
-    check(well, (Gauss::<3>::new(), 0.01, 20.0), of_x)?;
     check(well, (Gauss::<8>::new().in_lanes(), -0.01, 20.0), of_x)?;
     let limited = EnergyLimit { method: Gauss::<4>::new(), limit: 1e-3 };
     check(well, (limited, 0.01, 20.0), of_x)?;
     let dry = (&Dry { friction: 0.01 }, &DryState { x: 1.0, dot_x: 0.0 });
-    check(dry, (Gauss::<5>::new(), 0.01, 20.0), |_, state| vec![state.dot_x > 0.0])?;
+    check(dry, (Gauss::<8>::new(), 0.01, 20.0), |_, state| vec![state.dot_x > 0.0])?;
     let pushed = (&Pushed, &PushedState { x: 0.0, dot_x: 0.0 });
-    check(pushed, (Gauss::<5>::new(), 0.01, 100.0), |t, _| vec![t > 50.0, t < 50.2])?;
+    check(pushed, (Gauss::<8>::new(), 0.01, 100.0), |t, _| vec![t > 50.0, t < 50.2])?;
     let corners = (&CORNERS, &CornersState { x: 1.0, y: 0.3 });
     check(corners, (Gauss::<4>::new(), 0.01, 20.0), |_, state| vec![state.x > 0.0, state.y > 0.0])
 }

@@ -2,10 +2,9 @@
 //! within 30 tolerances as those of other motions are. The same formulas with their terms written out have
 //! steps that end at the seams.
 
-use dvi_core::methods::VariableStep;
 use dvi_core::prelude::*;
 
-use super::{Outcome, larger};
+use super::{Outcome, larger, values_at};
 
 /// Bodies on springs of constant force: the force jumps.
 #[lagrangian(coordinates(x[N]), lagrangian = sum(0..N, |i| dot(x[i]).powi(2) / 2.0 - x[i].abs()))]
@@ -59,16 +58,9 @@ struct Beads<const N: usize>;
 )]
 struct BeadsOneByOne;
 
-/// Coordinates and velocities at time `end`.
-fn state_at<S: Lagrangian, M: VariableStep<S, f64>>(
-    (system, start): (&S, S::State<f64>),
-    method: M,
-    tolerance: f64,
-    end: f64,
-) -> Outcome<Vec<f64>> {
-    let mut run = Integrator::controlled(system, method, ErrorControl::new(tolerance, 0.01), start)?;
-    run.advance_to(end)?;
-    Ok(system.values(&run.state())?.collect())
+/// The control of a tolerance.
+fn control(tolerance: f64) -> ErrorControl<'static> {
+    ErrorControl::new(tolerance, 0.01)
 }
 
 /// Holds the errors against 30 tolerances, those of two stages against 200.
@@ -76,12 +68,12 @@ macro_rules! check {
     ($motion:expr, $end:expr, $exact:expr) => {
         for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
             let mut ends = vec![
-                (state_at($motion, Gauss::<4>::new(), tolerance, $end)?, 30.0),
-                (state_at($motion, Gauss::<8>::new(), tolerance, $end)?, 30.0),
+                (values_at($motion, (Gauss::<4>::new(), control(tolerance)), $end)?, 30.0),
+                (values_at($motion, (Gauss::<8>::new(), control(tolerance)), $end)?, 30.0),
             ];
             // For the last one two stages would take as many steps as for all others.
             if tolerance > 1e-12 {
-                ends.push((state_at($motion, Gauss::<2>::new(), tolerance, $end)?, 200.0));
+                ends.push((values_at($motion, (Gauss::<2>::new(), control(tolerance)), $end)?, 200.0));
             }
             for (end, most) in ends {
                 let off =
@@ -106,11 +98,11 @@ fn in_a_well(height: f64, t: f64) -> [f64; 2] {
 fn errors_with_jumps_within_sums_are_within_thirty_tolerances() -> Outcome {
     let x = [1.0, 0.7, 1.9];
     let exact = [0, 1].map(|part| x.map(|height| in_a_well(height, 10.0)[part])).concat();
-    check!((&Wells::<3>, WellsState { x, dot_x: [0.0; 3] }), 10.0, exact);
+    check!((&Wells::<3>, &WellsState { x, dot_x: [0.0; 3] }), 10.0, exact);
     let (x, dot_x) = ([1.0, -0.8, 0.6], [0.1, 0.2, -0.1]);
-    let exact =
-        state_at((&RubbedOneByOne, RubbedOneByOneState { x, dot_x }), Gauss::<8>::new(), 1e-14, 10.0)?;
-    check!((&Rubbed::<3>, RubbedState { x, dot_x }), 10.0, exact);
+    let fine = (Gauss::<8>::new(), control(1e-14));
+    let exact = values_at((&RubbedOneByOne, &RubbedOneByOneState { x, dot_x }), fine, 10.0)?;
+    check!((&Rubbed::<3>, &RubbedState { x, dot_x }), 10.0, exact);
     Ok(())
 }
 
@@ -118,11 +110,11 @@ fn errors_with_jumps_within_sums_are_within_thirty_tolerances() -> Outcome {
 fn errors_with_kinks_within_sums_are_within_thirty_tolerances() -> Outcome {
     let r = [[1.0, 0.0], [-0.8, 0.3], [0.1, 1.1]];
     let dot_r = [[-0.5, 0.1], [0.5, -0.2], [0.0, -0.6]];
-    let start = SpringsOneByOneState { r, dot_r };
-    let exact = state_at((&SpringsOneByOne, start), Gauss::<8>::new(), 1e-14, 8.0)?;
-    check!((&Springs::<3>, SpringsState { r, dot_r }), 8.0, exact);
+    let fine = (Gauss::<8>::new(), control(1e-14));
+    let exact = values_at((&SpringsOneByOne, &SpringsOneByOneState { r, dot_r }), fine, 8.0)?;
+    check!((&Springs::<3>, &SpringsState { r, dot_r }), 8.0, exact);
     let (x, dot_x) = ([0.6, 1.5, 2.6], [1.0, 0.3, -0.7]);
-    let exact = state_at((&BeadsOneByOne, BeadsOneByOneState { x, dot_x }), Gauss::<8>::new(), 1e-14, 5.0)?;
-    check!((&Beads::<3>, BeadsState { x, dot_x }), 5.0, exact);
+    let exact = values_at((&BeadsOneByOne, &BeadsOneByOneState { x, dot_x }), fine, 5.0)?;
+    check!((&Beads::<3>, &BeadsState { x, dot_x }), 5.0, exact);
     Ok(())
 }

@@ -178,7 +178,7 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
 #[test]
 fn an_event_may_be_an_impact() -> Outcome {
     let start = ChannelState { x: 0.3, dot_x: 1.0 };
-    let mut run = Integrator::new(&Channel, Impacts::new(Variational::trapezoid()), 0.4, start)?;
+    let mut run = Integrator::new(&Channel, Impacts::new(Variational::midpoint()), 0.4, start)?;
     let turns = run.events([Direction::Either], |_, state| [state.dot_x])?;
     for (k, turn) in turns.take(5).enumerate() {
         let time = turn?.time;

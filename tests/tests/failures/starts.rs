@@ -50,13 +50,10 @@ fn a_step_that_is_too_short_or_too_long_is_refused() -> Outcome {
     let start = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
     refused(&Kepler { mu: 1.0 }, Variational::midpoint, start)?;
     refused(&Kepler { mu: 1.0 }, Variational::trapezoid, start)?;
-    refused(&Kepler { mu: 1.0 }, Galerkin::<3>::new, start)?;
     refused(&Kepler { mu: 1.0 }, Gauss::<2>::new, start)?;
-    refused(&Kepler { mu: 1.0 }, RungeKutta::classical, start)?;
     let (vortices, start) = quasi_periodic();
     refused(&vortices, Sigma::midpoint, start)?;
-    refused(&vortices, Sigma::leapfrog, start)?;
-    refused(&vortices, Gauss::<2>::new, start)
+    refused(&vortices, Sigma::leapfrog, start)
 }
 
 #[test]
@@ -110,6 +107,7 @@ fn what_has_no_mass_or_no_circulation_is_refused_by_its_name() {
     }
     named(of_vortices, Gauss::<2>::new());
     named(of_vortices, RungeKutta::classical());
+    named(of_vortices, Projected::symmetric());
     let message = vortices.vector_field(0.0, &start).err().map(|error| error.to_string());
     let expected = "Ω = −dα is singular at the initial state: its row for `x[2]` has the size 0e0, so that \
                     nothing determines the motion of this coordinate";
@@ -220,13 +218,9 @@ fn parameters_that_are_not_numbers_are_refused_and_so_are_starts_outside_of_the_
     assert!(message.starts_with("the one-form α along `x[2]` is NaN at the initial state: "), "{message}");
     let prey = LotkaVolterra { a: [1.0, f64::INFINITY], b: [-1.0, -2.0] };
     let inside = LotkaVolterraState { x: 1.3, y: 1.6 };
-    for error in [
-        Integrator::new(&prey, Gauss::<1>::new(), 0.1, inside).err(),
-        Integrator::new(&prey, RungeKutta::classical(), 0.1, inside).err(),
-    ] {
-        let message = error.map(|error| error.to_string()).unwrap_or_default();
-        assert!(message.starts_with("the gradient of H along `y` is -inf at"), "{message}");
-    }
+    let error = Integrator::new(&prey, Gauss::<1>::new(), 0.1, inside).err();
+    let message = error.map(|error| error.to_string()).unwrap_or_default();
+    assert!(message.starts_with("the gradient of H along `y` is -inf at"), "{message}");
     // α has no logarithm; H alone has none.
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };
     let outside = LotkaVolterraState { x: -1.3, y: 1.6 };

@@ -6,6 +6,7 @@ use dvi_core::{IndexError, OutsideError, ScalarField};
 
 use super::Outcome;
 use dvi_tests::twice::systems::{Damped, Harvested, Pulled, Swirl, SwirlState};
+use dvi_tests::zoo::regular::Kepler;
 
 /// Forces as a list, with arrays of run-time size.
 #[lagrangian(
@@ -72,6 +73,7 @@ fn reports_name_the_forces_and_what_they_mean() {
             <Swirl as NondegenerateLagrangian>::SEPARABLE && !<Damped as NondegenerateLagrangian>::SEPARABLE
         );
     };
+    const { assert!(Swirl::FORCED && !Kepler::FORCED) };
 }
 
 #[test]

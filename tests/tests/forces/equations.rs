@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Vector4};
 use num_dual::Dual64;
 
 use super::Outcome;
-use dvi_tests::twice::systems::{Canonical, Damped, Harvested, Pulled, Swirl, SwirlState};
+use dvi_tests::twice::systems::{Canonical, Damped, Harvested, Pulled};
 
 const DAMPED: Damped = Damped { gamma: 0.3 };
 const START: [f64; 4] = [1.2, 0.0, 0.1, 0.9];
@@ -95,39 +95,5 @@ fn the_energy_changes_by_the_work_of_the_forces() -> Outcome {
     let canonical = Canonical { n: 1, k: 1.0, gamma: 0.2 };
     assert!(balance(&canonical, OneStepGauss::<3>::new(), [&[1.0, 0.4], &[]], 200)? < 1e-8);
     assert!(balance(&Harvested { harvest: 0.1 }, Gauss::<3>::new(), [&[1.4, 1.7], &[]], 200)? < 1e-8);
-    Ok(())
-}
-
-/// A force of size zero changes no bit of a run, and neither does one that is not there.
-#[test]
-fn without_forces_runs_are_the_same_to_the_bit() -> Outcome {
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + 2.0 * dot(y).powi(2)) / 2.0 - x.powi(2) / 2.0 - y.powi(4) / 4.0,
-    )]
-    struct Free;
-    fn bits<S: RegularLagrangian, M: Method<S, f64>>(
-        system: &S,
-        method: M,
-        start: S::State<f64>,
-    ) -> Outcome<Vec<u64>> {
-        let mut run = Integrator::new(system, method, 0.05, start)?;
-        run.take_steps(1000)?;
-        Ok(dvi_tests::bits(run.q()))
-    }
-    let [x, y, dot_x, dot_y] = [0.7, 0.4, -0.2, 0.5];
-    let (swirl, swirling) = (Swirl { swirl: 0.0 }, SwirlState { x, y, dot_x, dot_y });
-    let free = FreeState { x, y, dot_x, dot_y };
-    assert_eq!(
-        bits(&Free, Variational::trapezoid(), free)?,
-        bits(&swirl, Variational::trapezoid(), swirling)?
-    );
-    assert_eq!(
-        bits(&Free, Variational::midpoint(), free)?,
-        bits(&swirl, Variational::midpoint(), swirling)?
-    );
-    assert_eq!(bits(&Free, Galerkin::<3>::new(), free)?, bits(&swirl, Galerkin::<3>::new(), swirling)?);
-    assert_eq!(bits(&Free, Newmark::new(0.25), free)?, bits(&swirl, Newmark::new(0.25), swirling)?);
-    const { assert!(!Free::FORCED && Swirl::FORCED) };
     Ok(())
 }

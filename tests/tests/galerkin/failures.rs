@@ -1,13 +1,11 @@
-//! Failures are values, and the last good state is kept.
+//! What is refused.
 
 use core::f64::consts::PI;
 use dvi_core::discrete::FrequencyIn;
 use dvi_core::prelude::*;
-use dvi_tests::failing;
 use dvi_tests::zoo::regular::*;
 
-use super::Outcome;
-use super::systems::{double_pendulum, relativistic};
+use super::systems::double_pendulum;
 
 #[test]
 fn what_cannot_be_done_is_refused() {
@@ -45,32 +43,4 @@ fn what_cannot_be_done_is_refused() {
             if x.to_string() == "x" && value.is_nan()),
         "{failure:?}"
     );
-}
-
-#[test]
-fn failures_are_values_and_keep_the_last_good_state() -> Outcome {
-    let method = Galerkin::<4>::new();
-    // At the pole the angle φ has no momentum.
-    let pole = SphericalPendulumState { theta: 0.0, phi: 0.3, dot_theta: 0.0, dot_phi: 0.8 };
-    let found = Integrator::new(&SphericalPendulum { g: 1.0 }, method, 0.1, pole).err();
-    assert!(
-        matches!(found, Some(StartError::Singular { matrix: "the mass matrix", entry, .. })
-            if entry.to_string() == "phi"),
-        "{found:?}"
-    );
-    // Far beyond the speed of light in the first iterate.
-    let ((relativistic, start), (pendulum, begin)) = (relativistic(), double_pendulum());
-    let (_, error) = failing(&relativistic, method, 50.0, start)?;
-    assert!(matches!(error.failure, StepFailure::NotFinite { .. }), "{error:?}");
-    let stopping = Stopping { max_iterations: 2, ..Stopping::default() };
-    for solver in [Solver::FixedPoint, Solver::Automatic] {
-        let (_, error) = failing(&KEPLER, Galerkin { solver, stopping, ..method }, 0.5, pericentre(0.3))?;
-        assert!(
-            matches!(error.failure, StepFailure::NotConverged { iterations: 2, .. }),
-            "{solver:?}: {error:?}"
-        );
-    }
-    let (_, error) = failing(&pendulum, Galerkin { stopping, ..method }, 0.1, begin)?;
-    assert!(matches!(error.failure, StepFailure::NotConverged { iterations: 2, .. }), "{error:?}");
-    Ok(())
 }

@@ -7,10 +7,6 @@ pub(crate) fn double_pendulum() -> (DoublePendulum, DoublePendulumState) {
     (system, DoublePendulumState { a: 1.1, b: -0.4, dot_a: 0.3, dot_b: 0.9 })
 }
 
-pub(crate) fn relativistic() -> (Relativistic, RelativisticState) {
-    (Relativistic { m: 1.0 }, RelativisticState { x: 0.8, y: 0.1, dot_x: -0.2, dot_y: 0.6 })
-}
-
 pub(crate) fn chain() -> (RunTimeChain, RunTimeChainState) {
     let system = RunTimeChain { mass: vec![1.0, 1.5, 0.7], coupling: 0.2 };
     let start =

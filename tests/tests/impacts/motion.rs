@@ -73,12 +73,10 @@ fn on_a_wavy_floor() -> Outcome {
     of_order! { Wavy { a: 0.5 }, start =>
         Impacts::new(Variational::trapezoid()), 2.0, 100;
         Impacts::new(Variational::midpoint()), 2.0, 100;
-        Impacts::new(Variational::simpson()), 2.0, 100;
         Impacts::new(Variational::sigma(0.3)), 1.0, 400;
         Impacts::reflecting(Variational::trapezoid()), 2.0, 100;
         Impacts::reflecting(Variational::sigma(0.0)), 1.0, 400;
         Impacts::reflecting(Galerkin::<3>::new()), 4.0, 40;
-        Impacts::reflecting(Galerkin::<4>::new()), 6.0, 10;
     }
     Ok(())
 }
@@ -89,7 +87,6 @@ fn in_a_bowl_with_a_mass_matrix_that_varies() -> Outcome {
     of_order! { Bowl { b: 0.7 }, start =>
         Impacts::new(Variational::midpoint()), 2.0, 100;
         Impacts::new(Variational::trapezoid()), 2.0, 100;
-        Impacts::reflecting(Variational::midpoint()), 2.0, 100;
         Impacts::reflecting(Galerkin::<3>::new()), 4.0, 40;
     }
     Ok(())
@@ -101,7 +98,6 @@ fn with_a_momentum_that_is_no_affine_function_of_the_velocity() -> Outcome {
     of_order! { Fast, start =>
         Impacts::new(Variational::midpoint()), 2.0, 60;
         Impacts::reflecting(Variational::trapezoid()), 2.0, 60;
-        Impacts::reflecting(Galerkin::<3>::new()), 4.0, 40;
     }
     Ok(())
 }
@@ -110,7 +106,6 @@ fn with_a_momentum_that_is_no_affine_function_of_the_velocity() -> Outcome {
 fn with_forces_on_a_table_that_moves() -> Outcome {
     let start = TableState { y: 0.5, dot_y: 0.2 };
     of_order! { Table { a: 0.1 }, start =>
-        Impacts::reflecting(Variational::midpoint()), 2.0, 60;
         Impacts::reflecting(Variational::trapezoid()), 2.0, 60;
         Impacts::reflecting(Galerkin::<3>::new()), 4.0, 40;
     }
@@ -154,38 +149,16 @@ fn without_an_impact_a_run_is_that_of_the_method_bit_by_bit() -> Outcome {
         impact = x + 2.0,
     )]
     struct Far;
-    macro_rules! same {
-        ($($method:expr),+) => {$(
-            let start = FreeState { x: 0.7, dot_x: 0.4 };
-            let mut free = Integrator::new(&Free, $method, 0.1, start)?;
-            let method = Impacts::reflecting($method);
-            let mut far = Integrator::new(&Far, method, 0.1_f64, FarState { x: 0.7_f64, dot_x: 0.4 })?;
-            for _ in 0..1000 {
-                free.advance()?;
-                far.advance()?;
-                let (FreeState { x, dot_x }, FarState { x: y, dot_x: dot_y }) = (free.state(), far.state());
-                assert_eq!([x.to_bits(), dot_x.to_bits()], [y.to_bits(), dot_y.to_bits()]);
-            }
-            assert_eq!(free.statistics(), far.statistics());
-        )+};
+    let start = FreeState { x: 0.7, dot_x: 0.4 };
+    let mut free = Integrator::new(&Free, Galerkin::<4>::new(), 0.1, start)?;
+    let method = Impacts::reflecting(Galerkin::<4>::new());
+    let mut far = Integrator::new(&Far, method, 0.1_f64, FarState { x: 0.7_f64, dot_x: 0.4 })?;
+    for _ in 0..1000 {
+        free.advance()?;
+        far.advance()?;
+        let (FreeState { x, dot_x }, FarState { x: y, dot_x: dot_y }) = (free.state(), far.state());
+        assert_eq!([x.to_bits(), dot_x.to_bits()], [y.to_bits(), dot_y.to_bits()]);
     }
-    same!(Variational::trapezoid(), Variational::midpoint(), Galerkin::<4>::new());
-    Ok(())
-}
-
-#[test]
-fn lanes_bounce_as_one_node_after_the_other_bit_by_bit() -> Outcome {
-    let (system, start) = (Wavy { a: 0.5 }, WavyState { x: 0.3, y: 1.0, dot_x: 0.4, dot_y: 0.0 });
-    let one_by_one = Impacts::reflecting(Galerkin::<5>::new());
-    let in_lanes = Impacts::reflecting(Galerkin::<5>::new().in_lanes());
-    let mut alone = Integrator::new(&system, one_by_one, 0.05, start)?;
-    let mut lanes = Integrator::new(&system, in_lanes, 0.05, start)?;
-    for _ in 0..300 {
-        alone.advance()?;
-        lanes.advance()?;
-        assert_eq!(alone.state(), lanes.state());
-    }
-    assert!(alone.memory().total() > 3);
-    assert_eq!(alone.memory().total(), lanes.memory().total());
+    assert_eq!(free.statistics(), far.statistics());
     Ok(())
 }

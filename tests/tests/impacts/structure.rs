@@ -153,12 +153,10 @@ fn a_run_goes_back_the_way_it_came() -> Outcome {
     goes_back! { Wavy { a: 0.2 }, WavyState { x: 0.3, y: 0.7, dot_x: 0.4, dot_y: 0.0 }, 0.06 =>
         Impacts::new(Variational::trapezoid()),
         Impacts::new(Variational::midpoint()),
-        Impacts::reflecting(Variational::trapezoid()),
         Impacts::reflecting(Galerkin::<3>::new()),
     }
     goes_back! { Bowl { b: 0.7 }, BowlState { x: 0.1, y: 0.2, dot_x: 1.1, dot_y: 0.9 }, 0.05 =>
         Impacts::new(Variational::midpoint()),
-        Impacts::reflecting(Variational::trapezoid()),
     }
     goes_back! { Ball { m: 2.0 }, BallState { y: 1.0, dot_y: 0.0 }, 0.07 =>
         Impacts { restitution: 0.95, ..Impacts::reflecting(Variational::midpoint()) },

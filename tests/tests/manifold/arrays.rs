@@ -8,8 +8,8 @@ use dvi_core::record::Record;
 use dvi_core::record::Recorder;
 use dvi_core::rotations;
 
-use dvi_tests::Outcome;
 use dvi_tests::zoo::manifold::{cross, dot};
+use dvi_tests::{Outcome, apart};
 
 /// A chain of spherical pendulums, of any number: m_ij are the masses below both joints, times lengths.
 macro_rules! chain {
@@ -55,10 +55,6 @@ fn listed() -> (Listed, ListedState) {
     (Listed { m, g: WEIGHTS.to_vec() }, ListedState { s: S.to_vec(), dot_s: DOT_S.to_vec() })
 }
 
-fn largest<'a>(numbers: impl IntoIterator<Item = &'a f64>, others: &[f64]) -> f64 {
-    numbers.into_iter().zip(others).fold(0.0, |largest, (a, b)| f64::max(largest, (a - b).abs()))
-}
-
 #[test]
 fn a_chain_of_any_size_moves_as_one_with_names() -> Outcome {
     for rule in [Quadrature::trapezoid(), Quadrature::midpoint(), Quadrature::simpson()] {
@@ -91,7 +87,7 @@ fn a_chain_of_any_size_moves_as_one_with_names() -> Outcome {
             [fixed.s.as_flattened(), fixed.dot_s.as_flattened()].concat(),
             [listed.s.as_flattened(), listed.dot_s.as_flattened()].concat(),
         ] {
-            let difference = largest(&found, &expected);
+            let difference = apart(&found, &expected);
             assert!(difference < 1e-12, "{rule:?}: {difference:e}");
         }
     }
@@ -167,7 +163,7 @@ fn bodies_of_any_number_move_as_those_with_names() -> Outcome {
             [&[fixed.x, fixed.dot_x], fixed.R.as_flattened(), fixed.omega_R.as_flattened()].concat(),
             [&[listed.x, listed.dot_x], listed.R.as_flattened(), listed.omega_R.as_flattened()].concat(),
         ] {
-            let difference = largest(&found, &expected);
+            let difference = apart(&found, &expected);
             assert!(difference < 1e-12, "{rule:?}: {difference:e}");
         }
         assert!(fixed.R.iter().all(|R| rotations::defect(R) < 1e-14));

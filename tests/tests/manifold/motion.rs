@@ -1,7 +1,7 @@
 //! The motion on constraints.
 
 use dvi_core::prelude::*;
-
+use dvi_tests::apart;
 use dvi_tests::zoo::manifold::{
     ByConstraints, ByConstraintsState, COUPLED, Coupled, CoupledState, coupled, cross,
 };
@@ -46,8 +46,7 @@ fn a_system_of_all_kinds_moves_as_one_with_constraints() {
     let exact = limit([400, 800].map(on_constraints));
     for rule in [Quadrature::trapezoid(), Quadrature::midpoint(), Quadrature::simpson()] {
         let found = limit([400, 800].map(|steps| on_manifold(rule, steps)));
-        let difference =
-            found.iter().zip(&exact).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
+        let difference = apart(&found, &exact);
         assert!(difference < 2e-9, "{rule:?}: {difference:e}");
     }
 }

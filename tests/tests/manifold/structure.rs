@@ -4,6 +4,7 @@ use dvi_core::discrete::Rule;
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_examples::models::{SphericalPendulum, SphericalPendulumStateOf};
+use dvi_tests::apart;
 use dvi_tests::zoo::manifold::{
     Body, BodyState, BodyStateOf, COUPLED, FREE, NotSeparable, NotSeparableState, Separable, SeparableState,
     UNEVEN, coupled, cross, dot, tilted,
@@ -24,7 +25,7 @@ fn symmetric_steps_can_be_taken_back() {
         let end = run.state();
         let [end, start] =
             [&end, &start].map(|state| [&state.R[..], &state.s, &state.x, &state.dot_x].concat());
-        let difference = end.iter().zip(&start).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
+        let difference = apart(&end, &start);
         assert!(difference < 1e-10, "{difference:e}");
     }
 }
@@ -151,7 +152,7 @@ fn steps_by_kicks_are_those_of_the_general_equations() {
                 [&a.R[..], &a.s, &a.omega_R, &a.dot_s, &[a.x]].concat(),
                 [&b.R[..], &b.s, &b.omega_R, &b.dot_s, &[b.x]].concat(),
             );
-            let difference = a.iter().zip(&b).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
+            let difference = apart(&a, &b);
             assert!(difference < 2e-13, "{rule:?}: {difference:e}");
         }
         assert_eq!((by_kicks.statistics().gradients, by_kicks.statistics().linearizations), (50, 0));

@@ -4,7 +4,9 @@
 use approx::abs_diff_eq;
 use dvi_core::error::StartError;
 use dvi_core::prelude::*;
-use dvi_tests::zoo::nonholonomic::{Bundle, BundleState, BundleStateOf};
+use dvi_tests::zoo::nonholonomic::{
+    Bundle, BundleState, BundleStateOf, KnifeEdge, KnifeEdgeState, KnifeEdgeStateOf,
+};
 use dvi_tests::{Numbers, larger};
 
 use super::Outcome;
@@ -52,17 +54,10 @@ fn a_light_coordinate_is_projected() -> Outcome {
     Ok(())
 }
 
-/// A blade, which slides along itself only.
-#[lagrangian(
-    coordinates(x, y, angle),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(angle).powi(2)) / 2.0,
-    nonholonomic = dot(x) * angle.sin() - dot(y) * angle.cos(),
-)]
-#[derive(Clone, Copy, Debug)]
-struct Blade;
+const BLADE: KnifeEdge = KnifeEdge { m: 1.0, inertia: 1.0, slope: 0.0 };
 
-fn at(x: f64, slip: f64) -> BladeState {
-    BladeState { x, y: 0.0, angle: 0.0, dot_x: 1.0, dot_y: slip, dot_angle: 0.5 }
+fn at(x: f64, slip: f64) -> KnifeEdgeState {
+    KnifeEdgeState { x, y: 0.0, angle: 0.0, dot_x: 1.0, dot_y: slip, dot_angle: 0.5 }
 }
 
 /// What counts as a slip does not depend on the origin of coordinates, or on the step.
@@ -71,7 +66,7 @@ fn a_slip_is_one_everywhere() {
     for x in [0.0, 1.0, 6.4e6, 1e15] {
         for h in [1e-6, 1e-3, 1.0] {
             let begun = |slip| {
-                Integrator::new(&Blade, Constrained::new(Variational::midpoint()), h, at(x, slip)).map(drop)
+                Integrator::new(&BLADE, Constrained::new(Variational::midpoint()), h, at(x, slip)).map(drop)
             };
             assert_eq!(begun(1e-13), Ok(()));
             for slip in [1e-10, 1e-6, 0.01] {
@@ -83,10 +78,16 @@ fn a_slip_is_one_everywhere() {
             }
         }
     }
-    let single =
-        |slip: f32| BladeStateOf { x: 1.0_f32, y: 0.0, angle: 0.0, dot_x: 1.0, dot_y: slip, dot_angle: 0.5 };
+    let single = |slip: f32| KnifeEdgeStateOf {
+        x: 1.0_f32,
+        y: 0.0,
+        angle: 0.0,
+        dot_x: 1.0,
+        dot_y: slip,
+        dot_angle: 0.5,
+    };
     let begun = |slip| {
-        Integrator::new(&Blade, Constrained::new(Variational::midpoint()), 1e-3, single(slip)).map(drop)
+        Integrator::new(&BLADE, Constrained::new(Variational::midpoint()), 1e-3, single(slip)).map(drop)
     };
     assert!(begun(1e-5).is_ok() && matches!(begun(0.01), Err(StartError::AcrossConstraint { .. })));
 }
@@ -95,9 +96,9 @@ fn a_slip_is_one_everywhere() {
 #[test]
 fn states_off_the_constraints_have_no_multipliers() -> Outcome {
     let off = StartError::AcrossConstraint { constraint: 0, rate: -5.0 };
-    assert_eq!(Blade.multipliers_at(0.0, &at(2.0, 5.0)).map(drop), Err(off));
-    assert!(Blade.vector_field(0.0, &at(2.0, 5.0)).is_ok());
-    Blade.multipliers_at(0.0, &at(2.0, 0.0))?;
+    assert_eq!(BLADE.multipliers_at(0.0, &at(2.0, 5.0)).map(drop), Err(off));
+    assert!(BLADE.vector_field(0.0, &at(2.0, 5.0)).is_ok());
+    BLADE.multipliers_at(0.0, &at(2.0, 0.0))?;
     Ok(())
 }
 

@@ -3,7 +3,7 @@
 use approx::abs_diff_eq;
 use dvi_core::error::LengthError;
 use dvi_core::prelude::*;
-use dvi_tests::larger;
+use dvi_tests::apart;
 
 use super::Outcome;
 
@@ -62,9 +62,7 @@ fn a_sphere_goes_around_on_a_turntable() -> Outcome {
             let values = |state: &TurntableState| -> Result<Vec<f64>, LengthError> {
                 Ok(system.values(state)?.collect())
             };
-            let apart =
-                values(&found)?.iter().zip(&values(&exact)?).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
-            errors.push((h, apart));
+            errors.push((h, apart(&values(&found)?, &values(&exact)?)));
             let TurntableState { x, y, dot_x, dot_y, dot_a, dot_b, .. } = found;
             let Turntable { radius, omega } = system;
             let slip = [dot_x - radius * dot_b + omega * y, dot_y + radius * dot_a - omega * x];

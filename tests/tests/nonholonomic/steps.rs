@@ -8,19 +8,6 @@ use dvi_tests::zoo::nonholonomic::*;
 
 use super::Outcome;
 
-/// A blade on an inclined plane, which slides along itself only. The slope leads along x.
-#[lagrangian(
-    coordinates(x, y, angle),
-    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + inertia * dot(angle).powi(2) / 2.0 + m * slope * x,
-    nonholonomic = dot(x) * angle.sin() - dot(y) * angle.cos(),
-)]
-#[derive(Clone, Copy, Debug)]
-struct KnifeEdge {
-    m: f64,
-    inertia: f64,
-    slope: f64,
-}
-
 const BLADE: KnifeEdge = KnifeEdge { m: 1.5, inertia: 0.7, slope: 0.8 };
 
 /// It goes down and up again while it turns, and drifts across the slope (Bloch 2015, section 1.6).

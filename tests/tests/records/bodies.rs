@@ -4,7 +4,7 @@ use dvi_core::prelude::*;
 use dvi_core::record::{Column, Quantity, Record, Recorder};
 
 use crate::records::page::{data, page};
-use crate::records::{Checked, Kepler};
+use crate::records::{Checked, KEPLER};
 
 /// The name of a body, and the columns of its position.
 pub(crate) type Told = (String, Vec<String>);
@@ -74,7 +74,7 @@ fn positions_are_coordinates_of_a_motion() -> Checked {
 
 #[test]
 fn bodies_that_are_named_take_their_place() -> Checked {
-    let record = Recorder::new(&Kepler).finish();
+    let record = Recorder::new(&KEPLER).finish();
     assert_eq!(bodies(&record)?, [body("", &["x", "y"])]);
     let record = record.with_body("in phase", &["x", "dot_x"])?.with_body("space", &["x", "y", "energy"])?;
     assert_eq!(bodies(&record)?, [body("in phase", &["x", "dot_x"]), body("space", &["x", "y", "energy"])]);

@@ -3,15 +3,15 @@
 use dvi_core::prelude::*;
 use dvi_core::record::{Column, Quantity, Record, RecordError, Recorder, Values};
 
-use crate::records::{Checked, Kepler, KeplerState, START, bits, said};
+use crate::records::{Checked, KEPLER, KeplerState, START, bits, said};
 
 /// Row by row against a second run that is asked.
 #[test]
 fn a_record_has_what_the_run_says() -> Checked {
-    let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.02, START)?;
+    let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 0.02, START)?;
     let record = run.record(7, 40)?;
     assert_eq!((record.title(), record.rows(), run.steps()), ("Kepler", 41, 280));
-    let mut other = Integrator::new(&Kepler, Variational::trapezoid(), 0.02, START)?;
+    let mut other = Integrator::new(&KEPLER, Variational::trapezoid(), 0.02, START)?;
     for row in 0..41 {
         let KeplerState { x, y, dot_x, dot_y } = other.state();
         let angular = other.momentum(0).ok_or("it is declared")?;
@@ -33,7 +33,7 @@ fn a_record_has_what_the_run_says() -> Checked {
 #[test]
 fn controlled_runs_are_recorded_too() -> Checked {
     let control = Reversible::power(0.02, 1.5);
-    let mut run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, START)?;
+    let mut run = Integrator::controlled(&KEPLER, Variational::trapezoid(), control, START)?;
     let [first, second] = [run.record(3, 10)?, run.record(3, 10)?];
     let [first, second] = [first.numbers("time")?, second.numbers("time")?];
     assert_eq!(first[10].to_bits(), second[0].to_bits());
@@ -43,9 +43,9 @@ fn controlled_runs_are_recorded_too() -> Checked {
 
 #[test]
 fn functions_of_the_user_are_columns() -> Checked {
-    let mut run = Integrator::new_at(&Kepler, Variational::trapezoid(), 3.0, 0.02, START)?;
+    let mut run = Integrator::new_at(&KEPLER, Variational::trapezoid(), 3.0, 0.02, START)?;
     let mut calls = 0;
-    let record = Recorder::new(&Kepler)
+    let record = Recorder::new(&KEPLER)
         .with_function("radius", |_, state, _| state.x.hypot(state.y))?
         .with_function("x at time", |_, state, time| state.x * time)?
         .with_function("calls", |_, _, _| {
@@ -59,7 +59,7 @@ fn functions_of_the_user_are_columns() -> Checked {
         assert_eq!(record.numbers("x at time")?[row], x[row] * t[row]);
         assert_eq!(record.numbers("calls")?[row], row as f64 + 1.0);
     }
-    let twice = Recorder::new(&Kepler).with_function("energy", |_, _, _| 0.0);
+    let twice = Recorder::new(&KEPLER).with_function("energy", |_, _, _| 0.0);
     assert_eq!(said(twice), "the record already has a column `energy`");
     Ok(())
 }
@@ -67,21 +67,21 @@ fn functions_of_the_user_are_columns() -> Checked {
 /// States that come one by one have the energy and momenta of the run that they are from.
 #[test]
 fn states_come_one_by_one_or_as_points() -> Checked {
-    let mut run = Integrator::new(&Kepler, Variational::midpoint(), 0.02, START)?;
-    let mut recorder = Recorder::new(&Kepler);
+    let mut run = Integrator::new(&KEPLER, Variational::midpoint(), 0.02, START)?;
+    let mut recorder = Recorder::new(&KEPLER);
     let mut points = Vec::new();
     for _ in 0..10 {
-        recorder.push(&Kepler, run.time(), &run.state())?;
+        recorder.push(&KEPLER, run.time(), &run.state())?;
         points.push(Ok((run.time(), run.state())));
         run.advance()?;
     }
-    let mut again = Integrator::new(&Kepler, Variational::midpoint(), 0.02, START)?;
+    let mut again = Integrator::new(&KEPLER, Variational::midpoint(), 0.02, START)?;
     let whole = again.record(1, 9)?;
     assert_eq!(recorder.finish(), whole);
-    assert_eq!(Recorder::new(&Kepler).points(&Kepler, points)?, whole);
+    assert_eq!(Recorder::new(&KEPLER).points(&KEPLER, points)?, whole);
 
     let section = run.events([Direction::Either], |_, state| [state.y])?;
-    let crossings = Recorder::new(&Kepler).points(&Kepler, section.take(4))?;
+    let crossings = Recorder::new(&KEPLER).points(&KEPLER, section.take(4))?;
     assert_eq!(crossings.rows(), 4);
     assert!(crossings.numbers("y")?.iter().all(|y| y.abs() < 1e-14));
     assert!(crossings.numbers("time")?.windows(2).all(|pair| pair[0] < pair[1]));
@@ -93,18 +93,18 @@ fn states_come_one_by_one_or_as_points() -> Checked {
 fn a_run_that_fails_keeps_its_record() -> Checked {
     let method = EnergyLimit { method: Variational::trapezoid(), limit: 0.1 };
     let fall = KeplerState { dot_y: 0.0, ..START };
-    let mut run = Integrator::new(&Kepler, method, 0.01, fall)?;
+    let mut run = Integrator::new(&KEPLER, method, 0.01, fall)?;
     let Err(RecordError::Step { record, error }) = run.record(10, 100) else { panic!("it falls") };
     assert!(matches!(error.failure, StepFailure::Energy { .. }));
     assert_eq!(record.rows() as u64, error.step / 10 + 1);
-    let mut other = Integrator::new(&Kepler, method, 0.01, fall)?;
+    let mut other = Integrator::new(&KEPLER, method, 0.01, fall)?;
     assert_eq!(*record, other.record(10, error.step / 10)?);
     assert_eq!(run.steps(), error.step);
     let text = RecordError::Step { record, error }.to_string();
     assert_eq!(text, format!("{error}; {} rows were recorded before", error.step / 10 + 1));
 
     let failing = [Ok((0.0, START)), Err(error), Ok((1.0, START))];
-    let Err(RecordError::Step { record, .. }) = Recorder::new(&Kepler).points(&Kepler, failing) else {
+    let Err(RecordError::Step { record, .. }) = Recorder::new(&KEPLER).points(&KEPLER, failing) else {
         panic!("a point has failed")
     };
     assert_eq!(record.rows(), 1);

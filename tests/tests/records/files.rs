@@ -6,7 +6,7 @@ use std::{fs, io::Write as _};
 use dvi_core::prelude::*;
 use dvi_core::record::{Column, Record, RecordError, Values};
 
-use crate::records::{Checked, Kepler, START, bits};
+use crate::records::{Checked, KEPLER, START, bits};
 
 /// Numbers that are hard to write.
 const NUMBERS: [f64; 8] =
@@ -42,7 +42,7 @@ fn cells(text: &str) -> Vec<Vec<String>> {
 
 #[test]
 fn the_csv_reads_back_to_the_bit() -> Checked {
-    let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.02, START)?;
+    let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 0.02, START)?;
     for record in [run.record(5, 100)?, mixed()?] {
         let mut file = Vec::new();
         record.write_csv(&mut file)?;

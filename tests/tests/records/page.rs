@@ -6,7 +6,7 @@ use dvi_core::prelude::*;
 use dvi_core::record::{Column, Record};
 
 use crate::browser::told;
-use crate::records::{Checked, Kepler, START, bits};
+use crate::records::{Checked, KEPLER, START, bits};
 
 pub(super) fn page(record: &Record) -> Result<String, Box<dyn std::error::Error>> {
     let mut page = Vec::new();
@@ -27,7 +27,7 @@ fn numbers(value: &serde_json::Value) -> Vec<f64> {
 }
 
 fn orbit() -> Result<Record, Box<dyn std::error::Error>> {
-    let mut run = Integrator::new(&Kepler, Variational::trapezoid(), 0.02, START)?;
+    let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), 0.02, START)?;
     Ok(run.record(5, 200)?.with_unit("time", "d")?)
 }
 
@@ -109,7 +109,7 @@ fn sphere() -> Result<Record, Box<dyn std::error::Error>> {
 
 /// Many rows, in a time that goes back.
 fn long() -> Result<Record, Box<dyn std::error::Error>> {
-    let mut run = Integrator::new(&Kepler, Variational::trapezoid(), -0.02, START)?;
+    let mut run = Integrator::new(&KEPLER, Variational::trapezoid(), -0.02, START)?;
     Ok(run.record(1, 70_000)?)
 }
 

@@ -16,12 +16,8 @@ macro_rules! in_lanes {
         let systems = &$systems;
         let runs: Vec<_> = systems.iter().map(|(system, start)| (system, start.clone())).collect();
         let strides = [1, 7, 300, 2, 61];
-        for errors in [
-            same_as_alone::<3, _, _>(&runs, &$method, $h, &strides)?,
-            same_as_alone::<8, _, _>(&runs, &$method, $h, &strides)?,
-        ] {
-            assert_eq!(errors.iter().flatten().count(), $failed);
-        }
+        let errors = same_as_alone::<8, _, _>(&runs, &$method, $h, &strides)?;
+        assert_eq!(errors.iter().flatten().count(), $failed);
     }};
 }
 

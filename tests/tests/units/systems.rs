@@ -39,18 +39,6 @@ macro_rules! arrays_in_units {
 }
 
 #[degenerate_lagrangian(
-    coordinates(x, p),
-    one_form = u[2] * u[1] * p * u[0] * d(x) / tau,
-    hamiltonian = u[2] * ((u[1] * p).powi(2) / 2.0 + (u[0] * x).powi(2) / 2.0 + (u[0] * x).powi(4) / 8.0),
-)]
-pub(super) struct Oscillator {
-    u: [f64; 3],
-    tau: f64,
-}
-
-in_units!(Oscillator, [f64; 3], 0.1, [1.0, 0.0]);
-
-#[degenerate_lagrangian(
     coordinates(x[3], y[3]),
     one_form = sum(0..3, |j| (u * x[j] * w * d(y[j]) - w * y[j] * u * d(x[j])) / 2.0) / tau,
     hamiltonian = sum_pairs(0..3, |j, k| ((u * x[j] - u * x[k]).powi(2) + (w * y[j] - w * y[k]).powi(2)).ln())
@@ -205,18 +193,6 @@ pub(super) struct CoupledMasses {
 }
 
 in_units!(CoupledMasses, [f64; 3], 0.1, [1.0, 0.5, 0.1, 0.2, -0.3, 0.5]);
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = ((u[0] * dot(x)).powi(2) + (u[1] * dot(y)).powi(2)) / tau.powi(2) / 2.0 - u[1] * y,
-    constraint = (u[0] * x).powi(2) + (u[1] * y).powi(2) - 1.0,
-)]
-pub(super) struct Pendulum {
-    u: [f64; 2],
-    tau: f64,
-}
-
-in_units!(Pendulum, [f64; 2], 0.05, [1.0, 0.0, 0.0, 0.5]);
 
 /// A bead on the circle in which a sphere meets a plane, where each constraint has a unit too.
 #[lagrangian(

@@ -5,7 +5,6 @@ use approx::abs_diff_eq;
 use dvi_core::discrete::{Frequency, FrequencyIn};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
-use dvi_tests::failing;
 use dvi_tests::zoo::regular::*;
 
 fn state(x: f64, dot_y: f64) -> KeplerState {
@@ -69,16 +68,6 @@ fn a_collision_ends_the_run_at_the_last_good_state() -> Outcome {
             "{error:?}"
         );
         assert_eq!((run.q(), run.memory().p()), ([1.0, 0.0].as_slice(), [-0.5, 0.0].as_slice()));
-    }
-    Ok(())
-}
-
-#[test]
-fn a_step_without_a_solution_is_an_error() -> Outcome {
-    for solver in [Solver::Automatic, Solver::FixedPoint, Solver::Newton] {
-        let method = Variational { solver, ..Variational::midpoint() };
-        // Radial infall through the centre with steps as long as the fall.
-        failing(&KEPLER, method, 0.4, state(0.3, 1e-3))?;
     }
     Ok(())
 }

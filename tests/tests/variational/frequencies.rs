@@ -70,36 +70,28 @@ fn a_frequency_without_what_its_reading_needs_is_refused() -> Outcome {
     Ok(())
 }
 
-/// Two oscillators.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - (x * x + 4.0 * y * y) / 2.0,
-)]
-#[derive(Clone, Debug)]
-struct Pair;
-
 #[test]
 fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
     let method = Variational::simpson().phase_fitted(Constant(2.0));
-    let start = PairState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
+    let start = PlanarState { x: 1.0, y: 0.5, dot_x: 0.0, dot_y: 0.0 };
     // A control that tries the resonant step before each of its own.
     #[derive(Debug)]
     struct Trying {
         tries: bool,
     }
-    impl dvi_core::methods::Carries<Pair, f64> for Trying {
+    impl dvi_core::methods::Carries<Planar, f64> for Trying {
         type Memory = ();
     }
-    impl dvi_core::run::StepControl<Pair, f64> for Trying {
+    impl dvi_core::run::StepControl<Planar, f64> for Trying {
         type Suited<C> = C;
         const REJECTS: bool = true;
-        fn begin(&self, _system: &Pair, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
+        fn begin(&self, _system: &Planar, _q: &[f64], _v: &[f64], _t: f64) -> Result<((), f64), StartError> {
             Ok(((), 0.1))
         }
-        fn step<M: Method<Pair, f64>>(
+        fn step<M: Method<Planar, f64>>(
             &self,
             _memory: &mut (),
-            run: &mut dvi_core::run::ControlledRun<'_, Pair, M, f64>,
+            run: &mut dvi_core::run::ControlledRun<'_, Planar, M, f64>,
             t: f64,
         ) -> Result<f64, StepFailure> {
             if self.tries {
@@ -111,7 +103,7 @@ fn a_resonant_step_leaves_the_coefficients_of_no_step_behind() -> Outcome {
         }
     }
     let end = |tries| -> Outcome<[f64; 2]> {
-        let mut run = Integrator::controlled(&Pair, method, Trying { tries }, start)?;
+        let mut run = Integrator::controlled(&PLANE, method, Trying { tries }, start)?;
         run.take_steps(200)?;
         Ok([run.q()[0], run.q()[1]])
     };

@@ -2,29 +2,9 @@
 
 use super::Outcome;
 use dvi_core::discrete::Rule;
-use dvi_core::lagrangian;
 use dvi_core::prelude::*;
 use dvi_tests::larger;
-
-/// A harmonic oscillator.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0 - omega.powi(2) * x.powi(2) / 2.0,
-)]
-#[derive(Clone, Debug)]
-struct Oscillator {
-    omega: f64,
-}
-
-/// Two uncoupled oscillators with a diagonal mass matrix.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) - (omega[0] * x).powi(2)) / 2.0 + 2.0 * (dot(y).powi(2) - (omega[1] * y).powi(2)),
-)]
-#[derive(Clone, Debug)]
-struct Pair {
-    omega: [f64; 2],
-}
+use dvi_tests::zoo::regular::{PLANE, PlanarState, SPRING, SpringState};
 
 fn rules() -> Result<Vec<Quadrature>, StartError> {
     let mut rules = vec![Quadrature::new(&[0.1, 0.4, 0.95], &[0.3, 0.5, 0.2])?, Quadrature::sigma(0.3)];
@@ -46,14 +26,13 @@ fn cosine_sum(rule: &impl Rule, u: f64) -> f64 {
 /// off by a factor that differs from step to step.
 #[test]
 fn steps_of_different_lengths_are_exact_where_momenta_are_fitted_too() -> Outcome {
-    let system = Pair { omega: [1.0, 1.0] };
     for rule in [Quadrature::gauss(1)?, Quadrature::lobatto(3)?, Quadrature::lobatto(4)?] {
         let phase = Variational::new(rule).phase_fitted(Constant(1.0));
         let both = Variational { fitting: Fitting::PhaseAndMomentum, ..phase };
         let mut errors = [0.0; 2];
         for (method, error) in [phase, both].into_iter().zip(&mut errors) {
-            let start = PairState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.5 };
-            let mut run = Integrator::controlled(&system, method, Reversible::power(0.3, 1.0), start)?;
+            let start = PlanarState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.5 };
+            let mut run = Integrator::controlled(&PLANE, method, Reversible::power(0.3, 1.0), start)?;
             while run.steps() < 1000 {
                 run.advance()?;
                 let (sin, cos) = run.time().sin_cos();
@@ -67,14 +46,13 @@ fn steps_of_different_lengths_are_exact_where_momenta_are_fitted_too() -> Outcom
 
 #[test]
 fn small_frequencies_lose_no_digits() -> Outcome {
-    let system = Oscillator { omega: 1.0 };
-    let start = OscillatorState { x: 0.3, dot_x: 0.8 };
+    let start = SpringState { x: 0.3, dot_x: 0.8 };
     for rule in rules()? {
         let linear = Variational::new(rule);
-        let mut reference = Integrator::new(&system, linear, 0.1, start)?;
+        let mut reference = Integrator::new(&SPRING, linear, 0.1, start)?;
         reference.take_steps(50)?;
         for omega in [0.0, 1e-300, 1e-160, 1e-12, 1e-8] {
-            let mut run = Integrator::new(&system, linear.phase_fitted(Constant(omega)), 0.1, start)?;
+            let mut run = Integrator::new(&SPRING, linear.phase_fitted(Constant(omega)), 0.1, start)?;
             run.take_steps(50)?;
             let error = (run.q()[0] - reference.q()[0]).abs();
             assert!(error < 1e-13, "{rule:?}, ω = {omega:e}: {error:e}");
@@ -85,8 +63,7 @@ fn small_frequencies_lose_no_digits() -> Outcome {
 
 #[test]
 fn a_resonance_is_an_error_and_not_a_number() -> Outcome {
-    let system = Oscillator { omega: 1.0 };
-    let start = OscillatorState { x: 0.3, dot_x: 0.8 };
+    let start = SpringState { x: 0.3, dot_x: 0.8 };
     let two_point_gauss = 2.720_699_046_35;
     for (rule, u) in [
         (Quadrature::gauss(2)?, two_point_gauss),
@@ -95,7 +72,7 @@ fn a_resonance_is_an_error_and_not_a_number() -> Outcome {
         (Quadrature::lobatto(4)?, 2.0 * core::f64::consts::PI),
     ] {
         let method = Variational::new(rule).phase_fitted(Constant(1.0));
-        let error = Integrator::new(&system, method, u, start).err();
+        let error = Integrator::new(&SPRING, method, u, start).err();
         assert!(
             matches!(error, Some(StartError::Starter(StepFailure::Resonance { u: found, .. })) if (found - u).abs() < 1e-12),
             "{rule:?}: {error:?}"
