@@ -164,7 +164,7 @@ fn a_checkpoint_of_another_run_is_refused() -> Outcome {
 /// V falls without bound at x = 1, where the energy is finite.
 #[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0 + (1.0 - x * x).sqrt() + 2.0 * x)]
 #[derive(Clone, Debug)]
-struct Edge;
+pub(crate) struct Edge;
 
 #[test]
 fn where_a_force_is_infinite_no_run_goes_on_and_that_is_said() -> Outcome {

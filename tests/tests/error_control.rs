@@ -13,9 +13,9 @@ use dvi_tests::{apart, larger};
 
 mod breaks;
 mod grazes;
-mod problems;
+pub(crate) mod problems;
 mod rough;
-mod seams;
+pub(crate) mod seams;
 mod sums;
 
 const TOLERANCES: [f64; 9] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];

@@ -4,7 +4,7 @@ mod changes;
 mod declared;
 mod edges;
 
-use approx::abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::{FRAC_PI_2, TAU};
 use dvi_tests::Outcome;
 
@@ -114,11 +114,11 @@ fn two_crossings_within_a_step_are_seen() -> Outcome {
 
 type StateOf<R> = <<R as Run>::System as System>::State<f64>;
 
-/// The points of a run that is asked for events, and for states in between, are those of one that is not.
+/// The points of a run that is asked for events are those of one that is not.
 #[test]
 fn the_points_of_a_run_stay_as_they_are() -> Outcome {
     fn check<R: Run<Scalar = f64>>(run: impl Fn() -> Outcome<R>, x: fn(&StateOf<R>) -> f64) -> Outcome {
-        let (mut plain, mut searched, mut asked) = (run()?, run()?, run()?);
+        let (mut plain, mut searched) = (run()?, run()?);
         let mut events =
             searched.events([Direction::Either; 2], |t, state| [x(state), x(state) - t.cos()])?;
         let mut count = 0;
@@ -129,16 +129,9 @@ fn the_points_of_a_run_stay_as_they_are() -> Outcome {
             }
         }
         assert!(count > 1);
-        let mut dense = asked.dense()?;
-        while dense.steps() < searched.steps() {
-            let t = dense.time() + 0.7 * dense.step_size();
-            dense.state_at(t)?;
-        }
         plain.take_steps(searched.steps())?;
-        for run in [searched, asked] {
-            assert_eq!(bits(plain.q()), bits(run.q()));
-            assert_eq!((plain.time(), plain.statistics()), (run.time(), run.statistics()));
-        }
+        assert_eq!(bits(plain.q()), bits(searched.q()));
+        assert_eq!((plain.time(), plain.statistics()), (searched.time(), searched.statistics()));
         Ok(())
     }
     let oscillator = Oscillator { omega: 1.0 };
@@ -191,7 +184,7 @@ fn check_crossings<R: Run<System = Planar, Scalar = f64>>(
     for (k, event) in events.take(5).enumerate() {
         let Event { time, state, .. } = event?;
         let exact = 3.0 * FRAC_PI_2 + TAU * (first + k as f64);
-        assert!(abs_diff_eq!(time, exact, epsilon = of_time), "{time} {exact}");
+        assert_abs_diff_eq!(time, exact, epsilon = of_time);
         for (found, exact) in [(state.x, 0.0), (state.y, -2.0), (state.dot_x, 1.0), (state.dot_y, 0.0)] {
             assert!(abs_diff_eq!(found, exact, epsilon = of_state), "{state:?}");
         }

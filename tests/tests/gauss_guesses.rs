@@ -7,11 +7,7 @@ use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use dvi_tests::larger;
 
-/// A mass in a potential that is known in a table alone.
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - psi(x))]
-struct Tabulated {
-    psi: Spline<1>,
-}
+use crate::error_control::problems::{Splined, SplinedState};
 
 /// On [−1, 1]: 2x², with deviations of a hundredth that jump from point to point.
 fn rough() -> Outcome<Spline<1>> {
@@ -23,7 +19,7 @@ fn rough() -> Outcome<Spline<1>> {
     Ok(Spline::sample([Axis::uniform([-1.0, 1.0], 21)?], value)?)
 }
 
-/// The same motion of a degenerate system.
+/// The motion of [`Splined`] of a degenerate system.
 #[degenerate_lagrangian(coordinates(x, y), one_form = y * d(x), hamiltonian = y * y / 2.0 + psi(x))]
 struct TabulatedFlow {
     psi: Spline<1>,
@@ -67,8 +63,8 @@ fn error<S: Lagrangian, M: Method<S, f64>, L: Method<S, f64>>(
 
 #[test]
 fn steps_of_many_stages_stay_in_a_rough_table() -> Outcome {
-    let (regular, degenerate) = (Tabulated { psi: rough()? }, TabulatedFlow { psi: rough()? });
-    let start = TabulatedState { x: -0.9, dot_x: 0.0 };
+    let (regular, degenerate) = (Splined { psi: rough()? }, TabulatedFlow { psi: rough()? });
+    let start = SplinedState { x: -0.9, dot_x: 0.0 };
     let start_of_flow = TabulatedFlowState { x: -0.9, y: 0.0 };
     let motion = reference(&regular, start, 0.2, 200)?;
     let flow = reference(&degenerate, start_of_flow, 0.2, 200)?;

@@ -5,9 +5,10 @@ use std::f64::consts::PI;
 
 use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;
-use dvi_core::record::Record;
 use dvi_core::{IndexError, LengthError};
 use dvi_tests::Outcome;
+
+use crate::records::read_again;
 
 /// A lattice on a torus with friction, with sizes as the system has them.
 macro_rules! lattice {
@@ -219,11 +220,10 @@ fn entries_have_names_row_by_row() -> Outcome {
     assert!(formulas.iter().any(|formula| formula.name == "∂L/∂dot(q[i][j])"));
 
     let state = ConstantState { q, dot_q };
-    let row: Vec<String> = system.values(&state)?.map(|value: f64| value.to_string()).collect();
-    let table = Record::read_csv(format!("{}\n{}\n", names.join(","), row.join(",")).as_bytes())?;
-    assert_eq!(table.states(&system)?, [state]);
+    assert_eq!(read_again(&system, &state)?, [state]);
     let run_time = RunTime { n: N, m: 5, k: system.k };
-    assert_eq!(table.states(&run_time)?, [RunTimeState { q: vectors(&q), dot_q: vectors(&dot_q) }]);
+    let state = RunTimeState { q: vectors(&q), dot_q: vectors(&dot_q) };
+    assert_eq!(read_again(&run_time, &state)?, [state]);
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use dvi_core::methods::{Here, Method, Step};
 use dvi_core::prelude::*;
 use dvi_core::scalar::Lanes;
 use dvi_core::state::Statistics;
-use dvi_core::{DegenerateLagrangian, Lagrangian, RegularLagrangian, Space, System, Varied};
+use dvi_core::{DegenerateLagrangian, Lagrangian, Space, System};
 use dvi_examples::models::outer_solar_system;
 use dvi_tests::Outcome;
 use dvi_tests::bits;
@@ -185,26 +185,6 @@ fn failures_are_the_same_in_lanes() -> Outcome {
     }
     assert_eq!(folded(Gauss::<2>::new())?, folded(Gauss::<2>::new().in_lanes())?);
     Ok(())
-}
-
-/// Parameters of their own in the lanes: two planets of other suns.
-#[test]
-fn parameters_may_differ_from_lane_to_lane() {
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / x.hypot(y),
-    )]
-    struct Planet<P = f64> {
-        mu: P,
-    }
-    fn force<T: dvi_core::Scalar, S: RegularLagrangian<T>>(system: &S, q: [T; 2]) -> [T; 2] {
-        let (zero, mut force) = (T::lift(0.0), [T::lift(0.0); 2]);
-        system.force(&q, &[], zero, &mut force);
-        force
-    }
-    let together = force(&Planet { mu: Varied(Lanes([1.0, 2.5])) }, [Lanes([0.3, 1.0]), Lanes([0.7, -0.4])]);
-    let alone = [force(&Planet { mu: 1.0 }, [0.3, 0.7]), force(&Planet { mu: 2.5 }, [1.0, -0.4])];
-    assert_eq!(together, [0, 1].map(|i| Lanes([alone[0][i], alone[1][i]])));
 }
 
 /// Says that a method can be asked for on packs of dual numbers too.

@@ -1,6 +1,6 @@
 //! Functions and pairs of names inside of a formula are what they stand for, to the bit and to the operation.
 
-use approx::abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::Report;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
@@ -84,7 +84,7 @@ fn a_formula_with_functions_is_what_rust_makes_of_it() -> Outcome {
     for (x, y) in [(0.3, 0.4), (0.4, 0.3), (-1.2, 2.0), (2.5, -0.1)] {
         let found = system.energy_at(0.0, &WellState { x, y, dot_x: 0.0, dot_y: 0.0 })?;
         let expected = by_rust(system.depth, x, y);
-        assert!(abs_diff_eq!(found, expected, epsilon = 1e-14 * expected.abs()), "{found}, not {expected}");
+        assert_abs_diff_eq!(found, expected, epsilon = 1e-14 * expected.abs());
     }
     Ok(())
 }

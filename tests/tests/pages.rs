@@ -1,6 +1,6 @@
 //! What the README shows is what the examples are, and what they print; and each example writes its table.
 
-use approx::abs_diff_eq;
+use approx::assert_abs_diff_eq;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -161,5 +161,5 @@ fn the_period_that_an_example_prints_is_right() {
         (z, t) = (next, t + h);
     }
     let expected = times[1] - times[0];
-    assert!(abs_diff_eq!(found, expected, epsilon = 1e-7), "{found}, not {expected}");
+    assert_abs_diff_eq!(found, expected, epsilon = 1e-7);
 }

@@ -1,6 +1,6 @@
 //! Energies of runs that independent programs have computed in double precision.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
+use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use dvi_tests::configurations::{chaotic, leapfrogging, quasi_periodic};
@@ -29,7 +29,7 @@ where
 #[track_caller]
 fn assert_close(found: [f64; 3], expected: [f64; 3]) {
     for (found, expected) in found.iter().zip(expected) {
-        assert!(abs_diff_eq!(*found, expected, epsilon = 1e-11), "{found} instead of {expected}");
+        assert_abs_diff_eq!(*found, expected, epsilon = 1e-11);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Functions of several variables that hold data, in formulas: derivatives against dual numbers, how often
 //! they are evaluated, where they may come from, and what happens where they are not known.
 
-use approx::abs_diff_eq;
+use approx::assert_abs_diff_eq;
 use dvi_tests::Outcome;
 use std::cell::Cell;
 
@@ -62,10 +62,7 @@ fn lagrangian<T: Scalar>(psi: &Hill, [x, y, dot_x, _]: [T; 4]) -> T {
 }
 
 fn assert_close(found: f64, expected: f64) {
-    assert!(
-        abs_diff_eq!(found, expected, epsilon = 1e-12 * (1.0 + expected.abs())),
-        "{found:e} for {expected:e}"
-    );
+    assert_abs_diff_eq!(found, expected, epsilon = 1e-12 * (1.0 + expected.abs()));
 }
 
 const POINTS: [[f64; 4]; 3] = [[0.4, -0.7, 0.3, 1.1], [1.3, 0.2, -0.8, 0.5], [-2.1, 0.9, 1.4, -0.2]];

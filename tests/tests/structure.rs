@@ -1,6 +1,7 @@
 //! What is declared of a system, and what reports say of its structure.
 
 use dvi_core::DegenerateLagrangian;
+use dvi_core::mechanics::Rates;
 use dvi_core::prelude::*;
 use dvi_examples::alternating::AlternatingComponent;
 use dvi_tests::configurations::quasi_periodic;
@@ -119,19 +120,19 @@ struct Scaled {
 
 #[test]
 fn a_lagrangian_in_one_sum_has_the_form_that_it_has_in_two() -> Outcome {
-    fn check<S: DegenerateLagrangian>(system: &S, state: S::State<f64>) -> Outcome<Vec<f64>> {
+    fn rates<S>(system: &S, state: &S::State<f64>) -> Outcome<Vec<f64>>
+    where
+        S: DegenerateLagrangian + System<Kind: Rates<S, f64>>,
+    {
         const { assert!(S::AFFINE && S::CANONICAL) };
         let alpha = S::REPORT.formulas.iter().find(|formula| formula.name == "α").ok_or("no α")?;
         assert!(!alpha.text.contains("cos"), "{}", alpha.text);
-        let method = Sigma { summation: Summation::Compensated, ..Sigma::midpoint() };
-        let mut run = Integrator::new(system, method, 0.1, state)?;
-        run.take_steps(100)?;
-        Ok(run.q().to_vec())
+        Ok(system.values(&system.vector_field(0.0, state)?)?.collect())
     }
     let (x, p) = (vec![0.5, 0.1, 0.2], vec![0.3; 3]);
-    let in_two = check(&Apart { n: 3 }, ApartState { x: x.clone(), p: p.clone() })?;
-    let in_one = check(&InOneSum { n: 3 }, InOneSumState { x: x.clone(), p: p.clone() })?;
-    let scaled = check(&Scaled { n: 3, scale: 0.7 }, ScaledState { x, p })?;
+    let in_two = rates(&Apart { n: 3 }, &ApartState { x: x.clone(), p: p.clone() })?;
+    let in_one = rates(&InOneSum { n: 3 }, &InOneSumState { x: x.clone(), p: p.clone() })?;
+    let scaled = rates(&Scaled { n: 3, scale: 0.7 }, &ScaledState { x, p })?;
     assert!(apart(&in_two, &in_one) < 1e-13 && apart(&in_two, &scaled) < 1e-13);
     Ok(())
 }

@@ -56,7 +56,7 @@ pub(crate) fn same_as_alone<
 
 const STRIDES: [u64; 7] = [1, 2, 5, 300, 1, 150, 3];
 
-/// In packs that fill registers, and in such as do not.
+/// In packs that fill registers, of which the last is not full.
 fn in_lanes<S: Lagrangian + PartialEq, M>(
     system: &S,
     method: &M,
@@ -64,10 +64,9 @@ fn in_lanes<S: Lagrangian + PartialEq, M>(
     starts: &[S::State<f64>],
 ) -> Outcome<Vec<Option<StepError>>>
 where
-    M: InStep<3, S> + InStep<8, S> + PartialEq + Clone,
+    M: InStep<8, S> + PartialEq + Clone,
 {
     let runs: Vec<_> = starts.iter().map(|start| (system, start.clone())).collect();
-    same_as_alone::<3, _, _>(&runs, method, h, &STRIDES)?;
     same_as_alone::<8, _, _>(&runs, method, h, &STRIDES)
 }
 
@@ -101,11 +100,11 @@ fn sigma_is_the_same_in_lanes() -> Outcome {
     ] {
         in_lanes(&system, &method, 0.05, &starts)?;
     }
-    // In packs of one, and of four.
+    // In packs of one, and of such as fill no register.
     let runs: Vec<_> = starts.iter().map(|start| (&system, *start)).collect();
     for method in [Sigma::leapfrog(), Sigma::midpoint()] {
         same_as_alone::<1, _, _>(&runs, &method, 0.05, &STRIDES)?;
-        same_as_alone::<4, _, _>(&runs, &method, 0.05, &STRIDES)?;
+        same_as_alone::<3, _, _>(&runs, &method, 0.05, &STRIDES)?;
     }
     // A Newton step now and then, and a shift that is no reversal.
     in_lanes(&system, &Sigma::midpoint(), 0.9, &starts)?;
@@ -161,7 +160,7 @@ fn verlet_is_the_same_in_lanes() -> Outcome {
     in_lanes(&kepler, &Variational::trapezoid(), 0.05, &starts)?;
     let runs: Vec<_> = starts.iter().map(|start| (&kepler, *start)).collect();
     same_as_alone::<1, _, _>(&runs, &Variational::trapezoid(), 0.05, &STRIDES)?;
-    same_as_alone::<4, _, _>(&runs, &Variational::trapezoid(), 0.05, &STRIDES)?;
+    same_as_alone::<3, _, _>(&runs, &Variational::trapezoid(), 0.05, &STRIDES)?;
     // Those without lanes.
     in_lanes(&kepler, &Variational::midpoint(), 0.05, &starts)?;
     let compensated = Variational { summation: Summation::Compensated, ..Variational::trapezoid() };

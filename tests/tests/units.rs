@@ -89,7 +89,9 @@ fn check<const N: usize, S: InUnits<N>, M: Method<S, f64> + Clone + Debug>(metho
 
 /// Each method on each system, which has so many units.
 macro_rules! check {
-    ($($system:ident[$units:literal]: $($method:expr),+;)+) => {$($(check::<$units, $system, _>($method);)+)+};
+    ($($system:ident[$units:literal]: $($method:expr),+;)+) => {$($(
+        check::<$units, $system, _>($method);
+    )+)+};
 }
 
 const SOLVERS: [Solver; 4] = [Solver::Automatic, Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov];

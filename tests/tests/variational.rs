@@ -2,7 +2,7 @@
 
 use dvi_tests::Outcome;
 
-mod failures;
+pub(crate) mod failures;
 mod frequencies;
 mod kepler;
 mod oscillator;

@@ -7,6 +7,7 @@ use dvi_tests::Numbers;
 use dvi_tests::configurations::leapfrogging;
 
 use super::*;
+use crate::checkpoints::{Edge, EdgeState};
 
 /// Asks the archive of a run of `steps` steps, in two parts, for its state at random times and after random
 /// numbers of steps.
@@ -142,11 +143,6 @@ fn a_step_that_fails_leaves_the_archive() -> Outcome {
     assert_eq!(Archive::new(&path, begin()?, Every::Steps(10))?.run().steps(), error.step / 10 * 10);
     Ok(())
 }
-
-/// V falls without bound at x = 1, where the energy is finite.
-#[lagrangian(coordinates(x), lagrangian = dot(x) * dot(x) / 2.0 + (1.0 - x * x).sqrt() + 2.0 * x)]
-#[derive(Clone, Debug, PartialEq)]
-struct Edge;
 
 #[test]
 fn a_run_that_ends_where_none_begins_is_there_again() -> Outcome {

@@ -23,8 +23,8 @@ use super::{DoublePendulum, DoublePendulumState, KEPLER, Outcome, larger, perice
 struct VanDerPol;
 
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - psi(x))]
-pub(super) struct Splined {
-    pub(super) psi: Spline<1>,
+pub(crate) struct Splined {
+    pub(crate) psi: Spline<1>,
 }
 
 /// The largest error at time `end`, in units of what the tolerance allows there: ε (1 + |y|).

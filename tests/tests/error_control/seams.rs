@@ -10,6 +10,7 @@ use dvi_core::{Lagrangian, Scalar};
 use dvi_tests::zoo::regular::{Sliding, SlidingState};
 
 use super::Outcome;
+use super::breaks::{Pushed, PushedState};
 use super::rough::{CORNERS, CornersState};
 
 /// All that makes a seam, and what makes none: sums over what differs from term to term, parameters,
@@ -151,8 +152,8 @@ fn a_long_motion_over_a_kink_takes_few_steps() -> Outcome {
     lagrangian = (dot(x).powi(2) - x * x) / 2.0,
     force(x) = if dot(x) > 0.0 { -friction } else { friction },
 )]
-pub(super) struct Dry {
-    pub(super) friction: f64,
+pub(crate) struct Dry {
+    pub(crate) friction: f64,
 }
 
 /// Two springs.
@@ -162,14 +163,6 @@ pub(super) struct Dry {
 )]
 struct Bilinear;
 
-/// A body at rest that is pushed for a short time.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0,
-    force(x) = if t > 50.0 && t < 50.2 { 1.0 } else { 0.0 },
-)]
-struct Pushed;
-
 /// A kink, and a force that is switched on when it is met.
 #[lagrangian(
     coordinates(x),
@@ -177,6 +170,9 @@ struct Pushed;
     force(x) = if t * t > 2.0 { 0.5 } else { 0.0 },
 )]
 struct Switched;
+
+/// A body that is pushed for a short time.
+const PUSHED: Pushed = Pushed { on: 50.0, off: 50.2 };
 
 #[test]
 fn forces_by_if_are_met_where_they_change() -> Outcome {
@@ -198,7 +194,7 @@ fn forces_by_if_are_met_where_they_change() -> Outcome {
         check(measured(motion, (method, control), (20.0, exact))?, 120);
         // Steps of a body at rest become longer without end, and do not miss the push; with one of its
         // times among the breaks, or as the end of a run, it is met once.
-        let motion = (&Pushed, &PushedState { x: 0.0, dot_x: 0.0 });
+        let motion = (&PUSHED, &PushedState { x: 0.0, dot_x: 0.0 });
         check(measured(motion, (method, control), (100.0, 9.98))?, 20);
         let with_breaks = ErrorControl { breaks: &[50.0, 60.0], ..control };
         check(measured(motion, (method, with_breaks), (100.0, 9.98))?, 24);
@@ -256,7 +252,7 @@ fn no_step_sees_both_sides() -> Outcome {
     check(well, (limited, 0.01, 20.0), of_x)?;
     let dry = (&Dry { friction: 0.01 }, &DryState { x: 1.0, dot_x: 0.0 });
     check(dry, (Gauss::<8>::new(), 0.01, 20.0), |_, state| vec![state.dot_x > 0.0])?;
-    let pushed = (&Pushed, &PushedState { x: 0.0, dot_x: 0.0 });
+    let pushed = (&PUSHED, &PushedState { x: 0.0, dot_x: 0.0 });
     check(pushed, (Gauss::<8>::new(), 0.01, 100.0), |t, _| vec![t > 50.0, t < 50.2])?;
     let corners = (&CORNERS, &CornersState { x: 1.0, y: 0.3 });
     check(corners, (Gauss::<4>::new(), 0.01, 20.0), |_, state| vec![state.x > 0.0, state.y > 0.0])

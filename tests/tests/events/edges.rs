@@ -1,6 +1,6 @@
 //! Events that steps may miss or count twice, and how a search for events, or for a state at a time, ends.
 
-use approx::abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
@@ -33,7 +33,7 @@ fn events_at_the_ends_of_steps_count_once() -> Outcome {
     // At one time in the order of the conditions.
     assert_eq!(found[..2], [(0, 0.5), (1, 0.5)]);
     let [(2, last)] = found[2..] else { panic!("{found:?}") };
-    assert!(abs_diff_eq!(last, 0.6, epsilon = 1e-15), "{last}");
+    assert_abs_diff_eq!(last, 0.6, epsilon = 1e-15);
     Ok(())
 }
 
@@ -74,7 +74,7 @@ fn a_start_on_a_zero_is_no_event() -> Outcome {
         let mut run = free(x, h)?;
         let mut events = run.events([Direction::Either], |_, state| [state.x * (state.x - 0.1)])?;
         let Some(Event { time, state, .. }) = events.next_until(2.0 * h)? else { panic!("none") };
-        assert!(abs_diff_eq!(time, 0.1 * h.signum(), epsilon = 1e-15), "{time}");
+        assert_abs_diff_eq!(time, 0.1 * h.signum(), epsilon = 1e-15);
         assert!(abs_diff_eq!(state.x, 0.1 - x, epsilon = 1e-15), "{state:?}");
         assert!(events.next_until(2.0 * h)?.is_none());
     }
@@ -89,7 +89,7 @@ fn directions_are_along_a_run_back_in_time() -> Outcome {
         let Event { index, time, .. } = event?;
         assert_eq!(index, k % 2);
         let exact = -FRAC_PI_2 - PI * k as f64;
-        assert!(abs_diff_eq!(time, exact, epsilon = 1e-11), "{time} {exact}");
+        assert_abs_diff_eq!(time, exact, epsilon = 1e-11);
     }
     Ok(())
 }
@@ -124,7 +124,7 @@ fn a_condition_that_is_no_number_is_an_error() -> Outcome {
     assert_eq!(events.next_until(-2.0).err(), Some(error));
     events.set_state(0.0, SpringState { x: 9.1, dot_x: 1.0 })?;
     let Some(Event { index: 1, time, .. }) = events.next_until(-6.0)? else { panic!("none") };
-    assert!(abs_diff_eq!(time, -5.1, epsilon = 1e-13), "{time}");
+    assert_abs_diff_eq!(time, -5.1, epsilon = 1e-13);
     // Set where a condition is none, the run is there, and no events are known.
     assert!(events.set_state(1.0, SpringState { x: -1.0, dot_x: 1.0 }).is_err());
     assert_eq!((events.run().time(), events.run().q()[0]), (1.0, -1.0));
@@ -158,7 +158,7 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
                 else {
                     panic!("{target}: {error:?}")
                 };
-                assert!(abs_diff_eq!(now, begun, epsilon = 1e-12), "{now} {begun}");
+                assert_abs_diff_eq!(now, begun, epsilon = 1e-12);
                 assert_eq!(named.to_bits(), target.to_bits());
             }
         }
@@ -182,7 +182,7 @@ fn an_event_may_be_an_impact() -> Outcome {
     let turns = run.events([Direction::Either], |_, state| [state.dot_x])?;
     for (k, turn) in turns.take(5).enumerate() {
         let time = turn?.time;
-        assert!(abs_diff_eq!(time, 0.7 + k as f64, epsilon = 1e-12), "{time}");
+        assert_abs_diff_eq!(time, 0.7 + k as f64, epsilon = 1e-12);
     }
     Ok(())
 }
@@ -194,7 +194,7 @@ fn a_condition_may_stay_at_zero() -> Outcome {
         let mut run = free(x, 0.1)?;
         let mut events = run.events([Direction::Either], |_, state| [state.x.min(0.0)])?;
         let Some(Event { time, .. }) = events.next_until(2.0)? else { panic!("none") };
-        assert!(abs_diff_eq!(time, -x, epsilon = 1e-14), "{time}");
+        assert_abs_diff_eq!(time, -x, epsilon = 1e-14);
         assert!(events.next_until(2.0)?.is_none());
         let mut run = free(x, 0.1)?;
         let mut leaves = run.events([Direction::Either], |_, state| [state.x.max(0.0)])?;
@@ -228,7 +228,7 @@ fn events_after_the_end_wait() -> Outcome {
     let mut events = run.events([Direction::Rising], |_, state| [state.x])?;
     assert!(events.next_until(0.25)?.is_none());
     let Some(Event { time, .. }) = events.next_until(0.35)? else { panic!("none") };
-    assert!(abs_diff_eq!(time, 0.3, epsilon = 1e-15), "{time}");
+    assert_abs_diff_eq!(time, 0.3, epsilon = 1e-15);
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! Nine nodes, and ∂L/∂q at the interior ones in lanes.
 
-use approx::abs_diff_eq;
+use approx::assert_abs_diff_eq;
 use core::f64::consts::TAU;
 use dvi_core::prelude::*;
 use dvi_examples::models::{Bodies, BodiesState};
@@ -52,7 +52,7 @@ fn a_matrix_of_many_coordinates_has_a_place() {
             run.q().to_vec()
         });
         for (a, b) in newton.iter().zip(&fixed_point) {
-            assert!(abs_diff_eq!(a, b, epsilon = 1e-13 * 12.0), "{a} and {b}");
+            assert_abs_diff_eq!(a, b, epsilon = 1e-13 * 12.0);
         }
     });
     assert!(on_small_stack.expect("a thread").join().is_ok());

@@ -20,11 +20,7 @@ fn a_particle_between_two_walls() -> Outcome {
             let before = run.time();
             run.advance()?;
             let expected = folded(0.25 + 7.3 * run.time());
-            assert!(
-                abs_diff_eq!(run.state().x, expected, epsilon = 1e-11),
-                "{} for {expected}",
-                run.state().x
-            );
+            assert_abs_diff_eq!(run.state().x, expected, epsilon = 1e-11);
             let impacts = run.memory().impacts();
             let walls = |t: f64| (0.25 + 7.3 * t).floor() as i64;
             assert_eq!(impacts.len() as i64, walls(run.time()) - walls(before));
@@ -48,7 +44,7 @@ fn a_corner_turns_a_particle_around() -> Outcome {
             assert_eq!(run.memory().impacts().len(), surfaces);
             let CornerState { x, y: height, dot_x, dot_y } = run.state();
             for (found, expected) in [x, height, dot_x, dot_y].into_iter().zip([2.0, 3.0 - y, 1.0, 1.0]) {
-                assert!(abs_diff_eq!(found, expected, epsilon = 1e-12), "{found} for {expected}");
+                assert_abs_diff_eq!(found, expected, epsilon = 1e-12);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Starts and steps that are none, sizes that are known at run time, and what is generated.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
+use approx::assert_abs_diff_eq;
 use dvi_core::error::{StartError, StepFailure};
 use dvi_core::prelude::*;
 use dvi_core::{Weights, rotations};
@@ -32,7 +32,7 @@ fn starts_off_the_manifold_are_named_with_their_defect() {
     assert!(block == "s" && (defect - 0.17).abs() < 1e-12, "{block} {defect:e}");
     let (_, defect) =
         refused(&pendulum, SphericalPendulumState { s: [0.0, 0.6, 0.8], dot_s: [0.3, 0.1, 0.0] });
-    assert!(abs_diff_eq!(defect, 0.06 / 0.1_f64.sqrt(), epsilon = 1e-12), "{defect:e}");
+    assert_abs_diff_eq!(defect, 0.06 / 0.1_f64.sqrt(), epsilon = 1e-12);
 }
 
 #[test]
@@ -41,7 +41,7 @@ fn a_step_by_half_a_turn_is_an_error_that_says_by_how_much() {
     let mut run = Integrator::new(&FREE, Geodesic::trapezoid(), 1.6, start).expect("begins");
     match run.take_steps(1).map_err(|error| error.failure) {
         Err(StepFailure::HalfTurn { block: "R", index: None, angle }) => {
-            assert!(abs_diff_eq!(angle, 3.2, epsilon = 1e-12), "{angle}");
+            assert_abs_diff_eq!(angle, 3.2, epsilon = 1e-12);
         }
         other => panic!("{other:?}"),
     }

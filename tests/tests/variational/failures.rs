@@ -212,4 +212,4 @@ fn momenta_of_a_bounded_velocity_have_one() -> Outcome {
 
 #[lagrangian(coordinates(x), lagrangian = -(1.0 - dot(x).powi(2)).sqrt() - x * x / 2.0)]
 #[derive(Clone, Debug)]
-struct Fast;
+pub(crate) struct Fast;

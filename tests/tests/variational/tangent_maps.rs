@@ -2,7 +2,7 @@
 //! maps and exponents of runs on regular systems.
 
 use super::Outcome;
-use approx::abs_diff_eq;
+use approx::assert_abs_diff_eq;
 use dvi_core::discrete::{Interval, Rule};
 use dvi_core::methods::{Method, VariationalMethod};
 use dvi_core::prelude::*;
@@ -91,6 +91,6 @@ fn an_unstable_equilibrium_has_its_own_exponent() -> Outcome {
     }
     let rate = (lyapunov.growth() - settled) / (100.0 * h);
     let exact = (1.0 + h * h / 2.0).acosh() / h;
-    assert!(abs_diff_eq!(rate, exact, epsilon = 1e-9), "{rate} and {exact}");
+    assert_abs_diff_eq!(rate, exact, epsilon = 1e-9);
     Ok(())
 }
