@@ -5,8 +5,9 @@ use dvi_core::prelude::*;
 use dvi_core::{
     ConstrainedSystem, Fixed, HolonomicLagrangian, IndexError, NondegenerateLagrangian, RunTime, Space,
 };
-use dvi_core::{Lagrangian, ScalarField};
+use dvi_core::{Lagrangian, ScalarField, Varied};
 use dvi_tests::filling;
+use num_dual::Dual64;
 
 use super::Outcome;
 use super::systems::{Beads, Chain, Driven, Hung, Linked, Three, surface};
@@ -108,6 +109,21 @@ fn reports_name_the_constraints() {
         "{text}"
     );
     assert!(!text.contains("Variational::trapezoid"), "{text}");
+}
+
+/// A rod whose length is a parameter of any type of numbers.
+#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2), constraint = x * x + y * y - length * length)]
+struct Rod<P> {
+    length: P,
+}
+
+#[test]
+fn constraints_have_derivatives_by_parameters() {
+    let system = Rod { length: Varied(Dual64::from_re(1.5).derivative()) };
+    let mut g = [Dual64::from_re(0.0)];
+    let q = [Dual64::from_re(2.0), Dual64::from_re(1.0)];
+    system.constraint(&q, Dual64::from_re(0.0), &mut g);
+    assert_eq!((g[0].re, g[0].eps), (2.75, -3.0));
 }
 
 /// Neither a loop of its own nor those of the sums in it run where a family is empty.
