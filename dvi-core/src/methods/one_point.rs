@@ -37,7 +37,7 @@ impl<S: DegenerateLagrangian<T>, T: Real, const KINDS: usize> OnePoint<S, T, KIN
     }
 
     /// Moves `q` to the end of a step of length `h`, where q and α are those of `end`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn arrive(
         &mut self,
         q: &mut Vector<S, T>,

@@ -25,7 +25,7 @@ pub(super) struct Work<S: System, T: Real> {
 impl OneStep {
     /// Sets `work.next` to q1, `work.stage.momentum` to p1, and `work.stage.rates` to the rates of change,
     /// if q1 is on the branch of ϑ(x, y) = p that q0 is on.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn attempt<J: Judge<T>, S: ProperlyDegenerate<T>, T: Real>(
         &self,
         step: &Step<'_, S, T>,
@@ -111,7 +111,7 @@ impl OneStep {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
         Self {
             stage: Stage::new(system, q, t),
@@ -122,7 +122,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     }
 
     /// Sets `next` to the end of a symmetric scheme's step, and the momentum and the rates.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn end<J: Judge<T>>(
         &mut self,
         step: &Step<'_, S, T>,
@@ -164,7 +164,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     }
 
     /// Moves `q` and `point` to the end of the step.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn leave(&self, q: &mut Vector<S, T>, point: &mut Point<S, T>, h: T) {
         let Self { stage, next, turn, .. } = self;
         point.arrive(q, (next, &stage.momentum), h, [&stage.rates, turn]);

@@ -72,7 +72,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
     }
 
     /// Sets `point` and `velocity` to those of `node`, and returns its time.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn place(&self, unknown: &[T], node: &Node, point: &mut [T], velocity: &mut [T]) -> T {
         let c = T::lift(node.c);
         let (by, per_time) = (c / self.part(), T::lift(1.0) / (self.part() * self.h));

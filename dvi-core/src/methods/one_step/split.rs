@@ -40,7 +40,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Split<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::Singular`] where ∂ϑ/∂y is, [`StepFailure::NotConverged`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn solve_y<J: Judge<T>>(
         &mut self,
         system: &S,
@@ -66,7 +66,7 @@ struct End<'a, S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for End<'_, S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn linearize<K: Sink<T>>(
         &mut self,
         q: &[T],

@@ -31,7 +31,7 @@ pub(super) struct Stage<S: System, T: Real> {
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn new(system: &S, q: &Vector<S, T>, t: T) -> Self {
         let [unknown, momentum, rates, gradient, one_form, point, velocity, correction, weights] =
             system.space().vectors();
@@ -43,7 +43,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::NotConverged`], [`StepFailure::Singular`], [`StepFailure::NotFinite`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn solve<J: Judge<T>>(
         &mut self,
         step: &Step<'_, S, T>,
@@ -59,7 +59,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     }
 
     /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`, and returns the time of `point`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn kick<J: Judge<T>>(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> T {
         if step.is_centred() {
             return self.kick_at_centre::<J>(step);
@@ -82,7 +82,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     /// as of the unknowns themselves: along x his equations are (Dα − ½h Df)d = r = ϑ − ½h f − p, and so the
     /// half of the kick is ½h f + r − Dα d. Without a correction, as the residual was asked for, r is
     /// nothing but rounding; a quick look does not ask for it.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn kick_at_centre<J: Judge<T>>(&mut self, step: &Step<'_, S, T>) -> T {
         let Self { momentum, gradient, one_form, point, velocity, correction: d, .. } = self;
         let Step { system, t, h, .. } = *step;
