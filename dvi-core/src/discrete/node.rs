@@ -35,7 +35,7 @@ impl<S: Lagrangian<T>, T: Real> NodeWork<S, T> {
     }
 
     /// Adds h b ∂L/∂q + B ∂L/∂v, times a weight.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn add(&self, weight: T, h: T, [b, d]: [T; 2], to: &mut [T]) {
         for (to, (&gradient, &momentum)) in to.iter_mut().zip(self.gradient.iter().zip(self.momentum.iter()))
         {
@@ -117,7 +117,7 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> SumOverNodes<S, N, T> {
 }
 
 impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOverNodes<S, N, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn derivatives(
         &mut self,
         Span { system, interval, q0, delta }: Span<'_, S, T>,
@@ -209,12 +209,12 @@ impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
 }
 
 impl<T: Real> Nodes<T> for Between<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn count(&self) -> usize {
         1
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn node(&self, _j: usize) -> Node<T> {
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let (left, right) = ([one - self.0, -one], [self.0, one]);

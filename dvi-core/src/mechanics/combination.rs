@@ -108,7 +108,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Inverse<S, T> {
 
 /// Sets `x`, which begins with coordinate `first`, to the products of the reciprocals with the entries of
 /// the conjugates.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 fn divide<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
     reciprocals: &[T],

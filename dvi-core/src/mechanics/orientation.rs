@@ -85,7 +85,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FormOrientation<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::Orientation`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn compare(&mut self, system: &S, q: &[T], t: T) -> Result<(), StepFailure> {
         if S::AFFINE {
             return Ok(());
@@ -106,7 +106,7 @@ fn pfaffian<S: DegenerateLagrangian<T>, T: Real>(system: &S, q: &[T], t: T, matr
 }
 
 /// Sets `next` to the entries of Ω at (`q`, `t`), and compares them with the last.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 fn compare_pairs<S: DegenerateLagrangian<T>, T: Real>(
     system: &S,
     q: &[T],
@@ -254,7 +254,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
     }
 }
 
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 fn compare<T: Real>(before: T, after: T) -> Result<(), StepFailure> {
     if before * after > T::lift(0.0) { Ok(()) } else { compare_signs(before, after) }
 }

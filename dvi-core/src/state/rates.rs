@@ -53,7 +53,7 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
     }
 
     /// Remembers those of a completed step of length `h`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn push(&mut self, h: T, rates: [&Vector<S, T>; KINDS]) {
         if h != self.last_step {
             if !is_similar(h, self.last_step) {
@@ -103,7 +103,7 @@ impl<S: System, T: Real> Kind<S, T> {
         }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn combine(&self, newest: usize, len: usize, rates: &mut [T]) {
         // −0 is neutral for every number.
         rates.fill(T::lift(-0.0));

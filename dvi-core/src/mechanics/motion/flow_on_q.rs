@@ -116,7 +116,7 @@ impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Degenerate
 where
     S: DegenerateLagrangian<T> + DegenerateLagrangian<Lanes<W, T>>,
 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn evaluate_in_lanes(
         equations: &mut FlowOnQ<S, T>,
         at: &AtStages<'_, W, S, T>,

@@ -68,7 +68,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Carried<S, T> {
     }
 
     /// Sets `v` to the velocity at the present point.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(in crate::methods) fn velocity(&self, here: Here<'_, S, T>, v: &mut [T]) -> Result<(), StepFailure> {
         let Here { system, q, t } = here;
         self.inertial.velocity(system, &self.phase, q, t, v)
