@@ -51,12 +51,9 @@ impl<S: System> Iterator for Blocks<'_, S> {
 
     #[inline]
     fn next(&mut self) -> Option<Range<usize>> {
-        let (coordinates, begin) = (S::REPORT.coordinates, self.end);
-        if self.block == coordinates.len() {
-            return None;
-        }
+        let (declared, begin) = (S::REPORT.coordinates.get(self.block)?, self.end);
         // The loop over blocks asks for components where there are vectors only.
-        let axis = if const { has_vectors(&S::REPORT) } { coordinates[self.block].axis } else { None };
+        let axis = if const { has_vectors(&S::REPORT) } { declared.axis } else { None };
         let components = axis.map_or(1, |axis| usize::from(axis.of));
         self.end += components * self.system.block_len(self.block);
         self.block += components;

@@ -1,5 +1,5 @@
-//! The systems that are stepped here, of this package alone, which depends on no other tests: a test builds it
-//! once more, in release mode.
+//! The systems that are stepped. They are this package's own: a test builds it once more, in release mode,
+//! and all that it depends on (`cargo tree -p dvi-kernels`).
 
 use dvi_core::prelude::*;
 
@@ -76,8 +76,8 @@ pub(crate) struct Neumann {
 /// A heavy symmetric top that turns about its tip.
 #[lagrangian(
     coordinates(R: SO3),
-    lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2) + inertia[2] * omega(R)[2].powi(2)) / 2.0
-        - weight * R[2][2],
+    lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2)
+        + inertia[2] * omega(R)[2].powi(2)) / 2.0 - weight * R[2][2],
 )]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Top {

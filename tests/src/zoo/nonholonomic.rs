@@ -42,7 +42,8 @@ pub struct Steered;
 /// A blade on an inclined plane, which slides along itself only. The slope leads along x.
 #[lagrangian(
     coordinates(x, y, angle),
-    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + inertia * dot(angle).powi(2) / 2.0 + m * slope * x,
+    lagrangian = m * (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + inertia * dot(angle).powi(2) / 2.0
+        + m * slope * x,
     nonholonomic = dot(x) * angle.sin() - dot(y) * angle.cos(),
 )]
 #[derive(Clone, Copy, Debug)]

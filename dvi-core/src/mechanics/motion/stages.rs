@@ -61,7 +61,7 @@ pub struct AtStages<'a, const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Re
 }
 
 /// Sets `terms`ₖ to `weights` times `packs`ₖ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn weigh<const W: usize, T: Real>(
     weights: Lanes<W, T>,
     packs: &[Lanes<W, T>],
@@ -71,7 +71,7 @@ pub(crate) fn weigh<const W: usize, T: Real>(
 }
 
 /// Sets `terms`ₖ to `h` times `factors`ₖ and `packs`ₖ.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn weigh_each<const W: usize, T: Real>(
     h: T,
     factors: &[T],
