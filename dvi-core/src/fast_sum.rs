@@ -270,7 +270,7 @@ where
         let dimension = self.system.space().dimension();
         let (mut q, mut v) = (Vec::new(), Vec::new());
         loop {
-            match state.write(|block| self.system.block_len(block), &mut q, &mut v) {
+            match state.write(&|block| self.system.block_len(block), &mut q, &mut v) {
                 Ok(()) => break,
                 Err(error) if error.found == error.expected && q.len() < dimension.saturating_mul(2) => {
                     for numbers in [&mut q, &mut v] {

@@ -140,7 +140,7 @@ pub fn write<const D: usize, E: Copy, T>(
     expected: usize,
     at: &mut usize,
     flat: &mut [T],
-    components: impl Fn(E) -> [T; D],
+    components: fn(E) -> [T; D],
 ) -> Result<(), LengthError> {
     let error = LengthError { array, row: None, expected, found: entries.len() };
     if entries.len() != expected {
@@ -187,7 +187,7 @@ pub fn read<const D: usize, E, T: Copy>(
     len: usize,
     at: &mut usize,
     flat: &[T],
-    entry: impl Fn([T; D]) -> E,
+    entry: fn([T; D]) -> E,
 ) -> impl Fn(usize) -> E {
     let start = *at;
     *at += D * len;

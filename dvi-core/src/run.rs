@@ -190,7 +190,7 @@ pub trait Run {
     /// The current state. The velocities of a regular system are not a number where the mass matrix is
     /// singular and the momenta have no velocity; an iterator yields an error there.
     fn state(&self) -> <Self::System as System>::State<Self::Scalar> {
-        State::read(|block| self.system().block_len(block), self.q(), &self.v())
+        State::read(&|block| self.system().block_len(block), self.q(), &self.v())
     }
 
     /// The energy v·∂L/∂v − L at the current state; H for a degenerate system.

@@ -87,12 +87,12 @@ pub trait State<T: Scalar>: Sized {
     ///
     /// # Errors
     /// [`LengthError`] if an array of the state does not have the length that the system declares.
-    fn write(&self, block_len: impl Fn(usize) -> usize, q: &mut [T], v: &mut [T])
+    fn write(&self, block_len: &dyn Fn(usize) -> usize, q: &mut [T], v: &mut [T])
     -> Result<(), LengthError>;
     /// Reads the coordinates from `q` and the velocities from `v`, both in the order of declaration.
-    fn read(block_len: impl Fn(usize) -> usize, q: &[T], v: &[T]) -> Self;
+    fn read(block_len: &dyn Fn(usize) -> usize, q: &[T], v: &[T]) -> Self;
     /// Reads as [`read`](Self::read) does, into a state of the same system, whose storage it keeps.
-    fn refill(&mut self, block_len: impl Fn(usize) -> usize, q: &[T], v: &[T]) {
+    fn refill(&mut self, block_len: &dyn Fn(usize) -> usize, q: &[T], v: &[T]) {
         *self = Self::read(block_len, q, v);
     }
 }
@@ -186,7 +186,7 @@ pub trait System: Held<System = Self> {
         Self: Sized,
     {
         let (mut q, mut v) = (self.space().vector(), self.space().vector());
-        state.write(|block| self.block_len(block), &mut q, &mut v)?;
+        state.write(&|block| self.block_len(block), &mut q, &mut v)?;
         spinors::lower_all(self, &mut q);
         Ok(names::entries(self).map(move |(name, place)| if name.is_velocity { v[place] } else { q[place] }))
     }

@@ -34,7 +34,7 @@ pub fn filling<T: Scalar>(matrix: &mut [T], columns: usize) -> impl FnMut(usize,
 
 /// A state from flat coordinates, and velocities if there are any.
 pub fn state<S: System, T: Real>(system: &S, q: &[T], v: &[T]) -> S::State<T> {
-    S::State::read(|block| system.block_len(block), q, v)
+    S::State::read(&|block| system.block_len(block), q, v)
 }
 
 /// Numbers in (−1, 1) from a linear congruential generator.

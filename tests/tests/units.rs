@@ -64,7 +64,7 @@ fn end<const N: usize, S: InUnits<N>, M: Method<S, f64>>(
     let factor = |k: usize| if k < n { 1.0 / u[S::unit(k)] } else { tau / u[S::unit(k - n)] };
     let scaled: Vec<f64> = start.iter().enumerate().map(|(k, x)| x * factor(k)).collect();
     let (q, v) = scaled.split_at(n);
-    let state = S::State::read(|block| system.block_len(block), q, v);
+    let state = S::State::read(&|block| system.block_len(block), q, v);
     let mut run = Integrator::new(&system, method, S::H / tau, state).map_err(|error| error.to_string())?;
     run.take_steps(steps).map_err(|error| error.to_string())?;
     let state = run.state();

@@ -123,12 +123,12 @@ impl<'a, S: Lagrangian> At<'a, S> {
     /// [`LengthError`] if the state is not one of the system.
     pub(super) fn event(system: &'a S, event: &Event<S::State<f64>, f64>) -> Result<Self, LengthError> {
         let (mut q, mut v) = (system.space().vector(), system.space().vector());
-        event.state.write(|block| system.block_len(block), &mut q, &mut v)?;
+        event.state.write(&|block| system.block_len(block), &mut q, &mut v)?;
         Ok(Self { system, time: event.time, q, v })
     }
 
     fn state(&self) -> S::State<f64> {
-        S::State::read(|block| self.system.block_len(block), &self.q, &self.v)
+        S::State::read(&|block| self.system.block_len(block), &self.q, &self.v)
     }
 
     fn energy(&self) -> f64 {

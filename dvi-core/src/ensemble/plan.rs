@@ -147,7 +147,7 @@ fn fingerprints<S: Lagrangian, M: Method<S, f64>>(settings: &Settings<'_, S, M>)
     for (member, state) in settings.states.iter().enumerate() {
         let system = settings.system(member);
         let (mut q, mut v) = (system.space().vector(), system.space().vector());
-        match state.write(|block| system.block_len(block), &mut q, &mut v) {
+        match state.write(&|block| system.block_len(block), &mut q, &mut v) {
             Ok(()) => [&q, &v].into_iter().flat_map(|half| half.iter()).for_each(|&x| starts.number(x)),
             Err(error) => starts.text(&error.to_string()),
         }

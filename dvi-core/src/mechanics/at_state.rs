@@ -43,7 +43,7 @@ pub trait AtState<T: Real = f64>: Lagrangian<T> + Sized {
         let at @ [q, _] = &point(self, t, state)?;
         let [mut rates, accelerations] = rates(self, t, at)?;
         spinors::lift_rates(self, q, &mut rates);
-        Ok(State::read(|block| self.block_len(block), &rates, &accelerations))
+        Ok(State::read(&|block| self.block_len(block), &rates, &accelerations))
     }
 
     /// The energy v·∂L/∂v − L; H for a degenerate system.

@@ -39,7 +39,7 @@ pub trait OnConstraints<T: Real = f64>: ConstrainedLagrangian<T> {
     fn projected(&self, t: T, state: &Self::State<T>) -> Result<Self::State<T>, StartError> {
         let [mut q, mut v] = point(self, t, state)?;
         project(self, [&mut q, &mut v], t)?;
-        Ok(State::read(|block| self.block_len(block), &q, &v))
+        Ok(State::read(&|block| self.block_len(block), &q, &v))
     }
 
     /// The Lagrange multipliers λ at a state that the constraints admit at time `t`, one for each

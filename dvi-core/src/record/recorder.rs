@@ -124,7 +124,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     /// Adds a row for a system that is checked.
     fn add_state(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), LengthError> {
         let (mut q, mut v) = (system.space().vector(), system.space().vector());
-        state.write(|block| system.block_len(block), &mut q, &mut v)?;
+        state.write(&|block| system.block_len(block), &mut q, &mut v)?;
         self.add(system, time, state, [&q, &v])
     }
 
@@ -142,7 +142,7 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         [q, v]: [&[f64]; 2],
     ) -> Result<(), LengthError> {
         state.write(
-            |block| self.lengths[block],
+            &|block| self.lengths[block],
             &mut system.space().vector(),
             &mut system.space().vector(),
         )?;

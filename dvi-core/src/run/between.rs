@@ -115,12 +115,12 @@ pub struct Flat<'a, S, T> {
 impl<S: System, T: Real> Flat<'_, S, T> {
     /// The state.
     pub(super) fn state(self) -> S::State<T> {
-        S::State::read(|block| self.system.block_len(block), self.q, self.v)
+        S::State::read(&|block| self.system.block_len(block), self.q, self.v)
     }
 
     /// Writes it into another one, without allocation.
     pub(super) fn refill(self, state: &mut S::State<T>) {
-        state.refill(|block| self.system.block_len(block), self.q, self.v);
+        state.refill(&|block| self.system.block_len(block), self.q, self.v);
     }
 }
 

@@ -89,12 +89,11 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     fn motion(&self, system: &S, t: T, h: T) -> [Vector<S, T>; 2] {
         let space = system.space();
         let [mut velocity, nothing, rest]: [Vector<S, T>; 3] = space.vectors();
-        let [zero, one] = [0.0, 1.0].map(T::lift);
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let (none, one) = (Weights::none(), T::lift(1.0));
         let mut matrix = space.matrix();
         if S::REGULAR {
             if self.velocity(system, t, &mut velocity).is_err() {
-                velocity.fill(zero);
+                velocity.fill(T::lift(0.0));
             }
             // M a = ∂L/∂q, but for what velocities add.
             let (force, _) = linearized(system, [&self.q, &rest], t, Weights::mass(), &mut matrix);

@@ -53,7 +53,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     pub(crate) fn try_state(&mut self, system: &S, t: T) -> Result<S::State<T>, StepError> {
         let mut v = system.space().vector();
         match self.velocity(system, t, &mut v) {
-            Ok(()) => Ok(S::State::read(|block| system.block_len(block), &self.q, &v)),
+            Ok(()) => Ok(S::State::read(&|block| system.block_len(block), &self.q, &v)),
             Err(failure) => Err(self.error(system, t, T::lift(0.0), failure)),
         }
     }

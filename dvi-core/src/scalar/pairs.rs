@@ -47,7 +47,7 @@ pub fn halves<const B: usize, T: Scalar>(
             || rows(one, others, &row),
         );
     };
-    within(&mut Bodies { first: 0, past: bodies, entries }, &Work { largest, pairs });
+    within(&mut Bodies { first: 0, past: bodies, entries }, &Work { largest, pairs: &pairs });
 }
 
 /// Bodies that lie beside one another.
@@ -83,15 +83,17 @@ impl<const B: usize, T> Bodies<'_, B, T> {
     }
 }
 
-/// What is done for all pairs.
-struct Work<P> {
+/// What is done for the pairs of two groups, or within one.
+type Pairs<'a, const B: usize, T> = dyn Fn(Option<&mut Bodies<'_, B, T>>, &mut Bodies<'_, B, T>) + Sync + 'a;
+
+/// What is done for all pairs. It is behind a pointer, so that what cuts them is the same for all systems.
+struct Work<'a, const B: usize, T> {
     /// As many pairs stay on one thread.
     largest: usize,
-    /// The pairs of two groups, or within one.
-    pairs: P,
+    pairs: &'a Pairs<'a, B, T>,
 }
 
-impl<P> Work<P> {
+impl<const B: usize, T> Work<'_, B, T> {
     /// Both parts of `pairs` pairs.
     fn both(&self, pairs: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
         if pairs > self.largest {
@@ -104,10 +106,7 @@ impl<P> Work<P> {
 }
 
 /// The pairs of `bodies` with one another.
-fn within<const B: usize, T: Scalar, P>(bodies: &mut Bodies<'_, B, T>, work: &Work<P>)
-where
-    P: Fn(Option<&mut Bodies<'_, B, T>>, &mut Bodies<'_, B, T>) + Sync,
-{
+fn within<const B: usize, T: Scalar>(bodies: &mut Bodies<'_, B, T>, work: &Work<'_, B, T>) {
     let count = bodies.count();
     if count <= GROUP {
         return (work.pairs)(None, bodies);
@@ -118,13 +117,11 @@ where
 }
 
 /// The pairs of each of `one` with each of `other`.
-fn between<const B: usize, T: Scalar, P>(
+fn between<const B: usize, T: Scalar>(
     one: &mut Bodies<'_, B, T>,
     other: &mut Bodies<'_, B, T>,
-    work: &Work<P>,
-) where
-    P: Fn(Option<&mut Bodies<'_, B, T>>, &mut Bodies<'_, B, T>) + Sync,
-{
+    work: &Work<'_, B, T>,
+) {
     if one.count().max(other.count()) <= GROUP {
         return (work.pairs)(Some(one), other);
     }

@@ -16,9 +16,15 @@ pub struct Weights<T> {
 }
 
 impl<T: Real> Weights<T> {
+    /// Those that leave nothing.
+    #[inline]
+    pub(crate) fn none() -> Self {
+        let zero = T::lift(0.0);
+        Self { qq: zero, qv: zero, vq: zero, vv: zero }
+    }
+
     /// Those that leave the mass matrix, ∂²L/∂v∂v.
     pub(crate) fn mass() -> Self {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        Self { qq: zero, qv: zero, vq: zero, vv: one }
+        Self { vv: T::lift(1.0), ..Self::none() }
     }
 }

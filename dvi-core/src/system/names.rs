@@ -31,7 +31,7 @@ pub(crate) fn state<S: System, T: Scalar>(system: &S, values: impl IntoIterator<
         half[place] = value;
     }
     spinors::lift_all(system, &mut q);
-    State::read(|block| system.block_len(block), &q, &v)
+    State::read(&|block| system.block_len(block), &q, &v)
 }
 
 /// Stands before an entry.

@@ -51,14 +51,14 @@ pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     if !has_rows_of_coordinates::<S>() {
         return error;
     }
-    let [zero, one] = [0.0, 1.0].map(T::lift);
+    let one = T::lift(1.0);
     let space = system.space();
     let [mut sizes, mut velocity, mut l_q, mut l_v]: [Vector<S, T>; 4] = space.vectors();
     let (matrix, weights) = if S::REGULAR {
         velocity.copy_from_slice(v);
         (StepFailure::MASS, Weights::mass())
     } else {
-        (StepFailure::OMEGA, Weights { qq: zero, qv: one, vq: -one, vv: zero })
+        (StepFailure::OMEGA, Weights { qv: one, vq: -one, ..Weights::none() })
     };
     let mut sink = |row: usize, _: usize, entry: T| sizes[row] += Scalar::abs(entry);
     system.linearize(q, &velocity, t, weights, &mut l_q, &mut l_v, &mut sink);
@@ -198,7 +198,7 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
 ) -> Result<S::State<T>, StartError> {
     system.check()?;
     let (mut q, mut v) = (system.space().vector(), system.space().vector());
-    state.write(|block| system.block_len(block), &mut q, &mut v)?;
+    state.write(&|block| system.block_len(block), &mut q, &mut v)?;
     let [_, energy] = extended(system);
     q[energy] = T::lift(0.0);
     finite(system, &q, &v)?;
@@ -207,15 +207,17 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
         evaluate(system, &q, &v, T::lift(0.0))?;
     }
     q[energy] = hamiltonian;
-    Ok(S::State::read(|block| system.block_len(block), &q, &v))
+    Ok(S::State::read(&|block| system.block_len(block), &q, &v))
 }
 
 /// Checks that the entries of a state are finite.
 pub(crate) fn finite<S: System, T: Real>(system: &S, q: &[T], v: &[T]) -> Result<(), StartError> {
-    match system.names().zip(values(system, q, v)).find(|(_, x)| !x.is_finite()) {
-        Some((entry, value)) => Err(StartError::NotFinite { entry, value: reported(value) }),
-        None => Ok(()),
+    for (entry, value) in system.names().zip(values(system, q, v)) {
+        if !value.is_finite() {
+            return Err(StartError::NotFinite { entry, value: reported(value) });
+        }
     }
+    Ok(())
 }
 
 /// The number of velocities that a state carries.
@@ -229,7 +231,7 @@ pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
     state: &S::State<T>,
 ) -> Result<[Vector<S, T>; 2], StartError> {
     let (mut q, mut v) = (system.space().vector(), system.space().vector());
-    state.write(|block| system.block_len(block), &mut q, &mut v)?;
+    state.write(&|block| system.block_len(block), &mut q, &mut v)?;
     finite(system, &q, &v)?;
     spinors::check(system, &q)?;
     Ok([q, v])

@@ -109,7 +109,7 @@ pub struct VortexVectors<const N: usize> {
 impl<const N: usize> VortexVectors<N> {
     /// r of each vortex of a state in flat form.
     pub fn places(&self, q: &[f64]) -> [[f64; 3]; N] {
-        VortexVectorsState::read(|_| N, q, &[]).r
+        VortexVectorsState::read(&|_| N, q, &[]).r
     }
 }
 

@@ -121,7 +121,7 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
         quote! {
             fn refill(
                 &mut self,
-                __len: impl ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize,
+                __len: &dyn ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize,
                 __q: &[__T],
                 __v: &[__T],
             ) {
@@ -155,14 +155,14 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
         impl<#(#declarations,)* __T: #krate::Scalar> #krate::State<__T> for #name<#(#constants,)* __T> {
             fn write(
                 &self,
-                __len: impl ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize,
+                __len: &dyn ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize,
                 __q: &mut [__T],
                 __v: &mut [__T],
             ) -> ::core::result::Result<(), #krate::LengthError> {
                 #write
                 ::core::result::Result::Ok(())
             }
-            fn read(__len: impl ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize, __q: &[__T], __v: &[__T]) -> Self {
+            fn read(__len: &dyn ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize, __q: &[__T], __v: &[__T]) -> Self {
                 #read
                 Self { #(#fields: #values),* }
             }

@@ -117,7 +117,7 @@ impl Tally {
         [q, v]: [[f64; 4]; 2],
         h: f64,
     ) -> Outcome {
-        let start = S::State::read(|block| system.block_len(block), &q, &v);
+        let start = S::State::read(&|block| system.block_len(block), &q, &v);
         let Ok(start) = system.projected(0.0, &start) else { return Ok(()) };
         let mut run = Integrator::new(system, Constrained::new(Variational::midpoint()), h, start)?;
         let v: Vec<f64> = system.values(&run.state())?.skip(4).collect();

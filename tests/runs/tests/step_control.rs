@@ -104,7 +104,7 @@ where
     }
     let flat = |state: S::State<f64>| {
         let (mut q, mut v) = (vec![0.0; back.q().len()], vec![0.0; back.q().len()]);
-        dvi_core::State::write(&state, |block| system.block_len(block), &mut q, &mut v)
+        dvi_core::State::write(&state, &|block| system.block_len(block), &mut q, &mut v)
             .map(|()| [q, v].concat())
     };
     let (end, start) = (flat(turn(back.state()))?, flat(start.clone())?);

@@ -138,9 +138,9 @@ mod places {
 fn energy<S: RegularLagrangian>(system: &S) -> f64 {
     assert!(system.check().is_ok());
     let n = system.space().dimension();
-    let state = S::State::<f64>::read(|block| system.block_len(block), &vec![0.5; n], &vec![0.25; n]);
+    let state = S::State::<f64>::read(&|block| system.block_len(block), &vec![0.5; n], &vec![0.25; n]);
     let (mut q, mut v) = (vec![f64::NAN; n], vec![f64::NAN; n]);
-    assert!(state.write(|block| system.block_len(block), &mut q, &mut v).is_ok());
+    assert!(state.write(&|block| system.block_len(block), &mut q, &mut v).is_ok());
     assert!(q.iter().all(|q| q.to_bits() == 0.5_f64.to_bits()));
     assert!(v.iter().all(|v| v.to_bits() == 0.25_f64.to_bits()));
     let mut force = vec![f64::NAN; n];
@@ -167,7 +167,7 @@ fn states_hold_coordinates_then_velocities() {
     assert_eq!(format!("{tuple:?}"), "(1.0, 2.0, 3.0, 4.0)");
     assert_eq!(fields::FieldsState::from(tuple), state);
     let lengths = shadowed::ShadowedState { x: vec![1.0; 3], u: 0.0, dot_x: vec![1.0; 2], dot_u: 0.0 };
-    let result = lengths.write(|block| if block == 0 { 3 } else { 1 }, &mut [0.0; 4], &mut [0.0; 4]);
+    let result = lengths.write(&|block| if block == 0 { 3 } else { 1 }, &mut [0.0; 4], &mut [0.0; 4]);
     assert_eq!(result.map_err(|error| error.array), Err("dot_x"));
 }
 

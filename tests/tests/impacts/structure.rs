@@ -26,7 +26,7 @@ fn jacobian<S: UnilateralLagrangian<Dual64>>(
         let start: [Dual64; 4] =
             core::array::from_fn(|i| Dual64::new(start[i], if i == column { 1.0 } else { 0.0 }));
         let method = Impacts { collision, ..Impacts::new(Variational::trapezoid()) };
-        let state = State::read(|block| system.block_len(block), &start[..2], &start[2..]);
+        let state = State::read(&|block| system.block_len(block), &start[..2], &start[2..]);
         let mut run = Integrator::new(system, method, Dual64::from(h), state)?;
         run.advance()?;
         impacts = run.memory().impacts().len();

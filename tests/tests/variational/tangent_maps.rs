@@ -24,7 +24,7 @@ where
     M: Clone + core::fmt::Debug,
 {
     let (t, h, n) = (0.4, 0.07, q.len());
-    let state = S::State::read(|block| system.block_len(block), q, v);
+    let state = S::State::read(&|block| system.block_len(block), q, v);
     let mut run = Integrator::new_at(system, method.clone(), t, h, state)?;
     run.advance()?;
     let (interval, q1) = (Interval { t, h }, run.q());

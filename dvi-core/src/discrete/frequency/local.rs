@@ -60,9 +60,8 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
         };
         self.omega = omega;
         mass.solve(da, acceleration);
-        let zero = T::lift(0.0);
         let mut product = |i: usize, j: usize, entry: T| dq[j] += entry * acceleration[i];
-        let weights = Weights { qq: T::lift(1.0), qv: zero, vq: zero, vv: zero };
+        let weights = Weights { qq: T::lift(1.0), ..Weights::none() };
         system.linearize(q, v, t, weights, l_q, l_v, &mut product);
         defined(self.omega)?;
         norm::finite(&self.dq)

@@ -84,11 +84,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> StageEquations<S, T> for Degenerate {
     fn newton_weights([of_row, of_column]: [bool; 2], [_, after]: [T; 2], [_, per_h]: [T; 2]) -> Weights<T> {
         let zero = T::lift(0.0);
         let omega = if of_column { per_h } else { zero };
-        if of_row {
-            Weights { qq: after, qv: omega, vq: -omega, vv: -after }
-        } else {
-            Weights { qq: zero, qv: zero, vq: zero, vv: zero }
-        }
+        if of_row { Weights { qq: after, qv: omega, vq: -omega, vv: -after } } else { Weights::none() }
     }
     /// The rate of Dα is a third derivative of L, and a difference here, to half of the digits: Newton's
     /// method gains as many in each iteration.

@@ -251,10 +251,8 @@ pub(super) struct SecondOrder<'a, S, T> {
 impl<S: NondegenerateLagrangian<T>, T: Real> LinearEquations<T> for SecondOrder<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
         let Self { system, q, v, t, l_v } = self;
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let [mass, transport] =
-            [[zero, one], [one, zero]].map(|[vq, vv]| Weights { qq: zero, qv: zero, vq, vv });
-        system.linearize(q, v, *t, mass, b, l_v, sink);
+        let transport = Weights { vq: T::lift(1.0), ..Weights::none() };
+        system.linearize(q, v, *t, Weights::mass(), b, l_v, sink);
         let mut transported: Vector<S, T> = system.space().vector();
         let mut product = |i: usize, j: usize, entry: T| transported[i] += entry * v[j];
         system.linearize(q, v, *t, transport, b, l_v, &mut product);

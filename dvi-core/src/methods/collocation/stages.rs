@@ -253,13 +253,11 @@ impl<const STAGES: usize, E: StageEquations<S, T>, S: Lagrangian<T>, T: Real> No
     }
 
     fn momentum_by_position(&mut self, vq: &mut impl Sink<T>) {
-        let zero = T::lift(0.0);
-        self.linearize(Weights { qq: zero, qv: zero, vq: T::lift(1.0), vv: zero }, vq);
+        self.linearize(Weights { vq: T::lift(1.0), ..Weights::none() }, vq);
     }
 
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>) {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let (none, one) = (Weights::none(), T::lift(1.0));
         self.linearize(Weights { qq: one, ..none }, qq);
         self.linearize(Weights { qv: one, ..none }, qv);
         let interval = [self.time(), self.from.h];

@@ -202,9 +202,8 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     const MIXED_ARE_TRANSPOSED: bool = !S::FORCED;
 
     fn momentum_by_position(&mut self, vq: &mut impl Sink<T>) {
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let (t, NodeWork { point, velocity, gradient, momentum }) = (self.time(), &mut *self.node);
-        let w = Weights { qq: zero, qv: zero, vq: one, vv: zero };
+        let w = Weights { vq: T::lift(1.0), ..Weights::none() };
         self.at.system.linearize(point, velocity, t, w, gradient, momentum, vq);
     }
 
@@ -212,9 +211,9 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     // is read, and evaluates once what the three have in common.
     #[inline(never)]
     fn second_derivatives(&mut self, qq: &mut impl Sink<T>, qv: &mut impl Sink<T>, vv: &mut impl Sink<T>) {
-        let (system, t, zero, one) = (self.at.system, self.time(), T::lift(0.0), T::lift(1.0));
+        let (system, t, one) = (self.at.system, self.time(), T::lift(1.0));
         let NodeWork { point, velocity, gradient, momentum } = &mut *self.node;
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let none = Weights::none();
         scratch!(l_q = system, *gradient);
         scratch!(l_v = system, *momentum);
         system.linearize(point, velocity, t, Weights { qq: one, ..none }, l_q, l_v, qq);

@@ -133,8 +133,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
     pub(super) fn add_second_derivatives<K: Sink<T>>(&mut self, system: &S, t: T, weight: T, sink: &mut K) {
         let Self { work: NodeWork { point, velocity, gradient, momentum }, first, displacement, slots } =
             self;
-        let zero = T::lift(0.0);
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let none = Weights::none();
         let all = [
             (&first.point, &displacement.point, Weights { qq: weight, ..none }),
             (&first.velocity, &displacement.velocity, Weights { vv: weight, ..none }),

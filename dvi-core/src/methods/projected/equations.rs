@@ -105,7 +105,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Step<'_, S, T> {
 
     fn weights(&self, r: usize, k: usize) -> Weights<T> {
         let (zero, one, half) = (T::lift(0.0), T::lift(1.0), T::lift(0.5));
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let none = Weights::none();
         match (self.node, r, k) {
             (0, 1, 2) => Weights { qv: one, ..none },
             (1, r, k) => {
@@ -124,8 +124,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> NodeSum<NODES, T> for Step<'_, S, T> {
         let [centre, after] = self.times();
         let Self { system, q, t, h, work, .. } = self;
         let Work { middle, velocity, end, gradient, one_form, slope, rest } = &mut **work;
-        let (zero, one) = (T::lift(0.0), T::lift(1.0));
-        let none = Weights { qq: zero, qv: zero, vq: zero, vv: zero };
+        let (none, one) = (Weights::none(), T::lift(1.0));
         let (point, time): (&[T], T) = [(*q, *t), (&**middle, centre), (&**end, after)][self.node];
         system.linearize(point, rest, time, Weights { qv: one, ..none }, gradient, one_form, qv);
         match self.node {

@@ -150,8 +150,12 @@ pub(crate) fn entries<const NODES: usize, T: Real, M: NodeSum<NODES, T>>(
     let add = RefCell::new(add);
     for node in 0..NODES {
         matrix.place(node);
-        let weights: [[_; NODES]; NODES] =
-            core::array::from_fn(|r| core::array::from_fn(|k| matrix.weights(r, k)));
+        let mut weights = [[Weights::none(); NODES]; NODES];
+        for (r, row) in weights.iter_mut().enumerate().skip(M::FIRST) {
+            for (k, weights) in row.iter_mut().enumerate().skip(M::FIRST) {
+                *weights = matrix.weights(r, k);
+            }
+        }
         // Adds an entry to each block, times what is asked of its weights.
         let add = |i: usize, j: usize, entry: T, weight: fn(&Weights<T>) -> T| {
             for (r, row) in weights.iter().enumerate().skip(M::FIRST) {
