@@ -36,12 +36,6 @@ pub(super) fn point<S: Lagrangian<T>, T: Real>(
     Ok([q, v])
 }
 
-/// What a control begins with at a point with velocities, and the length of the first step.
-type Lengths<'a, L, T> = dyn Fn(&[T], &[T]) -> Result<(L, T), StartError> + 'a;
-
-/// What a method begins with at a point with coordinates `Q`, velocities, and steps of a length.
-type Steps<'a, Q, K, T> = dyn Fn(&Q, &[T], T) -> Result<K, StartError> + 'a;
-
 /// From a point with velocities, by what `control` and `method` begin with there, the latter with steps of a
 /// length.
 #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
@@ -49,8 +43,8 @@ pub(super) fn carried<S: Lagrangian<T>, C: StepControl<S, T>, K, T: Real>(
     system: &S,
     [q, all]: [Vector<S, T>; 2],
     t: T,
-    control: &Lengths<'_, C::Memory, T>,
-    method: &Steps<'_, Vector<S, T>, K, T>,
+    control: impl FnOnce(&[T], &[T]) -> Result<(C::Memory, T), StartError>,
+    method: impl Fn(&Vector<S, T>, &[T], T) -> Result<K, StartError>,
 ) -> Result<BegunOf<S, K, C, T>, StartError> {
     if S::TIME_TRANSFORMED && !C::ONE_LENGTH {
         let reason = "the time of the system is transformed, which sets the lengths of its steps";
@@ -78,5 +72,5 @@ pub(super) fn begun<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: 
     let at = point(system, t, start)?;
     control.admit(method)?;
     let lengths = |q: &_, v: &_| control.begin(system, q, v, t);
-    carried::<S, C, _, T>(system, at, t, &lengths, &|q, v, h| method.begin(system, q, v, t, h))
+    carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin(system, q, v, t, h))
 }

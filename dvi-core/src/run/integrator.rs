@@ -101,7 +101,7 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
         let begin = |q0: &_, _: &_, h| method.begin_between(held, q0, &q1, t, h);
         let length = OneLength(h);
         let begun =
-            carried::<_, OneLength<T>, _, _>(held, at, t, &|q, v| length.begin(held, q, v, t), &begin)?;
+            carried::<_, OneLength<T>, _, _>(held, at, t, |q, v| length.begin(held, q, v, t), begin)?;
         Ok(Self::of(system, method.suited(), length, begun))
     }
 

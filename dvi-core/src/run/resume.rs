@@ -47,7 +47,7 @@ pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T
     control.admit(method)?;
     let lengths = |q: &_, v: &_| Ok((control.begin_again(system, q, v, t)?, h));
     let mut begun =
-        carried::<S, C, _, T>(system, at, t, &lengths, &|q, v, h| method.begin_again(system, q, v, t, h))?;
+        carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;
     let Begun { memory, control_memory, time, .. } = &mut begun;
     let record = &mut checkpoint.record(|expected| {
         memory.save(expected);
