@@ -145,7 +145,8 @@ pub(crate) fn repeat<T: Real>(
     result
 }
 
-/// Newton's method: iterates until a correction counts as the last. `improve` is as [`Iteration::improve`].
+/// Newton's method: iterates until a correction counts as the last. `improve` is as [`Iteration::improve`];
+/// an iteration takes so long that a pointer to it costs nothing.
 ///
 /// # Errors
 /// As [`repeat`].
@@ -153,7 +154,7 @@ pub(crate) fn repeat<T: Real>(
 pub(crate) fn newton<T: Real>(
     stopping: Stopping,
     statistics: &mut Statistics,
-    improve: impl FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>,
+    improve: &mut dyn FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure>,
 ) -> Result<(), StepFailure> {
     repeat(Convergence::new(stopping, stopping.max_iterations), statistics, improve)
 }

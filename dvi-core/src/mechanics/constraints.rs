@@ -200,7 +200,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         if S::QUADRATIC {
             self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         } else {
-            newton(Stopping::default(), &mut Statistics::default(), |due, _| {
+            newton(Stopping::default(), &mut Statistics::default(), &mut |due, _| {
                 due.prepare_alone(system, &mut self.weights, v);
                 self.improve_tangent(*due, system, at, Tangent { p, v, impulse, work })
             })?;

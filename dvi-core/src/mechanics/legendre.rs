@@ -60,7 +60,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Legendre<S, T> {
         if S::QUADRATIC {
             return norm::finite(v);
         }
-        newton(Stopping::default(), &mut Statistics::default(), |due, _| {
+        newton(Stopping::default(), &mut Statistics::default(), &mut |due, _| {
             due.prepare_alone(system, &mut self.weights, v);
             if *due == Due::Residual {
                 let Self { correction, l_q, weights, .. } = self;

@@ -67,7 +67,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         let Self { here: Place { p, .. }, l_d, solver, is_positive, gradients, arrival, .. } = self;
         let Arrival { increment, weights, q: next, place, work } = arrival;
         let [impulse, _] = &mut place.impulses;
-        newton(stopping, statistics, |due, statistics| {
+        newton(stopping, statistics, &mut |due, statistics| {
             due.prepare(system, weights, q, increment);
             statistics.linearizations += 1;
             statistics.factorisations += 1;

@@ -68,7 +68,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Tangents<S, T> {
         stopping: Stopping,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        newton(stopping, statistics, |due, statistics| {
+        newton(stopping, statistics, &mut |due, statistics| {
             // Nothing else is done: an iterate that no longer improves is judged by its next correction.
             if mem::replace(due, Due::Nothing) == Due::Sizes {
                 for block in blocks(system) {
