@@ -13,7 +13,7 @@ use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::state::Statistics;
 use crate::system::{Kind, Regular, Same};
-use crate::{Lagrangian, Real, Scalar, Sink, System, Vector, Weights};
+use crate::{Lagrangian, Real, Scalar, Sink, Space, System, Vector, Weights};
 
 use stages::FirstOrderInLanes;
 pub use stages::InLanes;
@@ -40,6 +40,13 @@ impl<V, const K: usize> DerefMut for Point<V, K> {
 }
 
 lasting!([T: Copy, V: DerefMut<Target = [T]>, const K: usize] Point<V, K>, T; vectors 0);
+
+/// So many points of zeros.
+fn points<X: Space, P: Scalar, const K: usize, const COUNT: usize>(
+    space: X,
+) -> [Point<X::Vector<P>, K>; COUNT] {
+    core::array::from_fn(|_| Point(space.vectors()))
+}
 
 /// The rates of change of a kind of system at a state.
 #[diagnostic::on_unimplemented(
@@ -134,12 +141,8 @@ pub trait FirstOrder<S: System, T: Real>: Kind + StageEquations<S, T> {
     /// `M`, which steps systems of this kind: see [`Method::Suited`](crate::methods::Method::Suited).
     type Suited<M>: Same<M, As = M>;
 
-    /// A point of zeros.
-    fn point<P: Scalar>(system: &S) -> Self::Point<P>;
-    /// So many of them.
-    fn points<P: Scalar, const COUNT: usize>(system: &S) -> [Self::Point<P>; COUNT] {
-        core::array::from_fn(|_| Self::point(system))
-    }
+    /// So many points of zeros.
+    fn points<P: Scalar, const COUNT: usize>(system: &S) -> [Self::Point<P>; COUNT];
     /// The equations at (`q`, `v`, `t`).
     ///
     /// # Errors

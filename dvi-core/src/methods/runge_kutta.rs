@@ -106,12 +106,8 @@ impl<S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>, T: Real> Method<S, T> fo
     type Suited<X> = <S::Kind as FirstOrder<S, T>>::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
-        Ok(RungeKuttaMemory {
-            equations: S::Kind::begin(system, q, v, t)?,
-            slopes: S::Kind::points(system),
-            y: S::Kind::point(system),
-            stage: S::Kind::point(system),
-        })
+        let ([y, stage], slopes) = (S::Kind::points(system), S::Kind::points(system));
+        Ok(RungeKuttaMemory { equations: S::Kind::begin(system, q, v, t)?, slopes, y, stage })
     }
 
     #[inline]

@@ -63,20 +63,17 @@ pub(crate) fn solve_coupled<const COUNT: usize, S: System, T: Real, E: CoupledEq
 ) -> Result<(), StepFailure> {
     let mut convergence = Convergence::new(stopping, stopping.max_iterations);
     convergence.course().more *= E::PER_ORDER;
-    // Behind a pointer, so that what decides is the same for all equations.
-    let improve: &mut dyn FnMut(&mut Due, &mut Statistics) -> Result<T, StepFailure> =
-        &mut |due, statistics| {
-            due.prepare_all(system, weights, q, &mut equations.unknowns()[E::FIRST..]);
-            equations.evaluate(residuals, statistics)?;
-            residuals[E::FIRST..].iter().try_for_each(|residual| norm::finite(residual))?;
-            statistics.linearizations += COUNT as u64;
-            statistics.factorisations += 1;
-            if *due == Due::Residual {
-                return linear::residual_of_nodes(equations, weights, residuals, sums);
-            }
-            solver.solve(equations, weights, residuals)?;
-            equations.correct(system, weights, residuals)
-        };
-    repeat(convergence, statistics, improve)?;
+    repeat(convergence, statistics, |due: &mut Due, statistics: &mut Statistics| {
+        due.prepare_all(system, weights, q, &mut equations.unknowns()[E::FIRST..]);
+        equations.evaluate(residuals, statistics)?;
+        residuals[E::FIRST..].iter().try_for_each(|residual| norm::finite(residual))?;
+        statistics.linearizations += COUNT as u64;
+        statistics.factorisations += 1;
+        if *due == Due::Residual {
+            return linear::residual_of_nodes(equations, weights, residuals, sums);
+        }
+        solver.solve(equations, weights, residuals)?;
+        equations.correct(system, weights, residuals)
+    })?;
     equations.unknowns()[E::FIRST..].iter().try_for_each(|unknown| norm::finite(unknown))
 }

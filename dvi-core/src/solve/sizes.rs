@@ -198,7 +198,7 @@ impl Due {
         x: &mut [X],
     ) -> bool {
         if *self != Self::Sizes {
-            return *self != Self::Nothing && self.test(system, (weights, unit), &size, x);
+            return *self != Self::Nothing && self.test(system, (weights, unit), size, x);
         }
         set_weights(system, (&mut weights[..x.len()], unit), |k, _| size(k, &x[k]));
         *self = Self::Nothing;
@@ -211,7 +211,7 @@ impl Due {
         &mut self,
         system: &S,
         (weights, unit): (&mut [T], T),
-        size: &dyn Fn(usize, &X) -> T,
+        size: impl Fn(usize, &X) -> T,
         x: &mut [X],
     ) -> bool {
         match *self {

@@ -1,6 +1,6 @@
 //! Ω q' = ∇H + ∂α/∂t, on Q.
 
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Point, Rates, StageEquations, StageWork};
+use super::{AtStages, FirstOrder, FirstOrderInLanes, Point, Rates, StageEquations, StageWork, points};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
@@ -24,8 +24,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     type Point<P: Scalar> = Point<Vector<S, P>, 1>;
     type Equations = FlowOnQ<S, T>;
 
-    fn point<P: Scalar>(system: &S) -> Self::Point<P> {
-        Point([system.space().vector()])
+    fn points<P: Scalar, const COUNT: usize>(system: &S) -> [Self::Point<P>; COUNT] {
+        points(system.space())
     }
     fn begin(system: &S, q: &Vector<S, T>, _v: &[T], t: T) -> Result<FlowOnQ<S, T>, StartError> {
         Ok(FlowOnQ {

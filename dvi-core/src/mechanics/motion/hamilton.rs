@@ -1,6 +1,8 @@
 //! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
 
-use super::{AtStages, FirstOrder, FirstOrderInLanes, OneByOne, Point, Rates, StageEvaluation, StageWork};
+use super::{
+    AtStages, FirstOrder, FirstOrderInLanes, OneByOne, Point, Rates, StageEvaluation, StageWork, points,
+};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
@@ -69,8 +71,8 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     const HAS_VELOCITY_FORCES: bool = !S::SEPARABLE;
     const OF_SECOND_ORDER: bool = S::SEPARABLE && S::DIAGONAL_MASS;
 
-    fn point<P: Scalar>(system: &S) -> Self::Point<P> {
-        Point(system.space().vectors())
+    fn points<P: Scalar, const COUNT: usize>(system: &S) -> [Self::Point<P>; COUNT] {
+        points(system.space())
     }
     fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<HamiltonsEquations<S, T>, StartError> {
         let space = system.space();

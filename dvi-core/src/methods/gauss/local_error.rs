@@ -112,7 +112,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     fn estimate(&mut self, t: T, [h, usual]: [T; 2], tolerance: Tolerance) -> Result<T, StepFailure> {
         let Self { equations, coefficients, completed, slopes, y, increment, next, .. } = &*self;
         let (extrema, first, last) = (&coefficients.extrema, first_part::<S, T>(equations), y.len() - 1);
-        let [zero, one] = [0.0, 1.0].map(T::lift);
+        let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let largest_of = |packs: &[Lanes<STAGES, T>]| {
             packs.iter().fold(zero, |most, pack| norm::larger(most, norm::largest(&pack.0)))
         };
@@ -133,7 +133,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             powers[k] = powers[k - 1] * rho;
         }
         let length = Scalar::abs(h);
-        let [before, after] = [&y[last], &next[last]].map(|momenta| norm::largest(momenta));
+        let (before, after) = (norm::largest(&y[last]), norm::largest(&next[last]));
         let usual = norm::larger(length, Scalar::abs(usual));
         // A step that begins behind a seam has gone on from rest for some rounding errors.
         let at_rest = before == zero
@@ -161,7 +161,10 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
                     }
                     let (of_points, of_start) = extrema.last_moment;
                     let last_moment = of_start * start + sum(&(of_points * defects).0);
-                    let terms: [T; STAGES] = core::array::from_fn(|k| powers[k] * Scalar::abs(moments.0[k]));
+                    let mut terms = powers;
+                    for (term, &moment) in terms.iter_mut().zip(&moments.0) {
+                        *term *= Scalar::abs(moment);
+                    }
                     sum(&terms) + last_power * Scalar::abs(last_moment)
                 };
                 let error = h * norm::larger(zero, moments - rounding);
