@@ -4,9 +4,9 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Real, Scalar, State};
 
+pub mod laws;
 pub mod steps;
 pub mod systems;
-pub mod twice;
 pub mod zoo;
 
 /// What a test comes to: a value, or what is wrong.
