@@ -6,31 +6,31 @@
 
 use std::hint::black_box;
 
-use criterion::{BenchmarkGroup, Criterion, measurement::WallTime};
+use criterion::Criterion;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
-use markdown::{Cell, Table};
 
 const STEPS: u64 = 1000;
 
 type StateOf<R> = <<R as Run>::System as System>::State<f64>;
 
 fn compare<R: Run<Scalar = f64>>(
-    group: &mut BenchmarkGroup<'_, WallTime>,
+    criterion: &mut Criterion,
     name: &str,
     begin: impl Fn() -> Option<R>,
     far: impl Fn(&StateOf<R>) -> f64,
 ) {
-    group.bench_function(format!("{name}, alone"), |bencher| {
+    let mut group = criterion.benchmark_group(format!("1000 steps, {name}"));
+    group.bench_function("alone", |bencher| {
         let mut run = begin().expect("a start");
         bencher.iter(|| run.take_steps(STEPS));
     });
-    group.bench_function(format!("{name}, each step alone"), |bencher| {
+    group.bench_function("each step alone", |bencher| {
         let mut run = begin().expect("a start");
         bencher.iter(|| (0..STEPS).try_for_each(|_| black_box(&mut run).advance()));
     });
-    group.bench_function(format!("{name}, with a condition"), |bencher| {
+    group.bench_function("with a condition", |bencher| {
         let mut run = begin().expect("a start");
         let mut events = run.events([Direction::Either], |_, state| [far(state)]).expect("a start");
         bencher.iter(|| {
@@ -38,7 +38,7 @@ fn compare<R: Run<Scalar = f64>>(
             assert!(events.next_until(t).is_ok_and(|event| event.is_none()));
         });
     });
-    group.bench_function(format!("{name}, a state in ten steps"), |bencher| {
+    group.bench_function("a state in ten steps", |bencher| {
         let mut run = begin().expect("a start");
         let mut dense = run.dense().expect("a start");
         bencher.iter(|| {
@@ -51,37 +51,17 @@ fn compare<R: Run<Scalar = f64>>(
 }
 
 fn events(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("1000 steps");
     let kepler = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
     let verlet = || Integrator::new(&Kepler { mu: 1.0 }, Variational::trapezoid(), 0.05, kepler).ok();
-    compare(&mut group, "Kepler, Verlet", verlet, |state| state.x - 5.0);
+    compare(criterion, "Kepler, Verlet", verlet, |state| state.x - 5.0);
     let (system, start) = quasi_periodic();
     let midpoint = || Integrator::new(&system, Sigma::midpoint(), 0.1, start).ok();
-    compare(&mut group, "four vortices, midpoint", midpoint, |state| state.x[0] - 50.0);
+    compare(criterion, "four vortices, midpoint", midpoint, |state| state.x[0] - 50.0);
     let leapfrog = Sigma { parasitic_limit: None, ..Sigma::leapfrog() };
     let explicit = || Integrator::new(&system, leapfrog, 0.01, start).ok();
-    compare(&mut group, "four vortices, explicit", explicit, |state| state.x[0] - 50.0);
-    group.finish();
+    compare(criterion, "four vortices, explicit", explicit, |state| state.x[0] - 50.0);
 }
-
-/// Times over that of as many steps, each taken alone.
-macro_rules! row {
-    ($name:literal) => {{
-        const STEPS: &str = concat!("1000 steps/", $name, ", each step alone");
-        const CELLS: &[Cell] = &[
-            Cell::Ratio(concat!("1000 steps/", $name, ", alone"), STEPS),
-            Cell::Ratio(concat!("1000 steps/", $name, ", with a condition"), STEPS),
-            Cell::Ratio(concat!("1000 steps/", $name, ", a state in ten steps"), STEPS),
-        ];
-        ($name, CELLS)
-    }};
-}
-
-const TABLE: Table = (
-    &["time over that of `advance`", "`take_steps`", "a condition never met", "a state in ten steps"],
-    &[row!("Kepler, Verlet"), row!("four vortices, midpoint"), row!("four vortices, explicit")],
-);
 
 fn main() {
-    markdown::main(&[events], &[TABLE]);
+    markdown::main(&[events]);
 }

@@ -5,7 +5,7 @@
 //! runs, and of 64 steps of Gauss collocation or `Galerkin`. Ratios of neighbouring rows are what
 //! counts.
 
-use criterion::{BenchmarkId, Criterion, Throughput};
+use criterion::{Criterion, Throughput};
 use dvi_core::Lagrangian;
 use dvi_core::methods::{InStep, Method};
 use dvi_core::prelude::*;
@@ -13,7 +13,6 @@ use dvi_core::run::Together;
 use dvi_examples::models::outer_solar_system;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::zoo::regular::{Kepler, KeplerState};
-use markdown::{Cell, Table};
 
 const RUNS: usize = 8;
 const STEPS: u64 = 512;
@@ -34,7 +33,7 @@ fn beside<S: Lagrangian + PartialEq, M: InStep<RUNS, S> + PartialEq + Clone>(
         runs
     };
     let mut runs = begin();
-    group.bench_function(BenchmarkId::from_parameter("alone"), |bencher| {
+    group.bench_function("alone", |bencher| {
         bencher.iter(|| {
             for run in &mut runs {
                 assert!(run.take_steps(STEPS).is_ok());
@@ -43,7 +42,7 @@ fn beside<S: Lagrangian + PartialEq, M: InStep<RUNS, S> + PartialEq + Clone>(
     });
     let mut runs = begin();
     let mut packs = Together::<RUNS, _, _>::new(&runs[0]);
-    group.bench_function(BenchmarkId::from_parameter("together"), |bencher| {
+    group.bench_function("together", |bencher| {
         bencher.iter(|| assert!(packs.take_steps(&mut runs, STEPS).iter().all(Result::is_ok)));
     });
     group.finish();
@@ -65,63 +64,36 @@ fn runs_together(criterion: &mut Criterion) {
 
 fn long_steps<S: Lagrangian, M: Method<S, f64>>(
     criterion: &mut Criterion,
-    name: &str,
+    [group, how]: [&str; 2],
     (method, h): (M, f64),
     (system, start): (S, S::State<f64>),
 ) {
     let Ok(mut run) = Integrator::new(&system, method, h, start) else { panic!("it starts") };
-    criterion.bench_function(name, |bencher| bencher.iter(|| assert!(run.take_steps(64).is_ok())));
+    let mut group = criterion.benchmark_group(group);
+    group.bench_function(how, |bencher| bencher.iter(|| assert!(run.take_steps(64).is_ok())));
 }
 
 fn stages(criterion: &mut Criterion) {
     macro_rules! gauss {
         ($($stages:literal)*) => {$(
-            let name = |how: &str| format!("vortices, Gauss, {} stages/{how}", $stages);
+            let group = concat!("vortices, Gauss, ", $stages, " stages");
             let method = Gauss::<$stages>::new();
-            long_steps(criterion, &name("one by one"), (method, 0.5), quasi_periodic());
-            long_steps(criterion, &name("in lanes"), (method.in_lanes(), 0.5), quasi_periodic());
+            long_steps(criterion, [group, "one by one"], (method, 0.5), quasi_periodic());
+            long_steps(criterion, [group, "in lanes"], (method.in_lanes(), 0.5), quasi_periodic());
         )*};
     }
     macro_rules! galerkin {
         ($($nodes:literal)*) => {$(
-            let name = |how: &str| format!("outer solar system, Galerkin, {} nodes/{how}", $nodes);
+            let group = concat!("outer solar system, Galerkin, ", $nodes, " nodes");
             let method = Galerkin { summation: Summation::Compensated, ..Galerkin::<$nodes>::new() };
-            long_steps(criterion, &name("one by one"), (method, 200.0), outer_solar_system());
-            long_steps(criterion, &name("in lanes"), (method.in_lanes(), 200.0), outer_solar_system());
+            long_steps(criterion, [group, "one by one"], (method, 200.0), outer_solar_system());
+            long_steps(criterion, [group, "in lanes"], (method.in_lanes(), 200.0), outer_solar_system());
         )*};
     }
     gauss!(4 8);
     galerkin!(4 9);
 }
 
-macro_rules! together {
-    ($name:literal) => {
-        ($name, &[Cell::Ratio(concat!($name, "/alone"), concat!($name, "/together"))] as &[Cell])
-    };
-}
-
-macro_rules! in_lanes {
-    ($name:literal) => {
-        ($name, &[Cell::Ratio(concat!($name, "/in lanes"), concat!($name, "/one by one"))] as &[Cell])
-    };
-}
-
-const TABLES: [Table; 2] = [
-    (
-        &["eight runs", "throughput together over alone"],
-        &[together!("Kepler, Verlet"), together!("vortices, σ = 0"), together!("vortices, σ = ½")],
-    ),
-    (
-        &["stages or nodes", "time in lanes over one by one"],
-        &[
-            in_lanes!("vortices, Gauss, 4 stages"),
-            in_lanes!("vortices, Gauss, 8 stages"),
-            in_lanes!("outer solar system, Galerkin, 4 nodes"),
-            in_lanes!("outer solar system, Galerkin, 9 nodes"),
-        ],
-    ),
-];
-
 fn main() {
-    markdown::main(&[runs_together, stages], &TABLES);
+    markdown::main(&[runs_together, stages]);
 }

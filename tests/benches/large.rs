@@ -7,13 +7,13 @@
 
 mod fput_by_hand;
 
-use criterion::{BenchmarkId, Criterion, Throughput};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, Lagrangian};
 use dvi_examples::models::{VortexBlobs, VortexBlobsState};
 use dvi_tests::zoo::constrained::Mobile;
-use markdown::{Cell, Table};
 use std::hint::black_box;
 
 /// Toda's chain between walls.
@@ -58,6 +58,17 @@ fn wave(n: usize, phase: f64) -> Vec<f64> {
     (0..n).map(|j| 0.1 * (0.3 * j as f64 + phase).sin()).collect()
 }
 
+/// The steps of a run of so many masses.
+fn steps<S: Lagrangian, M: Method<S, f64>>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    (id, n): (BenchmarkId, usize),
+    run: Result<Integrator<&S, M>, StartError>,
+) {
+    let mut run = run.expect("it starts");
+    group.throughput(Throughput::Elements(n as u64));
+    group.bench_function(id, |bencher| bencher.iter(|| assert!(run.advance().is_ok())));
+}
+
 fn newton(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("Toda, midpoint, Newton, h = 1");
     group.sample_size(10);
@@ -65,11 +76,8 @@ fn newton(criterion: &mut Criterion) {
         let system = Toda { n };
         let method = Variational { solver: Solver::Newton, ..Variational::midpoint() };
         let start = TodaState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
-        let Ok(mut run) = Integrator::new(&system, method, 1.0, start) else { panic!("it starts") };
-        group.throughput(Throughput::Elements(n as u64));
-        group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
-            bencher.iter(|| assert!(run.advance().is_ok()));
-        });
+        let run = Integrator::new(&system, method, 1.0, start);
+        steps(&mut group, (BenchmarkId::from_parameter(n), n), run);
     }
     group.finish();
 }
@@ -84,11 +92,8 @@ fn lattice(criterion: &mut Criterion) {
         let method = Variational { solver, ..Variational::midpoint() };
         let start = LatticeState { q: wave(n, 0.0), dot_q: wave(n, 1.0) };
         let system = Lattice { n, side };
-        let Ok(mut run) = Integrator::new(&system, method, 1.0, start) else { panic!("it starts") };
-        group.throughput(Throughput::Elements(n as u64));
-        group.bench_function(BenchmarkId::new(format!("{solver:?}"), n), |bencher| {
-            bencher.iter(|| assert!(run.advance().is_ok()));
-        });
+        let run = Integrator::new(&system, method, 1.0, start);
+        steps(&mut group, (BenchmarkId::new(format!("{solver:?}"), n), n), run);
     }
     group.finish();
 }
@@ -99,13 +104,8 @@ fn rods(criterion: &mut Criterion) {
     group.sample_size(10);
     for n in [63, 127, 255] {
         let (system, method) = (Mobile { half: n / 2 }, Constrained::new(Variational::midpoint()));
-        let Ok(mut run) = Integrator::new(&system, method, 0.01, system.at_rest()) else {
-            panic!("it starts")
-        };
-        group.throughput(Throughput::Elements(n as u64));
-        group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
-            bencher.iter(|| assert!(run.advance().is_ok()));
-        });
+        let run = Integrator::new(&system, method, 0.01, system.at_rest());
+        steps(&mut group, (BenchmarkId::from_parameter(n), n), run);
     }
     group.finish();
 }
@@ -188,12 +188,8 @@ fn many_bodies(criterion: &mut Criterion) {
         };
         for solver in [Solver::FixedPoint, Solver::Newton, Solver::NewtonKrylov] {
             let method = Sigma { solver, ..Sigma::midpoint() };
-            let Ok(mut run) = Integrator::new(&system, method, 0.1, start.clone()) else {
-                panic!("it starts")
-            };
-            group.bench_function(BenchmarkId::new(format!("{solver:?}"), n), |bencher| {
-                bencher.iter(|| assert!(run.advance().is_ok()));
-            });
+            let run = Integrator::new(&system, method, 0.1, start.clone());
+            steps(&mut group, (BenchmarkId::new(format!("{solver:?}"), n), n), run);
         }
     }
     group.finish();
@@ -315,96 +311,6 @@ fn rings(criterion: &mut Criterion) {
     group.finish();
 }
 
-macro_rules! times {
-    ($name:literal, $group:literal, $function:literal, [$($n:literal),*]) => {
-        ($name, &[$(Cell::Time(concat!($group, "/", $function, $n))),*] as &[Cell])
-    };
-}
-
-macro_rules! ratios {
-    ($name:literal, $group:literal, $one:literal over $other:literal, [$($n:literal),*]) => {
-        ($name, &[$(Cell::Ratio(
-            concat!($group, "/", $one, "/", $n),
-            concat!($group, "/", $other, "/", $n),
-        )),*] as &[Cell])
-    };
-}
-
-const RING: &[Cell] = &[
-    Cell::Ratio("a ring, ∇H/generated/1000", "a ring, ∇H/by hand/1000"),
-    Cell::Ratio("a ring, ∇H/generated/10000", "a ring, ∇H/by hand/10000"),
-    Cell::Empty,
-];
-
-const VERLET: &[Cell] = &[
-    Cell::Ratio("FPUT, Verlet/generated/1000", "FPUT, Verlet/by hand/1000"),
-    Cell::Empty,
-    Cell::Ratio("FPUT, Verlet/generated/100000", "FPUT, Verlet/by hand/100000"),
-];
-
-const TABLES: [Table; 5] = [
-    (
-        &["a step by Newton's method", "n = 100", "1000", "10⁴", "10⁵"],
-        &[times!("Toda's chain", "Toda, midpoint, Newton, h = 1", "", [100, 1000, 10000, 100000])],
-    ),
-    (
-        &["a step by Newton's method", "n = 2500", "10⁴", "40000"],
-        &[
-            times!("lattice", "lattice, midpoint, Newton, h = 1", "Newton/", [2500, 10000, 40000]),
-            times!(
-                "without a matrix",
-                "lattice, midpoint, Newton, h = 1",
-                "NewtonKrylov/",
-                [2500, 10000, 40000]
-            ),
-        ],
-    ),
-    (
-        &["a step with constraints", "n = 63", "127", "255"],
-        &[times!("rods in a tree", "rods in a tree, constrained midpoint, h = 0.01", "", [63, 127, 255])],
-    ),
-    (
-        &["ratio of times", "n = 1000", "10⁴", "10⁵"],
-        &[
-            ratios!(
-                "a step by the fixed point over its forces alone: Toda's chain",
-                "Toda, midpoint, fixed point, h = 0.1",
-                "a step" over "as many gradients",
-                [1000, 10000, 100000]
-            ),
-            ratios!(
-                "the chain of Fermi, Pasta, Ulam and Tsingou, whose forces are cheap",
-                "FPUT, midpoint, fixed point, h = 0.1",
-                "a step" over "as many gradients",
-                [1000, 10000, 100000]
-            ),
-            ratios!(
-                "the same over as many iterations by hand",
-                "FPUT, midpoint, fixed point, h = 0.1",
-                "a step" over "as many iterations by hand",
-                [1000, 10000, 100000]
-            ),
-            ratios!(
-                "a ring of oscillators, σ = ½, over ∇H alone",
-                "a ring, midpoint, fixed point, h = 0.1",
-                "a step" over "as many gradients",
-                [1000, 10000, 100000]
-            ),
-            ("∇H of a ring over a loop by hand", RING),
-            ("Verlet on the chain of Fermi, Pasta, Ulam and Tsingou over a loop by hand", VERLET),
-        ],
-    ),
-    (
-        &["ratio of times", "n = 64", "128", "256"],
-        &[ratios!(
-            "vortices: Newton's method without a matrix over that with one",
-            "vortices, midpoint",
-            "NewtonKrylov" over "Newton",
-            [64, 128, 256]
-        )],
-    ),
-];
-
 fn main() {
-    markdown::main(&[rings, newton, lattice, rods, fixed_point, many_bodies, verlet], &TABLES);
+    markdown::main(&[rings, newton, lattice, rods, fixed_point, many_bodies, verlet]);
 }

@@ -1,31 +1,15 @@
 //! What Criterion has measured in one run, as tables in Markdown for the README of the benchmarks.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Duration;
 
 use criterion::Criterion;
 use serde_json::Value;
 
-/// A table: its head, and for each row a name and cells.
-pub type Table = (&'static [&'static str], &'static [(&'static str, &'static [Cell])]);
-
-/// What a cell shows, of medians; benchmarks are named as Criterion names them, group/function.
-#[derive(Clone, Copy, Debug)]
-pub enum Cell {
-    /// The time of the first over that of the second.
-    Ratio(&'static str, &'static str),
-    /// A time.
-    Time(&'static str),
-    /// So many things, done in the time of a benchmark, in 10⁹ in a second.
-    Billions(f64, &'static str),
-    /// Nothing was measured.
-    Empty,
-}
-
-/// Medians in nanoseconds, by name.
+/// Medians in nanoseconds, by group, function and parameter, as Criterion calls them.
 #[derive(Debug)]
-pub struct Medians(BTreeMap<String, f64>);
+pub struct Medians(BTreeMap<String, BTreeMap<String, BTreeMap<u64, f64>>>);
 
 /// Measures as Criterion does; with `--markdown` for less long, and gives what was measured.
 ///
@@ -45,24 +29,28 @@ pub fn measure(groups: &[fn(&mut Criterion)]) -> Option<Medians> {
         .sample_size(30)
         .output_directory(folder.path());
     groups.iter().for_each(|group| group(&mut criterion));
-    let mut medians = BTreeMap::new();
-    collect(folder.path(), &mut medians).expect("what Criterion has written");
-    Some(Medians(medians))
+    let mut medians = Medians(BTreeMap::new());
+    medians.collect(folder.path()).expect("what Criterion has written");
+    Some(medians)
 }
 
-/// Measures, and prints tables if they are asked for.
-///
-/// # Panics
-/// If a table has a name that was not measured.
-pub fn main(groups: &[fn(&mut Criterion)], tables: &[Table]) {
-    let Some(medians) = measure(groups) else { return };
-    for (head, rows) in tables {
-        print_row(head.iter().map(|&name| name.to_owned()));
-        print_row(head.iter().map(|_| "---".to_owned()));
-        for (name, cells) in *rows {
-            print_row(
-                std::iter::once((*name).to_owned()).chain(cells.iter().map(|cell| medians.show(*cell))),
-            );
+/// Measures, and prints a table of each group if they are asked for: a row for each function, a column for
+/// each parameter, and in brackets the time over the shortest one of the column.
+pub fn main(groups: &[fn(&mut Criterion)]) {
+    let Some(Medians(medians)) = measure(groups) else { return };
+    for (group, functions) in &medians {
+        let parameters: BTreeSet<u64> = functions.values().flat_map(BTreeMap::keys).copied().collect();
+        let named = |parameter: &u64| if *parameter == 0 { String::new() } else { parameter.to_string() };
+        print_row(std::iter::once(group.clone()).chain(parameters.iter().map(named)));
+        print_row((0..=parameters.len()).map(|_| "---".to_owned()));
+        for (function, times) in functions {
+            let cell = |parameter| {
+                let Some(time) = times.get(parameter) else { return String::new() };
+                let column = functions.values().filter_map(|times| times.get(parameter));
+                let ratio = time / column.copied().fold(f64::INFINITY, f64::min);
+                format!("{:.2?} ({ratio:.2})", Duration::from_nanos(time.round() as u64))
+            };
+            print_row(std::iter::once(function.clone()).chain(parameters.iter().map(cell)));
         }
         println!();
     }
@@ -74,39 +62,32 @@ pub fn print_row(cells: impl Iterator<Item = String>) {
 }
 
 impl Medians {
-    /// The median of a benchmark, in nanoseconds.
+    /// The median of a benchmark without a parameter, in nanoseconds.
     ///
     /// # Panics
     /// If nothing of that name was measured.
-    pub fn of(&self, name: &str) -> f64 {
-        *self.0.get(name).unwrap_or_else(|| panic!("`{name}` is none of {:?}", self.0.keys()))
+    pub fn of(&self, group: &str, function: &str) -> f64 {
+        self.0[group][function][&0]
     }
 
-    fn show(&self, cell: Cell) -> String {
-        match cell {
-            Cell::Ratio(one, other) => format!("{:.2}", self.of(one) / self.of(other)),
-            Cell::Time(name) => format!("{:.2?}", Duration::from_nanos(self.of(name).round() as u64)),
-            Cell::Billions(count, name) => format!("{:.2}", count / self.of(name)),
-            Cell::Empty => String::new(),
+    /// Reads the names and medians below a folder.
+    fn collect(&mut self, folder: &Path) -> std::io::Result<()> {
+        for entry in std::fs::read_dir(folder)? {
+            let path = entry?.path();
+            if path.ends_with("new") {
+                let read = |file: &str| -> std::io::Result<Value> {
+                    Ok(serde_json::from_str(&std::fs::read_to_string(path.join(file))?)?)
+                };
+                let (benchmark, estimates) = (read("benchmark.json")?, read("estimates.json")?);
+                let name = |id: &str| benchmark[id].as_str().unwrap_or_default().to_owned();
+                let parameter = name("value_str").parse().unwrap_or(0);
+                let median = estimates["median"]["point_estimate"].as_f64().expect("a median");
+                let functions = self.0.entry(name("group_id")).or_default();
+                functions.entry(name("function_id")).or_default().insert(parameter, median);
+            } else if path.is_dir() {
+                self.collect(&path)?;
+            }
         }
+        Ok(())
     }
-}
-
-/// Reads the names and medians below a folder.
-fn collect(folder: &Path, medians: &mut BTreeMap<String, f64>) -> std::io::Result<()> {
-    for entry in std::fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.ends_with("new") {
-            let read = |file: &str| -> std::io::Result<Value> {
-                Ok(serde_json::from_str(&std::fs::read_to_string(path.join(file))?)?)
-            };
-            let (benchmark, estimates) = (read("benchmark.json")?, read("estimates.json")?);
-            let name = benchmark["full_id"].as_str().expect("a name");
-            let median = estimates["median"]["point_estimate"].as_f64().expect("a median");
-            medians.insert(name.to_owned(), median);
-        } else if path.is_dir() {
-            collect(&path, medians)?;
-        }
-    }
-    Ok(())
 }

@@ -14,7 +14,6 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use dvi_core::fast_sum::FastSum;
 use dvi_core::prelude::*;
 use dvi_core::{DegenerateLagrangian, System};
-use markdown::{Cell, Table};
 use rayon::ThreadPoolBuilder;
 
 /// Vortices in the plane.
@@ -191,43 +190,6 @@ fn checks(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// The ordered pairs of 1024 vortices.
-const PAIRS: f64 = 1024.0 * 1023.0;
-
-macro_rules! rate {
-    ($name:literal) => {
-        ($name, &[Cell::Billions(PAIRS, concat!("∇H of n vortices/", $name, "/1024"))] as &[Cell])
-    };
-}
-
-macro_rules! time {
-    ($name:literal) => {
-        ($name, &[Cell::Time(concat!("∇H of many vortices/", $name, "/100000"))] as &[Cell])
-    };
-}
-
-const TABLES: [Table; 2] = [
-    (
-        &["∇H of 1024 vortices", "10⁹ pairs in a second"],
-        &[
-            rate!("generated, 1 thread(s)"),
-            rate!("generated, 2 thread(s)"),
-            rate!("by hand, vortex by vortex"),
-            rate!("by hand, each pair once"),
-            rate!("by hand, each pair once, in lanes"),
-        ],
-    ),
-    (
-        &["∇H of 10⁵ vortices", "time"],
-        &[
-            time!("all pairs, 1 thread(s)"),
-            time!("all pairs, 2 thread(s)"),
-            time!("fast sum, 1 thread(s)"),
-            time!("fast sum, 2 thread(s)"),
-        ],
-    ),
-];
-
 fn main() {
-    markdown::main(&[gradients, fast_sums, checks], &TABLES);
+    markdown::main(&[gradients, fast_sums, checks]);
 }

@@ -4,9 +4,10 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_core::{Real, Scalar, State};
 
+pub mod fields;
+pub mod laws;
 pub mod steps;
 pub mod systems;
-pub mod twice;
 pub mod zoo;
 
 /// What a test comes to: a value, or what is wrong.
@@ -47,6 +48,11 @@ impl Numbers {
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// One in [`from`, `to`).
+    pub fn between(&mut self, [from, to]: [f64; 2]) -> f64 {
+        from + (to - from) * (1.0 + self.next()) / 2.0
     }
 }
 

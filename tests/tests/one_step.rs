@@ -5,8 +5,8 @@ use dvi_core::prelude::*;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_examples::models::{TokamakInClass, TokamakInClassState};
 use dvi_tests::Outcome;
+use dvi_tests::laws::systems::{Belt, Mixed};
 use dvi_tests::systems::{SphereForm, SphereFormState};
-use dvi_tests::twice::systems::{Belt, Mixed};
 use dvi_tests::zoo::gauges::OneSided;
 
 const PREY: OneSided = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };

@@ -4,38 +4,24 @@
 use approx::abs_diff_eq;
 use dvi_core::Scalar;
 use dvi_core::field::{Axis, Expansion, ScalarField, Spline, SplineError};
-use dvi_tests::Outcome;
-use dvi_tests::larger;
+use dvi_tests::fields::{self, by_dual_numbers};
+use dvi_tests::{Numbers, Outcome, larger};
 use num_dual::HyperDual64;
 
-/// Numbers in [0, 1), the same in each run.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, [from, to]: [f64; 2]) -> f64 {
-        from + (to - from) * self.next()
-    }
-
-    /// Points from `from` on whose distances differ by up to a factor of 2.
-    fn points(&mut self, from: f64, count: usize, distance: f64) -> Vec<f64> {
-        let mut at = from;
-        let mut step = || {
-            let here = at;
-            at += distance * self.between([0.7, 1.4]);
-            here
-        };
-        (0..count).map(|_| step()).collect()
-    }
+/// Points from `from` on whose distances differ by up to a factor of 2.
+fn points(numbers: &mut Numbers, from: f64, count: usize, distance: f64) -> Vec<f64> {
+    let mut at = from;
+    let mut step = || {
+        let here = at;
+        at += distance * numbers.between([0.7, 1.4]);
+        here
+    };
+    (0..count).map(|_| step()).collect()
 }
 
 /// Axes from −1 to 2, uniform, uneven, and periodic, one of the periodic ones with both ends.
 fn axes(count: usize) -> Result<[Axis; 4], SplineError> {
-    let mut uneven = Numbers(7).points(0.0, count, 1.0);
+    let mut uneven = points(&mut Numbers(7), 0.0, count, 1.0);
     let last = uneven[count - 1];
     uneven.iter_mut().for_each(|x| *x = (3.0 * *x / last - 1.0).min(2.0));
     let uniform = Axis::uniform([-1.0, 2.0], count)?;
@@ -47,29 +33,9 @@ fn axes(count: usize) -> Result<[Axis; 4], SplineError> {
     ])
 }
 
-/// A function of D variables, of period 3 in each, that treats none as the other.
+/// Of period 3, as the axes are.
 fn smooth<const D: usize, T: Scalar>(at: [T; D]) -> T {
-    let wave = |i: usize| (at[i] * T::lift(std::f64::consts::TAU / 3.0) + T::lift(0.3 + i as f64)).sin();
-    let sum = (0..D).fold(T::lift(0.0), |sum, i| sum + wave(i) * T::lift(0.5 + 0.25 * i as f64));
-    sum + wave(0) * wave(D - 1)
-}
-
-/// Value, gradient and Hessian of a function by dual numbers.
-fn by_dual_numbers<const D: usize>(
-    at: [f64; D],
-    f: impl Fn([HyperDual64; D]) -> HyperDual64,
-) -> Expansion<D> {
-    let mut expansion = Expansion { value: 0.0, gradient: [0.0; D], hessian: [[0.0; D]; D] };
-    for i in 0..D {
-        for j in 0..D {
-            let mut x = at.map(HyperDual64::from);
-            x[i].eps1 = 1.0;
-            x[j].eps2 = 1.0;
-            let f = f(x);
-            (expansion.value, expansion.gradient[i], expansion.hessian[i][j]) = (f.re, f.eps1, f.eps1eps2);
-        }
-    }
-    expansion
+    fields::smooth(3.0, at)
 }
 
 /// What is said of what is refused; nothing of what is not.

@@ -7,8 +7,8 @@ use dvi_core::prelude::*;
 use dvi_core::system::TimeTransform;
 use dvi_core::{ProperlyDegenerate, Space};
 use dvi_tests::Outcome;
+use dvi_tests::laws::systems::Belt;
 use dvi_tests::steps::{apart, jacobian, stepped};
-use dvi_tests::twice::systems::Belt;
 use nalgebra::DMatrix;
 use num_dual::Dual64;
 

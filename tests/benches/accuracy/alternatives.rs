@@ -7,8 +7,7 @@ use anyhow::{Context as _, Result, ensure};
 
 use crate::measure::Point;
 
-/// Rows of the file: points of a problem, and nanoseconds of a residual with its Jacobian, as the problem
-/// `derivatives`.
+/// Rows of the file: points of a problem.
 pub(crate) struct Alternatives(Vec<(String, Point)>);
 
 impl Alternatives {

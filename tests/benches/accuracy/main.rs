@@ -1,5 +1,5 @@
-//! Accuracy against cost, in times: methods of this library, methods by hand, and other programs on four
-//! vortices, on a Kepler orbit and on the outer solar system.
+//! Accuracy against cost, in times: methods of this library and other programs on four vortices, on a Kepler
+//! orbit and on the outer solar system.
 //!
 //! `cargo bench -p dvi-benches --bench accuracy [-- --out DIR]`. For each problem and each method a sweep
 //! over steps or tolerances gives points of cost and accuracy. The table has the time of the fastest run
@@ -7,13 +7,10 @@
 //! steps, of a run that is not timed; the run that is timed looks at no energy. A time is that of the
 //! processor, and the median of interleaved runs in one process.
 //!
-//! What is written, in `accuracy` in the target folder or in DIR: a CSV of all points, and a figure for each
-//! problem. If `alternatives.csv` is there, which `tests/benches/alternatives/run` writes, its points are
-//! among them.
+//! What is written, in `accuracy` in the target folder or in DIR: a CSV of all points. If `alternatives.csv`
+//! is there, which `tests/benches/alternatives/run` writes, its points are among them.
 
 mod alternatives;
-mod by_hand;
-mod derivatives;
 mod fields;
 mod measure;
 mod ours;
@@ -41,11 +38,9 @@ fn main() -> Result<()> {
         points.extend(alternatives.of(problem.name));
         let measured = Measured { problem, points };
         measured.print();
-        measured.draw(&folder)?;
         all.push(measured);
     }
     report::write(&all, &folder)?;
-    derivatives::print(&alternatives);
     let [vortices, _, planets] = &all[..] else { bail!("three problems") };
     println!();
     for gauss in [GAUSS_16, TO_TOLERANCE] {

@@ -4,7 +4,7 @@ use cpu_time::ThreadTime;
 
 /// A motion from one state to one time.
 pub(crate) struct Problem {
-    /// The name of its files.
+    /// Its name in the table of all points.
     pub(crate) name: &'static str,
     pub(crate) title: &'static str,
     /// What is kept: |ΔH| or |ΔH|/|H|.

@@ -9,7 +9,6 @@ use dvi_examples::models::{
     outer_solar_system, quasi_periodic,
 };
 
-use crate::by_hand::{kahan_li, rk4};
 use crate::fields;
 use crate::ours::Setting;
 use crate::problem::{Problem, Scale, steps_up_to, tolerances};
@@ -98,8 +97,7 @@ pub(crate) fn vortices() -> Problem {
         on.method("Kahan–Li 8 of the midpoint rule", Composition::kahan_li_8(Gauss::<1>::new()), fine(2e4)),
     ];
     methods.extend(gauss!(on, 4e5, 4e4, 2e4, 4e3));
-    methods.push(rk4(field.clone(), start, end, scale, coarse(4e5)));
-    methods.extend(Task { field, start, end, scale, absolute: 1.0 }.methods(&tolerances(15)));
+    methods.push(Task { field, start, end, scale, absolute: 1.0 }.method(&tolerances(15)));
     Problem { name: "vortices", title: "four vortices, T = 1000", error: "|ΔH|", methods }
 }
 
@@ -115,10 +113,8 @@ pub(crate) fn kepler() -> Problem {
     methods.extend(gauss!(on, 1e6, 1e5, 5e4, 1e4));
     methods.extend(galerkin!(on, 5e4, 1e4));
     let start = [x, y, dot_x, dot_y];
-    methods.push(rk4(fields::Kepler, start, end, scale, coarse(2e6)));
-    methods.push(kahan_li(fields::Kepler, [[x, y], [dot_x, dot_y]], end, scale, fine(5e4)));
     let task = Task { field: fields::Kepler, start, end, scale, absolute: 1.0 };
-    methods.extend(task.methods(&tolerances(15)));
+    methods.push(task.method(&tolerances(15)));
     Problem { name: "kepler", title: "Kepler, e = 0.6, 100 periods", error: "|ΔH|/|H|", methods }
 }
 
@@ -136,10 +132,8 @@ pub(crate) fn planets() -> Problem {
     let flat = |of: [[f64; 3]; 6]| -> [f64; 18] { std::array::from_fn(|i| of[i % 6][i / 6]) };
     let (q, v) = (flat(at.r), flat(at.dot_r));
     let start: [f64; 36] = std::array::from_fn(|i| if i < 18 { q[i] } else { v[i - 18] });
-    methods.push(rk4(field.clone(), start, end, scale, coarse(8e5)));
-    methods.push(kahan_li(field.clone(), [q, v], end, scale, fine(3e4)));
     // Velocities are a thousandth of the positions, and have their share of the tolerance.
     let task = Task { field, start, end, scale, absolute: 1e-3 };
-    methods.extend(task.methods(&tolerances(15)));
+    methods.push(task.method(&tolerances(15)));
     Problem { name: "planets", title: "outer solar system, 10⁶ days", error: "|ΔH|/|H|", methods }
 }

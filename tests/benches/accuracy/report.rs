@@ -1,17 +1,13 @@
-//! What is printed and written: tables, a CSV of all points, and a figure for each problem.
+//! What is printed and written: tables, and a CSV of all points.
 
 use std::path::Path;
 
 use anyhow::Result;
-use dvi_examples::figure::{
-    AMBER, Axis, BLUE, Colour, Corner, Figure, GREEN, INK, PURPLE, Panel, SKY, SLATE, Stroke, VERMILLION,
-    dashed, solid,
-};
 use dvi_examples::output::Table;
 
 use crate::measure::Point;
 use crate::problem::Problem;
-use crate::problems::{GAUSS_16, REFERENCE};
+use crate::problems::REFERENCE;
 
 /// Bounds of the error for which the table has the smallest cost.
 const BOUNDS: [f64; 3] = [1e-6, 1e-10, 1e-13];
@@ -62,32 +58,6 @@ impl Measured<'_> {
         let [ratio, evaluations] = [ratio, evaluations].map(|text| text.unwrap_or_default());
         format!("{:.3}{ratio}{evaluations}", point.milliseconds)
     }
-
-    /// Writes `accuracy-<problem>.svg` and `.png`.
-    pub(crate) fn draw(&self, folder: &Path) -> Result<()> {
-        let x = Axis::logarithmic("milliseconds");
-        let y = Axis::logarithmic(format!("max {}", self.problem.error)).within([1e-16, 1e-2]);
-        let colours = [SLATE, SKY, GREEN, PURPLE, AMBER, BLUE, INK];
-        let mut panel = Panel::new("", x, y).legend_at(Corner::Beside);
-        for (i, method) in self.methods().into_iter().enumerate() {
-            let emphasised = method == GAUSS_16;
-            let stroke = if emphasised { solid(VERMILLION).width(3.4) } else { stroke(i, colours) };
-            let points = self.points.iter().filter(|point| point.method == method);
-            let points: Vec<[f64; 2]> = points.map(|point| [point.milliseconds, point.error]).collect();
-            panel = panel.line(points.clone(), stroke).labelled(method).dots(points, 2.4, stroke.colour());
-        }
-        let Problem { title, name, .. } = self.problem;
-        let subtitle = "Medians of interleaved runs; the energy is looked at after each step of a run that \
-                        is not timed";
-        let figure = Figure::of(subtitle).titled(&format!("Accuracy against cost: {title}"));
-        figure.row(620.0, vec![panel]).save(folder, &format!("accuracy-{name}"))
-    }
-}
-
-/// Solid lines first, then dashed ones in the same colours.
-fn stroke(i: usize, colours: [Colour; 7]) -> Stroke {
-    let colour = colours[i % colours.len()];
-    if i < colours.len() { solid(colour) } else { dashed(colour) }
 }
 
 /// Writes `accuracy.csv` with all points.

@@ -8,14 +8,16 @@ fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
 }
 
 macro_rules! of_four_pairs {
-    ($name:ident $state:ident: $($arguments:tt)*) => {
+    ($name:ident $state:ident $({ $field:ident: $type:ty = $value:expr })?: $($arguments:tt)*) => {
         #[degenerate_lagrangian(
             coordinates(x[4], y[4]),
             one_form = sum(0..4, |j| x[j] * d(y[j])),
             $($arguments)*
         )]
-        pub struct $name;
-        const _: fn() = || stepped($name, $state { x: [1.0; 4], y: [0.0; 4] });
+        pub struct $name {
+            $(pub $field: $type)?
+        }
+        const _: fn() = || stepped($name { $($field: $value)? }, $state { x: [1.0; 4], y: [0.0; 4] });
     };
 }
 
@@ -30,96 +32,42 @@ of_four_pairs! { NeighbourOfTheFirst NeighbourOfTheFirstState:
     hamiltonian = sum(0..=3, |j| x[j - 1] * x[j])
 }
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = sum(0..4, |j| a[j] * x[j] * x[j]) + y[0],
-)]
-pub struct ParameterArrayTooShort {
-    pub a: [f64; 3],
+of_four_pairs! { ParameterArrayTooShort ParameterArrayTooShortState { a: [f64; 3] = [1.0; 3] }:
+    hamiltonian = sum(0..4, |j| a[j] * x[j] * x[j]) + y[0]
 }
-const _: fn() =
-    || stepped(ParameterArrayTooShort { a: [1.0; 3] }, ParameterArrayTooShortState { x: [1.0; 4], y: [0.0; 4] });
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = a[0][2] * x[0] + y[0],
-)]
-pub struct MatrixTooNarrow {
-    pub a: [[f64; 2]; 3],
+of_four_pairs! { MatrixTooNarrow MatrixTooNarrowState { a: [[f64; 2]; 3] = [[1.0; 2]; 3] }:
+    hamiltonian = a[0][2] * x[0] + y[0]
 }
-const _: fn() =
-    || stepped(MatrixTooNarrow { a: [[1.0; 2]; 3] }, MatrixTooNarrowState { x: [1.0; 4], y: [0.0; 4] });
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = a[0] * x[0] + y[0],
-)]
-pub struct OneIndexForAMatrix {
-    pub a: [[f64; 2]; 3],
+of_four_pairs! { OneIndexForAMatrix OneIndexForAMatrixState { a: [[f64; 2]; 3] = [[1.0; 2]; 3] }:
+    hamiltonian = a[0] * x[0] + y[0]
 }
-const _: fn() =
-    || stepped(OneIndexForAMatrix { a: [[1.0; 2]; 3] }, OneIndexForAMatrixState { x: [1.0; 4], y: [0.0; 4] });
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = a[0][1] * x[0] + y[0],
-)]
-pub struct TwoIndicesForAList {
-    pub a: [f64; 3],
+of_four_pairs! { TwoIndicesForAList TwoIndicesForAListState { a: [f64; 3] = [1.0; 3] }:
+    hamiltonian = a[0][1] * x[0] + y[0]
 }
-const _: fn() =
-    || stepped(TwoIndicesForAList { a: [1.0; 3] }, TwoIndicesForAListState { x: [1.0; 4], y: [0.0; 4] });
 
 of_four_pairs! { IndexOutsideOfItsSum IndexOutsideOfItsSumState:
     hamiltonian = sum(0..4, |j| x[j] * x[j]) + y[j]
 }
 
 of_four_pairs! { IndexAsANumber IndexAsANumberState: hamiltonian = sum(0..4, |j| j * x[j]) + y[0] }
-
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = x[1.0] + y[a],
-)]
-pub struct NumberAsAnIndex {
-    pub a: f64,
-}
-const _: fn() = || stepped(NumberAsAnIndex { a: 1.0 }, NumberAsAnIndexState { x: [1.0; 4], y: [0.0; 4] });
-
+of_four_pairs! { NumberAsAnIndex NumberAsAnIndexState { a: f64 = 1.0 }: hamiltonian = x[1.0] + y[a] }
 of_four_pairs! { MisspeltIndex MisspeltIndexState: hamiltonian = sum(0..4, |site| x[site] * y[sit]) }
 of_four_pairs! { ArrayWithoutIndex ArrayWithoutIndexState: hamiltonian = x * x + y[0] }
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = a * x + y)]
-pub struct ParameterArrayWithoutIndex {
-    pub a: Vec<f64>,
+of_four_pairs! { ParameterArrayWithoutIndex ParameterArrayWithoutIndexState { a: Vec<f64> = vec![1.0] }:
+    hamiltonian = a * x[0] + y[0]
 }
-const _: fn() =
-    || stepped(ParameterArrayWithoutIndex { a: vec![1.0] }, ParameterArrayWithoutIndexState { x: 1.0, y: 0.0 });
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x[0] + y)]
 pub struct IndexOnASingleCoordinate;
-const _: fn() = || stepped(IndexOnASingleCoordinate, IndexOnASingleCoordinateState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = a[0] * x + y)]
-pub struct IndexOnASingleParameter {
-    pub a: f64,
+of_four_pairs! { IndexOnASingleParameter IndexOnASingleParameterState { a: f64 = 1.0 }:
+    hamiltonian = a[0] * x[0] + y[0]
 }
-const _: fn() =
-    || stepped(IndexOnASingleParameter { a: 1.0 }, IndexOnASingleParameterState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(
-    coordinates(x[4], y[4]),
-    one_form = sum(0..4, |j| x[j] * d(y[j])),
-    hamiltonian = x[0][1] + y[0],
-)]
-pub struct TwoIndicesForACoordinate;
-const _: fn() =
-    || stepped(TwoIndicesForACoordinate, TwoIndicesForACoordinateState { x: [1.0; 4], y: [0.0; 4] });
-
+of_four_pairs! { TwoIndicesForACoordinate TwoIndicesForACoordinateState: hamiltonian = x[0][1] + y[0] }
 of_four_pairs! { IndexOfAnExpression IndexOfAnExpressionState: hamiltonian = (x[0] + y[0])[0] }
 of_four_pairs! { ProductOfIndices ProductOfIndicesState:
     hamiltonian = sum_pairs(0..2, |j, k| x[j * k] * y[j])

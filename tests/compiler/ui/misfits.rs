@@ -44,48 +44,28 @@ fn another_kind() -> Outcome {
     Ok(())
 }
 
-fn owned() -> Outcome {
-    let mut run = Integrator::new(Vortex, Variational::trapezoid(), 0.1, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
+/// A run that is used, without errors beside the one where it begins.
+macro_rules! run {
+    ($name:ident: $begun:expr) => {
+        fn $name() -> Outcome {
+            let mut run = $begun?;
+            run.take_steps(100)?;
+            println!("{:?} {}", run.state(), run.energy());
+            Ok(())
+        }
+    };
 }
 
-fn not_separable() -> Outcome {
-    let mut run = Integrator::new(&Bead, Newmark::new(0.25), 0.1, BEAD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn constrained_and_separable() -> Outcome {
-    let mut run = Integrator::new(&Rod, Newmark::new(0.25), 0.1, ROD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn out_of_class() -> Outcome {
-    let mut run = Integrator::new(&Vortex, OneStep::midpoint(), 0.1, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn composed() -> Outcome {
+run! { owned: Integrator::new(Vortex, Variational::trapezoid(), 0.1, VORTEX) }
+run! { not_separable: Integrator::new(&Bead, Newmark::new(0.25), 0.1, BEAD) }
+run! { constrained_and_separable: Integrator::new(&Rod, Newmark::new(0.25), 0.1, ROD) }
+run! { out_of_class: Integrator::new(&Vortex, OneStep::midpoint(), 0.1, VORTEX) }
+run! { composed: {
     let method = Composition::yoshida(Variational::midpoint());
-    let mut run = Integrator::new(&Vortex, EnergyLimit { method, limit: 1e-3 }, 0.1, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
+    Integrator::new(&Vortex, EnergyLimit { method, limit: 1e-3 }, 0.1, VORTEX)
+} }
 
-fn without_constraints() -> Outcome {
-    let mut run = Integrator::new(&Bead, Constrained::new(Variational::midpoint()), 0.1, BEAD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
+run! { without_constraints: Integrator::new(&Bead, Constrained::new(Variational::midpoint()), 0.1, BEAD) }
 
 fn controlled() -> Outcome {
     let control = ErrorControl::new(1e-9, 0.1);
@@ -103,18 +83,9 @@ fn a_control_of_another_kind() -> Outcome {
     Ok(())
 }
 
-fn two_points() -> Outcome {
-    let mut run = Integrator::from_two_points(&Bead, Sigma::midpoint(), 0.1, BEAD, BEAD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn composed_of_one_length() -> Outcome {
-    let mut run = Integrator::new(&Vortex, Composition::yoshida(Sigma::midpoint()), 0.1, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
+run! { two_points: Integrator::from_two_points(&Bead, Sigma::midpoint(), 0.1, BEAD, BEAD) }
+run! { composed_of_one_length:
+    Integrator::new(&Vortex, Composition::yoshida(Sigma::midpoint()), 0.1, VORTEX)
 }
 
 fn resumed(checkpoint: &Checkpoint) -> Outcome {
@@ -125,43 +96,21 @@ fn resumed(checkpoint: &Checkpoint) -> Outcome {
     Ok(())
 }
 
-fn a_spin_is_degenerate() -> Outcome {
-    let mut run = Integrator::new(&Spin, Geodesic::midpoint(), 0.1, SPIN)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
+run! { a_spin_is_degenerate: Integrator::new(&Spin, Geodesic::midpoint(), 0.1, SPIN) }
+run! { two_points_of_another_method:
+    Integrator::from_two_points(&Bead, Newmark::new(0.25), 0.1, BEAD, BEAD)
 }
 
-fn two_points_of_another_method() -> Outcome {
-    let mut run = Integrator::from_two_points(&Bead, Newmark::new(0.25), 0.1, BEAD, BEAD)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
+run! { neither_method_nor_control:
+    Integrator::controlled(&Vortex, Sigma::midpoint(), Reversible::power(0.02, 1.5), VORTEX)
 }
 
-fn neither_method_nor_control() -> Outcome {
-    let control = Reversible::power(0.02, 1.5);
-    let mut run = Integrator::controlled(&Vortex, Sigma::midpoint(), control, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
-
-fn limited_under_a_control() -> Outcome {
+run! { limited_under_a_control: {
     let method = EnergyLimit { method: Newmark::new(0.25), limit: 1e-3 };
-    let control = Reversible::power(0.02, 1.5);
-    let mut run = Integrator::controlled(&Vortex, method, control, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
+    Integrator::controlled(&Vortex, method, Reversible::power(0.02, 1.5), VORTEX)
+} }
 
-fn no_impacts() -> Outcome {
-    let mut run = Integrator::new(&Vortex, Impacts::reflecting(Sigma::midpoint()), 0.1, VORTEX)?;
-    run.take_steps(100)?;
-    println!("{:?} {}", run.state(), run.energy());
-    Ok(())
-}
+run! { no_impacts: Integrator::new(&Vortex, Impacts::reflecting(Sigma::midpoint()), 0.1, VORTEX) }
 
 /// A run whose type is written out: one error where it begins, and one for each function that is called.
 struct Written<'a> {

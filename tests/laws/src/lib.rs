@@ -15,7 +15,7 @@ use dvi_core::methods::{Composition, EnergyLimit};
 use dvi_core::prelude::*;
 
 pub use case::{Case, Fused, Options};
-pub use dvi_tests::twice::{equations, formula, fuse, systems};
+pub use dvi_tests::laws::{equations, formula, fuse, systems};
 use equations::{Equations, Nodes};
 use formula::{Formula, Subject};
 use systems::*;

@@ -1,5 +1,5 @@
 //! A step solves the equations that define its scheme, forwards and backwards, at t ≠ 0, however it is
-//! solved and added up. Their derivatives are taken by dual numbers from a Lagrangian in plain Rust.
+//! solved and added up. Their derivatives are those of the Lagrangian by dual numbers.
 //!
 //! - p0 + D₁L_d + F⁻ = 0 and p1 = D₂L_d + F⁺ of a discrete Lagrangian, where it is stationary in
 //!   interior displacements; up to multiples of the gradients of constraints, which both ends fulfil, and the

@@ -1,5 +1,5 @@
 //! What the library says of a state: L, E = ∂L/∂v·v − L, and the motion, d/dt ∂L/∂v = ∂L/∂q + F + Gᵀλ, which
-//! are made of L in plain Rust by hyper-dual numbers.
+//! are made of L by hyper-dual numbers.
 
 use dvi_laws::Case;
 use dvi_laws::equations::apart;

@@ -1,5 +1,5 @@
 //! The error after a given time falls like hᵖ, with the order p that a scheme says it has. The motion is
-//! that of the equations of motion, which are made from the Lagrangian in plain Rust by hyper-dual
+//! that of the equations of motion, which are made from the Lagrangian by hyper-dual
 //! numbers.
 
 use dvi_core::prelude::convergence_order;

@@ -7,7 +7,7 @@
 //!   dq0 ∧ dq1 (Rowley & Marsden 2002, eq. 17).
 //! - [`Conjugate`](PreservedForm::Conjugate): Σ dq' ∧ dp with q' = q + c₁h q̇ + c₂h² q̈, as the table says.
 //!
-//! Momenta and their variations are those of the Lagrangian in plain Rust.
+//! Momenta and their variations are derivatives of the Lagrangian by dual numbers.
 
 use dvi_core::methods::PreservedForm;
 use dvi_laws::Case;

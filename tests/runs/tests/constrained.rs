@@ -11,6 +11,8 @@ use dvi_tests::zoo::constrained::{Double, DoubleState, Pendulum, PendulumState};
 use dvi_tests::{Numbers, larger};
 use nalgebra::{DMatrix, DVector};
 
+use crate::continuation::continued;
+
 /// Masses on rods of length one, the first of which is held at one end.
 #[lagrangian(
     coordinates(x[N], y[N]),
@@ -39,49 +41,31 @@ fn gradients<const N: usize>(at: &Points<N>) -> [Points<N>; N] {
 }
 
 /// The end of a step by continuation in its length; `None` where solutions meet on the way.
-fn continued<const N: usize>(m: &[f64; N], start: &Points<N>, v: &Points<N>, h: f64) -> Option<Points<N>> {
-    const PIECES: u32 = 400;
+fn end_of_motion<const N: usize>(
+    m: &[f64; N],
+    start: &Points<N>,
+    v: &Points<N>,
+    h: f64,
+) -> Option<Points<N>> {
     let before = gradients(start);
-    let (mut impulses, mut end, mut first) = (DVector::<f64>::zeros(N), *start, 0.0);
-    for piece in 0..=PIECES {
-        let h = h * f64::from(piece) / f64::from(PIECES);
-        let mut change = f64::INFINITY;
-        for _ in 0..30 {
-            end = core::array::from_fn(|i| {
-                [0, 1].map(|axis| {
-                    let pushed = (0..N).map(|k| before[k][i][axis] * impulses[k]).sum::<f64>();
-                    start[i][axis] + h * v[i][axis] + pushed / m[i]
-                })
-            });
-            let after = gradients(&end);
-            let value = DVector::<f64>::from_fn(N, |k, _| {
-                let rod = after[k][k];
-                (rod[0] * rod[0] + rod[1] * rod[1] - 1.0) / 2.0
-            });
-            let matrix = DMatrix::<f64>::from_fn(N, N, |k, l| {
-                let product = |i: usize| after[k][i][0] * before[l][i][0] + after[k][i][1] * before[l][i][1];
-                (0..N).map(|i| product(i) / m[i]).sum()
-            });
-            let factors = matrix.lu();
-            let determinant = factors.determinant();
-            if piece == 0 {
-                first = determinant;
-            }
-            if determinant / first < 1e-3 {
-                return None;
-            }
-            let correction = factors.solve(&value)?;
-            impulses -= &correction;
-            change = correction.amax();
-            if change < 1e-14 * (1.0 + impulses.amax()) {
-                break;
-            }
-        }
-        if change > 1e-9 * (1.0 + impulses.amax()) {
-            return None;
-        }
-    }
-    Some(end)
+    let end = |h: f64, impulses: &DVector<f64>| -> Points<N> {
+        core::array::from_fn(|i| {
+            [0, 1].map(|axis| {
+                let pushed = (0..N).map(|k| before[k][i][axis] * impulses[k]).sum::<f64>();
+                start[i][axis] + h * v[i][axis] + pushed / m[i]
+            })
+        })
+    };
+    let impulses = continued((h, 400, N), DVector::zeros(N), |h, impulses| {
+        let after = gradients(&end(h, impulses));
+        let off = |k: usize| (after[k][k].iter().map(|x| x * x).sum::<f64>() - 1.0) / 2.0;
+        let product = |k: usize, l: usize, i: usize| {
+            (after[k][i][0] * before[l][i][0] + after[k][i][1] * before[l][i][1]) / m[i]
+        };
+        let matrix = DMatrix::from_fn(N, N, |k, l| (0..N).map(|i| product(k, l, i)).sum());
+        (DVector::from_fn(N, |k, _| off(k)), matrix)
+    })?;
+    Some(end(h, &impulses))
 }
 
 /// How many of the steps end where the continuation does, and how many somewhere else.
@@ -109,7 +93,7 @@ fn compare<const N: usize, M: Method<Chain<N>, f64> + Clone>(
             continue;
         }
         let found = run.state();
-        let apart = continued(&m, &at, &v, h).map(|end| {
+        let apart = end_of_motion(&m, &at, &v, h).map(|end| {
             let distance = |i: usize| larger((found.x[i] - end[i][0]).abs(), (found.y[i] - end[i][1]).abs());
             (0..N).map(distance).fold(0.0, larger)
         });

@@ -5,6 +5,7 @@
 
 mod angular_momentum;
 mod constrained;
+mod continuation;
 mod drift;
 mod error_control;
 mod events;

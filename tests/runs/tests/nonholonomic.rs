@@ -13,6 +13,8 @@ use dvi_tests::zoo::nonholonomic::Bundle;
 use dvi_tests::{Numbers, larger};
 use nalgebra::{DMatrix, DVector};
 
+use crate::continuation::continued;
+
 /// A disc that rolls upright, whose wheel is light.
 #[lagrangian(
     coordinates(x, y, heading, roll),
@@ -43,60 +45,32 @@ fn linearised<S: NonholonomicLagrangian>(
 }
 
 /// The velocity Δ/h of a step by continuation in its length; `None` where solutions meet on the way.
-fn continued<S: NonholonomicLagrangian>(
+fn velocity<S: NonholonomicLagrangian>(
     system: &S,
     m: [f64; 4],
     q: &[f64],
     v: &[f64],
     h: f64,
 ) -> Option<Vec<f64>> {
-    const PIECES: u32 = 100;
     let (_, before) = linearised(system, q, v, [0.0, 1.0]);
-    let mut unknowns = DVector::from_fn(6, |i, _| if i < 4 { v[i] } else { 0.0 });
-    let mut first = 0.0;
-    for piece in 0..=PIECES {
-        let h = h * f64::from(piece) / f64::from(PIECES);
-        let mut change = f64::INFINITY;
-        for _ in 0..30 {
-            let w: Vec<f64> = unknowns.iter().copied().take(4).collect();
-            let middle: Vec<f64> = (0..4).map(|i| q[i] + h / 2.0 * w[i]).collect();
-            let (a, rows) = linearised(system, &middle, &w, [h / 2.0, 1.0]);
-            let residual = DVector::from_fn(6, |i, _| match i {
-                0..4 => m[i] * (w[i] - v[i]) - (0..2).map(|k| before[(k, i)] * unknowns[4 + k]).sum::<f64>(),
-                k => a[k - 4],
-            });
-            let matrix = DMatrix::from_fn(6, 6, |i, j| match (i < 4, j < 4) {
-                (true, true) => {
-                    if i == j {
-                        m[i]
-                    } else {
-                        0.0
-                    }
-                }
-                (true, false) => -before[(j - 4, i)],
-                (false, true) => rows[(i - 4, j)],
-                (false, false) => 0.0,
-            });
-            let factors = matrix.lu();
-            let determinant = factors.determinant();
-            if piece == 0 {
-                first = determinant;
-            }
-            if determinant / first < 1e-3 {
-                return None;
-            }
-            let correction = factors.solve(&residual)?;
-            unknowns -= &correction;
-            change = correction.rows(0, 4).amax();
-            if change < 1e-13 * (1.0 + unknowns.rows(0, 4).amax()) {
-                break;
-            }
-        }
-        if change > 1e-9 * (1.0 + unknowns.rows(0, 4).amax()) {
-            return None;
-        }
-    }
-    Some(unknowns.iter().copied().take(4).collect())
+    let start = DVector::from_fn(6, |i, _| if i < 4 { v[i] } else { 0.0 });
+    let unknowns = continued((h, 100, 4), start, |h, unknowns| {
+        let w = &unknowns.as_slice()[..4];
+        let middle: Vec<f64> = (0..4).map(|i| q[i] + h / 2.0 * w[i]).collect();
+        let (a, rows) = linearised(system, &middle, w, [h / 2.0, 1.0]);
+        let residual = DVector::from_fn(6, |i, _| match i {
+            0..4 => m[i] * (w[i] - v[i]) - (0..2).map(|k| before[(k, i)] * unknowns[4 + k]).sum::<f64>(),
+            k => a[k - 4],
+        });
+        let matrix = DMatrix::from_fn(6, 6, |i, j| match (i < 4, j < 4) {
+            (true, true) if i == j => m[i],
+            (true, false) => -before[(j - 4, i)],
+            (false, true) => rows[(i - 4, j)],
+            _ => 0.0,
+        });
+        (residual, matrix)
+    })?;
+    Some(unknowns.as_slice()[..4].to_vec())
 }
 
 /// Of steps: how many end where the continuation does, how many at another place, and how many fail although
@@ -121,7 +95,7 @@ impl Tally {
         let Ok(start) = system.projected(0.0, &start) else { return Ok(()) };
         let mut run = Integrator::new(system, Constrained::new(Variational::midpoint()), h, start)?;
         let v: Vec<f64> = system.values(&run.state())?.skip(4).collect();
-        let expected = continued(system, m, &q, &v, h);
+        let expected = velocity(system, m, &q, &v, h);
         match (run.advance().is_ok(), expected) {
             (true, Some(w)) => {
                 let apart = (0..4).map(|i| ((run.q()[i] - q[i]) / h - w[i]).abs() / (1.0 + w[i].abs()));

@@ -5,7 +5,7 @@ use dvi_core::prelude::*;
 use dvi_core::{IndexError, OutsideError, ScalarField};
 
 use super::Outcome;
-use dvi_tests::twice::systems::{Damped, Harvested, Pulled, Swirl, SwirlState};
+use dvi_tests::laws::systems::{Damped, Harvested, Pulled, Swirl, SwirlState};
 use dvi_tests::zoo::regular::Kepler;
 
 /// Forces as a list, with arrays of run-time size.

@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Vector4};
 use num_dual::Dual64;
 
 use super::Outcome;
-use dvi_tests::twice::systems::{Canonical, Damped, Harvested, Pulled};
+use dvi_tests::laws::systems::{Canonical, Damped, Harvested, Pulled};
 
 const DAMPED: Damped = Damped { gamma: 0.3 };
 const START: [f64; 4] = [1.2, 0.0, 0.1, 0.9];

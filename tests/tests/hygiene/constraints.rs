@@ -7,6 +7,8 @@ use dvi_core::{
 };
 use dvi_tests::filling;
 
+use crate::shadowed;
+
 /// Fields and indices with the names of what generated code might use.
 mod names {
     use dvi_core::lagrangian;
@@ -50,76 +52,6 @@ mod generics {
     }
 }
 
-/// A prelude in which nothing means what it should.
-#[allow(dead_code, non_camel_case_types, missing_debug_implementations)]
-mod shadowed {
-    struct Option;
-    struct Result;
-    struct Fixed;
-    struct RunTime;
-    trait Sink {}
-    trait Space {}
-    trait ConstrainedSystem {}
-    trait HolonomicLagrangian {}
-    mod core {}
-    mod dvi_core {}
-
-    /// A system whose size the run knows.
-    #[::dvi_core::lagrangian(
-        coordinates(x[mass.len()]),
-        lagrangian = sum(0..mass.len(), |j| mass[j] * dot(x[j]).powi(2)),
-        constraint(j in 0..mass.len() - 1) = x[j + 1] - mass[j] * x[j],
-    )]
-    pub struct Shadowed {
-        pub(super) mass: ::std::vec::Vec<f64>,
-    }
-
-    trait NonholonomicLagrangian {}
-
-    /// One with constraints of the velocities, and names that generated code might use.
-    #[::dvi_core::lagrangian(
-        coordinates(q[weights.len()], nonholonomic),
-        lagrangian = sum(0..weights.len(), |v| dot(q[v]).powi(2)) + dot(nonholonomic).powi(2),
-        nonholonomic(v in 0..weights.len()) = weights[v] * dot(q[v]) - g0 * nonholonomic * q[v],
-        nonholonomic = nonholonomic * dot(nonholonomic) - sink,
-    )]
-    pub struct Rolling {
-        pub(super) weights: ::std::vec::Vec<f64>,
-        pub(super) g0: f64,
-        pub(super) sink: f64,
-    }
-
-    trait ManifoldSystem {}
-    trait ManifoldLagrangian {}
-
-    /// One with rotations and unit vectors, likewise; `omega` is a field too.
-    #[::dvi_core::lagrangian(
-        coordinates(r#type: SO3, dot: S2, q[weights.len()]),
-        lagrangian = sum(0..weights.len(), |v| weights[v] * dot(q[v]).powi(2)) + sum(0..3, |v| dot(dot[v]).powi(2))
-            + omega * (omega(r#type)[0].powi(2) + omega(r#type)[1].powi(2) + omega(r#type)[2].powi(2)) - r#type[0][1] * dot[2] * tangent,
-    )]
-    pub struct Turning {
-        pub(super) weights: ::std::vec::Vec<f64>,
-        pub(super) omega: f64,
-        pub(super) tangent: f64,
-    }
-
-    trait UnilateralLagrangian {}
-
-    /// One with impacts, likewise.
-    #[::dvi_core::lagrangian(
-        coordinates(q[weights.len()], impact),
-        lagrangian = sum(0..weights.len(), |v| dot(q[v]).powi(2)) + dot(impact).powi(2),
-        impact(v in 0..weights.len()) = weights[v] * q[v] - g0 * impact,
-        impact = impact * impact - sink * t,
-    )]
-    pub struct Walled {
-        pub(super) weights: ::std::vec::Vec<f64>,
-        pub(super) g0: f64,
-        pub(super) sink: f64,
-    }
-}
-
 /// dg/dt where all coordinates are one half and all velocities one quarter.
 fn rate<S: HolonomicLagrangian>(system: &S) -> Vec<f64> {
     assert!(system.check().is_ok());
@@ -134,8 +66,8 @@ fn systems_with_constraints_and_unfriendly_names_work() {
     let names = names::Names { g: 2.0, g0: [3.0, 4.0], row0: 5.0, rest: 6.0, sink: 7.0 };
     assert_eq!(rate(&names), [0.5, 0.5, 0.5, 1.5]);
     assert_eq!(rate(&generics::Borrowing::<f64, 2> { T: &[1.0, 2.0], s: 3.0 }), [0.25, 0.5]);
-    assert_eq!(rate(&shadowed::Shadowed { mass: vec![2.0, 3.0] }), [-0.25]);
-    assert_eq!(rate(&shadowed::Shadowed { mass: Vec::new() }), [0.0; 0]);
+    assert_eq!(rate(&shadowed::Linked { mass: vec![2.0, 3.0] }), [-0.25]);
+    assert_eq!(rate(&shadowed::Linked { mass: Vec::new() }), [0.0; 0]);
 }
 
 #[test]
@@ -152,7 +84,7 @@ fn systems_with_constraints_of_velocities_and_unfriendly_names_work() {
 
 #[test]
 fn systems_with_impacts_and_unfriendly_names_work() {
-    let walled = shadowed::Walled { weights: vec![2.0, 3.0], g0: 4.0, sink: 5.0 };
+    let walled = shadowed::Walled { n: 2, weights: vec![2.0, 3.0], g0: 4.0, sink: 5.0 };
     assert!(walled.check().is_ok());
     let (m, q, v, t) = (walled.multipliers().dimension(), [0.5; 3], [0.25; 3], 1.0);
     let (mut gap, mut rate, mut jacobian) = (vec![f64::NAN; m], vec![f64::NAN; m], vec![0.0; 3 * m]);

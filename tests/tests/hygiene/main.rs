@@ -18,8 +18,8 @@
 )]
 
 mod constraints;
-mod primitives;
 mod regular;
+mod shadowed;
 mod spellings;
 
 use dvi_core::Lagrangian;
@@ -123,63 +123,6 @@ mod generics {
         pub(super) tag: T,
         pub(super) also: [S; N],
     }
-}
-
-/// A prelude in which nothing means what it should.
-#[allow(dead_code, non_camel_case_types, unused_macros, missing_debug_implementations)]
-mod shadowed {
-    struct Option;
-    struct Result;
-    struct Some;
-    struct None;
-    struct Ok;
-    struct Err;
-    struct Vec;
-    struct Box;
-    struct String;
-    struct K;
-    struct W;
-    trait Copy {}
-    trait Clone {}
-    trait Debug {}
-    trait PartialEq {}
-    trait From {}
-    trait Fn {}
-    trait Sized {}
-    trait Scalar {}
-    trait Iterator {}
-    fn drop() {}
-    mod core {}
-    mod std {}
-    mod alloc {}
-    mod dvi_core {}
-    macro_rules! unreachable {
-        () => {};
-    }
-    macro_rules! vec {
-        () => {};
-    }
-
-    /// A system whose size the run knows.
-    #[::dvi_core::degenerate_lagrangian(
-        coordinates(x[gamma.len()], y[gamma.len()], u, w),
-        one_form = sum(0..gamma.len(), |j| gamma[j] * x[j] * d(y[j])) + u * d(w),
-        hamiltonian = sum_pairs(0..gamma.len(), |j, k|
-            if x[j] < x[k] { (x[j] - x[k]).powi(2) } else { (y[(j + 1) % gamma.len()] - y[k]).powi(4) })
-            + u.hypot(w).powf(u) + gamma.len() as f64 * u,
-        momenta(all = sum(0..gamma.len(), |j| gamma[j] * y[j])),
-    )]
-    pub struct Shadowed {
-        pub(super) gamma: ::std::vec::Vec<f64>,
-    }
-
-    /// A system on the stack.
-    #[::dvi_core::degenerate_lagrangian(
-        coordinates(x[3], y[3]),
-        one_form = sum(0..3, |j| x[j] * d(y[j])),
-        hamiltonian = sum_ordered_pairs(0..3, |j, k| x[j] * y[k]),
-    )]
-    pub struct Stacked;
 }
 
 /// Under another name of the library.
@@ -329,8 +272,6 @@ fn systems_with_unfriendly_names_run() {
     assert!(value(&generics::Borrowing::<2> { T: &[1.0; 2], s: &1.0 }, 4).is_finite());
     let tagged = generics::Tagged { omega: 1.0, tag: "tag", also: [(); 3] };
     assert!(tagged.tag.len() == tagged.also.len() && value(&tagged, 2).is_finite());
-    assert!(value(&shadowed::Shadowed { gamma: vec![1.0; 3] }, 8).is_finite());
-    assert!(value(&shadowed::Stacked, 6).is_finite());
     assert!(value(&renamed::Local, 2).is_finite());
     assert!(value(&renamed::Reexported { values: vec![1.0; 3] }, 6).is_finite());
     assert!(value(&places::Crate, 2).is_finite());

@@ -2,6 +2,8 @@
 
 use dvi_core::{RegularLagrangian, Space, State};
 
+use crate::shadowed;
+
 /// Fields with the names of what generated code might use.
 mod fields {
     use dvi_core::lagrangian;
@@ -66,36 +68,6 @@ mod generics {
     }
 }
 
-/// A prelude in which nothing means what it should.
-#[allow(dead_code, non_camel_case_types, missing_debug_implementations)]
-mod shadowed {
-    struct Option;
-    struct Result;
-    struct Ok;
-    struct Vec;
-    trait Copy {}
-    trait Clone {}
-    trait Debug {}
-    trait PartialEq {}
-    trait From {}
-    trait Fn {}
-    trait Scalar {}
-    mod core {}
-    mod std {}
-    mod dvi_core {}
-
-    /// A system whose size the run knows.
-    #[::dvi_core::lagrangian(
-        coordinates(x[mass.len()], u),
-        lagrangian = sum(0..mass.len(), |j| mass[j] * dot(x[j]).powi(2)) + (1.0 + dot(u).powi(2)).sqrt()
-            - sum_pairs(0..mass.len(), |j, k| if x[j] < x[k] { x[j] } else { x[k] * u }),
-        momenta(all = sum(0..mass.len(), |j| mass[j] * dot(x[j]))),
-    )]
-    pub struct Shadowed {
-        pub(super) mass: ::std::vec::Vec<f64>,
-    }
-}
-
 /// Under another name of the library, private, in a function.
 mod places {
     /// What a crate offers of its dependencies.
@@ -156,7 +128,7 @@ fn regular_systems_with_unfriendly_names_work() {
     assert!(energy(&coordinates::Coordinates).is_finite());
     let borrowing = generics::Borrowing::<_, 2> { T: &[1.0; 2], s: &1.0, tag: "tag" };
     assert!(borrowing.tag.len() == 3 && energy(&borrowing).is_finite());
-    assert!(energy(&shadowed::Shadowed { mass: vec![1.0; 3] }).is_finite());
+    assert!(energy(&shadowed::Masses { mass: vec![1.0; 3] }).is_finite());
     assert!(places::in_a_function::<3>().is_finite());
 }
 
@@ -166,7 +138,7 @@ fn states_hold_coordinates_then_velocities() {
     let tuple: (f64, f64, f64, f64) = state.into();
     assert_eq!(format!("{tuple:?}"), "(1.0, 2.0, 3.0, 4.0)");
     assert_eq!(fields::FieldsState::from(tuple), state);
-    let lengths = shadowed::ShadowedState { x: vec![1.0; 3], u: 0.0, dot_x: vec![1.0; 2], dot_u: 0.0 };
+    let lengths = shadowed::MassesState { x: vec![1.0; 3], u: 0.0, dot_x: vec![1.0; 2], dot_u: 0.0 };
     let result = lengths.write(&|block| if block == 0 { 3 } else { 1 }, &mut [0.0; 4], &mut [0.0; 4]);
     assert_eq!(result.map_err(|error| error.array), Err("dot_x"));
 }

@@ -118,6 +118,11 @@ fn what_cannot_be_a_spline() -> Outcome {
     Ok(())
 }
 
+/// Whether a number in [0, 1) is below this one.
+fn rarely(numbers: &mut Numbers, part: f64) -> bool {
+    numbers.between([0.0, 1.0]) < part
+}
+
 /// Whatever the axes and the values, there is a spline or an error, and what it is asked is answered.
 #[test]
 fn any_table() -> Outcome {
@@ -139,22 +144,23 @@ fn any_table() -> Outcome {
         f64::INFINITY,
     ];
     let (mut made, mut refused) = (0, 0);
+    let odd_one = |numbers: &mut Numbers| odd[numbers.between([0.0, 14.0]) as usize];
     for _ in 0..4000 {
         let mut any_axis = || {
-            let count = (numbers.next() * 12.0) as usize;
+            let count = numbers.between([0.0, 12.0]) as usize;
             let size = 10_f64.powf(numbers.between([-20.0, 20.0]));
             let ratio = 10_f64.powf(numbers.between([-2.0, 2.0]));
-            let mut at = numbers.between([-1.0, 1.0]) * size * numbers.next();
-            let mut step = size * numbers.next();
+            let mut at = numbers.next() * size * numbers.between([0.0, 1.0]);
+            let mut step = numbers.between([0.0, size]);
             let mut points = Vec::new();
             for _ in 0..count {
-                points.push(if numbers.next() < 0.002 { odd[(numbers.next() * 14.0) as usize] } else { at });
+                points.push(if rarely(&mut numbers, 0.002) { odd_one(&mut numbers) } else { at });
                 at += step;
-                step *= if numbers.next() < 0.5 { 1.0 } else { ratio };
+                step *= if rarely(&mut numbers, 0.5) { 1.0 } else { ratio };
             }
             let period =
-                if numbers.next() < 0.1 { 1.0 } else { (at - points.first().unwrap_or(&0.0)).abs() };
-            if numbers.next() < 0.5 { Axis::new(&points) } else { Axis::periodic(&points, period) }
+                if rarely(&mut numbers, 0.1) { 1.0 } else { (at - points.first().unwrap_or(&0.0)).abs() };
+            if rarely(&mut numbers, 0.5) { Axis::new(&points) } else { Axis::periodic(&points, period) }
         };
         let (Ok(first), Ok(second)) = (any_axis(), any_axis()) else {
             refused += 1;
@@ -162,7 +168,7 @@ fn any_table() -> Outcome {
         };
         let mut numbers = Numbers(made + refused);
         let mut value = |_: [f64; 2]| {
-            if numbers.next() < 0.001 { odd[(numbers.next() * 14.0) as usize] } else { numbers.next() }
+            if rarely(&mut numbers, 0.001) { odd_one(&mut numbers) } else { numbers.between([0.0, 1.0]) }
         };
         let axes = [first, second];
         let (cubic, quintic) =

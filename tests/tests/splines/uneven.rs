@@ -4,7 +4,7 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::field::{Axis, Expansion, ScalarField, Spline, SplineError};
 use dvi_tests::larger;
 
-use super::{Numbers, Outcome, all, difference, refusal};
+use super::{Numbers, Outcome, all, difference, points, refusal};
 
 /// The equations are solved to rounding on any axis. Where neighbouring distances differ by up to a factor
 /// of 10, splines become large, and their size is what rounding is measured by.
@@ -12,7 +12,7 @@ use super::{Numbers, Outcome, all, difference, refusal};
 fn very_uneven_points() -> Outcome {
     let mut numbers = Numbers(19);
     for k in 0..200 {
-        let values: Vec<f64> = (0..20).map(|_| numbers.next()).collect();
+        let values: Vec<f64> = (0..20).map(|_| numbers.between([0.0, 1.0])).collect();
         let (mut at, mut points) = (0.0, Vec::new());
         for _ in 0..20 {
             points.push(at);
@@ -37,7 +37,7 @@ fn very_uneven_points() -> Outcome {
 #[test]
 fn growing_distances() -> Outcome {
     let mut numbers = Numbers(17);
-    let values: Vec<f64> = (0..40).map(|_| numbers.next()).collect();
+    let values: Vec<f64> = (0..40).map(|_| numbers.between([0.0, 1.0])).collect();
     let mut largest = |factor: f64, is_cubic: bool| -> Outcome<f64> {
         let distances = core::iter::successors(Some(1.0), |distance| Some(distance * factor));
         let sum = |at: &mut f64, distance: f64| Some(core::mem::replace(at, *at + distance));
@@ -60,7 +60,7 @@ fn growing_distances() -> Outcome {
 
 /// Nearly uniform points from −1 on, two of which, at `index` − 1 and `index`, have the distance `gap`.
 fn with_a_gap(numbers: &mut Numbers, count: usize, index: usize, gap: f64) -> Vec<f64> {
-    let mut points = numbers.points(-1.0, count, 0.4);
+    let mut points = points(numbers, -1.0, count, 0.4);
     let before = points[index - 1];
     let closer = points[index] - before - gap;
     points[index] = if before + gap > before { before + gap } else { before.next_up() };
@@ -85,7 +85,7 @@ fn close_points_are_met_or_refused() -> Outcome {
     fn check<const D: usize>(gap: f64, numbers: &mut Numbers) -> Outcome<[bool; 2]> {
         let count = if D == 1 { 14 } else { 8 };
         let (index, close) =
-            (1 + (numbers.next() * (count - 1) as f64) as usize, (numbers.next() * D as f64) as usize);
+            (numbers.between([1.0, count as f64]) as usize, numbers.between([0.0, D as f64]) as usize);
         let points: [Vec<f64>; D] = core::array::from_fn(|axis| {
             let gap = if axis == close { gap } else { 0.4 };
             with_a_gap(numbers, count, index, gap)

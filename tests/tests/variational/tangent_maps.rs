@@ -8,8 +8,8 @@ use dvi_core::methods::{Method, VariationalMethod};
 use dvi_core::prelude::*;
 use dvi_core::{Lagrangian, State};
 use dvi_tests::larger;
+use dvi_tests::laws::equations::Nodes;
 use dvi_tests::systems::LotkaVolterra;
-use dvi_tests::twice::equations::Nodes;
 use dvi_tests::zoo::regular::*;
 use num_dual::HyperDual64;
 

@@ -1,49 +1,73 @@
-//! Lagrangians as plain Rust, and what follows from them: momenta, forces, equations of motion, the
-//! motion.
+//! What follows from a Lagrangian: momenta, forces, equations of motion, the motion.
 //!
-//! Nothing of it is generated, so that a mistake of a scheme or of the compiler shows.
+//! Formulas are evaluated as they are generated, which the compiler holds against those that are written, and
+//! its oracle on random systems. Derivatives are those of dual numbers, and none is generated, so that a
+//! mistake of a scheme or of the compiler shows.
 
 use core::cell::OnceCell;
 
-use dvi_core::Lagrangian;
 use dvi_core::mechanics::Rates;
 use dvi_core::prelude::*;
-use nalgebra::{DMatrix, DVector, RealField};
+use dvi_core::{HolonomicLagrangian, Lagrangian, NonholonomicLagrangian, Space};
+use nalgebra::{DMatrix, DVector};
 use num_dual::{Dual64, HyperDual64};
 
+use super::systems::{Driven, Shaken};
+use crate::zoo::constrained::Pendulum;
+use crate::zoo::nonholonomic::KnifeEdge;
 use crate::{larger, state};
 
-/// A Lagrangian in plain Rust, with its forces and constraints.
-pub trait Formula {
-    /// L(q, v, t)
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T;
-
-    /// The forces on the first coordinates; there are none on the others.
-    fn force(&self, _q: &[f64], _v: &[f64], _t: f64) -> Vec<f64> {
-        Vec::new()
-    }
-
+/// The constraints of a system of some kind.
+pub trait Bound<S> {
     /// The holonomic constraints.
-    fn constraints<T: RealField + Copy>(&self, _q: &[T], _t: T) -> Vec<T> {
+    fn constraints(_system: &S, _q: &[HyperDual64], _t: HyperDual64) -> Vec<HyperDual64> {
         Vec::new()
     }
 
     /// The constraints of the velocities.
-    fn slips<T: RealField + Copy>(&self, _q: &[T], _v: &[T], _t: T) -> Vec<T> {
+    fn slips(_system: &S, _q: &[HyperDual64], _v: &[HyperDual64], _t: HyperDual64) -> Vec<HyperDual64> {
         Vec::new()
     }
 }
 
-/// A [`Formula`] on the numbers that oracles need.
-trait Evaluated {
+impl<S> Bound<S> for <Driven as System>::Kind {}
+
+impl<S> Bound<S> for <Shaken as System>::Kind {}
+
+impl<S: HolonomicLagrangian<HyperDual64>> Bound<S> for <Pendulum as System>::Kind {
+    fn constraints(system: &S, q: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64> {
+        let mut values = vec![t; system.multipliers().dimension()];
+        system.constraint(q, t, &mut values);
+        values
+    }
+}
+
+impl<S: NonholonomicLagrangian<HyperDual64>> Bound<S> for <KnifeEdge as System>::Kind {
+    fn slips(system: &S, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64> {
+        let mut values = vec![t; system.multipliers().dimension()];
+        system.velocity_constraint(q, v, t, &mut values);
+        values
+    }
+}
+
+/// The formulas of a system, on the numbers that oracles need; none of their derivatives.
+pub trait Formula {
+    /// L(q, v, t)
     fn dual(&self, q: &[Dual64], v: &[Dual64], t: Dual64) -> Dual64;
+    /// The same, to be differentiated twice.
     fn hyper(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> HyperDual64;
+    /// The forces on all coordinates.
     fn force(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64>;
+    /// The holonomic constraints.
     fn constraints(&self, q: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64>;
+    /// The constraints of the velocities.
     fn slips(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64>;
 }
 
-impl<F: Formula> Evaluated for F {
+impl<S> Formula for S
+where
+    S: Lagrangian + Lagrangian<Dual64> + Lagrangian<HyperDual64> + System<Kind: Bound<S>>,
+{
     fn dual(&self, q: &[Dual64], v: &[Dual64], t: Dual64) -> Dual64 {
         self.lagrangian(q, v, t)
     }
@@ -51,13 +75,15 @@ impl<F: Formula> Evaluated for F {
         self.lagrangian(q, v, t)
     }
     fn force(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
-        Formula::force(self, q, v, t)
+        let mut forces = vec![0.0; q.len()];
+        self.applied_force(q, v, t, &mut forces);
+        forces
     }
     fn constraints(&self, q: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64> {
-        Formula::constraints(self, q, t)
+        S::Kind::constraints(self, q, t)
     }
     fn slips(&self, q: &[HyperDual64], v: &[HyperDual64], t: HyperDual64) -> Vec<HyperDual64> {
-        Formula::slips(self, q, v, t)
+        S::Kind::slips(self, q, v, t)
     }
 }
 
@@ -108,7 +134,7 @@ pub struct Subject {
     pub steps: u32,
     /// For how long errors are let grow where orders are measured.
     pub time: f64,
-    formula: &'static dyn Evaluated,
+    formula: &'static dyn Formula,
     field: Box<Field>,
     end: OnceCell<Vec<f64>>,
 }
@@ -179,9 +205,7 @@ impl Subject {
 
     /// The forces on all coordinates.
     pub fn force(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
-        let mut forces = self.formula.force(q, v, t);
-        forces.resize(q.len(), 0.0);
-        forces
+        self.formula.force(q, v, t)
     }
 
     /// Whether there are any.

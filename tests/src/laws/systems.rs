@@ -1,5 +1,4 @@
-//! Systems that are written twice: as an attribute, which schemes integrate, and as plain Rust, of which
-//! the equations are made.
+//! Systems that laws are asked of, beside those of the [zoo](crate::zoo).
 
 use dvi_core::prelude::*;
 pub use dvi_examples::models::{
@@ -7,7 +6,6 @@ pub use dvi_examples::models::{
 };
 use nalgebra::{RealField, convert};
 
-use super::formula::Formula;
 use super::fuse;
 
 /// A number of any kind.
@@ -24,16 +22,6 @@ pub fn real<T: RealField + Copy>(value: f64) -> T {
 #[derive(Clone, Debug)]
 pub struct Driven {}
 
-impl Formula for Driven {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let ([x, y], [vx, vy]) = ([q[0], q[1]], [v[0], v[1]]);
-        let form = (x * vy - y * vx) * real(0.5) + t.sin() * vx + t * t * vy;
-        form - (real::<T>(2.0) * x
-            + (real::<T>(1.0) + real::<T>(0.3) * t.cos()) * y * y
-            + x * x * y / real(3.0))
-    }
-}
-
 /// Dα depends on time, and α is linear in q.
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -44,14 +32,6 @@ impl Formula for Driven {
 pub struct Breathing {
     /// Depth of the modulation.
     pub depth: f64,
-}
-
-impl Formula for Breathing {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let form =
-            (real::<T>(1.0) + real::<T>(self.depth) * t.sin()) * (q[0] * v[1] - q[1] * v[0]) * real(0.5);
-        form - ((q[0] * q[0] + q[1] * q[1]) * real(0.5) + real::<T>(0.2) * q[0] * q[1] * q[1] * t)
-    }
 }
 
 /// A guiding centre in a field that varies in space and time: α is not linear, and couples all
@@ -69,19 +49,6 @@ pub struct Guiding {
     pub kappa: f64,
 }
 
-impl Formula for Guiding {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let ([x, y], [vx, vy]) = ([[q[0], q[1]], [q[2], q[3]]], [[v[0], v[1]], [v[2], v[3]]]);
-        let mut sum = real::<T>(0.2) * x[0] * y[1] * vx[1];
-        for j in 0..2 {
-            sum += (x[j] + real::<T>(self.kappa / 3.0) * x[j] * x[j] * x[j]) * vy[j];
-            sum -= real::<T>(0.1) * t * y[j] * vx[j] + x[j] * (t.cos() + y[j]);
-        }
-        let (dx, dy) = (x[0] - x[1], y[0] - y[1]);
-        sum - (dx * dx + dy * dy + real(0.5)).ln()
-    }
-}
-
 /// Separable, with time in the potential.
 #[lagrangian(
     coordinates(x, y),
@@ -92,14 +59,6 @@ impl Formula for Guiding {
 pub struct Shaken {
     /// Depth of the modulation.
     pub depth: f64,
-}
-
-impl Formula for Shaken {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let kinetic = v[0] * v[0] * real(0.5) + real::<T>(1.5) * v[1] * v[1];
-        let strength = real::<T>(1.0) + real::<T>(self.depth) * (t + t).cos();
-        kinetic - strength * (real::<T>(1.0) - (q[0] - q[1]).cos()) + t * q[0]
-    }
 }
 
 /// Separable, with a mass matrix that is not diagonal, and a size that the run knows.
@@ -115,19 +74,6 @@ pub struct Coupled {
     pub mass: Vec<f64>,
 }
 
-impl Formula for Coupled {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let mut sum = -q[0] * q[0] * q[0] * q[0] * real(0.25) * (real::<T>(1.0) + t * t * real(0.25));
-        for j in 0..q.len() {
-            sum += real::<T>(self.mass[j] / 2.0) * v[j] * v[j];
-            if j > 0 {
-                sum += real::<T>(0.3) * v[j] * v[j - 1] - (q[j] - q[j - 1]).cosh();
-            }
-        }
-        sum
-    }
-}
-
 /// A mass that depends on q and t, velocities that are coupled, and a magnetic term that grows.
 #[lagrangian(
     coordinates(x, y),
@@ -138,18 +84,6 @@ impl Formula for Coupled {
 pub struct Magnetic {
     /// Magnetic field.
     pub b: f64,
-}
-
-impl Formula for Magnetic {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let ([x, y], [vx, vy]) = ([q[0], q[1]], [v[0], v[1]]);
-        let one = real::<T>(1.0);
-        let kinetic = (one + real::<T>(0.3) * x * x) * vx * vx * real(0.5)
-            + (real::<T>(0.2) * t).exp() * vy * vy * real(0.5)
-            + real::<T>(0.3) * y.sin() * vx * vy;
-        let potential = (x * x + y * y * y * y) * real(0.5) * t.cos();
-        kinetic + real::<T>(self.b) * (one + t) * x * x * vy - potential
-    }
 }
 
 /// No polynomial in v: relativistic, in a field that is switched on.
@@ -164,14 +98,6 @@ pub struct Fast {
     pub field: f64,
 }
 
-impl Formula for Fast {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let root = (real::<T>(1.0) - v[0] * v[0] - v[1] * v[1]).sqrt();
-        let magnetic = real::<T>(self.field) * t.tanh() * (q[0] * v[1] - q[1] * v[0]);
-        magnetic - root - q[0] * q[0] * q[1] * q[1] + t * q[1]
-    }
-}
-
 /// In class: no component of α is affine, nothing is separable, the halves stand mixed, and one of them
 /// begins in the middle of an array.
 #[degenerate_lagrangian(
@@ -183,18 +109,6 @@ impl Formula for Fast {
 )]
 #[derive(Clone, Debug)]
 pub struct Mixed;
-
-impl Formula for Mixed {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], _t: T) -> T {
-        let ([a, b, c, u], half) = ([q[0], q[1], q[2], q[3]], real::<T>(0.5));
-        let along_u = a + a * a * a / real(3.0) + real::<T>(0.2) * (b + u).sin() * c;
-        let along_b = (c * half).sinh() + a * b.cos() * real(0.25);
-        let energy = (a * a + c * c) * half + real(1.0) - u.cos()
-            + b * b * b * b * real(0.25)
-            + real::<T>(0.3) * a * c * (u - b).cos();
-        along_u * v[3] + along_b * v[1] - energy
-    }
-}
 
 /// In class: a form that depends on time, and arrays of run-time size.
 #[degenerate_lagrangian(
@@ -209,22 +123,6 @@ pub struct Belt {
     pub n: usize,
 }
 
-impl Formula for Belt {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let (n, half) = (self.n, real::<T>(0.5));
-        let mut sum = -q[0] * t.sin();
-        for j in 0..n {
-            let (x, y, next) = (q[j], q[n + j], (j + 1) % n);
-            let form = (real::<T>(1.0) + t * real(0.25)) * y
-                + y * y * y / real(6.0)
-                + x * q[n + next] * real(0.125);
-            let square = (q[next] - x) * (q[next] - x);
-            sum += form * v[j] - (x * x + y * y) * half - square * square * real(0.25);
-        }
-        sum
-    }
-}
-
 /// A form that depends on time, of two bodies whose number is known at run time only, in no class.
 #[degenerate_lagrangian(
     coordinates(x[n], y[n]),
@@ -237,14 +135,6 @@ impl Formula for Belt {
 pub struct Loose {
     /// How many there are.
     pub n: usize,
-}
-
-impl Formula for Loose {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let n = self.n;
-        let across = |j: usize| real::<T>(0.2) * q[j].sin() * q[n + (j + 1) % n] * v[n + j];
-        (0..n).fold(Formula::lagrangian(&Belt { n }, q, v, t), |sum, j| sum + across(j))
-    }
 }
 
 /// α = p·dq, with a force, and a size that the run knows.
@@ -264,19 +154,6 @@ pub struct Canonical {
     pub gamma: f64,
 }
 
-impl Formula for Canonical {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], _t: T) -> T {
-        let (real, n) = (convert::<f64, T>, self.n);
-        (0..n).fold(real(0.0), |sum, j| {
-            let off = q[j] - real(0.3) * q[(j + 1) % n] * q[(j + 1) % n];
-            sum + q[n + j] * v[j] - q[n + j] * q[n + j] * real(0.5) - real(self.k / 2.0) * off * off
-        })
-    }
-    fn force(&self, q: &[f64], _v: &[f64], t: f64) -> Vec<f64> {
-        q[self.n..].iter().map(|p| -self.gamma * p + 0.5 * (2.0 * t).cos()).collect()
-    }
-}
-
 /// α depends on time and on the coordinates, of which it is no linear function, and H is stiff.
 #[degenerate_lagrangian(
     coordinates(x, y),
@@ -287,14 +164,6 @@ impl Formula for Canonical {
 pub struct Bent {
     /// Stiffness.
     pub k: f64,
-}
-
-impl Formula for Bent {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let (real, [x, y]) = (convert::<f64, T>, [q[0], q[1]]);
-        let form = y + y * y * y / real(3.0) + real(0.2) * t * x * y;
-        form * v[0] - real(self.k) * ((x * x + y * y) * real(0.5) + x * x * x * x * real(0.25))
-    }
 }
 
 /// Predators y and prey x, of which some are taken away, in a form that is not affine.
@@ -310,17 +179,6 @@ pub struct Harvested {
     pub harvest: f64,
 }
 
-impl Formula for Harvested {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], _t: T) -> T {
-        let [x, y] = [q[0], q[1]];
-        y.ln() / x * v[0] - (x - x.ln() + y - y.ln() - y.ln())
-    }
-    fn force(&self, q: &[f64], _v: &[f64], _t: f64) -> Vec<f64> {
-        let [x, y] = [q[0], q[1]];
-        vec![-self.harvest * x / (1.0 + x * y), self.harvest * (x - 0.3 * y * y)]
-    }
-}
-
 /// A hard spring that is not linear, in the plane: separable, with two masses.
 #[lagrangian(
     coordinates(x, y),
@@ -330,16 +188,6 @@ impl Formula for Harvested {
 pub struct Hard {
     /// Stiffness.
     pub k: f64,
-}
-
-impl Formula for Hard {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], _t: T) -> T {
-        let real = convert::<f64, T>;
-        let stretched = (q[0] * q[0] + q[1] * q[1]).sqrt() - real(1.0);
-        v[0] * v[0] * real(0.5) + v[1] * v[1] * real(1.5)
-            - real(self.k / 2.0) * stretched * stretched
-            - q[0] * q[1]
-    }
 }
 
 /// Masses that depend on the place and on time, a magnetic term, and friction.
@@ -359,18 +207,6 @@ pub struct Rubbing {
     pub gamma: f64,
 }
 
-impl Formula for Rubbing {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], t: T) -> T {
-        let real = convert::<f64, T>;
-        let off = q[0] - real(0.3) * q[1] * q[1];
-        let masses = (real(2.0) + q[0].sin()) * v[0] * v[0] + (real(0.2) * t).exp() * v[1] * v[1];
-        masses * real(0.5) + real(self.b) * q[0] * v[1] - real(self.k / 2.0) * off * off
-    }
-    fn force(&self, _q: &[f64], v: &[f64], _t: f64) -> Vec<f64> {
-        vec![-self.gamma * (v[0] + 0.03 * v[0].powi(3) - v[1])]
-    }
-}
-
 /// A mass matrix that is not diagonal, and a size that the run knows.
 #[lagrangian(
     coordinates(q[n]),
@@ -383,17 +219,6 @@ pub struct Linked {
     pub n: usize,
     /// Stiffness.
     pub k: f64,
-}
-
-impl Formula for Linked {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], _t: T) -> T {
-        let real = convert::<f64, T>;
-        (0..self.n).fold(real(0.0), |sum, j| {
-            let linked = if j == 0 { real(0.0) } else { real(0.3) * v[j] * v[j - 1] };
-            let square = q[j] * q[j];
-            sum + v[j] * v[j] * real(0.5) + linked - real(self.k) * (square * real(0.5) + square * square)
-        })
-    }
 }
 
 /// Arrays, a mass that depends on the position, and forces that depend on all there is.
@@ -410,23 +235,6 @@ pub struct Pulled {
     pub drag: [f64; 2],
 }
 
-impl Formula for Pulled {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], _t: T) -> T {
-        let ([u, a, b], half) = ([q[0], q[1], q[2]], real::<T>(0.5));
-        let kinetic = (real::<T>(1.0) + u * u * half) * v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-        (kinetic - (a - u) * (a - u) - (b - u) * (b - u)) * half - u * u * u * u * real(0.25)
-    }
-    fn force(&self, q: &[f64], v: &[f64], t: f64) -> Vec<f64> {
-        let ([_, a, b], [u, s, w]) = ([q[0], q[1], q[2]], [v[0], v[1], v[2]]);
-        let common = 0.3 * t.cos();
-        vec![
-            -0.4 * u * (1.0 + a * b),
-            common - 0.2 * s * (1.0 + w * w) - 0.1 * self.drag[0] * u,
-            common - 0.2 * w * (1.0 + s * s) - 0.1 * self.drag[1] * u,
-        ]
-    }
-}
-
 /// A force that is no gradient and no function of velocities, on a system whose step is explicit.
 #[lagrangian(
     coordinates(x, y),
@@ -437,16 +245,6 @@ impl Formula for Pulled {
 pub struct Swirl {
     /// Strength.
     pub swirl: f64,
-}
-
-impl Formula for Swirl {
-    fn lagrangian<T: RealField + Copy>(&self, q: &[T], v: &[T], _t: T) -> T {
-        let square = q[1] * q[1];
-        (v[0] * v[0] - q[0] * q[0]) * real(0.5) + v[1] * v[1] - square * square * real(0.25)
-    }
-    fn force(&self, q: &[f64], _v: &[f64], t: f64) -> Vec<f64> {
-        vec![-self.swirl * q[1] * t.cos(), self.swirl * q[0]]
-    }
 }
 
 /// What [`fuse`](super::fuse) says of each of these: potentials and Hamiltonians in which it stands.
