@@ -53,10 +53,12 @@ use lagrangian::{Interpolated, read};
 /// ([`Reading`]). They conserve the momentum maps of symmetries that act linearly and leave the frequency as
 /// it is.
 ///
-/// On the oscillator of the fitted frequency ω steps of one length are exact, whatever the rule, if sin u ≠
-/// 0 and S ≠ 0 for u = ωh; near a zero of either a step ends with [`StepFailure::Resonance`]. Steps of
-/// different lengths are exact there with [`Fitting::PhaseAndMomentum`] only, because the momentum between
-/// them is off by a factor that depends on the length. A fitted interpolation is not translation invariant:
+/// On the oscillator of the fitted frequency ω the points of steps of one length lie on one of its motions,
+/// whatever the rule, if sin u ≠ 0 and S ≠ 0 for u = ωh; near a zero of either a step ends with
+/// [`StepFailure::Resonance`]. With symmetric rules it is the motion that begins at (q0, v0) if v0 = 0 or
+/// with [`Fitting::PhaseAndMomentum`]; else it has another amplitude, because the momentum is off by a
+/// factor that depends on the length. So steps of different lengths are exact with the latter only. With
+/// other rules it has another amplitude and phase. A fitted interpolation is not translation invariant:
 /// constants are not among the functions that it interpolates.
 ///
 /// ```

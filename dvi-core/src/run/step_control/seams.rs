@@ -7,14 +7,16 @@
 //!
 //! with the sign that makes each seam gₖ positive where the step begins. It ends behind that place by some
 //! rounding errors, so that the next step begins on the other side, and its error is estimated where it is
-//! as much before it. A step that begins on a seam leaves it first, by a step of some rounding errors. Where
-//! a seam comes nearer at the beginning of a step and goes away at its end, its nearest place is looked for;
-//! a step over several turns of a seam is too long.
+//! as much before it. Where a force pushes away from a seam, the equations of a step have several solutions:
+//! one that comes out behind the seam at another than before it is too long. A step that begins on a seam
+//! leaves it first, by a step of some rounding errors. Where a seam comes nearer at the beginning of a step
+//! and goes away at its end, its nearest place is looked for; a step over several turns of a seam is too
+//! long.
 
 use super::ControlledRun;
 use crate::error::StepFailure;
 use crate::memory::lasting;
-use crate::methods::Method;
+use crate::methods::{Method, Tolerance};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported};
 use crate::solve::crossing::zero;
@@ -28,6 +30,9 @@ const LEAVING: f64 = 256.0;
 /// A step may end so many times farther behind a seam, again and again, if it is not on the other side yet,
 /// and at most so many times what is rounded of the step and of the time.
 const WIDER: [f64; 2] = [8.0, 262_144.0];
+/// From before a seam to behind it a motion goes no farther than so many times the part of the step between
+/// them, and so many rounding errors.
+const GOES_ON: f64 = 1024.0;
 /// Iterations for the derivatives of a length, of numbers that carry some.
 const POLISHED: usize = 3;
 /// After so many hops for each seam, without a longer step between them, the motion does not leave them. A
@@ -152,6 +157,34 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         // The motion touches the seam, or leaves it where the step begins.
         self.look(run, h)?;
         Ok(None)
+    }
+
+    /// Moves the run from the place before a seam to that behind it, and returns whether the motion goes on
+    /// there, to the `tolerance`.
+    ///
+    /// # Errors
+    /// Those of the step.
+    pub(super) fn cross<M: Method<S, T>>(
+        &mut self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        AtSeam { before, behind }: AtSeam<T>,
+        tolerance: Tolerance,
+    ) -> Result<bool, StepFailure> {
+        self.near[0].copy_from_slice(run.q());
+        run.go_back();
+        run.step(self.t, behind)?;
+        let (length, between) = (Scalar::abs(behind), Scalar::abs(behind - before));
+        let part = T::lift(GOES_ON) * (T::default_epsilon() + between / length);
+        let goes_on = |k: usize| {
+            let [size, begin, end] = [Scalar::abs(run.q()[k]), self.q[k], run.q()[k]];
+            let way =
+                length * (Scalar::abs(self.v[k]) + Scalar::abs(self.v_end[k])) + Scalar::abs(end - begin);
+            // What is no number is found elsewhere.
+            let is_off =
+                Scalar::abs(end - self.near[0][k]) > tolerance.of_coordinate(size) + part * (size + way);
+            !is_off
+        };
+        Ok(before == T::lift(0.0) || (0..self.q.len()).all(goes_on))
     }
 
     /// The length of this `part` of a step, if it leads away from a seam on which the step begins: there a

@@ -11,6 +11,9 @@ use crate::{Lagrangian, Real, Scalar};
 const AIM: f64 = 0.02;
 /// A step is at least and at most so many times as long as the one before.
 pub(super) const FACTORS: [f64; 2] = [0.2, 2.0];
+/// A step that comes out behind a seam at another solution than before it is tried again with this part of
+/// its length.
+const AGAIN: f64 = 0.5;
 
 /// What is said of a step that has been taken.
 pub(super) enum Verdict<T> {
@@ -59,9 +62,10 @@ impl ErrorControl<'_> {
             _ => run.local_error(start, [length, usual], self.tolerance)?,
         };
         if error <= T::lift(1.0) {
-            if let Some(AtSeam { behind, .. }) = at_seam {
-                run.go_back();
-                run.step(t, behind)?;
+            if let (Some(at_seam), Some(seams)) = (at_seam, seams)
+                && !seams.cross(run, at_seam, self.tolerance)?
+            {
+                return Ok(Verdict::TooLong { factor: T::lift(AGAIN) * (judged / h), failure: None });
             }
             return Ok(Verdict::Accepted { error, at_seam });
         }
