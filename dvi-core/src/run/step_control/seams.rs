@@ -159,17 +159,18 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         Ok(None)
     }
 
-    /// Moves the run from the place before a seam to that behind it, and returns whether the motion goes on
-    /// there, to the `tolerance`.
+    /// Moves the run from the place before a seam, if it is at one, to that behind it, and returns whether the
+    /// motion goes on there, to the `tolerance`.
     ///
     /// # Errors
     /// Those of the step.
     pub(super) fn cross<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
-        AtSeam { before, behind }: AtSeam<T>,
+        at_seam: Option<AtSeam<T>>,
         tolerance: Tolerance,
     ) -> Result<bool, StepFailure> {
+        let Some(AtSeam { before, behind }) = at_seam else { return Ok(true) };
         self.near[0].copy_from_slice(run.q());
         run.go_back();
         run.step(self.t, behind)?;

@@ -62,12 +62,13 @@ impl ErrorControl<'_> {
             _ => run.local_error(start, [length, usual], self.tolerance)?,
         };
         if error <= T::lift(1.0) {
-            if let (Some(at_seam), Some(seams)) = (at_seam, seams)
-                && !seams.cross(run, at_seam, self.tolerance)?
-            {
-                return Ok(Verdict::TooLong { factor: T::lift(AGAIN) * (judged / h), failure: None });
-            }
-            return Ok(Verdict::Accepted { error, at_seam });
+            let goes_on =
+                seams.as_mut().map_or(Ok(true), |seams| seams.cross(run, at_seam, self.tolerance))?;
+            return Ok(if goes_on {
+                Verdict::Accepted { error, at_seam }
+            } else {
+                Verdict::TooLong { factor: T::lift(AGAIN) * (judged / h), failure: None }
+            });
         }
         let factor = within(T::lift(1.0) / excess(run, error), 1.0);
         let failure = StepFailure::Tolerance { h: reported(judged), error: reported(error) };
