@@ -257,6 +257,8 @@ fn options_and_methods_out_of_range_are_refused() {
     let control = ErrorControl::new(1e-6, 0.1);
     let error = Integrator::controlled(&KEPLER, Variational::trapezoid(), control, pericentre(0.5)).err();
     assert!(matches!(error, Some(StartError::Unsupported { option: "ErrorControl", .. })), "{error:?}");
+    // `Gauss` is no way out for every system.
+    assert!(error.is_some_and(|error| error.to_string().contains("no method for constraints")));
 }
 
 /// A checkpoint has a direction, and the first step of a control is none of the run that goes on.

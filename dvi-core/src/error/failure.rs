@@ -267,7 +267,8 @@ pub enum StepFailure {
     },
     /// The density of steps that a step control carries along is no density any more.
     #[error(
-        "the density of steps became {density:e}; it must be positive and finite: a smaller epsilon helps"
+        "the density of steps became {density:e}; it must be positive and finite: a smaller epsilon helps, \
+         unless the density is zero or infinite at this place, as a power of the distance is at the origin"
     )]
     Density {
         /// Its value.

@@ -260,6 +260,8 @@ fn options_out_of_range_are_refused() {
     }
     let error = refusal(Reversible::power(0.02, f64::NAN), start());
     assert!(matches!(error, Some(StartError::Starter(StepFailure::Density { .. }))), "{error:?}");
+    // No epsilon makes a density of one that is none where the run begins.
+    assert!(error.is_some_and(|error| error.to_string().contains("unless the density is zero or infinite")));
     let sun = KeplerState { x: 0.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 };
     let error = refusal(Reversible::power(0.02, 1.5), sun);
     assert!(

@@ -241,7 +241,8 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         if method.estimates_local_error() {
             return Ok(());
         }
-        let reason = "the method has no estimate of the error of a step: take `Gauss`";
+        let reason = "the method has no estimate of the error of a step: take `Gauss`; no method for \
+                      constraints, impacts or rotations has one";
         Err(StartError::Unsupported { option: "ErrorControl", reason })
     }
 
