@@ -133,8 +133,7 @@ impl<const S: usize> Lobatto<S> {
 #[cfg(test)]
 mod tests {
     use super::Lobatto;
-    use crate::discrete::{Quadrature, Rule};
-    use crate::error::StartError;
+    use crate::discrete::Rule;
 
     /// A number as a sum of two, so that its rounding errors are those of the second: what the tables are
     /// held against.
@@ -245,27 +244,6 @@ mod tests {
         }
     }
 
-    /// ν and the weights are those of IIIA and IIIB, whose matrices are found here by Gauss quadrature of
-    /// Lagrange polynomials.
-    fn nu_is_the_product_of_both_matrices<const S: usize>() -> Result<(), StartError> {
-        let rule = Lobatto::<S>::new();
-        let (Lobatto { c, b }, gauss) = (rule, Quadrature::gauss(5)?);
-        let lagrange = |j: usize, x: f64| {
-            (0..S).filter(|&m| m != j).map(|m| (x - c[m]) / (c[j] - c[m])).product::<f64>()
-        };
-        let a = |i: usize, j: usize| {
-            let points = gauss.nodes().iter().zip(gauss.weights());
-            c[i] * points.map(|(x, w)| w * lagrange(j, c[i] * x)).sum::<f64>()
-        };
-        for i in 0..S {
-            for j in 0..S {
-                let sum: f64 = (0..S).map(|k| a(i, k) * (1.0 - a(j, k) / b[k])).sum();
-                assert!((rule.nystrom()[i][j] - sum).abs() < 2e-15, "{S} nodes, ({i}, {j}): {sum}");
-            }
-        }
-        Ok(())
-    }
-
     fn polynomials_are_differentiated<const S: usize>() {
         let rule = Lobatto::<S>::new();
         let (a, Lobatto { c, b }) = (rule.differentiation(), rule);
@@ -287,14 +265,13 @@ mod tests {
     }
 
     #[test]
-    fn tableaus_are_those_of_lobatto() -> Result<(), StartError> {
-        fn check<const S: usize>() -> Result<(), StartError> {
+    fn tableaus_are_those_of_lobatto() {
+        fn check<const S: usize>() {
             nodes_weights_and_nu::<S>();
             polynomials_are_differentiated::<S>();
-            nu_is_the_product_of_both_matrices::<S>()
         }
-        let rules: [fn() -> _; 7] =
+        let rules: [fn(); 7] =
             [check::<3>, check::<4>, check::<5>, check::<6>, check::<7>, check::<8>, check::<9>];
-        rules.iter().try_for_each(|check| check())
+        rules.iter().for_each(|check| check());
     }
 }
