@@ -162,7 +162,11 @@ pub(crate) fn state(emitter: &Emitter<'_>) -> State {
                 #write
                 ::core::result::Result::Ok(())
             }
-            fn read(__len: &dyn ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize, __q: &[__T], __v: &[__T]) -> Self {
+            fn read(
+                __len: &dyn ::core::ops::Fn(::core::primitive::usize) -> ::core::primitive::usize,
+                __q: &[__T],
+                __v: &[__T],
+            ) -> Self {
                 #read
                 Self { #(#fields: #values),* }
             }

@@ -1,7 +1,7 @@
 //! What follows from a Lagrangian: momenta, forces, equations of motion, the motion.
 //!
-//! Formulas are evaluated as they are generated, which the compiler holds against those that are written, and
-//! its oracle on random systems. Derivatives are those of dual numbers, and none is generated, so that a
+//! Formulas are evaluated as they are generated, which the compiler holds against those that are written,
+//! and its oracle on random systems. Derivatives are those of dual numbers, and none is generated, so that a
 //! mistake of a scheme or of the compiler shows.
 
 use core::cell::OnceCell;

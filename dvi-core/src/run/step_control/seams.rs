@@ -159,8 +159,8 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         Ok(None)
     }
 
-    /// Moves the run from the place before a seam, if it is at one, to that behind it, and returns whether the
-    /// motion goes on there, to the `tolerance`.
+    /// Moves the run from the place before a seam, if it is at one, to that behind it, and returns whether
+    /// the motion goes on there, to the `tolerance`.
     ///
     /// # Errors
     /// Those of the step.
