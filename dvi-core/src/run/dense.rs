@@ -82,7 +82,7 @@ impl<R: Run> Dense<R> {
     /// Takes one step.
     ///
     /// # Errors
-    /// As [`Run::advance`].
+    /// As [`Run::advance`]. States within the step before may be out of reach then.
     #[inline]
     pub fn advance(&mut self) -> Result<(), StepError> {
         self.advance_by(R::advance)
