@@ -1,7 +1,8 @@
 //! Systems that are generic over the type of their parameters.
 
-use approx::assert_abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::Varied;
+use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use num_dual::{Dual3_64, Dual64, HyperDual64};
@@ -24,6 +25,18 @@ struct Springs<P = f64> {
 struct Oscillator<P> {
     a: P,
     b: P,
+}
+
+/// The circulations of vortices are the parameters of α and of H.
+#[degenerate_lagrangian(
+    coordinates(x[n], y[n]),
+    one_form = sum(0..n, |i| gamma[i] * x[i] * d(y[i])),
+    hamiltonian = -sum_pairs(0..n, |i, j| gamma[i] * gamma[j] * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2)).ln())
+        / (4.0 * PI)
+)]
+struct Vortices<'a, P> {
+    n: usize,
+    gamma: &'a [P],
 }
 
 fn constant(value: f64) -> Varied<Dual64> {
@@ -70,6 +83,49 @@ fn a_degenerate_step_is_differentiated_in_the_one_form_and_in_the_hamiltonian() 
         let error = run.q()[0].eps + slope * angle.sin();
         assert!(error.abs() < 1e-11 * slope.abs(), "{error:e}");
     }
+    Ok(())
+}
+
+/// Against differences of fourth order, for methods of all families and storage at run time.
+#[test]
+fn runs_are_differentiated_in_a_circulation() -> Outcome {
+    fn check<M>(method: M) -> Outcome
+    where
+        M: for<'a> Method<Vortices<'a, f64>, f64>
+            + for<'a> Method<Vortices<'a, Varied<Dual64>>, Dual64>
+            + Clone
+            + core::fmt::Debug,
+    {
+        let (x, y) = (vec![1.0, -0.5, 0.2], vec![0.0, 0.3, -0.9]);
+        let end = |first: f64| -> Outcome<Vec<f64>> {
+            let system = Vortices { n: 3, gamma: &[first, 0.8, -0.4] };
+            let start = VorticesState { x: x.clone(), y: y.clone() };
+            let mut run = Integrator::new(&system, method.clone(), 0.02, start)?;
+            run.take_steps(50)?;
+            Ok(run.q().to_vec())
+        };
+        let dx = 1e-3;
+        let [a, b, c, d] = [end(1.0 - 2.0 * dx)?, end(1.0 - dx)?, end(1.0 + dx)?, end(1.0 + 2.0 * dx)?];
+        let gamma = [varied(1.0), constant(0.8), constant(-0.4)];
+        let system = Vortices { n: 3, gamma: &gamma };
+        let lifted = |values: &[f64]| values.iter().map(|&value| dual(value)).collect::<Vec<_>>();
+        let start = VorticesStateOf { x: lifted(&x), y: lifted(&y) };
+        let mut run = Integrator::new(&system, method.clone(), dual(0.02), start)?;
+        run.take_steps(50)?;
+        let same = end(1.0)?;
+        for i in 0..same.len() {
+            let slope = (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * dx);
+            assert!(abs_diff_eq!(run.q()[i].re, same[i], epsilon = 1e-12), "{method:?}");
+            assert!(
+                abs_diff_eq!(run.q()[i].eps, slope, epsilon = 1e-9),
+                "{method:?}: {} {slope}",
+                run.q()[i].eps
+            );
+        }
+        Ok(())
+    }
+    check(RungeKutta::classical())?;
+    check(Gauss::<3>::new())?;
     Ok(())
 }
 

@@ -11,15 +11,36 @@ use dvi_tests::zoo::manifold::{cross, dot};
 use dvi_tests::{Outcome, apart};
 
 /// A chain of spherical pendulums, of any number: m_ij are the masses below both joints, times lengths.
+macro_rules! chain {
+    ($name:ident $(<$constant:ident>)?, $size:expr, $m:ty, $g:ty) => {
+        #[lagrangian(
+            coordinates(s[$size]: S2),
+            lagrangian = sum(0..$size, |i| sum(0..$size, |j| m[i][j] * dot(s[i]).dot(dot(s[j])))) / 2.0
+                - sum(0..$size, |i| g[i] * s[i][2]),
+            momenta(vertical = sum(0..$size, |i| sum(0..$size, |j| m[i][j] * s[i].cross(dot(s[j]))))[2]),
+        )]
+        #[derive(Debug)]
+        struct $name$(<const $constant: usize>)? {
+            m: $m,
+            g: $g,
+        }
+    };
+}
+
+chain!(Fixed<N>, N, [[f64; N]; N], [f64; N]);
+chain!(Listed, g.len(), Vec<Vec<f64>>, Vec<f64>);
+
+/// Three of them by name.
 #[lagrangian(
-    coordinates(s[g.len()]: S2),
-    lagrangian = sum(0..g.len(), |i| sum(0..g.len(), |j| m[i][j] * dot(s[i]).dot(dot(s[j])))) / 2.0
-        - sum(0..g.len(), |i| g[i] * s[i][2]),
+    coordinates(s0: S2, s1: S2, s2: S2),
+    lagrangian = (m[0][0] * dot(s0).norm_squared() + m[1][1] * dot(s1).norm_squared() + m[2][2] * dot(s2).norm_squared()) / 2.0
+        + m[0][1] * dot(s0).dot(dot(s1)) + m[0][2] * dot(s0).dot(dot(s2)) + m[1][2] * dot(s1).dot(dot(s2))
+        - g[0] * s0[2] - g[1] * s1[2] - g[2] * s2[2],
 )]
 #[derive(Debug)]
-struct Listed {
-    m: Vec<Vec<f64>>,
-    g: Vec<f64>,
+struct Named {
+    m: [[f64; 3]; 3],
+    g: [f64; 3],
 }
 
 const MASSES: [[f64; 3]; 3] = [[3.0, 2.0, 1.0], [2.0, 2.0, 1.0], [1.0, 1.0, 1.0]];
@@ -30,6 +51,41 @@ const DOT_S: [[f64; 3]; 3] = [[0.0, 0.5, 0.0], [0.3, 0.0, 0.0], [0.6, 0.48, 0.0]
 fn listed() -> (Listed, ListedState) {
     let m = MASSES.iter().map(|row| row.to_vec()).collect();
     (Listed { m, g: WEIGHTS.to_vec() }, ListedState { s: S.to_vec(), dot_s: DOT_S.to_vec() })
+}
+
+#[test]
+fn a_chain_of_any_size_moves_as_one_with_names() -> Outcome {
+    for rule in [Quadrature::trapezoid(), Quadrature::midpoint(), Quadrature::simpson()] {
+        let method = Geodesic::new(rule);
+        let (m, g) = (MASSES, WEIGHTS);
+        let start = NamedState {
+            s0: S[0],
+            s1: S[1],
+            s2: S[2],
+            dot_s0: DOT_S[0],
+            dot_s1: DOT_S[1],
+            dot_s2: DOT_S[2],
+        };
+        let mut named = Integrator::new(Named { m, g }, method, 0.05, start)?;
+        let mut fixed = Integrator::new(Fixed { m, g }, method, 0.05, FixedState { s: S, dot_s: DOT_S })?;
+        let (system, start) = listed();
+        let mut listed = Integrator::new(system, method, 0.05, start)?;
+        named.take_steps(50)?;
+        fixed.take_steps(50)?;
+        listed.take_steps(50)?;
+        let NamedState { s0, s1, s2, dot_s0, dot_s1, dot_s2 } = named.state();
+        let expected = [s0, s1, s2, dot_s0, dot_s1, dot_s2].concat();
+        let fixed = fixed.state();
+        let listed = listed.state();
+        for found in [
+            [fixed.s.as_flattened(), fixed.dot_s.as_flattened()].concat(),
+            [listed.s.as_flattened(), listed.dot_s.as_flattened()].concat(),
+        ] {
+            let difference = apart(&found, &expected);
+            assert!(difference < 1e-12, "{rule:?}: {difference:e}");
+        }
+    }
+    Ok(())
 }
 
 /// Bodies that turn about their centres, each drawn to the axes of those before it, beside a number.
