@@ -4,4 +4,5 @@
 pub mod equations;
 pub mod formula;
 pub mod fuse;
+pub mod subject;
 pub mod systems;

@@ -12,7 +12,7 @@ use dvi_core::{Lagrangian, Real, Space, Vector};
 use num_dual::Dual64;
 
 use super::equations::Equations;
-use super::formula::Subject;
+use super::subject::Subject;
 use dvi_tests::{Outcome, bits, state};
 
 /// How steps of a scheme are solved and added up, as far as it has a choice.

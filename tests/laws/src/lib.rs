@@ -15,9 +15,10 @@ use dvi_core::methods::{Composition, EnergyLimit};
 use dvi_core::prelude::*;
 
 pub use case::{Case, Fused, Options};
-pub use dvi_tests::laws::{equations, formula, fuse, systems};
+pub use dvi_tests::laws::{equations, formula, fuse, subject, systems};
 use equations::{Equations, Nodes};
-use formula::{Formula, Subject};
+use formula::Formula;
+use subject::Subject;
 use systems::*;
 
 use dvi_tests::configurations::quasi_periodic;

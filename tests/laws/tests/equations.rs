@@ -10,7 +10,8 @@
 //!   ∂L/∂v = ∂L/∂q + F at those of a degenerate one, solved here with matrices of differences.
 
 use dvi_laws::equations::{Equations, Nodes, Tableau};
-use dvi_laws::formula::{Subject, defect, dual, size};
+use dvi_laws::formula::dual;
+use dvi_laws::subject::{Subject, defect, size};
 use dvi_laws::{Case, NOT_STIFF, STIFF, stiff};
 use dvi_tests::{larger, oracle};
 use nalgebra::{DMatrix, DVector};

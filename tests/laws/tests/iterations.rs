@@ -10,7 +10,8 @@
 use dvi_core::prelude::*;
 use dvi_laws::case::Written;
 use dvi_laws::equations::Equations;
-use dvi_laws::formula::{dual, size};
+use dvi_laws::formula::dual;
+use dvi_laws::subject::size;
 use dvi_laws::{Case, fused};
 use nalgebra::DMatrix;
 
