@@ -111,7 +111,7 @@ impl<S: System, T: Real> SigmaMemory<S, T> {
 
 impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
     /// Sets `work.shift` to K⁻¹c0.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(super) fn shift_by_defect(&mut self, system: &S) {
         let Self { defect, inverse, scale, work, .. } = self;
         scratch!(scaled = system, work.trial);
