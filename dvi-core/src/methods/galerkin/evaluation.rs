@@ -45,7 +45,7 @@ pub trait NodeForces<const W: usize, S: System, T: Real> {
 }
 
 impl<const W: usize, S: NondegenerateLagrangian<T>, T: Real> NodeForces<W, S, T> for OneByOne {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn evaluate(
         system: &S,
         count: usize,
