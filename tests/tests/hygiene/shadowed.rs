@@ -139,8 +139,10 @@ pub struct Rolling {
 /// Rotations and unit vectors, likewise; `omega` is a field too.
 #[::dvi_core::lagrangian(
     coordinates(r#type: SO3, dot: S2, q[weights.len()]),
-    lagrangian = sum(0..weights.len(), |v| weights[v] * dot(q[v]).powi(2)) + sum(0..3, |v| dot(dot[v]).powi(2))
-        + omega * (omega(r#type)[0].powi(2) + omega(r#type)[1].powi(2) + omega(r#type)[2].powi(2)) - r#type[0][1] * dot[2] * tangent,
+    lagrangian = sum(0..weights.len(), |v| weights[v] * dot(q[v]).powi(2))
+        + sum(0..3, |v| dot(dot[v]).powi(2))
+        + omega * (omega(r#type)[0].powi(2) + omega(r#type)[1].powi(2) + omega(r#type)[2].powi(2))
+        - r#type[0][1] * dot[2] * tangent,
 )]
 pub struct Turning {
     pub(super) weights: ::std::vec::Vec<::core::primitive::f64>,
