@@ -188,9 +188,10 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     /// Any [`StepFailure`]; the point and the dynamical part of `memory` are then as they were before.
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure>;
 
-    /// Takes a part of the step of length `whole` that a run takes from there, on a copy `memory` of what it
-    /// carries: the state between two points of the run. It is a [step](Self::step) of that length, unless
-    /// the memory depends on the length of steps.
+    /// Takes a part of the step of length `whole` that a run has taken from there, on a copy `memory` of what
+    /// it carried: the state between two points of the run. `taken` is what it carries at the end of that
+    /// step. The part is a [step](Self::step) of its length, unless the memory depends on the length of
+    /// steps, or the equations may have several solutions.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -199,6 +200,7 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         part: Step<'_, S, T>,
         _whole: T,
         memory: &mut Self::Memory,
+        _taken: &Self::Memory,
     ) -> Result<(), StepFailure> {
         self.step(part, memory)
     }

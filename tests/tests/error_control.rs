@@ -14,6 +14,7 @@ use dvi_tests::{apart, larger};
 mod breaks;
 mod grazes;
 pub(crate) mod problems;
+mod ridges;
 mod rough;
 pub(crate) mod seams;
 mod sums;

@@ -117,8 +117,9 @@ where
         part: Step<'_, S, T>,
         whole: T,
         memory: &mut Self::Memory,
+        taken: &Self::Memory,
     ) -> Result<(), StepFailure> {
-        self.method.part_of_step(part, whole, &mut memory.inner)
+        self.method.part_of_step(part, whole, &mut memory.inner, &taken.inner)
     }
 
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {

@@ -170,6 +170,17 @@ where
         )
     }
 
+    fn part_of_step(
+        &self,
+        part: Step<'_, S, T>,
+        _whole: T,
+        memory: &mut Self::Memory,
+        taken: &Self::Memory,
+    ) -> Result<(), StepFailure> {
+        memory.path.follow(&taken.path);
+        self.step(part, memory)
+    }
+
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         let Here { system, q, t } = here;
         S::Kind::velocity(&memory.path.equations, system, q, t, v)

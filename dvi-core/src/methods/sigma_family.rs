@@ -244,6 +244,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         part: methods::Step<'_, S, T>,
         whole: T,
         memory: &mut Self::Memory,
+        _taken: &Self::Memory,
     ) -> Result<(), StepFailure> {
         memory.shorten(part.system, self, part.q, part.t, [part.h, whole])?;
         self.step(part, memory)

@@ -76,13 +76,13 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
     }
 
     fn reach(&mut self, system: &S, t: T, [h, whole]: [T; 2], v: &mut [T]) -> Result<&[T], StepFailure> {
-        let Self { method, points, .. } = self;
+        let Self { method, memory: taken, points, .. } = self;
         let [begun, reached]: &mut [PointOf<S, M, T>; 2] = begun(points.as_mut(), t)?;
         reached.take(&begun.q, &begun.memory);
         let (Kept { q, memory }, end) = (reached, t + h);
         if end != t {
             let statistics = &mut Statistics::default();
-            method.part_of_step(Step { system, q, t, h, statistics }, whole, memory)?;
+            method.part_of_step(Step { system, q, t, h, statistics }, whole, memory, taken)?;
             if S::HAS_DOMAIN && !reported(system.domain(q, end)).is_finite() {
                 return Err(StepFailure::LeftDomain);
             }

@@ -211,60 +211,6 @@ fn forces_by_if_are_met_where_they_change() -> Outcome {
     Ok(())
 }
 
-/// A force that pushes away from a place, and changes on the way there.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0 + x.abs(),
-    force(x) = if t > on { -0.3 } else { 0.0 },
-)]
-struct Ridge {
-    on: f64,
-}
-
-/// An oscillator with dry friction, and a force from a time on.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = (dot(x).powi(2) - x * x) / 2.0,
-    force(x) = -friction * dot(x).signum() - 0.1 * dot(x).abs() * dot(x) + if t > on { 0.5 } else { 0.0 },
-)]
-struct Tide {
-    friction: f64,
-    on: f64,
-}
-
-/// Behind a place that the motion is pushed away from, the equations of a step have a solution on either
-/// side of it.
-#[test]
-fn a_ridge_is_crossed_and_left_on_the_other_side() -> Outcome {
-    let (speed, end) = (2.003_f64.sqrt(), 3.0);
-    for tolerance in [1e-6, 1e-9, 1e-12] {
-        for on in (0..20).map(|k| 1.2 + 0.012 * f64::from(k)).filter(|on| *on < 1.36) {
-            // Parabolas of the accelerations 1, 0.7 and −1.3, the second up to the ridge.
-            let (there, pace) = (1.0 - speed * on + on * on / 2.0, speed - on);
-            let at_ridge = (pace * pace - 1.4 * there).sqrt();
-            let left = end - on - (pace - at_ridge) / 0.7;
-            let exact = -at_ridge * left - 0.65 * left * left;
-            let (ridge, start) = (Ridge { on }, RidgeState { x: 1.0, dot_x: -speed });
-            let control = ErrorControl::new(tolerance, 0.1);
-            let (two, ..) = measured((&ridge, &start), (Gauss::<2>::new(), control), (end, exact))?;
-            let (eight, ..) = measured((&ridge, &start), (Gauss::<8>::new(), control), (end, exact))?;
-            assert!(two < 30.0 && eight < 30.0, "{tolerance:e} {on}: {two} {eight}");
-        }
-    }
-    // Back in time dry friction pushes away from rest; the force of the tide changes just before.
-    let sliding = Tide { friction: 0.2, on: 3.3 };
-    let control = ErrorControl::new(1e-10, 0.1);
-    let start = TideState { x: 1.0, dot_x: 0.0 };
-    let mut there = Integrator::controlled(&sliding, Gauss::<4>::new(), control, start)?;
-    there.advance_to(5.0)?;
-    let control = ErrorControl::new(1e-10, -0.1);
-    let mut back = Integrator::controlled_at(&sliding, Gauss::<4>::new(), control, 5.0, there.state())?;
-    back.advance_to(0.0)?;
-    assert_abs_diff_eq!(back.state().x, 1.0, epsilon = 1e-9);
-    assert_abs_diff_eq!(back.state().dot_x, 0.0, epsilon = 1e-9);
-    Ok(())
-}
-
 #[test]
 fn no_step_sees_both_sides() -> Outcome {
     fn check<S: Lagrangian, M: VariableStep<S, f64>>(

@@ -92,6 +92,11 @@ impl<const STAGES: usize, T: Real> Coefficients<STAGES, T> {
     pub(super) fn continuation_over(&self, ratio: T) -> [Lanes<STAGES, T>; STAGES] {
         continuation(&self.lagrange, self.c, ratio)
     }
+
+    /// Column j of the values in a `part` of the step from its beginning.
+    pub(super) fn within(&self, part: T) -> [Lanes<STAGES, T>; STAGES] {
+        lagrange_at(&self.lagrange, Lanes::all(part) * self.c)
+    }
 }
 
 #[cfg(test)]

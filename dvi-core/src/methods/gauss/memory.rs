@@ -30,6 +30,8 @@ pub(super) struct Path<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T
     pub(super) completed: StagesOf<STAGES, S, T>,
     /// The length of that step; zero before the first.
     last: T,
+    /// Whether that step is taken again in part, and none after it.
+    again: bool,
     /// The largest momentum of late, as far as errors have been estimated.
     pub(super) momentum: T,
     /// What rounding has left out of y, if sums are compensated.
@@ -86,6 +88,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             coefficients: Coefficients::new(),
             completed,
             last: T::lift(0.0),
+            again: false,
             momentum: T::lift(0.0),
             rest,
             slopes,
@@ -100,14 +103,26 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         })
     }
 
+    /// Begins at the polynomial of a step that has been `taken` from here, for parts of it: where its equations
+    /// have several solutions they are parts of that one.
+    pub(super) fn follow(&mut self, taken: &Self) {
+        for (packs, taken) in self.completed.iter_mut().zip(taken.completed.iter()) {
+            packs.copy_from_slice(taken);
+        }
+        (self.last, self.again) = (taken.last, true);
+    }
+
     /// Sets the slopes and terms to those of the polynomial through the completed stages, continued into the
     /// next step, or to zero: where they have a kink it leads far away, out of the domain of L too.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess(&mut self, guess: Guess, h: T) {
-        let Self { equations, coefficients, completed, last, slopes, terms, y, .. } = self;
+        let Self { equations, coefficients, completed, last, again, slopes, terms, y, .. } = self;
         let weights = Lanes::all(h) * coefficients.b;
         let continued;
-        let continuation = if h == *last || *last == T::lift(0.0) {
+        let continuation = if *again {
+            continued = coefficients.within(h / *last);
+            &continued
+        } else if h == *last || *last == T::lift(0.0) {
             &coefficients.continuation
         } else {
             continued = coefficients.continuation_over(h / *last);

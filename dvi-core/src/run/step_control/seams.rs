@@ -10,8 +10,8 @@
 //! as much before it. Where a force pushes away from a seam, the equations of a step have several solutions:
 //! one that comes out behind the seam at another than before it is too long. A step that begins on a seam
 //! leaves it first, by a step of some rounding errors. Where a seam comes nearer at the beginning of a step
-//! and goes away at its end, its nearest place is looked for; a step over several turns of a seam is too
-//! long.
+//! and goes away at its end, or where another one is met, its nearest place is looked for; a step over
+//! several turns of a seam is too long.
 
 use super::ControlledRun;
 use crate::error::StepFailure;
@@ -19,7 +19,7 @@ use crate::memory::lasting;
 use crate::methods::{Method, Tolerance};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported};
-use crate::solve::crossing::zero;
+use crate::solve::crossing::{Zero, zero};
 use crate::{Lagrangian, Real, Scalar, Space, System, Vector};
 
 /// By how many rounding errors of the step a step ends behind a seam, at least. Those of the time are more:
@@ -106,30 +106,7 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         if !at_break && let Some(behind) = self.leave(run, h, T::lift(LEAVING) * rounding)? {
             return Ok(Some(AtSeam { before: nothing, behind }));
         }
-        let mut last = [one, self.ahead(run, h)?.0];
-        if last[1] > nothing
-            && let Some(low) = self.dip(run, h)?
-        {
-            last = [low, self.look(run, low * h)?];
-        }
-        // What is no number is no crossing.
-        let has_crossed = last[1] <= nothing;
-        if !has_crossed {
-            return Ok(None);
-        }
-        let (at_begin, half) = (self.look(run, nothing)?, T::lift(0.5));
-        let mut found = zero([[nothing, at_begin], last], &mut |place| self.look(run, place * h))?;
-        loop {
-            // A long step may have crossed it three times.
-            let middle = half * found.place;
-            let at_middle = self.look(run, middle * h)?;
-            let is_first = at_middle >= nothing;
-            if is_first {
-                break;
-            }
-            found =
-                zero([[nothing, at_begin], [middle, at_middle]], &mut |place| self.look(run, place * h))?;
-        }
+        let Some(found) = self.first_crossing(run, h)? else { return Ok(None) };
         let mut place = found.place;
         if carries_derivatives::<T>() {
             // That values have converged says nothing of the derivatives.
@@ -157,6 +134,44 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         // The motion touches the seam, or leaves it where the step begins.
         self.look(run, h)?;
         Ok(None)
+    }
+
+    /// The first place of a step of length `h`, which has been taken, at which a seam is crossed. If there is
+    /// none the run is at the end of the step.
+    fn first_crossing<M: Method<S, T>>(
+        &mut self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        h: T,
+    ) -> Result<Option<Zero<T>>, StepFailure> {
+        let [nothing, one] = [0.0, 1.0].map(T::lift);
+        let at_end = self.ahead(run, h)?.0;
+        let crossed = if at_end > nothing { self.dip(run, h)? } else { Some(one) };
+        let Some(mut place) = crossed else { return Ok(None) };
+        let begin = [nothing, self.look(run, nothing)?];
+        loop {
+            let last = [place, self.look(run, place * h)?];
+            let found = zero([begin, last], &mut |place| self.look(run, place * h))?;
+            match self.crossed_before(run, found.place, h)? {
+                Some(earlier) => place = earlier,
+                None => return Ok(Some(found)),
+            }
+        }
+    }
+
+    /// A part of a step of length `h` at which a seam has been crossed, before that `place` at which one is.
+    fn crossed_before<M: Method<S, T>>(
+        &mut self,
+        run: &mut ControlledRun<'_, S, M, T>,
+        place: T,
+        h: T,
+    ) -> Result<Option<T>, StepFailure> {
+        // A long step may have crossed it three times, and another seam twice.
+        let middle = T::lift(0.5) * place;
+        if self.look(run, middle * h)? < T::lift(0.0) {
+            return Ok(Some(middle));
+        }
+        self.look(run, place * h)?;
+        Ok(self.dip(run, place * h)?.map(|low| low * place))
     }
 
     /// Moves the run from the place before a seam, if it is at one, to that behind it, and returns whether
