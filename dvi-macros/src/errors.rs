@@ -146,10 +146,11 @@ pub(crate) fn text(code: &impl ToTokens) -> String {
         ("( ", "("),
         (" )", ")"),
         (" (", "("),
+        ("(- ", "(-"),
     ] {
         text = text.replace(spaced, tight);
     }
-    text
+    text.strip_prefix("- ").map(|negated| format!("-{negated}")).unwrap_or(text)
 }
 
 #[test]

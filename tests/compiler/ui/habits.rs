@@ -91,7 +91,7 @@ pub struct LogarithmToABase;
 const _: fn() = || stepped(LogarithmToABase, LogarithmToABaseState { x: 1.0, y: 0.0 });
 
 degenerate! { PowerWithAnArgument PowerWithAnArgumentState: hamiltonian = (x + y).pow(3) }
-degenerate! { BoundsByOneName BoundsByOneNameState: hamiltonian = x.clamp(0.0, 1.0) + y }
+degenerate! { BoundsByOneName BoundsByOneNameState: hamiltonian = x.clamp(-1.0, 1.0) + y }
 degenerate! { FunctionByAnotherNameAsInC FunctionByAnotherNameAsInCState: hamiltonian = pow(x, 2) + y }
 
 #[lagrangian(coordinates(x), lagrangian = x.dot().powi(2) / 2.0 - x * x)]

@@ -108,6 +108,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> StageEquations<S, T> for Degenerate {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Degenerate
 where
     S: DegenerateLagrangian<T> + DegenerateLagrangian<Lanes<W, T>>,

@@ -171,6 +171,7 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Regular
 where
     S: RegularLagrangian<T> + RegularLagrangian<Lanes<W, T>>,
