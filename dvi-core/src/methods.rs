@@ -189,9 +189,9 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure>;
 
     /// Takes a part of the step of length `whole` that a run has taken from there, on a copy `memory` of what
-    /// it carried: the state between two points of the run. `taken` is what it carries at the end of that
-    /// step. The part is a [step](Self::step) of its length, unless the memory depends on the length of
-    /// steps, or the equations may have several solutions.
+    /// it carried, which takes nothing but such parts: the state between two points of the run. `taken` is
+    /// what it carries at the end of that step. The part is a [step](Self::step) of its length, unless the
+    /// memory depends on the length of steps, or the equations may have several solutions.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -222,6 +222,11 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         _v: &mut Vector<S, T>,
     ) -> Option<T> {
         None
+    }
+
+    /// Whether the velocity has jumped in the last step, as at an impact.
+    fn has_jumped(&self, _memory: &Self::Memory) -> bool {
+        false
     }
 
     /// Sets `v` to the velocity at the current point. There is nothing to do for degenerate systems.

@@ -3,6 +3,7 @@
 mod changes;
 mod declared;
 mod edges;
+mod jumps;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::{FRAC_PI_2, TAU};

@@ -7,6 +7,7 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
+use dvi_tests::zoo::regular::{Kepler, KeplerState};
 use dvi_tests::{Outcome, failing};
 
 use crate::error_control::seams::{Dry, DryState};
@@ -218,4 +219,32 @@ fn no_iterator_yields_a_velocity_that_is_no_number() -> Outcome {
         yields_finite_states(&Fast, Gauss::<2>::new(), h, fast)?;
     }
     Ok(())
+}
+
+/// A fall into the centre: whether states in between were asked for before makes no difference.
+#[test]
+fn states_within_the_last_good_step_are_known_after_a_failure() -> Outcome {
+    fn check<R: Run<System = Kepler, Scalar = f64>>(begun: impl Fn() -> Outcome<R>) -> Outcome {
+        let (mut asked, mut last) = (Dense::new(begun()?)?, None);
+        loop {
+            let begun = asked.time();
+            if asked.advance().is_err() {
+                break;
+            }
+            let t = 0.5 * (begun + asked.time());
+            last = Some((t, asked.state_at(t)?));
+        }
+        let (t, state) = last.ok_or("no step was taken")?;
+        let mut silent = Dense::new(begun()?)?;
+        while silent.advance().is_ok() {}
+        assert!(asked.steps() > 5 && silent.steps() == asked.steps());
+        assert_eq!((asked.state_at(t)?, silent.state_at(t)?), (state.clone(), state));
+        Ok(())
+    }
+    let (kepler, start) = (Kepler { mu: 1.0 }, KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 });
+    check(|| {
+        Ok(Integrator::controlled(kepler.clone(), Gauss::<8>::new(), ErrorControl::new(1e-9, 0.1), start)?)
+    })?;
+    let method = EnergyLimit { method: Variational::midpoint(), limit: 0.1 };
+    check(|| Ok(Integrator::new(kepler.clone(), method, 0.02, start)?))
 }

@@ -122,6 +122,10 @@ where
         self.method.part_of_step(part, whole, &mut memory.inner, &taken.inner)
     }
 
+    fn has_jumped(&self, memory: &Self::Memory) -> bool {
+        self.method.has_jumped(&memory.inner)
+    }
+
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
         self.method.velocity(here, &memory.inner, v)
     }

@@ -183,6 +183,10 @@ where
         ImpactsMemory::new(system, q, || self.scheme.depart(system, q, v, t, h))
     }
 
+    fn has_jumped(&self, memory: &Self::Memory) -> bool {
+        !memory.impacts().is_empty()
+    }
+
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let counts = [memory.total, memory.grazing];

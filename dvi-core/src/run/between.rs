@@ -20,8 +20,11 @@ pub trait Between<S: System, T: Real> {
     /// [`StartError`] if no run of the method can begin here.
     fn begin(&mut self, system: &S, t: T, h: T) -> Result<usize, StartError>;
 
-    /// Keeps the present point.
-    fn keep_begun(&mut self);
+    /// Keeps the present point, where the next step may begin, beside that where the last one has begun.
+    fn keep_next(&mut self);
+
+    /// Says that the last step has begun at the point that was kept last.
+    fn begin_there(&mut self);
 
     /// Moves the point that is kept by `count` steps from the present time of `clock`.
     ///
@@ -40,7 +43,10 @@ pub trait Between<S: System, T: Real> {
     /// their velocities are written to `v`.
     fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])>;
 
-    /// The same at the end of the step.
+    /// Whether the velocity has jumped in the last step.
+    fn has_jumped(&self) -> bool;
+
+    /// The coordinates, and their velocities in `v`, at the end of the step.
     ///
     /// # Errors
     /// As [`Method::velocity`].
@@ -55,29 +61,38 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         method.velocity(Here { system, q, t }, memory, &mut v).map_err(StartError::Starter)?;
         let begin = || method.begin_again(system, q, &v[..velocities(system)], t, h);
         let point = || begin().map(|memory| Kept { q: q.clone(), memory });
-        self.points = Some([point()?, point()?].into());
-        self.keep_begun();
+        self.points = Some([point()?.into(), point()?.into(), point()?.into()]);
+        self.keep_next();
+        self.begin_there();
         Ok(self.method.places())
     }
 
     #[inline]
-    fn keep_begun(&mut self) {
+    fn keep_next(&mut self) {
+        if let Some([_, next, _]) = &mut self.points {
+            next.take(&self.q, &self.memory);
+        }
+    }
+
+    #[inline]
+    fn begin_there(&mut self) {
         if let Some(points) = &mut self.points {
-            points[0].take(&self.q, &self.memory);
+            points.swap(0, 1);
         }
     }
 
     fn settle(&mut self, system: &S, clock: Clock<T>, count: u64) -> Result<(), StepFailure> {
         let Self { method, points, .. } = self;
-        let points: &mut [PointOf<S, M, T>; 2] = begun(points.as_mut(), clock.time())?;
-        let Kept { q, memory } = &mut points[0];
+        let [begun, ..] = begun(points.as_mut(), clock.time())?;
+        let Kept { q, memory }: &mut PointOf<S, M, T> = begun;
         let statistics = &mut Statistics::default();
         method.steps(Steps { system, q, clock, count, statistics }, memory)
     }
 
     fn reach(&mut self, system: &S, t: T, [h, whole]: [T; 2], v: &mut [T]) -> Result<&[T], StepFailure> {
         let Self { method, memory: taken, points, .. } = self;
-        let [begun, reached]: &mut [PointOf<S, M, T>; 2] = begun(points.as_mut(), t)?;
+        let [begun, _, reached] = begun(points.as_mut(), t)?;
+        let reached: &mut PointOf<S, M, T> = reached;
         reached.take(&begun.q, &begun.memory);
         let (Kept { q, memory }, end) = (reached, t + h);
         if end != t {
@@ -93,8 +108,13 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
 
     fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])> {
         let Self { method, memory, points, .. } = self;
-        let [_, Kept { q, .. }]: &mut [PointOf<S, M, T>; 2] = points.as_mut()?;
+        let [.., reached] = points.as_mut()?;
+        let q = &mut reached.q;
         method.place(memory, index, q, v).map(|part| (part, &q[..]))
+    }
+
+    fn has_jumped(&self) -> bool {
+        self.method.has_jumped(&self.memory)
     }
 
     #[inline]

@@ -82,7 +82,7 @@ impl<R: Run> Dense<R> {
     /// Takes one step.
     ///
     /// # Errors
-    /// As [`Run::advance`]. States within the step before may be out of reach then.
+    /// As [`Run::advance`]; states within the step before are still known.
     #[inline]
     pub fn advance(&mut self) -> Result<(), StepError> {
         self.advance_by(R::advance)
@@ -99,15 +99,21 @@ impl<R: Run> Dense<R> {
         step: impl FnOnce(&mut R) -> Result<(), StepError>,
     ) -> Result<(), StepError> {
         // Steps of a control cannot be taken again by the method alone.
-        if self.taken >= self.most || self.run.clock().is_none() {
-            self.keep();
-            self.most = LONGEST.min(2 * self.most);
+        let is_kept = self.taken >= self.most || self.run.clock().is_none();
+        if is_kept {
+            self.run.between().1.keep_next();
         }
-        let before = self.run.steps();
+        let (t, before) = (self.run.time(), self.run.steps());
         let taken = step(&mut self.run);
         match self.run.steps().wrapping_sub(before) {
             0 => {}
-            1 if taken.is_ok() => self.taken += 1,
+            1 if taken.is_ok() => {
+                if is_kept {
+                    self.run.between().1.begin_there();
+                    (self.begun, self.taken, self.most) = (t, 0, LONGEST.min(2 * self.most));
+                }
+                self.taken += 1;
+            }
             _ => self.keep(),
         }
         taken
@@ -177,9 +183,10 @@ impl<R: Run> Dense<R> {
     }
 
     fn keep(&mut self) {
-        self.begun = self.run.time();
-        self.run.between().1.keep_begun();
-        self.taken = 0;
+        let (_, between) = self.run.between();
+        between.keep_next();
+        between.begin_there();
+        (self.begun, self.taken) = (self.run.time(), 0);
     }
 
     /// Whether time `t` is within the last step, or ahead.
@@ -259,6 +266,11 @@ impl<R: Run> Dense<R> {
     #[inline]
     pub(super) fn places(&self) -> usize {
         self.places
+    }
+
+    /// Whether the velocity has jumped in the last step.
+    pub(super) fn has_jumped(&mut self) -> bool {
+        self.run.between().1.has_jumped()
     }
 
     /// One of them: the part of the step, the time, and the state there.

@@ -18,8 +18,9 @@ pub(crate) struct Stepper<S: System, M: Carries<S, T>, T: Real> {
     pub(crate) failed: bool,
     /// Where the steps at hand have begun, if they may be taken back.
     pub(super) kept: Option<Aside<PointOf<S, M, T>>>,
-    /// If states in between are asked for: where steps have begun, and where a part of the last one leads.
-    pub(super) points: Option<Aside<[PointOf<S, M, T>; 2]>>,
+    /// If states in between are asked for: where steps have begun, where the next one begins, and where a part
+    /// of the last one leads.
+    pub(super) points: Option<[Aside<PointOf<S, M, T>>; 3]>,
 }
 
 /// A point of a run of a method on a system.

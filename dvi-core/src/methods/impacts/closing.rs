@@ -5,6 +5,7 @@ use super::memory::ImpactsMemory;
 use super::passage::Passage;
 use crate::error::StepFailure;
 use crate::methods::FreeFlight;
+use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::solve::crossing::{APART, Cubic, Sample, dip, zero};
 use crate::{Real, Scalar, UnilateralLagrangian};
@@ -126,10 +127,16 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         let a = [open, if is_begun { at(self, open)? } else { self.memory.here.gap[surface] }];
         let b = [closed, at(self, closed)?];
         let found = zero([a, b], &mut |part| at(self, part))?;
-        let mut part = found.place;
+        let (mut part, chord) = (found.place, T::lift(APART));
+        // One that lies where a flight was to end has been found without a look beside it.
+        let slope = if carries_derivatives::<T>() && part > chord {
+            (at(self, part)? - at(self, part - chord)?) / chord
+        } else {
+            found.slope
+        };
         // What is left is less than rounding, but not in the derivatives of numbers that carry some.
         for _ in 0..POLISHED {
-            let change = at(self, part)? / found.slope;
+            let change = at(self, part)? / slope;
             if !change.is_finite() || Scalar::abs(change) > T::lift(APART) {
                 break;
             }

@@ -8,6 +8,7 @@ use super::passage::Passage;
 use crate::discrete::{Interval, Span};
 use crate::error::StepFailure;
 use crate::methods::{FreeFlight, Here, Step};
+use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::{Real, Scalar, UnilateralLagrangian};
 
@@ -36,10 +37,25 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
 
     pub(super) fn advance(&mut self, s: T) -> Result<(), StepFailure> {
         if s == T::lift(0.0) {
-            return Ok(());
+            return if carries_derivatives::<T>() { self.drift(s) } else { Ok(()) };
         }
         let Self { method, system, memory, q, statistics, t, .. } = self;
         method.scheme.fly(Step { system, q, t: *t, h: s, statistics }, &mut memory.inner)
+    }
+
+    /// Moves for a time that is zero but for its derivatives, as between an impact and the end of a step that
+    /// are one.
+    fn drift(&mut self, s: T) -> Result<(), StepFailure> {
+        self.set_velocity(T::lift(0.0))?;
+        let Self { method, system, memory, q, t, .. } = self;
+        let ImpactsMemory { inner, impulse, v, work: [force, momentum], .. } = &mut **memory;
+        system.gradient(q, v, *t, force, momentum);
+        for (j, q) in q.iter_mut().enumerate() {
+            *q += s * v[j];
+            impulse[j] = s * force[j];
+        }
+        method.scheme.kick(inner, impulse, v);
+        Ok(())
     }
 
     /// Sets `v` to the velocity at the present point, after a flight of length `s`.

@@ -71,7 +71,7 @@ pub(super) struct Course<T> {
     /// The mean rate in the last step.
     slope: T,
     /// By how much that differs from the one before, once there is one.
-    bend: Option<T>,
+    pub(super) bend: Option<T>,
     /// How fast it has changed in the last steps, at most.
     pub(super) rate: T,
 }

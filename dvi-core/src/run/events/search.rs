@@ -8,7 +8,7 @@ use crate::run::dense::{Dense, StateOf};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported};
 use crate::solve::crossing::{Sample, Zero, dip, zero};
-use crate::{Real, Scalar};
+use crate::{Real, Scalar, Space, System};
 
 /// The part of a step between places at which a condition is looked at for its slope.
 const CHORD: f64 = 1e-5;
@@ -17,6 +17,9 @@ const CHORD: f64 = 1e-5;
 const SURE: usize = 6;
 /// Iterations for the derivatives of a time, of numbers that carry some.
 const POLISHED: usize = 3;
+/// A velocity jumps between two places that are one if it changes by more than this part of itself, and of
+/// what it changes by in a chord.
+const JUMPS: [f64; 2] = [1e-9, 1e-3];
 
 /// The crossings that count as events.
 ///
@@ -121,17 +124,56 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
             return Ok(None);
         }
         let found = self.zero(ends)?;
+        let [before, behind] = if found.across > found.place {
+            [found.place, found.across]
+        } else {
+            [found.across, found.place]
+        };
         // Behind a jump: a run that begins there does not meet it again.
-        let is_jump = found.across > found.place && are_one(found.place, found.across);
-        let mut place = if is_jump { found.across } else { found.place };
-        if carries_derivatives::<R::Scalar>() {
-            // That values have converged says nothing of the derivatives.
-            for _ in 0..POLISHED {
-                let value = self.look(place)?;
-                place -= value / self.sample(R::Scalar::lift(1.0), [place, value])?.slope;
-            }
+        let place = if are_one(before, behind) { behind } else { found.place };
+        if !carries_derivatives::<R::Scalar>() {
+            return Ok(Some(place));
         }
-        Ok(Some(place))
+        // That values have converged says nothing of the derivatives.
+        if place == behind
+            && let Some(jump) = self.jump([before, behind])?
+        {
+            return Ok(Some(jump));
+        }
+        let mut polished = place;
+        for _ in 0..POLISHED {
+            let value = self.look(polished)?;
+            polished -= value / self.sample(R::Scalar::lift(1.0), [polished, value])?.slope;
+        }
+        Ok(Some(polished))
+    }
+
+    /// The part of the step at which the velocity jumps, as at an impact, between two places that are one but
+    /// for rounding: just behind the jump, with its derivatives. There the motion before it meets that behind
+    /// it, q⁻ + v⁻s = q⁺ + v⁺s. `None` if no velocity jumps.
+    fn jump(&mut self, places: [R::Scalar; 2]) -> Result<Option<R::Scalar>, StepFailure> {
+        if !self.run.has_jumped() {
+            return Ok(None);
+        }
+        let value_of = |number| R::Scalar::lift(reported(number));
+        let ([before, behind], h) = (places.map(value_of), self.run.step_size());
+        let [nothing, chord, least, smooth] = [0.0, CHORD, JUMPS[0], JUMPS[1]].map(R::Scalar::lift);
+        let [mut q, mut v, mut earlier] = self.run.system().space().vectors();
+        earlier.copy_from_slice(self.run.reach(larger(before - chord, nothing) * h)?.1.v);
+        let (from, at) = self.run.reach(before * h)?;
+        q.copy_from_slice(at.q);
+        v.copy_from_slice(at.v);
+        let (to, at) = self.run.reach(behind * h)?;
+        let change = |k: usize| Scalar::abs(at.v[k] - v[k]);
+        let most = (1..q.len()).fold(0, |most, k| if change(k) > change(most) { k } else { most });
+        let bend = Scalar::abs(v[most] - earlier[most]);
+        let speed = Scalar::abs(v[most]) + Scalar::abs(at.v[most]);
+        if change(most) <= larger(least * speed, smooth * bend) {
+            return Ok(None);
+        }
+        let gap = at.q[most] - (q[most] + (to - from) * v[most]);
+        let later = gap / (v[most] - at.v[most]);
+        Ok(Some(behind + (later - value_of(later)) / h))
     }
 
     /// A zero of the condition between two parts of the step: the first one, where it has come to zero and

@@ -183,6 +183,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     ) -> Result<(), StepFailure> {
         let [zero, one, left, unsure] = [0.0, 1.0, LEFT, UNSURE].map(R::Scalar::lift);
         let h = Scalar::abs(run.step_size()) * if WHOLE { one } else { to - from };
+        let has_jumped = run.has_jumped();
         for (index, mut b) in end.into_iter().enumerate() {
             let Watched { g: a, course } = self.watched[index];
             // Of another motion, before the state was set.
@@ -204,7 +205,11 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             // The side of what is so near to zero is that of rounding.
             let is_beside = [a, b].iter().any(|&g| Scalar::abs(g) <= left * change);
             let turn = match before {
-                Some(before) if stays && !is_beside => course.turns(&before, [a, b], h, WHOLE),
+                Some(mut before) if stays && !is_beside => {
+                    // What was before says nothing of the slope behind a jump of the velocity.
+                    before.bend = before.bend.filter(|_| !has_jumped);
+                    course.turns(&before, [a, b], h, WHOLE)
+                }
                 _ => Turn::Likely,
             };
             if turn == Turn::No {

@@ -55,7 +55,8 @@ const STRETCH: f64 = 1.01;
 /// backward, so that none sees both sides. A seam that is crossed twice within a step is found if it comes
 /// nearer at the beginning and goes away at the end; a step in which it turns more often, on a cubic path
 /// between the ends, is taken shorter. A motion that does not leave a seam, as a body at rest under dry
-/// friction, ends the run with [`StepFailure::Seam`], or with that of a step that does not succeed.
+/// friction, ends the run with [`StepFailure::Seam`], or with that of a step that does not succeed; one that
+/// slides along it may go on in steps that are very short.
 ///
 /// The estimate looks at the whole step: at the `S` stages, at both ends, and between each two stages. A
 /// jump or a kink in a term of a sum or in a function of your own, or the knot of a spline, makes steps short
