@@ -20,6 +20,7 @@ mod formula;
 pub(crate) mod functions;
 mod generate;
 mod jet;
+mod language;
 mod parts;
 pub(crate) mod random;
 mod rate;
@@ -40,6 +41,9 @@ use summary::Summary;
 use system::System;
 
 use crate::syntax::Kind;
+
+/// The number of random systems of a plain run.
+const SYSTEMS: u64 = 500;
 
 /// A number from the environment.
 fn setting(name: &str, default: u64) -> u64 {
@@ -66,12 +70,15 @@ pub(crate) fn random_system(seed: u64) -> (Kind, String, String) {
 
 fn random_systems(part: u64) {
     on_large_stack(move || {
-        let (count, seed) = (setting("DVI_SYSTEMS", 500), setting("DVI_SEED", 0));
+        let (count, seed) = (setting("DVI_SYSTEMS", SYSTEMS), setting("DVI_SEED", 0));
         let mut summary = Summary::default();
         for number in (0..count).filter(|number| number % 2 == part) {
-            let seed = (seed << 40) + number;
-            let system = generate::system(&mut Random::new(seed));
-            summary.examine(&system, seed);
+            let start = (seed << 40) + number;
+            let system = generate::system(&mut Random::new(start));
+            summary.examine(&system, start);
+        }
+        if (count, seed) == (SYSTEMS, 0) {
+            summary.expect_each_part();
         }
         summary.conclude("random systems");
     });

@@ -103,35 +103,14 @@ fn a_gauge_is_found_for_twenty_systems() {
     );
 }
 
-/// The symmetric gauge of Lotka–Volterra, brought into class along y and along x.
-mod prey {
-    use dvi_core::prelude::*;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form    = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
-        hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
-        gauge       = auto,
-    )]
-    pub(crate) struct Found;
-
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        one_form    = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
-        hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
-        gauge       = -x.ln() * y.ln() / 2.0,
-    )]
-    pub(crate) struct AlongX;
-
-    /// The symmetric gauge + d(xy).
-    #[degenerate_lagrangian(
-        coordinates(x, y),
-        lagrangian = (y + y.ln() / (2.0 * x)) * dot(x) + (x - x.ln() / (2.0 * y)) * dot(y)
-            - (x + y - x.ln() - 2.0 * y.ln()),
-        gauge      = x.ln() * y.ln() / 2.0 - x * y,
-    )]
-    pub(crate) struct Shifted;
-}
+/// The symmetric gauge of Lotka–Volterra, brought into class along x.
+#[degenerate_lagrangian(
+    coordinates(x, y),
+    one_form    = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
+    hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
+    gauge       = -x.ln() * y.ln() / 2.0,
+)]
+struct AlongX;
 
 fn last<S: ProperlyDegenerate>(system: &S, start: S::State<f64>, h: f64, steps: u64) -> [f64; 2] {
     let mut run = Integrator::new(system, OneStep::midpoint(), h, start).expect("a start in the domain");
@@ -140,25 +119,16 @@ fn last<S: ProperlyDegenerate>(system: &S, start: S::State<f64>, h: f64, steps: 
     [values[0], values[1]]
 }
 
-/// Gauges may end in the same one-form, and so in the same steps; those of (ln y/x, 0) and (0, −ln x/y)
-/// differ by the order of the scheme.
+/// Steps with the one-forms (ln y/x, 0) and (0, −ln x/y) differ by the order of the scheme.
 #[test]
 fn gauges_of_the_same_system_have_the_same_motion() -> Outcome {
     let declared = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
-    for [x, y, ..] in POINTS {
-        let [mut reference, mut found, mut shifted] = [[0.0; 2]; 3];
-        declared.one_form(&[x, y], 0.0, &mut reference);
-        prey::Found.one_form(&[x, y], 0.0, &mut found);
-        prey::Shifted.one_form(&[x, y], 0.0, &mut shifted);
-        assert!(apart(&reference, &found) < 1e-12, "{reference:?} and {found:?}");
-        assert!(apart(&reference, &shifted) < 1e-12, "{reference:?} and {shifted:?}");
-    }
     let (x, y) = (2.0, 1.0);
     let mut differences = Vec::new();
     for steps in [200, 400, 800] {
         let h = 20.0 / steps as f64;
         let reference = last(&declared, OneSidedState { x, y }, h, steps);
-        let other = last(&prey::AlongX, prey::AlongXState { x, y }, h, steps);
+        let other = last(&AlongX, AlongXState { x, y }, h, steps);
         differences.push((h, apart(&reference, &other)));
     }
     let order = convergence_order(&differences).ok_or("no slope")?;

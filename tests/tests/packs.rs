@@ -1,6 +1,7 @@
 //! Loops that run over packs of eight terms: for every number of terms, and so for every number that is left
-//! over, they add up what a loop by hand adds up, and numbers in lanes get what each of them gets alone, bit
-//! for bit.
+//! over, numbers in lanes, whose terms are taken one by one, get what each of them gets alone, bit for bit; and
+//! sums and pairs add up to what a loop by hand adds up. What is added to which entry is held by the oracle of
+//! `dvi-macros`, in chunks of two.
 
 mod neighbours;
 
@@ -71,6 +72,15 @@ fn lanes_agree(
     }
 }
 
+/// The same of ∇H.
+fn gradients_agree(system: &(impl DegenerateLagrangian + DegenerateLagrangian<Lanes<W>>), q: &[f64]) {
+    lanes_agree(
+        q,
+        |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
+        |q, out| system.hamiltonian_gradient(q, 0.0, out),
+    );
+}
+
 fn vortices_by_hand(gamma: &[f64], q: &[f64]) -> Vec<Sum> {
     let n = gamma.len();
     let mut gradient = vec![Sum::default(); 2 * n];
@@ -93,11 +103,7 @@ fn pairs_of_vortices() {
         let mut gradient = vec![0.0; 2 * n];
         system.hamiltonian_gradient(&q, 0.0, &mut gradient);
         agree(&gradient, &vortices_by_hand(&system.gamma, &q), &format!("{n} vortices"));
-        lanes_agree(
-            &q,
-            |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
-            |q, out| system.hamiltonian_gradient(q, 0.0, out),
-        );
+        gradients_agree(&system, &q);
     }
 }
 
@@ -119,30 +125,12 @@ fn bodies(n: usize) -> Bodies {
     Bodies { m: numbers(n, 3).into_iter().map(|m| 1.5 + m).collect(), charge, softening: 0.1 }
 }
 
-fn forces_by_hand(system: &Bodies, q: &[f64]) -> Vec<Sum> {
-    let n = system.m.len();
-    let mut forces = vec![Sum::default(); 3 * n];
-    for i in 0..n {
-        for j in (0..n).filter(|j| *j != i) {
-            let apart = [0, n, 2 * n].map(|block| q[block + j] - q[block + i]);
-            let square: f64 = apart.iter().map(|x| x * x).sum::<f64>() + system.softening.powi(2);
-            let charges = f64::from(system.charge[i] * system.charge[j]);
-            let strength = (system.m[i] * system.m[j] - charges) / (square * square.sqrt());
-            for (block, apart) in apart.into_iter().enumerate() {
-                forces[block * n + i].add(strength * apart);
-            }
-        }
-    }
-    forces
-}
-
 #[test]
 fn forces_between_bodies() {
     for n in SIZES {
         let (system, q, v) = (bodies(n), numbers(3 * n, 4), numbers(3 * n, 5));
         let [mut force, mut momentum] = [vec![0.0; 3 * n], vec![0.0; 3 * n]];
         system.gradient(&q, &v, 0.0, &mut force, &mut momentum);
-        agree(&force, &forces_by_hand(&system, &q), &format!("{n} bodies"));
         let kinetic = v.iter().enumerate().map(|(i, v)| system.m[i % n] * v);
         let expected: Vec<f64> = kinetic.collect();
         assert!(momentum.iter().zip(&expected).all(|(a, b)| (a - b).abs() <= 1e-15 * b.abs()));
@@ -224,11 +212,7 @@ fn sums_with_neighbours() {
             abs_diff_eq!(found, energy, epsilon = 1e-14 * (n * n) as f64),
             "{n} terms: H = {found}, by hand {energy}"
         );
-        lanes_agree(
-            &q,
-            |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
-            |q, out| system.hamiltonian_gradient(q, 0.0, out),
-        );
+        gradients_agree(&system, &q);
     }
 }
 
@@ -249,11 +233,7 @@ fn fixed<const N: usize>() {
     let mut gradient = vec![0.0; 2 * N];
     system.hamiltonian_gradient(&q, 0.0, &mut gradient);
     agree(&gradient, &vortices_by_hand(&system.gamma, &q), &format!("{N} vortices, as the compiler knows"));
-    lanes_agree(
-        &q,
-        |q, out| system.hamiltonian_gradient(q, Lanes::all(0.0), out),
-        |q, out| system.hamiltonian_gradient(q, 0.0, out),
-    );
+    gradients_agree(&system, &q);
 }
 
 #[test]

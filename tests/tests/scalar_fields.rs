@@ -1,5 +1,5 @@
-//! Functions of several variables that hold data, in formulas: derivatives against dual numbers, how often
-//! they are evaluated, where they may come from, and what happens where they are not known.
+//! Functions of several variables that hold data, in formulas: how often they are evaluated, where they may
+//! come from, and what happens where they are not known.
 
 use approx::assert_abs_diff_eq;
 use dvi_tests::Outcome;
@@ -9,7 +9,6 @@ use dvi_core::error::OutsideError;
 use dvi_core::field::{Expansion, ScalarField};
 use dvi_core::prelude::*;
 use dvi_core::{Scalar, Space, Weights};
-use num_dual::HyperDual64;
 
 /// a sin(kx) e^(−y²) + x²y, with derivatives by hand; it counts its evaluations.
 #[derive(Debug, Default)]
@@ -23,12 +22,6 @@ impl Hill {
     fn new(a: f64, k: f64) -> Self {
         Self { a, k, ..Self::default() }
     }
-
-    /// The value alone.
-    fn value<T: Scalar>(&self, x: T, y: T) -> T {
-        let (a, k) = (T::lift(self.a), T::lift(self.k));
-        a * (k * x).sin() * (-y * y).exp() + x * x * y
-    }
 }
 
 impl ScalarField<2> for Hill {
@@ -39,7 +32,7 @@ impl ScalarField<2> for Hill {
         let mixed = -two * a * k * c * e * y + two * x;
         let bend = two * a * s * e * (two * y * y - T::lift(1.0));
         Expansion {
-            value: self.value(x, y),
+            value: a * s * e + x * x * y,
             gradient: [a * k * c * e + two * x * y, -two * a * s * e * y + x * x],
             hessian: [[-a * k * k * s * e + two * y, mixed], [mixed, bend]],
         }
@@ -55,47 +48,8 @@ struct Drift<P> {
     psi: P,
 }
 
-/// L of [`Drift`] from the value of ψ alone, at (x, y, x', y').
-fn lagrangian<T: Scalar>(psi: &Hill, [x, y, dot_x, _]: [T; 4]) -> T {
-    let (here, two) = (psi.value(x, y), T::lift(2.0));
-    here * y * dot_x - (here * here + psi.value(x - y, two * y) + x * here)
-}
-
 fn assert_close(found: f64, expected: f64) {
     assert_abs_diff_eq!(found, expected, epsilon = 1e-12 * (1.0 + expected.abs()));
-}
-
-const POINTS: [[f64; 4]; 3] = [[0.4, -0.7, 0.3, 1.1], [1.3, 0.2, -0.8, 0.5], [-2.1, 0.9, 1.4, -0.2]];
-
-#[test]
-fn derivatives_are_those_of_dual_numbers() -> Outcome {
-    let system = Drift { psi: Hill::new(0.3, 1.7) };
-    for at in POINTS {
-        let seeded = |i: usize, j: usize| {
-            let mut numbers = at.map(HyperDual64::from);
-            numbers[i].eps1 = 1.0;
-            numbers[j].eps2 = 1.0;
-            lagrangian(&system.psi, numbers)
-        };
-        let ([q, v], mut l_q, mut l_v) = ([[at[0], at[1]], [at[2], at[3]]], [0.0; 2], [0.0; 2]);
-        let mut matrix = system.space().matrix();
-        let w = Weights { qq: 0.7, qv: -0.4, vq: 1.3, vv: 0.9 };
-        system.linearize(&q, &v, 0.0, w, &mut l_q, &mut l_v, &mut matrix);
-        assert_close(system.lagrangian(&q, &v, 0.0), seeded(0, 0).re);
-        for i in 0..2 {
-            assert_close(l_q[i], seeded(i, i).eps1);
-            assert_close(l_v[i], seeded(2 + i, 2 + i).eps1);
-            for j in 0..2 {
-                let second = |i: usize, j: usize| seeded(i, j).eps1eps2;
-                let expected = w.qq * second(i, j)
-                    + w.qv * second(i, 2 + j)
-                    + w.vq * second(2 + i, j)
-                    + w.vv * second(2 + i, 2 + j);
-                assert_close(matrix[2 * i + j], expected);
-            }
-        }
-    }
-    Ok(())
 }
 
 /// ψ stands at two points, (x, y) and (x − y, 2y), in five places of L.

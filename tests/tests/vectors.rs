@@ -1,6 +1,5 @@
-//! Vectors beside the same in components: the same numbers, under other names.
+//! Vectors: the names of their entries, and their number at run time.
 
-use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 
@@ -12,18 +11,6 @@ use dvi_tests::Outcome;
     momenta(l_z = sum(0..N, |i| m[i] * r[i].cross(dot(r[i])))[2]),
 )]
 struct Bodies<const N: usize> {
-    m: [f64; N],
-}
-
-/// The same in components.
-#[lagrangian(
-    coordinates(x[N], y[N], z[N]),
-    lagrangian = sum(0..N, |i| m[i] / 2.0 * (dot(x[i]).powi(2) + dot(y[i]).powi(2) + dot(z[i]).powi(2)))
-        + sum_pairs(0..N, |i, j| m[i] * m[j]
-            / ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2) + (z[i] - z[j]).powi(2)).sqrt()),
-    momenta(l_z = sum(0..N, |i| m[i] * (x[i] * dot(y[i]) - y[i] * dot(x[i])))),
-)]
-struct InComponents<const N: usize> {
     m: [f64; N],
 }
 
@@ -47,29 +34,6 @@ fn start() -> BodiesState<3> {
         r: [[0.0, 0.1, 0.2], [2.0, 0.3, -0.4], [-1.5, 1.0, 0.7]],
         dot_r: [[0.0, 0.01, 0.02], [0.1, 0.5, 0.2], [-0.3, -0.4, 0.1]],
     }
-}
-
-fn column(vectors: &[[f64; 3]; 3], axis: usize) -> [f64; 3] {
-    vectors.map(|vector| vector[axis])
-}
-
-#[test]
-fn bodies_move_as_their_components_do() -> Outcome {
-    let BodiesState { r, dot_r } = start();
-    let [x, y, z] = [0, 1, 2].map(|axis| column(&r, axis));
-    let [dot_x, dot_y, dot_z] = [0, 1, 2].map(|axis| column(&dot_r, axis));
-    let components = InComponentsState { x, y, z, dot_x, dot_y, dot_z };
-    let (of_vectors, of_components) = (Bodies { m: MASSES }, InComponents { m: MASSES });
-    let mut run = Integrator::new(&of_vectors, Variational::trapezoid(), 0.01, start())?;
-    let mut other = Integrator::new(&of_components, Variational::trapezoid(), 0.01, components)?;
-    run.take_steps(500)?;
-    other.take_steps(500)?;
-    assert_eq!(run.q(), other.q());
-    let (found, expected) = (run.state(), other.state());
-    assert_eq!(column(&found.r, 1), expected.y);
-    assert_eq!(column(&found.dot_r, 2), expected.dot_z);
-    assert_eq!(run.momentum(0), other.momentum(0));
-    Ok(())
 }
 
 #[test]
@@ -107,37 +71,5 @@ fn the_number_of_bodies_may_be_known_late() -> Outcome {
     let short = InFieldState { r: state.r[1..].to_vec(), ..state };
     let error = Integrator::new(&system, Variational::midpoint(), 0.01, short).map(|_| ());
     assert!(error.is_err_and(|error| error.to_string().contains("`r`")));
-    Ok(())
-}
-
-/// Bodies in a field, axis by axis.
-#[lagrangian(
-    coordinates(r[n][3]),
-    lagrangian = sum(0..n, |i| sum(0..3, |k| m[k] / 2.0 * dot(r[i][k]).powi(2) + b[k] * dot(r[i])[k])
-        - product(0..=2, |k| 1.0 + r[i][k].powi(2))
-        - sum(0..3, |k| sum(0..3, |l| h[k][l] * r[i][k] * r[i][l]))),
-)]
-struct AxisByAxis {
-    n: usize,
-    m: [f64; 3],
-    b: [f64; 3],
-    h: [[f64; 3]; 3],
-}
-
-#[test]
-fn sums_run_over_components() -> Outcome {
-    let (m, b, h) =
-        ([1.0, 2.0, 0.5], [0.3, -0.2, 0.1], [[1.0, 0.2, 0.1], [0.2, 2.0, -0.3], [0.1, -0.3, 0.7]]);
-    let (r, dot_r) = (vec![[0.1, 0.4, -0.3], [0.7, 0.2, 0.5]], vec![[0.2, 0.0, 0.5], [-0.1, 0.3, 0.4]]);
-    let mut expected = 0.0;
-    for (r, v) in r.iter().zip(&dot_r) {
-        expected -= r.iter().map(|r| 1.0 + r * r).product::<f64>();
-        for k in 0..3 {
-            let field: f64 = h[k].iter().zip(r).map(|(h, r)| h * r).sum();
-            expected += m[k] / 2.0 * v[k] * v[k] + b[k] * v[k] - r[k] * field;
-        }
-    }
-    let found = AxisByAxis { n: 2, m, b, h }.lagrangian_at(0.0, &AxisByAxisState { r, dot_r })?;
-    assert_abs_diff_eq!(found, expected, epsilon = 1e-14);
     Ok(())
 }

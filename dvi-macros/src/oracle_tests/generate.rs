@@ -58,7 +58,7 @@ pub(super) fn system(random: &mut Random) -> System {
         // Such systems have neither constraints nor forces.
         return generator.system;
     }
-    if regular && generator.random.chance(30) {
+    if regular && generator.random.chance(40) {
         generator.system.constrained = match generator.random.below(3) {
             0 => Constrained::Velocities,
             1 => Constrained::Gaps,
@@ -162,7 +162,7 @@ impl Generator<'_> {
     fn constraint(&mut self) -> Constraint {
         self.budget = self.budget.max(6);
         let (mut ranges, mut scope) = (Vec::new(), Scope::outside());
-        for chance in [50, 40] {
+        for chance in [80, 80] {
             if self.random.chance(chance)
                 && let Some((lower, upper, inside)) = self.loops(&scope, Loops::Single)
             {

@@ -70,21 +70,13 @@ impl Formula {
         }
     }
 
-    /// Whether it calls this function of the user's.
-    pub(super) fn calls(&self, function: usize) -> bool {
-        matches!(self, Self::Own(own, _) if *own == function)
-            || self.parts().iter().any(|part| part.calls(function))
-    }
-
-    /// Whether it calls this function of several variables.
-    pub(super) fn evaluates(&self, field: usize) -> bool {
-        matches!(self, Self::ScalarField(known, _) if *known == field)
-            || self.parts().iter().any(|part| part.evaluates(field))
+    /// Whether it, or a formula inside, is such a one.
+    pub(super) fn has(&self, is_one: &dyn Fn(&Self) -> bool) -> bool {
+        is_one(self) || self.parts().iter().any(|part| part.has(is_one))
     }
 
     pub(super) fn has_velocities(&self) -> bool {
-        let is_velocity = matches!(self, Self::Velocity(..) | Self::VectorVelocity(..));
-        is_velocity || self.parts().iter().any(Self::has_velocities)
+        self.has(&|part| matches!(part, Self::Velocity(..) | Self::VectorVelocity(..)))
     }
 
     /// Whether it is a vector.

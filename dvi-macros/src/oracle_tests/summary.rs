@@ -5,16 +5,21 @@ use std::collections::BTreeMap;
 
 use super::compare::{Verdict, compare};
 use super::expand::refusal;
+use super::language::PARTS;
 use super::random::Random;
 use super::shrink::smallest;
 use super::system::System;
 
 /// So many failures are made small and printed.
 const SHOWN: usize = 6;
+/// So many systems that agree are to have each part of the language.
+const FEWEST: usize = 3;
 
 #[derive(Default)]
 pub(super) struct Summary {
     counts: BTreeMap<String, usize>,
+    /// The systems that agree, by the parts of the language that they have.
+    parts: BTreeMap<&'static str, usize>,
     /// Failures by the output that differs: their number, and the first ones.
     failures: BTreeMap<String, (usize, Vec<String>)>,
     largest: f64,
@@ -27,28 +32,8 @@ impl Summary {
         match &verdict {
             Verdict::Agrees { largest, claims } => {
                 self.count("agrees");
-                if !system.constraints.is_empty() {
-                    self.count(&format!(
-                        "agrees, with {} constraints",
-                        system.constrained.words().adjective
-                    ));
-                }
-                if system.dissipation.is_some() {
-                    self.count("agrees, with a dissipation function");
-                }
-                if system.has_spinors() {
-                    self.count("agrees, with unit vectors");
-                }
-                for (word, what) in [(": SO3", "rotations"), (": S2", "unit vectors")] {
-                    if system.is_on_manifold() && system.attribute().contains(word) {
-                        self.count(&format!("agrees, with {what} that have velocities"));
-                    }
-                }
-                if system.has_grids() {
-                    self.count("agrees, with two indices");
-                }
-                if system.attribute().contains("let = {") {
-                    self.count("agrees, with names that formulas share");
+                for (part, is_in) in PARTS {
+                    *self.parts.entry(part).or_default() += usize::from(is_in(system));
                 }
                 self.largest = self.largest.max(*largest);
                 for (name, declared, possible) in claims {
@@ -88,12 +73,25 @@ impl Summary {
         }
     }
 
+    /// Fails if few of the systems that agree have some part of the language.
+    pub(super) fn expect_each_part(&self) {
+        for (part, count) in &self.parts {
+            assert!(
+                *count >= FEWEST,
+                "{count} systems that agree have {part}, and {FEWEST} are to have them"
+            );
+        }
+    }
+
     /// Prints what came out, and fails if anything differed.
     #[expect(clippy::print_stdout, reason = "the distribution is read with --nocapture")]
     pub(super) fn conclude(self, what: &str) {
         println!("{what}: largest difference {:.1e} of the terms", self.largest);
         for (what, count) in &self.counts {
             println!("{count:>8}  {what}");
+        }
+        for (part, count) in &self.parts {
+            println!("{count:>8}  with {part}");
         }
         let failures: Vec<String> = self
             .failures

@@ -206,12 +206,19 @@ impl System {
         matches!(self.dynamics, Dynamics::Regular(_))
     }
 
-    pub(super) fn evaluates(&self, field: usize) -> bool {
-        self.clone().formulas_mut().into_iter().any(|formula| formula.evaluates(field))
+    /// Whether one of its formulas is such a one, or has it inside.
+    pub(super) fn has(&self, is_one: &dyn Fn(&Formula) -> bool) -> bool {
+        self.clone().formulas_mut().into_iter().any(|formula| formula.has(is_one))
     }
 
+    /// Whether it calls this function of several variables.
+    pub(super) fn evaluates(&self, field: usize) -> bool {
+        self.has(&|part| matches!(part, Formula::ScalarField(known, _) if *known == field))
+    }
+
+    /// Whether it calls this function of the user's.
     pub(super) fn calls(&self, function: usize) -> bool {
-        self.clone().formulas_mut().into_iter().any(|formula| formula.calls(function))
+        self.has(&|part| matches!(part, Formula::Own(known, _) if *known == function))
     }
 
     /// All formulas, to be changed in place.

@@ -225,8 +225,17 @@ impl<'a> Writer<'a> {
                 postfix(format!("[{}]", components.join(", ")))
             }
             Formula::Cross(a, b) => method(a, "cross", self.text(b)),
+            Formula::Dot(a, b) if self.spelling.is_other() => {
+                let (a, b, width) = (self.text(a), self.text(b), self.system.width);
+                let sum = format!("sum(0..{width}, |axis| left[axis] * right[axis])");
+                (format!("{{ let left = {a}; let right = {b}; {sum} }}"), Block)
+            }
             Formula::Dot(a, b) => method(a, "dot", self.text(b)),
             Formula::Norm(of) => method(of, "norm", String::new()),
+            Formula::NormSquared(of) if self.spelling.is_other() => {
+                let (of, width) = (self.text(of), self.system.width);
+                (format!("{{ let all = {of}; sum(0..{width}, |axis| all[axis].powi(2)) }}"), Block)
+            }
             Formula::NormSquared(of) => method(of, "norm_squared", String::new()),
             Formula::Component(of, number) => postfix(format!("{}[{number}]", self.bound(of, Postfix))),
             Formula::Coordinate(block, index) => postfix(self.place(*block, index.as_ref())),

@@ -2,7 +2,6 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{Report, Weights};
-use dvi_tests::{apart, filling};
 
 use super::Outcome;
 
@@ -15,50 +14,6 @@ use super::Outcome;
 #[derive(Clone, Debug)]
 struct Oscillator {
     gamma: f64,
-}
-
-/// Bodies on a line that rub against each other and against the air, by one function and by forces.
-#[lagrangian(
-    coordinates(x[n], y),
-    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i] * y) + dot(y).powi(2) / 2.0,
-    force(y) = -y,
-    dissipation = sum(0..n, |i| c[i] * dot(x[i]).powi(2)) / 2.0
-        + sum_pairs(0..n, |i, j| k[i][j] * gap(i, j).powi(2)) / 2.0 + x[0] * dot(y).powi(4) / 4.0,
-    let = { let gap = |i, j| dot(x[i]) - dot(x[j]); },
-)]
-#[derive(Clone, Debug)]
-struct Rubbing {
-    n: usize,
-    c: Vec<f64>,
-    k: Vec<Vec<f64>>,
-}
-
-#[lagrangian(
-    coordinates(x[n], y),
-    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) / 2.0 - x[i] * y) + dot(y).powi(2) / 2.0,
-    force(x) = |i| -c[i] * dot(x[i]) - sum(0..n, |j| k[i][j] * (dot(x[i]) - dot(x[j]))),
-    force(y) = -y - x[0] * dot(y).powi(3),
-)]
-#[derive(Clone, Debug)]
-struct Rubbed {
-    n: usize,
-    c: Vec<f64>,
-    k: Vec<Vec<f64>>,
-}
-
-#[test]
-fn it_is_the_force_that_is_written_by_hand() {
-    fn seen<S: RegularLagrangian>(system: &S) -> Vec<f64> {
-        let (q, v) = ([0.3, -0.2, 0.5, 0.7], [1.0, 2.0, 4.0, 0.5]);
-        let ([mut force, mut l_q, mut l_v], mut matrix) = ([[0.0; 4]; 3], [0.0; 16]);
-        system.applied_force(&q, &v, 0.0, &mut force);
-        let weights = Weights { qq: 0.7, qv: -0.4, vq: 1.3, vv: 0.9 };
-        system.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut filling(&mut matrix, 4));
-        [&force[..], &l_q, &l_v, &matrix].concat()
-    }
-    let (c, k) = (vec![0.1, 0.2, 0.3], vec![vec![0.0, 0.4, 0.1], vec![0.4, 0.0, 0.7], vec![0.1, 0.7, 0.0]]);
-    let (function, forces) = (Rubbing { n: 3, c: c.clone(), k: k.clone() }, Rubbed { n: 3, c, k });
-    assert!(apart(&seen(&function), &seen(&forces)) < 1e-14);
 }
 
 /// Drag of the square of the speed, as a function and as a force.

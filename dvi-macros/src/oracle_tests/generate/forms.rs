@@ -96,6 +96,7 @@ impl Generator<'_> {
             1 => Formula::Number("0.5").times(product),
             _ => Formula::Negative(Box::new(product)),
         };
+        let product = if self.random.chance(30) { Formula::Time.times(product) } else { product };
         if self.random.chance(30) { product } else { product.plus(value) }
     }
 

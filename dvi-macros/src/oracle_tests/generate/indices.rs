@@ -6,6 +6,7 @@ use super::Generator;
 use crate::oracle_tests::formula::{Atom, Formula, Index, Loops};
 use crate::oracle_tests::random::Random;
 use crate::oracle_tests::system::{SizeKind, System};
+use crate::syntax::Factor;
 
 /// What is bound around a formula.
 #[derive(Clone, Debug)]
@@ -140,6 +141,32 @@ impl Generator<'_> {
     ) -> Option<Formula> {
         let (lower, upper, inside) = self.loops(scope, loops)?;
         Some(Formula::Sum(loops, scope.level, lower, upper, Box::new(body(self, &inside))))
+    }
+
+    /// Over entries beside one another, or over pairs of them, and arithmetic alone: what loops over packs
+    /// take, and threads share.
+    pub(super) fn sum_in_packs(&mut self, scope: &Scope) -> Option<Formula> {
+        let blocks = self.system.blocks.iter().enumerate();
+        let arrays: Vec<(usize, usize)> = blocks
+            .filter(|(_, block)| block.factor == Factor::Line)
+            .filter_map(|(number, block)| Some((number, block.size?)))
+            .collect();
+        let (block, size) = *arrays.get(self.random.below(arrays.len().max(1)))?;
+        let (lower, upper, first) =
+            (Index::literal(0), Index::atom(Atom::Size(size)), Index::bound(scope.level));
+        let (loops, upper, second) = match self.random.chance(50) {
+            true => (Loops::Pairs, upper, Index::bound(scope.level + 1)),
+            false => (Loops::Single, upper.plus(-1), first.clone().plus(1)),
+        };
+        let inside = scope.inside(loops, &lower, &upper, &self.system.size_values())?;
+        let [one, other] = [first, second].map(|index| Formula::Coordinate(block, Some(index)));
+        let term = match self.random.below(3) {
+            0 => one.times(other),
+            1 => one.power(2).times(other),
+            _ => one.minus(other).power(2),
+        };
+        let term = if self.random.chance(40) { self.parameter(&inside).times(term) } else { term };
+        Some(Formula::Sum(loops, scope.level, lower, upper, Box::new(term)))
     }
 
     /// A value with a name in what `body` makes.

@@ -131,6 +131,11 @@ impl Generator<'_> {
     }
 
     fn sum(&mut self, scope: &Scope, depth: usize) -> Formula {
+        if self.random.chance(15)
+            && let Some(sum) = self.sum_in_packs(scope)
+        {
+            return sum;
+        }
         let loops = self.any_loops();
         let sum = self.summed(scope, loops, |this, inside| this.value(inside, depth));
         sum.unwrap_or_else(|| self.value(scope, depth))

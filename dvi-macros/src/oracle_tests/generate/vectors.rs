@@ -24,7 +24,7 @@ impl Generator<'_> {
                 let below = self.positive(below);
                 above.over(below)
             }
-            8 if self.system.width == 3 => {
+            8 | 13 if self.system.width == 3 => {
                 Formula::Cross(Box::new(self.vector(scope, less)), Box::new(self.vector(scope, less)))
             }
             9 => Formula::List((0..self.system.width).map(|_| self.value(scope, less.min(1))).collect()),
