@@ -188,10 +188,10 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     /// Any [`StepFailure`]; the point and the dynamical part of `memory` are then as they were before.
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure>;
 
-    /// Takes a part of the step of length `whole` that a run has taken from there, on a copy `memory` of what
-    /// it carried, which takes nothing but such parts: the state between two points of the run. `taken` is
-    /// what it carries at the end of that step. The part is a [step](Self::step) of its length, unless the
-    /// memory depends on the length of steps, or the equations may have several solutions.
+    /// Takes a part of the step of length `whole` that a run has taken from there, on a copy `memory` of
+    /// what it carried, which takes nothing but such parts: the state between two points of the run. `taken`
+    /// is what it carries at the end of that step. The part is a [step](Self::step) of its length, unless
+    /// the memory depends on the length of steps, or the equations may have several solutions.
     ///
     /// # Errors
     /// As [`step`](Self::step).

@@ -1,7 +1,7 @@
-//! Loops that run over packs of eight terms: for every number of terms, and so for every number that is left
-//! over, numbers in lanes, whose terms are taken one by one, get what each of them gets alone, bit for bit; and
-//! sums and pairs add up to what a loop by hand adds up. What is added to which entry is held by the oracle of
-//! `dvi-macros`, in chunks of two.
+//! Loops that run over packs of eight terms: for every number of terms, and so for every number that is
+//! left over, numbers in lanes, whose terms are taken one by one, get what each of them gets alone, bit for
+//! bit; and sums and pairs add up to what a loop by hand adds up. What is added to which entry is held by
+//! the oracle of `dvi-macros`, in chunks of two.
 
 mod neighbours;
 

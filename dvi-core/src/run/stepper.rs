@@ -18,8 +18,8 @@ pub(crate) struct Stepper<S: System, M: Carries<S, T>, T: Real> {
     pub(crate) failed: bool,
     /// Where the steps at hand have begun, if they may be taken back.
     pub(super) kept: Option<Aside<PointOf<S, M, T>>>,
-    /// If states in between are asked for: where steps have begun, where the next one begins, and where a part
-    /// of the last one leads.
+    /// If states in between are asked for: where steps have begun, where the next one begins, and where a
+    /// part of the last one leads.
     pub(super) points: Option<[Aside<PointOf<S, M, T>>; 3]>,
 }
 

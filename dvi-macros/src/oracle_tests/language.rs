@@ -10,7 +10,7 @@ pub(super) type Part = (&'static str, fn(&System) -> bool);
 
 #[rustfmt::skip]
 pub(super) const PARTS: [Part; 16] = [
-    ("gauges with the time in them",      |system| gauge(system).is_some_and(|gauge| gauge.has(&|part| *part == Formula::Time))),
+    ("gauges with the time in them",      has_time_in_gauge),
     ("cross products",                    |system| system.has(&|part| matches!(part, Formula::Cross(..)))),
     ("norms",                             |system| system.has(&|part| matches!(part, Formula::Norm(_)))),
     ("sums over components",              |system| system.attribute().contains("|axis|")),
@@ -19,8 +19,8 @@ pub(super) const PARTS: [Part; 16] = [
     ("forces on vectors",                 |system| system.forces.iter().any(|(_, force)| force.is_vector())),
     ("two indices",                       System::has_grids),
     ("unit vectors",                      System::has_spinors),
-    ("rotations",                         |system| (0..system.blocks.len()).any(|block| system.is_rotation(block))),
-    ("functions of several variables",    |system| system.has(&|part| matches!(part, Formula::ScalarField(_, at) if at.len() > 1))),
+    ("rotations",                         has_rotations),
+    ("functions of several variables",    |system| system.has(&has_variables)),
     ("names that formulas share",         |system| system.attribute().contains("let = {")),
     ("holonomic constraints by pairs",    |system| are_by_pairs(system, Constrained::Positions)),
     ("nonholonomic constraints by pairs", |system| are_by_pairs(system, Constrained::Velocities)),
@@ -28,11 +28,19 @@ pub(super) const PARTS: [Part; 16] = [
     ("time transformations",              |system| system.time_transform.is_some()),
 ];
 
-fn gauge(system: &System) -> Option<&Formula> {
+fn has_time_in_gauge(system: &System) -> bool {
     match &system.gauge {
-        Gauge::Formula(gauge) => Some(gauge),
-        Gauge::None | Gauge::Auto => None,
+        Gauge::Formula(gauge) => gauge.has(&|part| *part == Formula::Time),
+        Gauge::None | Gauge::Auto => false,
     }
+}
+
+fn has_rotations(system: &System) -> bool {
+    (0..system.blocks.len()).any(|block| system.is_rotation(block))
+}
+
+fn has_variables(formula: &Formula) -> bool {
+    matches!(formula, Formula::ScalarField(_, at) if at.len() > 1)
 }
 
 /// Constraints of this kind, with families over two indices among them.

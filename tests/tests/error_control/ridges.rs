@@ -1,5 +1,5 @@
-//! Forces that push away from a seam: the equations of a step that leads there have a solution on either side
-//! of it, and only one of them is on the motion.
+//! Forces that push away from a seam: the equations of a step that leads there have a solution on either
+//! side of it, and only one of them is on the motion.
 
 use approx::assert_abs_diff_eq;
 use dvi_core::methods::VariableStep;
@@ -79,8 +79,8 @@ fn check<M: VariableStep<Ridge, f64>>(method: M, tolerance: f64, ridge: &Ridge, 
 
 #[test]
 fn a_ridge_is_crossed_and_left_on_the_other_side() -> Outcome {
-    // In that of number 152 parts of a step have been off the motion, and in the last one a step that goes over
-    // the ridge and back before the force changes.
+    // In that of number 152 parts of a step have been off the motion, and in the last one a step that goes
+    // over the ridge and back before the force changes.
     for k in (0..200).chain([4478]) {
         // Numbers that fill a cube evenly: the fractional parts of multiples.
         let [a, b, c, d] = [0.8566748838545, 0.7338918566271, 0.6287067210378, 0.5385972572236]

@@ -103,8 +103,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         })
     }
 
-    /// Begins at the polynomial of a step that has been `taken` from here, for parts of it: where its equations
-    /// have several solutions they are parts of that one.
+    /// Begins at the polynomial of a step that has been `taken` from here, for parts of it: where its
+    /// equations have several solutions they are parts of that one.
     pub(super) fn follow(&mut self, taken: &Self) {
         for (packs, taken) in self.completed.iter_mut().zip(taken.completed.iter()) {
             packs.copy_from_slice(taken);

@@ -43,8 +43,8 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         method.scheme.fly(Step { system, q, t: *t, h: s, statistics }, &mut memory.inner)
     }
 
-    /// Moves for a time that is zero but for its derivatives, as between an impact and the end of a step that
-    /// are one.
+    /// Moves for a time that is zero but for its derivatives, as between an impact and the end of a step
+    /// that are one.
     fn drift(&mut self, s: T) -> Result<(), StepFailure> {
         self.set_velocity(T::lift(0.0))?;
         let Self { method, system, memory, q, t, .. } = self;

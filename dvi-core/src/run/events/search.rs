@@ -148,9 +148,9 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         Ok(Some(polished))
     }
 
-    /// The part of the step at which the velocity jumps, as at an impact, between two places that are one but
-    /// for rounding: just behind the jump, with its derivatives. There the motion before it meets that behind
-    /// it, q⁻ + v⁻s = q⁺ + v⁺s. `None` if no velocity jumps.
+    /// The part of the step at which the velocity jumps, as at an impact, between two places that are one
+    /// but for rounding: just behind the jump, with its derivatives. There the motion before it meets that
+    /// behind it, q⁻ + v⁻s = q⁺ + v⁺s. `None` if no velocity jumps.
     fn jump(&mut self, places: [R::Scalar; 2]) -> Result<Option<R::Scalar>, StepFailure> {
         if !self.run.has_jumped() {
             return Ok(None);

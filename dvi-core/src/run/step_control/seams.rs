@@ -136,8 +136,8 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         Ok(None)
     }
 
-    /// The first place of a step of length `h`, which has been taken, at which a seam is crossed. If there is
-    /// none the run is at the end of the step.
+    /// The first place of a step of length `h`, which has been taken, at which a seam is crossed. If there
+    /// is none the run is at the end of the step.
     fn first_crossing<M: Method<S, T>>(
         &mut self,
         run: &mut ControlledRun<'_, S, M, T>,
