@@ -36,7 +36,8 @@ fn a_level_near_the_floor_is_met_on_the_way_down_and_up() -> Outcome {
     Ok(())
 }
 
-/// By the height of the start: of the time of the impact, and of the state behind it.
+/// By the height of the start: of the time of the impact and of the state behind it, and of the time at
+/// which a level is met behind the impact, in the same step or another.
 #[test]
 fn times_of_jumps_carry_derivatives() -> Outcome {
     let (y, dot_y) = (Dual64::from(1.2753).derivative(), Dual64::from(-0.2));
@@ -49,6 +50,14 @@ fn times_of_jumps_carry_derivatives() -> Outcome {
         for (found, exact) in [(time, dot_y + speed), (state.dot_y, speed), (state.y, Dual64::from(0.0))] {
             assert_abs_diff_eq!(found.re, exact.re, epsilon = 1e-12);
             assert_abs_diff_eq!(found.eps, exact.eps, epsilon = 1e-12);
+        }
+        for level in [0.01, 0.125, 0.5] {
+            let mut run = Integrator::new(&Ball, method(), Dual64::from(h), start)?;
+            let mut events = run.events([Direction::Rising], |_, ball| [ball.y - level])?;
+            let Event { time, .. } = events.next_until(Dual64::from(3.0))?.ok_or("it bounces")?;
+            let exact = dot_y + speed * 2.0 - (speed * speed - level * 2.0).sqrt();
+            assert_abs_diff_eq!(time.re, exact.re, epsilon = 1e-12);
+            assert_abs_diff_eq!(time.eps, exact.eps, epsilon = 1e-10);
         }
     }
     Ok(())

@@ -130,14 +130,13 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
             [found.across, found.place]
         };
         // Behind a jump: a run that begins there does not meet it again.
-        let place = if are_one(before, behind) { behind } else { found.place };
+        let may_be_jump = are_one(before, behind);
+        let place = if may_be_jump { behind } else { found.place };
         if !carries_derivatives::<R::Scalar>() {
             return Ok(Some(place));
         }
         // That values have converged says nothing of the derivatives.
-        if place == behind
-            && let Some(jump) = self.jump([before, behind])?
-        {
+        if may_be_jump && let Some(jump) = self.jump([before, behind])? {
             return Ok(Some(jump));
         }
         let mut polished = place;
