@@ -92,6 +92,9 @@ use crate::state::Statistics;
 use crate::system::Same;
 use crate::{Lagrangian, Real, System, Vector};
 
+/// Jumps of the velocity in a step, at most.
+pub(crate) const JUMPS: usize = 16;
+
 pub use composition::Composition;
 pub use constrained::{Constrained, Rattle};
 pub use context::{Clock, Here, Step, Steps};
@@ -224,9 +227,17 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         None
     }
 
-    /// Whether the velocity has jumped in the last step, as at an impact.
-    fn has_jumped(&self, _memory: &Self::Memory) -> bool {
-        false
+    /// Sets `q` to the point of the `index`-th jump of the velocity in the last step, as at an impact, and
+    /// `v` to the velocities before it and behind it, and returns the part of the step; in their order, from
+    /// the first one on, and no more than 16. There are none if nothing else is said.
+    fn jump(
+        &self,
+        _memory: &Self::Memory,
+        _index: usize,
+        _q: &mut Vector<S, T>,
+        _v: [&mut Vector<S, T>; 2],
+    ) -> Option<T> {
+        None
     }
 
     /// Sets `v` to the velocity at the current point. There is nothing to do for degenerate systems.

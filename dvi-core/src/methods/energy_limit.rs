@@ -122,8 +122,14 @@ where
         self.method.part_of_step(part, whole, &mut memory.inner, &taken.inner)
     }
 
-    fn has_jumped(&self, memory: &Self::Memory) -> bool {
-        self.method.has_jumped(&memory.inner)
+    fn jump(
+        &self,
+        memory: &Self::Memory,
+        index: usize,
+        q: &mut Vector<S, T>,
+        v: [&mut Vector<S, T>; 2],
+    ) -> Option<T> {
+        self.method.jump(&memory.inner, index, q, v)
     }
 
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {

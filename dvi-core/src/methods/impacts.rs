@@ -183,8 +183,18 @@ where
         ImpactsMemory::new(system, q, || self.scheme.depart(system, q, v, t, h))
     }
 
-    fn has_jumped(&self, memory: &Self::Memory) -> bool {
-        !memory.impacts().is_empty()
+    fn jump(
+        &self,
+        memory: &Self::Memory,
+        index: usize,
+        q: &mut Vector<S, T>,
+        [before, behind]: [&mut Vector<S, T>; 2],
+    ) -> Option<T> {
+        let impact = memory.impacts().get(index)?;
+        q.copy_from_slice(&impact.q);
+        before.copy_from_slice(&impact.v_before);
+        behind.copy_from_slice(&impact.v);
+        Some(impact.part)
     }
 
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {

@@ -43,8 +43,9 @@ pub trait Between<S: System, T: Real> {
     /// their velocities are written to `v`.
     fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])>;
 
-    /// Whether the velocity has jumped in the last step.
-    fn has_jumped(&self) -> bool;
+    /// The coordinates at one of the jumps of the velocity in the last step, with the part of the step; the
+    /// velocities before it and behind it are written to `v`.
+    fn jump(&mut self, index: usize, v: [&mut Vector<S, T>; 2]) -> Option<(T, &[T])>;
 
     /// The coordinates, and their velocities in `v`, at the end of the step.
     ///
@@ -113,8 +114,11 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         method.place(memory, index, q, v).map(|part| (part, &q[..]))
     }
 
-    fn has_jumped(&self) -> bool {
-        self.method.has_jumped(&self.memory)
+    fn jump(&mut self, index: usize, v: [&mut Vector<S, T>; 2]) -> Option<(T, &[T])> {
+        let Self { method, memory, points, .. } = self;
+        let [.., reached] = points.as_mut()?;
+        let q = &mut reached.q;
+        method.jump(memory, index, q, v).map(|part| (part, &q[..]))
     }
 
     #[inline]

@@ -52,7 +52,8 @@ pub struct Dense<R: Run> {
     most: u64,
     /// How many places within a step are known when it has been taken.
     places: usize,
-    v: Vector<R::System, R::Scalar>,
+    /// The velocity of a state that is looked at, and that on the other side of a jump.
+    v: [Vector<R::System, R::Scalar>; 2],
 }
 
 type FlatOf<'a, R> = Flat<'a, <R as Run>::System, <R as Run>::Scalar>;
@@ -73,7 +74,7 @@ impl<R: Run> Dense<R> {
     /// # Errors
     /// [`StartError`] if no run of the method can begin where this one is.
     pub fn new(mut run: R) -> Result<Self, StartError> {
-        let (t, h, v) = (run.time(), run.step_size(), run.system().space().vector());
+        let (t, h, v) = (run.time(), run.step_size(), run.system().space().vectors());
         let (system, between) = run.between();
         let places = between.begin(system, t, h)?.min(PLACES);
         Ok(Self { run, begun: t, taken: 0, most: 1, places, v })
@@ -258,8 +259,9 @@ impl<R: Run> Dense<R> {
     pub(super) fn reach(&mut self, h: R::Scalar) -> Result<(R::Scalar, FlatOf<'_, R>), StepFailure> {
         let whole = self.run.step_size();
         let (system, between) = self.run.between();
-        let q = between.reach(system, self.begun, [h, whole], &mut self.v)?;
-        Ok((self.begun + h, Flat { system, q, v: &self.v }))
+        let [v, _] = &mut self.v;
+        let q = between.reach(system, self.begun, [h, whole], v)?;
+        Ok((self.begun + h, Flat { system, q, v }))
     }
 
     /// How many places within the last step are known.
@@ -268,17 +270,41 @@ impl<R: Run> Dense<R> {
         self.places
     }
 
-    /// Whether the velocity has jumped in the last step.
-    pub(super) fn has_jumped(&mut self) -> bool {
-        self.run.between().1.has_jumped()
-    }
-
     /// One of them: the part of the step, the time, and the state there.
     pub(super) fn at_place(&mut self, index: usize) -> Option<(R::Scalar, R::Scalar, FlatOf<'_, R>)> {
         let (begun, h) = (self.last_begun(), self.run.step_size());
         let (system, between) = self.run.between();
-        let (part, q) = between.place(index, &mut self.v)?;
-        Some((part, begun + part * h, Flat { system, q, v: &self.v }))
+        let [v, _] = &mut self.v;
+        let (part, q) = between.place(index, v)?;
+        Some((part, begun + part * h, Flat { system, q, v }))
+    }
+
+    /// A jump of the velocity in the last step: the part of the step, and the states before it and behind it.
+    pub(super) fn at_jump(&mut self, index: usize) -> Option<(R::Scalar, [FlatOf<'_, R>; 2])> {
+        let (system, between) = self.run.between();
+        let (part, q) = between.jump(index, self.v.each_mut())?;
+        Some((part, self.v.each_ref().map(|v| Flat { system, q, v })))
+    }
+
+    /// The time at a part of the last step, and the state there; where its velocity jumps, that behind the
+    /// jump.
+    ///
+    /// # Errors
+    /// As [`reach`](Self::reach).
+    pub(super) fn at_part(&mut self, part: R::Scalar) -> Result<(R::Scalar, StateOf<R>), StepFailure> {
+        let (mut jump, mut behind_jump) = (0, None);
+        while let Some((place, [_, behind])) = self.at_jump(jump) {
+            if place == part {
+                behind_jump = Some(behind.state());
+            }
+            jump += 1;
+        }
+        if let Some(state) = behind_jump {
+            return Ok((self.time_at(part), state));
+        }
+        self.settle()?;
+        let (t, at) = self.reach(part * self.run.step_size())?;
+        Ok((t, at.state()))
     }
 
     /// The end of the step.
@@ -288,7 +314,8 @@ impl<R: Run> Dense<R> {
     pub(super) fn at_end(&mut self) -> Result<FlatOf<'_, R>, StepFailure> {
         let t = self.run.time();
         let (system, between) = self.run.between();
-        Ok(Flat { system, q: between.end(system, t, &mut self.v)?, v: &self.v })
+        let [v, _] = &mut self.v;
+        Ok(Flat { system, q: between.end(system, t, v)?, v })
     }
 
     /// What has failed in the last step.

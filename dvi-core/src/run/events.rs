@@ -4,8 +4,8 @@
 //! has crossed. A step that begins and ends on one side may have crossed twice: if g is near enough to zero,
 //! as its changes in the steps before say, its slopes at both ends are looked at, and where these point to
 //! zero and away from it, g is followed down to its least value in between. Methods of many stages take steps
-//! over several turns: there the stages divide a step into parts, each of which is searched so. Each crossing
-//! is found to rounding.
+//! over several turns: there the stages divide a step into parts, each of which is searched so. So do jumps of
+//! the velocity, of which a method knows the place and both sides. Each crossing is found to rounding.
 
 mod conditions;
 mod course;
@@ -78,7 +78,8 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 /// Of several events at one time the first in the array comes first. Where a run begins with g = 0 there is
 /// no event, and one that lies at the end of a step counts once. A step that ends on the other side has
 /// crossed zero once; one that ends on the same side is seen to cross it twice if g turns once on the way,
-/// and with [`Gauss`](crate::methods::Gauss) of six stages and more if it turns once between two of these.
+/// with [`Gauss`](crate::methods::Gauss) of six stages and more if it turns once between two of these, and
+/// with [`Impacts`](crate::methods::Impacts) if it turns once before each impact and behind it.
 /// What turns more often may pass unseen, as in steps of other methods over several turns, and what is flat
 /// for many steps and dips in a part of one. A condition that jumps across zero, as a velocity does at an
 /// impact, is an event behind its jump, and one that comes to zero and stays there is an event where it

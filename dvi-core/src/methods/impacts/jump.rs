@@ -3,11 +3,11 @@
 use core::mem;
 
 use super::Collision;
-use super::memory::{ImpactsMemory, MOST, Wall};
+use super::memory::{ImpactsMemory, Wall};
 use super::passage::Passage;
 use crate::discrete::{Interval, Span};
 use crate::error::StepFailure;
-use crate::methods::{FreeFlight, Here, Step};
+use crate::methods::{FreeFlight, Here, JUMPS, Step};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::{Real, Scalar, UnilateralLagrangian};
@@ -152,11 +152,11 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         self.begin_flight(s);
         self.is_at_wall = false;
         self.turns += 1;
-        if self.turns > MOST { Err(self.accumulation(surface)) } else { Ok(()) }
+        if self.turns > JUMPS { Err(self.accumulation(surface)) } else { Ok(()) }
     }
 
     fn accumulation(&self, surface: usize) -> StepFailure {
-        StepFailure::Accumulation { surface, impacts: MOST, time: reported(self.t) }
+        StepFailure::Accumulation { surface, impacts: JUMPS, time: reported(self.t) }
     }
 
     /// Arrives at a surface after a flight of length `s`, and prepares the jump.
@@ -164,14 +164,17 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         let energy = self.energy(s)?;
         self.begin_flight(s);
         self.is_at_wall = true;
-        let Some(event) = self.memory.events.get_mut(self.memory.count) else {
+        self.set_velocity(T::lift(0.0))?;
+        let ImpactsMemory { events, count, total, v, .. } = &mut *self.memory;
+        let Some(event) = events.get_mut(*count) else {
             return Err(self.accumulation(surface));
         };
         (event.surface, event.time) = (surface, self.t);
+        event.part = T::lift(1.0) - self.left / self.h;
         event.q.copy_from_slice(self.q);
-        self.memory.count += 1;
-        self.memory.total += 1;
-        self.set_velocity(T::lift(0.0))?;
+        event.v_before.copy_from_slice(v);
+        *count += 1;
+        *total += 1;
         let Self { system, memory, q, t, .. } = self;
         let ImpactsMemory { here, there, wall, work, v, .. } = &mut **memory;
         let rate = here.rate[surface];

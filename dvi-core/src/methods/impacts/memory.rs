@@ -4,11 +4,8 @@ use super::gaps::Gaps;
 use crate::error::StartError;
 use crate::mechanics::constraints::Multipliers;
 use crate::memory::{Memory, lasting};
-use crate::methods::Kept;
+use crate::methods::{JUMPS, Kept};
 use crate::{ConstrainedSystem, Real, Space, System, UnilateralLagrangian, Vector};
-
-/// How many impacts a step may have.
-pub(super) const MOST: usize = 16;
 
 /// An impact of the last step, with vectors of type `V`.
 #[derive(Clone, Debug)]
@@ -21,8 +18,12 @@ pub struct Impact<V, T> {
     pub impulse: T,
     /// The coordinates where it happened, flat, in the order of declaration.
     pub q: V,
+    /// The velocity before it, flat, in the order of declaration.
+    pub v_before: V,
     /// The velocity after it, flat, in the order of declaration.
     pub v: V,
+    /// The part of the step before it.
+    pub(super) part: T,
 }
 
 /// A run with impacts: the memory of its method, the impacts of its last step, and work space.
@@ -40,7 +41,7 @@ pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real> {
     /// Storage for gaps that are not asked for.
     pub(super) row: Multipliers<S, T>,
     pub(super) wall: Wall<S, T>,
-    pub(super) events: [Impact<Vector<S, T>, T>; MOST],
+    pub(super) events: [Impact<Vector<S, T>, T>; JUMPS],
     /// Whether the step at hand has been divided.
     pub(super) is_divided: bool,
     /// How many of the events are those of the last step.
@@ -103,8 +104,8 @@ impl<S: UnilateralLagrangian<T>, I, T: Real> ImpactsMemory<S, I, T> {
         mut inner: impl FnMut() -> Result<I, StartError>,
     ) -> Result<Self, StartError> {
         let event = || {
-            let [q, v] = system.space().vectors();
-            Impact { surface: 0, time: T::lift(0.0), impulse: T::lift(0.0), q, v }
+            let ([q, v_before, v], zero) = (system.space().vectors(), T::lift(0.0));
+            Impact { surface: 0, time: zero, impulse: zero, q, v_before, v, part: zero }
         };
         let mut point = || inner().map(|inner| Kept { q: q.clone(), memory: inner });
         let [v, impulse, delta, l_q, l_v] = system.space().vectors();

@@ -88,9 +88,9 @@ impl<T: Real> Course<T> {
     /// are on one side, where its course was another before: if it falls at the beginning and rises at the
     /// end. The rates there are those of a parabola, but for what the course has bent otherwise in the step
     /// before.
-    pub(super) fn turns(&self, before: &Self, [a, b]: [T; 2], h: T, is_whole: bool) -> Turn {
+    pub(super) fn turns(&self, before: &Self, [a, b]: [T; 2], h: T, is_staged: bool) -> Turn {
         let [whole, part] = STEEPER;
-        let steeper = if is_whole { whole } else { part };
+        let steeper = if is_staged { part } else { whole };
         if Scalar::abs(a) + Scalar::abs(b) > T::lift(steeper) * self.rate * h {
             return Turn::No;
         }

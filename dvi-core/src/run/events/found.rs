@@ -3,14 +3,15 @@
 use super::conditions::Conditions;
 use super::{Event, EventOf, Watch};
 use crate::error::{StepError, StepFailure};
+use crate::methods::JUMPS;
 use crate::run::Run;
 use crate::run::dense::{Dense, PLACES};
 use crate::scalar::norm::{reported, smaller};
 use crate::{Real, Scalar};
 
-/// Of one condition: two between neighbours of the ends of a step and of places within it, and one at the
-/// second of them.
-const MOST: usize = 3 * (PLACES + 1);
+/// Of one condition: two between neighbours of the ends of a step and of what divides it, and one at the
+/// second of them; and one at each jump.
+const MOST: usize = 3 * (PLACES + JUMPS + 1) + JUMPS;
 /// Parts of a step that differ by no more than so many rounding errors are one.
 const TOGETHER: f64 = 16.0;
 /// An event in this part of the first step after a change of the state is a hop.
@@ -88,8 +89,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         part: R::Scalar,
         index: usize,
     ) -> Result<EventOf<R>, StepFailure> {
-        run.settle()?;
-        let (time, at) = run.reach(part * run.step_size())?;
+        let (time, state) = run.at_part(part)?;
         // What happens where the state has been set is part of that event.
         if part > R::Scalar::lift(0.0) {
             let is_shorter = self.last.is_some_and(|(last, hop)| last == index && part < hop);
@@ -100,7 +100,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         if self.hops > HOPS {
             return Err(StepFailure::Hops { event: index, count: HOPS, time: reported(time) });
         }
-        Ok(Event { index, time, state: at.state() })
+        Ok(Event { index, time, state })
     }
 }
 

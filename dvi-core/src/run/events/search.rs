@@ -6,20 +6,19 @@ use crate::error::StepFailure;
 use crate::run::Run;
 use crate::run::dense::{Dense, StateOf};
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::{larger, reported};
+use crate::scalar::norm::{larger, reported, smaller};
 use crate::solve::crossing::{Sample, Zero, dip, zero};
-use crate::{Real, Scalar, Space, System};
+use crate::{Real, Scalar};
 
-/// The part of a step between places at which a condition is looked at for its slope.
+/// The part of a step between places at which a condition is looked at for its slope, at most.
 const CHORD: f64 = 1e-5;
 
 /// Looks at the turn of a condition whose slopes at the ends of a step point to zero and away from it.
 const SURE: usize = 6;
 /// Iterations for the derivatives of a time, of numbers that carry some.
 const POLISHED: usize = 3;
-/// A velocity jumps between two places that are one if it changes by more than this part of itself, and of
-/// what it changes by in a chord.
-const JUMPS: [f64; 2] = [1e-9, 1e-3];
+/// What they change the time itself by, at most: a condition that jumps across zero has no slope.
+const SLIGHT: f64 = 1e-9;
 
 /// The crossings that count as events.
 ///
@@ -64,6 +63,8 @@ pub(super) struct Within<'a, R: Run, G, const N: usize> {
     pub(super) state: &'a mut StateOf<R>,
     pub(super) index: usize,
     pub(super) direction: Direction,
+    /// The part of the step that is searched: the motion is another one before and behind it.
+    pub(super) part: [R::Scalar; 2],
 }
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, R, G, N> {
@@ -73,7 +74,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         &mut self,
         [[from, a], [to, b]]: [[R::Scalar; 2]; 2],
     ) -> Result<bool, StepFailure> {
-        let chord = R::Scalar::lift(CHORD);
+        let chord = self.chord();
         Ok(Scalar::abs(self.look(from + chord)?) < Scalar::abs(a)
             && Scalar::abs(self.look(to - chord)?) < Scalar::abs(b))
     }
@@ -83,7 +84,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         &mut self,
         [[from, mut a], [to, mut b]]: [[R::Scalar; 2]; 2],
     ) -> Result<[Option<R::Scalar>; 3], StepFailure> {
-        let [zero, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
+        let ([zero, one], chord) = ([0.0, 1.0].map(R::Scalar::lift), self.chord());
         let (mut begin, mut hop, mut end, mut last) = (from, None, to, None);
         if a == zero {
             // The side to which it leads, or from which it comes back at once.
@@ -129,56 +130,23 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         } else {
             [found.across, found.place]
         };
-        // Behind a jump: a run that begins there does not meet it again.
-        let may_be_jump = are_one(before, behind);
-        let place = if may_be_jump { behind } else { found.place };
-        if !carries_derivatives::<R::Scalar>() {
-            return Ok(Some(place));
-        }
+        // Behind a jump of the condition: a run that begins there does not meet it again.
+        let mut place = if are_one(before, behind) { behind } else { found.place };
         // That values have converged says nothing of the derivatives.
-        if may_be_jump && let Some(jump) = self.jump([before, behind])? {
-            return Ok(Some(jump));
+        for _ in 0..if carries_derivatives::<R::Scalar>() { POLISHED } else { 0 } {
+            let value = self.look(place)?;
+            let change = value / self.sample(R::Scalar::lift(1.0), [place, value])?.slope;
+            if Scalar::abs(change) <= R::Scalar::lift(SLIGHT) {
+                place -= change;
+            }
         }
-        let mut polished = place;
-        for _ in 0..POLISHED {
-            let value = self.look(polished)?;
-            polished -= value / self.sample(R::Scalar::lift(1.0), [polished, value])?.slope;
-        }
-        Ok(Some(polished))
-    }
-
-    /// The part of the step at which the velocity jumps, as at an impact, between two places that are one
-    /// but for rounding: just behind the jump, with its derivatives. There the motion before it meets that
-    /// behind it, q⁻ + v⁻s = q⁺ + v⁺s. `None` if no velocity jumps.
-    fn jump(&mut self, places: [R::Scalar; 2]) -> Result<Option<R::Scalar>, StepFailure> {
-        if !self.run.has_jumped() {
-            return Ok(None);
-        }
-        let value_of = |number| R::Scalar::lift(reported(number));
-        let ([before, behind], h) = (places.map(value_of), self.run.step_size());
-        let [nothing, chord, least, smooth] = [0.0, CHORD, JUMPS[0], JUMPS[1]].map(R::Scalar::lift);
-        let [mut q, mut v, mut earlier] = self.run.system().space().vectors();
-        earlier.copy_from_slice(self.run.reach(larger(before - chord, nothing) * h)?.1.v);
-        let (from, at) = self.run.reach(before * h)?;
-        q.copy_from_slice(at.q);
-        v.copy_from_slice(at.v);
-        let (to, at) = self.run.reach(behind * h)?;
-        let change = |k: usize| Scalar::abs(at.v[k] - v[k]);
-        let most = (1..q.len()).fold(0, |most, k| if change(k) > change(most) { k } else { most });
-        let bend = Scalar::abs(v[most] - earlier[most]);
-        let speed = Scalar::abs(v[most]) + Scalar::abs(at.v[most]);
-        if change(most) <= larger(least * speed, smooth * bend) {
-            return Ok(None);
-        }
-        let gap = at.q[most] - (q[most] + (to - from) * v[most]);
-        let later = gap / (v[most] - at.v[most]);
-        Ok(Some(behind + (later - value_of(later)) / h))
+        Ok(Some(place))
     }
 
     /// A zero of the condition between two parts of the step: the first one, where it has come to zero and
     /// stays there.
     fn zero(&mut self, [[from, a], [to, b]]: [[R::Scalar; 2]; 2]) -> Result<Zero<R::Scalar>, StepFailure> {
-        let [nothing, one, chord] = [0.0, 1.0, CHORD].map(R::Scalar::lift);
+        let ([nothing, one], chord) = ([0.0, 1.0].map(R::Scalar::lift), self.chord());
         let before = larger(from, to - chord);
         if b != nothing || before == from || self.look(before)? != nothing {
             return zero([[from, a], [to, b]], &mut |part| self.look(part));
@@ -197,16 +165,23 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         side: R::Scalar,
         [place, value]: [R::Scalar; 2],
     ) -> Result<Sample<R::Scalar>, StepFailure> {
-        let [one, two, three, four, chord] = [1.0, 2.0, 3.0, 4.0, CHORD].map(R::Scalar::lift);
+        let [one, two, three, four] = [1.0, 2.0, 3.0, 4.0].map(R::Scalar::lift);
+        let ([from, to], chord) = (self.part, self.chord());
         let mut at = |chords| self.look(place + chords * chord);
-        let change = if place < chord {
+        let change = if place < from + chord {
             four * at(one)? - three * value - at(two)?
-        } else if place > one - chord {
+        } else if place > to - chord {
             three * value - four * at(-one)? + at(-two)?
         } else {
             at(one)? - at(-one)?
         };
         Ok(Sample { place, value: side * value, slope: side * change / (two * chord) })
+    }
+
+    /// The part of the step between places at which a condition is looked at for its slope.
+    fn chord(&self) -> R::Scalar {
+        let [from, to] = self.part;
+        smaller(R::Scalar::lift(CHORD), R::Scalar::lift(0.25) * (to - from))
     }
 
     /// The condition at a part of the step.

@@ -7,6 +7,7 @@ use super::search::{Within, numbers};
 use super::{Direction, EventOf};
 use crate::Scalar;
 use crate::error::{StartError, StepError, StepFailure};
+use crate::methods::JUMPS;
 use crate::run::Run;
 use crate::run::dense::{Dense, StateOf};
 use crate::scalar::carries_derivatives;
@@ -59,6 +60,8 @@ const RENEWED: u64 = 32;
 const UNSURE: f64 = 0.05;
 /// Where the state is changed a condition is zero if it is no more than this part of what changes in a step.
 const LEFT: f64 = 1e-9;
+/// A shorter part of a step is not looked into: where it begins and ends is no better known.
+const SHORT: f64 = 1e-9;
 
 impl<R: Run, G, const N: usize> Watch<R, G, N>
 where
@@ -154,7 +157,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         let end = self.at_end(run)?;
         let [mut from, one] = [0.0, 1.0].map(R::Scalar::lift);
         if run.places() == 0 {
-            return self.find_between::<true>(run, [from, one], end);
+            let from = self.find_jumps(run)?;
+            return self.find_between::<false>(run, [from, one], end);
         }
         let h = Scalar::abs(run.step_size());
         // The rates that were seen within steps are seen anew in some.
@@ -166,35 +170,63 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         for place in 0..run.places() {
             let Some((part, t, at)) = run.at_place(place) else { break };
             let values = numbers(self.g.values(t, at, &mut self.state))?;
-            self.find_between::<false>(run, [from, part], values)?;
+            self.find_between::<true>(run, [from, part], values)?;
             from = part;
         }
-        self.find_between::<false>(run, [from, one], end)
+        self.find_between::<true>(run, [from, one], end)
+    }
+
+    /// Finds the events up to the last jump of the velocity in the last step, and returns the part of the step
+    /// before it. Each divides the step, and is an event of the conditions that jump across zero with it.
+    fn find_jumps(&mut self, run: &mut Dense<R>) -> Result<R::Scalar, StepFailure> {
+        let (mut from, begun, h) = (R::Scalar::lift(0.0), run.last_begun(), run.step_size());
+        for jump in 0..JUMPS {
+            let Some((part, sides)) = run.at_jump(jump) else { break };
+            let values = |at| numbers(self.g.values(begun + part * h, at, &mut self.state));
+            let [before, behind] = sides.map(values);
+            let (before, behind) = (before?, behind?);
+            self.find_between::<false>(run, [from, part], before)?;
+            for (index, g) in behind.into_iter().enumerate() {
+                if self.directions[index].crosses(self.watched[index].g, g) {
+                    self.found.push(index, part);
+                }
+                // The motion is another one from here on.
+                self.watched[index] = Watched { g, course: None };
+            }
+            from = part;
+        }
+        Ok(from)
     }
 
     /// Finds the events of a part of the last step, or of the whole, with the values of the conditions at its
-    /// end.
+    /// end; `STAGED` says whether stages divide the step.
     #[inline]
-    fn find_between<const WHOLE: bool>(
+    fn find_between<const STAGED: bool>(
         &mut self,
         run: &mut Dense<R>,
         [from, to]: [R::Scalar; 2],
         end: [R::Scalar; N],
     ) -> Result<(), StepFailure> {
-        let [zero, one, left, unsure] = [0.0, 1.0, LEFT, UNSURE].map(R::Scalar::lift);
-        let h = Scalar::abs(run.step_size()) * if WHOLE { one } else { to - from };
-        let has_jumped = run.has_jumped();
+        let [zero, one, left, unsure, short] = [0.0, 1.0, LEFT, UNSURE, SHORT].map(R::Scalar::lift);
+        let h = Scalar::abs(run.step_size()) * (to - from);
         for (index, mut b) in end.into_iter().enumerate() {
             let Watched { g: a, course } = self.watched[index];
+            if to - from <= short {
+                if self.directions[index].crosses(a, b) {
+                    self.found.push(index, to);
+                }
+                self.watched[index].g = b;
+                continue;
+            }
             // Of another motion, before the state was set.
-            let before = course.filter(|_| self.steps != 1 || (!WHOLE && from > zero));
+            let before = course.filter(|_| self.steps != 1 || (STAGED && from > zero));
             let course = Course::after(before, (b - a) / h);
             let change = course.rate * h;
-            if !WHOLE && to < one && Scalar::abs(b) <= unsure * change {
+            if STAGED && to < one && Scalar::abs(b) <= unsure * change {
                 // The polynomial through the stages is less accurate than a step to this place, which
                 // decides where the sign is in doubt.
                 run.settle()?;
-                b = self.within(run, index).look(to)?;
+                b = self.within(run, index, [from, to]).look(to)?;
             }
             // What lies at the end of a step but for rounding has no derivative in the next one.
             if carries_derivatives::<R::Scalar>() && Scalar::abs(b) <= left * change {
@@ -205,18 +237,14 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             // The side of what is so near to zero is that of rounding.
             let is_beside = [a, b].iter().any(|&g| Scalar::abs(g) <= left * change);
             let turn = match before {
-                Some(mut before) if stays && !is_beside => {
-                    // What was before says nothing of the slope behind a jump of the velocity.
-                    before.bend = before.bend.filter(|_| !has_jumped);
-                    course.turns(&before, [a, b], h, WHOLE)
-                }
+                Some(before) if stays && !is_beside => course.turns(&before, [a, b], h, STAGED),
                 _ => Turn::Likely,
             };
             if turn == Turn::No {
                 continue;
             }
             run.settle()?;
-            let (mut within, ends) = (self.within(run, index), [[from, a], [to, b]]);
+            let (mut within, ends) = (self.within(run, index, [from, to]), [[from, a], [to, b]]);
             if turn == Turn::Perhaps && !within.is_turned(ends)? {
                 continue;
             }
@@ -227,9 +255,14 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         Ok(())
     }
 
-    fn within<'a>(&'a mut self, run: &'a mut Dense<R>, index: usize) -> Within<'a, R, G, N> {
+    fn within<'a>(
+        &'a mut self,
+        run: &'a mut Dense<R>,
+        index: usize,
+        part: [R::Scalar; 2],
+    ) -> Within<'a, R, G, N> {
         let Self { g, state, directions, .. } = self;
-        Within { run, g, state, index, direction: directions[index] }
+        Within { run, g, state, index, direction: directions[index], part }
     }
 
     /// Goes on where the state of the run has just been set.
