@@ -148,6 +148,19 @@ pub enum StartError {
         /// The sum of the sizes of the entries of its row.
         size: f64,
     },
+    /// The mass matrix, or Ω = −dα, says nothing of a coordinate that it does not say of those before it.
+    #[error(
+        "{matrix} is singular at the initial state: its pivot for `{entry}` is {pivot:e}, so that nothing \
+         determines the motion of this coordinate beside those before it"
+    )]
+    Dependent {
+        /// Which matrix.
+        matrix: &'static str,
+        /// The coordinate.
+        entry: Name,
+        /// The largest candidate for a pivot.
+        pivot: f64,
+    },
     /// The time transformation is not positive at the initial state.
     #[error("the time transformation is {rate} at the initial state: it must be positive and finite")]
     TimeRate {

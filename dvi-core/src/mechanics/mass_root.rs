@@ -65,7 +65,7 @@ fn positive_root<T: Real>(pivot: T, column: usize) -> Result<T, StepFailure> {
     if is_positive {
         Ok(Scalar::sqrt(pivot))
     } else {
-        Err(norm::singular(pivot, column).of(StepFailure::MASS))
+        Err(norm::singular(pivot, column).of(StepFailure::MASS_ROOT))
     }
 }
 

@@ -34,8 +34,8 @@ pub(crate) fn validate_step<T: Real>(t: T, h: T) -> Result<(), StartError> {
     if is_usable { Ok(()) } else { Err(StartError::Step { h: reported(h) }) }
 }
 
-/// `error`, with the name of the first coordinate without a mass, or whose row of Ω is zero, where a matrix
-/// is singular at (`q`, `v`, `t`).
+/// `error`, with the name of the first coordinate without a mass, or whose row of Ω is zero or depends on
+/// those before it, where a matrix is singular at (`q`, `v`, `t`).
 #[cold]
 pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     system: &S,
@@ -43,8 +43,8 @@ pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     t: T,
     error: StartError,
 ) -> StartError {
-    let (StartError::Starter(StepFailure::Singular { .. })
-    | StartError::Undetermined(StepFailure::Singular { .. })) = error
+    let (StartError::Starter(StepFailure::Singular { matrix: solved, column, pivot })
+    | StartError::Undetermined(StepFailure::Singular { matrix: solved, column, pivot })) = error
     else {
         return error;
     };
@@ -63,10 +63,13 @@ pub(crate) fn named<S: Lagrangian<T>, T: Real>(
     let mut sink = |row: usize, _: usize, entry: T| sizes[row] += Scalar::abs(entry);
     system.linearize(q, &velocity, t, weights, &mut l_q, &mut l_v, &mut sink);
     let is_singular = |place: &usize| !(one / sizes[*place]).is_finite();
-    let place = (0..sizes.len()).find(is_singular);
-    match place.and_then(|place| Some((coordinate(system, place)?, reported(sizes[place])))) {
-        Some((entry, size)) => StartError::Singular { matrix, entry, size },
-        None => error,
+    let empty = (0..sizes.len()).find(is_singular);
+    match (empty, coordinate(system, empty.unwrap_or(column))) {
+        (Some(row), Some(entry)) => StartError::Singular { matrix, entry, size: reported(sizes[row]) },
+        (None, Some(entry)) if solved == matrix && pivot.is_finite() => {
+            StartError::Dependent { matrix, entry, pivot }
+        }
+        _ => error,
     }
 }
 
