@@ -44,7 +44,7 @@ impl<const W: usize, T: Real> Lanes<W, T> {
     }
 
     /// The larger number in each lane, as [`norm::larger`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn larger(self, other: Self) -> Self {
         self.with(other, norm::larger)
     }
@@ -107,14 +107,14 @@ impl<const W: usize, T: Real> Neg for Lanes<W, T> {
 }
 
 impl<const W: usize, T: Real> AddAssign for Lanes<W, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl<const W: usize, T: Real> SubAssign for Lanes<W, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
@@ -122,7 +122,7 @@ impl<const W: usize, T: Real> SubAssign for Lanes<W, T> {
 
 macro_rules! lane_by_lane {
     ($($function:ident),*) => {$(
-        #[cfg_attr(not(debug_assertions), inline(always))]
+        #[inline]
         fn $function(self) -> Self {
             self.each(Scalar::$function)
         }

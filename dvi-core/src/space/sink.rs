@@ -19,7 +19,7 @@ pub trait Sink<T> {
 }
 
 impl<T, F: FnMut(usize, usize, T)> Sink<T> for F {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         self(row, column, entry);
     }

@@ -211,7 +211,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
         coefficients.sums
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn is_explicit(&self) -> bool {
         self.method.is_explicit()
     }
