@@ -229,7 +229,8 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
 
     /// Sets `q` to the point of the `index`-th jump of the velocity in the last step, as at an impact, and
     /// `v` to the velocities before it and behind it, and returns the part of the step; in their order, from
-    /// the first one on, and no more than 16. There are none if nothing else is said.
+    /// the first one on, and no more than 16. There are none if nothing else is said;
+    /// of a method that has [`places`](Self::places) they are not looked at.
     fn jump(
         &self,
         _memory: &Self::Memory,

@@ -122,6 +122,20 @@ where
         self.method.part_of_step(part, whole, &mut memory.inner, &taken.inner)
     }
 
+    fn places(&self) -> usize {
+        self.method.places()
+    }
+
+    fn place(
+        &self,
+        memory: &mut Self::Memory,
+        index: usize,
+        q: &mut Vector<S, T>,
+        v: &mut Vector<S, T>,
+    ) -> Option<T> {
+        self.method.place(&mut memory.inner, index, q, v)
+    }
+
     fn jump(
         &self,
         memory: &Self::Memory,

@@ -71,7 +71,9 @@ pub enum Collision {
 /// E_d differs from E by a term that depends on the length of the flight, so with [`Collision::Variational`]
 /// each impact changes the energy by a small amount of the order h² that depends on α. As α is as good as
 /// random, these amounts add up as in a random walk. Where energies count more than the two-form, take
-/// [`reflecting`](Self::reflecting): the experiment `bounces` of the gallery compares them.
+/// [`reflecting`](Self::reflecting): the experiment `bounces` of the gallery compares them. A state between
+/// two points of the run is that of a shorter step, whose last flight has another E_d: behind an impact its
+/// velocity differs from [`Impact::v`] by as much.
 ///
 /// A step without an impact is one of the method, and evaluates all gaps and their rates of change at its
 /// two ends, which needs the velocities there.
@@ -200,6 +202,10 @@ where
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let counts = [memory.total, memory.grazing];
+        let impacts = core::mem::take(&mut memory.count);
+        if impacts > 0 {
+            core::mem::swap(&mut memory.events, &mut memory.earlier);
+        }
         memory.start.take(q, &memory.inner);
         memory.is_divided = false;
         let (left, is_at_wall, is_there, turns) = (h, false, true, 0);
@@ -208,8 +214,11 @@ where
         passage.take().inspect_err(|_| {
             let begin = if memory.is_divided { &memory.before } else { &memory.start };
             begin.go_back(q, &mut memory.inner);
-            memory.count = 0;
             [memory.total, memory.grazing] = counts;
+            if impacts > 0 {
+                core::mem::swap(&mut memory.events, &mut memory.earlier);
+            }
+            memory.count = impacts;
         })
     }
 

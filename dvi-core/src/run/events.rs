@@ -78,8 +78,10 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 /// Of several events at one time the first in the array comes first. Where a run begins with g = 0 there is
 /// no event, and one that lies at the end of a step counts once. A step that ends on the other side has
 /// crossed zero once; one that ends on the same side is seen to cross it twice if g turns once on the way,
-/// with [`Gauss`](crate::methods::Gauss) of six stages and more if it turns once between two of these, and
-/// with [`Impacts`](crate::methods::Impacts) if it turns once before each impact and behind it.
+/// with [`Gauss`](crate::methods::Gauss) of six stages and more if it turns once between two of these and
+/// the polynomial through them does, and with [`Impacts`](crate::methods::Impacts) if it turns once before
+/// each impact and behind it; a gap that closes there but for rounding is zero, and so an event on the way
+/// down.
 /// What turns more often may pass unseen, as in steps of other methods over several turns, and what is flat
 /// for many steps and dips in a part of one. A condition that jumps across zero, as a velocity does at an
 /// impact, is an event behind its jump, and one that comes to zero and stays there is an event where it

@@ -297,3 +297,21 @@ fn events_go_on_from_a_checkpoint() -> Outcome {
     assert!(found > 10, "{found}");
     Ok(())
 }
+
+#[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
+struct Oscillator;
+
+#[test]
+fn a_limit_of_the_energy_hides_no_stages() -> Outcome {
+    let start = OscillatorState { x: 1.0, dot_x: 0.0 };
+    let method = EnergyLimit { method: Gauss::<8>::new(), limit: 1.0 };
+    let mut run = Integrator::new(&Oscillator, method, 4.5, start)?;
+    let mut events = run.events([Direction::Either], |_, oscillator| [oscillator.x - 0.9])?;
+    let mut found = 0;
+    while events.next_until(40.0)?.is_some() {
+        found += 1;
+    }
+    // cos t = 0.9 at t = 0.45, and at as much before and behind six periods.
+    assert_eq!(found, 13);
+    Ok(())
+}

@@ -90,3 +90,91 @@ fn a_state_at_a_jump_is_that_behind_it() -> Outcome {
     }
     Ok(())
 }
+
+/// Where an impact ends a step to the last bit its time is as good as any.
+#[test]
+fn an_impact_at_the_end_of_a_step_has_derivatives() -> Outcome {
+    for (h, y, dot_y) in [(0.125, 0.5, 0.0), (1.0, 0.5, 0.0), (0.25, 0.0, -1.0)] {
+        let start = BallStateOf::<Dual64> { y: Dual64::from(y).derivative(), dot_y: dot_y.into() };
+        let landing = start.dot_y + (start.dot_y * start.dot_y + start.y * 2.0).sqrt();
+        let mut run = Integrator::new(&Ball, method(1.0), Dual64::from(h), start)?;
+        let time = run.events([Direction::Rising], |_, ball| [ball.dot_y])?.next_until(2.0.into())?;
+        assert_eq!(time.map(|event| (event.time.re, event.time.eps)), Some((landing.re, landing.eps)));
+        let later = run.time() + 0.25;
+        let after = later - landing;
+        let BallStateOf { y, dot_y } = run.dense()?.state_at(later)?;
+        let speed = landing - start.dot_y;
+        for (found, exact) in [(y, speed * after - after * after * 0.5), (dot_y, speed - after)] {
+            assert_abs_diff_eq!(found.re, exact.re, epsilon = 1e-13);
+            assert_abs_diff_eq!(found.eps, exact.eps, epsilon = 1e-12);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_gap_is_met_at_each_impact_and_on_one_side() -> Outcome {
+    for h in [0.013, 0.1, 0.37, 2.9] {
+        let run = || Integrator::new(&Ball, method(1.0), h, BallState { y: 0.7, dot_y: 0.1 });
+        for (direction, expected) in
+            [(Direction::Falling, 20), (Direction::Either, 20), (Direction::Rising, 0)]
+        {
+            let (mut run, mut met) = (run()?, 0);
+            let mut events = run.events([direction], |_, ball| [ball.y])?;
+            // The first flight takes 1.3, each other one 2.4.
+            while let Some(event) = events.next_until(48.0)? {
+                assert!(event.state.y.abs() < 1e-12 && event.state.dot_y > 0.0, "{event:?}");
+                met += 1;
+            }
+            assert_eq!(met, expected, "h = {h}, {direction:?}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn events_of_an_impact_are_handed_out_when_the_state_is_set_and_when_the_next_step_fails() -> Outcome {
+    let start = BallState { y: 0.5, dot_y: 0.0 };
+    let mut run = Integrator::new(&Ball, method(1.0), 0.1, start)?;
+    let mut events = run.events([Direction::Rising; 2], |_, ball| [ball.dot_y, ball.dot_y - 0.1])?;
+    let Event { index, time, state } = events.next_until(1.5)?.ok_or("it bounces")?;
+    events.set_state(time, state)?;
+    let next = events.next_until(1.5)?.map(|event| (event.index, event.time));
+    assert_eq!((index, next), (0, Some((1, time))));
+
+    // Impacts accumulate at t = 3.
+    let mut run = Dense::new(Integrator::new(&Ball, method(0.5), 0.3, start)?)?;
+    let mut watch = Watch::new(&mut run, [Direction::Rising], |_, ball| [ball.dot_y])?;
+    while run.advance().is_ok() {
+        watch.search(&mut run)?;
+    }
+    let (end, mut last) = (run.time(), None);
+    while let Some(event) = watch.next_until(&mut run, end)? {
+        last = Some(event.state.dot_y);
+    }
+    assert_abs_diff_eq!(last.ok_or("it bounces in the last good step")?, 0.125, epsilon = 1e-12);
+    Ok(())
+}
+
+/// Long flights, of which some begin and end at a wall: states right behind an impact are found as the run
+/// has found it.
+#[test]
+fn states_right_behind_an_impact_are_known_in_long_steps() -> Outcome {
+    for i in 0..200 {
+        let [a, b] = [0.8191725, 0.6710436].map(|irrational| (0.5 + f64::from(i) * irrational).fract());
+        let (h, y) = (2.5 + 2.5 * a, 0.4 + 0.4 * b);
+        let mut run = Dense::new(Integrator::new(&Ball, method(1.0), h, BallState { y, dot_y: 0.0 })?)?;
+        let flight = (2.0 * y).sqrt();
+        run.advance_to(20.0)?;
+        // The last impact in the last step, or where the one before it has ended.
+        let count = ((run.time() / flight - 1.0) / 2.0).floor();
+        let impact = flight * (1.0 + 2.0 * count);
+        for after in [1e-12, 1e-10, 1e-8, 1e-6] {
+            if impact > run.time() - h && impact + after < run.time() {
+                let BallState { y, .. } = run.state_at(impact + after)?;
+                assert_abs_diff_eq!(y, flight * after, epsilon = 1e-12);
+            }
+        }
+    }
+    Ok(())
+}

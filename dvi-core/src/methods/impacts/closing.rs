@@ -6,12 +6,14 @@ use super::passage::Passage;
 use crate::error::StepFailure;
 use crate::methods::FreeFlight;
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::reported;
+use crate::scalar::norm::{reported, smaller};
 use crate::solve::crossing::{APART, Cubic, Sample, dip, zero};
 use crate::{Real, Scalar, UnilateralLagrangian};
 
 /// Iterations for the derivatives of that time, of numbers that carry some.
 const POLISHED: usize = 3;
+/// Their slope is that of this last part of a flight, at most.
+const BESIDE: f64 = 1e-3;
 /// A gap that was closed is closed but for so many rounding errors.
 const ROUNDINGS: f64 = 64.0;
 
@@ -127,20 +129,14 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         let a = [open, if is_begun { at(self, open)? } else { self.memory.here.gap[surface] }];
         let b = [closed, at(self, closed)?];
         let found = zero([a, b], &mut |part| at(self, part))?;
-        let (mut part, chord) = (found.place, T::lift(APART));
-        // One that lies where a flight was to end has been found without a look beside it.
-        let slope = if carries_derivatives::<T>() && part > chord {
-            (at(self, part)? - at(self, part - chord)?) / chord
-        } else {
-            found.slope
-        };
-        // What is left is less than rounding, but not in the derivatives of numbers that carry some.
-        for _ in 0..POLISHED {
-            let change = at(self, part)? / slope;
-            if !change.is_finite() || Scalar::abs(change) > T::lift(APART) {
-                break;
+        let mut part = found.place;
+        if carries_derivatives::<T>() && part > T::lift(0.0) {
+            // What is left is less than rounding, but not in the derivatives.
+            let chord = smaller(T::lift(APART), T::lift(BESIDE) * part);
+            let slope = (at(self, part)? - at(self, part - chord)?) / chord;
+            for _ in 0..POLISHED {
+                part -= at(self, part)? / slope;
             }
-            part -= change;
         }
         Ok(part * end)
     }

@@ -42,6 +42,8 @@ pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real> {
     pub(super) row: Multipliers<S, T>,
     pub(super) wall: Wall<S, T>,
     pub(super) events: [Impact<Vector<S, T>, T>; JUMPS],
+    /// Those of the step before, while one is taken.
+    pub(super) earlier: [Impact<Vector<S, T>, T>; JUMPS],
     /// Whether the step at hand has been divided.
     pub(super) is_divided: bool,
     /// How many of the events are those of the last step.
@@ -118,6 +120,7 @@ impl<S: UnilateralLagrangian<T>, I, T: Real> ImpactsMemory<S, I, T> {
             row: system.multipliers().vector(),
             wall: Wall::new(system),
             events: core::array::from_fn(|_| event()),
+            earlier: core::array::from_fn(|_| event()),
             is_divided: false,
             count: 0,
             total: 0,

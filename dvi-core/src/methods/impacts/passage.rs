@@ -48,7 +48,6 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
     /// # Errors
     /// Any [`StepFailure`]; the run is then anywhere.
     pub(super) fn take(mut self) -> Result<(), StepFailure> {
-        self.memory.count = 0;
         self.look(T::lift(0.0))?;
         self.look_on();
         while let Some((surface, s)) = self.seek_impact()? {
@@ -113,7 +112,9 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         let mut surfaces = here.gap.iter().zip(here.rate.iter());
         // It may be reached where the flight begins.
         if let Some(surface) = surfaces.position(|(&gap, &rate)| gap <= zero && self.along(rate) < zero) {
-            return Ok(Some((surface, zero)));
+            // The time is zero, but for its derivatives.
+            let gap = here.gap[surface];
+            return Ok(Some((surface, (T::lift(reported(gap)) - gap) / here.rate[surface])));
         }
         let left = self.left;
         match self.try_flight(left) {

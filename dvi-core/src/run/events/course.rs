@@ -84,6 +84,11 @@ impl<T: Real> Course<T> {
         Self { slope, bend: before.map(|before| slope - before.slope), rate }
     }
 
+    /// Where the motion goes on as another one: what it has bent by says nothing any more.
+    pub(super) fn of_another(self) -> Self {
+        Self { bend: None, ..self }
+    }
+
     /// Whether a condition may have come to zero and back in a step of length `h` from `a` to `b`, which
     /// are on one side, where its course was another before: if it falls at the beginning and rises at the
     /// end. The rates there are those of a parabola, but for what the course has bent otherwise in the step

@@ -11,6 +11,7 @@ use crate::methods::JUMPS;
 use crate::run::Run;
 use crate::run::dense::{Dense, StateOf};
 use crate::scalar::carries_derivatives;
+use crate::scalar::norm::larger;
 use crate::shown::shown;
 
 /// Conditions that are watched on a run: [`Events`](super::Events) for those who take the steps themselves.
@@ -60,6 +61,8 @@ const RENEWED: u64 = 32;
 const UNSURE: f64 = 0.05;
 /// Where the state is changed a condition is zero if it is no more than this part of what changes in a step.
 const LEFT: f64 = 1e-9;
+/// At a jump of the velocity a condition is zero if it is no more than this part of what changes in a step.
+const CLOSED: f64 = 1e-11;
 /// A shorter part of a step is not looked into: where it begins and ends is no better known.
 const SHORT: f64 = 1e-9;
 
@@ -184,14 +187,25 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             let Some((part, sides)) = run.at_jump(jump) else { break };
             let values = |at| numbers(self.g.values(begun + part * h, at, &mut self.state));
             let [before, behind] = sides.map(values);
-            let (before, behind) = (before?, behind?);
+            let (mut before, mut behind) = (before?, behind?);
+            for (index, Watched { g, course }) in self.watched.iter().enumerate() {
+                // A gap that is closed but for rounding is zero.
+                let change = Scalar::abs(before[index] - *g);
+                let rate = course.map_or(change, |course| larger(change, course.rate * Scalar::abs(h)));
+                for g in [&mut before[index], &mut behind[index]] {
+                    if Scalar::abs(*g) <= R::Scalar::lift(CLOSED) * rate {
+                        *g = R::Scalar::lift(0.0);
+                    }
+                }
+            }
             self.find_between::<false>(run, [from, part], before)?;
             for (index, g) in behind.into_iter().enumerate() {
-                if self.directions[index].crosses(self.watched[index].g, g) {
+                let Watched { g: a, course } = self.watched[index];
+                if self.directions[index].crosses(a, g) {
                     self.found.push(index, part);
                 }
                 // The motion is another one from here on.
-                self.watched[index] = Watched { g, course: None };
+                self.watched[index] = Watched { g, course: course.map(Course::of_another) };
             }
             from = part;
         }
@@ -282,8 +296,10 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         for (index, (watched, g)) in self.watched.iter_mut().zip(values).enumerate() {
             let rounding = watched.course.map_or(zero, |course| left * course.rate * h);
             let is_zero = Scalar::abs(g) <= rounding;
-            let is_now = |part| self.last.is_some_and(|(_, last)| part <= last + left);
-            if is_zero && before.of(index).any(is_now) {
+            // At a jump of the velocity a condition may have crossed zero that is not zero.
+            let is_now =
+                |part| self.last.is_some_and(|(_, last)| part == last || (is_zero && part <= last + left));
+            if before.of(index).any(is_now) {
                 self.found.push(index, zero);
             }
             watched.g = if is_zero { zero } else { g };
