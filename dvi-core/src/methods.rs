@@ -92,9 +92,6 @@ use crate::state::Statistics;
 use crate::system::Same;
 use crate::{Lagrangian, Real, System, Vector};
 
-/// Jumps of the velocity in a step, at most.
-pub(crate) const JUMPS: usize = 16;
-
 pub use composition::Composition;
 pub use constrained::{Constrained, Rattle};
 pub use context::{Clock, Here, Step, Steps};
@@ -122,6 +119,9 @@ pub use together::InStep;
 pub use tolerance::Tolerance;
 pub use variational::{Fitting, Variational};
 pub use variational_method::{InnerScheme, VariationalMethod};
+
+/// Jumps of the velocity in a step, at most.
+pub(crate) const JUMPS: usize = 16;
 
 /// What runs carry for a method, or for a [step control](crate::run::StepControl).
 ///
@@ -229,8 +229,8 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
 
     /// Sets `q` to the point of the `index`-th jump of the velocity in the last step, as at an impact, and
     /// `v` to the velocities before it and behind it, and returns the part of the step; in their order, from
-    /// the first one on, and no more than 16. There are none if nothing else is said;
-    /// of a method that has [`places`](Self::places) they are not looked at.
+    /// the first one on. There are none if nothing else is said. A search for events looks at up to 16, and
+    /// at none of a method that has [`places`](Self::places).
     fn jump(
         &self,
         _memory: &Self::Memory,

@@ -6,6 +6,7 @@ use core::iter::FusedIterator;
 use core::ops::Deref;
 
 use crate::error::{StartError, StepError, StepFailure};
+use crate::methods::JUMPS;
 #[cfg(doc)]
 use crate::methods::Method;
 use crate::run::{Run, between::Flat};
@@ -292,12 +293,12 @@ impl<R: Run> Dense<R> {
     /// # Errors
     /// As [`reach`](Self::reach).
     pub(super) fn at_part(&mut self, part: R::Scalar) -> Result<(R::Scalar, StateOf<R>), StepFailure> {
-        let (mut jump, mut behind_jump) = (0, None);
-        while let Some((place, [_, behind])) = self.at_jump(jump) {
+        let mut behind_jump = None;
+        for jump in 0..JUMPS {
+            let Some((place, [_, behind])) = self.at_jump(jump) else { break };
             if place == part {
                 behind_jump = Some(behind.state());
             }
-            jump += 1;
         }
         if let Some(state) = behind_jump {
             return Ok((self.time_at(part), state));

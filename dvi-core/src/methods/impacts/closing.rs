@@ -135,7 +135,10 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
             let chord = smaller(T::lift(APART), T::lift(BESIDE) * part);
             let slope = (at(self, part)? - at(self, part - chord)?) / chord;
             for _ in 0..POLISHED {
-                part -= at(self, part)? / slope;
+                let change = at(self, part)? / slope;
+                if Scalar::abs(change) <= chord {
+                    part -= change;
+                }
             }
         }
         Ok(part * end)
