@@ -4,8 +4,8 @@
 //! has crossed. A step that begins and ends on one side may have crossed twice: if g is near enough to zero,
 //! as its changes in the steps before say, its slopes at both ends are looked at, and where these point to
 //! zero and away from it, g is followed down to its least value in between. Methods of many stages take steps
-//! over several turns: there the stages divide a step into parts, each of which is searched so. So do jumps of
-//! the velocity, of which a method knows the place and both sides. Each crossing is found to rounding.
+//! over several turns: there the stages divide a step into parts, each of which is searched so. So do jumps
+//! of the velocity, of which a method knows the place and both sides. Each crossing is found to rounding.
 
 mod conditions;
 mod course;

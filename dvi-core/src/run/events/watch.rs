@@ -179,8 +179,9 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         self.find_between::<true>(run, [from, one], end)
     }
 
-    /// Finds the events up to the last jump of the velocity in the last step, and returns the part of the step
-    /// before it. Each divides the step, and is an event of the conditions that jump across zero with it.
+    /// Finds the events up to the last jump of the velocity in the last step, and returns the part of the
+    /// step before it. Each divides the step, and is an event of the conditions that jump across zero with
+    /// it.
     fn find_jumps(&mut self, run: &mut Dense<R>) -> Result<R::Scalar, StepFailure> {
         let (mut from, begun, h) = (R::Scalar::lift(0.0), run.last_begun(), run.step_size());
         for jump in 0..JUMPS {
