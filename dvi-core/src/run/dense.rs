@@ -14,7 +14,7 @@ use crate::scalar::carries_derivatives;
 use crate::scalar::norm::reported;
 use crate::shown::shown;
 use crate::system::start::step_error;
-use crate::{Scalar as _, Space, System, Vector};
+use crate::{Real, Scalar, Space, System, Vector};
 
 /// A run with its continuous extension: the state at any time of its last step.
 ///
@@ -65,6 +65,14 @@ pub(super) type Timed<R> = Result<(<R as Run>::Scalar, StateOf<R>), StepError>;
 
 /// The places within a step that are looked at, at most.
 pub(super) const PLACES: usize = 8;
+
+/// Parts of a step that differ by no more than so many rounding errors are one.
+const TOGETHER: f64 = 16.0;
+
+/// Whether two parts of a step are one but for rounding.
+pub(super) fn are_one<T: Real>(a: T, b: T) -> bool {
+    Scalar::abs(a - b) <= T::lift(TOGETHER) * T::default_epsilon()
+}
 
 /// Steps that may be taken again where nobody asks for states in between.
 const LONGEST: u64 = 64;
@@ -296,7 +304,7 @@ impl<R: Run> Dense<R> {
         let mut behind_jump = None;
         for jump in 0..JUMPS {
             let Some((place, [_, behind])) = self.at_jump(jump) else { break };
-            if place == part {
+            if are_one(place, part) {
                 behind_jump = Some(behind.state());
             }
         }

@@ -128,6 +128,15 @@ fn a_gap_is_met_at_each_impact_and_on_one_side() -> Outcome {
             }
             assert_eq!(met, expected, "h = {h}, {direction:?}");
         }
+        let start = BallStateOf::<Dual64> { y: 0.7.into(), dot_y: Dual64::from(0.1).derivative() };
+        let mut run = Integrator::new(&Ball, method(1.0), h.into(), start)?;
+        let event = run.events([Direction::Falling], |_, ball| [ball.y])?.next_until(2.0.into())?;
+        let Event { time, state, .. } = event.ok_or("it bounces")?;
+        let speed = (start.dot_y * start.dot_y + start.y * 2.0).sqrt();
+        for (found, exact) in [(time, start.dot_y + speed), (state.dot_y, speed)] {
+            assert_abs_diff_eq!(found.re, exact.re, epsilon = 1e-12);
+            assert_abs_diff_eq!(found.eps, exact.eps, epsilon = 1e-11);
+        }
     }
     Ok(())
 }

@@ -5,15 +5,13 @@ use super::{Event, EventOf, Watch};
 use crate::error::{StepError, StepFailure};
 use crate::methods::JUMPS;
 use crate::run::Run;
-use crate::run::dense::{Dense, PLACES};
+use crate::run::dense::{Dense, PLACES, are_one};
 use crate::scalar::norm::{reported, smaller};
 use crate::{Real, Scalar};
 
 /// Of one condition: two between neighbours of the ends of a step and of what divides it, and one at the
 /// second of them; and one at each jump.
 const MOST: usize = 3 * (PLACES + JUMPS + 1) + JUMPS;
-/// Parts of a step that differ by no more than so many rounding errors are one.
-const TOGETHER: f64 = 16.0;
 /// An event in this part of the first step after a change of the state is a hop.
 const HOP: f64 = 1e-2;
 /// After so many hops of one condition, each shorter than the one before, events accumulate.
@@ -102,9 +100,4 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         }
         Ok(Event { index, time, state })
     }
-}
-
-/// Whether a part of a step is another, which is no larger, but for rounding.
-pub(super) fn are_one<T: Real>(least: T, part: T) -> bool {
-    part <= least + T::lift(TOGETHER) * T::default_epsilon()
 }

@@ -1,10 +1,9 @@
 //! The search for events in a step: by the signs of a condition at its ends, and by its slopes there.
 
 use super::conditions::Conditions;
-use super::found::are_one;
 use crate::error::StepFailure;
 use crate::run::Run;
-use crate::run::dense::{Dense, StateOf};
+use crate::run::dense::{Dense, StateOf, are_one};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::{larger, reported, smaller};
 use crate::solve::crossing::{Sample, Zero, dip, zero};
