@@ -62,8 +62,8 @@ pub(super) struct Within<'a, R: Run, G, const N: usize> {
     pub(super) state: &'a mut StateOf<R>,
     pub(super) index: usize,
     pub(super) direction: Direction,
-    /// The part of the step that is searched: the motion is another one before and behind it.
-    pub(super) part: [R::Scalar; 2],
+    /// The part of the step in which the motion is one: it is another before and behind.
+    pub(super) motion: [R::Scalar; 2],
 }
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, R, G, N> {
@@ -165,7 +165,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         [place, value]: [R::Scalar; 2],
     ) -> Result<Sample<R::Scalar>, StepFailure> {
         let [one, two, three, four] = [1.0, 2.0, 3.0, 4.0].map(R::Scalar::lift);
-        let ([from, to], chord) = (self.part, self.chord());
+        let ([from, to], chord) = (self.motion, self.chord());
         let mut at = |chords| self.look(place + chords * chord);
         let change = if place < from + chord {
             four * at(one)? - three * value - at(two)?
@@ -179,7 +179,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
 
     /// The part of the step between places at which a condition is looked at for its slope.
     fn chord(&self) -> R::Scalar {
-        let [from, to] = self.part;
+        let [from, to] = self.motion;
         smaller(R::Scalar::lift(CHORD), R::Scalar::lift(0.25) * (to - from))
     }
 

@@ -224,6 +224,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     ) -> Result<(), StepFailure> {
         let [zero, one, left, unsure, short] = [0.0, 1.0, LEFT, UNSURE, SHORT].map(R::Scalar::lift);
         let h = Scalar::abs(run.step_size()) * (to - from);
+        // Stages divide one motion, a jump begins another.
+        let motion = if STAGED { [zero, one] } else { [from, to] };
         for (index, mut b) in end.into_iter().enumerate() {
             let Watched { g: a, course } = self.watched[index];
             if to - from <= short {
@@ -241,7 +243,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
                 // The polynomial through the stages is less accurate than a step to this place, which
                 // decides where the sign is in doubt.
                 run.settle()?;
-                b = self.within(run, index, [from, to]).look(to)?;
+                b = self.within(run, index, motion).look(to)?;
             }
             // What lies at the end of a step but for rounding has no derivative in the next one.
             if carries_derivatives::<R::Scalar>() && Scalar::abs(b) <= left * change {
@@ -259,7 +261,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
                 continue;
             }
             run.settle()?;
-            let (mut within, ends) = (self.within(run, index, [from, to]), [[from, a], [to, b]]);
+            let (mut within, ends) = (self.within(run, index, motion), [[from, a], [to, b]]);
             if turn == Turn::Perhaps && !within.is_turned(ends)? {
                 continue;
             }
@@ -274,10 +276,10 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         &'a mut self,
         run: &'a mut Dense<R>,
         index: usize,
-        part: [R::Scalar; 2],
+        motion: [R::Scalar; 2],
     ) -> Within<'a, R, G, N> {
         let Self { g, state, directions, .. } = self;
-        Within { run, g, state, index, direction: directions[index], part }
+        Within { run, g, state, index, direction: directions[index], motion }
     }
 
     /// Goes on where the state of the run has just been set.
