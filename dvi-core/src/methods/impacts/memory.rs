@@ -139,7 +139,7 @@ impl<S: ConstrainedSystem, I, T: Real> ImpactsMemory<S, I, T> {
         &self.inner
     }
 
-    /// The impacts of the last step, in the order of the run. None behind a checkpoint.
+    /// The impacts of the last good step, in the order of the run. None behind a checkpoint.
     pub fn impacts(&self) -> &[Impact<Vector<S, T>, T>] {
         &self.events[..self.count]
     }
