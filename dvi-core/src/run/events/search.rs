@@ -132,7 +132,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         // Behind a jump of the condition: a run that begins there does not meet it again.
         let mut place = if are_one(before, behind) { behind } else { found.place };
         // That values have converged says nothing of the derivatives.
-        for _ in 0..if carries_derivatives::<R::Scalar>() { POLISHED } else { 0 } {
+        let polished = if carries_derivatives::<R::Scalar>() { POLISHED } else { 0 };
+        for _ in 0..polished {
             let value = self.look(place)?;
             let change = value / self.sample(R::Scalar::lift(1.0), [place, value])?.slope;
             if Scalar::abs(change) <= R::Scalar::lift(SLIGHT) {

@@ -63,7 +63,8 @@ const UNSURE: f64 = 0.05;
 const LEFT: f64 = 1e-9;
 /// At a jump of the velocity a condition is zero if it is no more than this part of what changes in a step.
 const CLOSED: f64 = 1e-11;
-/// A shorter part of a step is not looked into: where it begins and ends is no better known.
+/// A shorter part of a step, as a jump is one, is not looked into: where it begins and ends is no better
+/// known.
 const SHORT: f64 = 1e-9;
 
 impl<R: Run, G, const N: usize> Watch<R, G, N>
@@ -188,29 +189,24 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             let Some((part, sides)) = run.at_jump(jump) else { break };
             let values = |at| numbers(self.g.values(begun + part * h, at, &mut self.state));
             let [before, behind] = sides.map(values);
-            let (mut before, mut behind) = (before?, behind?);
-            for (index, Watched { g, course }) in self.watched.iter().enumerate() {
-                // A gap that is closed but for rounding is zero.
-                let change = Scalar::abs(before[index] - *g);
-                let rate = course.map_or(change, |course| larger(change, course.rate * Scalar::abs(h)));
-                for g in [&mut before[index], &mut behind[index]] {
-                    if Scalar::abs(*g) <= R::Scalar::lift(CLOSED) * rate {
-                        *g = R::Scalar::lift(0.0);
-                    }
-                }
-            }
+            let [before, behind] = self.closed([before?, behind?], Scalar::abs(h));
             self.find_between::<false>(run, [from, part], before)?;
-            for (index, g) in behind.into_iter().enumerate() {
-                let Watched { g: a, course } = self.watched[index];
-                if self.directions[index].crosses(a, g) {
-                    self.found.push(index, part);
-                }
-                // The motion is another one from here on.
-                self.watched[index] = Watched { g, course: course.map(Course::of_another) };
-            }
+            self.find_between::<false>(run, [part, part], behind)?;
             from = part;
         }
         Ok(from)
+    }
+
+    /// The values on both sides of a jump, of which that of a gap that is closed but for rounding is zero.
+    fn closed(&self, sides: [[R::Scalar; N]; 2], h: R::Scalar) -> [[R::Scalar; N]; 2] {
+        let [zero, closed] = [0.0, CLOSED].map(R::Scalar::lift);
+        let change: [_; N] = core::array::from_fn(|index| {
+            let Watched { g, course } = self.watched[index];
+            let change = Scalar::abs(sides[0][index] - g);
+            course.map_or(change, |course| larger(change, course.rate * h))
+        });
+        let of = |g: R::Scalar, change| if Scalar::abs(g) <= closed * change { zero } else { g };
+        sides.map(|side| core::array::from_fn(|index| of(side[index], change[index])))
     }
 
     /// Finds the events of a part of the last step, or of the whole, with the values of the conditions at its
@@ -232,7 +228,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
                 if self.directions[index].crosses(a, b) {
                     self.found.push(index, to);
                 }
-                self.watched[index].g = b;
+                self.watched[index] = Watched { g: b, course: course.map(Course::of_another) };
                 continue;
             }
             // Of another motion, before the state was set.
