@@ -47,9 +47,15 @@ fn main() -> ExitCode {
     })
 }
 
+/// Those of the papers, which run if nothing else is said, and below them those that go beyond.
 fn list() -> Result<ExitCode> {
-    let line = |experiment: &Experiment| format!("{:<20} {}\n", experiment.name, experiment.title);
-    say(&experiments::ALL.iter().map(line).collect::<String>()).map(|()| ExitCode::SUCCESS)
+    let lines = |of_papers: bool| {
+        let listed = experiments::ALL.iter().filter(|experiment| experiment.is_of_a_paper() == of_papers);
+        listed
+            .map(|experiment: &Experiment| format!("{:<20} {}\n", experiment.name, experiment.title))
+            .collect::<String>()
+    };
+    say(&format!("{}\nWith --all also:\n\n{}", lines(true), lines(false))).map(|()| ExitCode::SUCCESS)
 }
 
 fn run(options: &Options) -> Result<ExitCode> {

@@ -35,13 +35,15 @@ fn names(folder: &Path) -> BTreeSet<String> {
     entries.map(|name| name.to_string_lossy().into_owned()).collect()
 }
 
-fn list() -> Vec<String> {
+/// The experiments with their titles: those of the papers, and those that go beyond.
+fn list() -> [Vec<String>; 2] {
     let [list, _] = told(&mut gallery(&["--list"], Path::new(".")), 0);
-    list.lines().map(str::to_owned).collect()
+    let (papers, beyond) = list.split_once("\nWith --all also:\n\n").expect("two lists");
+    [papers, beyond].map(|list| list.lines().map(str::to_owned).collect())
 }
 
-fn listed() -> Vec<String> {
-    list().iter().filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
+fn names_in(list: &[String]) -> BTreeSet<&str> {
+    list.iter().filter_map(|line| line.split_whitespace().next()).collect()
 }
 
 /// What it writes stays in `target/tmp/short-run`.
@@ -51,8 +53,11 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     if folder.exists() {
         fs::remove_dir_all(&folder).expect("removed");
     }
-    let [printed, _] = told(&mut gallery(&["--short", "--all"], &folder), 0);
-    let experiments = listed();
+    let [printed, messages] = told(&mut gallery(&["--short", "--all"], &folder), 0);
+    let place = |name: &str| messages.find(&format!("\n{name} ")).expect("it ended");
+    assert!(place("order") < place("kepler-long"), "{messages}");
+    let list = list().concat();
+    let experiments = names_in(&list);
     assert!(experiments.len() >= 40, "{experiments:?}");
     let files =
         experiments.iter().flat_map(|name| ["svg", "png", "csv"].map(|kind| format!("{name}.{kind}")));
@@ -72,7 +77,7 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
     let shown = include_bytes!("../../figures/leapfrogging.svg");
     assert!(figure == shown, "the README shows another figure than this program draws: copy it to figures/");
     let table = fs::read_to_string(folder.join("summary.csv")).expect("readable");
-    page::has_all(&folder, &verdicts(&table));
+    page::has_all(&folder, &experiments, &verdicts(&table));
     let summary = fs::read_to_string(folder.join("summary.md")).expect("readable");
     assert!(experiments.iter().all(|name| summary.contains(&format!("## {name}:"))), "{summary}");
     assert!(!summary.contains("**fails**") && !summary.contains("**Failed**"), "{summary}");
@@ -83,7 +88,7 @@ fn a_short_run_writes_complete_files_for_every_experiment_and_a_summary() {
 #[test]
 fn the_readme_shows_each_experiment() {
     let readme = include_str!("../../README.md");
-    for line in list() {
+    for line in list().concat() {
         let (name, title) = line.split_once(' ').expect("a name and a sentence");
         let cell = format!("![](figures/{name}.webp)<br>`{name}`: {}.", title.trim_start());
         assert!(readme.contains(&cell), "dvi-examples/README.md should say:\n{cell}");
@@ -139,19 +144,20 @@ fn a_run_without_a_terminal_leaves_what_was_asked_for_and_plain_lines() {
 
 #[test]
 fn the_main_job_is_that_of_the_papers() {
+    let claims = verdicts(include_str!("../../full-run.csv")).into_keys();
+    let of_papers = claims.filter(|[_, place, _]| place != "beyond the paper").collect::<Vec<_>>();
+    assert!(of_papers.len() >= 30, "{of_papers:?}");
+    let [papers, beyond] = list();
+    let with_claims: BTreeSet<_> = of_papers.iter().map(|[experiment, ..]| experiment.as_str()).collect();
+    assert!(with_claims.is_subset(&names_in(&papers)) && beyond.len() >= 20, "{papers:?}");
+    // What is stopped at once has said what it was to do.
     let folder = tempdir().expect("a folder");
-    let [_, messages] = told(&mut gallery(&["--short"], folder.path()), 0);
-    let names = names(folder.path());
-    assert!(names.contains("fig5-chaotic.svg") && !names.contains("friction.svg"), "{names:?}");
-    let place = |name: &str| messages.find(&format!("\n{name} ")).expect("it ended");
-    assert!(place("order") < place("kepler-long"), "{messages}");
-    let printed = |table: &str| {
-        let claims = verdicts(table).into_keys().filter(|[_, place, _]| place != "beyond the paper");
-        claims.collect::<BTreeSet<_>>()
-    };
-    let table = fs::read_to_string(folder.path().join("summary.csv")).expect("readable");
-    let (claims, all) = (printed(&table), printed(include_str!("../../full-run.csv")));
-    assert!(claims == all && claims.len() >= 30, "{} of {}", claims.len(), all.len());
+    let mut command = gallery(&["--short"], folder.path());
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("starts");
+    let mut messages = BufReader::new(child.stderr.take().expect("piped")).lines();
+    let first = messages.next().expect("a line").expect("readable");
+    child.kill().and_then(|()| child.wait()).expect("ends");
+    assert!(first.starts_with(&format!("experiments: {}; ", papers.len())), "{first}");
 }
 
 #[test]
