@@ -155,9 +155,14 @@ fn a_checkpoint_of_another_run_is_refused() -> Outcome {
     let control = ErrorControl::new(1e-9, 0.01);
     let other = Integrator::resume_controlled(&KEPLER, Gauss::<2>::new(), control, &of_gauss).err();
     assert_eq!(refused(other)?, CheckpointError::Short);
-    let beyond =
-        Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint.with_step_size(0.0)).err();
-    assert!(matches!(beyond, Some(StartError::Step { .. })), "{beyond:?}");
+    // Steps of no length, and those that do not move the time.
+    let mut run = Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint)?;
+    run.take_steps(100)?;
+    for h in [0.0, 1e-17] {
+        let checkpoint = run.checkpoint().with_step_size(h);
+        let beyond = Integrator::resume(&KEPLER, Variational::trapezoid(), &checkpoint).err();
+        assert!(matches!(beyond, Some(StartError::Step { .. })), "{beyond:?}");
+    }
     Ok(())
 }
 

@@ -10,6 +10,7 @@ use crate::Held;
 use crate::error::{CheckpointError, StartError};
 use crate::memory::Memory;
 use crate::methods::Method;
+use crate::scalar::norm::reported;
 use crate::system::start::validate;
 use crate::{Lagrangian, Real};
 
@@ -63,6 +64,9 @@ pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T
     }
     if time.h != h {
         // No steps have been taken with this one.
+        if t + h == t {
+            return Err(StartError::Step { h: reported(h) });
+        }
         *time = Time::new(t, h, statistics.steps);
     }
     Ok(Begun { statistics, ..begun })

@@ -138,6 +138,22 @@ fn a_condition_that_is_no_number_is_an_error() -> Outcome {
     Ok(())
 }
 
+/// Also at the present time, where the next step begins as if nothing had been set.
+#[test]
+fn conditions_are_not_watched_across_a_state_that_is_set() -> Outcome {
+    for later in [0.0, 0.5] {
+        let mut run = Dense::new(free(-1.0, 0.25)?)?;
+        let mut watch = Watch::new(&mut run, [Direction::Either], |_, state: &SpringState| [state.x])?;
+        run.advance()?;
+        watch.search(&mut run)?;
+        run.set_state(run.time() + later, SpringState { x: 1.0, dot_x: 1.0 })?;
+        run.advance()?;
+        let refused = watch.search(&mut run).err();
+        assert!(matches!(refused, Some(StepError { failure: StepFailure::Unreachable { .. }, .. })));
+    }
+    Ok(())
+}
+
 #[test]
 fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
     fn check<R: Run<Scalar = f64>>(mut run: R, sign: f64) -> Outcome {

@@ -43,8 +43,9 @@ pub struct Watch<R: Run, G, const N: usize> {
     pub(super) found: Found<R::Scalar, N>,
     /// Where states that are looked at are read to.
     state: StateOf<R>,
-    /// When it has looked last.
+    /// When it has looked last, and how often the state had been set.
     time: R::Scalar,
+    beginnings: u64,
     /// The last event, but for those where the state was set: its condition and its part of a step.
     pub(super) last: Option<(usize, R::Scalar)>,
     /// Steps since the state was set; before it is, more than one.
@@ -90,8 +91,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         let at = run.at_end().map_err(StartError::Starter)?;
         let values = numbers(g.values(time, at, &mut state)).map_err(StartError::Starter)?;
         let watched = values.map(|g| Watched { g, course: None });
-        let (found, last, lost) = (Found::new(), None, None);
-        Ok(Self { g, directions, watched, found, state, time, last, steps: 2, hops: 0, lost })
+        let (found, last, lost, beginnings) = (Found::new(), None, None, run.beginnings);
+        Ok(Self { g, directions, watched, found, state, time, beginnings, last, steps: 2, hops: 0, lost })
     }
 
     /// Finds the events of the last step: to be called after each step.
@@ -101,7 +102,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     /// new `Watch` begins. Else as [`Events::next_until`](super::Events::next_until).
     pub fn search(&mut self, run: &mut Dense<R>) -> Result<(), StepError> {
         self.check_known()?;
-        if run.last_begun() != self.time {
+        if run.last_begun() != self.time || run.beginnings != self.beginnings {
             return Err(run.unreachable(self.time));
         }
         self.time = run.time();
@@ -283,7 +284,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     /// # Errors
     /// As [`new`](Self::new); then no events are known.
     pub(super) fn begin_anew(&mut self, run: &mut Dense<R>) -> Result<(), StartError> {
-        self.time = run.time();
+        (self.time, self.beginnings) = (run.time(), run.beginnings);
         let values = self.at_end(run).map_err(|failure| {
             self.lost = Some(run.error(failure));
             self.found.forget();
