@@ -174,6 +174,39 @@ struct Switched;
 /// A body that is pushed for a short time.
 const PUSHED: Pushed = Pushed { on: 50.0, off: 50.2 };
 
+/// Where less time is left than a seam takes to be left, whose roundings are those of the time.
+#[test]
+fn a_run_that_begins_at_a_seam_ends_where_it_was_asked_to() -> Outcome {
+    for (begin, left) in [(155.0, 1e-12), (-155.0, -1e-12), (155.0, 1e-10), (0.0, 1e-12)] {
+        let control = ErrorControl::new(1e-9, 0.1_f64.copysign(left));
+        let start = WellState { x: 0.0, dot_x: 1.0 };
+        let mut run = Integrator::controlled_at(&Well, Gauss::<4>::new(), control, begin, start)?;
+        run.advance_to(begin + left)?;
+        assert_abs_diff_eq!(run.time(), begin + left, epsilon = 1e-15 * (begin + left).abs());
+    }
+    Ok(())
+}
+
+/// Crossed 1, 3, 5, … after the start, also where a run is asked to end there.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - (x - 0.3 * t).abs())]
+struct Relay;
+
+#[test]
+fn a_run_ends_at_a_seam_that_moves_where_it_was_asked_to() -> Outcome {
+    for start in (0..60).map(|k| 0.3197 * f64::from(k)) {
+        for h in [0.1, -0.1] {
+            let state = RelayState { x: 0.5 + 0.3 * start, dot_x: 0.3 };
+            let control = ErrorControl::new(1e-9, h);
+            let mut run = Integrator::controlled_at(&Relay, Gauss::<4>::new(), control, start, state)?;
+            for end in (1..=55).map(|k| start + h * f64::from(k)) {
+                run.advance_to(end)?;
+                assert_abs_diff_eq!(run.time(), end, epsilon = 1e-15 * (end.abs() + h.abs()));
+            }
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn forces_by_if_are_met_where_they_change() -> Outcome {
     for tolerance in [1e-6, 1e-9, 1e-12] {

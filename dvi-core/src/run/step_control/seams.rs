@@ -211,12 +211,12 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         h: T,
         part: T,
     ) -> Result<Option<T>, StepFailure> {
-        let (system, nothing) = (run.system(), T::lift(0.0));
+        let (system, [nothing, one]) = (run.system(), [0.0, 1.0].map(T::lift));
         let is_on = |seams: &Self, seam: usize| seams.at_begin(system, seam) == nothing;
         if !(0..S::SEAMS).any(|seam| is_on(self, seam)) {
             return Ok(None);
         }
-        let behind = part * h;
+        let behind = if part < one { part * h } else { h };
         self.look(run, behind)?;
         let (t, q, v) = (self.t + behind, run.q(), &self.v_end);
         let leaves = (0..S::SEAMS).any(|seam| is_on(self, seam) && system.seam(seam, q, v, t) != nothing);

@@ -50,17 +50,25 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         first.map(|first| larger(first, T::lift(PLACES[1])))
     }
 
-    /// What rounding may change a seam by at the end of a step of length `h`.
+    /// What rounding may change a seam by at the end of a step of length `h`: each number there is moved up or
+    /// down, as a bit of its place among all says, so that of two whose changes cancel one goes up where the
+    /// other goes down.
     fn noise<M: Method<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, seam: usize, h: T) -> T {
-        let rounded = T::lift(1.0) + T::lift(TOUCHING) * T::default_epsilon();
-        let [near_q, near_v] = &mut self.near;
-        for (k, &q) in run.q().iter().enumerate() {
-            (near_q[k], near_v[k]) = (q * rounded, self.v_end[k] * rounded);
-        }
-        let (system, t) = (run.system(), self.t + h);
+        let (one, part) = (T::lift(1.0), T::lift(TOUCHING) * T::default_epsilon());
+        let (system, t, last) = (run.system(), self.t + h, 2 * self.q.len());
         let value = system.seam(seam, run.q(), &self.v_end, t);
-        let near = system.seam(seam, &self.near[0], &self.near[1], t * rounded);
-        Scalar::abs(near - value) + Scalar::abs(value) * (rounded - T::lift(1.0))
+        let mut noise = T::lift(0.0);
+        for bit in 0..=last.ilog2() {
+            let moved =
+                |place: usize, x: T| x * if (place >> bit) & 1 == 0 { one + part } else { one - part };
+            let [near_q, near_v] = &mut self.near;
+            for (k, &q) in run.q().iter().enumerate() {
+                (near_q[k], near_v[k]) = (moved(k, q), moved(last - 1 - k, self.v_end[k]));
+            }
+            let near = system.seam(seam, &self.near[0], &self.near[1], moved(last, t));
+            noise = larger(noise, Scalar::abs(near - value));
+        }
+        noise + Scalar::abs(value) * part
     }
 
     /// Sets the point near by to a place of a step of length `h`, on the cubic path between its ends.
