@@ -31,7 +31,6 @@ pub(crate) enum Instruction {
     Sum(Vec<Signed>),
     Unary(Unary, Signed),
     Binary(Binary, Signed, Signed),
-    Power(Register, i32),
     Call(u32, u32, Signed),
     /// Value, gradient and Hessian of a function of several variables, at once.
     Expansion(u32, Vec<Signed>),
@@ -56,7 +55,7 @@ impl Instruction {
             Self::Multiply(a, b) | Self::Divide(a, b) => vec![*a, *b],
             Self::Sum(terms) | Self::Expansion(_, terms) => terms.iter().map(|term| term.register).collect(),
             Self::Unary(_, a) | Self::Call(_, _, a) | Self::Reduce(_, _, a) => vec![a.register],
-            Self::Power(a, _) | Self::Part(a, _) => vec![*a],
+            Self::Part(a, _) => vec![*a],
             Self::Binary(_, a, b) => vec![a.register, b.register],
             Self::Choose(a, _, b, c, d) => vec![a.register, b.register, c.register, d.register],
         }

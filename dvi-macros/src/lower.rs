@@ -274,7 +274,7 @@ impl<'a> Lowering<'a> {
                 return self.refuse(literal, "expected a number");
             }
         };
-        if !matches!(suffix, "" | "f64" | "f32") {
+        if !matches!(suffix, "" | "f64") {
             let message = if is_number_type(suffix) {
                 format!("formulas are real: write this number without `{suffix}`")
             } else if let Some(exponent) =

@@ -35,7 +35,6 @@ fn count_operations(code: &Instructions, steps: &[Step], loops: &[Loop], counted
                 Instruction::Divide(..) => here.divisions += 1,
                 Instruction::Unary(..)
                 | Instruction::Binary(..)
-                | Instruction::Power(..)
                 | Instruction::Call(..)
                 | Instruction::Expansion(..) => here.calls += 1,
                 _ => {}

@@ -3,7 +3,7 @@
 //! A product of the graph is a multiset of factors. The pair of factors that occurs in the most
 //! products is multiplied once, again and again, until no pair occurs twice (Breuer 1969); on a tie the
 //! pair that is known furthest outside of the loops comes first, so that invariant factors meet before
-//! the loop. Powers need no rule of their own: x⁴ is (x·x)·(x·x). A reciprocal that is left with a
+//! the loop. Powers need no rule of their own: x⁴ is (x·x)·(x·x), and x⁵⁰/y⁵⁰ is (x/y)⁵⁰. A reciprocal that is left with a
 //! single use becomes the divisor of a quotient. Factors in front of a sum move into it where the
 //! product inside is computed anyway, as it is when a sum and a scatter share their loop.
 
@@ -15,18 +15,14 @@ use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
 use crate::statement::Statement;
-use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node, leaf, signed_exponent};
+use crate::symbolic::{Expr, Fold, Free, Graph, Id, Loop, Node, leaf};
 
 mod share;
-
-/// Above this exponent a power is a call of `powi`.
-const LARGEST_EXPANDED: u32 = 32;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 enum Factor {
     Literal(u64),
     Node(Id),
-    Power(Id, i32),
     Pair(u32),
 }
 
@@ -190,16 +186,9 @@ impl Builder<'_> {
         if f64::from_bits(key.0) != 1.0 {
             powers.push((Factor::Literal(key.0), 1));
         }
-        let mut add = |id: Id, exponent: u32| {
-            powers.push(match exponent {
-                0..=LARGEST_EXPANDED => (Factor::Node(id), exponent),
-                _ => (Factor::Power(id, signed_exponent(exponent)), 1),
-            });
-        };
-        match self.graph.node(key.1) {
-            Node::Product(powers) => powers.iter().for_each(|(id, exponent)| add(*id, *exponent)),
-            _ => add(key.1, 1),
-        }
+        powers.extend(
+            self.graph.factors(key.1).into_iter().map(|(id, exponent)| (Factor::Node(id), exponent)),
+        );
         powers.sort_unstable();
         powers
     }
@@ -233,7 +222,7 @@ impl Builder<'_> {
     fn free(&self, factor: Factor) -> Free {
         match factor {
             Factor::Literal(_) => Free::default(),
-            Factor::Node(id) | Factor::Power(id, _) => self.graph.free(id),
+            Factor::Node(id) => self.graph.free(id),
             Factor::Pair(pair) => self.pairs[pair as usize].free,
         }
     }
@@ -302,10 +291,6 @@ impl Builder<'_> {
         match factor {
             Factor::Literal(bits) => self.literal(f64::from_bits(bits)),
             Factor::Node(id) => self.value(id),
-            Factor::Power(id, exponent) => {
-                let base = self.value(id);
-                self.out.push(Instruction::Power(base, exponent))
-            }
             Factor::Pair(pair) => {
                 let [a, b] = self.pairs[pair as usize].factors;
                 self.multiplied(&[a, b])

@@ -197,14 +197,15 @@ fn one_loop_holds_all_of_the_energy() {
     assert_eq!(body(chain, "energy").matches("for ").count(), 1);
 }
 
-/// As many functions inside one another as a long chain of `let` makes; and squares that underflow on the
-/// way to a derivative of 10⁻¹²⁰.
+/// As many functions inside one another as a long chain of `let` makes; squares that underflow on the way
+/// to a derivative of 10⁻¹²⁰; and powers of literals, and of each of two factors, that are no numbers.
 #[test]
 fn extreme_formulas_expand() {
     let nested = format!("x{}", ".sin()".repeat(100));
     let bindings: String = (1..60).map(|k| format!("let a{k} = (a{} * 1.1 + x).sin();", k - 1)).collect();
     let small = "x + 16.0.powf(50 - y).powi(-2)".to_string();
-    for formula in [nested, format!("{{ let a0 = x + y; {bindings} a59 }}"), small] {
+    let powers = "(x / 3.0).powi(700) + (x * y).powi(400) + (x / y).powi(1100)".to_string();
+    for formula in [nested, format!("{{ let a0 = x + y; {bindings} a59 }}"), small, powers] {
         let arguments = format!("coordinates(x, y), one_form = x * d(y), hamiltonian = {formula}");
         let attribute: TokenStream = arguments.parse().expect("tokens");
         let expansion = degenerate_lagrangian(

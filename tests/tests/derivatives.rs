@@ -5,6 +5,7 @@ mod functions;
 mod indices;
 mod limits;
 pub(crate) mod oracle;
+mod range;
 mod self_check;
 
 use dvi_tests::zoo::functions::{EveryFunction, OwnFunction};

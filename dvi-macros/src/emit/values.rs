@@ -41,11 +41,6 @@ impl Function<'_> {
                     (format_ident!("{}", function.name()), self.signed(*a), self.signed(*b));
                 quote!(#scalar::#function(#a, #b))
             }
-            Instruction::Power(of, exponent) => {
-                let of = self.register(*of);
-                let exponent = Literal::i32_suffixed(*exponent);
-                quote!(#scalar::powi(#of, #exponent))
-            }
             Instruction::Call(function, order, of) => {
                 let (name, of) = (own_function(*function as usize, *order as usize), self.signed(*of));
                 quote!(Self::#name(#of))

@@ -3,7 +3,6 @@
 use syn::{BinOp, Expr as Syntax, ExprIf, Pat, Stmt, UnOp};
 
 use super::{Binding, Lowering, Value, Written, bound_name};
-use crate::errors::text;
 use crate::symbolic::Relation;
 use crate::syntax::{closure, value};
 
@@ -116,7 +115,7 @@ impl Lowering<'_> {
                         return self.condition(&binary.left, then, inner);
                     }
                     BinOp::Eq(_) | BinOp::Ne(_) => {
-                        let (a, b) = (text(&binary.left), text(&binary.right));
+                        let [a, b] = [&binary.left, &binary.right].map(|side| self.real_text(side));
                         let equal = matches!(binary.op, BinOp::Eq(_));
                         let meant = if equal {
                             format!("{a} <= {b} && {a} >= {b}")

@@ -12,7 +12,7 @@ use crate::syntax::last_value;
 impl Lowering<'_> {
     /// `value as f64`: numbers pass, and an index becomes a number.
     pub(super) fn cast(&mut self, cast: &syn::ExprCast) -> Option<Expr> {
-        let is_float = matches!(&*cast.ty, syn::Type::Path(path) if path.path.is_ident("f64") || path.path.is_ident("f32"));
+        let is_float = matches!(&*cast.ty, syn::Type::Path(path) if path.path.is_ident("f64"));
         if !is_float {
             return self.refuse(&cast.ty, "formulas are real: only `as f64` is possible here");
         }
@@ -131,6 +131,11 @@ impl Lowering<'_> {
             (true, None) => Written::Integer,
             (true, Some(division)) => Written::Quotient(Box::new(division)),
         }
+    }
+
+    /// A number as it is written where a real one is needed.
+    pub(super) fn real_text(&mut self, syntax: &Syntax) -> String {
+        if self.is_integer(syntax) { Self::as_real(syntax) } else { crate::errors::text(syntax) }
     }
 
     /// An integer as a real number in Rust.

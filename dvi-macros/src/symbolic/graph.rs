@@ -110,7 +110,8 @@ pub(crate) enum Node {
     /// An index as a number.
     Count(Index),
     Weight(Weight),
-    /// Two or more terms in id order, distinct nodes; the constant is the term on [`Node::One`].
+    /// Terms in id order, distinct nodes; the constant is the term on [`Node::One`]. There are two or more;
+    /// a single one is a factor with its literal inside, which would be too large or small outside.
     Sum(Vec<Expr>),
     /// Factors with positive exponents in id order; never a single factor to the power one.
     Product(Vec<(Id, u32)>),

@@ -36,4 +36,3 @@ pub(crate) use graph::{
 pub(crate) use index::{Atom, Free, Index, Loop, Range, Renaming, Size};
 pub(crate) use partial::Partial;
 pub(crate) use rules::{binary_by_name, binary_names};
-pub(crate) use simplify::signed_exponent;

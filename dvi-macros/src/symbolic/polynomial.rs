@@ -121,7 +121,7 @@ impl Graph {
     fn new_polynomial_of(&mut self, id: Id, loose: bool) -> Option<Polynomial> {
         step();
         match self.node(id).clone() {
-            Node::Sum(terms) => self.polynomial_of_sum(&terms, loose),
+            Node::Sum(terms) if terms.len() > 1 => self.polynomial_of_sum(&terms, loose),
             Node::One | Node::Product(_) | Node::Reciprocal(_) => self.polynomial_of_product(id, loose),
             Node::Choose { left, relation, right, then, otherwise } => {
                 // Each term stays behind the condition: elsewhere it need not be a number.
@@ -164,6 +164,8 @@ impl Graph {
         for (factor, exponent) in self.without_squared_roots(id) {
             let one = Polynomial::term(1.0, vec![(factor.node, exponent)]);
             let power = match self.node(factor.node) {
+                // One term is one factor, lest the power of its literal leave the range of numbers.
+                Node::Sum(terms) if terms.len() == 1 => None,
                 Node::Sum(_) | Node::Reduce { fold: Fold::Sum, .. } if exponent > 0 => {
                     self.polynomial_of_power(factor.node, exponent, loose)
                 }

@@ -57,7 +57,7 @@ impl Binary {
 
 impl Graph {
     /// (1/u)' along `by`, where `f` is the node 1/u: −f²·u', and −n·f·tanh s·s' for u = coshⁿ s, since
-    /// sinh s overflows where f is 0.
+    /// sinh s overflows where f is 0. Where u grows fast f² is 0 long before u·f' is, and it is −f·(f·u').
     pub(super) fn reciprocal_derivative(&mut self, f: Id, u: Id, by: Id) -> Expr {
         if let [(base, exponent)] = *self.factors(u).as_slice()
             && let Node::Unary(Unary::Cosh, s) = *self.node(base)
@@ -73,13 +73,14 @@ impl Graph {
         if tangent.is_zero() {
             return Expr::ZERO;
         }
-        let square = self.power(f.into(), 2);
-        let derivative = self.multiply(square, tangent).negated();
         if self.grows_fast(u) {
             // Where u has overflowed, 1/u is 0 and does not change; u' may have overflowed too.
-            return self.choose(square, Relation::HasMore, Expr::ZERO, derivative, Expr::ZERO);
+            let relative = self.multiply(f.into(), tangent.node.into());
+            let relative = self.where_finite(relative);
+            return self.multiply(f.into(), relative).scaled(-tangent.scale);
         }
-        derivative
+        let square = self.power(f.into(), 2);
+        self.multiply(square, tangent).negated()
     }
 
     /// Whether it overflows at moderate arguments.

@@ -20,8 +20,15 @@ use crate::internal::internal;
 /// that many such products: written out they grow with the cube of the depth, as factors linearly.
 const MOST_FACTORS: usize = 12;
 
+/// Literal factors of powers beyond this size stay with their base: x⁶⁰/a⁶⁰ is no number where (x/a)⁶⁰ is.
+const LARGEST_POWER: f64 = 1e100;
+
+/// From this exponent on 1/uⁿ is (1/u)ⁿ, of whose derivatives fewer leave the range of numbers: squares of
+/// 1/uⁿ are 1/u²ⁿ.
+const HIGH: u32 = 5;
+
 /// The exponent as `powi` takes it.
-pub(crate) fn signed_exponent(exponent: u32) -> i32 {
+fn signed_exponent(exponent: u32) -> i32 {
     whole(i32::try_from(exponent).ok())
 }
 
@@ -82,6 +89,8 @@ impl Graph {
                 None => collected.push((factor, exponent)),
             };
         for factor in factors {
+            let factor =
+                if leaves_range(scale, factor.scale) { self.parenthesised(*factor) } else { *factor };
             scale *= factor.scale;
             match self.node(factor.node) {
                 Node::One => {}
@@ -118,13 +127,28 @@ impl Graph {
         self.product(&[a, b])
     }
 
-    /// 1/(c·x) = (1/c)·(1/x) and 1/(1/x) = x.
+    /// An expression as one factor, its literal factor inside: a sum of one term.
+    fn parenthesised(&mut self, of: Expr) -> Expr {
+        self.intern(Node::Sum(vec![of])).into()
+    }
+
+    /// 1/(c·x) = (1/c)·(1/x), 1/(1/x) = x, and 1/xⁿ = (1/x)ⁿ for high powers.
     pub(crate) fn reciprocal(&mut self, of: Expr) -> Expr {
         let scale = 1.0 / of.scale;
         match self.node(of.node) {
             Node::One => Expr::number(scale),
+            _ if of.scale != 0.0 && !scale.is_normal() => {
+                let of = self.parenthesised(of);
+                self.reciprocal(of)
+            }
             Node::Reciprocal(inner) => Expr { scale, node: *inner },
-            _ => Expr { scale, node: self.intern(Node::Reciprocal(of.node)) },
+            _ => match *self.factors(of.node).as_slice() {
+                [(base, exponent @ HIGH..)] => {
+                    let reciprocal = self.reciprocal(base.into());
+                    self.power(reciprocal, exponent).scaled(scale)
+                }
+                _ => Expr { scale, node: self.intern(Node::Reciprocal(of.node)) },
+            },
         }
     }
 
@@ -138,10 +162,15 @@ impl Graph {
 
     pub(crate) fn power(&mut self, base: Expr, exponent: u32) -> Expr {
         let scale = base.scale.powi(signed_exponent(exponent));
+        let is_large = !(LARGEST_POWER.recip()..=LARGEST_POWER).contains(&scale.abs());
         let node = match self.node(base.node) {
             Node::One => return Expr::number(scale),
             _ if exponent == 0 => return Expr::ONE,
             _ if exponent == 1 => base.node,
+            _ if is_large => {
+                let base = self.parenthesised(base);
+                return self.power(base, exponent);
+            }
             _ => {
                 let factors = self.factors(base.node);
                 let powers = factors.iter().map(|(id, known)| (*id, whole(known.checked_mul(exponent))));
@@ -261,6 +290,9 @@ impl Graph {
     pub(super) fn factored_sum(&mut self, terms: &[Expr]) -> Expr {
         let total = self.unsigned_sum(terms);
         let Node::Sum(terms) = self.node(total.node).clone() else { return total };
+        if terms.len() == 1 {
+            return total;
+        }
         let shared = self.shared_factors(&terms);
         if !shared.is_empty() {
             let rest: Vec<Expr> = terms.iter().map(|term| self.without(*term, &shared)).collect();
@@ -332,6 +364,11 @@ impl Graph {
         }
         None
     }
+}
+
+/// Whether the product of two literals is beyond the range of numbers, or has lost digits at its end.
+fn leaves_range(a: f64, b: f64) -> bool {
+    a.is_normal() && b.is_normal() && !(a * b).is_normal()
 }
 
 enum Collected {

@@ -175,7 +175,6 @@ impl Run<'_> {
             Instruction::Binary(function, a, b) => {
                 functions::printed_binary(function.name(), self.signed(*a), self.signed(*b))
             }
-            Instruction::Power(of, exponent) => self.register(*of).powi(*exponent),
             Instruction::Call(function, order, of) => {
                 functions::stand_in(*function as usize, *order, self.signed(*of))
             }

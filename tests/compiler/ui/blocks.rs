@@ -31,5 +31,6 @@ degenerate! { ValueUsedAfterItsBlock ValueUsedAfterItsBlockState:
 }
 
 degenerate! { UnusedAndWrong UnusedAndWrongState: hamiltonian = { let unused = z; x * y } }
+degenerate! { EqualIndex EqualIndexState: hamiltonian = sum(0..3, |i| if i == 1 { x } else { y }) }
 
 fn main() {}

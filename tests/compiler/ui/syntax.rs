@@ -51,5 +51,6 @@ degenerate! { LetCondition LetConditionState: hamiltonian = if let s = x { x } e
 degenerate! { Infer InferState: hamiltonian = x + _ }
 degenerate! { Qualified QualifiedState: hamiltonian = x + <f64 as Real>::ONE }
 degenerate! { GenericCall GenericCallState: hamiltonian = sum::<f64>(0..4, |j| x) }
+degenerate! { Suffix SuffixState: hamiltonian = 0.1_f32 * x + y }
 
 fn main() {}

@@ -9,8 +9,15 @@ type Outcome = Result<(), String>;
 
 /// ∇H and ∂²H/∂q∂q at the origin of the plane.
 fn at_origin<S: DegenerateLagrangian>(system: &S) -> ([f64; 2], [f64; 4]) {
+    let (_, first, second) = at_point(system, [0.0; 2]);
+    (first, second)
+}
+
+/// H, ∇H and ∂²H/∂q∂q at a point of the plane.
+pub(super) fn at_point<S: DegenerateLagrangian>(system: &S, point: [f64; 2]) -> (f64, [f64; 2], [f64; 4]) {
     let space = system.space();
-    let (q, v) = (space.vector::<f64>(), space.vector::<f64>());
+    let (mut q, v) = (space.vector::<f64>(), space.vector::<f64>());
+    q.copy_from_slice(&point);
     let (mut gradient, mut momentum) = (space.vector::<f64>(), space.vector::<f64>());
     let mut matrix = space.matrix::<f64>();
     let weights = Weights { qq: 1.0, qv: 0.0, vq: 0.0, vv: 0.0 };
@@ -18,7 +25,7 @@ fn at_origin<S: DegenerateLagrangian>(system: &S) -> ([f64; 2], [f64; 4]) {
     // L = α·v − H with v = 0.
     let second = core::array::from_fn(|k| -matrix[k]);
     system.hamiltonian_gradient(&q, 0.0, &mut gradient);
-    ([gradient[0], gradient[1]], second)
+    (system.hamiltonian(&q, 0.0), [gradient[0], gradient[1]], second)
 }
 
 /// Each: a name, H(x, y), and its second derivatives at the origin, row by row; the first are zero.
