@@ -62,6 +62,33 @@ fn an_event_is_left_behind_where_the_same_state_is_set() -> Outcome {
     Ok(())
 }
 
+/// Two parabolas, at whose seam steps end.
+#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 - x.abs())]
+struct Corner;
+
+/// Steps that begin or end at a seam may be as short as the rounding of the time.
+#[test]
+fn a_change_at_a_seam_is_made_once() -> Outcome {
+    for factor in [1.0, 0.9, -1.0] {
+        for x in (0..40).map(|k| 0.3 + 0.0355 * f64::from(k)) {
+            let start = CornerState { x, dot_x: 0.0 };
+            let control = ErrorControl::new(1e-9, 0.1);
+            let mut run = Integrator::controlled(&Corner, Gauss::<4>::new(), control, start)?;
+            let mut events = run.events([Direction::Either], |_, state| [state.x])?;
+            let mut speed = (2.0 * x).sqrt();
+            let mut expected = speed;
+            for _ in 0..12 {
+                let Some(Event { time, state, .. }) = events.next_until(60.0)? else { panic!("{expected}") };
+                assert!(abs_diff_eq!(time, expected, epsilon = 1e-11), "{x} {factor}: {time} {expected}");
+                events.set_state(time, CornerState { dot_x: factor * state.dot_x, ..state })?;
+                speed *= factor.abs();
+                expected += 2.0 * speed;
+            }
+        }
+    }
+    Ok(())
+}
+
 /// A ball that comes into corners of a box meets both walls, whatever rounding says of their order.
 #[test]
 fn a_corner_reflects_twice() -> Outcome {

@@ -5,7 +5,6 @@ use super::course::{Course, Turn, Watched};
 use super::found::Found;
 use super::search::{Within, numbers};
 use super::{Direction, EventOf};
-use crate::Scalar;
 use crate::error::{StartError, StepError, StepFailure};
 use crate::methods::JUMPS;
 use crate::run::Run;
@@ -13,6 +12,7 @@ use crate::run::dense::{Dense, StateOf};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::larger;
 use crate::shown::shown;
+use crate::{Real, Scalar};
 
 /// Conditions that are watched on a run: [`Events`](super::Events) for those who take the steps themselves.
 /// Several can watch one run, each with conditions of its own.
@@ -60,8 +60,11 @@ pub struct Watch<R: Run, G, const N: usize> {
 const RENEWED: u64 = 32;
 /// Of the change of a condition between two such places, what interpolation may be wrong by.
 const UNSURE: f64 = 0.05;
-/// Where the state is changed a condition is zero if it is no more than this part of what changes in a step.
+/// Where the state is changed a condition is zero if it is no more than what changes in this part of a step,
+/// and in so many roundings of the time. A step of no more of these says nothing of the side to which it leads
+/// from there.
 const LEFT: f64 = 1e-9;
+const ROUNDINGS: f64 = 1024.0;
 /// At a jump of the velocity a condition is zero if it is no more than this part of what changes in a step.
 const CLOSED: f64 = 1e-11;
 /// A shorter part of a step, as a jump is one, is not looked into: where it begins and ends is no better
@@ -220,11 +223,18 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         end: [R::Scalar; N],
     ) -> Result<(), StepFailure> {
         let [zero, one, left, unsure, short] = [0.0, 1.0, LEFT, UNSURE, SHORT].map(R::Scalar::lift);
-        let h = Scalar::abs(run.step_size()) * (to - from);
+        let whole = Scalar::abs(run.step_size());
+        let (h, instant) = (whole * (to - from), instant(self.time, whole));
         // Stages divide one motion, a jump begins another.
         let motion = if STAGED { [zero, one] } else { [from, to] };
         for (index, mut b) in end.into_iter().enumerate() {
             let Watched { g: a, course } = self.watched[index];
+            if whole <= instant && a == zero {
+                let stays = course.is_some_and(|course| Scalar::abs(b) <= course.rate * instant);
+                let g = if stays { zero } else { b };
+                self.watched[index] = Watched { g, course: course.map(Course::of_another) };
+                continue;
+            }
             if to - from <= short {
                 if self.directions[index].crosses(a, b) {
                     self.found.push(index, to);
@@ -291,14 +301,15 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             StartError::Starter(failure)
         })?;
         let h = Scalar::abs(run.step_size());
-        let [zero, left] = [0.0, LEFT].map(R::Scalar::lift);
+        let (zero, short) = (R::Scalar::lift(0.0), R::Scalar::lift(LEFT) * h + instant(self.time, h));
         let before = core::mem::replace(&mut self.found, Found::new());
         for (index, (watched, g)) in self.watched.iter_mut().zip(values).enumerate() {
-            let rounding = watched.course.map_or(zero, |course| left * course.rate * h);
-            let is_zero = Scalar::abs(g) <= rounding;
+            let is_zero =
+                g == zero || watched.course.is_some_and(|course| Scalar::abs(g) <= course.rate * short);
             // At a jump of the velocity a condition may have crossed zero that is not zero.
-            let is_now =
-                |part| self.last.is_some_and(|(_, last)| part == last || (is_zero && part <= last + left));
+            let is_now = |part| {
+                self.last.is_some_and(|(_, last)| part == last || (is_zero && (part - last) * h <= short))
+            };
             if before.of(index).any(is_now) {
                 self.found.push(index, zero);
             }
@@ -315,6 +326,11 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     pub(super) fn check_known(&self) -> Result<(), StepError> {
         self.lost.map_or(Ok(()), Err)
     }
+}
+
+/// So many roundings of time `t`, and of a length `h`, as are no difference.
+fn instant<T: Real>(t: T, h: T) -> T {
+    T::lift(ROUNDINGS) * T::default_epsilon() * (Scalar::abs(t) + h)
 }
 
 shown!([R: Run, G, const N: usize] Watch<R, G, N>, |watch| directions: watch.directions);
