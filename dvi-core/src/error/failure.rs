@@ -63,7 +63,10 @@ pub enum StepFailure {
         column: usize,
     },
     /// The frequency of a phase-fitted interpolation is not a number, or infinite.
-    #[error("phase fitting breaks down: the frequency is {omega}; it is not defined at this state")]
+    #[error(
+        "phase fitting breaks down: the frequency is {omega}, at this state or where the step leads; there a smaller \
+         step helps"
+    )]
     Frequency {
         /// The frequency, or its product with the step.
         omega: f64,

@@ -76,6 +76,11 @@ pub(super) fn are_one<T: Real>(a: T, b: T) -> bool {
     Scalar::abs(a - b) <= T::lift(TOGETHER) * T::default_epsilon()
 }
 
+/// Whether `t` is the present time of a run, which may have passed it by rounding, in steps of length `h`.
+pub(super) fn is_now<T: Real>(t: T, [now, h]: [T; 2]) -> bool {
+    Scalar::abs(now - t) <= T::lift(2.0) * T::default_epsilon() * (Scalar::abs(t) + Scalar::abs(h))
+}
+
 /// Steps that may be taken again where nobody asks for states in between.
 const LONGEST: u64 = 64;
 
@@ -161,7 +166,10 @@ impl<R: Run> Dense<R> {
     pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
         self.advance_to(t)?;
         // The derivative of a time, if it carries one, is not that of the end of a step.
-        let is_end = t == self.run.time() && !(carries_derivatives::<R::Scalar>() && self.taken > 0);
+        let is_end = match self.taken {
+            0 => true,
+            _ => t == self.run.time() && !carries_derivatives::<R::Scalar>(),
+        };
         let state = if is_end { self.at_end().map(Flat::state) } else { self.state_within(t) };
         state.map_err(|failure| self.error(failure))
     }
@@ -208,7 +216,8 @@ impl<R: Run> Dense<R> {
     /// [`StepFailure::Unreachable`].
     pub(super) fn check_ahead(&self, t: R::Scalar) -> Result<(), StepError> {
         let [begun, now] = [self.last_begun(), self.run.time()];
-        let is_ahead = reported(t).is_finite() && (t == now || !self.is_before(t, begun));
+        let is_ahead =
+            reported(t).is_finite() && (!self.is_before(t, begun) || is_now(t, [now, self.run.step_size()]));
         if is_ahead { Ok(()) } else { Err(self.unreachable(t)) }
     }
 

@@ -25,7 +25,8 @@ pub struct Statistics {
     pub iterations: u64,
     /// Evaluations of ∇H, or of ∂L/∂q and ∂L/∂v together.
     pub gradients: u64,
-    /// Evaluations of second derivatives of L.
+    /// Evaluations of second derivatives of L for the matrices of Newton's method in a step. Those for other
+    /// matrices, such as the one that gives velocities for momenta, do not count.
     pub linearizations: u64,
     /// Factorisations of a matrix; divisions by the entries of a matching do not count.
     pub factorisations: u64,

@@ -13,6 +13,7 @@ use super::{ControlledRun, StepControl, breaks};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::memory::lasting;
 use crate::methods::{Carries, Method, Tolerance};
+use crate::run::dense::is_now;
 use crate::run::{Integrator, Run};
 use crate::scalar::norm::{larger, reported};
 use crate::system::start::{is_length, step_error};
@@ -187,10 +188,7 @@ where
     /// [`StepError`] of the first step that fails; the run stays at the last good state.
     pub fn advance_to(&mut self, t: T) -> Result<(), StepError> {
         let now = self.time();
-        // A run that has come to a time may have passed it by rounding.
-        let rounding =
-            T::lift(2.0) * T::default_epsilon() * (Scalar::abs(t) + Scalar::abs(self.step_size()));
-        if !t.is_finite() || !(self.is_before(t) || Scalar::abs(now - t) <= rounding) {
+        if !t.is_finite() || !(self.is_before(t) || is_now(t, [now, self.step_size()])) {
             let failure = StepFailure::Unreachable { now: reported(now), target: reported(t) };
             return Err(step_error(self.system(), self.steps(), now, failure));
         }
