@@ -3,9 +3,9 @@
 //! A product of the graph is a multiset of factors. The pair of factors that occurs in the most
 //! products is multiplied once, again and again, until no pair occurs twice (Breuer 1969); on a tie the
 //! pair that is known furthest outside of the loops comes first, so that invariant factors meet before
-//! the loop. Powers need no rule of their own: x⁴ is (x·x)·(x·x), and x⁵⁰/y⁵⁰ is (x/y)⁵⁰. A reciprocal that is left with a
-//! single use becomes the divisor of a quotient. Factors in front of a sum move into it where the
-//! product inside is computed anyway, as it is when a sum and a scatter share their loop.
+//! the loop. Powers need no rule of their own: x⁴ is (x·x)·(x·x), and x⁵⁰/y⁵⁰ is (x/y)⁵⁰. A reciprocal
+//! that is left with a single use becomes the divisor of a quotient. Factors in front of a sum move into
+//! it where the product inside is computed anyway, as it is when a sum and a scatter share their loop.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::iter::repeat_n;

@@ -64,8 +64,8 @@ pub enum StepFailure {
     },
     /// The frequency of a phase-fitted interpolation is not a number, or infinite.
     #[error(
-        "phase fitting breaks down: the frequency is {omega}, at this state or where the step leads; there a smaller \
-         step helps"
+        "phase fitting breaks down: the frequency is {omega}, at this state or where the step leads; there \
+         a smaller step helps"
     )]
     Frequency {
         /// The frequency, or its product with the step.

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::MOTIONS;
 use crate::browser::told;
 
-/// The page has each of the experiments and each claim with its verdict; in a browser, the checks of `check.js`.
+/// The page has each experiment and each claim with its verdict; in a browser, the checks of `check.js`.
 pub(crate) fn has_all(
     folder: &Path,
     experiments: &BTreeSet<&str>,

@@ -21,7 +21,8 @@ macro_rules! near_the_ends {
                 let ([a, b], [aa, ab, bb], f): ([f64; 2], [f64; 3], f64) = ($slopes, $bends, $value);
                 let (value, [by_x, by_y], second) = at_point(&$name, [$x, $y]);
                 // Each with what it is added up from.
-                let products = [[1.0, 0.0], [a, 0.0], [b, 0.0], [a * a, aa], [a * b, ab], [a * b, ab], [b * b, bb]];
+                let mixed = [a * b, ab];
+                let products = [[1.0, 0.0], [a, 0.0], [b, 0.0], [a * a, aa], mixed, mixed, [b * b, bb]];
                 for (found, [one, two]) in [value, by_x, by_y].into_iter().chain(second).zip(products) {
                     let size = (f * one).abs() + (f * two).abs();
                     assert_abs_diff_eq!(found, f * (one + two), epsilon = 2e-13 * size);

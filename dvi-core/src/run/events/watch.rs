@@ -61,8 +61,8 @@ const RENEWED: u64 = 32;
 /// Of the change of a condition between two such places, what interpolation may be wrong by.
 const UNSURE: f64 = 0.05;
 /// Where the state is changed a condition is zero if it is no more than what changes in this part of a step,
-/// and in so many roundings of the time. A step of no more of these says nothing of the side to which it leads
-/// from there.
+/// and in so many roundings of the time. A step of no more of these says nothing of the side to which it
+/// leads from there.
 const LEFT: f64 = 1e-9;
 const ROUNDINGS: f64 = 1024.0;
 /// At a jump of the velocity a condition is zero if it is no more than this part of what changes in a step.

@@ -50,9 +50,9 @@ impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
         first.map(|first| larger(first, T::lift(PLACES[1])))
     }
 
-    /// What rounding may change a seam by at the end of a step of length `h`: each number there is moved up or
-    /// down, as a bit of its place among all says, so that of two whose changes cancel one goes up where the
-    /// other goes down.
+    /// What rounding may change a seam by at the end of a step of length `h`: each number there is moved up
+    /// or down, as a bit of its place among all says, so that of two whose changes cancel one goes up where
+    /// the other goes down.
     fn noise<M: Method<S, T>>(&mut self, run: &ControlledRun<'_, S, M, T>, seam: usize, h: T) -> T {
         let (one, part) = (T::lift(1.0), T::lift(TOUCHING) * T::default_epsilon());
         let (system, t, last) = (run.system(), self.t + h, 2 * self.q.len());
