@@ -180,24 +180,20 @@ impl Lowering<'_> {
     fn path_call(&mut self, call: &ExprCall, path: &syn::Path) -> Option<Value> {
         let segments: Vec<&Ident> = path.segments.iter().map(|segment| &segment.ident).collect();
         match (segments.as_slice(), call.args.first()) {
-            ([.., function], receiver)
-                if is_method(&function.to_string()) && *segments[0] != "f64" && *segments[0] != "f32" =>
-            {
+            ([.., function], receiver) if is_method(&function.to_string()) && *segments[0] != "f64" => {
                 let arguments: Vec<&Syntax> = call.args.iter().skip(1).collect();
                 let written = Self::as_method(&function.to_string(), receiver, &arguments);
                 self.refuse(path, format!("functions are written as methods: `{written}`"))
             }
-            ([float, method], Some(receiver)) if *float == "f64" || *float == "f32" => {
-                self.method(&ExprMethodCall {
-                    attrs: Vec::new(),
-                    receiver: Box::new(receiver.clone()),
-                    dot_token: Dot::default(),
-                    method: (*method).clone(),
-                    turbofish: None,
-                    paren_token: call.paren_token,
-                    args: call.args.iter().skip(1).cloned().collect(),
-                })
-            }
+            ([float, method], Some(receiver)) if *float == "f64" => self.method(&ExprMethodCall {
+                attrs: Vec::new(),
+                receiver: Box::new(receiver.clone()),
+                dot_token: Dot::default(),
+                method: (*method).clone(),
+                turbofish: None,
+                paren_token: call.paren_token,
+                args: call.args.iter().skip(1).cloned().collect(),
+            }),
             _ => {
                 let message = "a function of a formula is declared as `functions(f = [path, derivative, second_derivative])` \
                                and called by its name";

@@ -93,7 +93,7 @@ impl Evaluation<'_> {
                 number(self.area(first, indices.first().copied().unwrap_or(0))?)
             }
             // `f64::sin(x)` is `x.sin()`.
-            _ => match name.strip_prefix("f64::").or_else(|| name.strip_prefix("f32::")) {
+            _ => match name.strip_prefix("f64::") {
                 Some(method) => {
                     let receiver = self.number(&call.args[0])?;
                     number(self.function(
