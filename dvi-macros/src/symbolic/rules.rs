@@ -2,7 +2,6 @@
 
 use super::functions::{Property, Unary};
 use super::graph::{Binary, Expr, Graph, Id, Node, Relation};
-use super::simplify::HIGH;
 use crate::internal::internal;
 
 pub(super) type BinaryRow = (&'static str, Binary, fn(f64, f64) -> f64);
@@ -74,7 +73,7 @@ impl Graph {
         if tangent.is_zero() {
             return Expr::ZERO;
         }
-        if self.grows_fast(u) || self.has_high_power(u) {
+        if self.grows_fast(u) {
             // Where u has overflowed, 1/u is 0 and does not change; u' may have overflowed too.
             let relative = self.multiply(f.into(), tangent.node.into());
             let relative = self.where_finite(relative);
@@ -90,12 +89,6 @@ impl Graph {
             id,
             |node| matches!(node, Node::Unary(function, _) if function.has(Property::GrowsFast)),
         )
-    }
-
-    /// Whether a high power stands in it.
-    fn has_high_power(&self, id: Id) -> bool {
-        let is_high = |(_, exponent): &(Id, u32)| *exponent >= HIGH;
-        self.depends(id, |node| matches!(node, Node::Product(factors) if factors.iter().any(is_high)))
     }
 
     /// (∂f/∂a, ∂f/∂b), where `f` is the node f(a, b) itself.

@@ -349,19 +349,9 @@ impl Graph {
         self.product(&kept).scaled(term.scale)
     }
 
-    /// constant + k·m/D over D, if m is one of the terms of D; also where the quotient is zero elsewhere.
+    /// constant + k·m/D over D, if m is one of the terms of D.
     fn over_denominator(&mut self, constant: Expr, quotient: Expr) -> Option<Expr> {
         for (factor, _) in self.factors(quotient.node) {
-            if let Node::Choose { left, relation, right, then, otherwise } = *self.node(factor)
-                && otherwise.is_zero()
-            {
-                let rest = self.without(quotient, &[(factor, 1)]);
-                let inside = self.multiply(rest, then);
-                match self.over_denominator(constant, inside) {
-                    Some(joined) => return Some(self.choose(left, relation, right, joined, constant)),
-                    None => continue,
-                }
-            }
             let Node::Reciprocal(denominator) = *self.node(factor) else { continue };
             let Node::Sum(parts) = self.node(denominator).clone() else { continue };
             let numerator = self.without(quotient, &[(factor, 1)]);
