@@ -166,9 +166,10 @@ impl<R: Run> Dense<R> {
     pub fn state_at(&mut self, t: R::Scalar) -> Result<StateOf<R>, StepError> {
         self.advance_to(t)?;
         // The derivative of a time, if it carries one, is not that of the end of a step.
+        let now = self.run.time();
         let is_end = match self.taken {
-            0 => true,
-            _ => t == self.run.time() && !carries_derivatives::<R::Scalar>(),
+            0 => is_now(t, [now, self.run.step_size()]),
+            _ => t == now && !carries_derivatives::<R::Scalar>(),
         };
         let state = if is_end { self.at_end().map(Flat::state) } else { self.state_within(t) };
         state.map_err(|failure| self.error(failure))
