@@ -11,6 +11,7 @@ mod derivative;
 mod differential;
 mod domain;
 mod energy;
+mod factored;
 mod functions;
 mod graph;
 mod index;

@@ -1,5 +1,5 @@
-//! Formulas near the ends of the range of numbers: what is a number as it is written is one, and so are its
-//! derivatives, whatever is multiplied and divided on the way to them. Against closed forms.
+//! Quotients of exponentials, high powers, and products of literals, where squares and powers of their parts
+//! are beyond the range of numbers: values, first and second derivatives against closed forms.
 
 use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;
