@@ -58,8 +58,8 @@ pub(crate) const MISTAKES: &[Mistake] = &[
         "Expr { scale: 1.0, node: *inner }",
     ),
     mistake("symbolic/simplify.rs", "Expr::from(node).scaled(«sign»)", "sign.abs()"),
-    mistake("symbolic/simplify.rs", "self.product(&kept).scaled(term.scale)", "self.product(&kept)"),
-    mistake("symbolic/simplify.rs", "part.scaled(constant.scale)", "*part"),
+    mistake("symbolic/factored.rs", "self.product(&kept).scaled(term.scale)", "self.product(&kept)"),
+    mistake("symbolic/factored.rs", "part.scaled(constant.scale)", "*part"),
     mistake(
         "symbolic/derivative.rs",
         "let (then, otherwise) = «(self.derivative(then, by), self.derivative(otherwise, by))»;",
