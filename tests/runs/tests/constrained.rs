@@ -158,43 +158,6 @@ fn no_elbow_flips_within_a_run() -> Outcome {
     Ok(())
 }
 
-/// A bead on a narrow torus: a step that is longer than the tube is wide ends on its far side or fails.
-#[lagrangian(
-    coordinates(x, y, z),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0,
-    constraint = (x.hypot(y) - 1.0).powi(2) + z * z - tube * tube,
-)]
-#[derive(Clone, Copy, Debug)]
-struct Torus {
-    tube: f64,
-}
-
-#[test]
-fn a_bead_does_not_jump_across_a_torus() -> Outcome {
-    let mut numbers = Numbers(7);
-    let [mut steps, mut failures] = [0, 0];
-    for _ in 0..4000 {
-        let torus = Torus { tube: 0.2 };
-        let ((sin, cos), (s, c)) = ((3.2 * numbers.next()).sin_cos(), (3.2 * numbers.next()).sin_cos());
-        let radius = 1.0 + 0.2 * c;
-        let [dot_x, dot_y, dot_z] = [0, 1, 2].map(|_| numbers.next());
-        let start = TorusState { x: radius * cos, y: radius * sin, z: 0.2 * s, dot_x, dot_y, dot_z };
-        let start: TorusState = torus.projected(0.0, &start)?;
-        let mut run = Integrator::new(&torus, Rattle::default(), 0.3, start)?;
-        if run.advance().is_err() {
-            failures += 1;
-            continue;
-        }
-        steps += 1;
-        let TorusState { x, y, z, .. } = run.state();
-        let moved = (x - start.x).hypot(y - start.y).hypot(z - start.z);
-        let speed = start.dot_x.hypot(start.dot_y).hypot(start.dot_z);
-        assert!(moved < 3.0 * 0.3 * speed, "{start:?} moved by {moved}");
-    }
-    assert!(steps > 2000 && failures > 200, "{steps} {failures}");
-    Ok(())
-}
-
 /// Over ten million steps positions stay on the constraint and velocities along it, and the energy does not
 /// drift.
 #[test]

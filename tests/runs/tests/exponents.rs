@@ -3,26 +3,7 @@
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
-use dvi_tests::configurations::{chaotic, quasi_periodic};
 use dvi_tests::systems::*;
-
-fn exponent((system, start): (PointVortices<4>, PointVorticesState<4>), h: f64, time: f64) -> Outcome<f64> {
-    let mut run = Integrator::new(&system, Sigma::midpoint(), h, start)?;
-    let mut lyapunov = LyapunovExponent::new(&run);
-    assert_eq!(lyapunov.exponent(), None);
-    while run.time() < time {
-        lyapunov.advance(&mut run)?;
-    }
-    lyapunov.exponent().ok_or_else(|| "no exponent".into())
-}
-
-#[test]
-fn chaos_has_a_positive_exponent_and_quasi_periodic_motion_has_none() -> Outcome {
-    let (chaos, order) = (exponent(chaotic(), 0.2, 4000.0)?, exponent(quasi_periodic(), 0.1, 4000.0)?);
-    assert!(chaos > 0.03, "{chaos}");
-    assert!(order.abs() < 0.006, "{order}");
-    Ok(())
-}
 
 #[test]
 fn a_saddle_has_its_own_exponent() -> Outcome {

@@ -1,4 +1,4 @@
-//! Langevin dynamics: distributions, limits, repetition.
+//! Langevin dynamics: distributions, limits.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use dvi_core::prelude::*;
@@ -86,31 +86,6 @@ fn the_kinetic_energy_on_a_spring_is_too_small_by_what_is_documented() -> Outcom
     Ok(())
 }
 
-/// ∫ x² e^(−V/θ) dx / ∫ e^(−V/θ) dx by the trapezoidal rule, which converges exponentially here.
-fn mean_square_in_the_wells(temperature: f64) -> f64 {
-    let weights = (-4000..=4000).map(|i| {
-        let x = f64::from(i) * 1e-3;
-        (x, (-(x.powi(4) / 4.0 - x * x / 2.0) / temperature).exp())
-    });
-    let (above, below) = weights.fold((0.0, 0.0), |(a, b), (x, w)| (a + x * x * w, b + w));
-    above / below
-}
-
-#[test]
-fn a_particle_between_two_wells_has_the_distribution_of_boltzmann() -> Outcome {
-    let start = DoubleWellState { x: 1.0, dot_x: 0.0 };
-    let system = DoubleWell { mass: 0.5 };
-    let expected = mean_square_in_the_wells(0.4);
-    let error = |h: f64, steps: u64| {
-        let method = Langevin { friction: 1.0, temperature: 0.4, seed: 5 };
-        mean(&system, method, (h, steps), start, |s| s.x * s.x)
-    };
-    agrees(error(0.05, 1_000_000)?, expected, 0.006);
-    let [coarse, noise] = error(0.2, 1_000_000)?;
-    assert!((coarse - expected).abs() < 0.01 && noise < 0.003, "{coarse} ± {noise}, {expected}");
-    Ok(())
-}
-
 /// With γh so large that nothing is kept, a kick-free particle gets new normal momenta in each step.
 #[test]
 fn noise_is_normal_and_independent() -> Outcome {
@@ -173,21 +148,6 @@ fn the_limits_are_the_trapezoidal_integrator_and_friction_alone() -> Outcome {
     }
     let order = convergence_order(&errors).ok_or("no slope")?;
     assert!(abs_diff_eq!(order, 2.0, epsilon = 0.05), "{order}");
-    Ok(())
-}
-
-#[test]
-fn runs_are_repeated_to_the_bit() -> Outcome {
-    let start = SpringsState { x: 0.1, y: 0.0, dot_x: 0.0, dot_y: 0.3 };
-    let of = |seed: u64| Langevin { friction: 0.8, temperature: 0.7, seed };
-    let run = |seed: u64, steps: u64| {
-        let mut run = Integrator::new(&Springs, of(seed), 0.1, start)?;
-        run.take_steps(steps)?;
-        Ok::<_, Box<dyn core::error::Error>>(run)
-    };
-    let whole = run(4, 1000)?;
-    assert_eq!(whole.state(), run(4, 1000)?.state());
-    assert_ne!(whole.state(), run(5, 1000)?.state());
     Ok(())
 }
 

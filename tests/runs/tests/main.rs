@@ -3,7 +3,6 @@
 //! They are one program, so that what several of them run is compiled once, and the long ones run beside the
 //! others.
 
-mod angular_momentum;
 mod constrained;
 mod continuation;
 mod drift;
@@ -12,13 +11,11 @@ mod events;
 mod exponents;
 mod impacts;
 mod langevin;
-mod manifold;
 mod nonholonomic;
 mod one_step;
 mod parasitic;
 mod projected;
 mod redundant;
-mod rotating_frame;
 mod round_off;
 mod second_order;
 mod spins;

@@ -1,20 +1,8 @@
-//! The projected scheme in many steps, on the guiding centre in a magnetic mirror.
+//! The projected scheme in many steps.
 
 use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
-use dvi_tests::zoo::particles::{Mirror, MirrorState};
-
-use crate::one_step::energy_errors;
-
-#[test]
-fn on_reversible_motion_the_energy_does_not_drift() -> Result<(), StepError> {
-    let start = MirrorState { x: 0.4, y: 0.3, z: 0.2, u: 0.5 };
-    let run = Integrator::new(&Mirror, Projected::symmetric(), 0.1, start).expect("starts");
-    let [early, all] = energy_errors(run, [20_000, 200_000])?;
-    assert!(all < 1.01 * early, "{early:e} and {all:e}");
-    Ok(())
-}
 
 /// By order h⁴ per unit of time, where nothing reverses the motion.
 #[test]

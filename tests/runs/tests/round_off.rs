@@ -4,9 +4,8 @@ use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_examples::models::{Rotation, RotationState};
 use dvi_tests::Outcome;
+use dvi_tests::apart;
 use dvi_tests::configurations::quasi_periodic;
-use dvi_tests::zoo::regular::{Kepler, KeplerState};
-use dvi_tests::{apart, larger};
 
 /// ½ΣΓ|z|², which σ = ½ conserves but for rounding.
 const ANGULAR: usize = 2;
@@ -130,71 +129,6 @@ fn a_far_body_does_not_spoil_the_others() -> Outcome {
         check(Variational { solver, ..Variational::simpson() })?;
         check(Galerkin::<3> { solver, ..Galerkin::new() })?;
         check(Newmark { solver, ..Newmark::new(0.25) })?;
-    }
-    Ok(())
-}
-
-/// max |L − L(0)| over many short steps on a Kepler orbit: the angular momentum is conserved but for
-/// rounding.
-fn angular_error<M: Method<Kepler, f64>>(method: M, h: f64, steps: u64) -> Outcome<f64> {
-    let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
-    let mut run = Integrator::new(&Kepler { mu: 1.0 }, method, h, start)?;
-    let value = |run: &Integrator<&Kepler, M>| run.momentum(0).unwrap_or(f64::NAN);
-    let (initial, mut largest) = (value(&run), 0.0);
-    for _ in 0..1000 {
-        run.take_steps(steps / 1000)?;
-        largest = larger(largest, (value(&run) - initial).abs());
-    }
-    Ok(largest)
-}
-
-/// With short steps increments are small, and so is what a compensated sum rounds.
-#[test]
-fn compensated_sums_round_less() -> Outcome {
-    let (h, steps) = (1e-3, 1_000_000);
-    let summation = Summation::Compensated;
-    let trapezoid = Variational::trapezoid();
-    let simpson = Variational::simpson();
-    let galerkin = Galerkin::<3>::new();
-    for (name, plain, compensated) in [
-        (
-            "trapezoid",
-            angular_error(trapezoid, h, steps)?,
-            angular_error(Variational { summation, ..trapezoid }, h, steps)?,
-        ),
-        (
-            "Simpson",
-            angular_error(simpson, h, steps)?,
-            angular_error(Variational { summation, ..simpson }, h, steps)?,
-        ),
-        (
-            "Galerkin",
-            angular_error(galerkin, h, steps)?,
-            angular_error(Galerkin { summation, ..galerkin }, h, steps)?,
-        ),
-    ] {
-        assert!(10.0 * compensated < plain, "{name}: {compensated:e} {plain:e}");
-        assert!(compensated < 3e-15, "{name}: {compensated:e}");
-    }
-    Ok(())
-}
-
-/// The rounded sums are what steps are taken from: the motion is the same.
-#[test]
-fn compensated_runs_are_the_same_motion() -> Outcome {
-    let (system, start) = quasi_periodic();
-    let end = |summation| -> Outcome<Vec<f64>> {
-        let mut run = Integrator::new(&system, Sigma { summation, ..Sigma::midpoint() }, 0.01, start)?;
-        run.take_steps(1000)?;
-        Ok(run.q().to_vec())
-    };
-    let [plain, compensated] = [end(Summation::Plain)?, end(Summation::Compensated)?];
-    let apart = dvi_tests::apart(&plain, &compensated);
-    assert!(apart > 0.0 && apart < 1e-12, "{apart:e}");
-    for sigma in [0.0, 1.0] {
-        let method = Sigma { summation: Summation::Compensated, ..Sigma::new(sigma) };
-        let error = Integrator::new(&system, method, 0.01, start).err();
-        assert!(matches!(error, Some(StartError::Unsupported { option: "Summation::Compensated", .. })));
     }
     Ok(())
 }
