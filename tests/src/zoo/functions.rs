@@ -1,6 +1,6 @@
-//! Every function that a formula may use, the user's own ones, and `if`.
+//! Every function that a formula may use, and `if`.
 
-use dvi_core::{Scalar, degenerate_lagrangian};
+use dvi_core::degenerate_lagrangian;
 
 /// Every function of the table and every way to write a power, on 0 < x, y < 1.
 #[degenerate_lagrangian(
@@ -48,28 +48,3 @@ pub struct Branches {
     /// Where the branches change.
     pub edge: f64,
 }
-
-/// φ(s) = ln cosh s
-pub fn ln_cosh<T: Scalar>(s: T) -> T {
-    s.cosh().ln()
-}
-
-/// φ'(s) = tanh s
-pub fn tanh<T: Scalar>(s: T) -> T {
-    s.tanh()
-}
-
-/// φ''(s) = 1 − tanh² s
-pub fn sech2<T: Scalar>(s: T) -> T {
-    T::lift(1.0) - s.tanh() * s.tanh()
-}
-
-/// A function supplied by the user, in α, in H, and inside of a sum.
-#[degenerate_lagrangian(
-    coordinates(x[2], y[2]),
-    one_form    = sum(0..2, |j| (x[j] + phi(x[j] - 2.0 * y[j])) * d(y[j])),
-    hamiltonian = sum_pairs(0..2, |j, k| phi(x[j] * y[k])) + phi(sum(0..2, |j| x[j] * y[j])).exp(),
-    functions(phi = [ln_cosh, tanh, sech2]),
-)]
-#[derive(Clone, Debug)]
-pub struct OwnFunction {}
