@@ -85,22 +85,6 @@ pub fn failing<S: Lagrangian, M: Method<S, f64>>(
     Err("no step fails".into())
 }
 
-/// The coordinates at `time`.
-///
-/// # Errors
-/// Those of the run.
-pub fn run<S: Lagrangian, M: Method<S, f64>>(
-    system: &S,
-    method: M,
-    start: S::State<f64>,
-    time: f64,
-    steps: u64,
-) -> Outcome<Vec<f64>> {
-    let mut run = Integrator::new(system, method, time / steps as f64, start)?;
-    run.take_steps(steps)?;
-    Ok(run.q().to_vec())
-}
-
 /// The vortex configurations of the literature.
 pub mod configurations {
     use dvi_examples::models::{self, Case};

@@ -1,10 +1,9 @@
 //! Gauss collocation and explicit Runge–Kutta methods on Hamilton's equations of regular systems.
 
-use approx::abs_diff_eq;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
-use dvi_tests::{apart, run};
+use dvi_tests::apart;
 
 /// Two oscillators of frequency 1 whose velocities are coupled, and beside them dF/dt of F = t x y + x³ y:
 /// the motion is that without it, and p = M v + ∂F/∂q.
@@ -65,22 +64,6 @@ fn a_fixed_point_of_tiny_numbers_ends_no_sooner() -> Outcome {
     check(Gauss::<3>::new)?;
     check(|| Galerkin { solver, ..Galerkin::<5>::new() })?;
     check(|| Variational { solver, ..Variational::midpoint() })
-}
-
-/// x'' = sin t.
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0 + x * t.sin())]
-struct Pushed;
-
-/// From rest at the origin without a force: all that the first guess of a step knows is zero.
-#[test]
-fn steps_from_rest_at_the_origin() -> Outcome {
-    let start = PushedState { x: 0.0, dot_x: 0.0 };
-    let gauss = run(&Pushed, Gauss::<3>::new(), start, 2.0, 40)?;
-    let explicit = run(&Pushed, RungeKutta::classical(), start, 2.0, 400)?;
-    let exact = 2.0 - 2.0_f64.sin();
-    assert!(abs_diff_eq!(gauss[0], exact, epsilon = 1e-12), "{gauss:?}");
-    assert!(abs_diff_eq!(explicit[0], exact, epsilon = 1e-10), "{explicit:?}");
-    Ok(())
 }
 
 /// ∂L/∂v = v³ − v has three branches, and the motion ends where one of them does.

@@ -29,7 +29,6 @@ macro_rules! lattice {
 lattice!(Constant [const N: usize, const M: usize] N, M, {});
 lattice!(RunTime [] n, m, { n: usize, m: usize });
 lattice!(Rows [const M: usize] n, M, { n: usize });
-lattice!(Literal [] 3, 20, {});
 
 /// The same with one index.
 #[lagrangian(
@@ -93,20 +92,6 @@ fn two_indices_are_one_with_the_same_numbers() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn literal_sizes_are_sizes_like_others() -> Outcome {
-    let [q, dot_q, k] = point::<20>();
-    let k = vectors(&k);
-    let start = RunTimeState { q: vectors(&q), dot_q: vectors(&dot_q) };
-    let [expected, velocities] =
-        moved(&RunTime { n: N, m: 20, k: k.clone() }, Variational::midpoint(), start)?;
-    let [found, found_velocities] =
-        moved(&Literal { k }, Variational::midpoint(), LiteralState { q, dot_q })?;
-    assert_abs_diff_eq!(found.as_slice(), expected.as_slice(), epsilon = 1e-12);
-    assert_abs_diff_eq!(found_velocities.as_slice(), velocities.as_slice(), epsilon = 1e-12);
-    Ok(())
-}
-
 /// Springs on a torus.
 #[lagrangian(
     coordinates(q[N][m]),
@@ -121,27 +106,6 @@ struct Springs<const N: usize> {
 /// sin(Ω/2) = ω h/2.
 fn turned(omega: f64, h: f64) -> f64 {
     2.0 * (omega * h / 2.0).asin()
-}
-
-#[test]
-fn waves_on_a_torus_have_the_frequencies_of_the_discrete_laplacian() -> Outcome {
-    let (m, h, steps) = (7, 0.1, 300);
-    for (a, b) in [(1, 0), (0, 1), (2, 3), (1, 2)] {
-        let [x, y] = [PI * f64::from(a) / N as f64, PI * f64::from(b) / m as f64];
-        let wave = |i: usize, j: usize| (2.0 * (x * i as f64 + y * j as f64) + 0.3).cos();
-        let q: Vec<Vec<f64>> = (0..N).map(|i| (0..m).map(|j| wave(i, j)).collect()).collect();
-        let dot_q = vec![vec![0.0; m]; N];
-        let springs = Springs::<N> { m };
-        let mut run =
-            Integrator::new(&springs, Variational::trapezoid(), h, SpringsState { q: q.clone(), dot_q })?;
-        run.take_steps(steps)?;
-        let omega = 2.0 * x.sin().hypot(y.sin());
-        let amplitude = (turned(omega, h) * steps as f64).cos();
-        for (found, start) in run.state().q.iter().flatten().zip(q.iter().flatten()) {
-            assert_abs_diff_eq!(*found, amplitude * start, epsilon = 1e-12);
-        }
-    }
-    Ok(())
 }
 
 /// The entries of each row move together.
@@ -168,43 +132,6 @@ fn constraints_hold_between_entries() -> Outcome {
         let expected = start.map(|start| start * (turned(omega, h) * steps as f64).cos());
         assert_abs_diff_eq!(found.as_slice(), expected.as_slice(), epsilon = 1e-11);
     }
-    Ok(())
-}
-
-/// Rotors on a torus, in phase space, with friction.
-#[degenerate_lagrangian(
-    coordinates(p[n][M], q[n][M]),
-    one_form = [|i, j| 0.0, |i, j| p[i][j]],
-    hamiltonian = sum(0..n, |i| sum(0..M, |j| p[i][j].powi(2) / 2.0
-        - (q[(i + 1) % n][j] - q[i][j]).cos() - (q[i][(j + 1) % M] - q[i][j]).cos())),
-    force(q) = |i, j| -p[i][j] / 10.0,
-)]
-struct Rotors<const M: usize> {
-    n: usize,
-}
-
-/// The same with velocities.
-#[lagrangian(
-    coordinates(q[n][M]),
-    lagrangian = sum(0..n, |i| sum(0..M, |j| dot(q[i][j]).powi(2) / 2.0
-        + (q[(i + 1) % n][j] - q[i][j]).cos() + (q[i][(j + 1) % M] - q[i][j]).cos())),
-    force(q) = |i, j| -dot(q[i][j]) / 10.0,
-)]
-struct RegularRotors<const M: usize> {
-    n: usize,
-}
-
-#[test]
-fn rotors_in_phase_space_move_as_with_velocities() -> Outcome {
-    let [q, dot_q, _] = point::<4>().map(Vec::from);
-    let method = Gauss::<3>::new();
-    let [position, velocity] =
-        moved(&RegularRotors { n: N }, method, RegularRotorsState { q: q.clone(), dot_q: dot_q.clone() })?;
-    let [found, _] = moved(&Rotors { n: N }, method, RotorsState { p: dot_q, q })?;
-    assert_abs_diff_eq!(found.as_slice(), [velocity, position].concat().as_slice(), epsilon = 1e-11);
-    // As of coordinates with one index, each has its conjugate at the same place.
-    let is_canonical = |sentence: &&str| sentence.contains("each coordinate to one conjugate");
-    assert!(Rotors::<4>::REPORT.structure.iter().any(is_canonical));
     Ok(())
 }
 

@@ -1,50 +1,8 @@
-//! Functions and pairs of names inside of a formula are what they stand for, to the bit and to the operation.
+//! Functions and pairs of names inside of a formula are what they stand for.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use dvi_core::Report;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
-
-/// Vortices, with a function of two indices.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = {
-        let gap = |j, k| (x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2);
-        sum_pairs(0..n, |j, k| gamma[j] * gamma[k] * gap(j, k).ln()) / (4.0 * PI)
-    },
-)]
-struct Named {
-    n: usize,
-    gamma: Vec<f64>,
-}
-
-/// The same written out.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = sum_pairs(0..n, |j, k| gamma[j] * gamma[k]
-        * ((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)).ln()) / (4.0 * PI),
-)]
-struct WrittenOut {
-    n: usize,
-    gamma: Vec<f64>,
-}
-
-#[test]
-fn a_sum_over_pairs_by_a_function_of_indices_is_the_same_sum() {
-    let gamma = vec![1.0, -0.5, 2.0, 0.7, 1.3];
-    let named = Named { n: 5, gamma: gamma.clone() };
-    let written = WrittenOut { n: 5, gamma };
-    let entries = |of: fn(f64) -> f64| (1..=5).map(f64::from).map(of).collect::<Vec<f64>>();
-    let [x, y] = [entries(|j| (1.7 * j).sin()), entries(|j| (2.3 * j).cos())];
-    let (q, [mut a, mut b]) = ([x, y].concat(), [[0.0; 10]; 2]);
-    named.hamiltonian_gradient(&q, 0.0, &mut a);
-    written.hamiltonian_gradient(&q, 0.0, &mut b);
-    assert_eq!(a, b);
-    let seen = |report: &Report| format!("{:?}", (report.structure, report.residual, report.jacobian));
-    assert_eq!(seen(&Named::REPORT), seen(&WrittenOut::REPORT));
-}
 
 /// A potential as a formula, and as Rust that is run.
 macro_rules! potential {

@@ -44,7 +44,6 @@ mod pages;
 mod parameters;
 mod projected;
 mod records;
-mod reference_values;
 mod restoring;
 mod scalar_fields;
 mod shared_names;

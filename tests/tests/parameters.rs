@@ -67,25 +67,6 @@ fn a_step_is_differentiated_in_a_parameter() -> Outcome {
     Ok(())
 }
 
-/// The midpoint rule turns the oscillator by 2 atan(bh/2a) a step.
-#[test]
-fn a_degenerate_step_is_differentiated_in_the_one_form_and_in_the_hamiltonian() -> Outcome {
-    let (a, b, h, n) = (0.7, 1.1, 0.1, 100);
-    let angle = 2.0 * n as f64 * f64::atan(b * h / (2.0 * a));
-    let slope = n as f64 * (h / a) / (1.0 + (b * h / (2.0 * a)).powi(2));
-    for (a, b, slope) in [(varied(a), constant(b), -slope * b / a), (constant(a), varied(b), slope)] {
-        let system = Oscillator { a, b };
-        let start = OscillatorStateOf { x: dual(1.0), y: dual(0.0) };
-        let method = Gauss::<1>::new();
-        let mut run = Integrator::new(&system, method, dual(h), start)?;
-        run.take_steps(n)?;
-        assert_abs_diff_eq!(run.q()[0].re, angle.cos(), epsilon = 1e-12);
-        let error = run.q()[0].eps + slope * angle.sin();
-        assert!(error.abs() < 1e-11 * slope.abs(), "{error:e}");
-    }
-    Ok(())
-}
-
 /// Against differences of fourth order, for methods of all families and storage at run time.
 #[test]
 fn runs_are_differentiated_in_a_circulation() -> Outcome {
@@ -212,15 +193,6 @@ fn numbers_as_generic_parameters_change_nothing() -> Outcome {
         assert_eq!(plain.q(), single.q());
     }
     Ok(())
-}
-
-#[test]
-fn a_generic_system_has_formulas_in_the_numbers_of_its_parameters() {
-    let system = Springs { mass: 2.0, k: [varied(3.0), constant(1.0)], coupling: vec![constant(0.5)] };
-    let [x, y, zero] = [dual(0.4), dual(-0.2), dual(0.0)];
-    let energy = system.energy(&[x, y], &[zero, zero], zero);
-    let expected = (3.0 * 0.16 + 0.04 + 0.5 * 0.36) / 2.0;
-    assert!((energy.re - expected).abs() < 1e-15 && (energy.eps - 0.08).abs() < 1e-15);
 }
 
 #[test]

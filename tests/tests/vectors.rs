@@ -51,13 +51,6 @@ fn entries_have_names_body_by_body() -> Outcome {
 }
 
 #[test]
-fn a_table_of_bodies_is_read_body_by_body() -> Outcome {
-    let system = Bodies { m: MASSES };
-    assert_eq!(crate::records::read_again(&system, &start())?, [start()]);
-    Ok(())
-}
-
-#[test]
 fn the_number_of_bodies_may_be_known_late() -> Outcome {
     let system = InField { m: MASSES.into(), field: [0.0, 0.0, 2.0], drag: vec![[0.1, 0.2, 0.3]; 3] };
     let BodiesState { r, dot_r } = start();

@@ -168,19 +168,6 @@ pub struct RestrictedThreeBody {
     pub mu: f64,
 }
 
-/// The same as p dq − H.
-#[degenerate_lagrangian(
-    coordinates(x, y, p_x, p_y),
-    one_form = p_x * d(x) + p_y * d(y),
-    hamiltonian = (p_x * p_x + p_y * p_y) / 2.0 + p_x * y - p_y * x
-        - (1.0 - mu) / (x + mu).hypot(y) - mu / (x - 1.0 + mu).hypot(y),
-)]
-#[derive(Clone, Debug, PartialEq)]
-pub struct RestrictedThreeBodyForm {
-    /// As of [`RestrictedThreeBody`].
-    pub mu: f64,
-}
-
 /// N bodies in the plane that attract each other.
 #[lagrangian(
     coordinates(x[N], y[N]),

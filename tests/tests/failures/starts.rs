@@ -137,6 +137,11 @@ fn options_out_of_range_are_refused() {
         let error = Integrator::new(&system, Sigma::new(sigma), 0.1, start).err();
         assert!(matches!(error, Some(StartError::Parameter { name: "sigma", .. })), "{error:?}");
     }
+    for sigma in [0.0, 1.0] {
+        let method = Sigma { summation: Summation::Compensated, ..Sigma::new(sigma) };
+        let error = Integrator::new(&system, method, 0.1, start).err();
+        assert!(matches!(error, Some(StartError::Unsupported { option: "Summation::Compensated", .. })));
+    }
     for (tolerance, max_iterations, name) in
         [(-1.0, 10, "tolerance"), (f64::NAN, 10, "tolerance"), (1e-10, 0, "max_iterations")]
     {

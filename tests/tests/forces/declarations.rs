@@ -142,20 +142,3 @@ fn states_are_known_where_the_force_on_them_is_not() -> Outcome {
     }
     Ok(())
 }
-
-/// A coordinate and a field may have the names that the language and the library use.
-#[lagrangian(
-    coordinates(force),
-    lagrangian = dot(force).powi(2) / 2.0,
-    force(force) = -applied_force * dot(force),
-)]
-struct Named {
-    applied_force: f64,
-}
-
-#[test]
-fn names_of_the_language_are_no_obstacle() {
-    let mut out = [0.0];
-    Named { applied_force: 2.0 }.applied_force(&[1.0], &[3.0], 0.0, &mut out);
-    assert_eq!(out, [-6.0]);
-}

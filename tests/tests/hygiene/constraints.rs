@@ -31,27 +31,6 @@ mod names {
     }
 }
 
-/// Generics, lifetimes, bounds, and a type of parameters.
-mod generics {
-    use dvi_core::lagrangian;
-
-    /// A system that borrows.
-    #[lagrangian(
-        coordinates(x[n], y[n]),
-        lagrangian = sum(0..n, |j| dot(x[j]).powi(2) + dot(y[j]).powi(2)),
-        constraint(k in 0..n) = T[k] * x[k] * y[k] - s,
-    )]
-    #[derive(Clone, Debug)]
-    #[allow(non_upper_case_globals, non_snake_case)]
-    pub struct Borrowing<'a, P: Clone, const n: usize>
-    where
-        'a: 'a,
-    {
-        pub(super) T: &'a [f64; n],
-        pub(super) s: P,
-    }
-}
-
 /// dg/dt where all coordinates are one half and all velocities one quarter.
 fn rate<S: HolonomicLagrangian>(system: &S) -> Vec<f64> {
     assert!(system.check().is_ok());
@@ -65,7 +44,6 @@ fn rate<S: HolonomicLagrangian>(system: &S) -> Vec<f64> {
 fn systems_with_constraints_and_unfriendly_names_work() {
     let names = names::Names { g: 2.0, g0: [3.0, 4.0], row0: 5.0, rest: 6.0, sink: 7.0 };
     assert_eq!(rate(&names), [0.5, 0.5, 0.5, 1.5]);
-    assert_eq!(rate(&generics::Borrowing::<f64, 2> { T: &[1.0, 2.0], s: 3.0 }), [0.25, 0.5]);
     assert_eq!(rate(&shadowed::Linked { mass: vec![2.0, 3.0] }), [-0.25]);
     assert_eq!(rate(&shadowed::Linked { mass: Vec::new() }), [0.0; 0]);
 }

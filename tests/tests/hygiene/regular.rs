@@ -47,65 +47,6 @@ mod coordinates {
     pub struct Coordinates;
 }
 
-/// Generics, lifetimes, bounds.
-mod generics {
-    use dvi_core::lagrangian;
-
-    /// A system that borrows.
-    #[lagrangian(
-        coordinates(x[n], y[n]),
-        lagrangian = sum(0..n, |j| T[j] * (dot(x[j]).powi(2) + dot(y[j]).powi(2)) - s * x[j] * y[j]),
-    )]
-    #[derive(Clone, Debug)]
-    #[allow(non_upper_case_globals, non_snake_case)]
-    pub struct Borrowing<'a, 'T: 'a, S: Clone, const n: usize, const FLAG: bool = false>
-    where
-        'a: 'a,
-    {
-        pub(super) T: &'a [f64; n],
-        pub(super) s: &'T f64,
-        pub(super) tag: S,
-    }
-}
-
-/// Under another name of the library, private, in a function.
-mod places {
-    /// What a crate offers of its dependencies.
-    pub mod reexported {
-        pub use dvi_core as dvi;
-    }
-    #[allow(dead_code)]
-    mod dvi_core {}
-
-    #[reexported::dvi::lagrangian(
-        coordinates(x),
-        lagrangian = dot(x).powi(2) / 2.0 - Self::G * x,
-        crate = self::reexported::dvi,
-    )]
-    #[derive(Debug)]
-    struct Private {}
-
-    impl Private {
-        const G: f64 = 3.0;
-    }
-
-    pub(super) fn in_a_function<const N: usize>() -> f64 {
-        use reexported::dvi::prelude::*;
-
-        /// A system.
-        #[lagrangian(
-            coordinates(x[N]),
-            lagrangian = sum(0..N, |j| dot(x[j]).powi(2) - a * x[j]),
-            crate = reexported::dvi,
-        )]
-        #[derive(Debug)]
-        struct Inside<const N: usize> {
-            a: f64,
-        }
-        super::energy(&Inside::<N> { a: 1.0 }) + super::energy(&Private {})
-    }
-}
-
 /// E at a point where all coordinates are one half and all velocities one quarter, by way of a state.
 fn energy<S: RegularLagrangian>(system: &S) -> f64 {
     assert!(system.check().is_ok());
@@ -126,10 +67,7 @@ fn regular_systems_with_unfriendly_names_work() {
     let fields = fields::Fields { self_: 1.0, T: 1.0, ..fields::Fields::default() };
     assert!(energy(&fields).is_finite());
     assert!(energy(&coordinates::Coordinates).is_finite());
-    let borrowing = generics::Borrowing::<_, 2> { T: &[1.0; 2], s: &1.0, tag: "tag" };
-    assert!(borrowing.tag.len() == 3 && energy(&borrowing).is_finite());
     assert!(energy(&shadowed::Masses { mass: vec![1.0; 3] }).is_finite());
-    assert!(places::in_a_function::<3>().is_finite());
 }
 
 #[test]
