@@ -1,6 +1,5 @@
 //! The right side of many vortices, each of which moves all others: the generated gradient, on one thread
-//! and on two, beside three by hand; a fast sum beside the sum over all pairs; and the check of indices
-//! before a run.
+//! and on two, beside two by hand; and a fast sum beside the sum over all pairs.
 //!
 //! `cargo bench -p dvi-benches --bench pairs [-- --markdown]`. Throughput counts ordered pairs: n(n −
 //! 1) of n vortices.
@@ -11,9 +10,9 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
+use dvi_core::DegenerateLagrangian;
 use dvi_core::fast_sum::FastSum;
 use dvi_core::prelude::*;
-use dvi_core::{DegenerateLagrangian, System};
 use rayon::ThreadPoolBuilder;
 
 /// Vortices in the plane.
@@ -56,27 +55,6 @@ impl Vortices {
         }
     }
 
-    /// ∇H, each pair once.
-    fn by_pairs(&self, q: &[f64], gradient: &mut [f64]) {
-        let n = self.gamma.len();
-        gradient.fill(0.0);
-        for i in 0..n {
-            let mut sum = [0.0; 2];
-            for j in i + 1..n {
-                let apart = [q[i] - q[j], q[n + i] - q[n + j]];
-                let strength =
-                    self.gamma[i] * self.gamma[j] / (2.0 * PI * (apart[0] * apart[0] + apart[1] * apart[1]));
-                let force = [strength * apart[0], strength * apart[1]];
-                sum[0] += force[0];
-                sum[1] += force[1];
-                gradient[j] += force[0];
-                gradient[n + j] += force[1];
-            }
-            gradient[i] -= sum[0];
-            gradient[n + i] -= sum[1];
-        }
-    }
-
     /// ∇H, each pair once, eight pairs at a time.
     fn in_lanes(&self, q: &[f64], gradient: &mut [f64]) {
         gradient.fill(0.0);
@@ -89,10 +67,9 @@ fn compare(system: &Vortices, q: &[f64]) {
     let mut expected = vec![0.0; q.len()];
     system.naive(q, &mut expected);
     let largest = expected.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-    let mut gradients = [vec![0.0; q.len()], vec![0.0; q.len()], vec![0.0; q.len()]];
+    let mut gradients = [vec![0.0; q.len()], vec![0.0; q.len()]];
     system.hamiltonian_gradient(q, 0.0, &mut gradients[0]);
-    system.by_pairs(q, &mut gradients[1]);
-    system.in_lanes(q, &mut gradients[2]);
+    system.in_lanes(q, &mut gradients[1]);
     for gradient in &gradients {
         for (a, b) in expected.iter().zip(gradient) {
             assert!((a - b).abs() <= 1e-12 * largest, "{a:e} and {b:e} differ, of {largest:e}");
@@ -109,9 +86,6 @@ fn gradients(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements((n * (n - 1)) as u64));
         group.bench_function(BenchmarkId::new("by hand, vortex by vortex", n), |bencher| {
             bencher.iter(|| system.naive(black_box(&q), &mut gradient));
-        });
-        group.bench_function(BenchmarkId::new("by hand, each pair once", n), |bencher| {
-            bencher.iter(|| system.by_pairs(black_box(&q), &mut gradient));
         });
         group.bench_function(BenchmarkId::new("by hand, each pair once, in lanes", n), |bencher| {
             bencher.iter(|| system.in_lanes(black_box(&q), &mut gradient));
@@ -167,29 +141,6 @@ fn fast_sums(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Vortices whose number is a field, so that each access is checked against the length of an array.
-#[degenerate_lagrangian(
-    coordinates(x[n], y[n]),
-    one_form = sum(0..n, |j| gamma[j] / 2.0 * (x[j] * d(y[j]) - y[j] * d(x[j]))),
-    hamiltonian = -sum_pairs(0..n, |i, j| gamma[i] * gamma[j] / (4.0 * PI)
-        * ((x[i] - x[j]).powi(2) + (y[i] - y[j]).powi(2)).ln()),
-)]
-struct Counted {
-    n: usize,
-    gamma: Vec<f64>,
-}
-
-fn checks(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("the check of n vortices");
-    for n in [1000, 10_000, 100_000] {
-        let system = Counted { n, gamma: vec![1.0; n] };
-        group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
-            bencher.iter(|| assert!(black_box(&system).check().is_ok()));
-        });
-    }
-    group.finish();
-}
-
 fn main() {
-    markdown::main(&[gradients, fast_sums, checks]);
+    markdown::main(&[gradients, fast_sums]);
 }
