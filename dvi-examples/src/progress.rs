@@ -13,8 +13,6 @@ use crate::gallery::Experiment;
 const TICK: Duration = Duration::from_millis(200);
 /// Between two plain lines.
 const INTERVAL: Duration = Duration::from_secs(10);
-/// What was done longer ago than this, in seconds, tells little of how fast the rest will be.
-const MEMORY: f64 = 60.0;
 const TOTAL: f64 = 1e6;
 
 #[derive(Debug)]
@@ -54,10 +52,10 @@ impl Progress {
 
     /// Shows how far all are every now and then, until the other end of the channel is dropped.
     pub fn watch(&self, ended: Receiver<()>) {
-        let (begun, mut spoken, mut speed) = (Instant::now(), Instant::now(), Speed::default());
+        let (begun, mut spoken) = (Instant::now(), Instant::now());
         while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
             let done = self.fraction();
-            let left = match speed.left(begun.elapsed().as_secs_f64(), done) {
+            let left = match begun.elapsed().as_secs_f64() * (1.0 - done) / done {
                 left if left < 1e5 => format!("{:#} left", HumanDuration(Duration::from_secs_f64(left))),
                 _ => "…".to_owned(),
             };
@@ -78,27 +76,6 @@ impl Progress {
     fn fraction(&self) -> f64 {
         let all: f64 = self.items.iter().map(|(of, _)| of.share).sum();
         self.items.iter().map(|(of, counter)| of.share * part(counter)).sum::<f64>() / all
-    }
-}
-
-/// The work that was done in the seconds on the clock that it took, each with a weight that fades.
-/// `indicatif` forgets within 15 seconds: beside other work what it says jumps by a factor of two.
-#[derive(Debug, Default)]
-struct Speed {
-    done: f64,
-    seconds: f64,
-    last: [f64; 2],
-}
-
-impl Speed {
-    /// The seconds that the rest takes, if so much of all is done after so many.
-    fn left(&mut self, seconds: f64, done: f64) -> f64 {
-        let past = seconds - self.last[0];
-        let fade = (-past / MEMORY).exp();
-        self.seconds = fade * self.seconds + past;
-        self.done = fade * self.done + done - self.last[1];
-        self.last = [seconds, done];
-        (1.0 - done) * self.seconds / self.done.max(f64::MIN_POSITIVE)
     }
 }
 
@@ -125,24 +102,5 @@ mod tests {
         assert_eq!(progress.fraction(), 0.375);
         progress.end(1, "done");
         assert_eq!(progress.fraction(), 0.75);
-    }
-
-    /// Three minutes of work, of which other work takes three quarters from the first minute on, and later
-    /// all.
-    #[test]
-    fn the_time_left_follows_what_is_done_on_the_clock() {
-        let mut speed = Speed::default();
-        let done = |t: f64| (t.min(60.0) + 0.25 * (t - 60.0).clamp(0.0, 400.0)) / 180.0;
-        for tick in 1..2700 {
-            let t = 0.2 * f64::from(tick);
-            let left = speed.left(t, done(t));
-            match t {
-                10.0..60.0 => assert!((left / (180.0 - t) - 1.0).abs() < 0.01, "{t}: {left}"),
-                110.0..460.0 => assert!((0.5..2.0).contains(&(left / (540.0 - t))), "{t}: {left}"),
-                _ => {}
-            }
-        }
-        let before = speed.left(540.0, done(540.0));
-        assert!(speed.left(900.0, done(540.0)) > 10.0 * before, "nothing is done, and the time left stays");
     }
 }

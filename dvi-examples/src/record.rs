@@ -220,14 +220,6 @@ mod tests {
     }
 
     #[test]
-    fn a_run_replaces_its_own_parts_and_keeps_the_others() {
-        let mut parts = ["a", "b", "gone"].map(|name| part(name, Length::Full, Some(1.0))).to_vec();
-        put(&mut parts, part("b", Length::Short, None), &["b", "a", "c"]);
-        let shown: Vec<_> = parts.iter().map(|part| (part.experiment.as_str(), part.length)).collect();
-        assert_eq!(shown, [("b", Length::Short), ("a", Length::Full)]);
-    }
-
-    #[test]
     fn a_bound_without_its_numbers_is_refused() {
         let columns = "experiment,form,when,row,place,text,value,bound,low,high,verdict";
         assert!(parse(&format!("{columns}\na,full,now,check,,,1,at most,,2,\n")).is_err());

@@ -1,12 +1,10 @@
-//! Unit vectors of degenerate systems: spins and vortices against closed forms, against the same in
-//! coordinates of a chart, and where a chart ends.
+//! Unit vectors of degenerate systems: spins and vortices against closed forms, and where a chart ends.
 
 use core::f64::consts::TAU;
 
 use dvi_core::error::StartError;
 use dvi_core::methods::{Method, Start};
 use dvi_core::prelude::*;
-use dvi_examples::models::{SphereVortices, SphereVorticesState};
 use dvi_tests::Outcome;
 use dvi_tests::zoo::manifold::{cross, dot};
 use dvi_tests::{apart, larger, oracle};
@@ -87,18 +85,6 @@ fn off(vectors: &[Vector]) -> f64 {
     vectors.iter().map(|s| (length(*s) - 1.0).abs()).fold(0.0, larger)
 }
 
-#[test]
-fn a_spin_turns_around_the_field() -> Outcome {
-    let (system, s) = (InField { kappa: 1.5, b: [0.3, -0.4, 1.2] }, spin(2.5, 0.3));
-    let expected = cross(system.b, s).map(|rate| rate / system.kappa);
-    assert!(apart(&system.vector_field(0.0, &InFieldState { s })?.s, &expected) < 1e-15);
-    let mut run = Integrator::new(&system, Gauss::<4>::new(), 0.1, InFieldState { s })?;
-    run.take_steps(200)?;
-    let exact = turned(s, system.b, 1.3 / 1.5 * 20.0);
-    assert!(apart(&run.state().s, &exact) < 1e-12, "{:?}", run.state());
-    Ok(())
-}
-
 /// ṡ = s × ∂H/∂s over the length of the spin, by hand.
 fn rates(ring: &Ring<5>, s: [Vector; 5]) -> [Vector; 5] {
     core::array::from_fn(|i| {
@@ -146,36 +132,6 @@ fn methods_have_their_orders_and_keep_the_lengths() -> Outcome {
         (4.0, order(Composition::suzuki(Gauss::<1>::new()), &exact, 40)?),
     ] {
         assert!((found - expected).abs() < 0.1, "{found} and not {expected}");
-    }
-    Ok(())
-}
-
-fn chart(places: [Vector; 3]) -> SphereVorticesState<3> {
-    SphereVorticesState { phi: places.map(|[x, y, _]| y.atan2(x)), z: places.map(|[_, _, z]| z) }
-}
-
-#[test]
-fn vortices_move_as_they_do_in_a_chart() -> Outcome {
-    let (gamma, places) = ([1.0, 1.5, -2.0], [spin(1.0, 0.2), spin(1.4, 1.9), spin(1.9, 4.0)]);
-    let vectors = Vortices { gamma: gamma.into() };
-    let in_chart = SphereVortices { gamma };
-    let start = VorticesState { s: places.into() };
-    assert!((vectors.energy_at(0.0, &start)? - in_chart.energy_at(0.0, &chart(places))?).abs() < 1e-15);
-    let rates = in_chart.vector_field(0.0, &chart(places))?;
-    for ((s, rate), (phi, z)) in
-        places.iter().zip(vectors.vector_field(0.0, &start)?.s).zip(rates.phi.iter().zip(rates.z))
-    {
-        let turn = (s[0] * rate[1] - s[1] * rate[0]) / (s[0] * s[0] + s[1] * s[1]);
-        assert!((turn - phi).abs() < 1e-14 && (rate[2] - z).abs() < 1e-14);
-    }
-    let mut run = Integrator::new(&vectors, Gauss::<4>::new(), 0.05, start)?;
-    let mut other = Integrator::new(&in_chart, Gauss::<4>::new(), 0.05, chart(places))?;
-    run.take_steps(200)?;
-    other.take_steps(200)?;
-    let SphereVorticesState { phi, z } = other.state();
-    for ((s, phi), z) in run.state().s.iter().zip(phi).zip(z) {
-        let radius = (1.0 - z * z).sqrt();
-        assert!(apart(s, &[radius * phi.cos(), radius * phi.sin(), z]) < 1e-11, "{s:?}");
     }
     Ok(())
 }

@@ -3,7 +3,6 @@
 use dvi_core::DegenerateLagrangian;
 use dvi_core::mechanics::Rates;
 use dvi_core::prelude::*;
-use dvi_examples::alternating::AlternatingComponent;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::zoo::regular::{
     DoublePendulum, Gravity, Kepler, MagneticParticle, Relativistic, RunTimeChain,
@@ -19,19 +18,6 @@ fn an_undeclared_momentum_is_none() -> Outcome {
     let names: Vec<_> = run.momenta().map(|(name, _)| name).collect();
     assert_eq!(names, ["impulse_x", "impulse_y", "angular"]);
     Ok(())
-}
-
-#[test]
-fn the_filter_passes_alternating_sequences_and_stops_cubics() {
-    let mut filter = AlternatingComponent::default();
-    let cubic = |k: f64| 0.5 + k - 0.25 * k * k + 0.125 * k * k * k;
-    for k in 0..12 {
-        let (x, sign) = (f64::from(k), if k % 2 == 0 { 1.0 } else { -1.0 });
-        let filtered = filter.push(&[cubic(x) + 0.75 * sign, cubic(x)]);
-        // The window is centred two steps back, where the sign is the same.
-        let expected = (k >= 4).then(|| vec![0.75 * sign, 0.0]);
-        assert_eq!(filtered, expected);
-    }
 }
 
 #[test]
