@@ -25,10 +25,6 @@ const _: fn() = || stepped(NoOneForm, NoOneFormState { x: 1.0, y: 0.0 });
 pub struct NoDynamics;
 const _: fn() = || stepped(NoDynamics, NoDynamicsState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian()]
-pub struct Nothing;
-const _: fn() = || stepped(Nothing, NothingState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), lagrangian = x * dot(y) - x, one_form = x * d(y))]
 pub struct LagrangianAndOneForm;
 const _: fn() = || stepped(LagrangianAndOneForm, LagrangianAndOneFormState { x: 1.0, y: 0.0 });
@@ -61,10 +57,6 @@ pub struct ColonForEquals;
 const _: fn() = || stepped(ColonForEquals, ColonForEqualsState { x: 1.0, y: 0.0 });
 
 degenerate! { CrateIsNoPath CrateIsNoPathState: hamiltonian = x * y, crate = 3 }
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = |x, y| x * d(y), hamiltonian = x)]
-pub struct ClosureForAOneForm;
-const _: fn() = || stepped(ClosureForAOneForm, ClosureForAOneFormState { x: 1.0, y: 0.0 });
 
 degenerate! { BarBeforeAnotherArgument BarBeforeAnotherArgumentState: hamiltonian = x | y, momenta(p = x) }
 degenerate! { MomentumInBrackets MomentumInBracketsState: hamiltonian = x * y, momenta[p = x] }

@@ -49,11 +49,4 @@ struct MassesU;
 #[lagrangian(coordinates(R[3]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared()))]
 struct MassesV;
 
-#[lagrangian(
-    coordinates(s[N]: S2),
-    lagrangian = sum(0..N, |i| dot(s[i]).norm_squared()),
-    constraint = s[0][2] - 0.5,
-)]
-struct BesideS<const N: usize>;
-
 fn main() {}

@@ -24,27 +24,6 @@ const _: fn() =
 pub struct ClosureForASingleCoordinate;
 const _: fn() = || stepped(ClosureForASingleCoordinate, ClosureForASingleCoordinateState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(
-    coordinates(x[3], y[3]),
-    one_form = [|i| y[i], |i, j| x[j]],
-    hamiltonian = x[0] * y[0],
-)]
-pub struct ComponentWithTwoIndices;
-const _: fn() =
-    || stepped(ComponentWithTwoIndices, ComponentWithTwoIndicesState { x: [1.0, 2.0, 3.0], y: [0.0; 3] });
-
-#[degenerate_lagrangian(
-    coordinates(z[3]),
-    one_form = sum(0..3, |i| z[(i + 1) % 3] * d(z[i])),
-    hamiltonian = z[0],
-)]
-pub struct OddArray;
-const _: fn() = || stepped(OddArray, OddArrayState { z: [1.0; 3] });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = [0.0, 0.0], hamiltonian = x * y)]
-pub struct ZeroOneForm;
-const _: fn() = || stepped(ZeroOneForm, ZeroOneFormState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) + y * d(x), hamiltonian = x * y)]
 pub struct ExactOneForm;
 const _: fn() = || stepped(ExactOneForm, ExactOneFormState { x: 1.0, y: 0.0 });

@@ -7,10 +7,6 @@ fn stepped<S: DegenerateLagrangian>(system: S, state: S::State<f64>) {
     let _ = Integrator::new(&system, Sigma::midpoint(), 0.1, state);
 }
 
-#[degenerate_lagrangian(coordinates(x, y, x), one_form = x * d(y), hamiltonian = x * y)]
-pub struct CoordinateTwice;
-const _: fn() = || stepped(CoordinateTwice, CoordinateTwiceState { x: 1.0, y: 0.0 });
-
 #[degenerate_lagrangian(coordinates(x, PI), one_form = x * d(PI), hamiltonian = x)]
 pub struct CoordinateIsAConstant;
 const _: fn() = || stepped(CoordinateIsAConstant, CoordinateIsAConstantState { x: 1.0, PI: 0.0 });
@@ -42,16 +38,6 @@ const _: fn() = || stepped(SizeIsAQuotient::<3>, SizeIsAQuotientState { x: [1.0;
 #[degenerate_lagrangian(coordinates(x[M], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
 pub struct SizeIsUnknown<const N: usize>;
 const _: fn() = || stepped(SizeIsUnknown::<4>, SizeIsUnknownState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(coordinates(x[n], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-pub struct SizeIsARealField {
-    pub n: f64,
-}
-const _: fn() = || stepped(SizeIsARealField { n: 4.0 }, SizeIsARealFieldState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(coordinates(x[m.len()], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-pub struct SizeIsALengthOfNothing;
-const _: fn() = || stepped(SizeIsALengthOfNothing, SizeIsALengthOfNothingState { x: [1.0; 4], y: [0.0; 4] });
 
 #[degenerate_lagrangian(coordinates(x[], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
 pub struct SizeIsMissing;
@@ -88,16 +74,6 @@ pub struct FieldIsAnArrayOfAnotherType {
 const _: fn() =
     || stepped(FieldIsAnArrayOfAnotherType { a: [None; 2] }, FieldIsAnArrayOfAnotherTypeState { x: 1.0, y: 0.0 });
 
-mod function_without_derivatives {
-    use super::*;
-    fn sine<T: dvi_core::Scalar>(x: T) -> T {
-        x.sin()
-    }
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = [sine]))]
-    pub struct System;
-    const _: fn() = || stepped(System, SystemState { x: 1.0, y: 0.0 });
-}
-
 mod function_without_list {
     use super::*;
     #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = f(x), functions(f = sine))]
@@ -130,12 +106,6 @@ pub enum Enumeration {
     One,
 }
 const _: fn() = || stepped(Enumeration::One, EnumerationState { x: 1.0, y: 0.0 });
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y)]
-pub union Union {
-    pub a: f64,
-}
-const _: fn() = || stepped(Union { a: 1.0 }, UnionState { x: 1.0, y: 0.0 });
 
 mod function {
     use super::*;

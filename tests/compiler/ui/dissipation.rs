@@ -29,14 +29,6 @@ struct VelocitiesOfOtherNamesT;
 )]
 struct NoNumber;
 
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = dot(x).powi(2) / 2.0 + dot(y).powi(2),
-    dissipation = dot(x).powi(2),
-    dissipation = dot(y).powi(2),
-)]
-struct Twice;
-
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, rayleigh = dot(x).powi(2))]
 struct OtherWords;
 
@@ -47,12 +39,5 @@ struct OtherWords;
     dissipation = dot(x).powi(2),
 )]
 struct DegenerateS;
-
-#[lagrangian(
-    coordinates(R: SO3),
-    lagrangian = omega(R).norm_squared(),
-    dissipation = omega(R).norm_squared(),
-)]
-struct Rotations;
 
 fn main() {}

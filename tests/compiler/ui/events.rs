@@ -24,20 +24,6 @@ mod event_twice {
     }
 }
 
-mod unknown_name {
-    use super::*;
-    #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events(turn = dot(x), far = x - radios))]
-    pub struct System {
-        pub radius: f64,
-    }
-    pub fn run() -> Result<(), StartError> {
-        let start = SystemState { x: 1.0, dot_x: 0.0 };
-        let mut run = Integrator::new(&System { radius: 1.0 }, Variational::trapezoid(), 0.1, start)?;
-        let _ = run.declared_events([Direction::Rising; 2])?;
-        Ok(())
-    }
-}
-
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, events())]
 pub struct NoEvent;
 const _: fn() = || moved(NoEvent, NoEventState { x: 1.0, dot_x: 0.0 });

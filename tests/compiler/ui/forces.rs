@@ -2,21 +2,6 @@
 
 use dvi_core::prelude::*;
 
-mod too_few_components {
-    use super::*;
-
-    #[lagrangian(
-        coordinates(x, y),
-        lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-        force = [-dot(x)],
-    )]
-    struct S;
-
-    fn state() -> SState {
-        SState { x: 1.0, y: 2.0, dot_x: 0.0, dot_y: 0.0 }
-    }
-}
-
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, force = -dot(x))]
 struct NoList;
 
@@ -49,14 +34,6 @@ on_a_line! { OnNothingU: friction(x) = -dot(x) }
     force(x[0]) = -dot(x[0]),
 )]
 struct OnAnEntry;
-
-#[lagrangian(
-    coordinates(x[2], y),
-    lagrangian = sum(0..2, |i| dot(x[i]).powi(2) / 2.0) + dot(y).powi(2) / 2.0,
-    force(x) = -1.0,
-    force(y) = |i| -1.0,
-)]
-struct WithoutAnIndex;
 
 on_a_line! { TwiceS: force(x) = -dot(x), force(x) = t.cos() }
 on_a_line! { TwiceT: force = [-dot(x)], force(x) = t.cos() }
@@ -98,12 +75,5 @@ mod explicit_methods {
     force(x) = |i| k - sum(0..3, |j| x[j]) * x[i],
 )]
 struct IndicesOfOtherFormulasS;
-
-#[lagrangian(
-    coordinates(x[3]),
-    lagrangian = sum(0..3, |k| dot(x[k]).powi(2)),
-    force(x) = |i| x[i] * j - sum(0..3, |j| x[j]),
-)]
-struct IndicesOfOtherFormulasT;
 
 fn main() {}

@@ -8,9 +8,6 @@ pub struct WithoutCoordinates;
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * d(y))]
 pub struct WithAVelocity;
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * y, gauge = x * z)]
-pub struct WithAnUnknownName;
-
 mod with_two_derivatives {
     use super::*;
     fn f<T: dvi_core::Scalar>(x: T) -> T {

@@ -39,10 +39,6 @@ pub struct IteratorOfAField { pub g: [f64; 3] }
 const _: fn() =
     || stepped(IteratorOfAField { g: [1.0; 3] }, IteratorOfAFieldState { x: [1.0; 4], y: [0.0; 4] });
 
-#[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum(0..4, |k| (k / 2) as f64 * x[k]))]
-pub struct IndexThatIsDivided;
-const _: fn() = || stepped(IndexThatIsDivided, IndexThatIsDividedState { x: [1.0; 4], y: [0.0; 4] });
-
 #[degenerate_lagrangian(coordinates(x[N], y[N]), one_form = sum(0..N, |j| x[j] * d(y[j])), hamiltonian = sum(0..N, |j| x[j] * y[j]))]
 pub struct SizeThatIsNotDeclared;
 const _: fn() = || stepped(SizeThatIsNotDeclared, SizeThatIsNotDeclaredState { x: [1.0; 4], y: [0.0; 4] });
@@ -61,10 +57,6 @@ const _: fn() =
 pub struct VelocityAsOneWord;
 const _: fn() = || moved(VelocityAsOneWord, VelocityAsOneWordState { x: 1.0, dot_x: 0.0 });
 
-#[lagrangian(coordinates(x), lagrangian = x_dot * x_dot / 2.0 - x * x)]
-pub struct VelocityWithAnUnderscore;
-const _: fn() = || moved(VelocityWithAnUnderscore, VelocityWithAnUnderscoreState { x: 1.0, dot_x: 0.0 });
-
 #[lagrangian(coordinates(x), lagrangian = dx * dx / 2.0 - x * x)]
 pub struct VelocityWithD;
 const _: fn() = || moved(VelocityWithD, VelocityWithDState { x: 1.0, dot_x: 0.0 });
@@ -73,18 +65,6 @@ degenerate! { QuotientUnderAName QuotientUnderANameState: hamiltonian = { let a 
 degenerate! { CastOfABlock CastOfABlockState: hamiltonian = ({ let a = 7; a / 2 }) as f64 * y }
 degenerate! { MutableName MutableNameState: hamiltonian = { let mut s = y; s } }
 degenerate! { ConstantOfOneName ConstantOfOneNameState: hamiltonian = E * x + y }
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (if n > 2 { n / 2 } else { n }) as f64 * y)]
-pub struct QuotientInAChoice { pub n: i32 }
-
-mod quotient_of_a_constant {
-    use dvi_core::degenerate_lagrangian;
-
-    pub const K: i32 = 5;
-
-    #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = (self::K / 2) as f64 * y)]
-    pub struct System;
-}
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.log(2.0) + y)]
 pub struct LogarithmToABase;

@@ -24,11 +24,6 @@ on_a_line! { NotAGapU: impact = 1.0 - t }
 on_a_line! { NotAGapV: impact = [] }
 on_a_line! { ConditionsS: impact = x > 0.0 }
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, impact = x <= l)]
-struct ConditionsT {
-    l: f64,
-}
-
 on_a_line! { ConditionsU: impact = [x != 0.0, x == 1.0] }
 on_a_line! { ConditionsV: constraint = x >= 0.0 }
 
@@ -46,14 +41,6 @@ struct FamiliesV;
 
 #[lagrangian(coordinates(x, y), lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0, impact = [x - y, y - x])]
 struct TwiceS;
-
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0,
-    constraint = x - y,
-    impact = x,
-)]
-struct TwiceT;
 
 #[lagrangian(
     coordinates(x, y),

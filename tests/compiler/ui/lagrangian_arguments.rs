@@ -15,11 +15,6 @@ macro_rules! two {
 }
 
 two! { OneFormAndHamiltonian OneFormAndHamiltonianState: one_form = x * d(y), hamiltonian = x * y }
-two! {
-    ListOfAOneForm ListOfAOneFormState:
-    one_form(x), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y
-}
-two! { NoLagrangian NoLagrangianState: }
 two! { MomentaWithoutALagrangian MomentaWithoutALagrangianState: momenta(p = dot(x)) }
 two! { DInALagrangian DInALagrangianState: lagrangian = d(x) * d(y) }
 two! {

@@ -6,12 +6,6 @@ fn run<S: RegularLagrangian>(system: &S, state: S::State<f64>) {
     let _ = (system.energy(&[0.0], &[0.0], 0.0), state);
 }
 
-#[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).powi(2) - x * y)]
-pub enum Enumeration {
-    One,
-}
-const _: fn() = || run(&Enumeration::One, EnumerationState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
 #[lagrangian(coordinates(x, dot_x), lagrangian = dot(x).powi(2) + dot(dot_x).powi(2))]
 pub struct CoordinateIsCalledAsAVelocity;
 const _: fn() =

@@ -14,11 +14,6 @@ const _: fn() = || run(&Affine, AffineState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y:
 pub struct NoVelocity;
 const _: fn() = || run(&NoVelocity, NoVelocityState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
-#[lagrangian(coordinates(x[4], y), lagrangian = x[0] * y)]
-pub struct NoVelocityOfAnArray;
-const _: fn() =
-    || run(&NoVelocityOfAnArray, NoVelocityOfAnArrayState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
-
 #[lagrangian(coordinates(x, y), lagrangian = (dot(x) - dot(x)) * y + x)]
 pub struct VelocityCancels;
 const _: fn() = || run(&VelocityCancels, VelocityCancelsState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
@@ -46,11 +41,6 @@ pub struct PartOfAnArray;
 const _: fn() =
     || run(&PartOfAnArray, PartOfAnArrayState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
 
-#[lagrangian(coordinates(x[4], y), lagrangian = dot(x[2]).powi(2) + dot(y).powi(2) - x[3] * y)]
-pub struct OneOfAnArray;
-const _: fn() =
-    || run(&OneOfAnArray, OneOfAnArrayState { x: [1.0; 4], y: 0.0, dot_x: [0.0; 4], dot_y: 1.0 });
-
 #[lagrangian(coordinates(x, y), lagrangian = dot(x).powi(2) + dot(y).abs() - x * y)]
 pub struct PiecewiseLinear;
 const _: fn() = || run(&PiecewiseLinear, PiecewiseLinearState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
@@ -68,13 +58,6 @@ const _: fn() =
 #[lagrangian(coordinates(x, y), lagrangian = (dot(x) + dot(y)).powi(2) - x * y)]
 pub struct SquareOfASum;
 const _: fn() = || run(&SquareOfASum, SquareOfASumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
-
-#[lagrangian(coordinates(x, y), lagrangian = m / 2.0 * (3.0 * dot(x) - dot(y)).powi(2) - x * y)]
-pub struct SquareOfASumWithAMass {
-    pub m: f64,
-}
-const _: fn() =
-    || run(&SquareOfASumWithAMass { m: 1.0 }, SquareOfASumWithAMassState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.0 });
 
 /// No mistakes: an indefinite matrix, and numbers of very different size.
 #[lagrangian(coordinates(x, y), lagrangian = dot(x) * dot(y) - x * y)]

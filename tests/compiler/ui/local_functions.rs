@@ -51,29 +51,6 @@ struct NumbersAndIndices;
 )]
 struct Patterns;
 
-/// A mistake in a function is one, however often it is called.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = {
-        let well = |a| a * a + stiffnes * a;
-        dot(x).powi(2) + dot(y).powi(2) - well(x) - well(y)
-    },
-)]
-struct Once {
-    stiffness: f64,
-}
-
-/// The names around a call are not those of the function.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = {
-        let well = |a| depth * a * a;
-        let depth = 2.0;
-        dot(x).powi(2) + dot(y).powi(2) - well(x) - depth * y
-    },
-)]
-struct Later;
-
 /// What is no place has no velocity, and a name of the formula is no size.
 #[lagrangian(
     coordinates(x[n]),

@@ -48,20 +48,7 @@ degenerate! { OwnFunctionWithTwoArguments OwnFunctionWithTwoArgumentsState:
     functions(f = [sin, cos, minus_sin])
 }
 
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x.powi(n) + y)]
-pub struct ExponentThatIsNoLiteral {
-    pub n: i32,
-}
-const _: fn() =
-    || stepped(ExponentThatIsNoLiteral { n: 2 }, ExponentThatIsNoLiteralState { x: 1.0, y: 0.0 });
-
 degenerate! { DividedByZero DividedByZeroState: hamiltonian = x / 0.0 + y }
-degenerate! { ValueOfALetIsUnknown ValueOfALetIsUnknownState:
-    hamiltonian = {
-        let r2 = x * x + z * z;
-        r2.sqrt() + 1.0 / r2
-    }
-}
 
 degenerate! { OwnFunctionAsAMethod OwnFunctionAsAMethodState:
     hamiltonian = x.f() + y,

@@ -49,17 +49,6 @@ struct NotAffineZ<F> {
 in_the_plane! { VelocitiesS: nonholonomic = xdot - y }
 in_the_plane! { VelocitiesT: nonholonomic = d(x) - y }
 
-/// Constraints of both kinds.
-#[lagrangian(
-    coordinates(x, y, z),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0,
-    nonholonomic = dot(x) - y * dot(z),
-    constraint = z - x,
-    constraint = z - y,
-)]
-struct BothS;
-const _: fn() = || used(&BothS);
-
 #[lagrangian(
     coordinates(x, y, z),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0,
@@ -71,15 +60,6 @@ struct BothT;
 in_the_plane! { HeadsU: nonholonomic(x) = dot(x) - y }
 in_the_plane! { FormulasS: nonholonomic = dot(x) == y * dot(y) }
 in_the_plane! { FormulasU: nonholonomic = dot(x) >= 0.0 }
-
-#[lagrangian(
-    coordinates(x[n]),
-    lagrangian = sum(0..n, |j| dot(x[j]).powi(2) / 2.0),
-    nonholonomic(i in 0..n) = dot(x[0]),
-)]
-struct FormulasW {
-    n: usize,
-}
 
 in_the_plane! { TwiceS: nonholonomic = [dot(x) - y * dot(y), 2.0 * (y * dot(y) - dot(x))] }
 

@@ -43,15 +43,6 @@ struct Moves;
 )]
 struct OfOneForm;
 
-/// A nonholonomic constraint is affine in the velocities.
-#[lagrangian(
-    coordinates(x, y),
-    lagrangian = (speed2 + dot(y).powi(2)) / 2.0,
-    nonholonomic = speed2 - dot(y),
-    let = { let speed2 = dot(x).powi(2); },
-)]
-struct NotAffine;
-
 /// Names see those before them.
 #[lagrangian(
     coordinates(x, y),

@@ -52,10 +52,6 @@ struct ComponentsOfTheDeclaredCoordinates;
 const _: ComponentsOfTheDeclaredCoordinatesState =
     ComponentsOfTheDeclaredCoordinatesState { x: 1.0, y: 2.0, t: 0.0, energy: 0.0 };
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, time_transform = 1.0 + x * x)]
-struct OfARegularSystem;
-const _: OfARegularSystemState = OfARegularSystemState { x: 1.0, dot_x: 2.0 };
-
 mod not_transformed {
     use super::*;
 

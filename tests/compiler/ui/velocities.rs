@@ -17,15 +17,6 @@ macro_rules! two {
 
 two! { QuadraticOneForm QuadraticOneFormState: one_form = x * d(y) + y * d(x) * d(x), hamiltonian = x }
 
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = f(d(y)),
-    hamiltonian = x * y,
-    functions(f = [f, df, d2f]),
-)]
-pub struct OwnFunctionOfAVelocity;
-const _: fn() = || stepped(OwnFunctionOfAVelocity, OwnFunctionOfAVelocityState { x: 1.0, y: 0.0 });
-
 two! { DividedByAVelocity DividedByAVelocityState: one_form = x / d(y), hamiltonian = x * y }
 
 #[degenerate_lagrangian(
@@ -37,33 +28,17 @@ pub struct RegularLagrangian {
 }
 const _: fn() = || stepped(RegularLagrangian { mu: 1.0 }, RegularLagrangianState { x: 1.0, y: 0.0 });
 
-two! { ProductOfVelocities ProductOfVelocitiesState: lagrangian = x * dot(y) - dot(x) * dot(y) - x * y }
 two! { ChoiceByAVelocity ChoiceByAVelocityState: lagrangian = x * dot(y) - if dot(x) < 0.0 { x } else { y } }
 
 #[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * x + d(y) * y)]
 pub struct VelocityInTheHamiltonian;
 const _: fn() = || stepped(VelocityInTheHamiltonian, VelocityInTheHamiltonianState { x: 1.0, y: 0.0 });
 
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form = x * d(y),
-    hamiltonian = x * y,
-    momenta(p = x * dot(x)),
-)]
-pub struct VelocityInAMomentum;
-const _: fn() = || stepped(VelocityInAMomentum, VelocityInAMomentumState { x: 1.0, y: 0.0 });
-
 two! { VelocityInAComponent VelocityInAComponentState: one_form = [0.0, x * d(y)], hamiltonian = x * y }
 two! { DotInAOneForm DotInAOneFormState: one_form = x * dot(y), hamiltonian = x * y }
 two! { DInALagrangian DInALagrangianState: lagrangian = x * d(y) - x * y }
 two! { TermWithoutD TermWithoutDState: one_form = x * d(y) - y * x, hamiltonian = x * y }
 two! { NothingWithD NothingWithDState: one_form = x * y, hamiltonian = x * y }
-
-#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y) + x * d(a), hamiltonian = x * y)]
-pub struct DOfAParameter {
-    pub a: f64,
-}
-const _: fn() = || stepped(DOfAParameter { a: 1.0 }, DOfAParameterState { x: 1.0, y: 0.0 });
 
 two! { DOfTwo DOfTwoState: one_form = x * d(x, y), hamiltonian = x * y }
 
