@@ -1,6 +1,5 @@
 //! What a system says at one state: names and entries, and where it has no answer.
 
-use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use dvi_tests::configurations::quasi_periodic;
@@ -53,34 +52,6 @@ fn states_without_an_answer_are_errors() {
     let at = CurvedState { x: 1.0, y: 1.0 };
     assert!(matches!(singular.vector_field(0.0, &at), Err(StartError::Singular { matrix: "Ω = −dα", .. })));
     assert!(singular.energy_at(0.0, &at).is_ok());
-}
-
-/// An array of const-generic size beside single coordinates and an array of literal size.
-#[lagrangian(
-    coordinates(x[N], w, z[2]),
-    lagrangian = sum(0..N, |j| dot(x[j]).powi(2)) / 2.0 + mass * dot(w).powi(2) / 2.0
-        + (dot(z[0]).powi(2) + dot(z[1]).powi(2) + dot(z[0]) * dot(x[N - 1])) / 2.0
-        - sum(0..N, |j| (x[j] - w).powi(4)) / 4.0 - (z[0] - x[0]).powi(2) - z[1].cosh() - w * z[1],
-)]
-struct Beside<const N: usize> {
-    mass: f64,
-}
-
-/// A state of `Beside` lives on the stack, is `Copy`, and is that of a run that begins with it.
-#[test]
-fn single_coordinates_stand_beside_arrays_of_const_generic_size() -> Outcome {
-    let start =
-        BesideState { x: [-0.2], w: 0.1, z: [0.4, -0.3], dot_x: [0.5], dot_w: -0.7, dot_z: [0.2, 0.6] };
-    let run = Integrator::new(Beside::<1> { mass: 2.0 }, Gauss::<2>::new(), 0.05, start)?;
-    let BesideState { x, w, z, dot_x: [dot_x], dot_w, dot_z } = run.state();
-    assert_eq!((x, w, z), (start.x, start.w, start.z));
-    // The run has their momenta.
-    assert_abs_diff_eq!(
-        [dot_x, dot_w, dot_z[0], dot_z[1]].as_slice(),
-        [0.5, -0.7, 0.2, 0.6].as_slice(),
-        epsilon = 1e-15
-    );
-    Ok(())
 }
 
 /// A literal is a state of `f64`, whose numbers have methods without a type written anywhere, and is printed

@@ -27,12 +27,12 @@ fn files(module: &str) -> Vec<PathBuf> {
 }
 
 /// The words of a text that are names.
-fn names(text: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn names(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
 
 /// What a file passes on by `pub use`: the module that it comes from, and the name.
-fn passed_on(text: &str) -> BTreeSet<(String, String)> {
+pub(crate) fn passed_on(text: &str) -> BTreeSet<(String, String)> {
     let uses = text.split("\npub use ").skip(1).filter_map(|rest| rest.split(';').next());
     uses.flat_map(|path| {
         let path = path.trim_start_matches("crate::");

@@ -1,12 +1,9 @@
-//! One-forms with the differential of a function added: what `gauge = F` and `gauge = auto` make of them.
+//! One-forms with the differential of a function added: what `gauge = auto` makes of them.
 
-use approx::abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::{ProperlyDegenerate, Space};
-use dvi_tests::Outcome;
 use dvi_tests::filling;
 use dvi_tests::larger;
-use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
 
 /// Points in the first quadrant, with logarithms and roots.
 const POINTS: [[f64; 10]; 3] = [
@@ -101,39 +98,6 @@ fn a_gauge_is_found_for_twenty_systems() {
         Pairs5(x0, p0, x1, p1, x2, p2, x3, p3, x4, p4): (p0 * d(x0) - x0 * d(p0) + p1 * d(x1) - x1 * d(p1) + p2 * d(x2)
             - x2 * d(p2) + p3 * d(x3) - x3 * d(p3) + p4 * d(x4) - x4 * d(p4)) / 2.0, k * x0 + g[0] * p4 * x2;
     );
-}
-
-/// The symmetric gauge of Lotka–Volterra, brought into class along x.
-#[degenerate_lagrangian(
-    coordinates(x, y),
-    one_form    = y.ln() / (2.0 * x) * d(x) - x.ln() / (2.0 * y) * d(y),
-    hamiltonian = x + y - x.ln() - 2.0 * y.ln(),
-    gauge       = -x.ln() * y.ln() / 2.0,
-)]
-struct AlongX;
-
-fn last<S: ProperlyDegenerate>(system: &S, start: S::State<f64>, h: f64, steps: u64) -> [f64; 2] {
-    let mut run = Integrator::new(system, OneStep::midpoint(), h, start).expect("a start in the domain");
-    run.take_steps(steps).expect("steps in the domain");
-    let values: Vec<f64> = system.values(&run.state()).expect("two coordinates").collect();
-    [values[0], values[1]]
-}
-
-/// Steps with the one-forms (ln y/x, 0) and (0, −ln x/y) differ by the order of the scheme.
-#[test]
-fn gauges_of_the_same_system_have_the_same_motion() -> Outcome {
-    let declared = OneSided { a: [1.0, 1.0], b: [-1.0, -2.0] };
-    let (x, y) = (2.0, 1.0);
-    let mut differences = Vec::new();
-    for steps in [200, 400, 800] {
-        let h = 20.0 / steps as f64;
-        let reference = last(&declared, OneSidedState { x, y }, h, steps);
-        let other = last(&AlongX, AlongXState { x, y }, h, steps);
-        differences.push((h, apart(&reference, &other)));
-    }
-    let order = convergence_order(&differences).ok_or("no slope")?;
-    assert!(abs_diff_eq!(order, 2.0, epsilon = 0.1), "{differences:?}");
-    Ok(())
 }
 
 /// Where there is a choice, no parameter is divided by, so that it may be zero; where there is none, the

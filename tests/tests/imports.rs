@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::documentation::{names, passed_on};
+
 /// The rooms of a crate, row by row of its table in `CONTRIBUTING.md`; those of one row know each other.
 fn rooms(of: &str) -> Vec<Vec<String>> {
     let map = include_str!("../../CONTRIBUTING.md");
@@ -27,22 +29,14 @@ fn names_of(text: &str) -> BTreeSet<String> {
     paths_of(text).iter().filter_map(|path| path.split("::").next().map(str::to_owned)).collect()
 }
 
-/// In which room each name is that the root of the crate passes on.
-fn passed_on(root: &str) -> BTreeMap<String, String> {
-    let uses = root.split("pub use ").skip(1).filter_map(|rest| rest.split(';').next()?.split_once("::"));
-    let names = |list: &str| -> Vec<String> {
-        let words = list.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        words.filter(|word| !word.is_empty()).map(str::to_owned).collect()
-    };
-    uses.flat_map(|(room, list)| names(list).into_iter().map(move |name| (name, room.to_owned()))).collect()
-}
-
 /// Every import of a crate that leads to a row above its own, and rooms that are in no row.
 fn upwards(of: &str, outside: &[&str]) -> Vec<String> {
     let rooms = rooms(of);
     let row_of = |room: &str| rooms.iter().position(|row| row.iter().any(|name| name == room));
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(of).join("src");
+    // In which room each name is that the root of the crate passes on.
     let passed_on = passed_on(&fs::read_to_string(source.join("lib.rs")).expect("a root"));
+    let passed_on: BTreeMap<_, _> = passed_on.into_iter().map(|(room, name)| (name, room)).collect();
     let mut found = Vec::new();
     for path in files(&source) {
         let inside = path.strip_prefix(&source).expect("a file of the crate");
@@ -118,20 +112,19 @@ fn paths_of(text: &str) -> BTreeSet<String> {
 
 /// The names that `pub use`, `pub mod` and `pub` items make of a file: what users of the crate can name.
 fn public_names(text: &str) -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
+    let mut found = BTreeSet::new();
     for rest in text.split("\npub ").skip(1) {
         let (word, rest) = rest.split_once(' ').unwrap_or((rest, ""));
         if word == "use" {
             let list = rest.split(';').next().unwrap_or_default();
             let list =
                 list.rsplit_once("::{").map_or_else(|| list.rsplit("::").next(), |(_, list)| Some(list));
-            let words = list.unwrap_or_default().split(|c: char| !(c.is_alphanumeric() || c == '_'));
-            names.extend(words.filter(|word| !word.is_empty()).map(str::to_owned));
+            found.extend(names(list.unwrap_or_default()).map(str::to_owned));
         } else {
-            names.extend(rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).next().map(str::to_owned));
+            found.extend(names(rest).next().map(str::to_owned));
         }
     }
-    names
+    found
 }
 
 /// Rooms that users could have written: they see of the core what users see.

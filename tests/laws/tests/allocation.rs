@@ -105,6 +105,19 @@ struct Turning {
     n: usize,
 }
 
+/// `n` bodies and `n` rods in a row.
+fn turning(n: usize) -> (Turning, TurningState) {
+    let start = TurningState {
+        x: vec![0.3; n],
+        R: vec![rotations::exp([0.3, -0.2, 0.6]); n],
+        s: vec![[0.6, 0.0, 0.8]; n],
+        dot_x: vec![0.2; n],
+        omega_R: vec![[0.4, 0.9, -0.3]; n],
+        dot_s: vec![[0.0, 0.4, 0.0]; n],
+    };
+    (Turning { n }, start)
+}
+
 /// Balls on a line between two walls.
 #[lagrangian(
     coordinates(x[m.len()]),
@@ -115,20 +128,6 @@ struct Turning {
 #[derive(Debug)]
 struct Balls {
     m: Vec<f64>,
-}
-
-/// Bytes that a run of `n` bodies and `n` rods in a row takes.
-fn of_turning(n: usize) -> f64 {
-    let system = Turning { n };
-    let start = TurningState {
-        x: vec![0.3; n],
-        R: vec![rotations::exp([0.3, -0.2, 0.6]); n],
-        s: vec![[0.6, 0.0, 0.8]; n],
-        dot_x: vec![0.2; n],
-        omega_R: vec![[0.4, 0.9, -0.3]; n],
-        dot_s: vec![[0.0, 0.4, 0.0]; n],
-    };
-    bytes(&system, Geodesic::trapezoid(), (0.01, 3), start)
 }
 
 /// Bytes that a constrained run of a chain of `n` rods takes.
@@ -237,25 +236,20 @@ fn steps_do_not_allocate_and_storage_is_linear_in_the_number_of_bodies() {
         Impacts::reflecting(Variational::trapezoid()),
         Impacts::reflecting(Galerkin::<3>::new())
     );
-    let turning = Turning { n: 2 };
-    let turning_start = TurningState {
-        x: vec![0.3, -0.1],
-        R: vec![rotations::exp([0.3, -0.2, 0.6]); 2],
-        s: vec![[0.6, 0.0, 0.8]; 2],
-        dot_x: vec![0.2, 0.5],
-        omega_R: vec![[0.4, 0.9, -0.3]; 2],
-        dot_s: vec![[0.0, 0.4, 0.0]; 2],
-    };
+    let (system, start) = turning(2);
     assert_none!(
-        turning,
-        turning_start,
+        system,
+        start,
         Geodesic::trapezoid(),
         Geodesic::midpoint(),
         Composition::suzuki(Geodesic::trapezoid())
     );
     let [short, long] = [1000, 4000].map(of_links);
     assert!(long < 4.1 * short, "{long} bytes for four times as many rods as {short}");
-    let [short, long] = [100, 400].map(of_turning);
+    let [short, long] = [100, 400].map(|n| {
+        let (system, start) = turning(n);
+        bytes(&system, Geodesic::trapezoid(), (0.01, 3), start)
+    });
     assert!(long < 4.1 * short, "{long} bytes for four times as many bodies as {short}");
 
     // Of variable length, on the stack and on the heap, with steps that are undone.

@@ -12,8 +12,9 @@
 use dvi_core::methods::PreservedForm;
 use dvi_laws::Case;
 use dvi_laws::equations::Equations;
+use dvi_laws::formula::along;
 use dvi_tests::larger;
-use num_dual::{Dual64, HyperDual64};
+use num_dual::Dual64;
 
 use super::{Outcome, below, of_every_kind};
 
@@ -34,10 +35,6 @@ fn tangents(case: &Case, start: &[Dual64], skip: usize) -> Outcome<Vec<Tangent>>
         let rest = vec![Dual64::from(0.0); n];
         let p = match (&case.equations, case.form, &last) {
             (Equations::Discrete(nodes), PreservedForm::Discrete, Some(before)) => {
-                let along = |x: &[Dual64], i: Option<usize>| -> Vec<HyperDual64> {
-                    let unit = |j| if Some(j) == i { 1.0 } else { 0.0 };
-                    x.iter().enumerate().map(|(j, x)| HyperDual64::new(x.re, unit(j), x.eps, 0.0)).collect()
-                };
                 let h = subject.h;
                 let of = |i| {
                     let ends = [&along(before, None)[..], &along(q, Some(i))];

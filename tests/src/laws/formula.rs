@@ -93,6 +93,12 @@ pub fn hyper(x: &[f64], one: impl Fn(usize) -> f64, other: impl Fn(usize) -> f64
     x.iter().enumerate().map(|(i, &x)| HyperDual64::new(x, one(i), other(i), 0.0)).collect()
 }
 
+/// Numbers with their derivative, and one of one along one of them.
+pub fn along(x: &[Dual64], direction: Option<usize>) -> Vec<HyperDual64> {
+    let unit = |i| if Some(i) == direction { 1.0 } else { 0.0 };
+    x.iter().enumerate().map(|(i, x)| HyperDual64::new(x.re, unit(i), x.eps, 0.0)).collect()
+}
+
 /// One along direction `i`.
 pub fn unit(i: usize) -> impl Fn(usize) -> f64 {
     move |j| if i == j { 1.0 } else { 0.0 }

@@ -8,7 +8,7 @@ use dvi_core::prelude::*;
 use nalgebra::{DMatrix, DVector};
 use num_dual::{Dual64, HyperDual64};
 
-use super::formula::{Formula, dual, hyper, none, unit};
+use super::formula::{Formula, along, dual, hyper, none, unit};
 use crate::{larger, state};
 
 /// The largest entry.
@@ -194,10 +194,6 @@ impl Subject {
 
     /// The derivative of ∂L/∂v along that of a point.
     pub fn varied_momenta(&self, q: &[Dual64], v: &[Dual64], t: f64) -> Vec<f64> {
-        let along = |x: &[Dual64], i: Option<usize>| -> Vec<HyperDual64> {
-            let unit = |j| if Some(j) == i { 1.0 } else { 0.0 };
-            x.iter().enumerate().map(|(j, x)| HyperDual64::new(x.re, unit(j), x.eps, 0.0)).collect()
-        };
         let (point, t) = (along(q, None), HyperDual64::from(t));
         (0..q.len()).map(|i| self.twice(&point, &along(v, Some(i)), t).eps1eps2).collect()
     }

@@ -1,20 +1,9 @@
 //! Dissipation functions R: the force is −∂R/∂v.
 
+use dvi_core::Weights;
 use dvi_core::prelude::*;
-use dvi_core::{Report, Weights};
 
 use super::Outcome;
-
-/// An oscillator with friction.
-#[lagrangian(
-    coordinates(x),
-    lagrangian = dot(x).powi(2) / 2.0 - x * x / 2.0,
-    dissipation = gamma * dot(x).powi(2) / 2.0,
-)]
-#[derive(Clone, Debug)]
-struct Oscillator {
-    gamma: f64,
-}
 
 /// Drag of the square of the speed, as a function and as a force.
 #[lagrangian(
@@ -53,12 +42,4 @@ fn drag_begins_at_rest() -> Outcome {
     }
     check(&Dragged { c: 0.5 }, DraggedState { r: [1.0; 3], dot_r: [0.0; 3] })?;
     check(&Braked { c: 0.5 }, BrakedState { r: [1.0; 3], dot_r: [0.0; 3] })
-}
-
-#[test]
-fn the_report_has_the_force() {
-    let Report { formulas, structure, .. } = Oscillator::REPORT;
-    let force = formulas.iter().find(|formula| formula.name == "force(x)");
-    assert_eq!(force.map(|force| force.text), Some("-dot(x)·gamma"));
-    assert!(structure.iter().any(|sentence| sentence.starts_with("Forces act")));
 }
