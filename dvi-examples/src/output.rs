@@ -98,16 +98,4 @@ mod tests {
         assert!(error.to_string().contains("taken"), "{error}");
         assert_eq!(fs::read_dir(folder.path()).expect("readable").count(), 2);
     }
-
-    #[test]
-    fn tables_have_headers_and_refuse_ragged_rows() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let row = |name, numbers: &[Option<f64>]| ([name], numbers.to_vec());
-        let rows = [row("*one*", &[Some(0.0), Some(0.1)]), row("two", &[Some(1e-15), None])];
-        let table = Table::of("name,t,H", rows).expect("a table");
-        assert!(Table::of("name,t,H", [row("one", &[Some(0.0)])]).is_err());
-        table.save(folder.path(), "series").expect("saved");
-        let text = fs::read_to_string(folder.path().join("series.csv")).expect("readable");
-        assert_eq!(text, "name,t,H\none,0,0.1\ntwo,1e-15,\n");
-    }
 }

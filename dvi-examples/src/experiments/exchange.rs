@@ -115,18 +115,3 @@ impl Exchange {
             .lines(springs.map(|((name, colour), j)| (name, solid(colour).width(1.4), self.points(j))))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_speed_of_a_slowed_exchange_is_found() {
-        let of = |rate: f64, end: u32| {
-            let energy = |k: u32| [0.0, 1.0, 2.0].map(|j| (rate * 0.05 * (f64::from(k) + 0.5) + j).sin());
-            Exchange((0..end).map(energy).collect())
-        };
-        let found = of(0.8, 100).speed(&of(1.0, 200));
-        assert!((found - 0.8).abs() < 0.002, "{found}");
-    }
-}

@@ -98,25 +98,3 @@ pub fn crossing(before: [f64; 2], after: [f64; 2], h: f64) -> f64 {
     let value = |s: f64| before[0] + s * (first + s * (square + s * cube));
     bisected([0.0, 1.0], |s| value(s) * before[0] > 0.0)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_zero_of_a_sine_is_found_between_the_steps() {
-        let at = |t: f64| [t.sin(), t.cos()];
-        assert!((3.1 + 0.1 * crossing(at(3.1), at(3.2), 0.1) - std::f64::consts::PI).abs() < 1e-8);
-    }
-
-    #[test]
-    fn turnings_of_a_sine_are_found_between_the_steps() {
-        let times = (0..400).map(|k| f64::from(k) * 0.1 + 0.03);
-        let sample = |t: f64| Sample { height: t.sin(), rate: t.cos(), energy: 0.5, shift: 0.0 };
-        let found = turnings(0.1, &times.map(sample).collect::<Vec<_>>());
-        for (side, found) in found.iter().enumerate() {
-            assert_eq!(found.len(), [6, 7][side]);
-            assert!(found.iter().all(|[height, _]| (height - [-1.0, 1.0][side]).abs() < 1e-6), "{found:?}");
-        }
-    }
-}

@@ -211,14 +211,6 @@ mod tests {
     }
 
     #[test]
-    fn the_ends_of_a_scale_are_the_ends_of_the_axis() {
-        for logarithmic in [false, true] {
-            let scale = Scale { range: [1e-3, 10.0], pixels: [400.0, 50.0], logarithmic };
-            assert!((scale.place(1e-3) - 400.0).abs() < 1e-9 && (scale.place(10.0) - 50.0).abs() < 1e-9);
-        }
-    }
-
-    #[test]
     fn data_without_width_or_without_points_still_give_a_range() {
         for data in [None, Some([3.0, 3.0]), Some([0.0, 0.0])] {
             let [low, high] = Axis::linear("x").fit(data);

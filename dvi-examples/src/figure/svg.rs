@@ -150,19 +150,3 @@ fn italics(text: &str) -> String {
     });
     pieces.collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short_and_round_to_a_hundredth() {
-        let shown = [1.0, 2.5, 100.0, -0.001, 0.126, f64::from(1 << 20)].map(number);
-        assert_eq!(shown, ["1", "2.5", "100", "0", "0.13", "1048576"]);
-    }
-
-    #[test]
-    fn markup_becomes_italics_and_everything_else_is_escaped() {
-        assert_eq!(italics("*H* < 2 & 3"), "<tspan>H</tspan> &lt; 2 &amp; 3");
-    }
-}

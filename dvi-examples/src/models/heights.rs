@@ -139,30 +139,3 @@ impl From<ConstrainedPendulumState> for SphericalPendulumState {
 fn squared(v: &[f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn extremes_are_roots_between_which_the_cubic_is_positive() {
-        for (energy, spin, vertical) in [(1.1, 2.5, 2.2), (0.9, 1.0, -0.4), (0.3, 0.0, 0.5), (5.0, 3.0, 1.0)]
-        {
-            let heights = Heights { across: 1.3, weight: 0.8, energy, spin, vertical };
-            let [low, high] = heights.extremes();
-            assert!(-1.0 < low && low < high && high < 1.0, "{heights:?}: {low}, {high}");
-            assert!(heights.value(low).abs() < 1e-14 && heights.value(high).abs() < 1e-14);
-            assert!(heights.value(0.5 * (low + high)) > 0.0);
-        }
-    }
-
-    #[test]
-    fn the_stiffness_is_the_change_of_the_energy_with_an_extreme() {
-        let heights = Heights { across: 1.3, weight: 0.8, energy: 1.1, spin: 2.5, vertical: 2.2 };
-        let more = Heights { energy: 1.1 + 1e-6, ..heights };
-        for (before, after) in heights.extremes().into_iter().zip(more.extremes()) {
-            let middle = 0.5 * (before + after);
-            assert!((heights.stiffness(middle) * (after - before) / 1e-6 - 1.0).abs() < 1e-5);
-        }
-    }
-}
