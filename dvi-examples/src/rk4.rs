@@ -76,16 +76,3 @@ impl<'a, S: AtState + System<Kind: Rates<S, f64>>> Accelerations<'a, S> {
         Ok(self.system.values(&rates)?.collect())
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rk4_is_of_fourth_order_on_a_pendulum() {
-        let end = |h: f64| rk4_to([1.0, 0.0], 2.0, h, |&[x, v]: &[f64; 2]| [v, -x.sin()]);
-        let exact = end(1e-3);
-        let order = order([0.1, 0.05, 0.025].map(|h| (h, apart(&end(h), &exact))));
-        assert!(order.is_some_and(|order| (order - 4.0).abs() < 0.1), "{order:?}");
-    }
-}

@@ -158,24 +158,3 @@ where
     let end = |start| Problem::new(vortices, start).up_to(method, h, 2000.0);
     Ok(Problem::new(vortices, start).apart(&end(start)?, &end(displaced)?)? / DISPLACEMENT)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn coordinates_do_not_see_translations_and_rotations() {
-        let (x, y) = ([1.0, 0.866, -0.85, -0.5], [1.0, 0.45, -1.363636, -0.15]);
-        let (sin, cos) = 0.7f64.sin_cos();
-        let moved = FourPoints {
-            x: std::array::from_fn(|j| cos * x[j] - sin * y[j] + 3.0),
-            y: std::array::from_fn(|j| sin * x[j] + cos * y[j] - 5.0),
-        };
-        for labels in LABELS {
-            let both = [FourPoints { x, y }, moved].map(|state| coordinates(&state, labels));
-            for (a, b) in both[0].into_iter().zip(both[1]) {
-                assert!((a - b).abs() < 1e-14, "{a} {b}");
-            }
-        }
-    }
-}

@@ -20,9 +20,6 @@ struct UnitVectorsT;
 #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| dot(s[i]).norm_squared()) - s[0])]
 struct UnitVectorsV;
 
-#[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..3, |i| d(s[i]).norm_squared()))]
-struct UnitVectorsX;
-
 #[lagrangian(coordinates(R[2]: SO3), lagrangian = omega(R).norm_squared())]
 struct RotationsS;
 
@@ -31,9 +28,6 @@ struct RotationsT;
 
 #[lagrangian(coordinates(R[2]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared()) - R[2][0][0])]
 struct RotationsW;
-
-#[lagrangian(coordinates(R[2]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared() - dot(R[i][0][0])))]
-struct RotationsX;
 
 #[lagrangian(coordinates(s[3]: S2), lagrangian = sum(0..2, |i| dot(s[i]).norm_squared()))]
 struct MassesS;
@@ -45,8 +39,5 @@ struct MassesT {
 
 #[lagrangian(coordinates(R[3]: SO3, x), lagrangian = dot(x).powi(2) - sum(0..3, |i| R[i][2][2]))]
 struct MassesU;
-
-#[lagrangian(coordinates(R[3]: SO3), lagrangian = sum(0..2, |i| omega(R[i]).norm_squared()))]
-struct MassesV;
 
 fn main() {}

@@ -47,10 +47,6 @@ const _: fn() = || stepped(SizeIsMissing, SizeIsMissingState { x: [1.0; 4], y: [
 pub struct SizeIsZero;
 const _: fn() = || stepped(SizeIsZero, SizeIsZeroState { x: [], y: [0.0; 4] });
 
-#[degenerate_lagrangian(coordinates(x[1_000_000_000_000], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
-pub struct SizeIsHuge;
-const _: fn() = || stepped(SizeIsHuge, SizeIsHugeState { x: [1.0; 4], y: [0.0; 4] });
-
 #[degenerate_lagrangian(coordinates(x[99999999999999999999999], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = x[0] * y[0])]
 pub struct SizeIsBeyondIntegers;
 const _: fn() = || stepped(SizeIsBeyondIntegers, SizeIsBeyondIntegersState { x: [1.0; 4], y: [0.0; 4] });

@@ -16,9 +16,6 @@ mod without_velocities {
     struct T;
 }
 
-#[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = dot_x.powi(2))]
-struct VelocitiesOfOtherNamesS;
-
 #[lagrangian(coordinates(x), lagrangian = dot(x).powi(2) / 2.0, dissipation = d(x).powi(2))]
 struct VelocitiesOfOtherNamesT;
 

@@ -43,12 +43,6 @@ struct NoKineticEnergy {
     m: usize,
 }
 
-#[lagrangian(
-    coordinates(r[N][3]),
-    lagrangian = sum(0..N, |i| sum(0..N, |k| dot(r[i][k]).powi(2)) - sum(0..4, |k| r[i][k]) - sum(0..3, |k| r[i][k + 1])),
-)]
-struct OverComponents<const N: usize>;
-
 fn main() {
     let _ = ForcesState { q: [[0.0; 3]; 2], p: [0.0; 4], dot_q: [[0.0; 3]; 2], dot_p: [0.0; 4] };
     let _ = NoKineticEnergyState { q: vec![vec![0.0; 3]; 2], dot_q: vec![vec![0.0; 3]; 2] };

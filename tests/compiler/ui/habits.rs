@@ -34,15 +34,6 @@ const _: fn() = || stepped(DifferentialAsAName, DifferentialAsANameState { x: 1.
 pub struct IteratorSystem;
 const _: fn() = || stepped(IteratorSystem, IteratorSystemState { x: [1.0; 4], y: [0.0; 4] });
 
-#[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = g.iter().sum() * x[0])]
-pub struct IteratorOfAField { pub g: [f64; 3] }
-const _: fn() =
-    || stepped(IteratorOfAField { g: [1.0; 3] }, IteratorOfAFieldState { x: [1.0; 4], y: [0.0; 4] });
-
-#[degenerate_lagrangian(coordinates(x[N], y[N]), one_form = sum(0..N, |j| x[j] * d(y[j])), hamiltonian = sum(0..N, |j| x[j] * y[j]))]
-pub struct SizeThatIsNotDeclared;
-const _: fn() = || stepped(SizeThatIsNotDeclared, SizeThatIsNotDeclaredState { x: [1.0; 4], y: [0.0; 4] });
-
 #[degenerate_lagrangian(coordinates(x[4], y[4]), one_form = sum(0..4, |j| x[j] * d(y[j])), hamiltonian = sum_pairs(0..4, |j, k| g[k - j] * x[j]))]
 pub struct IndexOutOfRangeOfAPair { pub g: [f64; 3] }
 const _: fn() =

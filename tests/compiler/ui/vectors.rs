@@ -65,12 +65,6 @@ struct LongArray {
     n: usize,
 }
 
-#[lagrangian(coordinates(r[n][m]), lagrangian = sum(0..n, |i| dot(r[i]).norm_squared()))]
-struct SizeOfVectors {
-    n: usize,
-    m: usize,
-}
-
 #[lagrangian(coordinates(r[4][1], q[2][3][3], p[2][]), lagrangian = dot(r[0]).norm_squared())]
 struct Declared;
 
