@@ -67,7 +67,6 @@ pub(crate) mod error;
 pub(crate) mod facts;
 mod file;
 mod group;
-mod growth;
 mod limits;
 mod member;
 mod plan;
@@ -89,10 +88,8 @@ use std::time::Duration;
 use std::vec::Vec;
 
 use crate::Lagrangian;
-use crate::diagnostics::LyapunovExponent;
-use crate::discrete::DiscreteLagrangian;
-use crate::methods::{InStep, Method, Suits, VariationalMethod};
-use crate::run::{Direction, Together};
+use crate::methods::{InStep, Method, Suits};
+use crate::run::Together;
 use crate::shown::shown;
 use limits::Given;
 use plan::Plan;
@@ -194,9 +191,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
             h,
             stride: 100,
             limits: None,
-            section: None,
             packs: None,
-            growth: None,
             texts: None,
         };
         Self { settings, shard: Shard::WHOLE, checkpoints: None, on_progress: None }
@@ -262,57 +257,14 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
         reasons: [&'static str; N],
         g: impl Fn(&S, &S::State<f64>, f64) -> [f64; N] + Send + Sync + 'a,
     ) -> Self {
-        let given = Given { directions: [Direction::Rising; N], g };
-        self.settings.limits = Some((reasons.into(), Box::new(given)));
-        self
-    }
-
-    /// Counts how often each member crosses the section g = 0, up to its end. The crossings are
-    /// [`Events`](crate::run::Events) of its run, and are seen within long steps too. A function that is no
-    /// number is a failure, and members go alone, not in lanes, as with [limits](Self::until).
-    ///
-    /// ```
-    /// use dvi_core::ensemble::Ensemble;
-    /// use dvi_core::prelude::*;
-    ///
-    /// #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
-    /// #[derive(Debug)]
-    /// struct Spring;
-    ///
-    /// // cos t is above 0.95 for a tenth of each period, which is shorter than a step.
-    /// let start = SpringState { x: 1.0, dot_x: 0.0 };
-    /// let results = Ensemble::new(&Spring, Gauss::<8>::new(), 0.9, [start])
-    ///     .section(Direction::Rising, |_, state| state.x - 0.95)
-    ///     .take_steps(700)?; // 100 periods are 628.3, and 700 steps 630
-    /// assert_eq!(results.members()[0].crossings, 100);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn section(
-        mut self,
-        direction: Direction,
-        g: impl Fn(&S, &S::State<f64>) -> f64 + Send + Sync + 'a,
-    ) -> Self {
-        let g = move |system: &S, state: &S::State<f64>, _| [g(system, state)];
-        self.settings.section = Some((direction, Box::new(Given { directions: [direction], g })));
-        self
-    }
-
-    /// Computes the [largest Lyapunov exponent](LyapunovExponent) of each member over its run. Members then
-    /// go alone, not in lanes.
-    pub fn exponents<L>(mut self) -> Self
-    where
-        M: VariationalMethod<S, f64, DiscreteLagrangian = L>,
-        L: DiscreteLagrangian<S, f64> + 'a,
-    {
-        self.settings.growth = Some(|run| Box::new(LyapunovExponent::new(run)));
+        self.settings.limits = Some(Box::new(Given { reasons, g }));
         self
     }
 
     /// Takes `W` members at a time in lanes, as [`Together`] does: members of systems that are equal, or
     /// differ in parameters of a [generic type](crate::Parameter) only, which are neighbours in their
-    /// shard; those with [limits](Self::until), a [section](Self::section) or [exponents](Self::exponents) go
-    /// alone. It is faster, and the results are the same, as long as systems that are equal by `==` do the
-    /// same: 0.0 and −0.0 are equal.
+    /// shard; those with [limits](Self::until) go alone. It is faster, and the results are the same, as long
+    /// as systems that are equal by `==` do the same: 0.0 and −0.0 are equal.
     pub fn in_lanes<const W: usize>(mut self) -> Self
     where
         S: PartialEq,
@@ -334,9 +286,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// compared by their bits; the method by its type and by what [`Debug`](fmt::Debug) says of it; the
     /// systems by their type, their formulas, energy and gradient at the start, and by what `Debug` says of
     /// them. So that must be the same in each process, which the address of a function is not. Of limits the
-    /// reasons are compared; what they, sections and functions of your own in formulas compute cannot be:
-    /// remove the file when that changes. It is written between two [looks](Self::stride), so that a long
-    /// stride makes it late.
+    /// reasons are compared; what they and functions of your own in formulas compute cannot be: remove the
+    /// file when that changes. It is written between two [looks](Self::stride), so that a long stride makes
+    /// it late.
     pub fn checkpoints(mut self, path: impl AsRef<Path>, every: Duration) -> Self
     where
         S: fmt::Debug,

@@ -8,7 +8,6 @@ mod members;
 mod mistakes;
 mod resumed;
 mod same;
-mod sections;
 mod tables;
 
 use dvi_core::ensemble::{Draws, EnsembleError, Results};

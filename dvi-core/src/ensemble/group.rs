@@ -7,11 +7,11 @@ use std::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use super::error::EnsembleError;
-use super::limits::{self, Exit, WatchedRun};
+use super::limits::{AnyWatched, Exit};
 use super::member::{At, Member, Outcome, Seen};
-use super::settings::{AnyGrowth, Settings};
+use super::settings::Settings;
 use crate::Lagrangian;
-use crate::error::{CheckpointError, StartError, StepError};
+use crate::error::{StartError, StepError};
 use crate::methods::Method;
 use crate::run::{Checkpoint, Integrator, Run};
 
@@ -28,8 +28,7 @@ pub(super) enum Place {
 pub(super) struct UnderWay {
     checkpoint: Checkpoint,
     seen: Seen,
-    growth: Option<Vec<f64>>,
-    watches: Option<limits::Saved>,
+    watched: Option<Vec<f64>>,
 }
 
 /// A member with its place.
@@ -44,13 +43,12 @@ struct Runner<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
     slot: &'s mut Slot,
     run: Course<'s, 'a, S, M>,
     seen: Seen,
-    growth: Option<AnyGrowth<'a, S, M>>,
 }
 
 /// A run that steps alone count of, or one that is watched.
 enum Course<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
     Free(Integrator<&'a S, M>),
-    Watched(Box<WatchedRun<'s, 'a, S, M>>),
+    Watched(AnyWatched<'s, 'a, S, M>),
 }
 
 impl Slot {
@@ -125,15 +123,14 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             Place::Ended(_) => Ok(None),
             Place::UnderWay(under_way) => {
                 let resumed = self.resume(system, number, under_way);
-                let (run, growth) =
-                    resumed.map_err(|error| EnsembleError::Resume { member: number, error })?;
+                let run = resumed.map_err(|error| EnsembleError::Resume { member: number, error })?;
                 let seen = under_way.seen.clone();
-                Ok(Some(Runner { slot, run, seen, growth }))
+                Ok(Some(Runner { slot, run, seen }))
             }
             Place::Waiting => match self.first(system, number, state.clone()) {
-                Ok((run, growth, exit)) => {
+                Ok((run, exit)) => {
                     let seen = Seen::first(&At::end_of(run.run()));
-                    Ok(Runner { slot, run, seen, growth }.looked_at(Ok(exit), count))
+                    Ok(Runner { slot, run, seen }.looked_at(Ok(exit), count))
                 }
                 Err(error) => {
                     slot.place = Place::Ended(Member::without_run(number, system, state, error.to_string()));
@@ -143,47 +140,39 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
         }
     }
 
-    /// A run that begins, with its growth, and why it ends at once if it does.
+    /// A run that begins, and why it ends at once if it does.
     #[allow(clippy::type_complexity)]
     fn first(
         &self,
         system: &'a S,
         number: u64,
         state: S::State<f64>,
-    ) -> Result<(Course<'_, 'a, S, M>, Option<AnyGrowth<'a, S, M>>, Option<Exit<S>>), StartError> {
+    ) -> Result<(Course<'_, 'a, S, M>, Option<Exit<S>>), StartError> {
         let run = Integrator::new(system, self.method(number), self.h, state)?;
-        let growth = self.growth.map(|new| new(&run));
         let exit = self.beyond(system, number, &run)?;
-        Ok((self.course(system, run, None)?, growth, exit))
+        Ok((self.course(system, run, None)?, exit))
     }
 
-    #[allow(clippy::type_complexity)]
     fn resume(
         &self,
         system: &'a S,
         number: u64,
-        UnderWay { checkpoint, growth: saved, watches, .. }: &UnderWay,
-    ) -> Result<(Course<'_, 'a, S, M>, Option<AnyGrowth<'a, S, M>>), StartError> {
+        UnderWay { checkpoint, watched, .. }: &UnderWay,
+    ) -> Result<Course<'_, 'a, S, M>, StartError> {
         let run = Integrator::resume(system, self.method(number), checkpoint)?;
-        let mut growth = self.growth.map(|new| new(&run));
-        match (&mut growth, saved) {
-            (Some(growth), Some(saved)) => growth.load(saved).ok_or(CheckpointError::Damaged)?,
-            (None, None) => {}
-            (Some(_), None) | (None, Some(_)) => return Err(CheckpointError::Damaged.into()),
-        }
-        Ok((self.course(system, run, watches.as_ref())?, growth))
+        self.course(system, run, watched.as_deref())
     }
 
     fn course(
         &self,
         system: &'a S,
         run: Integrator<&'a S, M>,
-        saved: Option<&limits::Saved>,
+        saved: Option<&[f64]>,
     ) -> Result<Course<'_, 'a, S, M>, StartError> {
-        if !self.is_watched() {
-            return Ok(Course::Free(run));
+        match &self.limits {
+            None => Ok(Course::Free(run)),
+            Some(limits) => limits.watch(system, run, saved).map(Course::Watched),
         }
-        Ok(Course::Watched(Box::new(WatchedRun::new(self, system, run, saved)?)))
     }
 }
 
@@ -211,11 +200,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
 
     /// Takes `count` steps, up to a limit.
     fn take_steps(&mut self, count: u64) -> Result<Option<Exit<S>>, StepError> {
-        let Self { run, growth, seen, .. } = self;
-        match (run, growth) {
-            (Course::Watched(watched), growth) => watched.take_steps(growth, count, &mut seen.crossings),
-            (Course::Free(run), Some(growth)) => growth.take_steps(run, count).map(|()| None),
-            (Course::Free(run), None) => run.take_steps(count).map(|()| None),
+        match &mut self.run {
+            Course::Watched(watched) => watched.take_steps(count),
+            Course::Free(run) => run.take_steps(count).map(|()| None),
         }
     }
 
@@ -238,8 +225,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
                 }
             }
         };
-        let exponent = self.growth.as_ref().and_then(|growth| growth.exponent());
-        let member = self.seen.member(self.slot.number, &at, run.statistics(), exponent, outcome);
+        let member = self.seen.member(self.slot.number, &at, run.statistics(), outcome);
         self.slot.place = Place::Ended(member);
         None
     }
@@ -250,13 +236,12 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
     where
         M: Clone,
     {
-        let Self { slot, run, seen, growth } = self;
-        let growth = growth.as_ref().map(|growth| growth.save());
-        let watches = match run {
+        let Self { slot, run, seen } = self;
+        let watched = match run {
             Course::Free(_) => None,
             Course::Watched(watched) => Some(watched.save()),
         };
-        let under_way = UnderWay { checkpoint: run.run().checkpoint(), seen: seen.clone(), growth, watches };
+        let under_way = UnderWay { checkpoint: run.run().checkpoint(), seen: seen.clone(), watched };
         let can_go_on =
             settings.resume(settings.system(slot.number as usize), slot.number, &under_way).is_ok();
         if can_go_on {

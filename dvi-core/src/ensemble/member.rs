@@ -44,11 +44,6 @@ pub struct Member {
     pub energy: Energy,
     /// The first and the last value of each declared momentum.
     pub momenta: Vec<[f64; 2]>,
-    /// The largest Lyapunov exponent over all its steps, if it is [asked for](super::Ensemble::exponents);
-    /// none before the first one.
-    pub exponent: Option<f64>,
-    /// How often it has crossed the [section](super::Ensemble::section); zero if there is none.
-    pub crossings: u64,
 }
 
 /// How the run of a member has ended.
@@ -146,7 +141,6 @@ impl<'a, S: Lagrangian> At<'a, S> {
 pub(super) struct Seen {
     energy: Energy,
     first_momenta: Vec<f64>,
-    pub(super) crossings: u64,
 }
 
 impl Seen {
@@ -156,7 +150,6 @@ impl Seen {
         Self {
             energy: Energy { first: energy, last: energy, largest_error: 0.0 },
             first_momenta: at.momenta().collect(),
-            crossings: 0,
         }
     }
 
@@ -171,7 +164,6 @@ impl Seen {
         number: u64,
         at: &At<'_, S>,
         Statistics { steps, iterations, .. }: Statistics,
-        exponent: Option<f64>,
         outcome: Outcome,
     ) -> Member {
         Member {
@@ -183,8 +175,6 @@ impl Seen {
             state: flat(at.system, &at.state()),
             energy: self.energy.with(at.energy()),
             momenta: self.first_momenta.into_iter().zip(at.momenta()).map(Into::into).collect(),
-            exponent: exponent.map(plain),
-            crossings: self.crossings,
         }
     }
 }
@@ -215,8 +205,6 @@ impl Member {
             state: flat(system, state),
             energy: Energy { first: none, last: none, largest_error: none },
             momenta: S::REPORT.momenta.iter().map(|_| [none; 2]).collect(),
-            exponent: None,
-            crossings: 0,
         }
     }
 }

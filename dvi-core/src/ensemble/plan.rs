@@ -33,8 +33,6 @@ pub(super) struct Plan {
     pub(super) coordinates: usize,
     /// The names of the declared momenta.
     pub(super) momenta: Vec<String>,
-    pub(super) has_exponents: bool,
-    pub(super) has_section: bool,
 }
 
 impl Plan {
@@ -42,7 +40,7 @@ impl Plan {
         settings: &Settings<'_, S, M>,
         steps: u64,
     ) -> Result<Self, EnsembleError> {
-        let Settings { h, stride, ref states, ref section, .. } = *settings;
+        let Settings { h, stride, ref states, .. } = *settings;
         let names = names(settings)?;
         let coordinates = names.iter().filter(|(_, is_velocity)| !is_velocity).count();
         let names: Vec<String> = names.into_iter().map(|(name, _)| name).collect();
@@ -66,8 +64,7 @@ impl Plan {
         if settings.vary.is_some() {
             (0..states.len() as u64).for_each(|number| varied.text(&method_text(&settings.method(number))));
         }
-        let reasons = settings.limits.as_ref().map_or(&[][..], |(reasons, _)| reasons);
-        let direction = section.as_ref().map(|(direction, _)| direction);
+        let reasons = settings.limits.as_ref().map_or(&[][..], |limits| limits.reasons());
         let facts = [
             ("version of the library", env!("CARGO_PKG_VERSION").to_string()),
             ("system", type_name::<S>().to_string()),
@@ -84,8 +81,6 @@ impl Plan {
             ("stride", stride.to_string()),
             ("exit condition", format!("{reasons:?}")),
             ("fingerprint of the parameters in the table", swept.to_string()),
-            ("section", format!("{direction:?}")),
-            ("Lyapunov exponent", settings.growth.is_some().to_string()),
         ];
         Ok(Self {
             title: S::REPORT.system.into(),
@@ -95,8 +90,6 @@ impl Plan {
             members: states.len() as u64,
             names,
             momenta: S::REPORT.momenta.iter().map(|&name| name.into()).collect(),
-            has_exponents: settings.growth.is_some(),
-            has_section: section.is_some(),
         })
     }
 

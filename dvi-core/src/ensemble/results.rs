@@ -118,7 +118,7 @@ impl Results {
     ///
     /// | columns | what is in them |
     /// |---|---|
-    /// | `run.member`, `run.steps`, `run.iterations`, `run.time`, `run.crossings`, `run.exponent` | what [`Member`] says; crossings and exponents if they were asked for, and not a number if there is no exponent |
+    /// | `run.member`, `run.steps`, `run.iterations`, `run.time` | what [`Member`] says |
     /// | `run.outcome`, `run.reason` | `finished`, `exited` or `failed`, and the text of the exit condition or of the error |
     /// | `parameter.k` | the [parameters](super::Ensemble::parameter) by their names |
     /// | `energy.first`, `energy.last`, `energy.largest_error` | the energies |
@@ -159,13 +159,6 @@ impl Results {
                 let value = |member: &Member| member.momenta.get(place).map_or(f64::NAN, |ends| ends[end]);
                 add(format!("momentum.{name}.{which}"), Quantity::Momentum, &value);
             }
-        }
-        if plan.has_exponents {
-            let exponent = |member: &Member| member.exponent.unwrap_or(f64::NAN);
-            add("run.exponent".into(), Quantity::Other, &exponent);
-        }
-        if plan.has_section {
-            columns.push(Column::new("run.crossings", counts(|member| member.crossings)));
         }
         for (place, name) in plan.names.iter().enumerate() {
             let is_velocity = place >= plan.coordinates;

@@ -4,16 +4,12 @@ use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
-use super::growth::Growth;
-use super::limits::Conditions;
+use super::limits::Limits;
 use crate::Lagrangian;
 use crate::error::StepError;
 use crate::methods::Method;
-use crate::run::Direction;
 use crate::run::Integrator;
 
-/// Limits, or a section.
-pub(super) type AnyConditions<'a, S, M> = Box<dyn Conditions<'a, S, M> + 'a>;
 /// The name of a parameter, and what it is of a system and its first state.
 pub(super) type Swept<'a, S, Q> = (String, Box<dyn Fn(&S, &Q) -> f64 + Send + Sync + 'a>);
 /// What is special to the method of one member.
@@ -22,10 +18,6 @@ pub(super) type Vary<'a, M> = Box<dyn Fn(u64, &mut M) + Send + Sync + 'a>;
 pub(super) type Packs<'a, S, M> =
     Box<dyn FnMut(Vec<&mut Integrator<&'a S, M>>, u64) -> Vec<Result<(), StepError>> + 'a>;
 pub(super) type NewPacks<'a, S, M> = fn(&Integrator<&'a S, M>) -> Packs<'a, S, M>;
-/// The growth of a perturbation from the current state of a run on.
-pub(super) type NewGrowth<'a, S, M> = fn(&Integrator<&'a S, M>) -> AnyGrowth<'a, S, M>;
-/// It hides the discrete Lagrangian of the method.
-pub(super) type AnyGrowth<'a, S, M> = Box<dyn Growth<'a, S, M> + 'a>;
 
 /// One system for all members, or one for each.
 pub(super) enum Systems<'a, S> {
@@ -42,13 +34,9 @@ pub(super) struct Settings<'a, S: Lagrangian, M: Method<S, f64>> {
     pub(super) vary: Option<Vary<'a, M>>,
     pub(super) h: f64,
     pub(super) stride: u64,
-    /// The limits at which members end, with the reasons.
-    pub(super) limits: Option<(Vec<&'static str>, AnyConditions<'a, S, M>)>,
-    /// The section, with its direction.
-    pub(super) section: Option<(Direction, AnyConditions<'a, S, M>)>,
+    pub(super) limits: Option<Box<dyn Limits<'a, S, M> + 'a>>,
     /// With the number of lanes.
     pub(super) packs: Option<(usize, NewPacks<'a, S, M>)>,
-    pub(super) growth: Option<NewGrowth<'a, S, M>>,
     /// The parameters of a system as a text, for a checkpoint to be compared with.
     pub(super) texts: Option<fn(&S) -> String>,
 }
@@ -73,14 +61,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Settings<'a, S, M> {
         method
     }
 
-    /// Whether there is something to look for in each step.
-    pub(super) fn is_watched(&self) -> bool {
-        self.limits.is_some() || self.section.is_some()
-    }
-
-    /// The lanes that members go in, which none do that are followed from step to step.
+    /// The lanes that members go in, which none do that are watched from step to step.
     pub(super) fn packs(&self) -> Option<(usize, NewPacks<'a, S, M>)> {
-        self.packs.filter(|_| self.growth.is_none() && !self.is_watched())
+        self.packs.filter(|_| self.limits.is_none())
     }
 
     /// The members that go together into lanes.

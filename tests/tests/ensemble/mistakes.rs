@@ -10,13 +10,10 @@ use crate::ensemble::{Checked, HenonHeiles, bytes, planets, said, wells};
 #[test]
 fn no_steps_and_no_members() -> Checked {
     let states = wells(3);
-    let still = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states.clone())
-        .exponents()
-        .take_steps(0)?;
+    let still = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states.clone()).take_steps(0)?;
     for (member, state) in still.members().iter().zip(&states) {
         assert_eq!((member.steps, member.time, &member.outcome), (0, 0.0, &Outcome::Finished));
         assert_eq!(member.state, HenonHeiles.values(state)?.collect::<Vec<f64>>());
-        assert_eq!(member.exponent, None);
     }
     let none = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, []).take_steps(10)?;
     let [csv, _] = bytes(&none)?;

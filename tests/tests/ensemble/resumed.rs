@@ -16,9 +16,7 @@ const STEPS: u64 = 2000;
 const CHILD: &str = "DVI_ENSEMBLE_CHECKPOINT";
 
 fn ensemble(system: &HenonHeiles) -> Ensemble<'_, HenonHeiles, Verlet> {
-    let ensemble =
-        Ensemble::new(system, Variational::trapezoid(), 0.05, wells(30)).until(LEFT, left).stride(100);
-    ensemble.section(Direction::Rising, |_, state| state.x).exponents()
+    Ensemble::new(system, Variational::trapezoid(), 0.05, wells(30)).until(LEFT, left).stride(100)
 }
 
 /// The process that is killed. Without one, there is nothing to do.

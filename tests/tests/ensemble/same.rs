@@ -4,11 +4,10 @@
 use std::fmt::Debug;
 use std::time::Duration;
 
-use dvi_core::ensemble::{Draws, Ensemble, EnsembleError, Results, Shard};
+use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
 use dvi_tests::systems::{PointVortices, PointVorticesState};
-use dvi_tests::zoo::regular::{SPRING, SpringState};
 
 use crate::ensemble::{Checked, HenonHeiles, LEFT, bytes, file, left, planets, wells};
 
@@ -110,24 +109,6 @@ fn beside_members_that_fail() -> Checked {
             assert!(a.eq(b) && member.outcome == alone.members()[0].outcome);
         }
     }
-    Ok(())
-}
-
-/// Crossings of a section, with long steps, with limits and exponents and without.
-#[test]
-fn of_crossings() -> Checked {
-    let states = || {
-        let phases = Draws::new(6).take(7, |draw| draw.uniform(0.0, core::f64::consts::TAU));
-        phases.map(|phase| SpringState { x: phase.cos(), dot_x: -phase.sin() })
-    };
-    let ensemble = || {
-        Ensemble::new(&SPRING, Variational::trapezoid(), 0.6, states())
-            .section(Direction::Either, |_, state| state.x - 0.95)
-            .stride(9)
-    };
-    same("section", 60, ensemble, &[Ensemble::in_lanes::<4>])?;
-    let limited = || ensemble().until(["late"], |_, _, t| [t - 30.0]).exponents();
-    same("section and limit", 60, limited, &[Ensemble::in_lanes::<4>])?;
     Ok(())
 }
 
