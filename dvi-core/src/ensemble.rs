@@ -1,4 +1,4 @@
-//! Ensembles: many runs of one method over all cores, from a table or a distribution of initial conditions
+//! Ensembles: many runs of one method over all cores, from a list or a distribution of initial conditions
 //! or parameters.
 //!
 //! Each member has a record of its own: how its run has ended and when, its last state, its energies and

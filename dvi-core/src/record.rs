@@ -48,7 +48,7 @@
 //!
 //! A [`Recorder`] takes functions of yours along, and states one by one or from an iterator, wherever they
 //! come from: from [events](crate::run::Events), from [given times](crate::run::Run::states_at), or from a
-//! loop of yours. [`Record::read_csv`] reads a table again.
+//! loop of yours.
 
 mod body;
 mod column;

@@ -123,7 +123,7 @@ impl Results {
     /// | `parameter.k` | the [parameters](super::Ensemble::parameter) by their names |
     /// | `energy.first`, `energy.last`, `energy.largest_error` | the energies |
     /// | `momentum.angular.first`, `momentum.angular.last` | the momenta by their names |
-    /// | `x`, `dot_x`, … | the last state; [`Record::states`] reads it from the CSV |
+    /// | `x`, `dot_x`, … | the last state |
     ///
     /// In an array of NumPy the reasons take four bytes for each letter of the longest one:
     /// [`without_column`](Record::without_column) leaves them out.

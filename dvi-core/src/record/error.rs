@@ -75,25 +75,6 @@ pub enum RecordError {
         /// The name.
         name: String,
     },
-    /// An entry of a table is no number.
-    #[error("line {line}, column `{column}`: `{text}` is no number")]
-    Number {
-        /// The line, counted from 1; the names are in line 1.
-        line: u64,
-        /// The name of the column.
-        column: String,
-        /// The entry.
-        text: String,
-    },
-    /// A table is no CSV, a line of it has more or fewer entries than the first, or reading fails.
-    #[error("the table cannot be read: {0}")]
-    Csv(#[from] csv::Error),
-    /// A quote that begins an entry of a table is not closed.
-    #[error("line {line}: the quote that begins an entry there is not closed")]
-    Quote {
-        /// The line, counted from 1.
-        line: u64,
-    },
     /// The position of a body does not have two or three coordinates.
     #[error("the position of the body `{name}` has {columns} columns: two in a plane, three in space")]
     Body {

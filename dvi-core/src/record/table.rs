@@ -7,7 +7,6 @@ use std::vec::Vec;
 
 use super::body::{self, Body};
 use super::column::{Column, Values};
-use super::csv::number;
 use super::{RecordError, npy, page};
 use crate::error::StepError;
 
@@ -48,8 +47,6 @@ pub struct Record {
     pub(super) turning: Vec<Body>,
     /// Those that the user has named.
     named: Vec<Body>,
-    /// Where the rows begin in the text that they were read from; empty if they were not.
-    pub(super) lines: Vec<u64>,
 }
 
 impl Record {
@@ -159,21 +156,11 @@ impl Record {
     /// The numbers of a column.
     ///
     /// # Errors
-    /// [`RecordError::Missing`]; [`RecordError::Texts`] if it holds counts or texts, and
-    /// [`RecordError::Number`] if these were [read](Self::read_csv).
+    /// [`RecordError::Missing`]; [`RecordError::Texts`] if it holds counts or texts.
     pub fn numbers(&self, name: &str) -> Result<&[f64], RecordError> {
         match &self.column(name)?.values {
             Values::Numbers(numbers) => Ok(numbers),
-            Values::Counts(_) => Err(RecordError::Texts { name: name.into() }),
-            Values::Texts(texts) => {
-                let mut read = self.lines.iter().zip(texts);
-                Err(match read.find(|(_, text)| number(text).is_none()) {
-                    Some((&line, text)) => {
-                        RecordError::Number { line, column: name.into(), text: text.clone() }
-                    }
-                    None => RecordError::Texts { name: name.into() },
-                })
-            }
+            Values::Counts(_) | Values::Texts(_) => Err(RecordError::Texts { name: name.into() }),
         }
     }
 

@@ -1,77 +1,10 @@
-//! Tables in and out.
+//! The tables of ensembles.
 
 use dvi_core::ensemble::{Ensemble, Member, Outcome, Results, Shard};
 use dvi_core::prelude::*;
-use dvi_core::record::{Quantity, Record, RecordError, Values};
+use dvi_core::record::{Quantity, RecordError, Values};
 
-use crate::ensemble::{Checked, HenonHeiles, Kepler, KeplerState, LEFT, bytes, file, left, planets, wells};
-
-fn said<T>(result: Result<T, RecordError>) -> String {
-    result.map_or_else(|error| error.to_string(), |_| "no error".into())
-}
-
-#[test]
-fn a_table_of_states_and_parameters() -> Checked {
-    let text = "mu, dot_y ,y,x,dot_x\n 1.5 ,1,0,2,\"-0.5\"\n0.1,1e-300,-0.0,3,4\n";
-    let table = Record::read_csv(text.as_bytes())?;
-    let systems: Vec<_> = table.numbers("mu")?.iter().map(|&mu| Kepler { mu }).collect();
-    let states: Vec<KeplerState> = table.states(&systems[0])?;
-    assert_eq!((table.rows(), systems[1].mu), (2, 0.1));
-    assert_eq!(states[0], KeplerState { x: 2.0, y: 0.0, dot_x: -0.5, dot_y: 1.0 });
-    assert_eq!((states[1].dot_y, states[1].y.is_sign_negative()), (1e-300, true));
-    assert_eq!(Record::read_csv("x,y\n".as_bytes())?.rows(), 0);
-    // As some programs write it, with a mark of its encoding and their line ends.
-    let marked = Record::read_csv("\u{feff}x,y\r\n1,2\r\n".as_bytes())?;
-    assert_eq!([marked.numbers("x")?, marked.numbers("y")?], [[1.0], [2.0]]);
-    Ok(())
-}
-
-#[test]
-fn mistakes_have_a_line_and_a_column() {
-    for (text, line) in
-        [("x\r\n1\r\nbad\r\n", 3), ("x\n1\n\n\nbad\n", 5), ("x\nbad", 2), ("x,r\n1,\"a\nb\"\nbad,c\n", 4)]
-    {
-        let Ok(table) = Record::read_csv(text.as_bytes()) else { panic!("{text:?} is a table") };
-        let said = table.numbers("x").map_err(|error| error.to_string());
-        assert_eq!(said, Err(std::format!("line {line}, column `x`: `bad` is no number")));
-    }
-    let read =
-        |text: &str| Record::read_csv(text.as_bytes()).and_then(|table| table.states(&Kepler { mu: 1.0 }));
-    assert_eq!(said(read("x,y,dot_x,dot_y\n1,2,3,4\n1,2,,4\n")), "line 3, column `dot_x`: `` is no number");
-    assert_eq!(said(read("x,y,dot_x,dot_y\n1,l0,3,4\n")), "line 2, column `y`: `l0` is no number");
-    assert_eq!(said(read("x,y,dot_x\n1,2,3\n")), "the record has no column `dot_y`, only x, y, dot_x");
-    assert_eq!(said(read("x,y,x\n1,2,3\n")), "the record already has a column `x`");
-    assert!(
-        said(read("x,y,dot_x,dot_y\n1,2,3\n")).contains("line: 2"),
-        "{}",
-        said(read("x,y,dot_x,dot_y\n1,2,3\n"))
-    );
-    assert!(said(read("")).contains("no column `x`"));
-    assert_eq!(said(read("x,y,dot_x,dot_y\n1,1e400,3,4\n")), "line 2, column `y`: `1e400` is no number");
-    // A column that nobody asks for may hold anything, and numbers that are none belong to the members.
-    assert_eq!(said(read("name,x,y,dot_x,dot_y\nComet,1,NaN,3,inf\n")), "no error");
-}
-
-/// What is written can be read: last states are initial states of a run that goes on.
-#[test]
-fn results_are_a_table_of_states() -> Checked {
-    let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(20))
-        .until(LEFT, left)
-        .stride(5)
-        .take_steps(999)?;
-    let [csv, _] = bytes(&results)?;
-    let table = Record::read_csv(&csv[..])?;
-    let states = table.states(&HenonHeiles)?;
-    for (member, state) in results.members().iter().zip(&states) {
-        let values: Vec<f64> = HenonHeiles.values(state)?.collect();
-        assert!(member.state.iter().zip(&values).all(|(a, b)| a.to_bits() == b.to_bits()));
-    }
-    let energies = table.numbers("energy.last")?;
-    let bits = |energies: &mut dyn Iterator<Item = f64>| energies.map(f64::to_bits).collect::<Vec<_>>();
-    let expected = bits(&mut results.members().iter().map(|member| member.energy.last));
-    assert_eq!(bits(&mut energies.iter().copied()), expected);
-    Ok(())
-}
+use crate::ensemble::{Checked, HenonHeiles, bytes, file, planets, wells};
 
 #[test]
 fn the_columns() -> Checked {
@@ -98,7 +31,6 @@ fn reasons_are_quoted() -> Checked {
     let ensemble = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, wells(2));
     let [csv, _] = bytes(&ensemble.until([reason], |_, _, _| [1.0]).take_steps(5)?)?;
     assert!(String::from_utf8_lossy(&csv).contains("\"left, \"\"far\"\" away\nand for ever\""));
-    assert_eq!(Record::read_csv(&csv[..])?.numbers("run.steps")?, [0.0, 0.0]);
     Ok(())
 }
 

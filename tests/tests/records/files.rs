@@ -69,26 +69,6 @@ fn the_csv_reads_back_to_the_bit() -> Checked {
 
 /// By the description of the format: the mark, the version, the length of the head, the head, the data.
 #[test]
-fn a_quote_that_is_not_closed_is_an_error_with_its_line() -> Checked {
-    for (text, expected) in [
-        ("x,remark\n1.0,\"open\n2.0,end\n", 2),
-        ("x,remark\n1.0,\"a \"\"b\"\" over\ntwo lines\"\n2.0,\"", 4),
-        ("x\r\n1.0\r\n\"2.0\"\"\r\n", 3),
-        ("\"x,remark\n", 1),
-    ] {
-        match Record::read_csv(text.as_bytes()) {
-            Err(RecordError::Quote { line }) => assert_eq!(line, expected, "{text:?}"),
-            other => panic!("{text:?}: {other:?}"),
-        }
-    }
-    // Within an entry, or doubled, a quote is a letter.
-    let record = Record::read_csv("x,remark\n1.0,5\" wide\n2.0,\"a \"\"b\"\"\"\n3.0, \"c\n".as_bytes())?;
-    let Values::Texts(texts) = &record.column("remark")?.values else { panic!("texts") };
-    assert_eq!(texts, &["5\" wide", "a \"b\"", "\"c"]);
-    Ok(())
-}
-
-#[test]
 fn the_array_has_the_format_of_numpy() -> Checked {
     let mut file = Vec::new();
     mixed()?.write_npy(&mut file)?;
