@@ -46,9 +46,8 @@
 //! Where a coordinate has the name of one of the others already, that one stands as `run.time`, `run.energy`
 //! or `run.` and the name of the momentum.
 //!
-//! A [`Recorder`] takes functions of yours along, and states one by one or from an iterator, wherever they
-//! come from: from [events](crate::run::Events), from [given times](crate::run::Run::states_at), or from a
-//! loop of yours.
+//! A [`Recorder`] takes functions of yours along, and states one by one, wherever they come from: from
+//! [events](crate::run::Events), from [given times](crate::run::Run::states_at), or from a loop of yours.
 
 mod body;
 mod column;

@@ -8,7 +8,7 @@ use std::vec::Vec;
 use super::body::Body;
 use super::column::{Column, Quantity, Values};
 use super::{Record, RecordError};
-use crate::error::{LengthError, StepError};
+use crate::error::LengthError;
 use crate::run::Run;
 use crate::shown::shown;
 use crate::system::{Factor, Name};
@@ -29,10 +29,13 @@ type Function<'f, S, Q> = Box<dyn FnMut(&S, &Q, f64) -> f64 + 'f>;
 /// let farthest = record.numbers("radius")?.iter().fold(0.0_f64, |a, b| a.max(*b));
 /// assert!((farthest - 2.57).abs() < 0.01); // the apocentre, 1.44/0.56
 ///
-/// let passages = run.events([Direction::Rising], |_, state| [state.y])?;
-/// let passages = recorder()?.points(&Kepler, passages.take(3))?;
+/// let mut passages = recorder()?;
+/// for passage in run.events([Direction::Rising], |_, state| [state.y])?.take(3) {
+///     let passage = passage?;
+///     passages.push(&Kepler, passage.time, &passage.state)?;
+/// }
 /// // Each at the pericentre.
-/// assert!(passages.numbers("radius")?.iter().all(|radius| (radius - 1.0).abs() < 1e-4));
+/// assert!(passages.finish().numbers("radius")?.iter().all(|radius| (radius - 1.0).abs() < 1e-4));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Recorder<'f, S: Lagrangian> {
@@ -118,14 +121,9 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
     /// is too short. There is no row then.
     pub fn push(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), RecordError> {
         system.check()?;
-        Ok(self.add_state(system, time, state)?)
-    }
-
-    /// Adds a row for a system that is checked.
-    fn add_state(&mut self, system: &S, time: f64, state: &S::State<f64>) -> Result<(), LengthError> {
         let (mut q, mut v) = (system.space().vector(), system.space().vector());
         state.write(&|block| system.block_len(block), &mut q, &mut v)?;
-        self.add(system, time, state, [&q, &v])
+        Ok(self.add(system, time, state, [&q, &v])?)
     }
 
     /// Adds a row for where a run is: as its state is read from its coordinates, so are the entries.
@@ -178,33 +176,9 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
         self.add_present(run)?;
         for _ in 0..rows {
             if let Err(error) = run.take_steps(every) {
-                return Err(self.record.until(error));
+                return Err(RecordError::Step { record: Box::new(self.record), error });
             }
             self.add_present(run)?;
-        }
-        Ok(self.record)
-    }
-
-    /// Adds a row for each of the `points`: events, or pairs of a time and a state, as
-    /// [`states_at`](Run::states_at) yields them.
-    ///
-    /// # Errors
-    /// [`RecordError::Step`] with the record up to the first point that is an error; [`RecordError::State`]
-    /// and [`RecordError::Index`] as of [`push`](Self::push).
-    pub fn points<P: Into<(f64, S::State<f64>)>>(
-        mut self,
-        system: &S,
-        points: impl IntoIterator<Item = Result<P, StepError>>,
-    ) -> Result<Record, RecordError> {
-        system.check()?;
-        for point in points {
-            match point {
-                Ok(point) => {
-                    let (time, state) = point.into();
-                    self.add_state(system, time, &state)?;
-                }
-                Err(error) => return Err(self.record.until(error)),
-            }
         }
         Ok(self.record)
     }

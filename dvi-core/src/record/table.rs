@@ -1,6 +1,5 @@
 //! The record itself: columns, what is known of them, and where they are written.
 
-use std::boxed::Box;
 use std::io::{self, Write};
 use std::string::String;
 use std::vec::Vec;
@@ -8,7 +7,6 @@ use std::vec::Vec;
 use super::body::{self, Body};
 use super::column::{Column, Values};
 use super::{RecordError, npy, page};
-use crate::error::StepError;
 
 /// A table of named columns, all of one length, and what it knows of the motion: which columns are the
 /// positions of bodies.
@@ -169,11 +167,6 @@ impl Record {
             let names: Vec<&str> = self.columns.iter().map(|column| &column.name[..]).collect();
             RecordError::Missing { name: name.into(), columns: names.join(", ") }
         })
-    }
-
-    /// What was recorded before `error`, with it.
-    pub(super) fn until(self, error: StepError) -> RecordError {
-        RecordError::Step { record: Box::new(self), error }
     }
 
     /// Writes an array of records in the format of NumPy, with the columns as its fields:

@@ -66,25 +66,16 @@ fn functions_of_the_user_are_columns() -> Checked {
 
 /// States that come one by one have the energy and momenta of the run that they are from.
 #[test]
-fn states_come_one_by_one_or_as_points() -> Checked {
+fn states_come_one_by_one() -> Checked {
     let mut run = Integrator::new(&KEPLER, Variational::midpoint(), 0.02, START)?;
     let mut recorder = Recorder::new(&KEPLER);
-    let mut points = Vec::new();
     for _ in 0..10 {
         recorder.push(&KEPLER, run.time(), &run.state())?;
-        points.push(Ok((run.time(), run.state())));
         run.advance()?;
     }
     let mut again = Integrator::new(&KEPLER, Variational::midpoint(), 0.02, START)?;
     let whole = again.record(1, 9)?;
     assert_eq!(recorder.finish(), whole);
-    assert_eq!(Recorder::new(&KEPLER).points(&KEPLER, points)?, whole);
-
-    let section = run.events([Direction::Either], |_, state| [state.y])?;
-    let crossings = Recorder::new(&KEPLER).points(&KEPLER, section.take(4))?;
-    assert_eq!(crossings.rows(), 4);
-    assert!(crossings.numbers("y")?.iter().all(|y| y.abs() < 1e-14));
-    assert!(crossings.numbers("time")?.windows(2).all(|pair| pair[0] < pair[1]));
     Ok(())
 }
 
@@ -102,12 +93,6 @@ fn a_run_that_fails_keeps_its_record() -> Checked {
     assert_eq!(run.steps(), error.step);
     let text = RecordError::Step { record, error }.to_string();
     assert_eq!(text, format!("{error}; {} rows were recorded before", error.step / 10 + 1));
-
-    let failing = [Ok((0.0, START)), Err(error), Ok((1.0, START))];
-    let Err(RecordError::Step { record, .. }) = Recorder::new(&KEPLER).points(&KEPLER, failing) else {
-        panic!("a point has failed")
-    };
-    assert_eq!(record.rows(), 1);
     assert_eq!(said(run.record(0, 5)), "there must be at least one step between two rows");
     Ok(())
 }

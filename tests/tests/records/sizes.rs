@@ -22,11 +22,6 @@ fn states_of_another_length_are_refused() -> Checked {
     recorder.push(&chain, 0.5, &right)?;
     let record = recorder.finish();
     assert_eq!((record.rows(), record.numbers("dot_x[1]")?), (1, &[5.0][..]));
-    let points = [Ok((0.0, right)), Ok((1.0, wrong))];
-    assert_eq!(
-        said(Recorder::new(&chain).points(&chain, points)),
-        "`x` has length 2, but the system declares 3"
-    );
     Ok(())
 }
 
@@ -40,10 +35,6 @@ fn runs_of_another_length_are_refused() -> Checked {
         let mut run = Integrator::new(&chain, Variational::trapezoid(), 0.01, start.clone())?;
         assert_eq!(said(Recorder::new(&columns).record(&mut run, 1, 5)), expected);
         assert_eq!(run.steps(), 0);
-        for system in [&columns, &chain] {
-            let points = run.states_at([0.02, 0.03])?;
-            assert_eq!(said(Recorder::new(&columns).points(system, points)), expected);
-        }
         // The rows before it stay, and their files can be written.
         let mut recorder = Recorder::new(&columns).with_function("one", |_, _, _| 1.0)?;
         recorder.push(&columns, 0.0, &columns.state_of([]))?;
@@ -98,5 +89,4 @@ fn parameters_that_are_too_short_are_refused() {
     let expected = "the formulas use index 1 of `k`, which has length 1";
     let state = || system.state_of([]);
     assert_eq!(said(Recorder::new(&system).push(&system, 0.0, &state())), expected);
-    assert_eq!(said(Recorder::new(&system).points(&system, [Ok((0.0, state()))])), expected);
 }
