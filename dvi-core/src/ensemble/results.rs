@@ -125,9 +125,6 @@ impl Results {
     /// | `momentum.angular.first`, `momentum.angular.last` | the momenta by their names |
     /// | `x`, `dot_x`, … | the last state |
     ///
-    /// In an array of NumPy the reasons take four bytes for each letter of the longest one:
-    /// [`without_column`](Record::without_column) leaves them out.
-    ///
     /// # Errors
     /// [`RecordError::Duplicate`] if two momenta have one name.
     pub fn record(&self) -> Result<Record, RecordError> {

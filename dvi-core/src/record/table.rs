@@ -77,19 +77,6 @@ impl Record {
         Ok(self)
     }
 
-    /// The same without a column, and without the bodies whose position it is a part of.
-    ///
-    /// # Errors
-    /// [`RecordError::Missing`].
-    pub fn without_column(mut self, name: &str) -> Result<Self, RecordError> {
-        let place = self.place(name)?;
-        self.columns.remove(place);
-        for bodies in [&mut self.turning, &mut self.named] {
-            bodies.retain(|body| body.position.iter().all(|column| column != name));
-        }
-        Ok(self)
-    }
-
     /// The same with the unit of a column, such as `"m/s"`, for the axes of the [page](Self::write_page).
     ///
     /// # Errors

@@ -110,20 +110,6 @@ fn unit_vectors_and_rotations_are_bodies_in_space() -> Checked {
     Ok(())
 }
 
-/// A body without one of its columns could not be drawn.
-#[test]
-fn bodies_go_with_their_columns() -> Checked {
-    let names = |record: &Record| -> Result<Vec<String>, Box<dyn std::error::Error>> {
-        Ok(bodies(record)?.into_iter().map(|(name, _)| name).collect())
-    };
-    let record = Recorder::new(&Turning).finish();
-    let shorter = record.clone().without_column("s[1]")?.without_column("x[3]")?;
-    assert_eq!(names(&shorter)?, ["x, axis 2", "x, axis 3"]);
-    let named = record.with_body("one", &["s[0]", "s[1]"])?.with_body("two", &["s[1]", "s[2]"])?;
-    assert_eq!(names(&named.without_column("s[0]")?)?, ["two"]);
-    Ok(())
-}
-
 /// A particle in space, and two angles: nothing but the user says which of the arrays is a position.
 #[lagrangian(
     coordinates(r[3], angle[2]),

@@ -136,9 +136,6 @@ fn columns_of_ones_own() -> Checked {
     let only = "the record has no column `x`, only n, error, remark";
     assert_eq!(said(record.numbers("x")), only);
     assert_eq!(said(record.clone().with_unit("x", "m")), only);
-    assert_eq!(said(record.clone().without_column("x")), only);
     assert_eq!(said(record.numbers("n")), "the column `n` does not hold numbers, but counts or texts");
-    let shorter = record.without_column("remark")?;
-    assert_eq!(shorter.columns().iter().map(|column| &column.name[..]).collect::<Vec<_>>(), ["n", "error"]);
     Ok(())
 }
