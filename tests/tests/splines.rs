@@ -19,14 +19,14 @@ fn points(numbers: &mut Numbers, from: f64, count: usize, distance: f64) -> Vec<
     (0..count).map(|_| step()).collect()
 }
 
-/// Axes from −1 to 2, uniform, uneven, and periodic, one of the periodic ones with both ends.
+/// Axes from −1 to 2, uniform and uneven, with a period and without.
 fn axes(count: usize) -> Result<[Axis; 4], SplineError> {
     let mut uneven = points(&mut Numbers(7), 0.0, count, 1.0);
     let last = uneven[count - 1];
     uneven.iter_mut().for_each(|x| *x = (3.0 * *x / last - 1.0).min(2.0));
     let uniform = Axis::uniform([-1.0, 2.0], count)?;
     Ok([
-        Axis::periodic(uniform.points(), 3.0)?,
+        Axis::periodic(&uniform.points()[..count - 1], 3.0)?,
         Axis::periodic(&uneven[..count - 1], 3.0)?,
         uniform,
         Axis::new(&uneven)?,

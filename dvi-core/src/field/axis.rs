@@ -4,12 +4,8 @@ use alloc::vec::Vec;
 
 use super::SplineError;
 
-/// The last point of a periodic axis is the first one, a period later, if the two differ by less than this
-/// part of the mean distance of its points, as it does when a table has few digits.
-const SAME: f64 = 1e-3;
-
-/// A last point that is closer to the end of the period than this part of the mean distance, and is not the
-/// end, is refused.
+/// A last point of a periodic axis that is closer to the end of the period than this part of the mean
+/// distance of the points is refused.
 const CLOSE: f64 = 1e-2;
 
 /// The points of a grid along one variable, strictly increasing, and the period of a variable in which the
@@ -29,8 +25,6 @@ const CLOSE: f64 = 1e-2;
 pub struct Axis {
     points: Vec<f64>,
     period: Option<f64>,
-    /// The points without the last one where that is the first one, a period later.
-    distinct: usize,
 }
 
 impl Axis {
@@ -57,7 +51,7 @@ impl Axis {
         {
             return Err(SplineError::Distance { index: points.len() - 1, before, after });
         }
-        Ok(Self { points: points.to_vec(), period: None, distinct: points.len() })
+        Ok(Self { points: points.to_vec(), period: None })
     }
 
     /// An axis of `count` points at equal distances, with both ends.
@@ -76,10 +70,8 @@ impl Axis {
 
     /// An axis on which the table repeats itself with the given period.
     ///
-    /// The points are those of one period. The last of them may be the first one, a period later, to a
-    /// thousandth of the mean distance of the points; the table then has the same values at both. Otherwise
-    /// all points lie within the period, and the last one is at least a hundredth of the mean distance away
-    /// from its end.
+    /// The points are those of one period, without its end, where the table has the values of the first
+    /// point again: the last one is at least a hundredth of the mean distance away from the end.
     ///
     /// # Errors
     /// Those of [`new`](Self::new), and [`SplineError::Period`].
@@ -88,25 +80,18 @@ impl Axis {
         let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
             return Ok(Self { period: Some(period), ..axis });
         };
-        let refused = SplineError::Period { period, first, last };
         // The splines continue the points by less than one period on either side.
         let is_length = period > 0.0 && (first - period).is_finite() && (first + 2.0 * period).is_finite();
-        if !is_length {
-            return Err(refused);
-        }
         let (steps, gap) = (points.len() - 1, first + period - last);
         let mean = if steps == 0 { period } else { (last - first) / steps as f64 };
-        if steps > 0 && gap.abs() <= SAME * mean {
-            return Ok(Self { period: Some(period), distinct: steps, ..axis });
-        }
-        if gap >= CLOSE * mean && is_usable(gap) {
+        if is_length && gap >= CLOSE * mean && is_usable(gap) {
             Ok(Self { period: Some(period), ..axis })
         } else {
-            Err(refused)
+            Err(SplineError::Period { period, first, last })
         }
     }
 
-    /// The points, as they were given: a table has a value at each of them.
+    /// The points: a table has a value at each of them.
     pub fn points(&self) -> &[f64] {
         &self.points
     }
@@ -114,11 +99,6 @@ impl Axis {
     /// The period, if the axis has one.
     pub fn period(&self) -> Option<f64> {
         self.period
-    }
-
-    /// The points without the last one where that is the first one, a period later.
-    pub(super) fn distinct(&self) -> &[f64] {
-        &self.points[..self.distinct]
     }
 }
 

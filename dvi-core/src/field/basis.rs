@@ -54,9 +54,9 @@ pub(super) struct Basis<const P: usize> {
 }
 
 impl<const P: usize> Basis<P> {
-    /// The B-splines on an axis that has more than P distinct points.
+    /// The B-splines on an axis that has more than P points.
     pub(super) fn new(axis: &Axis) -> Self {
-        let points = axis.distinct();
+        let points = axis.points();
         let count = points.len();
         let knots: Vec<f64> = match axis.period() {
             None => {

@@ -33,7 +33,7 @@ pub(super) struct Equations {
 
 impl Equations {
     pub(super) fn new<const P: usize>(axis: &Axis, basis: &Basis<P>) -> Self {
-        let points = axis.distinct();
+        let points = axis.points();
         let count = points.len();
         let border = if basis.is_periodic() { (P - 1) / 2 } else { 0 };
         let (inner, reach) = (count - border, if border == 0 { P } else { border });

@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 
 use super::basis::{Basis, Local, entry};
 use super::interpolation::Equations;
-use super::table::{SplineError, points, sampled, without_repetitions};
+use super::table::{SplineError, points, sampled};
 use super::{Axis, Expansion, ScalarField};
 use crate::Scalar;
 
@@ -77,8 +77,7 @@ impl<const D: usize> Spline<D> {
     /// The cubic spline through `values` at the points of a grid. The last axis is that of neighbouring
     /// values.
     ///
-    /// Each axis has at least four points, of which an end of a period that repeats the first point does not
-    /// count.
+    /// Each axis has at least four points.
     ///
     /// # Errors
     /// What is wrong with the table, as a [`SplineError`].
@@ -99,8 +98,7 @@ impl<const D: usize> Spline<D, 5> {
     /// The spline of degree 5 through `values` at the points of a grid. The last axis is that of
     /// neighbouring values.
     ///
-    /// Each axis has at least six points, of which an end of a period that repeats the first point does not
-    /// count.
+    /// Each axis has at least six points.
     ///
     /// # Errors
     /// What is wrong with the table, as a [`SplineError`].
@@ -124,7 +122,7 @@ impl<const D: usize, const DEGREE: usize> Spline<D, DEGREE> {
     fn through(axes: &[Axis; D], values: &[f64]) -> Result<Self, SplineError> {
         const { assert!(D > 0, "a spline has at least one variable") };
         for (axis, points) in axes.iter().enumerate() {
-            let found = points.distinct().len();
+            let found = points.points().len();
             if found <= DEGREE {
                 return Err(SplineError::TooFewPoints { axis, found, expected: DEGREE + 1 });
             }
@@ -137,7 +135,7 @@ impl<const D: usize, const DEGREE: usize> Spline<D, DEGREE> {
             return Err(SplineError::NotFinite { index, value: values[index] });
         }
         let bases = axes.each_ref().map(Basis::new);
-        let mut coefficients = without_repetitions(axes, values)?;
+        let mut coefficients = values.to_vec();
         let mut stride = 1;
         let (mut strides, mut growths) = ([1; D], [1.0; D]);
         for (axis, points) in axes.iter().enumerate().rev() {
@@ -254,7 +252,7 @@ fn add<const D: usize, T: Scalar>(sum: &mut Expansion<D, T>, term: &Expansion<D,
 /// The error of a grid on which rounding errors grow by the product of `growths`.
 fn too_unequal<const D: usize>(axes: &[Axis; D], growths: [f64; D], growth: f64) -> SplineError {
     let axis = (0..D).fold(0, |worst, axis| if growths[axis] > growths[worst] { axis } else { worst });
-    let points = axes[axis].distinct();
+    let points = axes[axis].points();
     let distance = |index: usize| points[index] - points[index - 1];
     // The smallest part of a distance beside it.
     let part = |index: usize| {

@@ -8,9 +8,6 @@ use super::Axis;
 
 crate::error::said!(SplineError);
 
-/// Values at the two ends of a period agree to this part of the largest value of the table.
-const AGREEMENT: f64 = 1e-6;
-
 /// The number of points of a grid.
 pub(super) fn points(axes: &[Axis]) -> Result<usize, SplineError> {
     let product = |points: usize, axis: &Axis| points.checked_mul(axis.points().len());
@@ -24,54 +21,18 @@ pub(super) fn sampled<const D: usize>(
     let count = points(axes)?;
     let mut values = Vec::new();
     values.try_reserve(count).map_err(|_| SplineError::Size)?;
-    values.extend((0..count).map(|index| {
-        let at = place(axes, index);
-        function(core::array::from_fn(|axis| axes[axis].points()[at[axis]]))
-    }));
+    values.extend((0..count).map(|index| function(point(axes, index))));
     Ok(values)
 }
 
 /// The point of the grid at which a value of the table stands.
-fn place<const D: usize>(axes: &[Axis; D], mut index: usize) -> [usize; D] {
-    let mut place = [0; D];
-    for (place, axis) in place.iter_mut().zip(axes).rev() {
-        *place = index % axis.points().len();
+fn point<const D: usize>(axes: &[Axis; D], mut index: usize) -> [f64; D] {
+    let mut point = [0.0; D];
+    for (x, axis) in point.iter_mut().zip(axes).rev() {
+        *x = axis.points()[index % axis.points().len()];
         index /= axis.points().len();
     }
-    place
-}
-
-/// The values without those at the end of a period, which are compared with those at its start.
-pub(super) fn without_repetitions<const D: usize>(
-    axes: &[Axis; D],
-    values: &[f64],
-) -> Result<Vec<f64>, SplineError> {
-    let repeats = |axis: &Axis| axis.distinct().len() < axis.points().len();
-    if !axes.iter().any(repeats) {
-        return Ok(values.to_vec());
-    }
-    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    let mut kept = Vec::with_capacity(values.len());
-    for (index, &value) in values.iter().enumerate() {
-        let (mut start, mut stride, mut repeated) = (index, 1, None);
-        for (axis, at) in place(axes, index).into_iter().enumerate().rev() {
-            let distinct = axes[axis].distinct().len();
-            if at == distinct {
-                start -= at * stride;
-                repeated = Some(axis);
-            }
-            stride *= axes[axis].points().len();
-        }
-        match repeated {
-            None => kept.push(value),
-            // The difference of large numbers may be infinite, which is no agreement either.
-            Some(axis) if (value - values[start]).abs() > AGREEMENT * largest => {
-                return Err(SplineError::NotPeriodic { axis, index, value, start, expected: values[start] });
-            }
-            Some(_) => {}
-        }
-    }
-    Ok(kept)
+    point
 }
 
 /// An axis, or a table, that no spline can be made of.
@@ -122,8 +83,8 @@ pub enum SplineError {
     },
     /// The points are not those of one period.
     #[error(
-        "the period {period} does not go with points from {first} to {last}: the last point is expected at the first one \
-         plus the period, or clearly before it"
+        "the period {period} does not go with points from {first} to {last}: the last point is expected clearly before \
+         the first one plus the period, which is left out"
     )]
     Period {
         /// The period.
@@ -134,11 +95,11 @@ pub enum SplineError {
         last: f64,
     },
     /// An axis has fewer points than the degree asks for.
-    #[error("axis {axis} has {found} different points, and at least {expected} are expected")]
+    #[error("axis {axis} has {found} points, and at least {expected} are expected")]
     TooFewPoints {
         /// The axis, counted from 0.
         axis: usize,
-        /// Its points, without the end of a period that repeats the first.
+        /// Its points.
         found: usize,
         /// The degree plus one.
         expected: usize,
@@ -158,24 +119,6 @@ pub enum SplineError {
         index: usize,
         /// The value.
         value: f64,
-    },
-    /// The value at the end of a period is not that at its start: they differ by more than a millionth of
-    /// the largest value of the table.
-    #[error(
-        "value {index} of the table is {value} at the end of the period of axis {axis}, and {expected} is expected, \
-         as value {start} is at its start"
-    )]
-    NotPeriodic {
-        /// The axis, counted from 0.
-        axis: usize,
-        /// Where the value at the end stands in the table, counted from 0.
-        index: usize,
-        /// That value.
-        value: f64,
-        /// Where the value at the start stands.
-        start: usize,
-        /// That value.
-        expected: f64,
     },
     /// Distances on the axes differ so much that rounding errors of the values would be enlarged more than
     /// 10⁸ times.

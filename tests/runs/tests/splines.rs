@@ -6,14 +6,13 @@ use dvi_core::prelude::convergence_order;
 use dvi_tests::fields::{by_dual_numbers, smooth};
 use dvi_tests::{Numbers, Outcome, apart, larger};
 
-/// Axes from 1 to 3, uniform and with smoothly varying distances, and such with a period, one with its end
-/// among the points, one without.
+/// Axes from 1 to 3, uniform and with smoothly varying distances, with a period and without.
 fn axes(cells: usize) -> Result<[Axis; 4], SplineError> {
     let graded = |s: f64| 1.0 + 2.0 * s + 0.1 * (core::f64::consts::TAU * s).sin();
     let points = |count: usize| (0..count).map(|i| graded(i as f64 / cells as f64)).collect::<Vec<f64>>();
     let uniform = Axis::uniform([1.0, 3.0], cells + 1)?;
     Ok([
-        Axis::periodic(uniform.points(), 2.0)?,
+        Axis::periodic(&uniform.points()[..cells], 2.0)?,
         Axis::periodic(&points(cells), 2.0)?,
         uniform,
         Axis::new(&points(cells + 1))?,
