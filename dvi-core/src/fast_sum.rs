@@ -95,7 +95,6 @@ mod transfer;
 mod tree;
 mod work;
 
-use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::fmt;
 
@@ -107,7 +106,8 @@ use self::quantity::{Gradient, Potential, Quantity};
 use self::tree::NotFinite;
 use self::work::{Operations, Terms, Work};
 use crate::error::{IndexError, LengthError};
-use crate::{PairSum, Space, State};
+use crate::shown::shown;
+use crate::{PairSum, Space, State, Vector};
 
 /// There is no fast sum of a system.
 ///
@@ -191,14 +191,10 @@ pub struct FastSum<'s, S, const D: usize> {
     inner: RefCell<(Expansion<D>, Work<D>)>,
 }
 
-impl<S: fmt::Debug, const D: usize> fmt::Debug for FastSum<'_, S, D> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { system, tolerance, .. } = self;
-        f.debug_struct("FastSum")
-            .field("system", system)
-            .field("tolerance", tolerance)
-            .finish_non_exhaustive()
-    }
+shown! {
+    [S: fmt::Debug, const D: usize] FastSum<'_, S, D>, |fast|
+    system: fast.system,
+    tolerance: fast.tolerance
 }
 
 // A bound less than below: so a system without such a sum is refused once.
@@ -228,16 +224,6 @@ impl<'s, S, const D: usize> FastSum<'s, S, D>
 where
     S: PairSum<f64, D> + PairSum<Pack, D> + Sync,
 {
-    /// The system whose pairs are summed.
-    pub fn system(&self) -> &'s S {
-        self.system
-    }
-
-    /// The tolerance that was asked for.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
     /// The relative error of the forces at a state, ‖∇H̃ − ∇H‖/‖∇H‖ of the sums over pairs, over some
     /// `bodies` from all regions, against sums over all pairs of each. No number where a coordinate is none.
     ///
@@ -263,24 +249,9 @@ where
     }
 
     /// The coordinates of a state.
-    ///
-    /// A system may declare more of them than there is memory for, a state has no more. So there is room for
-    /// an array when the state is known to have it.
-    fn point(&self, state: &S::State<f64>) -> Result<Vec<f64>, LengthError> {
-        let dimension = self.system.space().dimension();
-        let (mut q, mut v) = (Vec::new(), Vec::new());
-        loop {
-            match state.write(&|block| self.system.block_len(block), &mut q, &mut v) {
-                Ok(()) => break,
-                Err(error) if error.found == error.expected && q.len() < dimension.saturating_mul(2) => {
-                    for numbers in [&mut q, &mut v] {
-                        numbers.resize(numbers.len() + error.found, 0.0);
-                    }
-                }
-                Err(error) => return Err(error),
-            }
-        }
-        q.truncate(dimension);
+    fn point(&self, state: &S::State<f64>) -> Result<Vector<S, f64>, LengthError> {
+        let (mut q, mut v) = (self.system.space().vector(), self.system.space().vector());
+        state.write(&|block| self.system.block_len(block), &mut q, &mut v)?;
         Ok(q)
     }
 

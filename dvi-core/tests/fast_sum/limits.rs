@@ -185,11 +185,11 @@ fn systems_that_are_not_whole_are_errors() {
     assert!(matches!(error, FastSumError::Index(_)), "{error}");
     let huge = Waves { n: usize::MAX / 4, number: 1.0 };
     assert!(matches!(FastSum::<_, 2>::new(&huge, 1e-6), Err(FastSumError::Index(_))));
-    let large = Waves { n: 1 << 40, number: 1.0 };
-    let fast = FastSum::<_, 2>::new(&large, 1e-6).unwrap();
+    let few = Waves { n: 4, number: 1.0 };
+    let fast = FastSum::<_, 2>::new(&few, 1e-6).unwrap();
     let state = WavesState { x: vec![0.0; 3], y: vec![0.0; 3] };
     let error = fast.measured_error(&state, 3).unwrap_err();
-    assert_eq!((error.array, error.expected, error.found), ("x", 1 << 40, 3));
+    assert_eq!((error.array, error.expected, error.found), ("x", 4, 3));
     assert!(fast.operations(&state).is_err());
     let whole = Gravity { n: 10, g: 1.0, mass: vec![1.0; 10], core: 0.1 };
     let error = FastSum::<_, 3>::new(&whole, 1e-7).unwrap_err();
