@@ -2,36 +2,28 @@
 
 use alloc::vec::Vec;
 
-use crate::Scalar;
+use super::packs::{NOTHING, Pack};
 
 /// Above all orders.
 pub(super) const MOST: usize = 32;
 
 /// T_m at some u in −1..1, and T_m'.
 #[derive(Clone, Copy)]
-pub(super) struct Chebyshev<T> {
-    pub(super) value: [T; MOST],
-    pub(super) slope: [T; MOST],
+pub(super) struct Chebyshev {
+    pub(super) value: [Pack; MOST],
+    pub(super) slope: [Pack; MOST],
 }
 
-impl<T: Scalar> Chebyshev<T> {
+impl Chebyshev {
     /// Not yet known.
-    #[inline]
-    pub(super) fn none() -> Self {
-        let zero = T::lift(0.0);
-        Self { value: [zero; MOST], slope: [zero; MOST] }
-    }
+    pub(super) const NONE: Self = Self { value: [NOTHING; MOST], slope: [NOTHING; MOST] };
 }
 
 /// Sets the polynomials at u along each axis, and their derivatives, by the recurrence T_{m+1} = 2u T_m −
 /// T_{m−1} and its derivative, for m < `order`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn set_polynomials<T: Scalar, const D: usize>(
-    at: &mut [Chebyshev<T>; D],
-    u: &[T; D],
-    order: usize,
-) {
-    let (one, two) = (T::lift(1.0), T::lift(2.0));
+pub(super) fn set_polynomials<const D: usize>(at: &mut [Chebyshev; D], u: &[Pack; D], order: usize) {
+    let (one, two) = (Pack::all(1.0), Pack::all(2.0));
     for (Chebyshev { value, slope }, u) in at.iter_mut().zip(u) {
         (value[0], value[1], slope[1]) = (one, *u, one);
     }

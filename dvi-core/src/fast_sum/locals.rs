@@ -81,7 +81,7 @@ impl<const D: usize> Actions<'_, D> {
         let first = tree.cubes[cubes.start].first;
         let all = tree.cubes[cubes.clone()].iter().enumerate();
         let mut leaves = all.filter(|(_, cube)| !cube.is_divided());
-        let mut at = [[Chebyshev::none(); D]; TOGETHER];
+        let mut at = [[Chebyshev::NONE; D]; TOGETHER];
         loop {
             let mut some = [None; VECTORS];
             let mut ends = [Ends::default(); VECTORS];
@@ -133,7 +133,7 @@ const TOGETHER: usize = 2;
 fn evaluated<const D: usize, Q: Quantity<D>>(
     local: &[f64],
     rows: &[Row<D>],
-    at: &[[Chebyshev<Pack>; D]; TOGETHER],
+    at: &[[Chebyshev; D]; TOGETHER],
     scale: f64,
 ) -> [Q::Sums; TOGETHER] {
     let mut found = [Q::NONE; TOGETHER];

@@ -16,13 +16,7 @@ pub(super) trait Quantity<const D: usize>: Sync {
     /// Adds that of one row of a local expansion: the polynomials at the place and the degrees of the row in
     /// all coordinates but the last, the sums of coefficients times T and times T' over the degrees of the
     /// last, and du/dx.
-    fn add_row(
-        sums: &mut Self::Sums,
-        at: &[Chebyshev<Pack>; D],
-        degrees: &[usize; D],
-        row: [Pack; 2],
-        scale: f64,
-    );
+    fn add_row(sums: &mut Self::Sums, at: &[Chebyshev; D], degrees: &[usize; D], row: [Pack; 2], scale: f64);
 }
 
 /// Σ w K.
@@ -41,7 +35,7 @@ impl<const D: usize> Quantity<D> for Potential {
     #[inline]
     fn add_row(
         sums: &mut Self::Sums,
-        at: &[Chebyshev<Pack>; D],
+        at: &[Chebyshev; D],
         degrees: &[usize; D],
         row: [Pack; 2],
         _scale: f64,
@@ -69,7 +63,7 @@ impl<const D: usize> Quantity<D> for Gradient {
     #[inline]
     fn add_row(
         sums: &mut Self::Sums,
-        at: &[Chebyshev<Pack>; D],
+        at: &[Chebyshev; D],
         degrees: &[usize; D],
         row: [Pack; 2],
         scale: f64,

@@ -81,17 +81,3 @@ pub(super) fn sort<T: Ord + Send>(numbers: &mut [T]) {
     #[cfg(not(feature = "threads"))]
     numbers.sort_unstable();
 }
-
-/// Changes each entry.
-pub(super) fn each<T: Send>(entries: &mut [T], change: impl Fn(&mut T) + Sync) {
-    #[cfg(feature = "threads")]
-    {
-        use rayon::iter::ParallelIterator;
-        /// What is fewer is not worth handing over.
-        const TOGETHER: usize = 4096;
-        rayon::slice::ParallelSliceMut::par_chunks_mut(entries, TOGETHER)
-            .for_each(|entries| entries.iter_mut().for_each(&change));
-    }
-    #[cfg(not(feature = "threads"))]
-    entries.iter_mut().for_each(change);
-}

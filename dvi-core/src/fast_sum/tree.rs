@@ -81,12 +81,12 @@ impl<const D: usize> Tree<D> {
         }
         let cells = f64::from(1_u32 << LEVELS) / exp2(self.edge);
         let corner = self.corner;
-        shares::each(&mut self.order, |(key, body)| {
+        for (key, body) in &mut self.order {
             *key = interleaved::<D>(core::array::from_fn(|axis| {
                 let cell = ((places[axis][*body as usize] - corner[axis]) * cells) as u32;
                 cell.min((1 << LEVELS) - 1)
             }));
-        });
+        }
         // Nothing to do where bodies did not move.
         if !self.order.is_sorted() {
             shares::sort(&mut self.order);
