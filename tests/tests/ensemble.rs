@@ -2,7 +2,6 @@
 //! mistakes.
 
 mod files;
-mod left_later;
 mod limits;
 mod members;
 mod mistakes;

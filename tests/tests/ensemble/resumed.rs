@@ -5,10 +5,10 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use dvi_core::ensemble::{Ensemble, EnsembleError, Results, Shard};
+use dvi_core::ensemble::{Ensemble, EnsembleError, Outcome, Results, Shard};
 use dvi_core::prelude::*;
 
-use crate::ensemble::{Checked, HenonHeiles, LEFT, Verlet, bytes, file, left, wells};
+use crate::ensemble::{Checked, HenonHeiles, HenonHeilesState, LEFT, Verlet, bytes, file, left, wells};
 
 const STEPS: u64 = 2000;
 
@@ -100,6 +100,22 @@ fn lanes_may_change_on_the_way() -> Checked {
     std::fs::write(&kept, begun)?;
     let resumed = plain().in_lanes::<3>().checkpoints(&kept, Duration::from_secs(9)).take_steps(STEPS)?;
     assert_eq!(bytes(&resumed)?, expected);
+    Ok(())
+}
+
+/// Where numbers have just overflown a force is infinite, and no run goes on from there: a member is left a
+/// step later, when it has failed.
+#[test]
+fn members_are_not_left_where_they_cannot_go_on() -> Checked {
+    let start = HenonHeilesState { x: 0.0, y: -1e10, dot_x: 0.0, dot_y: 0.0 };
+    let ensemble = || Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, [start]).stride(1);
+    let (plain, path, mut told) = (ensemble().take_steps(48)?, file("overflown.ckpt"), Vec::new());
+    let interrupted =
+        ensemble().checkpoints(&path, Duration::ZERO).on_progress(|p| told.push(p.steps)).take_steps(48)?;
+    assert_eq!(bytes(&interrupted)?, bytes(&plain)?);
+    let member = &plain.members()[0];
+    assert!(matches!(member.outcome, Outcome::Failed { .. }), "{:?}", member.outcome);
+    assert!(member.steps > 3 && told.iter().copied().eq(0..=u128::from(member.steps)), "{told:?}");
     Ok(())
 }
 
