@@ -7,7 +7,7 @@ use core::ops::Range;
 use super::basis::{Chebyshev, set_polynomials};
 use super::expansion::{Expansion, Row, Stage};
 use super::lists::{Pair, on};
-use super::matrix::{Batch, Ends, VECTORS, padded};
+use super::matrix::{Ends, VECTORS, padded};
 use super::neighbours::add_reactions;
 use super::packs::{LANES, NOTHING, Pack, add_before, coordinates};
 use super::quantity::Quantity;
@@ -49,14 +49,11 @@ impl<const D: usize> Actions<'_, D> {
     fn inherit(&self, subspace: &Subspace, cubes: &Range<usize>, locals: &mut [f64]) {
         let Some(above) = self.above else { return };
         for (side, matrix) in subspace.narrow.iter().enumerate() {
-            let mut batch = Batch::new();
-            for (place, cube) in self.bodies.tree.cubes[cubes.clone()].iter().enumerate() {
-                if number(cube.side()) == side {
-                    let ends = Ends { from: above.row(cube.whole), to: place * subspace.stride };
-                    batch.push(ends, matrix, above.rows, locals);
-                }
-            }
-            batch.finish(matrix, above.rows, locals);
+            let all = self.bodies.tree.cubes[cubes.clone()].iter().enumerate();
+            let on_side = all.filter(|(_, cube)| number(cube.side()) == side);
+            let ends = on_side
+                .map(|(place, cube)| Ends { from: above.row(cube.whole), to: place * subspace.stride });
+            matrix.add_all(ends, above.rows, locals);
         }
     }
 
@@ -64,12 +61,11 @@ impl<const D: usize> Actions<'_, D> {
     fn exchange(&self, moments: Stage<'_>, cubes: &Range<usize>, locals: &mut [f64]) {
         let Some(transfer) = self.transfer else { return };
         for (list, matrix) in self.far.iter().zip(&transfer.matrices) {
-            let mut batch = Batch::new();
-            for Pair { target, source } in &list[on(list, cubes)] {
-                let to = (*target as usize - cubes.start) * moments.subspace.stride;
-                batch.push(Ends { from: moments.row(*source as usize), to }, matrix, moments.rows, locals);
-            }
-            batch.finish(matrix, moments.rows, locals);
+            let ends = list[on(list, cubes)].iter().map(|pair| Ends {
+                from: moments.row(pair.source as usize),
+                to: (pair.target as usize - cubes.start) * moments.subspace.stride,
+            });
+            matrix.add_all(ends, moments.rows, locals);
         }
     }
 

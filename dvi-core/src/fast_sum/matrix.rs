@@ -48,6 +48,22 @@ impl Matrix {
         Self { rows, entries }
     }
 
+    /// Adds the products with all of these vectors, of which some are collected at a time.
+    pub(super) fn add_all(&self, mut ends: impl Iterator<Item = Ends>, from: &[f64], to: &mut [f64]) {
+        let mut batch = [Ends::default(); BATCH];
+        loop {
+            let mut count = 0;
+            for (place, ends) in batch.iter_mut().zip(&mut ends) {
+                *place = ends;
+                count += 1;
+            }
+            self.add_products(&batch[..count], from, to);
+            if count < BATCH {
+                return;
+            }
+        }
+    }
+
     /// Adds the products with several vectors. Each product is the same in whatever company it is computed.
     #[inline(never)]
     pub(super) fn add_products(&self, ends: &[Ends], from: &[f64], to: &mut [f64]) {
@@ -140,32 +156,4 @@ impl Matrix {
 fn parts(packs: usize, most: usize) -> impl Iterator<Item = Range<usize>> {
     let count = packs.div_ceil(most);
     (0..count).map(move |part| packs * part / count..packs * (part + 1) / count)
-}
-
-/// Ends that are collected.
-#[derive(Debug)]
-pub(super) struct Batch {
-    ends: [Ends; BATCH],
-    count: usize,
-}
-
-impl Batch {
-    pub(super) fn new() -> Self {
-        Self { ends: [Ends::default(); BATCH], count: 0 }
-    }
-
-    /// Adds one more product, now or later.
-    pub(super) fn push(&mut self, ends: Ends, matrix: &Matrix, from: &[f64], to: &mut [f64]) {
-        if self.count == BATCH {
-            self.finish(matrix, from, to);
-        }
-        self.ends[self.count] = ends;
-        self.count += 1;
-    }
-
-    /// Adds those that were not added yet.
-    pub(super) fn finish(&mut self, matrix: &Matrix, from: &[f64], to: &mut [f64]) {
-        matrix.add_products(&self.ends[..self.count], from, to);
-        self.count = 0;
-    }
 }

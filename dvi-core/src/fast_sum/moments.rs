@@ -2,7 +2,7 @@
 
 use super::basis::MOST;
 use super::expansion::{Expansion, Row, Stage};
-use super::matrix::{Batch, Ends, VECTORS, padded};
+use super::matrix::{Ends, VECTORS, padded};
 use super::packs::{LANES, NOTHING, Pack, add_lanes, coordinates, load_before};
 use super::shares::Piece;
 use super::subspace::{Subspace, number};
@@ -58,14 +58,13 @@ impl<const D: usize> Sources<'_, D> {
         }
         let Some(below) = self.below else { return };
         for (side, matrix) in below.subspace.widen.iter().enumerate() {
-            let mut batch = Batch::new();
-            for (place, cube) in of_part.iter().enumerate() {
-                for part in cube.parts().filter(|part| number(tree.cubes[*part].side()) == side) {
-                    let ends = Ends { from: below.row(part), to: place * stride };
-                    batch.push(ends, matrix, below.rows, moments);
-                }
-            }
-            batch.finish(matrix, below.rows, moments);
+            let parts = of_part
+                .iter()
+                .enumerate()
+                .flat_map(|(place, cube)| cube.parts().map(move |part| (place, part)));
+            let on_side = parts.filter(|(_, part)| number(tree.cubes[*part].side()) == side);
+            let ends = on_side.map(|(place, part)| Ends { from: below.row(part), to: place * stride });
+            matrix.add_all(ends, below.rows, moments);
         }
     }
 
