@@ -235,23 +235,6 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// accurate as its run is, whatever the length of a step, and a member that a step leads beyond a limit
     /// and back has come to it. A function that is not a number is a failure. Each step is watched, so that
     /// members go alone, not in lanes.
-    ///
-    /// ```
-    /// use dvi_core::ensemble::Ensemble;
-    /// use dvi_core::prelude::*;
-    ///
-    /// #[lagrangian(coordinates(height), lagrangian = dot(height).powi(2) / 2.0 - height)]
-    /// #[derive(Debug)]
-    /// struct Stone;
-    ///
-    /// let stones = [0.5, 2.0].map(|height| StoneState { height, dot_height: 0.0 });
-    /// let results = Ensemble::new(&Stone, Variational::trapezoid(), 0.3, stones)
-    ///     .until(["on the ground"], |_, stone, _| [-stone.height])
-    ///     .take_steps(10)?;
-    /// let [low, high] = results.members() else { panic!("there are two") };
-    /// assert!((low.time - 1.0).abs() < 1e-14 && (high.time - 2.0).abs() < 1e-14);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn until<const N: usize>(
         mut self,
         reasons: [&'static str; N],

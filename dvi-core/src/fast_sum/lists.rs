@@ -106,9 +106,7 @@ impl Lists {
         }
         packs.push(before);
     }
-}
 
-impl Lists {
     /// The packs that the sources of the near pairs of earlier cubes fill.
     pub(super) fn packs_before(&self, cube: usize) -> usize {
         self.packs[self.firsts[cube]]
