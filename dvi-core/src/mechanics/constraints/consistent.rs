@@ -6,52 +6,44 @@ use crate::mechanics::constraints::scales::scale_coordinates;
 use crate::mechanics::constraints::{
     At, Bordered, ConstrainedLagrangian, ConstraintSolver, Constraints, Lower, Multipliers,
 };
-use crate::mechanics::legendre;
 use crate::scalar::norm::{self, reported};
 use crate::scalar::passes::subtract;
 use crate::scalar::smallest_normal;
 use crate::space::{LinearEquations, Sink};
-use crate::{Real, Scalar, Space, Vector};
+use crate::{Real, Scalar, Space, Vector, Weights};
 
 /// ∂²L/∂v∂v as A, and b = 0: the solution is the shortest change in the metric of the mass matrix.
-struct Shortest<'a, S, T>(legendre::Equations<'a, S, T>);
+struct Shortest<'a, S, T> {
+    system: &'a S,
+    at: [&'a [T]; 2],
+    t: T,
+}
 
 impl<S: ConstrainedLagrangian<T>, T: Real> LinearEquations<T> for Shortest<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        self.0.evaluate(b, sink)?;
+        let Self { system, at: [q, v], t } = *self;
+        let mut l_q: Vector<S, T> = system.space().vector();
+        system.linearize(q, v, t, Weights::mass(), &mut l_q, b, sink);
         b.fill(T::lift(0.0));
         Ok(())
     }
 }
 
-/// A state that is moved to the constraints.
-struct Projection<'a, S: ConstrainedLagrangian<T>, T: Real> {
-    system: &'a S,
+/// By how much q or v is to be changed.
+fn change<'a, S: ConstrainedLagrangian<T>, T: Real>(
+    solver: &'a mut ConstraintSolver<S, T>,
+    system: &S,
+    at: [&[T]; 2],
     t: T,
-    solver: ConstraintSolver<S, T>,
-    none: Multipliers<S, T>,
-    /// Work space: ∂L/∂q, and a momentum that is not used.
-    work: [Vector<S, T>; 2],
-}
-
-impl<'a, S: ConstrainedLagrangian<T>, T: Real> Projection<'a, S, T> {
-    fn new(system: &'a S, q: &[T], v: &[T], t: T) -> Self {
-        let work = system.space().vectors();
-        let solver = ConstraintSolver::new(system, q, v, t);
-        Self { system, t, solver, none: system.multipliers().vector(), work }
-    }
-
-    /// By how much q or v is to be changed.
-    fn change(&mut self, [q, v]: [&[T]; 2], lower: Lower<'_, S, T>) -> Result<&[T], StepFailure> {
-        let Self { system, t, solver, none, work: [l_q, p] } = self;
-        let upper = Shortest(legendre::Equations { system: *system, points: [q, v, p], t: *t, l_q });
-        let (multipliers, active) = (&**none, none.len());
-        let equations = &mut Bordered { system: *system, upper, lower, multipliers, forces: None, active };
-        solver.solve(equations, T::lift(1.0))?;
-        let (change, _) = solver.parts(q.len());
-        norm::finite(change)?;
-        Ok(change)
-    }
+    lower: Lower<'_, S, T>,
+) -> Result<&'a [T], StepFailure> {
+    let multipliers: &Multipliers<S, T> = &system.multipliers().vector();
+    let (upper, active) = (Shortest { system, at, t }, multipliers.len());
+    let equations = &mut Bordered { system, upper, lower, multipliers, forces: None, active };
+    solver.solve(equations, T::lift(1.0))?;
+    let (change, _) = solver.parts(at[0].len());
+    norm::finite(change)?;
+    Ok(change)
 }
 
 /// The constraint of positions that is farthest from being kept, of those that are off by more than the
@@ -117,9 +109,9 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
         *scale = Scalar::abs(v) + of_force + smallest_normal();
     }
     // A redundant constraint is named by these equations.
-    let mut projection = Projection::new(system, q, v, t);
-    let determined = projection.change([q, v], Lower::Velocity(at, v)).map(|_| ());
-    let residuals = &mut projection.solver.residuals;
+    let mut solver = ConstraintSolver::new(system, q, v, t);
+    let determined = change(&mut solver, system, [q, v], t, Lower::Velocity(at, v)).map(|_| ());
+    let residuals = &mut solver.residuals;
     residuals.evaluate(system, at, v, |j| sizes[j]);
     match residuals.worst(system, at, v) {
         None if of_run.is_none() => determined.map_err(StartError::Undetermined),
@@ -141,9 +133,9 @@ pub(crate) fn project<S: ConstrainedLagrangian<T>, T: Real>(
     t: T,
 ) -> Result<(), StartError> {
     if S::Kind::OF_POSITIONS {
-        move_to(&mut Projection::new(system, q, v, t), q, v)?;
+        move_to(system, q, v, t)?;
     }
-    align(&mut Projection::new(system, q, v, t), q, v)
+    align(system, q, v, t)
 }
 
 /// What vanishes is affine in the velocity: one iteration is enough, but for rounding errors of what it has
@@ -153,16 +145,17 @@ const ITERATIONS: usize = 40;
 
 /// Makes `v` a velocity that the constraints admit at `q`.
 fn align<S: ConstrainedLagrangian<T>, T: Real>(
-    projection: &mut Projection<'_, S, T>,
+    system: &S,
     q: &[T],
     v: &mut [T],
+    t: T,
 ) -> Result<(), StartError> {
-    let (system, at) = (projection.system, At { q, t: projection.t });
+    let (mut solver, at) = (ConstraintSolver::new(system, q, v, t), At { q, t });
     let mut worst = None;
     for iteration in 0..ITERATIONS {
-        let change = projection.change([q, v], Lower::Velocity(at, v)).map_err(StartError::Projection)?;
-        subtract(v, change);
-        let residuals = &mut projection.solver.residuals;
+        let change = change(&mut solver, system, [q, v], t, Lower::Velocity(at, v));
+        subtract(v, change.map_err(StartError::Projection)?);
+        let residuals = &mut solver.residuals;
         residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + smallest_normal());
         worst = residuals.worst(system, at, v);
         if iteration > 0 && worst.is_none() {
@@ -183,16 +176,17 @@ const LAST_MOVES: usize = 2;
 
 /// Moves q to the constraints.
 fn move_to<S: ConstrainedLagrangian<T>, T: Real>(
-    projection: &mut Projection<'_, S, T>,
-    q: &mut Vector<S, T>,
+    system: &S,
+    q: &mut [T],
     v: &[T],
+    t: T,
 ) -> Result<(), StartError> {
-    let Projection { system, t, .. } = *projection;
+    let mut solver = ConstraintSolver::new(system, q, v, t);
     let rounding = T::lift(ROUNDINGS) * T::default_epsilon();
     let (mut off, mut kept) = (None, 0);
     for _ in 0..MOVES {
-        projection.solver.balance(system, At { q, t }, v);
-        let change = match (projection.change([q, v], Lower::Position(At { q, t })), off) {
+        solver.balance(system, At { q, t }, v);
+        let change = match (change(&mut solver, system, [q, v], t, Lower::Position(At { q, t })), off) {
             (Ok(change), _) => change,
             // The way there has ended where the equations have no solution, which says nothing of the
             // constraints.

@@ -11,9 +11,6 @@ use crate::scalar::norm;
 use crate::system::{Holonomic, Nonholonomic};
 use crate::{HolonomicLagrangian, NonholonomicLagrangian, Real, Space, Vector};
 
-/// An acceleration, and λ.
-type Accelerated<S, T> = (Vector<S, T>, Multipliers<S, T>);
-
 /// Returns the acceleration of the motion through (`q`, `v`, `t`), and λ.
 ///
 /// # Errors
@@ -22,11 +19,11 @@ pub(crate) fn acceleration<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
     t: T,
-) -> Result<Accelerated<S, T>, StepFailure> {
-    let [mut acceleration, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
+) -> Result<(Vector<S, T>, Multipliers<S, T>), StepFailure> {
+    let mut acceleration: Vector<S, T> = system.space().vector();
     let mut multipliers: Multipliers<S, T> = system.multipliers().vector();
     let mut solver = ConstraintSolver::new(system, q, v, t);
-    let upper = SecondOrder { system, q, v, t, l_v: &mut l_v };
+    let upper = SecondOrder { system, q, v, t };
     let (lower, active) = (Lower::Acceleration(At { q, t }, v), multipliers.len());
     let equations = &mut Bordered { system, upper, lower, multipliers: &multipliers, forces: None, active };
     solver.solve(equations, T::lift(1.0))?;

@@ -226,15 +226,14 @@ fn acceleration<S: NondegenerateLagrangian<T>, T: Real>(
     [q, v]: [&[T]; 2],
     t: T,
 ) -> Result<Vector<S, T>, StepFailure> {
-    let [mut acceleration, mut l_v, mut alike]: [Vector<S, T>; 3] = system.space().vectors();
+    let [mut acceleration, mut vector]: [Vector<S, T>; 2] = system.space().vectors();
     if S::SEPARABLE {
-        system.force(q, &[], t, &mut l_v);
-        Mass::new(system, q, t)?.solve(&l_v, &mut acceleration);
+        system.force(q, &[], t, &mut vector);
+        Mass::new(system, q, t)?.solve(&vector, &mut acceleration);
     } else {
         let mut solver: Linear<S, T> = of_second_derivatives(system, q, v, t, Storing::Always);
-        let mut equations = SecondOrder { system, q, v, t, l_v: &mut l_v };
-        alike.fill(T::lift(1.0));
-        let solved = solver.solve(&mut equations, &alike, &mut acceleration);
+        vector.fill(T::lift(1.0));
+        let solved = solver.solve(&mut SecondOrder { system, q, v, t }, &vector, &mut acceleration);
         solved.map_err(|failure| failure.of(StepFailure::MASS))?;
     }
     norm::finite(&acceleration)?;
@@ -247,19 +246,17 @@ pub(super) struct SecondOrder<'a, S, T> {
     pub(super) q: &'a [T],
     pub(super) v: &'a [T],
     pub(super) t: T,
-    /// Work space.
-    pub(super) l_v: &'a mut [T],
 }
 
 impl<S: NondegenerateLagrangian<T>, T: Real> LinearEquations<T> for SecondOrder<'_, S, T> {
     fn evaluate<K: Sink<T>>(&mut self, b: &mut [T], sink: &mut K) -> Result<(), StepFailure> {
-        let Self { system, q, v, t, l_v } = self;
+        let Self { system, q, v, t } = *self;
         let transport = Weights { vq: T::lift(1.0), ..Weights::none() };
-        system.linearize(q, v, *t, Weights::mass(), b, l_v, sink);
-        let mut transported: Vector<S, T> = system.space().vector();
+        let [mut l_v, mut transported]: [Vector<S, T>; 2] = system.space().vectors();
+        system.linearize(q, v, t, Weights::mass(), b, &mut l_v, sink);
         let mut product = |i: usize, j: usize, entry: T| transported[i] += entry * v[j];
-        system.linearize(q, v, *t, transport, b, l_v, &mut product);
-        system.momentum_rate(q, v, *t, l_v);
+        system.linearize(q, v, t, transport, b, &mut l_v, &mut product);
+        system.momentum_rate(q, v, t, &mut l_v);
         for ((b, &transported), &rate) in b.iter_mut().zip(transported.iter()).zip(l_v.iter()) {
             *b -= transported + rate;
         }
