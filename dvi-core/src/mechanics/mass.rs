@@ -3,14 +3,14 @@
 //! L = ½ v·M v + a(q, t)·v − V(q, t), p = M v + a(q, t), mostly without a. M is inverted once: by one
 //! reciprocal per coordinate if it is diagonal, by elimination otherwise.
 
-use super::pattern::of_entries;
+use super::pattern::mass_entries;
 use crate::error::StepFailure;
 use crate::scalar::passes::multiply;
 use crate::scalar::{norm, smallest_normal};
 use crate::space::Sink;
 use crate::space::SquareMatrix;
 use crate::space::linear::{scale, set_scales};
-use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector, Weights};
+use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector};
 
 /// M and M⁻¹. Where M is not constant there are no numbers here, so that a step that divides by it fails.
 #[derive(Debug)]
@@ -40,8 +40,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
     pub(crate) fn new(system: &S, q: &[T], t: T) -> Result<Self, StepFailure> {
         const { assert!(S::UNIFORM_MASS || !(S::CONSTANT_MASS || S::SEPARABLE)) };
         let space = system.space();
-        let [mut v, mut l_q, mut l_v, mut masses]: [Vector<S, T>; 4] = space.vectors();
-        let zero = T::lift(0.0);
+        let [mut v, mut masses, mut reciprocals]: [Vector<S, T>; 3] = space.vectors();
         if !S::UNIFORM_MASS {
             v.fill(T::lift(f64::NAN));
             return Ok(Self { masses: v.clone(), reciprocals: v, coupled: None });
@@ -51,40 +50,33 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
                 v.fill(T::lift(1.0));
                 system.conjugate_momentum(q, &v, t, &mut masses);
             } else {
-                let mut sink = |row: usize, column: usize, entry: T| {
-                    if row == column && entry != zero {
+                mass_entries(system, [q, &v], t, |row, column, entry| {
+                    if row == column {
                         masses[row] += entry;
                     }
-                };
-                system.linearize(q, &v, t, Weights::mass(), &mut l_q, &mut l_v, &mut sink);
+                });
             }
-            let mut reciprocals = v;
             for (column, (&mass, reciprocal)) in masses.iter().zip(reciprocals.iter_mut()).enumerate() {
                 *reciprocal =
                     norm::reciprocal(mass, column).map_err(|failure| failure.of(StepFailure::MASS))?;
             }
             return Ok(Self { masses, reciprocals, coupled: None });
         }
-        let weights = Weights::mass();
-        let mut matrix: Square<S, T> = of_entries(system, [q, &v], t, weights, |entry| entry != zero);
+        let mut matrix: Square<S, T> =
+            space.square(|visit| mass_entries(system, [q, &v], t, |row, column, _| visit(row, column)));
         let entries = matrix.cleared();
-        // What is weighted by zero has no place in it.
-        let [mut masses, mut reciprocals]: [Vector<S, T>; 2] = space.vectors();
-        let mut sink = |row: usize, column: usize, entry: T| {
-            if entry != zero {
-                entries.add(row, column, entry);
-            }
+        mass_entries(system, [q, &v], t, |row, column, entry| {
+            entries.add(row, column, entry);
             if row == column {
                 masses[row] += entry;
             }
-        };
-        system.linearize(q, &v, t, weights, &mut l_q, &mut l_v, &mut sink);
+        });
         // The root of a mass is a weight of velocities.
         let (mut factors, mut scales) = (matrix.clone(), v);
         masses.iter_mut().for_each(|mass| *mass = Scalar::sqrt(Scalar::abs(*mass)) + smallest_normal::<T>());
         set_scales(&mut scales, &masses);
         factors.scale_rows(&scales);
-        factors.factor_with_care([&mut l_q, &mut l_v]).map_err(|failure| failure.of(StepFailure::MASS))?;
+        factors.factor_with_care([&mut masses, &mut reciprocals]).map_err(|failure| failure.of(StepFailure::MASS))?;
         masses.fill(T::lift(f64::NAN));
         reciprocals.fill(T::lift(f64::NAN));
         Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors, scales }) })

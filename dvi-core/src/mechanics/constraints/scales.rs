@@ -11,8 +11,9 @@
 //! The coordinate of a vanishing mass has the size that the constraints give it.
 
 use super::{At, ConstrainedLagrangian, Constraints, Multipliers};
+use crate::mechanics::pattern::mass_entries;
 use crate::scalar::norm::reported;
-use crate::{Real, Scalar, Space, Vector, Weights};
+use crate::{Real, Scalar, Space, Vector};
 
 /// A scale that changes by no more than this factor is balanced.
 const BALANCED: f64 = 1.25;
@@ -81,17 +82,15 @@ fn change<T: Real>(scale: &mut T, other: T) -> bool {
 /// Sets `scales` to 1/√|Mⱼⱼ|.
 pub(crate) fn scale_coordinates<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
-    [q, v]: [&[T]; 2],
+    at: [&[T]; 2],
     t: T,
     scales: &mut [T],
 ) {
-    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = system.space().vectors();
-    let mut diagonal = |i: usize, j: usize, entry: T| {
+    mass_entries(system, at, t, |i, j, entry| {
         if i == j {
             scales[i] += entry;
         }
-    };
-    system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut diagonal);
+    });
     scales.iter_mut().for_each(|mass| *mass = scale(Scalar::abs(*mass)));
 }
 

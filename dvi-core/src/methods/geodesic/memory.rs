@@ -3,14 +3,14 @@
 use super::covectors::force;
 use super::tangents::{TangentMass, Tangents};
 use crate::mechanics::manifold::{Block, blocks};
+use crate::mechanics::pattern::mass_entries;
 use crate::memory::lasting;
 use crate::space::inertia::inertia;
-
 use crate::space::{RowMatrix, Sink};
 use crate::state::rates::Rates;
 use crate::state::summation::{Carried, Summation};
 use crate::system::ManifoldSystem;
-use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Vector, Weights};
+use crate::{ManifoldLagrangian, Real, Scalar, Space, System, Vector};
 
 /// The momentum of a run of [`Geodesic`](super::Geodesic), what its next step is guessed from, and work
 /// space.
@@ -49,21 +49,13 @@ pub(super) struct Kicks<S: System, T: Real> {
 /// M, from its entries at a point.
 pub(super) fn mass_rows<S: ManifoldLagrangian<T>, T: Real>(
     system: &S,
-    [q, v]: [&[T]; 2],
+    at: [&[T]; 2],
     t: T,
 ) -> MassRows<S, T> {
     let space = system.space();
-    let [mut l_q, mut l_v]: [Vector<S, T>; 2] = space.vectors();
-    let mut each = |add: &mut dyn FnMut(usize, usize, T)| {
-        let mut sink = |row: usize, column: usize, entry: T| {
-            if entry != T::lift(0.0) {
-                add(row, column, entry);
-            }
-        };
-        system.linearize(q, v, t, Weights::mass(), &mut l_q, &mut l_v, &mut sink);
-    };
-    let mut rows: MassRows<S, T> = space.rows(space, |visit| each(&mut |row, column, _| visit(row, column)));
-    each(&mut |row, column, entry| rows.add(row, column, entry));
+    let mut rows: MassRows<S, T> =
+        space.rows(space, |visit| mass_entries(system, at, t, |row, column, _| visit(row, column)));
+    mass_entries(system, at, t, |row, column, entry| rows.add(row, column, entry));
     rows
 }
 
