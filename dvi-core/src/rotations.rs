@@ -1,6 +1,6 @@
 //! Rotation matrices as states have them: nine entries, row by row.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::Real;
 use crate::mechanics::manifold::rotation;
@@ -22,21 +22,23 @@ pub fn exp<T: Real>(u: [T; 3]) -> [T; 9] {
 
 /// The rotation by `second` after that by `first`: the product `second` · `first`.
 pub fn product<T: Real>(second: &[T; 9], first: &[T; 9]) -> [T; 9] {
-    entries(&(rotation::matrix(second) * rotation::matrix(first)))
+    entries(&(matrix(second) * matrix(first)))
 }
 
 /// The vector of space that `rotation` takes a vector of the body to.
 pub fn apply<T: Real>(rotation: &[T; 9], of_body: [T; 3]) -> [T; 3] {
-    (rotation::matrix(rotation) * Vector3::from(of_body)).into()
+    (matrix(rotation) * Vector3::from(of_body)).into()
 }
 
 /// How far a matrix is from a rotation: max |RᵀR − 1| over its entries, or 2 if its determinant is negative.
 pub fn defect<T: Real>(rotation: &[T; 9]) -> T {
-    rotation::defect(&rotation::matrix(rotation))
+    rotation::defect(&matrix(rotation))
 }
 
-fn entries<T: Real>(matrix: &nalgebra::Matrix3<T>) -> [T; 9] {
-    let mut entries = [T::lift(0.0); 9];
-    rotation::set(&mut entries, matrix);
-    entries
+fn matrix<T: Real>(entries: &[T; 9]) -> Matrix3<T> {
+    Matrix3::from_row_slice(entries)
+}
+
+fn entries<T: Real>(matrix: &Matrix3<T>) -> [T; 9] {
+    core::array::from_fn(|place| matrix[(place / 3, place % 3)])
 }

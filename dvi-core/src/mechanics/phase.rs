@@ -43,13 +43,6 @@ impl<T: Real> Arrival<'_, T> {
     }
 }
 
-/// By how much a step changes q and p: Δ and (D₁ + D₂)L_d.
-#[derive(Clone, Copy)]
-pub(crate) struct Increments<'a, T> {
-    pub(crate) q: &'a [T],
-    pub(crate) p: &'a [T],
-}
-
 impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
     /// At (`q`, `v`, `t`).
     ///
@@ -94,7 +87,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         self.carried[1].add(&self.p, impulse, p1);
     }
 
-    /// Moves to the end of a step of length `h`.
+    /// Moves to the end of a step of length `h`, which has changed q and p by Δ and (D₁ + D₂)L_d.
     ///
     /// # Errors
     /// [`StepFailure::NotFinite`]; nothing has moved then.
@@ -102,17 +95,17 @@ impl<S: NondegenerateLagrangian<T>, T: Real> PhasePoint<S, T> {
         &mut self,
         q: &mut [T],
         to: &Arrival<'_, T>,
-        by: Increments<'_, T>,
+        [delta, impulse]: [&[T]; 2],
         h: T,
     ) -> Result<(), StepFailure> {
         to.finite::<S>()?;
         let [of_q, of_p] = &mut self.carried;
-        of_q.advance(q, by.q, to.q);
-        of_p.advance(&mut self.p, by.p, to.p);
+        of_q.advance(q, delta, to.q);
+        of_p.advance(&mut self.p, impulse, to.p);
         if S::SEPARABLE {
             self.force.copy_from_slice(to.force);
         }
-        self.remember(by.q, h);
+        self.remember(delta, h);
         Ok(())
     }
 

@@ -16,7 +16,7 @@ mod memory;
 
 use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
-use crate::mechanics::phase::{Arrival, Increments, Inertial, PhasePoint};
+use crate::mechanics::phase::{Arrival, Inertial, PhasePoint};
 use crate::scalar::norm;
 use crate::scalar::passes::{add, blocks};
 use crate::scalar::simd::widest_if;
@@ -254,7 +254,7 @@ fn arrive<const PLAIN: bool, S: NondegenerateLagrangian<T>, T: Real, E: Equation
     if PLAIN {
         phase.advance_plainly(q, &to, increment, interval.h)
     } else {
-        phase.advance(q, &to, Increments { q: increment, p: sum }, interval.h)
+        phase.advance(q, &to, [increment, sum], interval.h)
     }
 }
 

@@ -6,16 +6,6 @@ use super::series::sines;
 use crate::scalar::norm;
 use crate::{Real, Scalar};
 
-/// The matrix with these entries, row by row.
-pub(crate) fn matrix<T: Real>(entries: &[T]) -> Matrix3<T> {
-    Matrix3::from_row_slice(entries)
-}
-
-/// Sets the entries, row by row, to those of a matrix.
-pub(crate) fn set<T: Real>(entries: &mut [T], matrix: &Matrix3<T>) {
-    entries.copy_from_slice(matrix.transpose().as_slice());
-}
-
 /// A quaternion of a rotation.
 pub(crate) fn quaternion<T: Real>(rotation: &Matrix3<T>) -> Quaternion<T> {
     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation)).into_inner()

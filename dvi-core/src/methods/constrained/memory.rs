@@ -76,16 +76,10 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
     /// the constraints. With a symmetric rule they are those in the middle of the step, to order h². Zero
     /// before the first.
     pub fn multipliers(&self) -> impl Iterator<Item = T> + '_ {
-        let [first, last] = self.impulses();
-        let (h, zero) = (self.last_step, T::lift(0.0));
-        first.iter().zip(last).map(move |(&first, &last)| if h == zero { zero } else { (first + last) / h })
-    }
-
-    /// The impulses G(q)ᵀι of the constraints at the beginning and at the end of the last step, as numbers
-    /// ι, one for each constraint.
-    pub fn impulses(&self) -> [&[T]; 2] {
         let here = &self.here.impulses;
-        self.open().map_or(here, |reduced| &reduced.here.impulses).each_ref().map(|ends| &ends[..])
+        let [first, last] = self.open().map_or(here, |reduced| &reduced.here.impulses);
+        let (h, zero) = (self.last_step, T::lift(0.0));
+        first.iter().zip(last.iter()).map(move |(&first, &last)| if h == zero { zero } else { (first + last) / h })
     }
 }
 

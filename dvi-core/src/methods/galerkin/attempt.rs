@@ -7,7 +7,7 @@ use super::memory::Path;
 use crate::discrete::frequency::FrequencyIn;
 use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
-use crate::mechanics::phase::{Arrival, Increments};
+use crate::mechanics::phase::Arrival;
 use crate::methods::step::{Begin, Carried, Work};
 use crate::scalar::norm;
 use crate::scalar::passes::multiply;
@@ -133,8 +133,7 @@ where
         norm::finite(next).and(norm::finite(momentum))?;
         inertial.check(system, [next, delta], [end, h], velocity)?;
         let similar = phase.extrapolates_to(h);
-        let by = Increments { q: delta, p: &residuals[0] };
-        phase.advance(q, &Arrival { q: next, p: momentum, force }, by, h)?;
+        phase.advance(q, &Arrival { q: next, p: momentum, force }, [delta, &residuals[0]], h)?;
         if let Some(interior) = interior {
             interior.remember(if *by_newton { T::lift(0.0) } else { h });
         }
