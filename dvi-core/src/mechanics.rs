@@ -22,4 +22,4 @@ pub use at_state::AtState;
 pub use motion::{FirstOrder, InLanes, Rates};
 pub use on_constraints::OnConstraints;
 pub use span::{Interval, Span};
-pub use vector_field::VectorField;
+pub(crate) use vector_field::VectorField;

@@ -13,7 +13,7 @@ use crate::{DegenerateLagrangian, Real, Space, System, Vector};
 
 /// X = B⁻¹(∇H + ∂α/∂t) with the storage that its evaluation needs.
 #[derive(Debug)]
-pub struct VectorField<S: System, T: Real> {
+pub(crate) struct VectorField<S: System, T: Real> {
     inverse: Inverse<S, T>,
     gradient: Vector<S, T>,
     entries: Vector<S, T>,
@@ -24,7 +24,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::Singular`] if Ω is singular at `q`.
-    pub fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StepFailure> {
+    pub(crate) fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StepFailure> {
         let (space, omega) = (system.space(), Self::omega());
         let mut entries = space.vector();
         let mut inverse = Inverse::new(system, q, t, omega);
@@ -42,7 +42,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     /// # Errors
     /// [`StepFailure::Singular`] if Ω is singular at `q`.
     #[inline]
-    pub fn evaluate(
+    pub(crate) fn evaluate(
         &mut self,
         system: &S,
         q: &Vector<S, T>,
@@ -109,7 +109,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::Singular`] if Ω is singular at `q`.
-    pub fn generator(
+    pub(crate) fn generator(
         &mut self,
         system: &S,
         index: usize,

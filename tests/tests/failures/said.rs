@@ -3,9 +3,7 @@
 use core::error::Error;
 use core::fmt::{Debug, Display};
 
-use dvi_core::Space;
 use dvi_core::error::{CheckpointError, IndexError, LengthError};
-use dvi_core::mechanics::VectorField;
 use dvi_core::prelude::*;
 
 /// Masses that are driven away.
@@ -48,14 +46,6 @@ where
     Ok(error.to_string().strip_prefix("step 0 from t = 0: ").ok_or("a step")?.to_string())
 }
 
-/// Ω is x[1] in its block.
-#[degenerate_lagrangian(
-    coordinates(x[2], y[2]),
-    one_form = x[0] * d(y[0]) + x[1] * x[1] / 2.0 * d(y[1]),
-    hamiltonian = y[1],
-)]
-struct Form;
-
 /// The mass of x[1] is zero at the midpoint of the first step.
 #[lagrangian(coordinates(y, x[2]), lagrangian = (dot(y).powi(2) + dot(x[0]).powi(2) + x[1] * dot(x[1]).powi(2)) / 2.0)]
 struct Masses;
@@ -69,12 +59,6 @@ struct Discrete;
 
 #[test]
 fn a_singular_matrix_has_its_name_and_that_of_a_coordinate() -> Result<(), Box<dyn Error>> {
-    // Steps see in time that Ω becomes singular.
-    let mut q = Form.space().vector();
-    q.copy_from_slice(&[1.0, 0.0, 0.0, 0.0]);
-    let said = VectorField::new(&Form, &q, 0.0).err().ok_or("no error")?.to_string();
-    assert!(said.starts_with("Ω = −dα is singular: its pivot for coordinate "), "{said}");
-
     let masses = MassesState { y: 0.0, x: [0.0, 1.0], dot_y: 0.0, dot_x: [0.0, -2.0] };
     let said = first_failure(Masses, RungeKutta::midpoint(), 1.0, masses)?;
     assert!(said.starts_with("the mass matrix is singular: its pivot for `x[1]` is "), "{said}");
