@@ -3,5 +3,4 @@
 use dvi_tests::Outcome;
 
 mod light;
-mod moving;
 mod steps;

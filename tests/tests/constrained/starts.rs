@@ -57,32 +57,15 @@ fn a_state_is_projected_to_the_constraints() -> Outcome {
 
 const RELEASED: PendulumState = PendulumState { x: 0.8, y: -0.6, dot_x: 0.0, dot_y: 0.0 };
 
-/// What is projected is a start, in double and in single precision, whatever was thrown away; and starts
-/// that are off by more than rounding are none.
+/// Starts that are off by more than rounding are none, beside a large coordinate that has nothing to do with
+/// it too.
 #[test]
-fn starts_are_judged_by_rounding_errors() -> Outcome {
-    for number in 0..500 {
-        let (angle, speed) = (0.013 * f64::from(number), (0.7 * f64::from(number)).sin());
-        let (sin, cos) = angle.sin_cos();
-        let radial = PendulumState { x: 1.3 * sin, y: -1.3 * cos, dot_x: speed * sin, dot_y: -speed * cos };
-        let start = PENDULUM.projected(0.0, &radial)?;
-        Integrator::new(&PENDULUM, Rattle::default(), 0.01, start)?;
-        let single = PendulumStateOf {
-            x: radial.x as f32,
-            y: radial.y as f32,
-            dot_x: radial.dot_x as f32,
-            dot_y: radial.dot_y as f32,
-        };
-        let start: PendulumStateOf<f32> = PENDULUM.projected(0.0, &single)?;
-        Integrator::new(&PENDULUM, Constrained::new(Variational::midpoint()), 0.01_f32, start)?;
-    }
-    // Beside a large coordinate that has nothing to do with it.
+fn starts_are_judged_by_rounding_errors() {
     let state = BesideState { far: 1e9, a: 1.0, b: 3.0, dot_far: 1e9, dot_a: 1.0, dot_b: -2.0 };
     let begun = Integrator::new(&Beside, Rattle::default(), 0.1, state).map(drop);
     assert!(matches!(begun, Err(StartError::OffConstraint { constraint: 0, .. })), "{begun:?}");
     let begun = Integrator::new(&Beside, Rattle::default(), 0.1, BesideState { a: 6.0, ..state }).map(drop);
     assert!(matches!(begun, Err(StartError::AcrossConstraint { constraint: 0, .. })), "{begun:?}");
-    Ok(())
 }
 
 /// A coordinate that is not constrained, and two that are.
@@ -163,6 +146,7 @@ fn far_and_near_states_are_projected() -> Outcome {
         let found: PendulumStateOf<f32> = PENDULUM.projected(0.0, &start)?;
         let off = [found.x - 0.8_f32.sqrt(), found.y - 0.2_f32.sqrt()];
         assert!(off.iter().all(|off| off.abs() < 2e-6), "{size:e}: {found:?}");
+        Integrator::new(&PENDULUM, Constrained::new(Variational::midpoint()), 0.01_f32, found)?;
     }
     // Where the squares are no numbers, that is said.
     let said = |x: f64| PENDULUM.projected(0.0, &at(x, 0.0)).map_err(|error| error.to_string());

@@ -39,27 +39,7 @@ fn discs_keep_their_energy() -> Outcome {
     Ok(())
 }
 
-/// The surfaces stand in the order of the pairs, and have the gradients of their own pair.
-#[test]
-fn members_are_numbered_row_by_row() {
-    let n = 5;
-    let discs = Discs { n, m: vec![1.0; n], r: R };
-    let q: Vec<f64> = (0..2 * n).map(|k| (1.3 * k as f64).sin()).collect();
-    let pairs: Vec<[usize; 2]> = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j])).collect();
-    let m = discs.multipliers().dimension();
-    assert_eq!(m, pairs.len() + 2 * n);
-    let mut gaps = vec![0.0; m];
-    discs.gap(&q, 0.0, &mut gaps);
-    for (number, [i, j]) in pairs.iter().enumerate() {
-        let expected = (q[*i] - q[*j]).hypot(q[n + i] - q[n + j]) - 2.0 * R;
-        assert_abs_diff_eq!(gaps[number], expected, epsilon = 1e-15);
-    }
-    for i in 0..2 * n {
-        assert_abs_diff_eq!(gaps[pairs.len() + i], 1.0 - R - q[i].abs(), epsilon = 1e-15);
-    }
-}
-
-/// Rows of other shapes: ranges that grow, that end before they begin, that go on backwards, in three kinds
+/// Surfaces are numbered row by row: ranges that grow, that end before they begin, that go on backwards, in three kinds
 /// of sizes.
 #[lagrangian(
     coordinates(x[n]),

@@ -163,16 +163,3 @@ fn a_run_goes_back_the_way_it_came() -> Outcome {
     }
     Ok(())
 }
-
-#[test]
-fn an_impact_is_printed_though_its_system_is_not() -> Outcome {
-    #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y, impact = y)]
-    struct Ball {}
-    let start = BallState { y: 0.01, dot_y: -1.0 };
-    let mut run = Integrator::new(&Ball {}, Impacts::new(Variational::trapezoid()), 0.1, start)?;
-    run.advance()?;
-    let [impact] = run.memory().impacts() else { return Err("one impact".into()) };
-    let printed = format!("{:?}", impact.clone());
-    assert!(printed.starts_with("Impact { surface: 0, time: 0.00"), "{printed}");
-    Ok(())
-}

@@ -3,10 +3,9 @@
 use approx::assert_abs_diff_eq;
 use dvi_core::error::{StartError, StepFailure};
 use dvi_core::prelude::*;
-use dvi_core::{Weights, rotations};
+use dvi_core::rotations;
 use dvi_examples::models::{SphericalPendulum, SphericalPendulumState, SphericalPendulumStateOf};
 use dvi_tests::Outcome;
-use dvi_tests::filling;
 use dvi_tests::zoo::manifold::{Body, BodyState, BodyStateOf, FREE, UNEVEN};
 use num_dual::Dual64;
 
@@ -140,36 +139,4 @@ fn a_unit_vector_at_rest_has_no_derivatives_and_a_body_has() -> Outcome {
     assert_abs_diff_eq!(run.state().omega_R[0].eps, rate * rate.sinh(), epsilon = 1e-5);
     assert_abs_diff_eq!(run.state().R[7].eps, rate.cosh(), epsilon = 1e-5);
     Ok(())
-}
-
-/// The same Lagrangian with the nine entries and the velocities as numbers; the six velocities more have an
-/// energy of their own, and rest.
-#[lagrangian(
-    coordinates(r[9]),
-    lagrangian = (inertia[0] * dot(r[0]).powi(2) + inertia[1] * dot(r[1]).powi(2) + inertia[2] * dot(r[2]).powi(2)) / 2.0
-        - weight * (r[6] * tip[0] + r[7] * tip[1] + r[8] * tip[2]) + sum(3..9, |k| dot(r[k]).powi(2)),
-)]
-struct Numbers {
-    inertia: [f64; 3],
-    tip: [f64; 3],
-    weight: f64,
-}
-
-/// That `R[i][j]` is coordinate 3 i + j, and `omega(R)[k]` velocity k.
-#[test]
-fn entries_of_a_rotation_are_read_row_by_row() {
-    let Body { inertia, tip, weight } = UNEVEN;
-    let numbers = Numbers { inertia, tip, weight };
-    let q: [f64; 9] = core::array::from_fn(|i| 0.1 + (i as f64).sin());
-    let v = [0.3, -0.7, 1.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    assert_eq!(UNEVEN.lagrangian(&q, &v, 0.0), numbers.lagrangian(&q, &v, 0.0));
-    assert_eq!(UNEVEN.energy(&q, &v, 0.0), numbers.energy(&q, &v, 0.0));
-    let weights = Weights { qq: 0.3, qv: -0.4, vq: 0.5, vv: 0.0 };
-    let (mut l_q, mut l_v, mut matrix) = ([0.0; 9], [0.0; 9], [0.0; 81]);
-    UNEVEN.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut filling(&mut matrix, 9));
-    let rotation = (l_q, l_v, matrix);
-    matrix.fill(0.0);
-    numbers.linearize(&q, &v, 0.0, weights, &mut l_q, &mut l_v, &mut filling(&mut matrix, 9));
-    let flat = (l_q, l_v, matrix);
-    assert_eq!(rotation, flat);
 }
