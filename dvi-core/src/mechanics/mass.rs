@@ -76,7 +76,9 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Mass<S, T> {
         masses.iter_mut().for_each(|mass| *mass = Scalar::sqrt(Scalar::abs(*mass)) + smallest_normal::<T>());
         set_scales(&mut scales, &masses);
         factors.scale_rows(&scales);
-        factors.factor_with_care([&mut masses, &mut reciprocals]).map_err(|failure| failure.of(StepFailure::MASS))?;
+        factors
+            .factor_with_care([&mut masses, &mut reciprocals])
+            .map_err(|failure| failure.of(StepFailure::MASS))?;
         masses.fill(T::lift(f64::NAN));
         reciprocals.fill(T::lift(f64::NAN));
         Ok(Self { masses, reciprocals, coupled: Some(Coupled { matrix, factors, scales }) })

@@ -25,12 +25,24 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
     /// # Errors
     /// [`StepFailure::Singular`] if Ω is singular at `q`.
     pub(crate) fn new(system: &S, q: &Vector<S, T>, t: T) -> Result<Self, StepFailure> {
-        let (space, omega) = (system.space(), Self::omega());
-        let mut entries = space.vector();
-        let mut inverse = Inverse::new(system, q, t, omega);
-        let prepared = inverse.prepare(system, q, t, omega, &mut entries, &mut Statistics::default());
-        prepared.map_err(|failure| failure.of(StepFailure::OMEGA))?;
-        Ok(Self { inverse, gradient: space.vector(), entries })
+        let ([gradient, entries], inverse) =
+            (system.space().vectors(), Inverse::new(system, q, t, Self::omega()));
+        let mut field = Self { inverse, gradient, entries };
+        field.prepare(system, q, t, &mut Statistics::default())?;
+        Ok(field)
+    }
+
+    /// Inverts Ω at another point.
+    #[inline]
+    fn prepare(
+        &mut self,
+        system: &S,
+        q: &[T],
+        t: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure> {
+        let prepared = self.inverse.prepare(system, q, t, Self::omega(), &mut self.entries, statistics);
+        prepared.map_err(|failure| failure.of(StepFailure::OMEGA))
     }
 
     fn omega() -> Combination<T> {
@@ -89,14 +101,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         for lane in 0..W {
             if !<S as DegenerateLagrangian<T>>::AFFINE {
                 read_lane(lane, q, vector);
-                self.inverse.prepare(
-                    system,
-                    vector,
-                    t.0[lane],
-                    Self::omega(),
-                    &mut self.entries,
-                    statistics,
-                )?;
+                self.prepare(system, vector, t.0[lane], statistics)?;
             }
             read_lane(lane, gradient, &mut self.gradient);
             self.inverse.solve(system, &self.gradient, vector);
@@ -131,8 +136,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         if !S::AFFINE {
-            let prepared = self.inverse.prepare(system, q, t, Self::omega(), &mut self.entries, statistics);
-            prepared.map_err(|failure| failure.of(StepFailure::OMEGA))?;
+            self.prepare(system, q, t, statistics)?;
         }
         self.inverse.solve(system, &self.gradient, out);
         Ok(())

@@ -23,7 +23,7 @@ use crate::system::ManifoldSystem;
 use crate::system::start::evaluate;
 use crate::{ManifoldLagrangian, Real, Space, Vector};
 
-use covectors::momentum;
+use covectors::{force, momentum};
 use equations::has_spheres;
 use memory::{Kicks, is_positive, mass_rows};
 use tangents::{Equations, Legendre, TangentMass};
@@ -149,7 +149,9 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
             memory.orientation = Some(orientation.map_err(StartError::Starter)?);
         }
         if S::SEPARABLE && self.rule.interior_nodes() == 0 {
-            memory.kicks = mass.map(|mass| Kicks::new(system, mass, q, t));
+            system.force(q, &[], t, &mut l_q);
+            force(system, q, &mut l_q);
+            memory.kicks = mass.map(|mass| Kicks { mass, force: l_q });
         }
         Ok(memory)
     }

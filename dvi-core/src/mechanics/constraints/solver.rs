@@ -155,27 +155,20 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         alpha: T,
     ) -> StepFailure {
         let StepFailure::Singular { pivot, .. } = failure else { return failure };
+        let (mut regular, mut singular) = (0, equations.multipliers.len());
+        let mut is_regular = |active: usize| {
+            equations.active = active;
+            self.eliminate(equations, alpha).is_ok()
+        };
         // Without constraints: is it A that is singular?
-        if !self.is_regular(equations, alpha, 0) {
+        if !is_regular(0) {
             return failure;
         }
-        let (mut regular, mut singular) = (0, equations.multipliers.len());
         while singular - regular > 1 {
             let middle = regular + (singular - regular) / 2;
-            if self.is_regular(equations, alpha, middle) { regular = middle } else { singular = middle }
+            if is_regular(middle) { regular = middle } else { singular = middle }
         }
         StepFailure::RedundantConstraint { constraint: regular, pivot }
-    }
-
-    /// Whether the equations with the first `active` constraints have a solution.
-    fn is_regular<U: LinearEquations<T>>(
-        &mut self,
-        equations: &mut Bordered<'_, S, T, U>,
-        alpha: T,
-        active: usize,
-    ) -> bool {
-        equations.active = active;
-        self.eliminate(equations, alpha).is_ok()
     }
 
     /// Whether the determinant of the equations that were solved last is positive.

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use super::series::sines;
+use super::series::lambda;
 use crate::scalar::norm;
 use crate::{Real, Scalar};
 
@@ -25,7 +25,7 @@ pub(crate) fn of_quaternion<T: Real>(quaternion: &Quaternion<T>) -> Matrix3<T> {
 pub(crate) fn increment<T: Real>(quaternion: &Quaternion<T>, u: Vector3<T>) -> Quaternion<T> {
     let half = u * T::lift(0.5);
     let square = half.dot(&half);
-    let [sine, versine] = sines(square);
+    let [sine, versine] = lambda::<1, 2, T>(square);
     quaternion * Quaternion::from_parts(-square * versine, half * sine)
 }
 

@@ -87,17 +87,11 @@ fn power_series<T: Real>(terms: &[f64; TERMS], square: T) -> [T; 2] {
 
 /// λₙ(θ²) = Σₖ (−θ²)ᵏ/(2k + n)!, n = 1 to 5: sin θ/θ, (1 − cos θ)/θ², (θ − sin θ)/θ³, …
 #[inline]
-fn lambda<const FROM: usize, const COUNT: usize, T: Real>(square: T) -> [T; COUNT] {
+pub(crate) fn lambda<const FROM: usize, const COUNT: usize, T: Real>(square: T) -> [T; COUNT] {
     if square <= T::lift(NEAR) {
         return core::array::from_fn(|n| power_series(&LAMBDA[FROM - 1 + n], square)[0]);
     }
     far(FROM, square)
-}
-
-/// sin θ/θ and (1 − cos θ)/θ², from θ².
-#[inline]
-pub(crate) fn sines<T: Real>(square: T) -> [T; 2] {
-    lambda::<1, 2, T>(square)
 }
 
 #[inline(never)]
@@ -170,17 +164,11 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// What the map does to `f`, without `f` itself.
-    #[inline]
-    pub(crate) fn change(&self, f: &Vector3<T>) -> Vector3<T> {
-        let once = self.u.cross(f);
-        once * self.a + self.u.cross(&once) * self.b
-    }
-
     /// The image of `f`.
     #[inline]
     pub(crate) fn of(&self, f: &Vector3<T>) -> Vector3<T> {
-        f + self.change(f)
+        let once = self.u.cross(f);
+        f + (once * self.a + self.u.cross(&once) * self.b)
     }
 
     /// The matrix of the map.

@@ -54,7 +54,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
         y: &Self::Point<T>,
         t: T,
     ) -> Result<(), StepFailure> {
-        equations.orientation.compare(system, &y.0[0], t).map(drop)
+        equations.orientation.compare(system, &y.0[0], t)
     }
     fn arrive(
         equations: &mut FlowOnQ<S, T>,

@@ -79,7 +79,8 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
         let here = &self.here.impulses;
         let [first, last] = self.open().map_or(here, |reduced| &reduced.here.impulses);
         let (h, zero) = (self.last_step, T::lift(0.0));
-        first.iter().zip(last.iter()).map(move |(&first, &last)| if h == zero { zero } else { (first + last) / h })
+        let ends = first.iter().zip(last.iter());
+        ends.map(move |(&first, &last)| if h == zero { zero } else { (first + last) / h })
     }
 }
 

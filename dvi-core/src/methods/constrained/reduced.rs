@@ -170,7 +170,9 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Walk<'_, S, T> {
             let (t, h) = (clock.after(taken).time(), clock.step_size());
             let begin = Begin { system, mass, is_positive, q: at, here: from, t, h, stopping };
             let mut of_step = Statistics::default();
-            work.guess(ratio, &from.impulses[0]);
+            for (impulse, &last) in work.place.impulses[0].iter_mut().zip(from.impulses[0].iter()) {
+                *impulse = ratio * last;
+            }
             if work.shake(&begin, &mut of_step).and_then(|()| work.rattle(&begin)).is_none() {
                 break;
             }

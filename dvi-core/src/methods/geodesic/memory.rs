@@ -1,6 +1,5 @@
 //! What a run along geodesics carries, and work space.
 
-use super::covectors::force;
 use super::tangents::{TangentMass, Tangents};
 use crate::mechanics::manifold::{Block, blocks};
 use crate::mechanics::pattern::mass_entries;
@@ -77,16 +76,6 @@ pub(super) fn is_positive<S: ManifoldLagrangian<T>, T: Real>(system: &S, mass: &
             mass.row(row, |column, entry| matrix.add(row, column, entry));
         }
         inertia(&mut matrix, &mut removed).is_ok_and(|inertia| inertia.negative == 0)
-    }
-}
-
-impl<S: ManifoldLagrangian<T>, T: Real> Kicks<S, T> {
-    /// At the point `q`.
-    pub(super) fn new(system: &S, mass: MassRows<S, T>, q: &[T], t: T) -> Self {
-        let mut f0 = system.space().vector();
-        system.force(q, &[], t, &mut f0);
-        force(system, q, &mut f0);
-        Self { mass, force: f0 }
     }
 }
 

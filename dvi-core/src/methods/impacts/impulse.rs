@@ -5,7 +5,7 @@ use super::memory::{ImpactsMemory, Wall};
 use super::passage::Passage;
 use crate::error::StepFailure;
 use crate::methods::FreeFlight;
-use crate::{Real, Scalar, UnilateralLagrangian, Vector, Weights};
+use crate::{Real, Scalar, UnilateralLagrangian, Weights};
 
 /// Iterations for the impulse.
 const ITERATIONS: usize = 40;
@@ -17,23 +17,6 @@ const CLOSE: f64 = 1e-5;
 /// rounding errors.
 const NEAR: f64 = 1e-6;
 const ROUNDINGS: f64 = 16.0;
-
-/// ∂g·∂²L/∂v∂v ∂g/(∂g·∂g)², by which a rate of change of the gap is divided for a guess of the impulse.
-fn inertia<S: UnilateralLagrangian<T>, T: Real>(
-    system: &S,
-    gradient: &[T],
-    [q, v]: [&[T]; 2],
-    t: T,
-    [l_q, l_v]: &mut [Vector<S, T>; 2],
-) -> T {
-    let zero = T::lift(0.0);
-    let mass = Weights::mass();
-    let mut sum = zero;
-    let mut product = |i: usize, j: usize, entry: T| sum += gradient[i] * entry * gradient[j];
-    system.linearize(q, v, t, mass, l_q, l_v, &mut product);
-    let squared = gradient.iter().fold(zero, |sum, &entry| sum + entry * entry);
-    sum / (squared * squared)
-}
 
 impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M, T> {
     /// Finds the impulse of a reflection. The rate of change of the gap before it is `rate`.
@@ -66,12 +49,17 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         Ok(())
     }
 
-    /// The impulse that turns the rate of change of a gap from one value to another, by the secant method.
+    /// The impulse that turns the rate of change of a gap from one value to another, by the secant method,
+    /// from the guess of a change of the rate times ∂g·∂²L/∂v∂v ∂g/(∂g·∂g)².
     fn impulse_for(&mut self, surface: usize, [rate, wanted]: [T; 2]) -> Result<T, StepFailure> {
         let Self { system, memory, q, t, .. } = self;
-        let ImpactsMemory { wall, work, .. } = &mut **memory;
-        let lambda = inertia(*system, &wall.gradient, [q, &wall.v], *t, work) * (wanted - rate);
-        let mut before = [T::lift(0.0), rate];
+        let ImpactsMemory { wall: Wall { gradient, v, .. }, work: [l_q, l_v], .. } = &mut **memory;
+        let (zero, mut inertia) = (T::lift(0.0), T::lift(0.0));
+        let mut product = |i: usize, j: usize, entry: T| inertia += gradient[i] * entry * gradient[j];
+        system.linearize(q, v, *t, Weights::mass(), l_q, l_v, &mut product);
+        let squared = gradient.iter().fold(zero, |sum, &entry| sum + entry * entry);
+        let lambda = inertia / (squared * squared) * (wanted - rate);
+        let mut before = [zero, rate];
         self.improve(surface, lambda, |lambda, [_, behind]| {
             let change = (wanted - behind) * (lambda - before[0]) / (behind - before[1]);
             before = [lambda, behind];

@@ -75,14 +75,6 @@ impl<S: ConstrainedSystem, T: Real> Arrival<S, T> {
             gram: system.multipliers().square(all),
         }
     }
-
-    /// Sets the guess of ι0 to `ratio` times `last`.
-    #[inline]
-    pub(super) fn guess(&mut self, ratio: T, last: &[T]) {
-        for (impulse, &last) in self.place.impulses[0].iter_mut().zip(last) {
-            *impulse = ratio * last;
-        }
-    }
 }
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Place<S, T> {
