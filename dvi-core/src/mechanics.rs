@@ -11,15 +11,13 @@ pub(crate) mod mass;
 #[cfg(feature = "random")]
 pub(crate) mod mass_root;
 pub(crate) mod motion;
-mod on_constraints;
 pub(crate) mod orientation;
 pub(crate) mod pattern;
 pub(crate) mod phase;
 mod span;
 mod vector_field;
 
-pub use at_state::AtState;
+pub use at_state::{AtState, OnConstraints};
 pub use motion::{FirstOrder, InLanes, Rates};
-pub use on_constraints::OnConstraints;
 pub use span::{Interval, Span};
 pub(crate) use vector_field::VectorField;

@@ -11,8 +11,7 @@
 //! constraints of positions and of velocities.
 
 pub(crate) mod consistent;
-mod holonomic;
-mod nonholonomic;
+mod kinds;
 pub(crate) mod residuals;
 pub(crate) mod scales;
 mod solver;

@@ -2,7 +2,6 @@
 //! between the two ends. In the moving frame of the body the discrete Euler–Lagrange equations of a rotation
 //! are those of Euler and Poincaré (Marsden, Pekarsky & Shkoller 1999).
 
-mod between;
 mod covectors;
 mod equations;
 mod memory;

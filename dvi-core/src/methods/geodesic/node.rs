@@ -5,14 +5,12 @@ use core::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::between::{Between, Slots, slots};
 use super::memory::MassRows;
-use super::variation::Variation;
+use super::variation::{Between, Slots, Variation, slots};
 use crate::discrete::NodeWork;
 use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{Block, blocks, fill, vector};
 use crate::space::{RowMatrix, Sink};
-
 use crate::system::Factor;
 use crate::{ManifoldLagrangian, Real, System, Weights};
 

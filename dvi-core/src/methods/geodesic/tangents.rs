@@ -5,9 +5,9 @@ use core::mem;
 
 use nalgebra::Vector3;
 
-use super::between::visit_coupled;
 use super::covectors::{subtract_momentum, velocity};
 use super::node::Node;
+use super::variation::visit_coupled;
 use crate::error::StepFailure;
 use crate::mechanics::manifold::sphere::GreatCircle;
 use crate::mechanics::manifold::{Block, blocks, set, vector};
