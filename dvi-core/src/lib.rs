@@ -79,29 +79,6 @@
 //!   $`\Omega \dot q = \nabla H`$ with $`\Omega = (D\alpha)^\mathsf{T} - D\alpha`$. Its states hold
 //!   coordinates only. It is declared by [`degenerate_lagrangian`].
 //!
-//! # The modules
-//!
-//! | module | what is in it |
-//! |---|---|
-//! | [`prelude`] | what a first program needs, with a line for each name |
-//! | [`guide`] | the pages above |
-//! | [`system`] | what the attributes implement: [`Lagrangian`], [`DegenerateLagrangian`], [`RegularLagrangian`], [`Report`] |
-//! | [`methods`] | the methods, with a line for each |
-//! | [`run`] | runs with fixed and with controlled steps: state at any time, events, energy, momenta, checkpoints |
-//! | [`diagnostics`] | Lyapunov exponents, tangent maps, preserved forms, orders of convergence |
-//! | [`record`](record/index.html) | what a run was, as columns: CSV, arrays of NumPy, a page that shows it; with the feature `records` |
-//! | [`archive`](archive/index.html) | a long run in one file, with the feature `ensembles`: any state again, bit for bit |
-//! | [`ensemble`](ensemble/index.html) | many runs over all cores, with the feature `ensembles`: tables, checkpoints, shards |
-//! | [`fast_sum`](fast_sum/index.html) | sums over all pairs of many bodies in a time that grows like their number, with the feature `fast-sums` |
-//! | [`discrete`] | the discrete Lagrangian, quadrature rules, frequencies |
-//! | [`solve`] | how implicit steps are solved, and when they count as solved |
-//! | [`mechanics`] | the equations of motion, and what can be asked of a system at one state |
-//! | [`rotations`] | rotation matrices as states have them |
-//! | [`field`] | functions of several variables that hold data |
-//! | [`state`] | what a run carries from step to step, compensated sums, what a run has cost |
-//! | [`space`], [`scalar`] | storage for points and matrices; numbers |
-//! | [`error`] | failures as values |
-//!
 //! # Features
 //! - `macros` (default): the attributes.
 //! - `std` (default): elementary functions from the platform; implies `alloc`.

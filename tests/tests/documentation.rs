@@ -2,7 +2,6 @@
 
 mod examples;
 mod methods;
-mod prelude;
 
 use std::collections::BTreeSet;
 use std::fs;
