@@ -123,24 +123,4 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> LyapunovExponent<S,
     pub fn growth(&self) -> T {
         self.growth
     }
-
-    /// All that the next step depends on.
-    #[cfg(feature = "alloc")]
-    pub fn save(&self) -> alloc::vec::Vec<T> {
-        [&[self.growth, self.elapsed], &self.dq[..], &self.dp[..]].concat()
-    }
-
-    /// Takes over what [`save`](Self::save) has listed, if there are as many numbers.
-    #[cfg(feature = "alloc")]
-    pub fn load(&mut self, saved: &[T]) -> Option<()> {
-        let (&[growth, elapsed], perturbation) = saved.split_first_chunk()?;
-        let (dq, dp) = perturbation.split_at_checked(self.dq.len())?;
-        if dp.len() != self.dp.len() {
-            return None;
-        }
-        (self.growth, self.elapsed) = (growth, elapsed);
-        self.dq.copy_from_slice(dq);
-        self.dp.copy_from_slice(dp);
-        Some(())
-    }
 }

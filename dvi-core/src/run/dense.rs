@@ -102,38 +102,19 @@ impl<R: Run> Dense<R> {
     /// As [`Run::advance`]; states within the step before are still known.
     #[inline]
     pub fn advance(&mut self) -> Result<(), StepError> {
-        self.advance_by(R::advance)
-    }
-
-    /// The same with `step` in the place of [`Run::advance`], such as that of a
-    /// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent): it takes one step of the run.
-    ///
-    /// # Errors
-    /// Those of `step`.
-    #[inline]
-    pub fn advance_by(
-        &mut self,
-        step: impl FnOnce(&mut R) -> Result<(), StepError>,
-    ) -> Result<(), StepError> {
         // Steps of a control cannot be taken again by the method alone.
         let is_kept = self.taken >= self.most || self.run.clock().is_none();
         if is_kept {
             self.run.between().1.keep_next();
         }
-        let (t, before) = (self.run.time(), self.run.steps());
-        let taken = step(&mut self.run);
-        match self.run.steps().wrapping_sub(before) {
-            0 => {}
-            1 if taken.is_ok() => {
-                if is_kept {
-                    self.run.between().1.begin_there();
-                    (self.begun, self.taken, self.most) = (t, 0, LONGEST.min(2 * self.most));
-                }
-                self.taken += 1;
-            }
-            _ => self.keep(),
+        let t = self.run.time();
+        self.run.advance()?;
+        if is_kept {
+            self.run.between().1.begin_there();
+            (self.begun, self.taken, self.most) = (t, 0, LONGEST.min(2 * self.most));
         }
-        taken
+        self.taken += 1;
+        Ok(())
     }
 
     /// Takes steps until time `t` is within the last one, or at its end; none if it is there already.
