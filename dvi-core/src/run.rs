@@ -26,8 +26,7 @@ use crate::error::{StartError, StepError};
 use crate::mechanics::motion::Rates;
 use crate::methods::Clock;
 use crate::state::Statistics;
-use crate::system::start::extended;
-use crate::{Lagrangian, Real, Scalar as _, Space, State, System, TimeTransformed, Vector};
+use crate::{Lagrangian, Real, Scalar as _, Space, State, System, Vector};
 
 use between::Between;
 #[cfg(feature = "alloc")]
@@ -93,7 +92,7 @@ pub trait Run {
     /// [`StepError`] of the first step that fails; the run stays at the last good state.
     fn take_steps(&mut self, count: u64) -> Result<(), StepError>;
 
-    /// The current time.
+    /// The current time: τ of a system whose time is transformed, whose t is in its state.
     fn time(&self) -> Self::Scalar;
 
     /// The length h of the latest step; before the first, the one that it will have or, if a step control
@@ -118,7 +117,7 @@ pub trait Run {
     ) -> Result<(), StartError>;
 
     /// The states at the given `times`, which do not decrease in the direction of the run, as an iterator of
-    /// times and states: see [`Dense`].
+    /// times and states, which takes steps as it must and ends with the first error: see [`Dense`].
     ///
     /// # Errors
     /// [`StartError`] if no run of the method can begin at the present point.
@@ -127,7 +126,16 @@ pub trait Run {
         Self: Sized,
         I: IntoIterator<Item = Self::Scalar>,
     {
-        Ok(self.dense()?.states_at(times))
+        let (mut dense, mut failed) = (self.dense()?, false);
+        let state_at = move |t| {
+            if failed {
+                return None;
+            }
+            let state = dense.state_at(t).map(|state| (t, state));
+            failed = state.is_err();
+            Some(state)
+        };
+        Ok(times.into_iter().map_while(state_at).fuse())
     }
 
     /// The events of the run: where conditions `g(t, state)` cross zero, each in its direction: see
@@ -223,15 +231,6 @@ pub trait Run {
     /// The run as data, from which another one can go on as if this had not stopped.
     #[cfg(feature = "alloc")]
     fn checkpoint(&self) -> Checkpoint<Self::Scalar>;
-
-    /// The physical time t of a system whose time is transformed; [`time`](Self::time) is τ.
-    fn physical_time(&self) -> Self::Scalar
-    where
-        Self::System: TimeTransformed<Self::Scalar>,
-    {
-        let [t, _] = extended(self.system());
-        self.q()[t]
-    }
 
     /// The number of completed steps.
     #[inline]

@@ -133,7 +133,6 @@ fn a_fall_takes_its_time() -> Outcome {
     }
     let FallState { x, t, energy, .. } = run.state();
     assert_eq!(energy, -1.0);
-    assert_eq!(run.physical_time(), t);
     let expected = 0.5_f64.sqrt() * ((x * (1.0 - x)).sqrt() + x.sqrt().acos());
     assert_abs_diff_eq!(t, expected, epsilon = 1e-8);
     Ok(())
@@ -192,8 +191,9 @@ fn the_physical_time_does_not_run_backwards() -> Outcome {
                 for _ in 0..200 {
                     match run.take_steps(1) {
                         Ok(()) => {
-                            assert!((run.physical_time() - last) * h > 0.0, "{x}, {p}, {h}");
-                            last = run.physical_time();
+                            let t = run.state().t;
+                            assert!((t - last) * h > 0.0, "{x}, {p}, {h}");
+                            last = t;
                         }
                         Err(error) => {
                             failed += u32::from(matches!(error.failure, StepFailure::TimeRate { .. }));

@@ -2,7 +2,6 @@
 //! notice: what is moved is a copy.
 
 use core::fmt::Debug;
-use core::iter::FusedIterator;
 use core::ops::Deref;
 
 use crate::error::{StartError, StepError, StepFailure};
@@ -154,24 +153,6 @@ impl<R: Run> Dense<R> {
         };
         let state = if is_end { self.at_end().map(Flat::state) } else { self.state_within(t) };
         state.map_err(|failure| self.error(failure))
-    }
-
-    /// The times, one after the other, with the states there: an iterator, which takes steps as it must. It
-    /// ends with the first error.
-    pub fn states_at<I: IntoIterator<Item = R::Scalar>>(
-        mut self,
-        times: I,
-    ) -> impl FusedIterator<Item = Timed<R>> {
-        let mut failed = false;
-        let state_at = move |t| {
-            if failed {
-                return None;
-            }
-            let state = self.state_at(t).map(|state| (t, state));
-            failed = state.is_err();
-            Some(state)
-        };
-        times.into_iter().map_while(state_at).fuse()
     }
 
     /// Begins anew as [`Run::set_state`] does.
