@@ -67,7 +67,8 @@ type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 /// located to rounding there. So it has the error of the run and that of one step more, whatever the length
 /// of the step: that is of the order h<sup>p+1</sup> for a method of order p. The points of the run are the
 /// same, bit for bit, as without events. An event costs some twenty steps, and a condition that is far from
-/// zero one evaluation a step, with the velocities of the state.
+/// zero one evaluation a step, and one for each stage of [`Gauss`](crate::methods::Gauss) with six and more,
+/// with the velocities of the state.
 ///
 /// What follows from an event is the body of the loop: note it, leave the loop, or change the state and go
 /// on by [`set_state`](Self::set_state). A run that is to stop at an event is set to its time and state:

@@ -3,8 +3,6 @@
 use crate::scalar::norm::larger;
 use crate::{Real, Scalar};
 
-/// A condition is far from zero if its values are larger than so many of its largest changes in a step.
-const FAR: f64 = 3.0;
 /// Of the rate at which g changes, what is kept from step to step.
 const FORGETTING: f64 = 0.9;
 /// The largest rate within a step in units of the mean rates of the last steps, and between places within
@@ -19,23 +17,6 @@ pub(super) struct Watched<T> {
     pub(super) g: T,
     /// How it has changed, once there is a step.
     pub(super) course: Option<Course<T>>,
-}
-
-impl<T: Real> Watched<T> {
-    /// Whether the condition has not come to zero in a step of length `h` to the value `b`, as far as the
-    /// rates say that were seen within steps.
-    pub(super) fn stays_far(&self, b: T, h: T) -> bool {
-        let (zero, a) = (T::lift(0.0), self.g);
-        let is_far = |course: Course<T>| Scalar::abs(a) + Scalar::abs(b) > T::lift(FAR) * course.rate * h;
-        ((a > zero && b > zero) || (a < zero && b < zero)) && self.course.is_some_and(is_far)
-    }
-
-    /// Passes over such a step. The rates that were seen within a step hold until these are looked at again.
-    pub(super) fn pass_over(&mut self, b: T, h: T) {
-        let mut course = Course::after(self.course, (b - self.g) / h);
-        course.rate = self.course.map_or(course.rate, |before| larger(course.rate, before.rate));
-        *self = Self { g: b, course: Some(course) };
-    }
 }
 
 #[cfg(feature = "alloc")]

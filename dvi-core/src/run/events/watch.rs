@@ -56,9 +56,7 @@ pub struct Watch<R: Run, G, const N: usize> {
     lost: Option<StepError>,
 }
 
-/// In one of so many steps places are looked at wherever zero is.
-const RENEWED: u64 = 32;
-/// Of the change of a condition between two such places, what interpolation may be wrong by.
+/// Of the change of a condition between two places within a step, what interpolation may be wrong by.
 const UNSURE: f64 = 0.05;
 /// Where the state is changed a condition is zero if it is no more than what changes in this part of a step,
 /// and in so many roundings of the time. A step of no more of these says nothing of the side to which it
@@ -154,7 +152,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         numbers(self.g.values(t, run.at_end()?, &mut self.state))
     }
 
-    /// Finds the events of the last step: between the places of it that are known, if zero is not far.
+    /// Finds the events of the last step, between the places of it that are known.
     ///
     /// # Errors
     /// [`StepFailure::UndefinedEvent`], and those of parts of the step.
@@ -167,13 +165,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         if run.places() == 0 {
             let from = self.find_jumps(run)?;
             return self.find_between::<false>(run, [from, one], end);
-        }
-        let h = Scalar::abs(run.step_size());
-        // The rates that were seen within steps are seen anew in some.
-        let is_renewed = self.steps == 1 || run.steps().is_multiple_of(RENEWED);
-        if !is_renewed && self.watched.iter().zip(end).all(|(watched, b)| watched.stays_far(b, h)) {
-            self.watched.iter_mut().zip(end).for_each(|(watched, b)| watched.pass_over(b, h));
-            return Ok(());
         }
         for place in 0..run.places() {
             let Some((part, t, at)) = run.at_place(place) else { break };
