@@ -8,8 +8,8 @@ const FORGETTING: f64 = 0.9;
 /// The largest rate within a step in units of the mean rates of the last steps, and between places within
 /// a step.
 const STEEPER: [f64; 2] = [16.0, 4.0];
-/// An unknown bend in units of what bends have changed by, if a turn is likely, and at most.
-const MARGINS: [f64; 2] = [2.0, 32.0];
+/// An unknown bend in units of what bends have changed by, at most.
+const MARGIN: f64 = 32.0;
 
 /// What is known of a condition.
 #[derive(Clone, Copy, Debug)]
@@ -74,33 +74,16 @@ impl<T: Real> Course<T> {
     /// are on one side, where its course was another before: if it falls at the beginning and rises at the
     /// end. The rates there are those of a parabola, but for what the course has bent otherwise in the step
     /// before.
-    pub(super) fn turns(&self, before: &Self, [a, b]: [T; 2], h: T, is_staged: bool) -> Turn {
+    pub(super) fn may_turn(&self, before: &Self, [a, b]: [T; 2], h: T, is_staged: bool) -> bool {
         let [whole, part] = STEEPER;
         let steeper = if is_staged { part } else { whole };
         if Scalar::abs(a) + Scalar::abs(b) > T::lift(steeper) * self.rate * h {
-            return Turn::No;
+            return false;
         }
-        let (Some(bend), Some(bent)) = (self.bend, before.bend) else { return Turn::Likely };
+        let (Some(bend), Some(bent)) = (self.bend, before.bend) else { return true };
         let (zero, half) = (T::lift(0.0), T::lift(0.5));
         let away = |slope: T| if a < zero { -slope } else { slope };
-        let within = |margin: f64| {
-            let unknown = T::lift(margin) * Scalar::abs(bend - bent);
-            away(self.slope - half * bend) < unknown && away(self.slope + half * bend) > -unknown
-        };
-        let [near, far] = MARGINS.map(within);
-        match (near, far) {
-            (true, _) => Turn::Likely,
-            (false, true) => Turn::Perhaps,
-            (false, false) => Turn::No,
-        }
+        let unknown = T::lift(MARGIN) * Scalar::abs(bend - bent);
+        away(self.slope - half * bend) < unknown && away(self.slope + half * bend) > -unknown
     }
-}
-
-/// Whether a condition has turned in a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Turn {
-    No,
-    /// As the slopes at the ends of the step say.
-    Perhaps,
-    Likely,
 }

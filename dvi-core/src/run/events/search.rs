@@ -67,17 +67,6 @@ pub(super) struct Within<'a, R: Run, G, const N: usize> {
 }
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, R, G, N> {
-    /// Whether the condition comes nearer to zero at the beginning of a part of the step, and goes away from
-    /// it at the end. Both ends are given with their values.
-    pub(super) fn is_turned(
-        &mut self,
-        [[from, a], [to, b]]: [[R::Scalar; 2]; 2],
-    ) -> Result<bool, StepFailure> {
-        let chord = self.chord();
-        Ok(Scalar::abs(self.look(from + chord)?) < Scalar::abs(a)
-            && Scalar::abs(self.look(to - chord)?) < Scalar::abs(b))
-    }
-
     /// Where in a part of the step the condition is met, from its values at both ends.
     pub(super) fn events(
         &mut self,

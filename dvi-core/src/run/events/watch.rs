@@ -1,7 +1,7 @@
 //! Conditions that are watched on a run that somebody else drives.
 
 use super::conditions::Conditions;
-use super::course::{Course, Turn, Watched};
+use super::course::{Course, Watched};
 use super::found::Found;
 use super::search::{Within, numbers};
 use super::{Direction, EventOf};
@@ -251,19 +251,16 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             let stays = (a > zero && b > zero) || (a < zero && b < zero);
             // The side of what is so near to zero is that of rounding.
             let is_beside = [a, b].iter().any(|&g| Scalar::abs(g) <= left * change);
-            let turn = match before {
-                Some(before) if stays && !is_beside => course.turns(&before, [a, b], h, STAGED),
-                _ => Turn::Likely,
+            let may_have_met = match before {
+                Some(before) if stays && !is_beside => course.may_turn(&before, [a, b], h, STAGED),
+                _ => true,
             };
-            if turn == Turn::No {
+            if !may_have_met {
                 continue;
             }
             run.settle()?;
-            let (mut within, ends) = (self.within(run, index, motion), [[from, a], [to, b]]);
-            if turn == Turn::Perhaps && !within.is_turned(ends)? {
-                continue;
-            }
-            for part in within.events(ends)?.into_iter().flatten() {
+            let parts = self.within(run, index, motion).events([[from, a], [to, b]])?;
+            for part in parts.into_iter().flatten() {
                 self.found.push(index, part);
             }
         }
