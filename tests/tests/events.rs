@@ -5,11 +5,10 @@ mod declared;
 mod edges;
 mod jumps;
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
+use approx::abs_diff_eq;
 use core::f64::consts::{FRAC_PI_2, TAU};
 use dvi_tests::Outcome;
 
-use dvi_core::discrete::Simpson;
 use dvi_core::prelude::*;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::gauges::{OneSided, OneSidedState};
@@ -167,46 +166,4 @@ fn crossings_of_a_scheme_with_a_defect_lie_near_its_orbit() -> Outcome {
     let slope = convergence_order(&widths).ok_or("no slope")?;
     assert!(slope > 2.7, "{slope}: {widths:?}");
     Ok(())
-}
-
-/// Steps that are exact, whatever their length: x = cos t, y = 2 sin t.
-fn exact() -> Variational<Constant, Simpson> {
-    let method = Variational::simpson().phase_fitted(Constant(1.0));
-    Variational { fitting: Fitting::PhaseAndMomentum, ..method }
-}
-
-/// On this orbit x rises through zero at 3π/2 + 2πk.
-fn check_crossings<R: Run<System = Planar, Scalar = f64>>(
-    mut run: R,
-    [of_time, of_state]: [f64; 2],
-) -> Outcome {
-    let first = ((run.time() - 3.0 * FRAC_PI_2) / TAU).ceil();
-    let events = run.events([Direction::Rising], |_, state| [state.x])?;
-    for (k, event) in events.take(5).enumerate() {
-        let Event { time, state, .. } = event?;
-        let exact = 3.0 * FRAC_PI_2 + TAU * (first + k as f64);
-        assert_abs_diff_eq!(time, exact, epsilon = of_time);
-        for (found, exact) in [(state.x, 0.0), (state.y, -2.0), (state.dot_x, 1.0), (state.dot_y, 0.0)] {
-            assert!(abs_diff_eq!(found, exact, epsilon = of_state), "{state:?}");
-        }
-    }
-    Ok(())
-}
-
-#[test]
-fn crossings_of_a_regular_system_have_velocities() -> Outcome {
-    check_crossings(Integrator::new(&PLANE, exact(), 0.05, PLANAR)?, [1e-10, 1e-9])
-}
-
-/// Of steps that vary by more than two to one.
-#[test]
-fn crossings_of_a_run_with_controlled_steps_lie_on_its_orbit() -> Outcome {
-    let mut run = Integrator::controlled(&PLANE, exact(), Reversible::power(0.05, 1.5), PLANAR)?;
-    let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
-    for _ in 0..200 {
-        run.advance()?;
-        (shortest, longest) = (f64::min(run.step_size(), shortest), larger(longest, run.step_size()));
-    }
-    assert!(longest > 2.0 * shortest, "{shortest} {longest}");
-    check_crossings(run, [1e-9, 1e-7])
 }

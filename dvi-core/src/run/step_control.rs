@@ -106,7 +106,14 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
         run: &mut ControlledRun<'_, S, M, T>,
         count: u64,
     ) -> Result<(), StepFailure> {
-        (0..count).try_for_each(|_| run.step_by(|run, t| self.step(memory, run, t)))
+        for _ in 0..count {
+            let t = run.time.after(run.stepper.statistics.steps).time();
+            run.stepper.keep();
+            let h = self.step(memory, run, t).inspect_err(|_| run.stepper.go_back())?;
+            run.stepper.statistics.steps += 1;
+            run.time.advance(h, run.stepper.statistics.steps);
+        }
+        Ok(())
     }
 }
 

@@ -76,23 +76,6 @@ impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> 
     pub fn go_back(&mut self) {
         self.stepper.go_back();
     }
-
-    /// Takes a step of a control, which returns its length.
-    ///
-    /// # Errors
-    /// Those of `step`; the run is then as it was before.
-    #[inline]
-    pub(super) fn step_by(
-        &mut self,
-        step: impl FnOnce(&mut Self, T) -> Result<T, StepFailure>,
-    ) -> Result<(), StepFailure> {
-        let t = self.time.after(self.stepper.statistics.steps).time();
-        self.stepper.keep();
-        let h = step(self, t).inspect_err(|_| self.stepper.go_back())?;
-        self.stepper.statistics.steps += 1;
-        self.time.advance(h, self.stepper.statistics.steps);
-        Ok(())
-    }
 }
 
 shown!([S: Lagrangian<T>, M: Method<S, T>, T: Real] ControlledRun<'_, S, M, T>, |run| q: run.q());
