@@ -4,7 +4,6 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
-use dvi_tests::zoo::impacts::{Channel, ChannelState};
 use dvi_tests::zoo::regular::{FREE, Kepler, KeplerState, PLANE, PlanarState, Spring, SpringState};
 use num_dual::Dual64;
 
@@ -189,19 +188,6 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
         check(Integrator::new(&PLANE, method, 0.1 * sign, PLANAR)?, sign)?;
         let control = ErrorControl::new(1e-9, 0.1 * sign);
         check(Integrator::controlled(&PLANE, method, control, PLANAR)?, sign)?;
-    }
-    Ok(())
-}
-
-/// A particle between walls: the velocity jumps within a step, where the impact is.
-#[test]
-fn an_event_may_be_an_impact() -> Outcome {
-    let start = ChannelState { x: 0.3, dot_x: 1.0 };
-    let mut run = Integrator::new(&Channel, Impacts::new(Variational::midpoint()), 0.4, start)?;
-    let turns = run.events([Direction::Either], |_, state| [state.dot_x])?;
-    for (k, turn) in turns.take(5).enumerate() {
-        let time = turn?.time;
-        assert_abs_diff_eq!(time, 0.7 + k as f64, epsilon = 1e-12);
     }
     Ok(())
 }
