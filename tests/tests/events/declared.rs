@@ -25,15 +25,6 @@ const START: PlanetState = PlanetState { x: 1.0, y: 0.1, dot_x: 0.2, dot_y: 0.9 
 )]
 struct Prey<const N: usize>;
 
-/// A top whose axis is R e₃.
-#[lagrangian(
-    coordinates(R: SO3, z),
-    lagrangian = (omega(R)[0].powi(2) + 2.0 * omega(R)[1].powi(2) + 3.0 * omega(R)[2].powi(2)) / 2.0
-        + dot(z).powi(2) / 2.0 - z * z - R[2][2],
-    events(level = R[2][2] - 0.2 * z, turn = omega(R)[0] * R[0][2] + z * dot(z)),
-)]
-struct Top;
-
 #[lagrangian(
     coordinates(x, y),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 - y,
@@ -97,35 +88,4 @@ fn rates_are_those_along_the_motion() -> Outcome {
     let bob = BobState { x: sin, y: -cos, dot_x: 0.9 * cos, dot_y: 0.9 * sin };
     let method = Composition::kahan_li_8(Constrained::new(Variational::midpoint()));
     check_rates(&Bob, &method, &bob, |t, index| Bob.event_rate(t, index, &bob))
-}
-
-/// Conditions of a degenerate system, and of a rotation, are met where they are zero.
-#[test]
-fn events_of_other_kinds_of_systems_are_found() -> Outcome {
-    let prey = PreyState { x: [1.1, 0.8], y: [1.5, 2.2] };
-    let mut run = Integrator::new(&Prey, OneStepGauss::<2>::new(), 0.1, prey)?;
-    let (mut events, mut count) = (run.declared_events([Direction::Either])?, 0);
-    while let Some(Event { time, state, .. }) = events.next_until(20.0)? {
-        let balance =
-            (0..2).map(|j| 2.0 * state.x[j] - state.y[j] * (1.0 + 0.1 * f64::sin(time))).sum::<f64>();
-        assert_abs_diff_eq!(balance, 0.0, epsilon = 1e-13);
-        count += 1;
-    }
-    assert!(count > 3, "{count}");
-    let top = TopState {
-        R: dvi_core::rotations::exp([0.3, -0.5, 0.9]),
-        z: 0.4,
-        omega_R: [0.7, -0.3, 0.5],
-        dot_z: 0.6,
-    };
-    let mut run = Integrator::new(&Top, Geodesic::midpoint(), 0.1, top)?;
-    let (mut events, mut found) = (run.declared_events([Direction::Rising, Direction::Falling])?, [0; 2]);
-    while let Some(Event { index, state, .. }) = events.next_until(20.0)? {
-        let TopState { R, z, omega_R, dot_z } = state;
-        let values = [R[8] - 0.2 * z, omega_R[0] * R[2] + z * dot_z];
-        assert_abs_diff_eq!(values[index], 0.0, epsilon = 1e-12);
-        found[index] += 1;
-    }
-    assert!(found.iter().all(|&count| count > 1), "{found:?}");
-    Ok(())
 }
