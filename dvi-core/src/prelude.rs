@@ -42,7 +42,7 @@ pub use crate::record::Recorded;
 pub use crate::run::{Checkpoint, Together};
 #[doc(inline)]
 pub use crate::run::{
-    Dense, Density, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator, Reversible, Run,
+    Dense, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator, Reversible, Run,
     StepControl, Watch,
 };
 #[doc(inline)]

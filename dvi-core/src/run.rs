@@ -36,7 +36,7 @@ use events::{Conditions, Declared};
 pub use events::{Direction, Event, Events, Watch};
 pub use integrator::Integrator;
 pub use step_control::{
-    ControlledRun, Density, EnergyMomentum, ErrorControl, Obeys, OneLength, Reversible, StepControl,
+    ControlledRun, EnergyMomentum, ErrorControl, Obeys, OneLength, Reversible, StepControl,
 };
 pub(crate) use stepper::Stepper;
 #[cfg(feature = "alloc")]

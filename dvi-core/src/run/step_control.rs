@@ -30,7 +30,7 @@ pub use controlled::ControlledRun;
 pub use energy_momentum::EnergyMomentum;
 pub use error_control::ErrorControl;
 pub use one_length::OneLength;
-pub use reversible::{Density, Reversible};
+pub use reversible::Reversible;
 
 /// A rule for the length of each step of a run on `S`; [`OneLength`] for all of them is one.
 ///

@@ -8,68 +8,20 @@
 //! Source: Hairer & Söderlind 2005, "Explicit, time reversible, adaptive step size control", SIAM J. Sci.
 //! Comput. 26, 1838–1851.
 
-use core::fmt::Debug;
-
 use super::{ControlledRun, StepControl};
 use crate::error::{StartError, StepFailure};
 use crate::memory::lasting;
 use crate::methods::{Carries, Method};
 use crate::run::{Integrator, Run};
 use crate::scalar::norm::reported;
-use crate::{Held, Real, RegularLagrangian, Space, System, Vector};
+use crate::{Held, Real, RegularLagrangian, Scalar, Space, System, Vector};
 
-/// A density ρ > 0 of steps, up to a constant factor, which ε takes up. It is a function of the position
-/// alone: then G is odd in v, and the control reversible. A number κ is the density |q|^(−κ).
-///
-/// ```
-#[doc = include_str!("../../../docs/hidden/kepler.txt")]
-/// /// Short steps near the origin, of half the usual length at the distance 1.
-/// #[derive(Debug)]
-/// struct Near;
-///
-/// impl Density<f64> for Near {
-///     fn value(&self, q: &[f64]) -> f64 {
-///         1.0 + 1.0 / (q[0] * q[0] + q[1] * q[1])
-///     }
-///     fn growth(&self, q: &[f64], v: &[f64]) -> f64 {
-///         let square = q[0] * q[0] + q[1] * q[1];
-///         -2.0 * (q[0] * v[0] + q[1] * v[1]) / (square * square) / self.value(q)
-///     }
-/// }
-/// let control = Reversible::new(0.02, Near);
-/// let run = Integrator::controlled(&Kepler, Variational::trapezoid(), control, start)?;
-/// assert!((run.step_size() - 0.01).abs() < 1e-3);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub trait Density<T>: Debug {
-    /// ρ(q).
-    fn value(&self, q: &[T]) -> T;
-    /// G(q, v) = ∇ρ(q)·v/ρ(q), the logarithmic derivative of ρ along the motion.
-    fn growth(&self, q: &[T], v: &[T]) -> T;
-}
-
-/// A number κ is the density ρ = |q|^(−κ), for motions around the origin: G = −κ q·v/|q|².
+/// Steps h = ε/ρ with the density ρ = |q|^(−κ), for motions around the origin, which is carried along
+/// symmetrically (Hairer & Söderlind 2005).
 ///
 /// κ = 3/2 takes steps in proportion to the time of free fall: on Kepler's problem all orbits of the same
-/// shape then have the same number of steps a revolution, about (2π/ε)·mean(ρ) over time.
-impl<T: Real> Density<T> for f64 {
-    fn value(&self, q: &[T]) -> T {
-        let square = q.iter().fold(T::lift(0.0), |sum, &x| sum + x * x);
-        crate::Scalar::powf(square, T::lift(-0.5 * self))
-    }
-
-    #[inline]
-    fn growth(&self, q: &[T], v: &[T]) -> T {
-        let (mut along, mut square) = (T::lift(0.0), T::lift(0.0));
-        for (&x, &v) in q.iter().zip(v) {
-            along += x * v;
-            square += x * x;
-        }
-        T::lift(-self) * along / square
-    }
-}
-
-/// Steps h = ε/ρ with a density ρ that is carried along symmetrically (Hairer & Söderlind 2005).
+/// shape then have the same number of steps a revolution, about (2π/ε)·mean(ρ) over time. Steps of another
+/// density are a [`StepControl`] of your own.
 ///
 /// With a symmetric method a run can be retraced backwards, so that energy errors do not drift on reversible
 /// orbits. The whole is not symplectic. The control is for regular systems. Beside the position it needs the
@@ -87,43 +39,64 @@ impl<T: Real> Density<T> for f64 {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reversible<D = f64> {
+pub struct Reversible {
     /// ε ≠ 0, in units of ρ times time; negative to run back in time.
     pub epsilon: f64,
-    /// ρ.
-    pub density: D,
-    /// ρ at the start of the run, to go on from another run
-    /// ([`Integrator::density`]). Default: that of the
+    /// κ.
+    pub exponent: f64,
+    /// ρ at the start of the run, to go on from another run ([`Integrator::density`]). Default: that of the
     /// start.
     pub start: Option<f64>,
 }
 
-impl<D> Reversible<D> {
-    /// Steps ε/ρ.
-    pub fn new(epsilon: f64, density: D) -> Self {
-        Self { epsilon, density, start: None }
-    }
-}
-
-impl<H, S: RegularLagrangian<T>, M, D, T: Real> Integrator<H, M, T, Reversible<D>>
+impl<H, S: RegularLagrangian<T>, M, T: Real> Integrator<H, M, T, Reversible>
 where
     H: Held<System = S>,
     M: Method<S, T>,
-    D: Density<T>,
 {
     /// ρ at the current point, as the control has carried it along: a run from here with
     /// [`Reversible::start`] at this value goes on with the same steps, and with the velocity reversed it
     /// comes back by the same steps. Not a number where the momenta have no velocity.
     pub fn density(&self) -> T {
-        let Reversible { epsilon, density, .. } = &self.control;
-        self.control_memory.density + T::lift(0.5 * epsilon) * density.growth(self.q(), &self.v())
+        let half = T::lift(0.5 * self.control.epsilon);
+        self.control_memory.density + half * self.control.growth(self.q(), &self.v())
     }
 }
 
 impl Reversible {
     /// Steps ε |q|^κ with the exponent κ.
     pub fn power(epsilon: f64, exponent: f64) -> Self {
-        Self::new(epsilon, exponent)
+        Self { epsilon, exponent, start: None }
+    }
+
+    /// ρ(q).
+    fn density<T: Real>(&self, q: &[T]) -> T {
+        let square = q.iter().fold(T::lift(0.0), |sum, &x| sum + x * x);
+        Scalar::powf(square, T::lift(-0.5 * self.exponent))
+    }
+
+    /// G(q, v) = −κ q·v/|q|².
+    #[inline]
+    fn growth<T: Real>(&self, q: &[T], v: &[T]) -> T {
+        let (mut along, mut square) = (T::lift(0.0), T::lift(0.0));
+        for (&x, &v) in q.iter().zip(v) {
+            along += x * v;
+            square += x * x;
+        }
+        T::lift(-self.exponent) * along / square
+    }
+
+    fn validate(&self) -> Result<(), StartError> {
+        let parameter = |name, value, range| Err(StartError::Parameter { name, value, range });
+        if !self.epsilon.is_finite() || self.epsilon == 0.0 {
+            return parameter("epsilon", self.epsilon, "finite and different from zero");
+        }
+        if let Some(start) = self.start
+            && !is_density(start)
+        {
+            return parameter("start", start, "positive and finite");
+        }
+        Ok(())
     }
 }
 
@@ -144,32 +117,17 @@ impl<S: System, T: Real> ReversibleMemory<S, T> {
 
 lasting!([S: System, T: Real] ReversibleMemory<S, T>, T; number density; is_sound);
 
-impl<D> Reversible<D> {
-    fn validate(&self) -> Result<(), StartError> {
-        let parameter = |name, value, range| Err(StartError::Parameter { name, value, range });
-        if !self.epsilon.is_finite() || self.epsilon == 0.0 {
-            return parameter("epsilon", self.epsilon, "finite and different from zero");
-        }
-        if let Some(start) = self.start
-            && !is_density(start)
-        {
-            return parameter("start", start, "positive and finite");
-        }
-        Ok(())
-    }
-}
-
-impl<S: System, D, T: Real> Carries<S, T> for Reversible<D> {
+impl<S: System, T: Real> Carries<S, T> for Reversible {
     type Memory = ReversibleMemory<S, T>;
 }
 
-impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reversible<D> {
+impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for Reversible {
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], _t: T) -> Result<(Self::Memory, T), StartError> {
         self.validate()?;
-        let density = self.start.map_or_else(|| self.density.value(q), T::lift);
-        let half = T::lift(0.5 * self.epsilon) * self.density.growth(q, v);
+        let density = self.start.map_or_else(|| self.density(q), T::lift);
+        let half = T::lift(0.5 * self.epsilon) * self.growth(q, v);
         let first = density + half;
         for density in [density, first] {
             if !is_density(density) {
@@ -195,7 +153,7 @@ impl<S: RegularLagrangian<T>, D: Density<T>, T: Real> StepControl<S, T> for Reve
     ) -> Result<T, StepFailure> {
         run.velocity(t, &mut memory.v)?;
         let epsilon = T::lift(self.epsilon);
-        let density = memory.density + epsilon * self.density.growth(run.q(), &memory.v);
+        let density = memory.density + epsilon * self.growth(run.q(), &memory.v);
         if !is_density(density) {
             return Err(StepFailure::Density { density: reported(density) });
         }
