@@ -229,7 +229,7 @@ where
 {
     let system = run.system();
     // A length is compared with the start.
-    let control: &dyn Debug = if C::ONE_LENGTH { &() } else { run.control() };
+    let control: &dyn Debug = if C::ONE_LENGTH { &() } else { &run.control };
     let mut parameters = Fingerprint::new();
     facts::parameters(&mut parameters, system, run.q(), &run.v(), run.time());
     let names: Vec<_> = crate::System::names(system).map(|name| name.to_string()).collect();

@@ -65,8 +65,6 @@
 //! | question | answer |
 //! |---|---|
 //! | What is it not for? | Partial differential equations, stiff dissipative systems; energies stay in a band, not within a tolerance, and phases drift: [what can go wrong](guide::what_can_go_wrong) |
-//! | Where are events? | [`Run::events`](run::Run::events), and how to [stop at one](guide::recipes#stop-at-an-event) |
-//! | How do I plot? | A run writes tables, and a page that draws them: [a table and a page](guide::recipes#a-table-and-a-page) |
 //! | What is its status? | Before 1.0 names may change, and `CHANGELOG.md` says which; a number in these pages is one that is tested or measured |
 //! | How do I cite it? | As `CITATION.cff` says, with the version or the commit that you used |
 //!

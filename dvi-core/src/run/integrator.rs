@@ -48,7 +48,7 @@ where
 {
     pub(super) system: H,
     pub(super) stepper: Stepper<H::System, M, T>,
-    pub(super) control: C,
+    pub(crate) control: C,
     pub(super) control_memory: C::Memory,
     pub(super) time: Time<T>,
 }
@@ -222,11 +222,6 @@ where
     #[inline]
     pub fn memory(&self) -> &M::Memory {
         &self.stepper.memory
-    }
-
-    /// The step control.
-    pub fn control(&self) -> &C {
-        &self.control
     }
 
     /// What the step control carries from step to step. Of [`EnergyMomentum`](super::EnergyMomentum) one

@@ -28,13 +28,11 @@ const SLIGHT: f64 = 1e-9;
 /// assert!(falls.ok_or("it swings")?.state.dot_angle < 0.0);
 /// let rises = run.events([Direction::Rising], |_, state| [state.angle])?.next_until(20.0)?;
 /// assert!(rises.ok_or("it swings")?.state.dot_angle > 0.0);
-/// assert!(Direction::Either.crosses(-1.0, 1.0) && Direction::Either.crosses(1.0, -1.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// g increases along the run.
-    #[default]
     Rising,
     /// g decreases.
     Falling,
@@ -44,7 +42,7 @@ pub enum Direction {
 
 impl Direction {
     /// Whether a function that goes from `a` to `b` crosses zero in this direction.
-    pub fn crosses<T: Real>(self, a: T, b: T) -> bool {
+    pub(super) fn crosses<T: Real>(self, a: T, b: T) -> bool {
         let zero = T::lift(0.0);
         match self {
             Self::Rising => a < zero && b >= zero,

@@ -1,9 +1,5 @@
-//! Steps of such a length that the discrete energy stays the same: the symplectic–energy–momentum scheme.
-//!
-//! p0 = −D₁L_d(q0, q1; h)      E_d(q0, q1; h) = −∂L_d/∂h = e
-//!
-//! for q1 and h (Kane, Marsden & Ortiz 1999). The first equation is the step of the method; what is left is
-//! one equation for h.
+//! Steps of such a length that the discrete energy stays the same. Of the two [equations](EnergyMomentum) the
+//! first is the step of the method; what is left is one equation for h.
 
 use super::search::Search;
 use super::{ControlledRun, StepControl};
