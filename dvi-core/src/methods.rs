@@ -208,15 +208,10 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         self.step(part, memory)
     }
 
-    /// The number of places within a step that are known when it has been taken, such as the stages of a
-    /// method of high order, whose steps are long: a search for events looks at up to eight of them. There
-    /// are none if nothing else is said.
-    fn places(&self) -> usize {
-        0
-    }
-
-    /// Sets `q` and `v` to such a place of the last step, the `index`-th, and returns the part of the step;
-    /// in their order, from the first one on. Of degenerate systems there is no `v`.
+    /// Sets `q` and `v` to the `index`-th of the places within the last step that are known, such as the
+    /// stages of a method of high order, whose steps are long, and returns the part of the step; in their
+    /// order, from the first one on. Of degenerate systems there is no `v`. There are none if nothing else is
+    /// said. A search for events looks at up to eight.
     fn place(
         &self,
         _memory: &mut Self::Memory,
@@ -230,7 +225,7 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     /// Sets `q` to the point of the `index`-th jump of the velocity in the last step, as at an impact, and
     /// `v` to the velocities before it and behind it, and returns the part of the step; in their order, from
     /// the first one on. There are none if nothing else is said. A search for events looks at up to 16, and
-    /// at none of a method that has [`places`](Self::places).
+    /// at none of a method that has [places](Self::place).
     fn jump(
         &self,
         _memory: &Self::Memory,

@@ -122,10 +122,6 @@ where
         self.method.part_of_step(part, whole, &mut memory.inner, &taken.inner)
     }
 
-    fn places(&self) -> usize {
-        self.method.places()
-    }
-
     fn place(
         &self,
         memory: &mut Self::Memory,

@@ -186,10 +186,6 @@ where
         S::Kind::velocity(&memory.path.equations, system, q, t, v)
     }
 
-    fn places(&self) -> usize {
-        if STAGES < LONG { 0 } else { STAGES }
-    }
-
     fn place(
         &self,
         memory: &mut Self::Memory,
@@ -197,6 +193,9 @@ where
         q: &mut Vector<S, T>,
         v: &mut Vector<S, T>,
     ) -> Option<T> {
+        if STAGES < LONG {
+            return None;
+        }
         let path = &mut memory.path;
         if index == 0 {
             path.set_stages();

@@ -14,11 +14,10 @@ use crate::{Lagrangian, Real, State, System, Vector};
 /// and a copy of it is moved within the last one.
 pub trait Between<S: System, T: Real> {
     /// Makes room, and keeps the present point, which is reached at time `t`. All memory is allocated here.
-    /// Returns the number of places within a step that are known when it has been taken.
     ///
     /// # Errors
     /// [`StartError`] if no run of the method can begin here.
-    fn begin(&mut self, system: &S, t: T, h: T) -> Result<usize, StartError>;
+    fn begin(&mut self, system: &S, t: T, h: T) -> Result<(), StartError>;
 
     /// Keeps the present point, where the next step may begin, beside that where the last one has begun.
     fn keep_next(&mut self);
@@ -56,7 +55,7 @@ pub trait Between<S: System, T: Real> {
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M, T> {
     #[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
-    fn begin(&mut self, system: &S, t: T, h: T) -> Result<usize, StartError> {
+    fn begin(&mut self, system: &S, t: T, h: T) -> Result<(), StartError> {
         let Self { method, memory, q, .. } = self;
         let mut v = q.clone();
         method.velocity(Here { system, q, t }, memory, &mut v).map_err(StartError::Starter)?;
@@ -65,7 +64,7 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         self.points = Some([point()?.into(), point()?.into(), point()?.into()]);
         self.keep_next();
         self.begin_there();
-        Ok(self.method.places())
+        Ok(())
     }
 
     #[inline]

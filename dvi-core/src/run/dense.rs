@@ -52,8 +52,6 @@ pub struct Dense<R: Run> {
     most: u64,
     /// How often the state has been set.
     pub(super) beginnings: u64,
-    /// How many places within a step are known when it has been taken.
-    places: usize,
     /// The velocity of a state that is looked at, and that on the other side of a jump.
     v: [Vector<R::System, R::Scalar>; 2],
 }
@@ -91,8 +89,8 @@ impl<R: Run> Dense<R> {
     pub fn new(mut run: R) -> Result<Self, StartError> {
         let (t, h, v) = (run.time(), run.step_size(), run.system().space().vectors());
         let (system, between) = run.between();
-        let places = between.begin(system, t, h)?.min(PLACES);
-        Ok(Self { run, begun: t, taken: 0, most: 1, beginnings: 0, places, v })
+        between.begin(system, t, h)?;
+        Ok(Self { run, begun: t, taken: 0, most: 1, beginnings: 0, v })
     }
 
     /// Takes one step.
@@ -248,13 +246,7 @@ impl<R: Run> Dense<R> {
         Ok((self.begun + h, Flat { system, q, v }))
     }
 
-    /// How many places within the last step are known.
-    #[inline]
-    pub(super) fn places(&self) -> usize {
-        self.places
-    }
-
-    /// One of them: the part of the step, the time, and the state there.
+    /// A place within the last step that is known: the part of the step, the time, and the state there.
     pub(super) fn at_place(&mut self, index: usize) -> Option<(R::Scalar, R::Scalar, FlatOf<'_, R>)> {
         let (begun, h) = (self.last_begun(), self.run.step_size());
         let (system, between) = self.run.between();

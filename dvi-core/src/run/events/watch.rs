@@ -8,7 +8,7 @@ use super::{Direction, EventOf};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::methods::JUMPS;
 use crate::run::Run;
-use crate::run::dense::{Dense, StateOf};
+use crate::run::dense::{Dense, PLACES, StateOf};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::larger;
 use crate::shown::shown;
@@ -162,17 +162,17 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         self.steps += 1;
         let end = self.at_end(run)?;
         let [mut from, one] = [0.0, 1.0].map(R::Scalar::lift);
-        if run.places() == 0 {
-            let from = self.find_jumps(run)?;
-            return self.find_between::<false>(run, [from, one], end);
-        }
-        for place in 0..run.places() {
+        for place in 0..PLACES {
             let Some((part, t, at)) = run.at_place(place) else { break };
             let values = numbers(self.g.values(t, at, &mut self.state))?;
             self.find_between::<true>(run, [from, part], values)?;
             from = part;
         }
-        self.find_between::<true>(run, [from, one], end)
+        if from > R::Scalar::lift(0.0) {
+            return self.find_between::<true>(run, [from, one], end);
+        }
+        let from = self.find_jumps(run)?;
+        self.find_between::<false>(run, [from, one], end)
     }
 
     /// Finds the events up to the last jump of the velocity in the last step, and returns the part of the
