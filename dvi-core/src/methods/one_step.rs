@@ -9,8 +9,6 @@
 //! Finn & Ellison 2022). With f = ∂L/∂q it is
 //!
 //! p0 = Σⱼ wⱼ(ϑⱼ − h(1 − cⱼ) f_xⱼ),   0 = Σⱼ wⱼ f_yⱼ,   p1 = p0 + h Σⱼ wⱼ f_xⱼ,   ϑ(x1, y1) = p1
-//!
-//! The schemes A and B are those of c = 1 and c = 0 with ȳ in place of y.
 
 mod attempt;
 mod equations;
@@ -33,28 +31,19 @@ pub use gauss::OneStepGauss;
 ///
 /// In class, α = ϑ(x, y)·dx has components along one half x of the coordinates only. The schemes couple two
 /// points, and not three as [`Sigma`](crate::methods::Sigma) does, so that they have no parasitic mode. With
-/// f = ∂L/∂q, v = Δ/h and Δ = x1 − x0 they are
+/// p = ϑ(q), f = ∂L/∂q, v = Δ/h and Δ = x1 − x0 they are
 ///
 /// ```math
 /// \begin{aligned}
 /// \text{midpoint:} && \vartheta(\tilde q) &= p_0 + \tfrac h2 f_x(\tilde q, v), & f_y(\tilde q, v) &= 0,
 ///     & p_1 &= p_0 + h f_x(\tilde q, v) \\
 /// \text{trapezoid:} && \tfrac12(\vartheta^- + \vartheta^+) &= p_0 + \tfrac h2 f_x^-, & f_y^- + f_y^+ &= 0,
-///     & p_1 &= p_0 + \tfrac h2 (f_x^- + f_x^+) \\
-/// \text{A:} && \vartheta(q_1) &= p_0 + h f_x(q_0, v(q_0)), & x_1 &= x_0 + h v(q_1) \\
-/// \text{B:} && \vartheta(q_1) &= p_0 + h f_x(q_1, v(q_1)), & x_1 &= x_0 + h v(q_0)
+///     & p_1 &= p_0 + \tfrac h2 (f_x^- + f_x^+)
 /// \end{aligned}
 /// ```
 ///
-/// where p = ϑ(q), v(q) is the velocity of x at q, and q̃ = (x0 + ½Δ, ȳ); the signs − and + stand for values
-/// at (x0, ȳ) and (x1, ȳ). The first two schemes end with ϑ(q1) = p1.
-///
-/// | scheme | order | symmetric | preserves |
-/// |---|---|---|---|
-/// | [`midpoint`](Self::midpoint) | 2 | yes | Ω |
-/// | [`trapezoid`](Self::trapezoid) | 2 | yes | Ω |
-/// | [`scheme_a`](Self::scheme_a) | 1 | no; B is its adjoint | dϑ ∧ d(x − h v(q)) |
-/// | [`scheme_b`](Self::scheme_b) | 1 | no; A is its adjoint | dϑ ∧ d(x + h v(q)) |
+/// where q̃ = (x0 + ½Δ, ȳ), and the signs − and + stand for values at (x0, ȳ) and (x1, ȳ). Both end with
+/// ϑ(q1) = p1, are of order 2 and symmetric, and preserve Ω.
 ///
 /// A step is solved by Newton's method with all second derivatives of L. If Ω does not couple the
 /// coordinates in pairs, ϑ = p is solved by full elimination of n/2 rows. A step that would lead to another
@@ -78,24 +67,14 @@ pub struct OneStep {
 }
 
 impl OneStep {
-    /// Order 2, symmetric: one node, at the centre.
+    /// One node, at the centre.
     pub fn midpoint() -> Self {
         Self::of(Rule::Midpoint)
     }
 
-    /// Order 2, symmetric: a node at each end.
+    /// A node at each end.
     pub fn trapezoid() -> Self {
         Self::of(Rule::Trapezoid)
-    }
-
-    /// Order 1: the scheme A of Ellison et al. 2018.
-    pub fn scheme_a() -> Self {
-        Self::of(Rule::A)
-    }
-
-    /// Order 1: the scheme B of Ellison et al. 2018.
-    pub fn scheme_b() -> Self {
-        Self::of(Rule::B)
     }
 
     fn of(rule: Rule) -> Self {
@@ -104,20 +83,17 @@ impl OneStep {
 }
 
 scheme! {
-    [] OneStep, |method|
-    order: match method.rule {
-        Rule::A | Rule::B => 1,
-        Rule::Midpoint | Rule::Trapezoid => 2,
-    },
-    is_symmetric: method.rule.is_symmetric(),
-    preserved_form: if method.rule.is_symmetric() { PreservedForm::Omega } else { PreservedForm::Conjugate },
+    [] OneStep, |_|
+    order: 2,
+    is_symmetric: true,
+    preserved_form: PreservedForm::Omega,
 }
 
 /// What a run of a one-step scheme carries.
 #[derive(Debug)]
 pub struct OneStepMemory<S: System, T: Real> {
-    /// With the rates of x, and those of y to where it stands in the equations; and along y, for symmetric
-    /// schemes, by how much the rate from there to the end was another. α is zero along y.
+    /// With the rates of x, and those of y to where it stands in the equations; and along y by how much the
+    /// rate from there to the end was another. α is zero along y.
     point: Point<S, T>,
     work: Work<S, T>,
 }
@@ -146,11 +122,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> Method<S, T> for OneStep {
         if S::Space::ON_STACK && self.rule == Rule::Midpoint {
             // What no other function sees may stay in registers, and of one rule the compiler knows the
             // nodes. Nothing up to `leave` may therefore be a closure or a function that is not inlined.
-            let midpoint = Self { rule: Rule::Midpoint, ..*self };
             let (point, mut work) = (&mut memory.point, Work::new(system, q, t));
-            let step = Step { system, q: &*q, t, h, nodes: midpoint.rule.nodes() };
+            let step = Step { system, q: &*q, t, h, rule: Rule::Midpoint };
             let mut cost = Statistics::default();
-            let attempt = midpoint.attempt::<Quick<T>, _, _>(&step, point, &mut work, guess, &mut cost);
+            let attempt = work.attempt::<Quick<T>>(&step, point, (guess, self.stopping), &mut cost);
             *statistics += cost;
             match attempt {
                 Ok(()) => {
@@ -182,9 +157,9 @@ impl OneStep {
         guess: Guess,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let step = Step { system, q: &*q, t, h, nodes: self.rule.nodes() };
+        let step = Step { system, q: &*q, t, h, rule: self.rule };
         let mut attempt =
-            |guess| self.attempt::<Convergence<T>, _, _>(&step, point, work, guess, statistics);
+            |guess| work.attempt::<Convergence<T>>(&step, point, (guess, self.stopping), statistics);
         match guess {
             Guess::Extrapolated => from_either_guess(attempt)?,
             Guess::Zero => attempt(guess)?,

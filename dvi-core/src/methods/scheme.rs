@@ -15,7 +15,7 @@ pub enum PreservedForm {
     Discrete,
     /// dq ∧ dp on T*Q.
     Canonical,
-    /// dq' ∧ dp, where q' differs from q by a term of first or second order in h that the method documents:
+    /// dq' ∧ dp, where q' differs from q by a term of second order in h that the method documents:
     /// its orbits are those of a symplectic map in other coordinates.
     Conjugate,
 }

@@ -72,11 +72,6 @@ impl<S: System, T: Real, const KINDS: usize> Rates<S, T, KINDS> {
         }
     }
 
-    /// Those of the last step, or those to begin with.
-    pub(crate) fn latest(&self) -> [&Vector<S, T>; KINDS] {
-        self.kinds.each_ref().map(|kind| if self.len == 0 { &kind.seed } else { &kind.last[self.newest] })
-    }
-
     /// Sets `rates` to what those of the last steps lead to.
     pub(crate) fn extrapolate(&self, rates: [&mut [T]; KINDS]) {
         self.kinds

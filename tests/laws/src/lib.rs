@@ -102,7 +102,7 @@ fn fitted(nodes: Nodes) -> Equations {
 }
 
 const OMEGA: f64 = 1.3;
-use Equations::{Collocation, Elsewhere, Shifted};
+use Equations::{Collocation, Elsewhere};
 
 /// Two-forms that are constant, or depend on time alone.
 pub fn affine() -> Vec<Case> {
@@ -237,8 +237,6 @@ pub fn in_class() -> Vec<Case> {
     rows!(table, [mixed, belt, sphere, canonical, harvested], |at| {
         OneStep::midpoint() => ONE, Elsewhere;
         OneStep::trapezoid() => ONE, Elsewhere;
-        OneStep::scheme_a() => ONE, Shifted(-1.0);
-        OneStep::scheme_b() => ONE, Shifted(1.0);
         OneStepGauss::<2>::new() => ONE, Elsewhere;
         OneStepGauss::<3>::new() => ONE, Elsewhere;
         Composition::suzuki(OneStep::midpoint()) => ONE, Elsewhere;
@@ -563,8 +561,6 @@ pub fn fused() -> Vec<Fused> {
         Sigma::midpoint(),
         OneStep::midpoint(),
         OneStep::trapezoid(),
-        OneStep::scheme_a(),
-        OneStep::scheme_b(),
         OneStepGauss::<3>::new(),
         Projected::symmetric(),
         Gauss::<2>::new(),

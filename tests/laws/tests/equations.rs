@@ -234,7 +234,7 @@ pub(super) fn steps_solve_their_equations(case: &Case) -> Outcome {
             let t = subject.t + k as f64 * h;
             let step = Step { subject, t, h, ends: [&window[0], &window[1]] };
             let (found, bound) = match &case.equations {
-                Equations::Elsewhere | Equations::Shifted(_) => return Ok(()),
+                Equations::Elsewhere => return Ok(()),
                 Equations::Discrete(nodes) if subject.regular => (step.of_lagrangian(nodes)?, 1e-14),
                 Equations::Discrete(nodes) => {
                     let [q0, q1, q2] = [0, 1, 2].map(|i| &window[i][..]);

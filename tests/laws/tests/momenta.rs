@@ -10,13 +10,11 @@ use super::{Outcome, below, of_every_kind};
 
 /// The momenta where a run is, at the coordinates of the form that the scheme preserves.
 fn momenta(case: &Case, t: f64, values: &[f64]) -> Outcome<Vec<f64>> {
-    let (subject, mut values, mut scale) = (&case.subject, values.to_vec(), 1.0);
+    let (subject, mut values) = (&case.subject, values.to_vec());
     if case.form == PreservedForm::Conjugate {
-        let rates = subject.rates(&values, t);
-        for (share, rates) in case.equations.shift().iter().zip(rates.chunks(subject.dimension())) {
-            scale *= subject.h;
-            values.iter_mut().zip(rates).for_each(|(q, rate)| *q += share * scale * rate);
-        }
+        let (rates, shift) = (subject.rates(&values, t), case.equations.shift() * subject.h.powi(2));
+        let second = &rates[subject.dimension()..];
+        values.iter_mut().zip(second).for_each(|(q, rate)| *q += shift * rate);
     }
     Ok(case.begin([t, subject.h], &values)?.momenta())
 }
@@ -24,9 +22,8 @@ fn momenta(case: &Case, t: f64, values: &[f64]) -> Outcome<Vec<f64>> {
 pub(super) fn momentum_maps_are_kept(case: &Case) -> Outcome {
     let (subject, mut run) = (&case.subject, case.run()?);
     let preserves = match case.form {
-        PreservedForm::Canonical | PreservedForm::Omega => true,
+        PreservedForm::Canonical | PreservedForm::Omega | PreservedForm::Conjugate => true,
         PreservedForm::OmegaIfAffine => subject.regular || subject.is_affine(),
-        PreservedForm::Conjugate => subject.regular,
         _ => false,
     };
     if !preserves || !case.is_plain() || run.momenta().is_empty() {

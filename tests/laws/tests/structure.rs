@@ -5,7 +5,7 @@
 //! - [`Omega`](PreservedForm::Omega), and `OmegaIfAffine` of affine one-forms: Σ dq ∧ dα.
 //! - [`Discrete`](PreservedForm::Discrete): Σ dq1 ∧ dp1 with p1 = D₂L_d(q0, q1), which is ∂²L_d/∂q0∂q1
 //!   dq0 ∧ dq1 (Rowley & Marsden 2002, eq. 17).
-//! - [`Conjugate`](PreservedForm::Conjugate): Σ dq' ∧ dp with q' = q + c₁h q̇ + c₂h² q̈, as the table says.
+//! - [`Conjugate`](PreservedForm::Conjugate): Σ dq' ∧ dp with q' = q + c h² q̈, as the table says.
 //!
 //! Momenta and their variations are derivatives of the Lagrangian by dual numbers.
 
@@ -49,11 +49,9 @@ fn tangents(case: &Case, start: &[Dual64], skip: usize) -> Outcome<Vec<Tangent>>
         if step >= skip {
             let mut moved: Vec<f64> = q.iter().map(|q| q.eps).collect();
             if case.form == PreservedForm::Conjugate {
-                let (rates, mut scale) = (subject.varied_rates(&values, t), 1.0);
-                for (share, rates) in case.equations.shift().iter().zip(rates.chunks(n)) {
-                    scale *= subject.h;
-                    moved.iter_mut().zip(rates).for_each(|(moved, rate)| *moved += share * scale * rate);
-                }
+                let (rates, shift) =
+                    (subject.varied_rates(&values, t), case.equations.shift() * subject.h.powi(2));
+                moved.iter_mut().zip(&rates[n..]).for_each(|(moved, rate)| *moved += shift * rate);
             }
             tangents.push([moved, p]);
         }

@@ -35,8 +35,6 @@ fn no_step_changes_the_branch() -> Outcome {
     }
     check(OneStep::midpoint())?;
     check(OneStep::trapezoid())?;
-    check(OneStep::scheme_a())?;
-    check(OneStep::scheme_b())?;
     check(OneStepGauss::<1>::new())?;
     check(OneStepGauss::<2>::new())?;
     check(OneStepGauss::<4>::new())
@@ -73,8 +71,6 @@ fn rounding_of_momenta_ends_no_run() -> Outcome {
     }
     check(OneStep::midpoint())?;
     check(OneStep::trapezoid())?;
-    check(OneStep::scheme_a())?;
-    check(OneStep::scheme_b())?;
     check(OneStepGauss::<2>::new())?;
     check(OneStepGauss::<3>::new())?;
     check(OneStepGauss::<4>::new())

@@ -16,17 +16,14 @@ pub enum Equations {
     Collocation(usize),
     /// Held against the motion alone.
     Elsewhere,
-    /// The same; what it preserves is dp ∧ d(x + c h ẋ).
-    Shifted(f64),
 }
 
 impl Equations {
-    /// The shares of h q̇ and of h² q̈ by which the coordinates of a conjugate form differ from q.
-    pub fn shift(&self) -> [f64; 2] {
+    /// The share of h² q̈ by which the coordinates of a conjugate form differ from q.
+    pub fn shift(&self) -> f64 {
         match self {
-            Self::Newmark(beta) => [0.0, -beta],
-            Self::Shifted(share) => [*share, 0.0],
-            Self::Discrete(_) | Self::Collocation(_) | Self::Elsewhere => [0.0; 2],
+            Self::Newmark(beta) => -beta,
+            Self::Discrete(_) | Self::Collocation(_) | Self::Elsewhere => 0.0,
         }
     }
 }

@@ -52,7 +52,7 @@ fn degenerate() -> Vec<(&'static str, Schemes)> {
     vec![
         ("[`Sigma::midpoint`]", schemes![Sigma::<f64>::midpoint()]),
         ("[`Sigma::new`]", schemes![Sigma::new(0.3), Sigma::new(0.5)]),
-        ("[`OneStep`]", schemes![OneStep::midpoint(), OneStep::scheme_a()]),
+        ("[`OneStep`]", schemes![OneStep::midpoint(), OneStep::trapezoid()]),
         (
             "[`OneStepGauss`]",
             schemes![

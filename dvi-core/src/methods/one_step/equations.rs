@@ -16,39 +16,8 @@ use crate::{ProperlyDegenerate, Real, System, Vector, Weights};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rule {
-    A,
-    B,
     Midpoint,
     Trapezoid,
-}
-
-impl Rule {
-    pub(super) fn nodes(self) -> &'static [Node] {
-        match self {
-            Self::A => &[Node::END],
-            Self::B => &[Node::BEGIN],
-            Self::Midpoint => &[Node::CENTRE],
-            Self::Trapezoid => &Node::ENDS,
-        }
-    }
-
-    pub(super) fn is_symmetric(self) -> bool {
-        matches!(self, Self::Midpoint | Self::Trapezoid)
-    }
-}
-
-/// A node of a rule.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Node {
-    c: f64,
-    pub(super) weight: f64,
-}
-
-impl Node {
-    const BEGIN: Self = Self { c: 0.0, weight: 1.0 };
-    const CENTRE: Self = Self { c: 0.5, weight: 1.0 };
-    const END: Self = Self { c: 1.0, weight: 1.0 };
-    const ENDS: [Self; 2] = [Self { c: 0.0, weight: 0.5 }, Self { c: 1.0, weight: 0.5 }];
 }
 
 /// A step from x in `q` at `t`.
@@ -58,23 +27,18 @@ pub(super) struct Step<'a, S: System, T: Real> {
     pub(super) q: &'a Vector<S, T>,
     pub(super) t: T,
     pub(super) h: T,
-    pub(super) nodes: &'a [Node],
+    pub(super) rule: Rule,
 }
 
 impl<S: ProperlyDegenerate<T>, T: Real> Step<'_, S, T> {
     /// The part of Δ that is solved for.
     pub(super) fn part(&self) -> T {
-        T::lift(if self.is_centred() { 0.5 } else { 1.0 })
+        T::lift(if self.rule == Rule::Midpoint { 0.5 } else { 1.0 })
     }
 
-    pub(super) fn is_centred(&self) -> bool {
-        self.nodes == [Node::CENTRE]
-    }
-
-    /// Sets `point` and `velocity` to those of `node`, and returns its time.
+    /// Sets `point` and `velocity` to those after the part `c` of the step, and returns the time there.
     #[inline]
-    pub(super) fn place(&self, unknown: &[T], node: &Node, point: &mut [T], velocity: &mut [T]) -> T {
-        let c = T::lift(node.c);
+    pub(super) fn place(&self, unknown: &[T], c: T, point: &mut [T], velocity: &mut [T]) -> T {
         let (by, per_time) = (c / self.part(), T::lift(1.0) / (self.part() * self.h));
         for i in 0..unknown.len() {
             [point[i], velocity[i]] = if is_x(self.system, i) {
@@ -103,10 +67,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for Equations<'_, S, T> {
         _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { step, work: [point, velocity, gradient, one_form] } = self;
-        let Step { system, h, nodes, .. } = **step;
+        let Step { system, h, rule, .. } = **step;
         let (zero, half, one) = (T::lift(0.0), T::lift(0.5), T::lift(1.0));
-        if step.is_centred() {
-            let time = step.place(unknown, &Node::CENTRE, point, velocity);
+        if rule == Rule::Midpoint {
+            let time = step.place(unknown, half, point, velocity);
             let weights = Weights { qq: half * h, qv: one, vq: -one, vv: zero };
             system.linearize(point, velocity, time, weights, gradient, one_form, sink);
             for i in 0..r.len() {
@@ -114,10 +78,9 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for Equations<'_, S, T> {
             }
             return Ok(());
         }
-        for node in nodes {
-            let (weight, c) = (T::lift(node.weight), T::lift(node.c));
-            let time = step.place(unknown, node, point, velocity);
-            let row = |row: usize| weight * if is_x(system, row) { one - c } else { half };
+        for c in [zero, one] {
+            let time = step.place(unknown, c, point, velocity);
+            let row = |row: usize| half * if is_x(system, row) { one - c } else { half };
             let column = |column: usize| if is_x(system, column) { c } else { one };
             let mut add = |w: Weights<T>, factor: &dyn Fn(usize, usize) -> T| {
                 let mut scaled = |i: usize, j: usize, entry: T| sink.add(i, j, factor(i, j) * entry);
@@ -126,10 +89,10 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for Equations<'_, S, T> {
             // L_qv is in columns of x alone, and L_vq in rows of x. At either end of the step one of both
             // has the factors of L_qq, as those along x are 0 and 1 there.
             add(Weights { qq: h, qv: c, vq: c - one, vv: zero }, &|i, j| row(i) * column(j));
-            let rest = |row: usize| weight * if is_x(system, row) { one } else { half };
+            let rest = |row: usize| half * if is_x(system, row) { one } else { half };
             add(Weights { qq: zero, qv: one - c, vq: -c, vv: zero }, &|i, _| rest(i));
             for i in 0..r.len() {
-                r[i] -= weight * one_form[i] - h * row(i) * gradient[i];
+                r[i] -= half * one_form[i] - h * row(i) * gradient[i];
             }
         }
         Ok(())
@@ -142,6 +105,6 @@ impl<S: ProperlyDegenerate<T>, T: Real> Linearize<T> for Equations<'_, S, T> {
     }
 
     fn cost(&self) -> [u64; 2] {
-        [self.step.nodes.len() as u64, 1]
+        [if self.step.rule == Rule::Midpoint { 1 } else { 2 }, 1]
     }
 }

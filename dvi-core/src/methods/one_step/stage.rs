@@ -1,6 +1,6 @@
 //! Solves the equations of a step by Newton's method, and kicks the momentum.
 
-use super::equations::{Equations, Step};
+use super::equations::{Equations, Rule, Step};
 use super::split::is_x;
 use crate::error::StepFailure;
 use crate::mechanics::pattern::of_second_derivatives;
@@ -20,7 +20,7 @@ pub(super) struct Stage<S: System, T: Real> {
     pub(super) rates: Vector<S, T>,
     /// f and α at a node.
     pub(super) gradient: Vector<S, T>,
-    pub(super) one_form: Vector<S, T>,
+    one_form: Vector<S, T>,
     /// The last node.
     pub(super) point: Vector<S, T>,
     velocity: Vector<S, T>,
@@ -61,16 +61,15 @@ impl<S: ProperlyDegenerate<T>, T: Real> Stage<S, T> {
     /// Adds h Σⱼ wⱼ f_xⱼ to `momentum`, and returns the time of `point`.
     #[inline]
     pub(super) fn kick<J: Judge<T>>(&mut self, step: &Step<'_, S, T>, statistics: &mut Statistics) -> T {
-        if step.is_centred() {
+        if step.rule == Rule::Midpoint {
             return self.kick_at_centre::<J>(step);
         }
         let Self { unknown, momentum, gradient, one_form, point, velocity, .. } = self;
-        let mut time = step.t;
-        for node in step.nodes {
-            time = step.place(unknown, node, point, velocity);
+        let (mut time, weight) = (step.t, step.h * T::lift(0.5));
+        for c in [0.0, 1.0] {
+            time = step.place(unknown, T::lift(c), point, velocity);
             step.system.gradient(point, velocity, time, gradient, one_form);
             statistics.gradients += 1;
-            let weight = step.h * T::lift(node.weight);
             for i in (0..momentum.len()).filter(|&i| is_x(step.system, i)) {
                 momentum[i] += weight * gradient[i];
             }
