@@ -110,7 +110,8 @@ pub use projected::Projected;
 pub use runge_kutta::RungeKutta;
 pub(crate) use scheme::scheme;
 pub use scheme::{PreservedForm, Scheme};
-pub use sigma_family::{BeginsBetween, ParasiticMode, Sigma, Start};
+pub(crate) use sigma_family::SigmaMemory;
+pub use sigma_family::{ParasiticMode, Sigma, Start};
 pub use suits::{Suits, SuitsAnyStep, VariableStep};
 pub use tabulated::Tabulated;
 #[cfg(feature = "alloc")]

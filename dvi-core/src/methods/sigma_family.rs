@@ -28,7 +28,7 @@ use crate::{DegenerateLagrangian, Real, System, Vector};
 
 pub(crate) use memory::SigmaMemory;
 pub use parasitic_mode::ParasiticMode;
-pub use start::{BeginsBetween, Start};
+pub use start::Start;
 
 /// The σ-family: a discrete Lagrangian with one node between the ends.
 ///

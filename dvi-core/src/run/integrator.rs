@@ -12,12 +12,10 @@ use super::{Obeys, OneLength, StepControl, Stepper};
 use crate::error::StartError;
 #[cfg(doc)]
 use crate::error::StepFailure;
-#[cfg(doc)]
-use crate::methods::Sigma;
-use crate::methods::{BeginsBetween, Carries, Suits, SuitsAnyStep};
-use crate::system::StateOf;
+use crate::methods::{Carries, Sigma, SigmaMemory, Suits, SuitsAnyStep};
 use crate::system::start::{evaluate, flatten};
-use crate::{Held, Lagrangian, Real};
+use crate::system::{Same, StateOf};
+use crate::{DegenerateLagrangian, Held, Lagrangian, Real};
 
 /// A run of a method on a system: with steps of one length, or of those that a [`StepControl`] `C` chooses.
 ///
@@ -85,24 +83,26 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn from_two_points<X>(
+    pub fn from_two_points(
         system: H,
-        method: X,
+        method: Sigma<T>,
         h: T,
         first: StateOf<H, T>,
         second: StateOf<H, T>,
     ) -> Result<Self, StartError>
     where
-        X: BeginsBetween<H::System, T, M>,
+        H::System: DegenerateLagrangian<T, Suited<Sigma<T>>: Same<Sigma<T>, As = M>>,
+        M: Carries<H::System, T, Memory = SigmaMemory<H::System, T>>,
     {
         let (held, t) = (system.held(), T::lift(0.0));
         let (at, [q1, rest]) = (point(held, t, &first)?, flatten(held, &second)?);
         evaluate(held, &q1, &rest, t + h)?;
-        let begin = |q0: &_, _: &_, h| method.begin_between(held, q0, &q1, t, h);
+        let begin = |q0: &_, _: &_, h| method.begin_between(held, [q0, &q1], t, h);
         let length = OneLength(h);
         let begun =
             carried::<_, OneLength<T>, _, _>(held, at, t, |q, v| length.begin(held, q, v, t), begin)?;
-        Ok(Self::of(system, method.suited(), length, begun))
+        let method = <H::System as DegenerateLagrangian<T>>::Suited::<Sigma<T>>::same(method);
+        Ok(Self::of(system, method, length, begun))
     }
 
     /// A run that goes on from `checkpoint`, bit by bit as if the other had not stopped; with another

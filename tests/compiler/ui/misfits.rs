@@ -98,7 +98,7 @@ fn resumed(checkpoint: &Checkpoint) -> Outcome {
 
 run! { a_spin_is_degenerate: Integrator::new(&Spin, Geodesic::midpoint(), 0.1, SPIN) }
 run! { two_points_of_another_method:
-    Integrator::from_two_points(&Bead, Newmark::new(0.25), 0.1, BEAD, BEAD)
+    Integrator::from_two_points(&Vortex, Newmark::new(0.25), 0.1, VORTEX, VORTEX)
 }
 
 run! { neither_method_nor_control:

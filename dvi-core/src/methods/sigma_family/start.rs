@@ -5,10 +5,10 @@
 
 use super::{Sigma, SigmaMemory};
 use crate::error::StartError;
-use crate::methods::{Carries, Gauss, Method, RungeKutta, Step};
+use crate::methods::{Gauss, Method, RungeKutta, Step};
 use crate::state::Statistics;
-use crate::system::{Same, spinors};
-use crate::{DegenerateLagrangian, Real, System, Vector};
+use crate::system::spinors;
+use crate::{DegenerateLagrangian, Real, Vector};
 
 /// How the second point of a run is found. A given second point goes to
 /// [`Integrator::from_two_points`](crate::run::Integrator::from_two_points).
@@ -64,48 +64,18 @@ fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
     Ok(q)
 }
 
-/// A method for `S` whose runs can begin between two points, and that is `M`: as a method
-/// [suits](crate::methods::Suits) a system.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not begin between two points",
-    label = "`Integrator::new` begins its runs, at one point",
-    note = "the method that begins between two is `Sigma`, for degenerate systems"
-)]
-pub trait BeginsBetween<S: System, T: Real, M: Carries<S, T>> {
-    /// The method as it is.
-    fn suited(self) -> M;
-
+impl<T: Real> Sigma<T> {
     /// Prepares a run from `q0` at `t` whose first step arrives at `q1`.
     ///
     /// # Errors
     /// As [`Method::begin`].
-    fn begin_between(
+    pub(crate) fn begin_between<S: DegenerateLagrangian<T>>(
         &self,
         system: &S,
-        q0: &Vector<S, T>,
-        q1: &Vector<S, T>,
+        [q0, q1]: [&Vector<S, T>; 2],
         t: T,
         h: T,
-    ) -> Result<M::Memory, StartError>;
-}
-
-impl<S, T: Real, M> BeginsBetween<S, T, M> for Sigma<T>
-where
-    S: DegenerateLagrangian<T, Suited<Self>: Same<Self, As = M>>,
-    M: Carries<S, T, Memory = SigmaMemory<S, T>>,
-{
-    fn suited(self) -> M {
-        S::Suited::<Self>::same(self)
-    }
-
-    fn begin_between(
-        &self,
-        system: &S,
-        q0: &Vector<S, T>,
-        q1: &Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<M::Memory, StartError> {
+    ) -> Result<SigmaMemory<S, T>, StartError> {
         // The phases between two states of unit vectors are not known.
         spinors::refuse::<S>("a run from two points")?;
         self.go_with(system, q0, t)?;
