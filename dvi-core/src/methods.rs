@@ -34,7 +34,7 @@
 //! | method | order | preserves | when to take it |
 //! |---|---|---|---|
 //! | [`Sigma::midpoint`] | 2 | a form on Q×Q | first, if α is affine, as that of vortices is: the implicit midpoint rule, which preserves Ω then |
-//! | [`Sigma::new`], [`leapfrog`](Sigma::leapfrog) | 1, 2 | a form on Q×Q | for the family of Rowley & Marsden, on affine α such as ½(x dy − y dx); explicit for σ = 0 and 1; where the parasitic mode grows, another method |
+//! | [`Sigma::new`], [`leapfrog`](Sigma::leapfrog) | 2 | a form on Q×Q | for the family of Rowley & Marsden, on α with a constant antisymmetric Dα such as ½(x dy − y dx); explicit for σ = 0 and 1; where the parasitic mode grows, another method |
 //! | [`OneStep`] | 2 | Ω | first, if α is not affine and has no component along one half of the coordinates, as it stands or with `gauge = auto` |
 //! | [`OneStepGauss`] | 2, 4, 6, 8 | Ω | for many digits, with such α: 1 to 4 stages |
 //! | [`Gauss`] | 2, 4, …, 16 | Ω if α is affine | first, for all other α, with an eye on the energy; for the last digits of the energy |

@@ -4,11 +4,12 @@ use dvi_core::prelude::*;
 use dvi_tests::systems::*;
 use dvi_tests::{Outcome, bits};
 
-const START: ObliqueState = ObliqueState { x: 1.0, y: 0.0 };
+const OSCILLATOR: Oscillator = Oscillator { omega: 1.0 };
+const START: OscillatorState = OscillatorState { x: 1.0, y: 0.0 };
 
-/// A run whose parasitic mode grows by 7/3 a step, until the numbers overflow.
-fn begin(parasitic_limit: Option<f64>) -> Result<Integrator<&'static Oblique, Sigma>, StartError> {
-    Integrator::new(&Oblique, Sigma { parasitic_limit, ..Sigma::leapfrog() }, 0.1, START)
+/// Beyond |ωh| = 1 the parasitic mode grows in each step, until the numbers overflow.
+fn begin(parasitic_limit: Option<f64>) -> Result<Integrator<&'static Oscillator, Sigma>, StartError> {
+    Integrator::new(&OSCILLATOR, Sigma { parasitic_limit, ..Sigma::leapfrog() }, 1.2, START)
 }
 
 #[test]

@@ -75,9 +75,9 @@ fn the_class_is_seen_in_arrays() {
     );
 }
 
-/// What reports say of the ends of the σ-family.
+/// What reports say of the σ-family.
 #[test]
-fn reports_say_where_the_ends_cannot_be_used() {
+fn reports_say_which_sigma_can_be_used() {
     macro_rules! structure {
         ($form:expr) => {{
             #[degenerate_lagrangian(coordinates(x, y), one_form = $form, hamiltonian = x * x + y * y)]
@@ -85,11 +85,10 @@ fn reports_say_where_the_ends_cannot_be_used() {
             Any::REPORT.structure.join("\n")
         }};
     }
-    for cannot in [structure!(y * d(x)), structure!(y * d(x) + d(y)), structure!(y * d(x) + y * d(y))] {
-        assert!(cannot.contains("σ = 0 and σ = 1 cannot be used"), "{cannot}");
-    }
-    let can = structure!(x * d(y) - y * d(x));
-    assert!(can.contains("σ = 0 and σ = 1 are explicit"), "{can}");
+    let affine = structure!(x * d(y) - y * d(x));
+    assert!(affine.contains("any σ can be used where Dα is antisymmetric"), "{affine}");
+    let bent = structure!(y.powi(3) * d(x));
+    assert!(bent.contains("σ = ½ alone can be used"), "{bent}");
 }
 
 /// What is left of the equations where they hold to rounding errors, of angles of a million here, is no

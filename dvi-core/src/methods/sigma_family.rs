@@ -36,19 +36,14 @@ pub use start::Start;
 /// L_d(q_0, q_1) = \alpha(q_\sigma) \cdot (q_1 - q_0) - h H(q_\sigma), \qquad q_\sigma = (1 - \sigma) q_0 + \sigma q_1
 /// ```
 ///
-/// For σ = ½ it is symmetric and of second order, and for every other σ in \[0, 1\] it is of second order
-/// where Dα is antisymmetric, as that of ½(p dq − q dp) is. Elsewhere the order is one unless σ = ½: a term
-/// dF of α with F'' ≠ 0 adds (σ − ½) Δ·F''Δ to L_d, beside a difference of F. It is one too if α depends on
-/// time, be it by an added function of t alone. For σ = (3 − √3)/6 and σ = (3 + √3)/6 it is of fourth order
-/// on linear systems with an antisymmetric Dα.
+/// It is of second order, and for σ = ½ symmetric; for σ = (3 − √3)/6 and σ = (3 + √3)/6 it is of fourth
+/// order on linear systems. For σ = 0 and σ = 1 it is explicit, with one ∇H a step. Each step preserves the
+/// discrete two-form on Q×Q (Rowley & Marsden 2002, eq. 17) and, for symmetries that act by affine maps, the
+/// discrete momenta.
 ///
-/// Each step preserves the discrete two-form on Q×Q (Rowley & Marsden 2002, eq. 17) and, for symmetries that
-/// act by affine maps, the discrete momenta.
-///
-/// | α | σ = 0 | 0 < σ < 1 | σ = 1 |
-/// |---|---|---|---|
-/// | affine | explicit, one ∇H | implicit | explicit, one ∇H |
-/// | nonlinear | one linear solve | implicit | implicit: α(q1) = p0 |
+/// σ = ½ is for all one-forms. Every other σ in \[0, 1\] is for those with a constant antisymmetric Dα, such
+/// as ½(p dq − q dp), and refused on others: there it would be of first order, and its parasitic mode would
+/// grow by a factor in each step.
 ///
 /// # Limits
 /// A two-step map has twice the freedom of the flow. What becomes of the other half, the parasitic mode
@@ -56,27 +51,20 @@ pub use start::Start;
 /// - σ = ½, α affine, [`Start::Consistent`]: there is none, c = 0, and the scheme is the implicit
 ///   midpoint rule. With another start its amplitude stays constant. On an identical pair of vortices at
 ///   distance d the equation has solutions for h ≤ πd²/Γ only.
-/// - σ = 0, α affine: it grows like the distance of neighbouring trajectories, soon on chaotic data.
-/// - other σ, α affine: it grows exponentially on many orbits, at a rate of (1 − 2σ)² times one of the
-///   flow, whatever h.
-/// - σ ≠ ½, α affine with Dα not antisymmetric: c is multiplied by K'K⁻¹ in each step, whose eigenvalues
-///   then leave the unit circle (for α = −z dφ they are −σ/(1 − σ) and its inverse): not zero-stable. The
-///   symmetric gauge, ½(x dy − y dx) in place of x dy, has all of them at −1.
-/// - σ ≠ ½, α nonlinear: the scheme is not zero-stable; runs end within some hundred steps.
-///   σ = ½ grows at a rate that does not depend on h either.
+/// - σ = ½, α not affine: it grows at a rate of the flow, whatever h.
+/// - σ = 0: it grows like the distance of neighbouring trajectories, soon on chaotic data.
+/// - other σ: it grows exponentially on many orbits, at a rate of (1 − 2σ)² times one of the flow, whatever h.
 ///
-/// A start by a step leaves a mode of order h³, or of h² where σ ≠ ½ and Dα is not antisymmetric. These have
-/// no such mode: σ = ½ if α is affine, [`OneStep`](super::OneStep) and [`OneStepGauss`](super::OneStepGauss)
-/// if the system is in their class, [`Projected`](super::Projected) and [`Gauss`](super::Gauss) on all
-/// systems.
+/// A start by a step leaves a mode of order h³. These have no such mode: σ = ½ if α is affine,
+/// [`OneStep`](super::OneStep) and [`OneStepGauss`](super::OneStepGauss) if the system is in their class,
+/// [`Projected`](super::Projected) and [`Gauss`](super::Gauss) on all systems.
 ///
 /// The mode is measured while a run goes on ([`ParasiticMode`];
 /// `run.memory().parasitic_mode()` reads it), and a run in which it has taken over
 /// ends with [`StepFailure::ParasiticMode`](crate::error::StepFailure): see
 /// [`parasitic_limit`](Self::parasitic_limit). On a linear oscillation of frequency ω the scheme is stable
 /// for |ωh| < 1/|1 − 2σ|; for |ωh| above 1.4 the second point of [`Start::Consistent`] is not found, and a
-/// run takes [`Start::RungeKutta`] or two points. If α = ϑ(x, y)·dx, the cases σ = 0 and σ = 1 have a
-/// singular matrix and cannot be stepped this way.
+/// run takes [`Start::RungeKutta`] or two points.
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/vortices.txt")]
@@ -105,23 +93,18 @@ pub struct Sigma<T = f64> {
     /// with [`StepFailure::ParasiticMode`](crate::error::StepFailure) and the run stays where it is.
     /// Default: ½. `None` lets the run go on whatever it has become.
     ///
-    /// The limit is tested before each step, except in two cases. If Dα is constant and antisymmetric and σ
-    /// ≠ ½, the mode is measured after 4 to 256 steps, before it can have reached the limit at a rate of the
-    /// flow; there a mode that is large from the first steps on may become three times as large, if that is
-    /// more than the limit. If α is affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
+    /// The mode is measured after 4 to 256 steps, before it can have reached the limit at a rate of the flow. One
+    /// that is large from the first steps on may become three times as large, if that is more than the limit.
+    /// If α is affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
     ///
     /// The limit is one of the mode and not of the energy, and has limits of its own:
-    /// - A mode that appears from one step to the next is judged when it has been seen several times. Where
-    ///   α is not affine and σ ≠ ½, a mode can grow tenfold in a step: such a run can become huge first, and
-    ///   end with another failure.
     /// - Where α is far from affine, or the motion passes near a saddle, the energy error of short steps may
     ///   have grown tenfold before.
     /// - The mode is compared with the motion of the coordinates together, and of each that moves at least a
     ///   tenth as much as the largest. In coordinates that are small beside another that is not lost, it is
     ///   seen late or not at all: choose units in which they are of one size.
-    /// - A motion that turns by more than 70° in a step cannot be told from the mode, nor can, if α is not
-    ///   affine or Dα not antisymmetric, a path whose curvature changes several times within two or three
-    ///   steps: such a run may be stopped.
+    /// - A motion that turns by more than 70° in a step cannot be told from the mode, nor can a path whose
+    ///   curvature changes within two or three steps again and again: such a run may be stopped.
     ///
     /// [`EnergyLimit`](crate::methods::EnergyLimit) around the method limits the energy.
     pub parasitic_limit: Option<f64>,
@@ -154,7 +137,7 @@ impl<T: Real> Sigma<T> {
         self.sigma == T::lift(0.5)
     }
 
-    /// Whether no iteration is needed on an affine one-form.
+    /// Whether no iteration is needed.
     fn is_end(&self) -> bool {
         self.sigma == T::lift(0.0) || self.sigma == T::lift(1.0)
     }
@@ -191,9 +174,7 @@ impl<S, T: Real> Step<'_, S, T> {
 
 scheme! {
     [T: Real] Sigma<T>, |method|
-    /// Two for σ = ½, and one for every other σ: that is the order on any one-form. On those of which
-    /// [`Sigma`] says so, steps with σ ≠ ½ converge with a higher one.
-    order: if method.is_midpoint() { 2 } else { 1 },
+    order: 2,
     is_symmetric: method.is_midpoint(),
     preserved_form: PreservedForm::Discrete,
 }

@@ -90,20 +90,6 @@ impl Class {
         self
     }
 
-    /// Whether a matrix with entries at these places has a row or a column without one.
-    pub(crate) fn lacks_row_or_column<'a>(
-        model: &Model,
-        places: impl Iterator<Item = (&'a Coordinate, &'a Coordinate, &'a [Loop])>,
-    ) -> bool {
-        let none = || vec![Components::Block(false); model.blocks.len()];
-        let (mut rows, mut columns) = (none(), none());
-        for (row, column, loops) in places {
-            touch(&mut rows, model, row, loops);
-            touch(&mut columns, model, column, loops);
-        }
-        rows.iter().chain(&columns).any(|known| *known != Components::Block(true))
-    }
-
     /// Whether α has components along less than half of the coordinates, so that Ω has no inverse.
     pub(crate) fn is_too_small(&self, model: &Model) -> bool {
         let [with, without] = [true, false].map(|with| self.size(model, with).as_literal());

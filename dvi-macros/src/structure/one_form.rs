@@ -20,8 +20,6 @@ pub(crate) struct OneForm {
     pub(crate) conjugates: Vec<usize>,
     /// Whether one-step schemes can be used.
     pub(crate) class: Class,
-    /// Whether Dα has a row or a column of zeros.
-    singular_ends: bool,
     /// Blocks that Ω does not involve.
     untouched: Vec<usize>,
     /// Whether the places of Ω that are not zero leave room for an inverse.
@@ -115,19 +113,7 @@ impl OneForm {
         let bends_areas = jacobian.iter().any(|(i, _, entry)| {
             model.blocks[i.block as usize].is_spinor() && !is_constant(graph, entry.value.node)
         });
-        let jacobian = jacobian.iter().map(|(i, j, entry)| (i, j, entry.loops.as_slice()));
-        let singular_ends = Class::lacks_row_or_column(model, jacobian);
-        Self {
-            linear,
-            matching,
-            canonical,
-            conjugates,
-            class,
-            singular_ends,
-            untouched,
-            invertible,
-            bends_areas,
-        }
+        Self { linear, matching, canonical, conjugates, class, untouched, invertible, bends_areas }
     }
 
     /// Reports what makes Ω singular for certain; `at` is the formula of α or L.
@@ -212,23 +198,13 @@ impl OneForm {
             return [affine, conjugates, first].map(str::to_string).into();
         }
         let mut sentences = vec![affine];
-        sentences.push(match (self.singular_ends, self.linear, self.matching) {
-            (true, ..) => "σ = 0 and σ = 1 cannot be used: Dα has a row or a column of zeros.",
-            (_, true, true) => {
-                "σ = 0 and σ = 1 are explicit where Dα is regular: one gradient of H a step, no iteration, no \
-                 factorisation."
+        sentences.push(match self.linear {
+            true => {
+                "Of the σ-family any σ can be used where Dα is antisymmetric, σ = 0 and σ = 1 without an iteration; \
+                 elsewhere σ = ½ alone."
             }
-            (_, true, false) => {
-                "σ = 0 and σ = 1 are explicit where Dα is regular, up to one factorisation for the whole run."
-            }
-            (_, false, true) => {
-                "σ = 0 is explicit where Dα is regular: no iteration, no factorisation. σ = 1 is implicit."
-            }
-            (_, false, false) => {
-                "σ = 0 solves one linear system a step where Dα is regular, without iteration. σ = 1 is implicit."
-            }
+            false => "Of the σ-family σ = ½ alone can be used: Dα is not constant.",
         });
-        sentences.push("0 < σ < 1 is implicit.");
         sentences.push(conjugates);
         let mut sentences: Vec<String> = sentences.into_iter().map(str::to_string).collect();
         sentences.push(self.class.sentence(model));

@@ -49,7 +49,7 @@ const BY_NEWTON: [Options; 3] =
 const SOLVED: [Options; 4] = [BY_NEWTON[0], BY_NEWTON[1], BY_NEWTON[2], COMPENSATED];
 /// With a fixed point too.
 const ALL: [Options; 5] = [SOLVED[0], SOLVED[1], SOLVED[2], SOLVED[3], solved(Solver::FixedPoint)];
-/// Of the σ-family at its ends, and where α is not affine.
+/// Of the σ-family.
 const PLAIN: [Options; 3] = [solved(Solver::Automatic), solved(Solver::FixedPoint), solved(Solver::Newton)];
 const EXPLICIT: [Options; 2] = [ONE[0], COMPENSATED];
 
@@ -118,35 +118,23 @@ pub fn affine() -> Vec<Case> {
         few(on(Breathing { depth: 0.3 }, [&[0.4, -0.3], &[]], 0.06), 8),
     );
     let quadratic = quadratic();
-    for (sigma, options) in [(0.0, &PLAIN[..]), (0.2, &PLAIN), (0.5, &PLAIN), (0.7, &PLAIN), (1.0, &PLAIN)] {
-        let (node, parasitic_limit) = (|| discrete(&[sigma], &[1.0]), None);
-        // A one-form that depends on time takes one order from all but the midpoint.
-        let order = if sigma == 0.0 || sigma == 1.0 { HIDDEN } else { Sigma::new(sigma).order() };
-        rows!(table, [breathing], |at| {
-            Sigma { solver: at.solver, summation: at.summation, parasitic_limit, ..Sigma::new(real(sigma)) }
-                => options.iter().copied(), node(), order;
-        });
-        rows!(table, [driven], |at| {
-            Sigma { solver: at.solver, summation: at.summation, parasitic_limit, ..Sigma::new(real(sigma)) }
-                => options.iter().copied(), node();
-        });
-        let order = if sigma == 0.5 { 2 } else { HIDDEN };
-        rows!(table, [quadratic], |at| {
-            Sigma { solver: at.solver, summation: at.summation, parasitic_limit, ..Sigma::new(real(sigma)) }
-                => options.iter().copied(), node(), order;
-        });
+    for sigma in [0.0, 0.2, 0.5, 0.7, 1.0] {
         rows!(table, [four, many], |at| {
-            Sigma { solver: at.solver, summation: at.summation, parasitic_limit, ..Sigma::new(real(sigma)) }
-                => options.iter().copied(), node(), 2;
+            Sigma { solver: at.solver, parasitic_limit: None, ..Sigma::new(real(sigma)) }
+                => PLAIN, discrete(&[sigma], &[1.0]);
         });
     }
+    rows!(table, [breathing, driven, quadratic], |at| {
+        Sigma { solver: at.solver, parasitic_limit: None, ..Sigma::midpoint() }
+            => PLAIN, discrete(&[0.5], &[1.0]);
+    });
     // Whose parasites are watched.
     let start = Start::RungeKutta(RungeKutta::heun());
     rows!(table, [four], |at| {
         Sigma { start, summation: at.summation, ..Sigma::new(real(0.25)) }
             => EXPLICIT, discrete(&[0.25], &[1.0]), HIDDEN;
         Sigma { start, ..Sigma::leapfrog() } => ONE, discrete(&[0.0], &[1.0]), HIDDEN;
-        Sigma::leapfrog() => ONE, discrete(&[0.0], &[1.0]), 2;
+        Sigma::leapfrog() => ONE, discrete(&[0.0], &[1.0]);
     });
     rows!(table, [four, many], |at| {
         Sigma { summation: at.summation, ..Sigma::midpoint() } => [COMPENSATED], discrete(&[0.5], &[1.0]);
@@ -197,21 +185,10 @@ pub fn at_large() -> Vec<Case> {
     let mirror = on(Mirror, [&[0.4, 0.3, 0.2, 0.5], &[]], 0.1);
     let loose = on(Loose { n: 2 }, [&[0.3, -0.4, 0.5, 0.1], &[]], 0.1);
     let prey = prey();
-    for sigma in [0.0, 0.2, 0.5, 0.7, 1.0] {
-        let order = if sigma == 0.5 { 2 } else { HIDDEN };
-        rows!(table, [curved, prey], |at| {
-            Sigma { solver: at.solver, parasitic_limit: None, ..Sigma::new(real(sigma)) }
-                => PLAIN, discrete(&[sigma], &[1.0]), order;
-        });
-    }
-    // Parasites grow fast where σ is not one half.
-    for sigma in [0.4, 0.5, 0.6] {
-        let order = if sigma == 0.5 { 2 } else { HIDDEN };
-        rows!(table, [guiding, sphere], |at| {
-            Sigma { solver: at.solver, parasitic_limit: None, ..Sigma::new(real(sigma)) }
-                => PLAIN, discrete(&[sigma], &[1.0]), order;
-        });
-    }
+    rows!(table, [curved, prey, guiding, sphere], |at| {
+        Sigma { solver: at.solver, parasitic_limit: None, ..Sigma::midpoint() }
+            => PLAIN, discrete(&[0.5], &[1.0]);
+    });
     rows!(table, [guiding, prey], |at| {
         Gauss { solver: at.solver, summation: at.summation, ..Gauss::<2>::new() } => ALL, Collocation(2);
         Gauss { solver: at.solver, ..Gauss::<8>::new() }.in_lanes() => PLAIN, Collocation(8), HIDDEN;

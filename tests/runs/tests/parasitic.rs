@@ -190,9 +190,6 @@ fn spoilt_runs_end_before_their_energy_tells() -> Outcome {
     for sigma in [0.25, fourth_order()] {
         spoilt(&leapfrogging(), sigma, &[4.0, 3.0, 2.0, 1.0, 0.5, 0.25, 0.125], 2000.0)?;
     }
-    for sigma in [0.0, 0.25, fourth_order(), 0.75] {
-        spoilt(&prey(), sigma, &[0.1, 0.05, 0.02], 10.0)?;
-    }
     let far = (prey().0, LotkaVolterraState { x: 2.5, y: 2.0 });
     spoilt(&far, 0.5, &[0.1, 0.05, 0.02], 40.0)?;
     spoilt(&beside_a_fast_pair(), 0.0, &[0.02, 0.01, 0.005], 300.0)

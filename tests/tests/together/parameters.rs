@@ -123,7 +123,6 @@ fn one_forms_and_energies_stand_in_lanes() -> Outcome {
         (system, ObliqueState { x: 1.0, y: 0.3 })
     };
     let systems: Vec<_> = (0..9).map(oblique).collect();
-    in_lanes!(systems, free, 0.01, 0);
     in_lanes!(systems, Sigma::midpoint(), 0.1, 0);
     Ok(())
 }

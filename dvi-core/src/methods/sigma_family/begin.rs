@@ -2,7 +2,7 @@
 
 use super::Sigma;
 use super::memory::{Carried, Leaps, SigmaMemory, Work};
-use super::parasitic_mode::{Monitor, Pace};
+use super::parasitic_mode::Monitor;
 use crate::discrete::{DiscreteLagrangian, Interval, OneNode, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::combination::{Combination, Inverse, Product};
@@ -62,7 +62,6 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
 
     fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {
         let (space, sigma) = (system.space(), method.sigma);
-        let explicit = if S::AFFINE { method.is_end() } else { sigma == T::lift(0.0) };
         let (scale, matrix) = scaled_matrix::<S, T>(method, h);
         let mut inverse = Inverse::new(system, q, t, matrix);
         let [shift, increment, mut trial, weights, sum, next, rest, mut one_form] = space.vectors();
@@ -70,31 +69,18 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
             let unused = &mut Statistics::default();
             inverse.prepare(system, q, t, matrix, &mut trial, unused).map_err(StartError::Starter)?;
         }
-        let one = T::lift(1.0);
-        let product = (S::AFFINE && !method.is_midpoint())
-            .then(|| Product::new(system, q, t, Combination { a: sigma - one, b: sigma }));
-        let symmetric = Combination { a: one, b: one };
-        let reverses = S::AFFINE && Product::new(system, q, t, symmetric).vanishes(system);
-        let (leaps, product) = match product {
-            Some(product) if reverses && sigma == T::lift(0.0) => {
-                (Some(Leaps { product, before: space.vector() }), None)
-            }
-            product => (None, product),
-        };
-        let solver = if explicit { Solver::FixedPoint } else { method.solver.in_numbers::<T>() };
+        let product = || Product::new(system, q, t, Combination { a: sigma - T::lift(1.0), b: sigma });
+        let leaps = (S::AFFINE && sigma == T::lift(0.0))
+            .then(|| Leaps { product: product(), before: space.vector() });
+        let product = (S::AFFINE && leaps.is_none() && !method.is_midpoint()).then(product);
+        let solver = if method.is_end() { Solver::FixedPoint } else { method.solver.in_numbers::<T>() };
         let newton = || of_second_derivatives(system, q, &rest, t, solver.storing());
         system.one_form(q, t, &mut one_form);
-        let (limit, pace) = match method.parasitic_limit {
-            // The mode is only reversed.
-            _ if S::AFFINE && method.is_midpoint() => (None, Pace::Seldom),
-            None => (None, Pace::Seldom),
-            // K' = −K: c is reversed, and a gradient added to it.
-            limit if reverses => (limit, Pace::WithTheFlow),
-            limit => (limit, Pace::EachStep),
-        };
+        // Where α is affine and σ = ½, the mode is only reversed.
+        let limit = method.parasitic_limit.filter(|_| !(S::AFFINE && method.is_midpoint()));
         Ok(Self {
             ladder: Ladder::new(solver, newton),
-            monitor: Monitor::new(system, limit, pace),
+            monitor: Monitor::new(system, limit),
             carried: Carried {
                 defect: space.vector(),
                 defect_vanishes: false,

@@ -40,9 +40,9 @@ pub(super) struct Carried<S: System, T: Real> {
     /// That of K times `scale`: constant if α is affine, and else frozen for one step.
     pub(super) inverse: Inverse<S, T>,
     pub(super) scale: T,
-    /// K' = σ(Dα)ᵀ − (1−σ)Dα, if α is affine; not if σ = ½, where c is just reversed, nor beside `leaps`.
+    /// K' = σ(Dα)ᵀ − (1−σ)Dα; not if σ = ½, where c is just reversed, nor beside `leaps`.
     pub(super) product: Option<Product<S, T>>,
-    /// Where σ = 0 and Dα is constant and antisymmetric.
+    /// Where σ = 0.
     pub(super) leaps: Option<Leaps<S, T>>,
     pub(super) l_d: OneNode<S, T>,
     pub(super) orientation: FormOrientation<S, T>,
@@ -66,7 +66,7 @@ pub(super) struct Work<S: System, T: Real> {
     pub(super) next: Vector<S, T>,
 }
 
-/// What steps with σ = 0 take where Dα is antisymmetric.
+/// What steps with σ = 0 take.
 #[derive(Debug)]
 pub(super) struct Leaps<S: System, T: Real> {
     /// K' = −Dα.
@@ -94,9 +94,8 @@ impl<S: System, T: Real> SigmaMemory<S, T> {
     }
 
     /// The parasitic mode as it was measured last, over five consecutive points; `None` before that. It is
-    /// measured before each step; if Dα is constant and antisymmetric, after 4 to 256 steps, the sooner the
-    /// larger the mode and the longer the steps; without a limit, or where α is affine and σ = ½, before
-    /// every 256th step.
+    /// measured after 4 to 256 steps, the sooner the larger the mode and the longer the steps; without a
+    /// limit, or where α is affine and σ = ½, before every 256th step.
     pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
         self.monitor.last().map(|(_, mode)| mode)
     }

@@ -1,15 +1,15 @@
 //! The equations of a step, r(Δ) = c0 + α(q0) − α(q_σ) + (1−σ)G = 0, solved for Δ = K⁻¹c0 + s, and c1.
 //!
 //! They are p0 + D₁L_d = 0 for Newton's method, and for the fixed point Δ ← Δ + K⁻¹r(Δ), with the matrix K =
-//! σDα − (1−σ)(Dα)ᵀ at the guess. At σ = 0 they are linear in Δ, and one correction from zero solves them.
+//! σDα − (1−σ)(Dα)ᵀ at the guess.
 //!
 //! If α is affine, α(q_σ) − α(q0) = σDαΔ with one constant matrix Dα, so that a step is
 //!
-//! KΔ = c0 − (1−σ)h∇H(q_σ)        c1 = K'Δ − σh∇H(q_σ)        K' = σ(Dα)ᵀ − (1−σ)Dα
+//! KΔ = c0 − (1−σ)h∇H(q_σ)        c1 = K'Δ − σh∇H(q_σ)        K' = σ(Dα)ᵀ − (1−σ)Dα = −K
 //!
-//! At σ = 0 and 1 no gradient of the unknown point occurs in the first: explicit. Where Dα is antisymmetric,
-//! steps with σ = 0 are [`leaps`](super::leapfrog). At σ = ½, K' = −K and c1 = −c0; with c0 = 0 the scheme is
-//! the implicit midpoint rule.
+//! At σ = 0 and 1 no gradient of the unknown point occurs in the first: explicit. Steps with σ = 0 are
+//! [`leaps`](super::leapfrog). At σ = ½, c1 = −c0; with c0 = 0 the scheme is the implicit midpoint rule. If α
+//! is not affine, σ = ½.
 
 use super::Step;
 use super::affine::fixed_point;
@@ -65,12 +65,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
             self.frozen_fixed_point(statistics)
         } else if self.step.method.is_end() {
             self.carried.work.increment.fill(T::lift(0.0));
-            self.evaluate_at_node(statistics)?;
-            let Carried { inverse, l_d, work, .. } = &mut *self.carried;
-            if self.step.method.sigma == T::lift(0.0) {
-                inverse.solve(self.step.system, &l_d.work.gradient, &mut work.increment);
-            }
-            Ok(())
+            self.evaluate_at_node(statistics)
         } else {
             fixed_point(self.step, self.q, self.carried, self.budget, statistics)
         }
@@ -81,16 +76,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         let Self { step, q, carried, budget } = self;
         let Carried { defect, one_form, history, inverse, l_d, work, .. } = &mut **carried;
         let Work { increment, trial, weights, sum, next: residual, .. } = work;
-        let (system, is_linear) = (step.system, step.method.sigma == T::lift(0.0));
-        if is_linear {
-            increment.fill(T::lift(0.0));
-        } else {
-            history.extrapolate(increment);
-        }
+        let system = step.system;
+        history.extrapolate(increment);
         l_d.place(step.h, [q, increment]);
         let (_, matrix) = scaled_matrix::<S, T>(step.method, step.h);
         inverse.prepare(system, &l_d.work.point, step.node_time(), matrix, trial, statistics)?;
-        let criterion = (!is_linear).then_some((step.method.stopping, *budget));
+        let criterion = Some((step.method.stopping, *budget));
         let storage = [&mut increment[..], trial, weights];
         let correct = |[delta, change]: [&mut [T]; 2], weights: &[T], statistics: &mut Statistics| {
             add(defect, one_form, residual);
@@ -193,14 +184,11 @@ impl<S: DegenerateLagrangian<T>, T: Real> Carried<S, T> {
         let Work { increment, trial: end_form, next, .. } = work;
         let (system, end) = (step.system, step.t + step.h);
         let right_h = step.method.sigma * step.h;
-        // At σ = 0 the node is q0, where the equations have been evaluated.
-        if step.method.sigma != T::lift(0.0) {
-            l_d.place(step.h, [q, increment]);
-            let node = &mut l_d.work;
-            let [gradient, momentum] = [&mut node.gradient, &mut node.momentum];
-            system.gradient(&node.point, &node.velocity, step.node_time(), gradient, momentum);
-            statistics.gradients += 1;
-        }
+        l_d.place(step.h, [q, increment]);
+        let node = &mut l_d.work;
+        let [gradient, momentum] = [&mut node.gradient, &mut node.momentum];
+        system.gradient(&node.point, &node.velocity, step.node_time(), gradient, momentum);
+        statistics.gradients += 1;
         add(q, increment, next);
         norm::finite(next)?;
         system.one_form(next, end, end_form);
