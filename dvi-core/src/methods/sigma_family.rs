@@ -73,7 +73,7 @@ pub use start::Start;
 /// let angular = run.momentum(0).unwrap();
 /// run.take_steps(100_000)?;
 /// assert!((run.momentum(0).unwrap() - angular).abs() < 1e-13);
-/// assert!(run.memory().parasitic_amplitude() < 1e-14);
+/// assert!(run.memory().defect().iter().all(|c| c.abs() < 1e-14));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,6 @@ use crate::discrete::OneNode;
 use crate::mechanics::combination::{Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
 use crate::memory::{Memory, lasting};
-use crate::scalar::norm;
 use crate::solve::Ladder;
 use crate::space::scratch;
 use crate::state::history::History;
@@ -88,7 +87,8 @@ impl<S: System, T: Real> Memory<T> for Carried<S, T> {
 }
 
 impl<S: System, T: Real> SigmaMemory<S, T> {
-    /// c = p − α(q) at the current point, one entry per coordinate.
+    /// c = p − α(q) at the current point, one entry per coordinate: the parasitic mode in p if σ = ½ and α is
+    /// affine. Elsewhere c is of order h(1 − 2σ) on an orbit without such a mode.
     pub fn defect(&self) -> &[T] {
         &self.carried.defect
     }
@@ -98,13 +98,6 @@ impl<S: System, T: Real> SigmaMemory<S, T> {
     /// limit, or where α is affine and σ = ½, before every 256th step.
     pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
         self.monitor.last().map(|(_, mode)| mode)
-    }
-
-    /// max |c|: the amplitude of the parasitic mode in p if σ = ½ and α is affine. Elsewhere c is of order
-    /// h(1 − 2σ) on an orbit without such a mode, and says little of it; take
-    /// [`parasitic_mode`](Self::parasitic_mode).
-    pub fn parasitic_amplitude(&self) -> T {
-        norm::largest(self.defect())
     }
 }
 

@@ -20,8 +20,8 @@ use crate::{DegenerateLagrangian, Real, Vector};
 /// let mut heun = Integrator::new(&Vortices, heun, 0.5, start)?;
 /// consistent.take_steps(1000)?;
 /// heun.take_steps(1000)?;
-/// assert!(consistent.memory().parasitic_amplitude() < 1e-14);
-/// assert!(heun.memory().parasitic_amplitude() > 1e-6); // what the start has left stays
+/// assert!(consistent.memory().defect().iter().all(|c| c.abs() < 1e-14));
+/// assert!(heun.memory().defect().iter().any(|c| c.abs() > 1e-6)); // what the start has left stays
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
