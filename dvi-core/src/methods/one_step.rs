@@ -14,7 +14,6 @@ mod attempt;
 mod equations;
 mod gauss;
 mod split;
-mod stage;
 
 use crate::error::{StartError, StepFailure};
 use crate::memory::lasting;
