@@ -2,12 +2,7 @@
 //!
 //! The scheme σ = ½ leaves the surface p = α(q), on which the motion is: that is its parasitic mode. The
 //! symmetric projection moves both ends of a step by a vector λ along the directions that Ω makes of the
-//! constraint,
-//!
-//! (q̃0, p̃0) = (q0 + λ, α(q0) + Dα(q0)ᵀλ),   (q̃1, p̃1) = (q1 + λ, α(q1) + Dα(q1)ᵀλ),
-//!
-//! to the same side, since the midpoint scheme reverses what is off the surface. Between them stand the
-//! equations p̃0 = −D₁L_d(q̃0, q̃1) and p̃1 = D₂L_d(q̃0, q̃1) for q1 and λ: 2n unknowns.
+//! constraint, to the same side, since the midpoint scheme reverses what is off the surface.
 
 mod equations;
 
@@ -38,12 +33,10 @@ use equations::{NODES, Step, Work};
 /// no parasitic mode. Where α is affine with constant coefficients, λ = 0 and it is the implicit midpoint
 /// rule, which preserves Ω.
 ///
-/// Elsewhere it does not preserve Ω exactly: with ζ = Σᵢⱼ ∂αⱼ/∂qⁱ λʲ dλⁱ, a step makes of dα + dζ at q0 the
-/// same at q1. As λ is of the order h², it changes Ω by terms of the order h⁵ in a step. Its energy drifts,
-/// by terms of the order h⁴ per unit of time. Where a motion has a reversing symmetry, as that of a guiding
-/// centre in a magnetic mirror, it shows no drift: its energy error is no larger after 2·10⁵ steps than
-/// after a tenth of them. Source: Kraus 2017, *Projected variational integrators for degenerate Lagrangian
-/// systems*, with the midpoint rule.
+/// Elsewhere a step changes Ω by terms of the order h⁵. Its energy drifts, by terms of the order h⁴ per unit
+/// of time. Where a motion has a reversing symmetry, as that of a guiding centre in a magnetic mirror, it
+/// shows no drift: its energy error is no larger after 2·10⁵ steps than after a tenth of them. Source: Kraus
+/// 2017, *Projected variational integrators for degenerate Lagrangian systems*, with the midpoint rule.
 ///
 /// A step is solved by Newton's method for 2n unknowns.
 ///
