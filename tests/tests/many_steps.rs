@@ -7,14 +7,14 @@ use dvi_tests::{Outcome, bits};
 const OSCILLATOR: Oscillator = Oscillator { omega: 1.0 };
 const START: OscillatorState = OscillatorState { x: 1.0, y: 0.0 };
 
-/// Beyond |ωh| = 1 the parasitic mode grows in each step, until the numbers overflow.
+/// A run that is not stable, as |ωh| > 1: it grows in each step, until the numbers overflow.
 fn begin(parasitic_limit: Option<f64>) -> Result<Integrator<&'static Oscillator, Sigma>, StartError> {
     Integrator::new(&OSCILLATOR, Sigma { parasitic_limit, ..Sigma::leapfrog() }, 1.2, START)
 }
 
 #[test]
 fn a_failure_among_many_steps_is_that_of_the_step() -> Outcome {
-    for (limit, least) in [(None, 500), (Sigma::leapfrog().parasitic_limit, 11)] {
+    for (limit, least) in [(None, 500), (Sigma::leapfrog().parasitic_limit, 8)] {
         let (mut single, mut at_once) = (begin(limit)?, begin(limit)?);
         let error = (0..10_000).find_map(|_| single.advance().err()).ok_or("no error")?;
         let found = at_once.take_steps(10_000).err().ok_or("no error")?;
