@@ -28,7 +28,7 @@ use crate::{Lagrangian, Real};
 
 pub use crate::mechanics::{Interval, Span};
 pub use frequency::{
-    Constant, Curvature, Frequency, FrequencyIn, GivenFrequency, Radial, Reading, Unfitted,
+    Constant, Curvature, Frequency, GivenFrequency, Radial, Reading, Unfitted,
 };
 pub use node::OneNode;
 pub(crate) use node::{Node, NodeWork, Nodes, SumOverNodes, linearize};

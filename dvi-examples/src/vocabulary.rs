@@ -3,7 +3,7 @@
 pub use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 pub use anyhow::{Context as _, Result, bail, ensure};
-pub use dvi_core::discrete::{Frequency, FrequencyIn, Interval, Rule as _};
+pub use dvi_core::discrete::{Frequency, Interval, Rule as _};
 pub use dvi_core::fast_sum::FastSum;
 pub use dvi_core::field::{ScalarField, Spline};
 pub use dvi_core::methods::VariableStep;

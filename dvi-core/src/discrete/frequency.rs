@@ -41,7 +41,7 @@ pub enum Reading {
     Variational,
 }
 
-/// A rule for the frequency ω of a step.
+/// A rule for the frequency ω of a step, in radians per unit of time.
 pub trait Frequency: Debug {
     /// Whether it is zero, and the interpolation linear.
     const UNFITTED: bool = false;
@@ -52,25 +52,22 @@ pub trait Frequency: Debug {
     fn reading(&self) -> Option<Reading> {
         None
     }
-}
 
-/// A [`Frequency`] in the arithmetic of `T`, in radians per unit of time.
-pub trait FrequencyIn<T: Real>: Frequency {
-    /// The frequency, where it does not depend on the motion: needed if [`reading`](Frequency::reading) is
-    /// `None`. Not a number unless it is given; a run that needs it is then refused.
-    fn fixed(&self) -> T {
+    /// The frequency, where it does not depend on the motion: needed if [`reading`](Self::reading) is `None`.
+    /// Not a number unless it is given; a run that needs it is then refused.
+    fn fixed<T: Real>(&self) -> T {
         T::lift(f64::NAN)
     }
 
     /// ω at (q, v), from the acceleration a = M⁻¹∂L/∂q: needed if the frequency is read from the motion. Not
     /// a number unless it is given; a step that needs it then fails.
-    fn at(&self, _q: &[T], _v: &[T], _a: &[T]) -> T {
+    fn at<T: Real>(&self, _q: &[T], _v: &[T], _a: &[T]) -> T {
         T::lift(f64::NAN)
     }
 
     /// ω at (q, v, a) after setting `dq`, `dv` and `da` to its derivatives: needed for
     /// [`Reading::Variational`]. `None` unless they are given; a run with that reading is then refused.
-    fn derivatives(
+    fn derivatives<T: Real>(
         &self,
         _q: &[T],
         _v: &[T],
@@ -92,7 +89,7 @@ pub trait FrequencyIn<T: Real>: Frequency {
 }
 
 /// A frequency that does not depend on the motion, so that L_d can be differentiated twice.
-pub trait GivenFrequency: Frequency {}
+pub trait GivenFrequency: Frequency + Copy {}
 
 impl GivenFrequency for Unfitted {}
 impl GivenFrequency for Constant {}
@@ -116,10 +113,8 @@ pub struct Unfitted;
 
 impl Frequency for Unfitted {
     const UNFITTED: bool = true;
-}
 
-impl<T: Real> FrequencyIn<T> for Unfitted {
-    fn fixed(&self) -> T {
+    fn fixed<T: Real>(&self) -> T {
         T::lift(0.0)
     }
 }
@@ -157,12 +152,11 @@ pub struct Constant(
     pub f64,
 );
 
-impl Frequency for Constant {}
-
-impl<T: Real> FrequencyIn<T> for Constant {
-    fn fixed(&self) -> T {
+impl Frequency for Constant {
+    fn fixed<T: Real>(&self) -> T {
         T::lift(self.0)
     }
+
     fn validate(&self) -> Result<(), StartError> {
         if (0.0..f64::INFINITY).contains(&self.0) {
             return Ok(());
@@ -174,9 +168,9 @@ impl<T: Real> FrequencyIn<T> for Constant {
 /// Whether `frequency` gives what its reading needs, `system` can be read, and options are in range.
 ///
 /// # Errors
-/// [`StartError::Unsupported`] names the method of [`FrequencyIn`] that is missing, or what the system has;
-/// else as [`FrequencyIn::validate`].
-pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
+/// [`StartError::Unsupported`] names the method of [`Frequency`] that is missing, or what the system has;
+/// else as [`Frequency::validate`].
+pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: Frequency, T: Real>(
     frequency: &F,
     system: &S,
 ) -> Result<(), StartError> {
@@ -190,9 +184,9 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
         );
     }
     match frequency.reading() {
-        None if !frequency.fixed().is_finite() => unsupported(
+        None if !frequency.fixed::<T>().is_finite() => unsupported(
             "a frequency that is not read from the motion",
-            "FrequencyIn::fixed does not give a finite number",
+            "Frequency::fixed does not give a finite number",
         ),
         Some(Reading::Variational) => {
             let [point, mut dq, mut dv, mut da] = space.vectors();
@@ -200,7 +194,7 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>(
                 Some(_) => Ok(()),
                 None => unsupported(
                     "Reading::Variational",
-                    "FrequencyIn::derivatives is not implemented; take Reading::Averaged",
+                    "Frequency::derivatives is not implemented; take Reading::Averaged",
                 ),
             }
         }
@@ -240,15 +234,21 @@ impl Frequency for Curvature {
     fn reading(&self) -> Option<Reading> {
         Some(self.0)
     }
-}
 
-impl<T: Real> FrequencyIn<T> for Curvature {
     #[inline]
-    fn at(&self, _q: &[T], v: &[T], a: &[T]) -> T {
+    fn at<T: Real>(&self, _q: &[T], v: &[T], a: &[T]) -> T {
         area(v, a) / dot(v, v)
     }
 
-    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
+    fn derivatives<T: Real>(
+        &self,
+        q: &[T],
+        v: &[T],
+        a: &[T],
+        dq: &mut [T],
+        dv: &mut [T],
+        da: &mut [T],
+    ) -> Option<T> {
         let omega = self.at(q, v, a);
         let (vv, area) = (dot(v, v), area(v, a));
         let ratio = dot(v, a) / vv;
@@ -311,18 +311,24 @@ impl Frequency for Radial {
     fn reading(&self) -> Option<Reading> {
         Some(self.0)
     }
-}
 
-impl<T: Real> FrequencyIn<T> for Radial {
     #[inline]
-    fn at(&self, q: &[T], _v: &[T], a: &[T]) -> T {
+    fn at<T: Real>(&self, q: &[T], _v: &[T], a: &[T]) -> T {
         // The reciprocal does not wait for the acceleration.
         let ratio = dot(a, a) * (T::lift(1.0) / dot(q, q));
         // √ has no derivative at zero.
         if ratio == T::lift(0.0) { T::lift(0.0) } else { Scalar::sqrt(Scalar::sqrt(ratio)) }
     }
 
-    fn derivatives(&self, q: &[T], v: &[T], a: &[T], dq: &mut [T], dv: &mut [T], da: &mut [T]) -> Option<T> {
+    fn derivatives<T: Real>(
+        &self,
+        q: &[T],
+        v: &[T],
+        a: &[T],
+        dq: &mut [T],
+        dv: &mut [T],
+        da: &mut [T],
+    ) -> Option<T> {
         let omega = self.at(q, v, a);
         let half = T::lift(0.5) * omega;
         // Without an acceleration, where ω = 0 has a kink, the derivative is left out.

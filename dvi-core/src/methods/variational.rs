@@ -13,7 +13,7 @@ mod together;
 mod verlet;
 
 use crate::discrete::Interval;
-use crate::discrete::frequency::{self, Frequency, FrequencyIn, Local, Reading, Unfitted};
+use crate::discrete::frequency::{self, Frequency, Local, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::error::{StartError, StepFailure};
 use crate::memory::lasting;
@@ -171,10 +171,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         &self,
         step: Step<'_, S, T>,
         memory: &mut PhaseMemory<S, T, Interpolation<S, T>>,
-    ) -> Result<(), StepFailure>
-    where
-        F: FrequencyIn<T>,
-    {
+    ) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let PhaseMemory { carried, ladder, own: Interpolation { given, ends } } = memory;
         if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
@@ -207,10 +204,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         system: &S,
         (q, v, t): (&[T], &[T], T),
         h: T,
-    ) -> Result<PhaseMemory<S, T, Interpolation<S, T>>, StartError>
-    where
-        F: FrequencyIn<T>,
-    {
+    ) -> Result<PhaseMemory<S, T, Interpolation<S, T>>, StartError> {
         self.validate::<S, T>(system)?;
         let reading = self.frequency.reading();
         let solver = match self.solver.in_numbers::<T>() {
@@ -229,10 +223,7 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
         PhaseMemory::new(system, (q, v, t), (solver, self.summation), own)
     }
 
-    fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError>
-    where
-        F: FrequencyIn<T>,
-    {
+    fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError> {
         Quadrature::new(self.rule.nodes(), self.rule.weights())?;
         frequency::admit(&self.frequency, system)?;
         if self.solver == Solver::FixedPoint && !S::CONSTANT_MASS {

@@ -93,7 +93,7 @@ fn momentum_factor(rule: Quadrature, u: f64) -> Result<f64> {
     Ok(u.sin() / run.q()[0])
 }
 
-fn errors<F: FrequencyIn<f64> + Frequency + Copy>(method: Variational<F>) -> Result<Points> {
+fn errors<F: Frequency + Copy>(method: Variational<F>) -> Result<Points> {
     curve(|u| {
         let (mut run, mut largest) = (Integrator::new(&SYSTEM, method, u, START)?, 0.0f64);
         // Beyond its limit of stability, Verlet goes on to infinity.

@@ -8,11 +8,11 @@ mod top_by_hand;
 pub mod vortices_by_hand;
 pub mod wide;
 
-use dvi_core::discrete::{DiscreteLagrangian, Frequency, FrequencyIn, Interval, OneNode, Rule, Span};
+use dvi_core::discrete::{DiscreteLagrangian, Frequency, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_core::state::Statistics;
-use dvi_core::{Space, Vector};
+use dvi_core::{Real, Scalar, Space, Vector};
 use std::hint::black_box;
 use systems::{
     Kepler, KeplerState, Neumann, NeumannState, OneSided, OneSidedState, PointVortices, PointVorticesState,
@@ -226,7 +226,7 @@ fn verlet(steps: u64) -> f64 {
 }
 
 #[inline(always)]
-fn kepler<F: FrequencyIn<f64>, R: Rule>(method: Variational<F, R>, steps: u64) -> f64 {
+fn kepler<F: Frequency, R: Rule>(method: Variational<F, R>, steps: u64) -> f64 {
     let system = black_box(Kepler { mu: 1.0 });
     let start = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.5_f64.sqrt() };
     let Ok(mut run) = Integrator::new(&system, method, KEPLER_H, start) else { return f64::NAN };
@@ -280,7 +280,7 @@ fn generated_from(
     }
 }
 
-fn fitted_simpson<F: FrequencyIn<f64>>(frequency: F, steps: u64) -> f64 {
+fn fitted_simpson<F: Frequency>(frequency: F, steps: u64) -> f64 {
     let rule = Variational { solver: Solver::FixedPoint, stopping: stopping(), ..Variational::simpson() };
     kepler(rule.phase_fitted(frequency), steps)
 }
@@ -301,12 +301,10 @@ impl Frequency for Power {
     fn reading(&self) -> Option<Reading> {
         Some(Reading::Averaged)
     }
-}
 
-impl FrequencyIn<f64> for Power {
     #[inline(always)]
-    fn at(&self, q: &[f64], _v: &[f64], _a: &[f64]) -> f64 {
+    fn at<T: Real>(&self, q: &[T], _v: &[T], _a: &[T]) -> T {
         let square = q[0] * q[0] + q[1] * q[1];
-        (1.0 / (square * square.sqrt())).sqrt()
+        Scalar::sqrt(T::lift(1.0) / (square * Scalar::sqrt(square)))
     }
 }

@@ -3,7 +3,7 @@
 use super::Outcome;
 use super::structure::lost;
 use approx::abs_diff_eq;
-use dvi_core::discrete::{FrequencyIn, Rule};
+use dvi_core::discrete::{Frequency, Rule};
 use dvi_core::prelude::*;
 use dvi_laws::equations::Equations;
 use dvi_laws::formula::Formula;
@@ -15,7 +15,7 @@ use num_dual::Dual64;
 fn defect<S, F, R>(system: S, method: Variational<F, R>, h: f64, start: [&[f64]; 2]) -> Outcome<f64>
 where
     S: RegularLagrangian + RegularLagrangian<Dual64> + Formula + 'static,
-    F: FrequencyIn<f64> + FrequencyIn<Dual64> + Copy + 'static,
+    F: Frequency + Copy + 'static,
     R: Rule + Copy + 'static,
 {
     let (system, subject) = on(system, start, h);

@@ -2,9 +2,10 @@
 
 use super::Outcome;
 use approx::abs_diff_eq;
-use dvi_core::discrete::{Frequency, FrequencyIn};
+use dvi_core::discrete::Frequency;
 use dvi_core::methods::Method;
 use dvi_core::prelude::*;
+use dvi_core::{Real, Scalar};
 use dvi_tests::zoo::regular::*;
 
 fn state(x: f64, dot_y: f64) -> KeplerState {
@@ -148,26 +149,24 @@ impl Frequency for Partial {
     fn reading(&self) -> Option<Reading> {
         Some(self.0)
     }
-}
 
-impl FrequencyIn<f64> for Partial {
-    fn at(&self, q: &[f64], _v: &[f64], _a: &[f64]) -> f64 {
-        (q[0] - 0.9).sqrt()
+    fn at<T: Real>(&self, q: &[T], _v: &[T], _a: &[T]) -> T {
+        Scalar::sqrt(q[0] - T::lift(0.9))
     }
 
-    fn derivatives(
+    fn derivatives<T: Real>(
         &self,
-        q: &[f64],
-        v: &[f64],
-        a: &[f64],
-        dq: &mut [f64],
-        dv: &mut [f64],
-        da: &mut [f64],
-    ) -> Option<f64> {
-        let omega = self.at(q, v, a);
-        dq.copy_from_slice(&[0.5 / omega, 0.0]);
-        dv.fill(0.0);
-        da.fill(0.0);
+        q: &[T],
+        v: &[T],
+        a: &[T],
+        dq: &mut [T],
+        dv: &mut [T],
+        da: &mut [T],
+    ) -> Option<T> {
+        let (omega, zero) = (self.at(q, v, a), T::lift(0.0));
+        dq.copy_from_slice(&[T::lift(0.5) / omega, zero]);
+        dv.fill(zero);
+        da.fill(zero);
         Some(omega)
     }
 }

@@ -1,8 +1,9 @@
 //! Frequencies of the user's own, and steps that failed because of a frequency.
 
 use super::Outcome;
-use dvi_core::discrete::{Frequency, FrequencyIn};
+use dvi_core::discrete::Frequency;
 use dvi_core::prelude::*;
+use dvi_core::{Real, Scalar};
 use dvi_tests::zoo::regular::*;
 
 const START: KeplerState = KeplerState { x: 0.8, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
@@ -15,11 +16,9 @@ impl Frequency for Power {
     fn reading(&self) -> Option<Reading> {
         self.0
     }
-}
 
-impl FrequencyIn<f64> for Power {
-    fn at(&self, q: &[f64], _v: &[f64], _a: &[f64]) -> f64 {
-        (q[0] * q[0] + q[1] * q[1]).powf(-0.75)
+    fn at<T: Real>(&self, q: &[T], _v: &[T], _a: &[T]) -> T {
+        Scalar::powf(q[0] * q[0] + q[1] * q[1], T::lift(-0.75))
     }
 }
 
@@ -33,8 +32,6 @@ impl Frequency for Empty {
     }
 }
 
-impl FrequencyIn<f64> for Empty {}
-
 #[test]
 fn a_frequency_without_what_its_reading_needs_is_refused() -> Outcome {
     let begin = |reading| {
@@ -45,12 +42,12 @@ fn a_frequency_without_what_its_reading_needs_is_refused() -> Outcome {
         begin(Some(Reading::Variational)).err(),
         Some(StartError::Unsupported {
             option: "Reading::Variational",
-            reason: "FrequencyIn::derivatives is not implemented; take Reading::Averaged",
+            reason: "Frequency::derivatives is not implemented; take Reading::Averaged",
         })
     );
     let constant = StartError::Unsupported {
         option: "a frequency that is not read from the motion",
-        reason: "FrequencyIn::fixed does not give a finite number",
+        reason: "Frequency::fixed does not give a finite number",
     };
     assert_eq!(begin(None).err(), Some(constant));
     let galerkin = Galerkin::<3>::new().phase_fitted(Power(None));

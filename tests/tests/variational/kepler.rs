@@ -2,7 +2,7 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use core::f64::consts::TAU;
-use dvi_core::discrete::{FrequencyIn, Rule};
+use dvi_core::discrete::{Frequency, Rule};
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
 use dvi_tests::larger;
@@ -11,7 +11,7 @@ use dvi_tests::zoo::regular::{KEPLER, KeplerState, pericentre};
 type Period = (KeplerState, f64);
 
 /// The state after one period of `steps` steps, and max |ΔE| on the way.
-fn period<F: FrequencyIn<f64>, R: Rule>(method: Variational<F, R>, e: f64, steps: u64) -> Outcome<Period> {
+fn period<F: Frequency, R: Rule>(method: Variational<F, R>, e: f64, steps: u64) -> Outcome<Period> {
     let mut run = Integrator::new(&KEPLER, method, TAU / steps as f64, pericentre(e))?;
     let initial = run.energy();
     let mut largest: f64 = 0.0;

@@ -1,6 +1,6 @@
 //! The frequency at one end of a step, and its gradient.
 
-use super::{FrequencyIn, defined};
+use super::{Frequency, defined};
 use crate::error::StepFailure;
 use crate::mechanics::mass::Mass;
 use crate::scalar::norm;
@@ -28,7 +28,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
 
     /// ω at (`q`, `v`), where the force is `force`.
     #[inline]
-    pub(crate) fn evaluate<F: FrequencyIn<T>>(
+    pub(crate) fn evaluate<F: Frequency>(
         &mut self,
         frequency: &F,
         mass: &Mass<S, T>,
@@ -42,7 +42,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
     }
 
     /// ω and its gradient at (`q`, `v`): da = M⁻¹∂²L/∂q∂q dq.
-    pub(crate) fn differentiate<F: FrequencyIn<T>>(
+    pub(crate) fn differentiate<F: Frequency>(
         &mut self,
         frequency: &F,
         mass: &Mass<S, T>,

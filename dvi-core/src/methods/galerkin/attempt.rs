@@ -4,7 +4,7 @@
 use super::displaced::Displaced;
 use super::interior::InteriorNodes;
 use super::memory::Path;
-use crate::discrete::frequency::FrequencyIn;
+use crate::discrete::frequency::Frequency;
 use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
 use crate::mechanics::phase::Arrival;
@@ -36,7 +36,7 @@ type Posed<'a, const NODES: usize, S, F, T> = (
     &'a mut Vector<S, T>,
 );
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real, I>
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real, I>
     Attempt<'_, NODES, S, F, T, I>
 where
     I: InteriorNodes<NODES, S, T>,

@@ -12,7 +12,7 @@
 //! and no displacement reaches it, an iteration needs the forces of the interior nodes alone.
 
 use super::coefficients::{Fit, weighted};
-use crate::discrete::frequency::{FrequencyIn, Local};
+use crate::discrete::frequency::{Frequency, Local};
 use crate::discrete::{Interval, NodeWork};
 use crate::error::StepFailure;
 use crate::methods::step::Begin;
@@ -37,7 +37,7 @@ pub(super) struct Displaced<'a, const NODES: usize, S: System, F, T: Real> {
     pub(super) j: usize,
 }
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real>
     Displaced<'_, NODES, S, F, T>
 {
     /// Makes the coefficients those for the frequency at the unknowns.
@@ -115,7 +115,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     }
 }
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real>
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real>
     CoupledEquations<NODES, S, T> for Displaced<'_, NODES, S, F, T>
 {
     fn unknowns(&mut self) -> &mut [Vector<S, T>; NODES] {
@@ -176,7 +176,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Re
     }
 }
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, T: Real> NodeSum<NODES, T>
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real> NodeSum<NODES, T>
     for Displaced<'_, NODES, S, F, T>
 {
     const FIRST: usize = 1;

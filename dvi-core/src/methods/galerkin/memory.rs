@@ -3,7 +3,7 @@
 use super::Galerkin;
 use super::coefficients::Fit;
 use super::interior::InteriorNodes;
-use crate::discrete::frequency::{Frequency, FrequencyIn, Local};
+use crate::discrete::frequency::{Frequency, Local};
 use crate::error::StartError;
 use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::{Aside, Memory, lasting};
@@ -65,7 +65,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         [t, h]: [T; 2],
     ) -> Result<GalerkinMemory<NODES, S, T, I>, StartError>
     where
-        F: FrequencyIn<T>,
+        F: Frequency,
     {
         self.validate::<S, T>(system)?;
         let solver = match self.solver.in_numbers::<T>() {

@@ -5,7 +5,7 @@ use super::interior::InteriorNodes;
 use super::memory::GalerkinMemory;
 use super::{Galerkin, NodeEvaluation};
 use crate::discrete::Interval;
-use crate::discrete::frequency::{self, Frequency, FrequencyIn, Reading, Unfitted};
+use crate::discrete::frequency::{self, Frequency, Reading, Unfitted};
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::PhaseMemory;
 use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Step, VariableStep, scheme};
@@ -19,7 +19,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         system: &S,
     ) -> Result<(), StartError>
     where
-        F: FrequencyIn<T>,
+        F: Frequency,
     {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         frequency::admit(&self.frequency, system)?;
@@ -44,7 +44,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         memory: &mut GalerkinMemory<NODES, S, T, E::Interior>,
     ) -> Result<(), StepFailure>
     where
-        F: FrequencyIn<T>,
+        F: Frequency,
         E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
     {
         let Step { system, q, t, h, statistics } = step;
@@ -97,7 +97,7 @@ impl<const NODES: usize, S: System, F, T: Real, E: NodeEvaluation<NODES, S, T>> 
 impl<const NODES: usize, S, F, T: Real, E> Method<S, T> for Galerkin<NODES, F, E>
 where
     S: RegularLagrangian<T>,
-    F: FrequencyIn<T>,
+    F: Frequency,
     E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
     type Suited<X> = S::Suited<X>;
@@ -119,7 +119,7 @@ where
 impl<const NODES: usize, S, F, T: Real, E> VariableStep<S, T> for Galerkin<NODES, F, E>
 where
     S: RegularLagrangian<T>,
-    F: FrequencyIn<T>,
+    F: Frequency,
     E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
     type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;

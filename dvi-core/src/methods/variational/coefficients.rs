@@ -6,7 +6,7 @@
 
 use super::Variational;
 use crate::discrete::basis::{self, Bases, Basis};
-use crate::discrete::frequency::{self, FrequencyIn};
+use crate::discrete::frequency::{self, Frequency};
 use crate::discrete::quadrature::{NODES, Rule};
 use crate::discrete::{Node, NodeWork, Nodes, Span};
 use crate::error::StepFailure;
@@ -112,12 +112,12 @@ impl<T: Real> Coefficients<T> {
     /// Where the frequency does not depend on the motion: makes these the coefficients of a step of length
     /// `h`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn fix<F: FrequencyIn<T>, R: Rule>(
+    pub(super) fn fix<F: Frequency, R: Rule>(
         &mut self,
         Variational { rule, frequency, fitting, .. }: &Variational<F, R>,
         h: T,
     ) -> Result<(), StepFailure> {
-        let u = frequency.fixed() * h;
+        let u = frequency.fixed::<T>() * h;
         if self.u == u { Ok(()) } else { self.fit(rule, *fitting, u) }
     }
 
@@ -156,7 +156,7 @@ impl<T: Real> Coefficients<T> {
     }
 
     /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
-    pub(super) fn slope<S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule>(
+    pub(super) fn slope<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule>(
         &self,
         Variational { rule, fitting, .. }: &Variational<F, R>,
         Span { system, interval, q0, delta }: Span<'_, S, T>,

@@ -6,7 +6,7 @@
 use super::Variational;
 use super::coefficients::{Coefficients, Placed};
 use crate::discrete::basis::Basis;
-use crate::discrete::frequency::{FrequencyIn, GivenFrequency, Local};
+use crate::discrete::frequency::{Frequency, GivenFrequency, Local};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{Interval, Node, NodeWork, Nodes, Span, SumOverNodes, linearize};
 use crate::error::{StartError, StepFailure};
@@ -36,7 +36,7 @@ pub(super) struct Interpolated<'a, const READ: usize, S: System, F, R, T: Real> 
     pub(super) ends: &'a mut [Local<S, T>; 2],
 }
 
-impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real>
+impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real>
     Interpolated<'_, READ, S, F, R, T>
 {
     /// Reads the coefficients for the frequency that depends on both ends.
@@ -106,7 +106,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rul
     }
 }
 
-impl<const READ: usize, S: NondegenerateLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Equations<S, T>
+impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> Equations<S, T>
     for Interpolated<'_, READ, S, F, R, T>
 {
     const FITTED: bool = !F::UNFITTED;
@@ -224,7 +224,7 @@ pub struct RuleNodes<F, R, T> {
     coefficients: Coefficients<T>,
 }
 
-impl<F: FrequencyIn<T>, R: Rule, T: Real> Nodes<T> for RuleNodes<F, R, T> {
+impl<F: Frequency, R: Rule, T: Real> Nodes<T> for RuleNodes<F, R, T> {
     fn fit(&mut self, h: T) -> Result<(), StepFailure> {
         self.coefficients.fix(&self.method, h)
     }
@@ -236,27 +236,19 @@ impl<F: FrequencyIn<T>, R: Rule, T: Real> Nodes<T> for RuleNodes<F, R, T> {
     }
 }
 
-impl<S, F, R, T> VariationalMethod<S, T> for Variational<F, R>
-where
-    S: NondegenerateLagrangian<T>,
-    F: FrequencyIn<T> + GivenFrequency + Clone,
-    R: Rule + Clone,
-    T: Real,
+impl<S: NondegenerateLagrangian<T>, F: GivenFrequency, R: Rule, T: Real> VariationalMethod<S, T>
+    for Variational<F, R>
 {
     type DiscreteLagrangian = SumOverNodes<S, RuleNodes<F, R, T>, T>;
 
     fn discrete_lagrangian(&self, system: &S) -> SumOverNodes<S, RuleNodes<F, R, T>, T> {
         let coefficients = Coefficients::linear(&self.rule);
-        SumOverNodes::of(system, RuleNodes { method: self.clone(), coefficients })
+        SumOverNodes::of(system, RuleNodes { method: *self, coefficients })
     }
 }
 
-impl<S, F, R, T> InnerScheme<S, T> for Variational<F, R>
-where
-    S: NondegenerateLagrangian<T>,
-    F: FrequencyIn<T> + GivenFrequency + Clone,
-    R: Rule + Clone,
-    T: Real,
+impl<S: NondegenerateLagrangian<T>, F: GivenFrequency, R: Rule, T: Real> InnerScheme<S, T>
+    for Variational<F, R>
 {
     type Suited<X> = X;
 

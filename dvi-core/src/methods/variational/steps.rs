@@ -3,7 +3,7 @@
 
 use super::{Interpolation, Variational, verlet};
 use crate::discrete::Span;
-use crate::discrete::frequency::{Frequency, FrequencyIn, Reading, Unfitted};
+use crate::discrete::frequency::{Frequency, Reading, Unfitted};
 use crate::discrete::quadrature::Rule;
 use crate::error::{StartError, StepFailure};
 use crate::methods::step::PhaseMemory;
@@ -24,7 +24,7 @@ impl<S: System, F, R, T: Real> Carries<S, T> for Variational<F, R> {
     type Memory = PhaseMemory<S, T, Interpolation<S, T>>;
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
+impl<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
@@ -63,7 +63,7 @@ impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> Method<S, T> 
     }
 }
 
-impl<S: RegularLagrangian<T>, F: FrequencyIn<T>, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
+impl<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
     type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }
 

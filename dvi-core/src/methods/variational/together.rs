@@ -2,7 +2,7 @@
 //! takes them one run at a time.
 
 use super::Variational;
-use crate::discrete::frequency::FrequencyIn;
+use crate::discrete::frequency::Frequency;
 use crate::discrete::quadrature::Rule;
 use crate::mechanics::phase::Arrival;
 use crate::methods::Clock;
@@ -27,7 +27,7 @@ pub struct Packs<const W: usize, S: System> {
 impl<const W: usize, S, F, R: Rule> InStep<W, S> for Variational<F, R>
 where
     S: RegularLagrangian + Packable<W, Packed: RegularLagrangian<Lanes<W>>>,
-    F: FrequencyIn<f64>,
+    F: Frequency,
 {
     type Packs = Packs<W, S>;
 
