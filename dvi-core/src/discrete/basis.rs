@@ -165,18 +165,6 @@ pub(crate) fn table_slope<T: Real>(rule: &impl Rule, z: T) -> [Basis<T>; NODES] 
     table
 }
 
-/// The derivative with respect to z of σ(z)/S(z), S = Σ w cos((1 − 2c)u).
-pub(crate) fn weight_factor_slope<T: Real>(rule: &impl Rule, z: T) -> T {
-    let (mut cosine_sum, mut cosine_slope) = (T::lift(0.0), T::lift(0.0));
-    for (&c, &w) in rule.nodes().iter().zip(rule.weights()) {
-        let square = T::lift((1.0 - 2.0 * c) * (1.0 - 2.0 * c));
-        let Pair { cosine, sinc } = pair(square * z);
-        cosine_sum += T::lift(w) * cosine;
-        cosine_slope -= T::lift(0.5 * w) * square * sinc;
-    }
-    (sinc_slope(z) - pair(z).sinc * cosine_slope / cosine_sum) / cosine_sum
-}
-
 /// σ'(z) = Σₖ (−1)ᵏ k zᵏ⁻¹/(2k + 1)!.
 fn sinc_slope<T: Real>(z: T) -> T {
     // Below this, the closed form has lost too many digits.
@@ -194,7 +182,7 @@ fn sinc_slope<T: Real>(z: T) -> T {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bases, Basis, pair, sinc_slope, table_slope, weight_factor_slope};
+    use super::{Bases, Basis, pair, sinc_slope, table_slope};
     use crate::discrete::quadrature::{Quadrature, Rule};
     use crate::{Real, Scalar};
     use num_dual::Dual64;
@@ -209,13 +197,6 @@ mod tests {
     fn table<T: Real>(rule: &impl Rule, z: T) -> alloc::vec::Vec<Basis<T>> {
         let bases = Bases::new(Scalar::sqrt(z));
         rule.nodes().iter().map(|&c| bases.basis(c, bases.pairs(c))).collect()
-    }
-
-    /// S = Σ w cos((1 − 2c)u).
-    fn cosine_sum<T: Real>(rule: &impl Rule, z: T) -> T {
-        let term =
-            |(&c, &w): (&f64, &f64)| T::lift(w) * Scalar::cos(T::lift(1.0 - 2.0 * c) * Scalar::sqrt(z));
-        rule.nodes().iter().zip(rule.weights()).map(term).fold(T::lift(0.0), |sum, term| sum + term)
     }
 
     fn entries<T: Real>(Basis { b, b_bar, d, d_bar }: Basis<T>) -> [T; 4] {
@@ -263,10 +244,6 @@ mod tests {
                         assert!((slope - expected.eps).abs() < 1e-13, "z = {z}: {slope} {}", expected.eps);
                     }
                 }
-                let factor = pair(dual).sinc / cosine_sum(&rule, dual);
-                let found = weight_factor_slope(&rule, z);
-                let size = factor.re.abs().max(1.0) / cosine_sum(&rule, z).abs().min(1.0);
-                assert!((found - factor.eps).abs() < 1e-13 * size * size, "z = {z}: {found} {}", factor.eps);
             }
         }
     }

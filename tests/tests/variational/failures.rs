@@ -54,6 +54,9 @@ fn options_that_do_not_go_together_are_refused() {
     assert!(unsupported(Integrator::new(&pendulums, fitted, 0.1, start).err()));
     let fixed = Variational { solver: Solver::FixedPoint, ..Variational::simpson() };
     assert!(unsupported(Integrator::new(&pendulums, fixed, 0.1, start).err()));
+    let fitting = Fitting::PhaseAndMomentum;
+    let both = Variational { fitting, ..Variational::simpson() }.phase_fitted(Radial(Reading::Variational));
+    assert!(unsupported(Integrator::new(&KEPLER, both, 0.1, state(1.0, 1.0)).err()));
 }
 
 /// Symmetric data meet at the origin after one step of 1.

@@ -40,7 +40,8 @@ pub enum Fitting {
     /// (midpoint at ωh = 1: 1.188), so that a run from given velocities has a wrong amplitude for ever.
     #[default]
     Phase,
-    /// Positions and momenta: the weights are multiplied by (sin u/u)/S, u = ωh, S = Σ wⱼ cos((1 − 2cⱼ)u).
+    /// Positions and momenta: the weights are multiplied by (sin u/u)/S, u = ωh, S = Σ wⱼ cos((1 − 2cⱼ)u). Not
+    /// with [`Reading::Variational`](crate::discrete::Reading::Variational).
     PhaseAndMomentum,
 }
 
@@ -155,25 +156,22 @@ impl<T: Real> Coefficients<T> {
         }
     }
 
-    /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2.
+    /// ∂ℓ/∂ω between these ends, for ω = `twice_omega`/2, where weights do not depend on it.
     pub(super) fn slope<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule>(
         &self,
-        Variational { rule, fitting, .. }: &Variational<F, R>,
+        Variational { rule, .. }: &Variational<F, R>,
         Span { system, interval, q0, delta }: Span<'_, S, T>,
         work: &mut NodeWork<S, T>,
         twice_omega: T,
     ) -> T {
         let (z, h) = (self.u * self.u, interval.h);
         let slopes = basis::table_slope(rule, z);
-        let fitted = *fitting == Fitting::PhaseAndMomentum;
-        let factor_slope = if fitted { basis::weight_factor_slope(rule, z) } else { T::lift(0.0) };
         let per_h = T::lift(1.0) / h;
         let mut by_z = T::lift(0.0);
         for (node, &c) in rule.nodes().iter().enumerate() {
             let NodeWork { point, velocity, gradient, momentum } = &mut *work;
             Placed(rule, self).place(node, h, [q0, delta], [point, velocity]);
-            let t = interval.time(T::lift(c));
-            system.gradient(point, velocity, t, gradient, momentum);
+            system.gradient(point, velocity, interval.time(T::lift(c)), gradient, momentum);
             let Basis { b, b_bar, d, d_bar } = slopes[node];
             let mut along = T::lift(0.0);
             for i in 0..q0.len() {
@@ -182,10 +180,6 @@ impl<T: Real> Coefficients<T> {
                 along += gradient[i] * point_slope + momentum[i] * velocity_slope;
             }
             by_z += self.weights[node] * along;
-            if fitted {
-                let value = system.lagrangian(point, velocity, t);
-                by_z += T::lift(rule.weights()[node]) * factor_slope * value;
-            }
         }
         // z = ω²h², and ℓ = h Σ w L.
         h * by_z * twice_omega * h * h
