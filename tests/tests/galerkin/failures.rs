@@ -1,7 +1,7 @@
 //! What is refused.
 
 use core::f64::consts::PI;
-use dvi_core::discrete::FrequencyIn;
+use dvi_core::discrete::Frequency;
 use dvi_core::prelude::*;
 use dvi_tests::zoo::regular::*;
 
@@ -9,7 +9,7 @@ use super::systems::double_pendulum;
 
 #[test]
 fn what_cannot_be_done_is_refused() {
-    fn refused<S: RegularLagrangian, F: FrequencyIn<f64>>(
+    fn refused<S: RegularLagrangian, F: Frequency>(
         (system, start): (S, S::State<f64>),
         method: Galerkin<3, F>,
         expected: &str,
