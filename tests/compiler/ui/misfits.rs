@@ -61,7 +61,7 @@ run! { not_separable: Integrator::new(&Bead, Newmark::new(0.25), 0.1, BEAD) }
 run! { constrained_and_separable: Integrator::new(&Rod, Newmark::new(0.25), 0.1, ROD) }
 run! { out_of_class: Integrator::new(&Vortex, OneStep::midpoint(), 0.1, VORTEX) }
 run! { composed: {
-    let method = Composition::yoshida(Variational::midpoint());
+    let method = Composition::suzuki(Variational::midpoint());
     Integrator::new(&Vortex, EnergyLimit { method, limit: 1e-3 }, 0.1, VORTEX)
 } }
 
@@ -85,7 +85,7 @@ fn a_control_of_another_kind() -> Outcome {
 
 run! { two_points: Integrator::from_two_points(&Bead, Sigma::midpoint(), 0.1, BEAD, BEAD) }
 run! { composed_of_one_length:
-    Integrator::new(&Vortex, Composition::yoshida(Sigma::midpoint()), 0.1, VORTEX)
+    Integrator::new(&Vortex, Composition::suzuki(Sigma::midpoint()), 0.1, VORTEX)
 }
 
 fn resumed(checkpoint: &Checkpoint) -> Outcome {

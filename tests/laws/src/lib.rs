@@ -157,7 +157,7 @@ pub fn affine() -> Vec<Case> {
         RungeKutta::heun() => ONE, Elsewhere;
         RungeKutta::classical() => ONE, Elsewhere;
         Composition::suzuki(Gauss::<1>::new()) => ONE, Elsewhere;
-        Composition::suzuki(Composition::triple_jump(Gauss::<1>::new())) => ONE, Elsewhere;
+        Composition::suzuki(Composition::suzuki(Gauss::<1>::new())) => ONE, Elsewhere;
         EnergyLimit { method: Sigma::midpoint(), limit: 1e2 } => ONE, discrete(&[0.5], &[1.0]);
     });
     table
@@ -222,10 +222,7 @@ pub fn in_class() -> Vec<Case> {
     rows!(table, [mixed, sphere], |at| {
         OneStepGauss::<1>::new() => ONE, Elsewhere;
         OneStepGauss::<4>::new() => ONE, Elsewhere;
-        Composition::triple_jump(OneStep::midpoint()) => ONE, Elsewhere;
-        Composition::yoshida(OneStep::midpoint()) => ONE, Elsewhere;
         Composition::kahan_li_6(OneStep::midpoint()) => ONE, Elsewhere;
-        Composition::suzuki_umeno(OneStep::midpoint()) => ONE, Elsewhere;
     });
     rows!(table, [canonical, harvested], |at| {
         Sigma { solver: at.solver, ..Sigma::midpoint() } => PLAIN, Elsewhere;
@@ -281,11 +278,8 @@ pub fn separable() -> Vec<Case> {
         RungeKutta::midpoint() => ONE, Elsewhere;
         RungeKutta::heun() => ONE, Elsewhere;
         RungeKutta::classical() => ONE, Elsewhere;
-        Composition::triple_jump(Variational::trapezoid()) => ONE, Elsewhere;
         Composition::suzuki(Variational::trapezoid()) => ONE, Elsewhere;
-        Composition::yoshida(Variational::trapezoid()) => ONE, Elsewhere;
         Composition::kahan_li_6(Variational::trapezoid()) => ONE, Elsewhere;
-        Composition::suzuki_umeno(Variational::trapezoid()) => ONE, Elsewhere;
         Composition::kahan_li_8(Variational::trapezoid()) => ONE, Elsewhere;
         EnergyLimit { method: Newmark::new(real(0.25)), limit: 1e2 } => ONE, Equations::Newmark(0.25);
     });
@@ -462,7 +456,7 @@ pub fn constrained() -> Vec<Case> {
     };
     rows!(table, [double, on(Spherical, sphere, 0.05), links], |at| {
         Rattle::default() => ONE, discrete(&[0.0, 1.0], &[0.5, 0.5]);
-        Composition::triple_jump(Rattle::default()) => ONE, Elsewhere;
+        Composition::suzuki(Rattle::default()) => ONE, Elsewhere;
         Composition::kahan_li_6(Rattle::default()) => ONE, Elsewhere;
     });
     rows!(table, [double, on(Charge { b: 0.7 }, sphere, 0.05), swing, bead, links], |at| {
@@ -564,7 +558,7 @@ pub fn fused() -> Vec<Fused> {
     rows!(FusedRod, [[0.6, -0.8], [0.8, 0.6]], 0.1;
         Rattle::default(),
         Constrained::new(Variational::midpoint()),
-        Composition::triple_jump(Rattle::default()),
+        Composition::suzuki(Rattle::default()),
     );
     rows!(FusedBall, [[0.3, 0.1], [0.2, -0.4]], 0.1;
         Impacts::new(Variational::midpoint()),

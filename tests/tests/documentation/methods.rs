@@ -111,7 +111,7 @@ fn tables_of_methods_say_what_methods_say() {
     }
     let compositions: Schemes = schemes![
         Composition::suzuki(Variational::trapezoid()),
-        Composition::yoshida(Variational::trapezoid()),
+        Composition::kahan_li_6(Variational::trapezoid()),
         Composition::kahan_li_8(Variational::trapezoid()),
     ];
     assert!(found("[`Composition`]", orders(&compositions), "what it does".to_owned()));
