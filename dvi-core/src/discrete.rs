@@ -28,7 +28,7 @@ use crate::{Lagrangian, Real};
 
 pub use crate::mechanics::{Interval, Span};
 pub use frequency::{
-    Constant, Curvature, Frequency, GivenFrequency, Radial, Reading, Unfitted,
+    Constant, Curvature, Frequency, Radial, Reading, Unfitted,
 };
 pub use node::OneNode;
 pub(crate) use node::{Node, NodeWork, Nodes, SumOverNodes, linearize};
@@ -44,38 +44,22 @@ pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 /// that nothing is allocated.
 pub trait DiscreteLagrangian<S: Lagrangian<T>, T: Real> {
     /// Adds D₁L_d to `d1` and D₁L_d + D₂L_d to `sum`, each one entry per coordinate.
-    ///
-    /// # Errors
-    /// Those of an interpolation that is fitted to a frequency.
     fn derivatives(
         &mut self,
         span: Span<'_, S, T>,
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
+    );
 
-    /// Adds D₁L_d to `d1` and D₁D₂L_d to `sink`, entry (i, j) of q0ⁱ and q1ʲ. Of a frequency that is read
-    /// from the motion the entries take no notice, which is close enough for Newton's method to contract.
-    ///
-    /// # Errors
-    /// As [`derivatives`](Self::derivatives).
-    fn linearize<K: Sink<T>>(
-        &mut self,
-        span: Span<'_, S, T>,
-        d1: &mut [T],
-        sink: &mut K,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
+    /// Adds D₁L_d to `d1` and D₁D₂L_d to `sink`, entry (i, j) of q0ⁱ and q1ʲ.
+    fn linearize<K: Sink<T>>(&mut self, span: Span<'_, S, T>, d1: &mut [T], sink: &mut K);
 
     /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, its transpose
     /// D₂D₁L_d and D₂D₂L_d to sinks: tangent maps and the preserved two-form come from these. With forces on
     /// the system these are the derivatives of D₁L_d + F⁻ and D₂L_d + F⁺, and no matrix is the transpose of
     /// another.
-    ///
-    /// # Errors
-    /// As [`derivatives`](Self::derivatives).
-    fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 4]) -> Result<(), StepFailure>;
+    fn hessian<K: Sink<T>>(&mut self, span: Span<'_, S, T>, sinks: [&mut K; 4]);
 }
 
 /// A discrete Lagrangian where a step begins, whose equation p0 + D₁L_d(q0, q0 + Δ) = 0 is to be solved.
@@ -93,9 +77,10 @@ impl<S: Lagrangian<T>, T: Real, L: DiscreteLagrangian<S, T>> Linearize<T> for De
         delta: &[T],
         d1: &mut [T],
         sink: &mut K,
-        statistics: &mut Statistics,
+        _statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Self { l_d, system, interval, q0 } = self;
-        l_d.linearize(Span { system, interval: *interval, q0, delta }, d1, sink, statistics)
+        l_d.linearize(Span { system, interval: *interval, q0, delta }, d1, sink);
+        Ok(())
     }
 }

@@ -64,7 +64,7 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T>
     /// continued by zeros.
     ///
     /// # Errors
-    /// [`StepFailure::Singular`] where D₁D₂L_d is singular, or those of the discrete Lagrangian.
+    /// [`StepFailure::Singular`] where D₁D₂L_d is singular.
     pub fn evaluate(
         &mut self,
         system: &S,
@@ -79,7 +79,7 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T>
             (*start, *delta) = (from, to - from);
         }
         self.hessian.iter_mut().for_each(|matrix| matrix.fill(zero));
-        self.discrete.hessian(Span { system, interval, q0: start, delta }, self.hessian.each_mut())?;
+        self.discrete.hessian(Span { system, interval, q0: start, delta }, self.hessian.each_mut());
         self.factors.copy_from_slice(&self.hessian[1]);
         elimination::factor(&mut self.factors, &mut self.permutation)
     }

@@ -20,6 +20,15 @@ pub(crate) struct Basis<T> {
     pub(crate) d_bar: T,
 }
 
+impl<T: Real> Basis<T> {
+    /// Those of node `c` for u = 0, linear interpolation.
+    #[inline]
+    pub(crate) fn linear(c: f64) -> Self {
+        let one = T::lift(1.0);
+        Self { b: T::lift(1.0 - c), b_bar: T::lift(c), d: -one, d_bar: one }
+    }
+}
+
 /// κ and σ at one point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair<T> {

@@ -88,12 +88,6 @@ pub trait Frequency: Debug {
     }
 }
 
-/// A frequency that does not depend on the motion, so that L_d can be differentiated twice.
-pub trait GivenFrequency: Frequency + Copy {}
-
-impl GivenFrequency for Unfitted {}
-impl GivenFrequency for Constant {}
-
 /// No frequency: linear interpolation, the limit ω → 0.
 ///
 /// ```

@@ -11,7 +11,6 @@
 
 use super::basis::Basis;
 use super::{DiscreteLagrangian, Interval, Span};
-use crate::error::StepFailure;
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space, System, Vector, Weights};
@@ -79,14 +78,6 @@ impl<T: Real> Node<T> {
 
 /// The nodes of an interval.
 pub trait Nodes<T: Real> {
-    /// Makes them those of intervals of length `h`.
-    ///
-    /// # Errors
-    /// Those of an interpolation that is fitted to a frequency.
-    fn fit(&mut self, _h: T) -> Result<(), StepFailure> {
-        Ok(())
-    }
-
     /// How many there are.
     fn count(&self) -> usize;
 
@@ -124,9 +115,8 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
         d1: &mut [T],
         sum: &mut [T],
         statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    ) {
         let (Self { nodes, work }, h) = (self, interval.h);
-        nodes.fit(h)?;
         for j in 0..nodes.count() {
             let Node { time, weight, left, both, .. } = nodes.node(j);
             nodes.place(j, h, [q0, delta], [&mut work.point, &mut work.velocity]);
@@ -136,29 +126,19 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
             work.add(weight, h, both, sum);
             work.add(weight, h, left, d1);
         }
-        Ok(())
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn linearize<K: Sink<T>>(
-        &mut self,
-        span: Span<'_, S, T>,
-        d1: &mut [T],
-        sink: &mut K,
-        _statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        self.nodes.fit(span.interval.h)?;
+    fn linearize<K: Sink<T>>(&mut self, span: Span<'_, S, T>, d1: &mut [T], sink: &mut K) {
         linearize(&self.nodes, span, &mut self.work, d1, sink);
-        Ok(())
     }
 
     fn hessian<K: Sink<T>>(
         &mut self,
         Span { system, interval, q0, delta }: Span<'_, S, T>,
         [d11, d12, d21, d22]: [&mut K; 4],
-    ) -> Result<(), StepFailure> {
+    ) {
         let Self { nodes, work } = self;
-        nodes.fit(interval.h)?;
         for j in 0..nodes.count() {
             let node @ Node { left, right, .. } = nodes.node(j);
             nodes.place(j, interval.h, [q0, delta], [&mut work.point, &mut work.velocity]);
@@ -167,7 +147,6 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
             node.add_second([right, left], (system, interval), work, d21);
             node.add_second([right, right], (system, interval), work, d22);
         }
-        Ok(())
     }
 }
 

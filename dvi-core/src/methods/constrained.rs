@@ -20,8 +20,8 @@ use memory::ConstrainedMemory;
 
 /// The step of a variational method for systems with constraints, of positions by `constraint = …` or of
 /// velocities by `nonholonomic = …`. The method is [`Variational`](crate::methods::Variational) with any
-/// rule, fitted to a frequency that is given or not fitted. Its solver, its `stopping` and its summation
-/// would have no effect here, and are errors of the start if they are not left at their defaults.
+/// rule and no frequency. Its solver, its `stopping` and its summation would have no effect here, and are
+/// errors of the start if they are not left at their defaults.
 ///
 /// ```math
 /// p_0 = -D_1 L_d(q_0, q_1) - A(q_0)^\mathsf{T} \iota_0, \qquad p_1 = D_2 L_d(q_0, q_1) + A(q_1)^\mathsf{T} \iota_1

@@ -14,8 +14,8 @@ use crate::{Lagrangian, Real};
 /// [`LyapunovExponent`](crate::diagnostics::LyapunovExponent) come from its second derivatives.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian",
-    label = "its steps are not variational, it reads a frequency from the motion, or it has displacements within a step",
-    note = "such methods are `Sigma`, `Variational` with a frequency that is given, and `EnergyLimit` around them",
+    label = "its steps are not variational, it has a frequency, or displacements within a step",
+    note = "such methods are `Sigma`, `Variational` without a frequency, and `EnergyLimit` around them",
     note = "the tangent map of any method is its run in dual numbers"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
@@ -33,7 +33,7 @@ pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
 /// `EnergyLimit { method: Constrained::new(…), limit }`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian that `Constrained` could take steps of",
-    label = "its steps are not variational, it reads a frequency from the motion, or it watches steps",
+    label = "its steps are not variational, it has a frequency, or it watches steps",
     note = "such a method is `Variational`; `EnergyLimit` goes around `Constrained`"
 )]
 pub trait InnerScheme<S: Lagrangian<T>, T: Real>: VariationalMethod<S, T> {

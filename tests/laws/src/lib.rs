@@ -468,10 +468,6 @@ pub fn constrained() -> Vec<Case> {
         Constrained::new(Variational::sigma(0.3)) => ONE, discrete(&[0.3], &[1.0]);
         Composition::suzuki(Constrained::new(Variational::midpoint())) => ONE, Elsewhere;
     });
-    rows!(table, [double], |at| {
-        Constrained::new(Variational::midpoint().phase_fitted(Constant(OMEGA)))
-            => ONE, fitted(Nodes::new(&[0.5], &[1.0]));
-    });
     table
 }
 

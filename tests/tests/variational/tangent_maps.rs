@@ -61,10 +61,8 @@ fn second_derivatives_agree_with_hyper_dual_numbers() -> Outcome {
         [Quadrature::sigma(0.4), Quadrature::lobatto(2)?, Quadrature::lobatto(3)?, Quadrature::gauss(3)?]
     {
         let (linear, nodes) = (Variational::new(rule), &Nodes::new(rule.nodes(), rule.weights()));
-        let (fitted, bent) = (linear.phase_fitted(Constant(1.3)), &nodes.clone().fitted(1.3));
         check(&pendulums, linear, nodes, &planar)?;
-        check(&pendulums, fitted, bent, &planar)?;
-        check(&driven, fitted, bent, &(vec![0.4], vec![0.9]))?;
+        check(&driven, linear, nodes, &(vec![0.4], vec![0.9]))?;
         check(&chain, linear, nodes, &(vec![0.1, -0.2, 0.3, 0.0], vec![0.5, 0.1, -0.4, 0.2]))?;
     }
     let prey = LotkaVolterra { a: [1.0, 1.0], b: [-1.0, -2.0] };

@@ -119,7 +119,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         p.fill(T::lift(0.0));
         work.fill(T::lift(0.0));
         let span = Span { system, interval, q0: q, delta: increment };
-        l_d.derivatives(span, work, p, statistics)?;
+        l_d.derivatives(span, work, p, statistics);
         solver.add_impulse(system, At { q, t: interval.t }, first, p);
         for ((p, &p0), (v, &delta)) in p.iter_mut().zip(p0.iter()).zip(v.iter_mut().zip(increment.iter())) {
             *p += p0;

@@ -53,7 +53,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         // c0 = p0 − α(q0) = −D₁L_d − α(q0).
         defect.copy_from_slice(one_form);
         let span = Span { system, interval: Interval { t, h }, q0, delta: increment };
-        l_d.derivatives(span, defect, sum, &mut Statistics::default()).map_err(StartError::Starter)?;
+        l_d.derivatives(span, defect, sum, &mut Statistics::default());
         negate(defect);
         norm::finite(defect).map_err(StartError::Starter)?;
         memory.aim(system, method, q0);

@@ -62,11 +62,9 @@ impl<T: Real> Coefficients<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn linear(rule: &impl Rule) -> Self {
         let zero = T::lift(0.0);
-        let nodes = Bases::new(zero);
-        let mut weights = [zero; NODES];
-        let mut bases = [nodes.basis(0.0, nodes.pairs(0.0)); NODES];
+        let (mut weights, mut bases) = ([zero; NODES], [Basis::linear(0.0); NODES]);
         for (j, (&c, &w)) in rule.nodes().iter().zip(rule.weights()).enumerate() {
-            (weights[j], bases[j]) = (T::lift(w), nodes.basis(c, nodes.pairs(c)));
+            (weights[j], bases[j]) = (T::lift(w), Basis::linear(c));
         }
         Self { u: zero, weights, bases, sums: Kinetic::of_mean_velocity() }
     }

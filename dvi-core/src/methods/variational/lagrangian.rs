@@ -6,7 +6,7 @@
 use super::Variational;
 use super::coefficients::{Coefficients, Placed};
 use crate::discrete::basis::Basis;
-use crate::discrete::frequency::{Frequency, GivenFrequency, Local};
+use crate::discrete::frequency::{Frequency, Local, Unfitted};
 use crate::discrete::quadrature::Rule;
 use crate::discrete::{Interval, Node, NodeWork, Nodes, Span, SumOverNodes, linearize};
 use crate::error::{StartError, StepFailure};
@@ -217,42 +217,32 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
     }
 }
 
-/// The nodes of a rule, with an interpolation that is linear or fitted to a frequency that is given.
+/// The nodes of a rule, with linear interpolation.
 #[derive(Debug)]
-pub struct RuleNodes<F, R, T> {
-    method: Variational<F, R>,
-    coefficients: Coefficients<T>,
-}
+pub struct RuleNodes<R>(R);
 
-impl<F: Frequency, R: Rule, T: Real> Nodes<T> for RuleNodes<F, R, T> {
-    fn fit(&mut self, h: T) -> Result<(), StepFailure> {
-        self.coefficients.fix(&self.method, h)
-    }
+impl<R: Rule, T: Real> Nodes<T> for RuleNodes<R> {
     fn count(&self) -> usize {
-        self.method.rule.nodes().len()
+        self.0.nodes().len()
     }
     fn node(&self, j: usize) -> Node<T> {
-        Placed(&self.method.rule, &self.coefficients).node(j)
+        let (c, weight) = (self.0.nodes()[j], self.0.weights()[j]);
+        Node::new(T::lift(c), T::lift(weight), Basis::linear(c))
     }
 }
 
-impl<S: NondegenerateLagrangian<T>, F: GivenFrequency, R: Rule, T: Real> VariationalMethod<S, T>
-    for Variational<F, R>
-{
-    type DiscreteLagrangian = SumOverNodes<S, RuleNodes<F, R, T>, T>;
+impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> VariationalMethod<S, T> for Variational<Unfitted, R> {
+    type DiscreteLagrangian = SumOverNodes<S, RuleNodes<R>, T>;
 
-    fn discrete_lagrangian(&self, system: &S) -> SumOverNodes<S, RuleNodes<F, R, T>, T> {
-        let coefficients = Coefficients::linear(&self.rule);
-        SumOverNodes::of(system, RuleNodes { method: *self, coefficients })
+    fn discrete_lagrangian(&self, system: &S) -> SumOverNodes<S, RuleNodes<R>, T> {
+        SumOverNodes::of(system, RuleNodes(self.rule))
     }
 }
 
-impl<S: NondegenerateLagrangian<T>, F: GivenFrequency, R: Rule, T: Real> InnerScheme<S, T>
-    for Variational<F, R>
-{
+impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> InnerScheme<S, T> for Variational<Unfitted, R> {
     type Suited<X> = X;
 
-    const IS_VERLET: bool = S::SEPARABLE && F::UNFITTED && R::TRAPEZOIDAL;
+    const IS_VERLET: bool = S::SEPARABLE && R::TRAPEZOIDAL;
 
     fn inside(&self, system: &S) -> Result<Self::DiscreteLagrangian, StartError> {
         self.validate::<S, T>(system)?;
