@@ -1,9 +1,7 @@
 //! Langevin dynamics by the splitting BAOAB: the kicks and drifts of the trapezoidal variational integrator
 //! with the exact solution of friction and noise between its two drifts.
 //!
-//! dq = M⁻¹p dt      dp = F dt − γp dt + √(2γθ) A dW,   A Aᵀ = M
-//!
-//! B  p ← p + (h/2)F(q, t)      A  q ← q + (h/2)M⁻¹p      O  p ← c p + √(θ(1 − c²)) A ξ,   c = e^(−γh)
+//! B  p ← p + (h/2)F(q, t)      A  q ← q + (h/2)M⁻¹p      O  p ← c p + √(θ(1 − c²)) A ξ,   c = e^(−γh), A Aᵀ = M
 //!
 //! The normal numbers ξ of step k are those of the k-th stream of a generator, ChaCha with 8 rounds, whose
 //! key is made from the seed. They depend on nothing else, so that runs can be repeated and resumed.
@@ -87,13 +85,6 @@ pub struct LangevinMemory<S: System, T: Real> {
 }
 
 lasting!([S: System, T: Real] LangevinMemory<S, T>, T; part carried, count step);
-
-impl<S: System, T: Real> LangevinMemory<S, T> {
-    /// p = M v at the current point, one entry per coordinate.
-    pub fn p(&self) -> &[T] {
-        &self.carried.phase.p
-    }
-}
 
 impl Langevin {
     fn validate<T: Real>(&self, h: T) -> Result<(), StartError> {
