@@ -1,8 +1,5 @@
-//! High order from a symmetric method of second order, by steps of different lengths.
-//!
-//! Φ_h = φ_{γ_s h} ∘ … ∘ φ_{γ₂ h} ∘ φ_{γ₁ h},   γ_{s+1−i} = γᵢ,   Σ γᵢ = 1
-//!
-//! (Hairer, Lubich & Wanner 2006, section V.3.2).
+//! High order from a symmetric method of second order, by steps of different lengths (Hairer, Lubich &
+//! Wanner 2006, section V.3.2).
 
 mod table;
 

@@ -1,6 +1,4 @@
 //! Explicit Runge–Kutta methods on the equations of motion y' = X(y, t): the baselines.
-//!
-//! kᵢ = X(y + h Σⱼ aᵢⱼ kⱼ, t + cᵢh),   y⁺ = y + h Σᵢ bᵢ kᵢ
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{EquationsOf, FirstOrder, PointOf};
