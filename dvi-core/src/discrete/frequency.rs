@@ -128,16 +128,6 @@ impl Frequency for Unfitted {
 /// let mut run = Integrator::new(&Spring, method, 0.5, start)?; // six steps a period
 /// run.take_steps(100)?;
 /// assert!((run.state().x - 100_f64.cos()).abs() < 1e-12);
-///
-/// // The error of runs from a velocity.
-/// use dvi_core::methods::Fitting;
-/// let error = |fitting| -> Result<f64, Box<dyn std::error::Error>> {
-///     let method = Variational { fitting, ..method };
-///     let mut run = Integrator::new(&Spring, method, 0.5, SpringState { x: 1.0, dot_x: 1.0 })?;
-///     run.take_steps(100)?;
-///     Ok((run.state().x - 100_f64.cos() - 100_f64.sin() / 2.0).abs())
-/// };
-/// assert!(error(Fitting::PhaseAndMomentum)? < 1e-12 && error(Fitting::Phase)? > 0.01);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

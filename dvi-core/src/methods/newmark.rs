@@ -87,6 +87,10 @@ impl<T: Real> Newmark<T> {
             *r += h * (T::lift(0.5) * f0 + self.beta * (f1 - f0));
         }
     }
+
+    fn is_verlet(&self) -> bool {
+        self.beta == T::lift(0.0)
+    }
 }
 
 impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
@@ -154,20 +158,6 @@ impl<S: Separable<T>, T: Real> Equations<S, T> for Newmark<T> {
     }
 }
 
-impl<T: Real> Newmark<T> {
-    fn validate(&self) -> Result<(), StartError> {
-        if !(self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5)) {
-            let (value, range) = (reported(self.beta), "0 <= beta <= 1/2");
-            return Err(StartError::Parameter { name: "beta", value, range });
-        }
-        self.stopping.validate()
-    }
-
-    fn is_verlet(&self) -> bool {
-        self.beta == T::lift(0.0)
-    }
-}
-
 scheme! {
     [T: Real] Newmark<T>, |method|
     order: 2,
@@ -183,7 +173,11 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
     type Suited<X> = <S as Separable<T>>::Suited<<<S as RegularLagrangian<T>>::Suited<X> as Same<X>>::As>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
-        self.validate()?;
+        if !(self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5)) {
+            let (value, range) = (reported(self.beta), "0 <= beta <= 1/2");
+            return Err(StartError::Parameter { name: "beta", value, range });
+        }
+        self.stopping.validate()?;
         let solver = if self.is_verlet() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
         PhaseMemory::new(system, (q, v, t), (solver, self.summation), ())
     }

@@ -108,31 +108,25 @@ impl<R> Variational<Unfitted, R> {
     }
 }
 
-impl Variational<Unfitted, Midpoint> {
+impl Variational {
     /// L_d = h L((q0 + q1)/2, Δ/h): the implicit midpoint rule.
-    pub fn midpoint() -> Self {
-        Self::new(Midpoint)
+    pub fn midpoint() -> Variational<Unfitted, Midpoint> {
+        Variational::new(Midpoint)
     }
-}
 
-impl Variational<Unfitted, Trapezoid> {
     /// L_d = (h/2)[L(q0, Δ/h) + L(q1, Δ/h)]: Störmer–Verlet, in the form kick–drift–kick, if L is separable.
-    pub fn trapezoid() -> Self {
-        Self::new(Trapezoid)
+    pub fn trapezoid() -> Variational<Unfitted, Trapezoid> {
+        Variational::new(Trapezoid)
     }
-}
 
-impl Variational<Unfitted, Quadrature> {
     /// L_d = h L((1 − σ)q0 + σq1, Δ/h).
     pub fn sigma(sigma: f64) -> Self {
         Self::new(Quadrature::sigma(sigma))
     }
-}
 
-impl Variational<Unfitted, Simpson> {
     /// Nodes 0, ½, 1 with weights 1/6, 2/3, 1/6.
-    pub fn simpson() -> Self {
-        Self::new(Simpson)
+    pub fn simpson() -> Variational<Unfitted, Simpson> {
+        Variational::new(Simpson)
     }
 }
 

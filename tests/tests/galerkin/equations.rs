@@ -7,13 +7,7 @@ use dvi_tests::zoo::regular::*;
 use super::Outcome;
 
 #[test]
-fn a_fixed_point_step_needs_forces_only_and_newton_stands_by() -> Outcome {
-    let mut run = Integrator::new(&KEPLER, Galerkin::<4>::new(), 0.05, pericentre(0.3))?;
-    run.take_steps(200)?;
-    let statistics = run.statistics();
-    // Two interior nodes an iteration, and the end.
-    assert_eq!(statistics.gradients, 2 * statistics.iterations + statistics.steps);
-    assert_eq!((statistics.linearizations, statistics.factorisations), (0, 0));
+fn newton_stands_by() -> Outcome {
     let (system, start) = (Spring { stiffness: 100.0 }, SpringState { x: 1.0, dot_x: 0.0 });
     let mut stiff = Integrator::new(&system, Galerkin::<4>::new(), 0.5, start)?;
     stiff.take_steps(20)?;

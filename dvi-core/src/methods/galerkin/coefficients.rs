@@ -11,7 +11,7 @@
 use crate::Real;
 use crate::discrete::basis::{Bases, Basis};
 use crate::discrete::frequency;
-use crate::discrete::{Interval, Rule};
+use crate::discrete::Interval;
 use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::{Lobatto, MOST};
 use crate::space::elimination;
@@ -49,7 +49,7 @@ impl<const NODES: usize, T: Real> Fit<NODES, T> {
             rule,
             differentiation: rule.differentiation(),
             u: zero,
-            weights: core::array::from_fn(|j| T::lift(rule.weights()[j])),
+            weights: core::array::from_fn(|j| T::lift(rule.b[j])),
             point: zeros,
             velocity: zeros,
             left: [[zero; 2]; NODES],
@@ -81,7 +81,7 @@ impl<const NODES: usize, T: Real> Fit<NODES, T> {
     fn set(&mut self, u: T) -> [T; 2] {
         let (zero, one, last, nodes) = (T::lift(0.0), T::lift(1.0), NODES - 1, Bases::new(u));
         self.u = u;
-        for (j, &c) in self.rule.nodes().iter().enumerate().take(NODES) {
+        for (j, &c) in self.rule.c.iter().enumerate() {
             let Basis { b, b_bar, d, d_bar } = nodes.basis(c, nodes.pairs(c));
             self.left[j] = [b, d];
             (self.point[j][0], self.velocity[j][0]) = (b + b_bar, d + d_bar);
@@ -100,7 +100,7 @@ impl<const NODES: usize, T: Real> Fit<NODES, T> {
 
     /// The time of node `j`.
     pub(super) fn time(&self, interval: Interval<T>, j: usize) -> T {
-        interval.time(T::lift(self.rule.nodes()[j]))
+        interval.time(T::lift(self.rule.c[j]))
     }
 
     /// Sets `point` to qʲ of node `j`.

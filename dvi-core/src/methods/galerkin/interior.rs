@@ -16,7 +16,7 @@
 use core::marker::PhantomData;
 
 use super::evaluation::NodeForces;
-use crate::discrete::{Interval, Rule as _};
+use crate::discrete::Interval;
 use crate::error::StepFailure;
 use crate::mechanics::motion::{weigh, weigh_each};
 use crate::memory::{Memory, lasting};
@@ -100,7 +100,7 @@ where
         let rule = Lobatto::<NODES>::new();
         // Lanes without a node repeat the last one, with no weight.
         let node = |lane: usize| lane.min(Self::COUNT - 1) + 1;
-        let (nu, c) = (rule.nystrom(), |lane: usize| rule.nodes()[node(lane)]);
+        let (nu, c) = (rule.nystrom(), |lane: usize| rule.c[node(lane)]);
         let lanes = |of: &dyn Fn(usize) -> f64| Lanes(core::array::from_fn(|lane| T::lift(of(lane))));
         let lagrange = rule.lagrange().map(|row| row.map(T::lift));
         let nodes = lanes(&c);
@@ -111,8 +111,8 @@ where
                 beta: lanes(&|lane| 1.0 - c(lane)),
                 nodes,
             },
-            weights: lanes(&|lane| if lane < Self::COUNT { rule.weights()[node(lane)] } else { 0.0 }),
-            end: T::lift(rule.weights()[0]),
+            weights: lanes(&|lane| if lane < Self::COUNT { rule.b[node(lane)] } else { 0.0 }),
+            end: T::lift(rule.b[0]),
             lagrange,
             continuation: continuation(&lagrange, nodes, T::lift(1.0)),
             completed: [packs()],
