@@ -13,11 +13,7 @@ fn state(x: f64, dot_y: f64) -> KeplerState {
 }
 
 #[test]
-fn steps_and_starts_that_are_none_are_refused() {
-    for h in [0.0, f64::NAN, f64::INFINITY] {
-        let error = Integrator::new(&KEPLER, Variational::trapezoid(), h, state(1.0, 1.0)).err();
-        assert!(matches!(error, Some(StartError::Step { .. })), "{error:?}");
-    }
+fn starts_that_are_none_are_refused() {
     let error = Integrator::new(&KEPLER, Variational::trapezoid(), 0.1, state(1.0, f64::NAN)).err();
     assert!(
         matches!(error, Some(StartError::NotFinite { entry, .. }) if entry.to_string() == "dot_y"),
