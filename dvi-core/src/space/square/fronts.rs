@@ -13,39 +13,40 @@ use alloc::vec::Vec;
 use core::mem;
 use core::ops::Range;
 
-/// The fronts of a matrix, each after those whose rows it takes over.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Fronts {
-    pub(super) fronts: Vec<Front>,
-}
-
 /// What is eliminated together, and where what belongs to it stands in lists that all fronts share.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Front {
+#[derive(Clone, Debug)]
+pub(crate) struct Front {
     /// First those that it eliminates.
     pub(super) columns: Vec<u32>,
     /// How many of its columns it eliminates.
     pub(super) pivots: usize,
     /// The rows of A that it begins with.
     pub(super) own: Vec<u32>,
-    /// The fronts whose rows it takes over.
-    children: Vec<u32>,
-    /// Its rows, those that it takes over among them.
+    /// The fronts before it whose rows it takes over.
+    pub(super) children: Vec<u32>,
+    /// Its rows, those that it takes over among them; when it is eliminated, the pivots come first.
     pub(super) rows: Range<usize>,
-    /// The numbers that solve with it.
-    pub(super) factors: Range<usize>,
-    /// The numbers of the rows that it hands on, which wait for the next front.
-    pub(super) waiting: Range<usize>,
+    /// Its numbers, row by row.
+    pub(super) numbers: Range<usize>,
 }
 
 impl Front {
-    pub(super) fn width(&self) -> usize {
-        self.columns.len()
+    /// The fronts of the matrix whose rows have entries in these columns, if they have no more numbers than
+    /// `most`, and if they are found soon: patterns that fill as they are eliminated take the cube of their
+    /// size. Each row needs an entry on the diagonal.
+    pub(super) fn of(rows: Vec<Vec<u32>>, most: usize) -> Option<Vec<Self>> {
+        let mut elimination = Elimination::new(rows);
+        while let Some((_, column)) = elimination.next.pop_first() {
+            elimination.eliminate(column);
+            if storage(&elimination.fronts) > most || elimination.takes_too_long() {
+                return None;
+            }
+        }
+        Some(elimination.fronts)
     }
 
-    /// The columns of the rows that it hands on.
-    pub(super) fn width_left(&self) -> usize {
-        self.columns.len() - self.pivots
+    pub(super) fn width(&self) -> usize {
+        self.columns.len()
     }
 
     /// Which rows of A it hands on, in the list of all rows.
@@ -54,76 +55,15 @@ impl Front {
     }
 
     /// How many multiplications its elimination takes at most.
-    fn work(&self) -> f64 {
+    pub(super) fn work(&self) -> f64 {
         let [rows, columns] = [self.rows.len(), self.width()].map(|size| size as f64);
         (0..self.pivots).map(|k| k as f64).map(|k| (rows - k) * (columns - k)).sum()
     }
 }
 
-impl Fronts {
-    /// The fronts of the matrix whose rows have entries in these columns, if their factors have no more
-    /// numbers than `most`, and if they are found soon: patterns that fill as they are eliminated take the
-    /// cube of their size. Each row needs an entry on the diagonal.
-    pub(super) fn new(rows: Vec<Vec<u32>>, most: usize) -> Option<Self> {
-        let mut elimination = Elimination::new(rows);
-        let mut numbers = 0;
-        while let Some((_, column)) = elimination.next.pop_first() {
-            numbers += elimination.eliminate(column);
-            if numbers > most || elimination.takes_too_long() {
-                return None;
-            }
-        }
-        Some(elimination.in_order())
-    }
-
-    /// The fronts whose rows a front takes over.
-    pub(super) fn children(&self, front: &Front) -> impl Iterator<Item = &Front> {
-        front.children.iter().map(|&child| &self.fronts[child as usize])
-    }
-
-    /// How many rows all fronts have together.
-    pub(super) fn rows(&self) -> usize {
-        self.fronts.last().map_or(0, |front| front.rows.end)
-    }
-
-    /// How many numbers all fronts solve with.
-    pub(super) fn factors(&self) -> usize {
-        self.fronts.last().map_or(0, |front| front.factors.end)
-    }
-
-    /// How many numbers wait at most.
-    pub(super) fn waiting(&self) -> usize {
-        self.fronts.iter().map(|front| front.waiting.end).max().unwrap_or(0)
-    }
-
-    /// How many numbers the largest front has.
-    pub(super) fn largest(&self) -> usize {
-        self.fronts.iter().map(|front| front.rows.len() * front.width()).max().unwrap_or(0)
-    }
-
-    /// How many numbers are stored.
-    pub(super) fn storage(&self) -> usize {
-        self.factors() + self.waiting() + self.largest()
-    }
-
-    /// How many multiplications an elimination takes at most.
-    pub(super) fn work(&self) -> f64 {
-        self.fronts.iter().map(Front::work).sum()
-    }
-
-    /// Appends a front after those whose rows it takes over. `place` tells where each has got to.
-    fn push(&mut self, mut front: Front, place: &[u32]) {
-        front.children.iter_mut().for_each(|child| *child = place[*child as usize]);
-        let [rows_before, factors_before] = [self.rows(), self.factors()];
-        // Rows that wait are on top of those of fronts that this one does not take over.
-        let top = self.fronts.last().map_or(0, |front| front.waiting.end);
-        let waiting = self.children(&front).next().map_or(top, |child| child.waiting.start);
-        let (rows, width, pivots) = (front.rows.len(), front.width(), front.pivots);
-        front.rows = rows_before..rows_before + rows;
-        front.factors = factors_before..factors_before + pivots * (width + rows - pivots);
-        front.waiting = waiting..waiting + (rows - pivots) * (width - pivots);
-        self.fronts.push(front);
-    }
+/// How many numbers all fronts have together.
+pub(super) fn storage(fronts: &[Front]) -> usize {
+    fronts.last().map_or(0, |front| front.numbers.end)
 }
 
 /// How many columns are looked at for each row, on average, in the search for fronts. A square lattice of 90
@@ -144,7 +84,7 @@ struct Elimination {
     seen: Vec<u64>,
     searches: u64,
     looks: u64,
-    /// In the order in which they were found, with as many rows.
+    /// Those that have been found.
     fronts: Vec<Front>,
 }
 
@@ -175,12 +115,7 @@ impl Elimination {
             looks: 0,
             fronts: Vec::new(),
         };
-        for column in 0..n as u32 {
-            if elimination.takes_too_long() {
-                break;
-            }
-            elimination.place(column);
-        }
+        elimination.place_all(0..n as u32);
         elimination
     }
 
@@ -199,16 +134,21 @@ impl Elimination {
         reach
     }
 
-    /// Finds the degree of a column, and its place among the next.
-    fn place(&mut self, column: u32) {
-        let degree = self.reach(column).len() as u32;
-        self.degree[column as usize] = degree;
-        self.next.insert((degree, column));
+    /// Finds the degrees of columns, and their places among the next, unless it takes too long.
+    fn place_all(&mut self, columns: impl IntoIterator<Item = u32>) {
+        for column in columns {
+            if self.takes_too_long() {
+                return;
+            }
+            let degree = self.reach(column).len() as u32;
+            self.degree[column as usize] = degree;
+            self.next.insert((degree, column));
+        }
     }
 
     /// Eliminates a column that has been taken from the next, and with it those that no other rows have
-    /// entries in. Returns how many numbers it takes to solve with them.
-    fn eliminate(&mut self, column: u32) -> usize {
+    /// entries in.
+    fn eliminate(&mut self, column: u32) {
         let mut columns = self.reach(column);
         columns.sort_unstable();
         let (n, set) = (self.sets_of.len(), self.sets.len() as u32);
@@ -231,44 +171,16 @@ impl Elimination {
         let (mut columns, left): (Vec<u32>, Vec<u32>) = columns.into_iter().partition(is_pivot);
         let pivots = columns.len();
         columns.extend(&left);
-        let numbers = pivots * (columns.len() + rows - pivots);
-        self.fronts.push(Front { columns, pivots, own, children, rows: 0..rows, ..Front::default() });
+        let begin = self.fronts.last().map_or(0, |front| front.rows.end);
+        let numbers = storage(&self.fronts);
+        let numbers = numbers..numbers + rows * columns.len();
+        self.fronts.push(Front { columns, pivots, own, children, rows: begin..begin + rows, numbers });
         left.iter().for_each(|&other| self.sets_of[other as usize].push(set));
         self.sets.push(Rows { columns: left.clone(), count: rows - pivots });
-        for other in left {
-            if self.takes_too_long() {
-                break;
-            }
-            self.place(other);
-        }
-        numbers
+        self.place_all(left);
     }
 
     fn takes_too_long(&self) -> bool {
         self.looks > LOOKS * self.sets_of.len() as u64
-    }
-
-    /// The fronts, each after those whose rows it takes over, with nothing that waits between for another.
-    fn in_order(mut self) -> Fronts {
-        let found = &mut self.fronts;
-        let mut is_child = vec![false; found.len()];
-        for &child in found.iter().flat_map(|front| &front.children) {
-            is_child[child as usize] = true;
-        }
-        let roots = (0..found.len()).rev().filter(|&front| !is_child[front]);
-        // A front comes up before its children and after them.
-        let mut to_do: Vec<(usize, bool)> = roots.map(|root| (root, false)).collect();
-        let mut place = vec![0_u32; found.len()];
-        let mut ordered = Fronts::default();
-        while let Some((at, is_after)) = to_do.pop() {
-            if is_after {
-                place[at] = ordered.fronts.len() as u32;
-                ordered.push(mem::take(&mut found[at]), &place);
-            } else {
-                to_do.push((at, true));
-                to_do.extend(found[at].children.iter().rev().map(|&child| (child as usize, false)));
-            }
-        }
-        ordered
     }
 }

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::fronts::Fronts;
+use super::fronts::{self, Front};
 use super::ordering::{Order, Pattern};
 
 /// How a matrix is stored.
@@ -13,7 +13,7 @@ pub(crate) enum Layout {
     /// Those near the diagonal, in this order of the coordinates.
     Banded(Order),
     /// Those of the pattern, with the columns that each row has.
-    Sparse(Vec<Vec<u32>>, Fronts),
+    Sparse(Vec<Vec<u32>>, Vec<Front>),
 }
 
 /// A multiplication costs that many times more in fronts, which are put together from others, than in a
@@ -39,9 +39,11 @@ impl Layout {
         let of_all = size * size * size / 3.0;
         let work = banded.as_ref().map_or(of_all, |order| of_band(order.bandwidth as f64));
         // No more than half of a full matrix.
-        let fronts = pattern.rows().and_then(|rows| Some((Fronts::new(rows.clone(), n * n / 2)?, rows)));
+        let fronts = pattern.rows().and_then(|rows| Some((Front::of(rows.clone(), n * n / 2)?, rows)));
         match (fronts, banded) {
-            (Some((fronts, rows)), _) if ASSEMBLY * fronts.work() < work => Self::Sparse(rows, fronts),
+            (Some((fronts, rows)), _) if ASSEMBLY * fronts.iter().map(Front::work).sum::<f64>() < work => {
+                Self::Sparse(rows, fronts)
+            }
             (_, Some(order)) => Self::Banded(order),
             (_, None) => Self::Full,
         }
@@ -52,7 +54,7 @@ impl Layout {
         match self {
             Self::Full => dimension.saturating_mul(dimension),
             Self::Banded(order) => dimension * order.width(),
-            Self::Sparse(rows, fronts) => fronts.storage() + rows.iter().map(Vec::len).sum::<usize>(),
+            Self::Sparse(rows, fronts) => fronts::storage(fronts) + rows.iter().map(Vec::len).sum::<usize>(),
         }
     }
 }

@@ -48,7 +48,7 @@ impl<T: Real> Sink<T> for RunTimeSquare<T> {
         match &mut self.0 {
             Storage::Full(full) => full.matrix.add(row, column, entry),
             Storage::Banded(matrix) => matrix.add(row, column, entry),
-            Storage::Sparse(matrix) => matrix.add(row, column, entry),
+            Storage::Sparse(matrix) => matrix.entries.add(row, column, entry),
         }
     }
 }

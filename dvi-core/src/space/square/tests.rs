@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::fronts::Fronts;
+use super::fronts::Front;
 use super::{Layout, Pattern, RunTimeSquare, SquareMatrix};
 use crate::error::StepFailure;
 use crate::scalar::norm::singular;
@@ -77,7 +77,7 @@ fn pattern(n: usize, places: &Places) -> Pattern {
 /// Zeros in this pattern, in the storage for sparse matrices.
 fn sparse(n: usize, places: &Places) -> RunTimeSquare<f64> {
     let Some(rows) = pattern(n, places).rows() else { panic!("it is sparse") };
-    let Some(fronts) = Fronts::new(rows.clone(), usize::MAX) else { panic!("any number will do") };
+    let Some(fronts) = Front::of(rows.clone(), usize::MAX) else { panic!("any number will do") };
     RunTimeSquare::in_layout(n, Layout::Sparse(rows, fronts))
 }
 
