@@ -22,12 +22,11 @@ use crate::{Real, Scalar};
 /// A banded matrix, in an order of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Banded<T> {
-    /// The place of each coordinate, and the coordinate of each place.
-    place: Vec<u32>,
+    order: Order,
+    /// The coordinate of each place.
     coordinate: Vec<u32>,
     /// Brings a vector into this order.
     exchanges: Exchanges,
-    bandwidth: usize,
     /// Row by row.
     entries: Vec<T>,
     /// The row that was exchanged with row k at stage k.
@@ -37,38 +36,34 @@ pub(super) struct Banded<T> {
 }
 
 impl<T: Scalar> Banded<T> {
-    pub(super) fn new(Order { place, bandwidth }: Order) -> Self {
-        let n = place.len();
+    pub(super) fn new(order: Order) -> Self {
+        let n = order.place.len();
         let mut coordinate = vec![0; n];
-        for (i, &at) in place.iter().enumerate() {
+        for (i, &at) in order.place.iter().enumerate() {
             coordinate[at as usize] = i as u32;
         }
         let mut exchanges = Exchanges::new(n);
         exchanges.set(&coordinate);
-        let entries = vec![T::lift(0.0); n * (3 * bandwidth + 1)];
-        Self { place, coordinate, exchanges, bandwidth, entries, pivots: vec![0; n], outside: None }
-    }
-
-    /// The width of a row of storage.
-    fn width(&self) -> usize {
-        3 * self.bandwidth + 1
+        let entries = vec![T::lift(0.0); n * order.width()];
+        Self { order, coordinate, exchanges, entries, pivots: vec![0; n], outside: None }
     }
 
     /// The places of the entries of a row of A.
     fn columns(&self, row: usize) -> core::ops::Range<usize> {
-        row.saturating_sub(self.bandwidth)..(row + self.bandwidth + 1).min(self.place.len())
+        row.saturating_sub(self.order.bandwidth)
+            ..(row + self.order.bandwidth + 1).min(self.order.place.len())
     }
 }
 
 impl<T: Real> Sink<T> for Banded<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
-        let (i, j) = (self.place[row] as usize, self.place[column] as usize);
-        if i.abs_diff(j) > self.bandwidth {
+        let (i, j) = (self.order.place[row] as usize, self.order.place[column] as usize);
+        if i.abs_diff(j) > self.order.bandwidth {
             self.outside = Some((row, column));
             return;
         }
-        let at = i * self.width() + self.bandwidth + j - i;
+        let at = i * self.order.width() + self.order.bandwidth + j - i;
         self.entries[at] += entry;
     }
 }
@@ -84,16 +79,16 @@ impl<T: Real> SquareMatrix<T> for Banded<T> {
 
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
         for (row, &i) in self.coordinate.iter().enumerate() {
-            let line = &self.entries[row * self.width()..];
-            let terms = self
-                .columns(row)
-                .map(|column| line[self.bandwidth + column - row] * x[self.coordinate[column] as usize]);
+            let line = &self.entries[row * self.order.width()..];
+            let terms = self.columns(row).map(|column| {
+                line[self.order.bandwidth + column - row] * x[self.coordinate[column] as usize]
+            });
             sum[i as usize] += factor * terms.fold(T::lift(0.0), |sum, term| sum + term);
         }
     }
 
     fn scale_rows(&mut self, scales: &[T]) {
-        let (width, bandwidth) = (self.width(), self.bandwidth);
+        let (width, bandwidth) = (self.order.width(), self.order.bandwidth);
         for (line, &i) in lines_mut(&mut self.entries, width).zip(&self.coordinate) {
             multiply(&mut line[..=2 * bandwidth], scales[i as usize]);
         }
@@ -103,7 +98,7 @@ impl<T: Real> SquareMatrix<T> for Banded<T> {
         if let Some((row, column)) = self.outside {
             return Err(StepFailure::Pattern { row, column });
         }
-        let (n, b, width) = (self.place.len(), self.bandwidth, self.width());
+        let (n, b, width) = (self.order.place.len(), self.order.bandwidth, self.order.width());
         let rounding = T::default_epsilon() * T::lift(n as f64);
         let entries = &mut self.entries;
         let at = |row: usize, column: usize| row * width + b + column - row;
@@ -160,13 +155,14 @@ impl<T: Real> SquareMatrix<T> for Banded<T> {
 
     /// The order of the coordinates is that of rows and of columns and does not count.
     fn is_positive(&self) -> bool {
-        let is_negative = |k: usize| self.entries[k * self.width() + self.bandwidth] < T::lift(0.0);
+        let is_negative =
+            |k: usize| self.entries[k * self.order.width() + self.order.bandwidth] < T::lift(0.0);
         let pivots = self.pivots.iter().enumerate();
         pivots.fold(true, |positive, (k, &row)| positive ^ is_negative(k) ^ (row as usize != k))
     }
 
     fn solve(&self, x: &mut [T]) {
-        let (n, b, width) = (self.place.len(), self.bandwidth, self.width());
+        let (n, b, width) = (self.order.place.len(), self.order.bandwidth, self.order.width());
         self.exchanges.apply(x);
         for k in 0..n {
             x.swap(k, self.pivots[k] as usize);

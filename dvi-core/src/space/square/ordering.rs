@@ -17,7 +17,7 @@ pub(crate) struct Pattern {
 }
 
 /// Where each coordinate stands in a banded matrix, and how far from the diagonal its entries lie at most.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Order {
     /// The place of each coordinate.
     pub(super) place: Vec<u32>,

@@ -24,6 +24,17 @@ enum Storage<T: Scalar> {
     Sparse(Box<Sparse<T>>),
 }
 
+/// What is done with the matrix, whichever storage it has.
+macro_rules! stored {
+    ($storage:expr, $matrix:ident => $done:expr) => {
+        match $storage {
+            Storage::Full($matrix) => $done,
+            Storage::Banded($matrix) => $done,
+            Storage::Sparse($matrix) => $done,
+        }
+    };
+}
+
 impl<T: Scalar> RunTimeSquare<T> {
     /// With room for the entries that `entries` visits.
     pub(crate) fn new(space: RunTime, entries: impl FnOnce(&mut dyn FnMut(usize, usize))) -> Self {
@@ -57,74 +68,34 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
     type Entries = Self;
 
     fn cleared(&mut self) -> &mut Self {
-        match &mut self.0 {
-            Storage::Full(matrix) => _ = matrix.cleared(),
-            Storage::Banded(matrix) => _ = matrix.cleared(),
-            Storage::Sparse(matrix) => _ = matrix.cleared(),
-        }
+        stored!(&mut self.0, matrix => _ = matrix.cleared());
         self
     }
     fn scale_rows(&mut self, scales: &[T]) {
-        match &mut self.0 {
-            Storage::Full(matrix) => matrix.scale_rows(scales),
-            Storage::Banded(matrix) => matrix.scale_rows(scales),
-            Storage::Sparse(matrix) => matrix.scale_rows(scales),
-        }
+        stored!(&mut self.0, matrix => matrix.scale_rows(scales));
     }
     fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
-        match &mut self.0 {
-            Storage::Full(matrix) => matrix.eliminate(scales, x),
-            Storage::Banded(matrix) => matrix.eliminate(scales, x),
-            Storage::Sparse(matrix) => matrix.eliminate(scales, x),
-        }
+        stored!(&mut self.0, matrix => matrix.eliminate(scales, x))
     }
     fn eliminate_two(&self, weights: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>> {
-        match &self.0 {
-            Storage::Full(matrix) => matrix.eliminate_two(weights, x),
-            Storage::Banded(matrix) => matrix.eliminate_two(weights, x),
-            Storage::Sparse(matrix) => matrix.eliminate_two(weights, x),
-        }
+        stored!(&self.0, matrix => matrix.eliminate_two(weights, x))
     }
     fn factor(&mut self) -> Result<(), StepFailure> {
-        match &mut self.0 {
-            Storage::Full(matrix) => matrix.factor(),
-            Storage::Banded(matrix) => matrix.factor(),
-            Storage::Sparse(matrix) => matrix.factor(),
-        }
+        stored!(&mut self.0, matrix => matrix.factor())
     }
     fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
-        match &mut self.0 {
-            Storage::Full(matrix) => matrix.factor_in_any_units(),
-            Storage::Banded(matrix) => matrix.factor_in_any_units(),
-            Storage::Sparse(matrix) => matrix.factor_in_any_units(),
-        }
+        stored!(&mut self.0, matrix => matrix.factor_in_any_units())
     }
     fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
-        match &mut self.0 {
-            Storage::Full(matrix) => matrix.factor_with_care(work),
-            Storage::Banded(matrix) => matrix.factor_with_care(work),
-            Storage::Sparse(matrix) => matrix.factor_with_care(work),
-        }
+        stored!(&mut self.0, matrix => matrix.factor_with_care(work))
     }
     fn solve(&self, x: &mut [T]) {
-        match &self.0 {
-            Storage::Full(matrix) => matrix.solve(x),
-            Storage::Banded(matrix) => matrix.solve(x),
-            Storage::Sparse(matrix) => matrix.solve(x),
-        }
+        stored!(&self.0, matrix => matrix.solve(x));
     }
     fn is_positive(&self) -> bool {
-        match &self.0 {
-            Storage::Full(matrix) => matrix.is_positive(),
-            Storage::Banded(matrix) => matrix.is_positive(),
-            Storage::Sparse(matrix) => matrix.is_positive(),
-        }
+        stored!(&self.0, matrix => matrix.is_positive())
     }
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
-        match &self.0 {
-            Storage::Full(matrix) => matrix.multiply_add(factor, x, sum),
-            Storage::Banded(matrix) => matrix.multiply_add(factor, x, sum),
-            Storage::Sparse(matrix) => matrix.multiply_add(factor, x, sum),
-        }
+        stored!(&self.0, matrix => matrix.multiply_add(factor, x, sum));
     }
 }
