@@ -15,9 +15,8 @@
 
 use crate::error::StepFailure;
 use crate::scalar::norm::{finite, is_pivot, larger, singular};
-use crate::scalar::passes::multiply;
 use crate::space::linear::set_scales;
-use crate::space::{lines, lines_mut};
+use crate::space::lines;
 use crate::{Real, Scalar};
 
 /// What a pivot is compared with at least: n ε times this still has a finite reciprocal.
@@ -183,14 +182,6 @@ pub(crate) fn solve<T: Real>(matrix: &[T], permutation: &[usize], x: &mut [T]) {
     }
 }
 
-/// Whether the determinant of a matrix is positive, as it is left behind by [`factor`].
-#[inline]
-pub(crate) fn is_positive<T: Real>(matrix: &[T], permutation: &[usize]) -> bool {
-    let n = permutation.len();
-    let is_negative = |k: usize| matrix[k * n + k] < T::lift(0.0);
-    (0..n).fold(true, |positive, k| positive ^ is_negative(k) ^ (permutation[k] != k))
-}
-
 /// The length of a row below which its end is not worth a loop of its own.
 const SHORT: usize = 8;
 
@@ -294,14 +285,6 @@ fn by_elimination<T: Real>(
     set_scales(&mut scales, &weights);
     eliminate(&mut matrix, &mut scales, &mut x).map_err(|singular| finite.err().unwrap_or(singular))?;
     Ok(x)
-}
-
-/// Multiplies row i of the row-major `matrix` by sᵢ.
-#[inline]
-pub(crate) fn scale_rows<T: Real>(matrix: &mut [T], scales: &[T]) {
-    for (line, &scale) in lines_mut(matrix, scales.len()).zip(scales) {
-        multiply(line, scale);
-    }
 }
 
 /// Adds `factor` A x to `sum`, for a row-major A that has not been factored.

@@ -49,17 +49,13 @@ pub(crate) fn residual<T: Real>(
         *sum = Scalar::abs(given(i));
     }
     equations.evaluate(b, &mut |i: usize, j: usize, a: T| sums[i] += Scalar::abs(a * size(j)))?;
-    relative(rows(b, sums))
+    relative(b, sums)
 }
 
-fn rows<T: Real>(b: &[T], sums: &[T]) -> impl Iterator<Item = (T, T)> {
-    b.iter().copied().zip(sums.iter().copied())
-}
-
-/// The largest residual, of those of rows and what each is made of; one that is not a number is an error.
-pub(crate) fn relative<T: Real>(rows: impl Iterator<Item = (T, T)>) -> Result<T, StepFailure> {
+/// The largest residual `b` of a row, relative to what it is made of; one that is not a number is an error.
+fn relative<T: Real>(b: &[T], sums: &[T]) -> Result<T, StepFailure> {
     let mut largest = T::lift(0.0);
-    for (coordinate, (b, sum)) in rows.enumerate() {
+    for (coordinate, (&b, &sum)) in b.iter().zip(sums).enumerate() {
         if !b.is_finite() {
             return Err(StepFailure::NotFinite { coordinate, value: norm::reported(b) });
         }
@@ -95,7 +91,7 @@ pub(crate) fn residual_of_nodes<
                 sums[i] += Scalar::abs(entry / weights[j]);
             }
         });
-        largest = norm::larger(largest, relative(rows(vector, sums))?);
+        largest = norm::larger(largest, relative(vector, sums)?);
     }
     Ok(largest)
 }
@@ -146,48 +142,6 @@ pub(crate) fn scale<T: Real>(x: &mut [T], scales: &[T]) {
     x.iter_mut().zip(scales).for_each(|(x, &scale)| *x *= scale);
 }
 
-/// Each equation is the derivative of an action by an unknown: times the size of that it is in units of the
-/// action, and pivots may be compared whatever the units of A.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn eliminate<T: Real, M: SquareMatrix<T>>(
-    (matrix, scales): (&mut M, &mut [T]),
-    equations: &mut impl LinearEquations<T>,
-    weights: &[T],
-    x: &mut [T],
-) -> Result<(), StepFailure> {
-    equations.evaluate(x, matrix.cleared())?;
-    if let Some(solved) = matrix.eliminate_two(weights, x) {
-        return solved;
-    }
-    let finite = norm::finite(x);
-    set_scales(scales, weights);
-    match matrix.eliminate(scales, x) {
-        Ok(()) => Ok(()),
-        Err(StepFailure::Singular { .. }) if finite.is_ok() => {
-            set_scales(scales, weights);
-            by_factors(matrix, equations, scales, x)
-        }
-        Err(singular) => Err(finite.err().unwrap_or(singular)),
-    }
-}
-
-/// The same where elimination has found no pivot, of which the sizes of unknowns may be to blame.
-#[cold]
-#[inline(never)]
-fn by_factors<T: Real, M: SquareMatrix<T>>(
-    matrix: &mut M,
-    equations: &mut impl LinearEquations<T>,
-    scales: &[T],
-    x: &mut [T],
-) -> Result<(), StepFailure> {
-    equations.evaluate(x, matrix.cleared())?;
-    matrix.scale_rows(scales);
-    scale(x, scales);
-    matrix.factor_in_any_units()?;
-    matrix.solve(x);
-    Ok(())
-}
-
 /// What solves with a matrix that is stored.
 #[derive(Debug)]
 pub struct Stored<S: Space, T: Real> {
@@ -210,8 +164,41 @@ impl<S: Space, T: Real> LinearSolver<T> for Stored<S, T> {
         weights: &[T],
         x: &mut [T],
     ) -> Result<(), StepFailure> {
-        eliminate((&mut self.matrix, &mut self.scales), equations, weights, x)
+        let Self { matrix, scales } = self;
+        equations.evaluate(x, matrix.cleared())?;
+        if let Some(solved) = matrix.eliminate_two(weights, x) {
+            return solved;
+        }
+        let finite = norm::finite(x);
+        // Each equation is the derivative of an action by an unknown: times the size of that it is in units
+        // of the action, and pivots may be compared whatever the units of A.
+        set_scales(scales, weights);
+        match matrix.eliminate(scales, x) {
+            Ok(()) => Ok(()),
+            Err(StepFailure::Singular { .. }) if finite.is_ok() => {
+                set_scales(scales, weights);
+                by_factors(matrix, equations, scales, x)
+            }
+            Err(singular) => Err(finite.err().unwrap_or(singular)),
+        }
     }
+}
+
+/// Solves where elimination has found no pivot, of which the sizes of unknowns may be to blame.
+#[cold]
+#[inline(never)]
+fn by_factors<T: Real, M: SquareMatrix<T>>(
+    matrix: &mut M,
+    equations: &mut impl LinearEquations<T>,
+    scales: &[T],
+    x: &mut [T],
+) -> Result<(), StepFailure> {
+    equations.evaluate(x, matrix.cleared())?;
+    matrix.scale_rows(scales);
+    scale(x, scales);
+    matrix.factor_in_any_units()?;
+    matrix.solve(x);
+    Ok(())
 }
 
 /// Whether a matrix is stored.
@@ -232,11 +219,7 @@ const NUMBERS_IN_A_ROW: usize = 1024;
 /// The linear solver of a [`RunTime`](crate::RunTime) space.
 #[cfg(feature = "alloc")]
 #[derive(Debug)]
-pub struct RunTimeSolver<T: Real>(Storage<T>);
-
-#[cfg(feature = "alloc")]
-#[derive(Debug)]
-enum Storage<T: Real> {
+pub enum RunTimeSolver<T: Real> {
     Matrix(Stored<RunTime, T>),
     Products(Krylov<T>),
 }
@@ -250,7 +233,7 @@ impl<T: Real> RunTimeSolver<T> {
         entries: impl FnOnce(&mut dyn FnMut(usize, usize)),
     ) -> Self {
         let RunTime { dimension } = space;
-        let products = || Self(Storage::Products(Krylov::new(dimension)));
+        let products = || Self::Products(Krylov::new(dimension));
         if storing == Storing::Never {
             return products();
         }
@@ -261,7 +244,7 @@ impl<T: Real> RunTimeSolver<T> {
         if storing == Storing::IfSmall && is_large {
             return products();
         }
-        Self(Storage::Matrix(Stored::new(space, RunTimeSquare::in_layout(dimension, layout))))
+        Self::Matrix(Stored::new(space, RunTimeSquare::in_layout(dimension, layout)))
     }
 }
 
@@ -273,9 +256,9 @@ impl<T: Real> LinearSolver<T> for RunTimeSolver<T> {
         weights: &[T],
         x: &mut [T],
     ) -> Result<(), StepFailure> {
-        match &mut self.0 {
-            Storage::Matrix(stored) => stored.solve(equations, weights, x),
-            Storage::Products(krylov) => krylov.solve(equations, weights, x),
+        match self {
+            Self::Matrix(stored) => stored.solve(equations, weights, x),
+            Self::Products(krylov) => krylov.solve(equations, weights, x),
         }
     }
 }

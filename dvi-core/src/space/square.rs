@@ -28,8 +28,9 @@ mod sparse;
 use core::fmt::Debug;
 
 use crate::error::StepFailure;
+use crate::scalar::passes::multiply;
 use crate::space::linear::scale;
-use crate::space::{Sink, elimination};
+use crate::space::{Sink, elimination, lines_mut};
 use crate::{Real, Scalar, Space};
 
 #[cfg(feature = "alloc")]
@@ -136,7 +137,9 @@ impl<S: Space, T: Real> SquareMatrix<T> for Full<S, T> {
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn scale_rows(&mut self, scales: &[T]) {
-        elimination::scale_rows(&mut self.matrix, scales);
+        for (line, &scale) in lines_mut(&mut self.matrix, scales.len()).zip(scales) {
+            multiply(line, scale);
+        }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
@@ -162,7 +165,10 @@ impl<S: Space, T: Real> SquareMatrix<T> for Full<S, T> {
     }
     #[inline]
     fn is_positive(&self) -> bool {
-        elimination::is_positive(&self.matrix, &self.permutation)
+        let (matrix, permutation): (&[T], &[usize]) = (&self.matrix, &self.permutation);
+        let n = permutation.len();
+        let is_negative = |k: usize| matrix[k * n + k] < T::lift(0.0);
+        (0..n).fold(true, |positive, k| positive ^ is_negative(k) ^ (permutation[k] != k))
     }
     #[inline]
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {

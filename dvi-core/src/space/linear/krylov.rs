@@ -31,7 +31,7 @@ type Multiply<'a, T> = dyn FnMut(&mut Krylov<T>, usize) -> Result<(), StepFailur
 
 /// Storage for the method.
 #[derive(Debug)]
-pub(super) struct Krylov<T> {
+pub struct Krylov<T> {
     /// Orthonormal vectors, one after the other.
     basis: Vec<T>,
     /// The columns of the Hessenberg matrix, made triangular by the rotations.
