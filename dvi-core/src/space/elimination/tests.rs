@@ -1,6 +1,6 @@
 //! Elimination beside nalgebra, of singular matrices, and in other units.
 
-use super::{eliminate, eliminate_two, factor, factor_with_care, multiply_add, solve};
+use super::{eliminate, eliminate_two, factor, factor_with_care, solve};
 use crate::error::StepFailure;
 use crate::space::linear::set_scales;
 use crate::space::numbers;
@@ -92,23 +92,6 @@ fn units_change_no_bit() {
         exchanged += usize::from(*without != solution(&units));
     }
     assert!(exchanged > 100, "{exchanged} of 400 are another sum in units of their own");
-}
-
-#[test]
-fn products_agree_with_nalgebra() {
-    let (matrix, x) = (entries(25, 3), entries(5, 4));
-    let (a, v) = (DMatrix::from_row_slice(5, 5, &matrix), DVector::from_column_slice(&x));
-    let mut direct = [0.5; 5];
-    multiply_add(&matrix, 2.0, &x, &mut direct);
-    assert!((DVector::from_column_slice(&direct) - (&a * &v * 2.0).add_scalar(0.5)).amax() < 1e-15);
-}
-
-#[test]
-fn a_zero_on_the_diagonal_is_exchanged() {
-    let (mut matrix, mut permutation, mut x) = ([0.0, 2.0, 4.0, 1.0], [0; 2], [6.0, 7.0]);
-    assert_eq!(factor(&mut matrix, &mut permutation), Ok(()));
-    solve(&matrix, &permutation, &mut x);
-    assert_eq!(x, [1.0, 3.0]);
 }
 
 #[test]
