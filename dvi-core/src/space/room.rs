@@ -117,16 +117,3 @@ impl<E: Clone + Debug, const FEW: usize> Store<E> for FewOrHeap<E, FEW> {
         if count <= FEW { &mut self.few[..count] } else { &mut self.heap[..count] }
     }
 }
-
-#[cfg(feature = "alloc")]
-impl<E: Clone + Debug> Store<E> for alloc::vec::Vec<E> {
-    fn new(count: usize, entry: E) -> Self {
-        alloc::vec![entry; count]
-    }
-    fn entries(&self, _count: usize) -> &[E] {
-        self
-    }
-    fn entries_mut(&mut self, _count: usize) -> &mut [E] {
-        self
-    }
-}

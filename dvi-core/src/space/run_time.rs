@@ -72,7 +72,8 @@ impl RunTime {
 impl Space for RunTime {
     const ON_STACK: bool = false;
     type Vector<E: Clone + Debug> = Vec<E>;
-    type Local<T: Scalar> = Vec<T>;
+    // There is none.
+    type Local<T: Scalar> = [[T; 0]; 0];
     type Matrix<T: Scalar> = RunTimeMatrix<T>;
     type Square<T: Real> = RunTimeSquare<T>;
     type Linear<T: Real> = RunTimeSolver<T>;
