@@ -11,29 +11,22 @@ pub(crate) fn reported<T: Real>(value: T) -> f64 {
 /// Where a vector has this many entries, it is worth to look at several at once.
 pub(crate) const MANY: usize = 32;
 
-/// maxᵢ |xᵢ|; an entry that is not a number does not count.
+/// maxᵢ |xᵢ|; an entry that is not a number does not count. Eight maxima do not wait for one another if there
+/// are many entries.
 #[inline]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
-    fold(x, T::lift(0.0), Scalar::abs, larger)
-}
-
-/// Joins `start` and what `value` makes of each entry, by an operation for which neither the order matters
-/// nor whether `start` counts once or more often: eight that do not wait for one another if there are many,
-/// joined in the end.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn fold<T: Real>(x: &[T], start: T, value: impl Fn(T) -> T, join: impl Fn(T, T) -> T) -> T {
-    let one_by_one = |x: &[T]| x.iter().fold(start, |joined, &x| join(joined, value(x)));
+    let one_by_one = |x: &[T]| x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)));
     if x.len() < MANY {
         return one_by_one(x);
     }
     let (chunks, rest) = x.as_chunks::<8>();
-    let mut partial = [start; 8];
+    let mut partial = [T::lift(0.0); 8];
     for chunk in chunks {
         for (partial, &x) in partial.iter_mut().zip(chunk) {
-            *partial = join(*partial, value(x));
+            *partial = larger(*partial, Scalar::abs(x));
         }
     }
-    partial.into_iter().fold(one_by_one(rest), join)
+    partial.into_iter().fold(one_by_one(rest), larger)
 }
 
 /// The same of entries that are numbers; if one is not, some number or none.
@@ -92,18 +85,13 @@ pub(crate) fn smaller<T: Real>(a: T, b: T) -> T {
 /// usual case and only the unusual one looks at each entry.
 #[inline]
 pub(crate) fn finite<T: Real>(x: &[T]) -> Result<(), StepFailure> {
-    if nothing(x) == T::lift(0.0) { Ok(()) } else { each_finite(x) }
-}
-
-/// Zero if all entries are finite, and else, or if their sum overflows, not a number.
-#[inline]
-pub(crate) fn nothing<T: Real>(x: &[T]) -> T {
     // Four partial sums do not wait for one another. They begin at −0, which the compiler knows to add
     // nothing.
     let (chunks, rest) = x.as_chunks::<4>();
     let partial = chunks.iter().fold([T::lift(-0.0); 4], |sum, x| [0, 1, 2, 3].map(|i| sum[i] + x[i]));
     let sum = rest.iter().fold((partial[0] + partial[2]) + (partial[1] + partial[3]), |sum, &x| sum + x);
-    sum * T::lift(0.0)
+    // Zero, or not a number.
+    if sum * T::lift(0.0) == T::lift(0.0) { Ok(()) } else { each_finite(x) }
 }
 
 #[cold]
