@@ -8,6 +8,14 @@ pub(crate) trait Task {
     fn run(self) -> Self::Output;
 }
 
+impl<R, F: FnOnce() -> R> Task for F {
+    type Output = R;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> R {
+        self()
+    }
+}
+
 /// Runs `task`, compiled for the widest instructions that this processor has, as far as it is inlined.
 ///
 /// The results are the same on every processor: operations on packs are those on their lanes. Where there
@@ -53,17 +61,7 @@ pub(crate) fn widest<K: Task>(task: K) -> K::Output {
 /// ```
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
-    struct Body<F>(F);
-
-    impl<R, F: FnOnce() -> R> Task for Body<F> {
-        type Output = R;
-        #[cfg_attr(not(debug_assertions), inline(always))]
-        fn run(self) -> R {
-            (self.0)()
-        }
-    }
-
-    if worth_it { widest(Body(body)) } else { body() }
+    if worth_it { widest(body) } else { body() }
 }
 
 /// Runs `body` apart from its caller, if it is `worth_it`: compiled for the instructions of every processor,
