@@ -94,7 +94,8 @@ fn set_weights<S: System, T: Real>(
 const SHAKE: f64 = 1.0 / 65536.0;
 
 impl Due {
-    /// Prepares an iteration that improves the increment `delta` of `q`; whether that has been moved.
+    /// Prepares an iteration that improves the increment `delta` of `q`, or its end q + Δ in the place of
+    /// `delta`; whether that has been moved.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn prepare<S: System, T: Real>(
         &mut self,
@@ -106,19 +107,6 @@ impl Due {
         let q = &q[..delta.len()];
         let size = |k: usize, &delta: &T| Scalar::abs(q[k]) + Scalar::abs(delta);
         self.carry_out(system, (weights, T::lift(1.0)), size, delta)
-    }
-
-    /// The same where the unknown is `q1` = q + Δ, in sizes |q| + |q1|.
-    #[inline]
-    pub(crate) fn prepare_end<S: System, T: Real>(
-        &mut self,
-        system: &S,
-        weights: &mut [T],
-        q: &[T],
-        q1: &mut [T],
-    ) {
-        let size = |k: usize, &q1: &T| Scalar::abs(q[k]) + Scalar::abs(q1);
-        self.carry_out(system, (weights, T::lift(1.0)), size, q1);
     }
 
     /// The same where `x` is the unknown, and no increment.

@@ -137,7 +137,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Iteration<T> for Newton<'_, '_, S, T>
     #[inline]
     fn prepare(&mut self, due: &mut Due) {
         let Self { begin: Begin { system, q, here, .. }, arrival } = self;
-        due.prepare_end(*system, &mut arrival.weights, q, &mut arrival.q);
+        due.prepare(*system, &mut arrival.weights, q, &mut arrival.q);
         if let [only] = &here.solved[..] {
             arrival.of_impulse = sizes::size_of(*system, &arrival.weights, only);
         }
