@@ -176,12 +176,6 @@ const MORE_BY_NEWTON: usize = 2;
 /// How many a fixed point takes: at a rate of ½ they leave 10⁻¹⁹.
 const MORE_BY_FIXED_POINT: usize = 64;
 
-/// Whether less is asked for than the arithmetic gives.
-#[inline]
-fn is_below_rounding<T: Real>(stopping: Stopping) -> bool {
-    T::lift(stopping.tolerance) < T::default_epsilon()
-}
-
 impl<T: Real> Course<T> {
     #[inline]
     pub(crate) fn new(stopping: Stopping, budget: usize) -> Self {
@@ -204,8 +198,9 @@ impl<T: Real> Course<T> {
         if carries_derivatives::<T>() {
             new.more = MORE_BY_FIXED_POINT;
         }
-        // What is left over has the same sign in every step, and adds up however small it is.
-        if is_below_rounding::<T>(stopping) {
+        // Less is asked for than the arithmetic gives: what is left over has the same sign in every step, and
+        // adds up however small it is.
+        if new.tolerance < T::default_epsilon() {
             (new.tolerance, new.stalling) = (T::lift(NOTHING), T::lift(0.0));
         }
         new
