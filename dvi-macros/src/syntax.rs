@@ -13,7 +13,6 @@ mod cut;
 mod declared;
 pub(crate) mod depth;
 mod elsewhere;
-mod library;
 mod rotation;
 mod shared;
 pub(crate) mod tidy;
@@ -199,7 +198,6 @@ pub(crate) fn parse_attribute(kind: Kind, tokens: TokenStream, errors: &mut Erro
         }
     }
     attribute.lost_coordinates |= attribute.coordinates.is_empty();
-    attribute.admit_library(errors);
     attribute.admit_factors(errors);
     attribute
 }
