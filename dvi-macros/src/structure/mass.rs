@@ -7,9 +7,7 @@ use super::{Entry, collected, has_matching};
 use crate::errors::{Errors, listed};
 use crate::formulas::RegularFormulas;
 use crate::model::{Block, Grid, Model};
-use crate::symbolic::{
-    Binary, Coordinate, Expr, Graph, Id, Index, Node, SecondContribution, Unary, Variable,
-};
+use crate::symbolic::{Coordinate, Expr, Graph, Id, Node, SecondContribution, Variable};
 use crate::syntax::{Constrained, Factor, Kind};
 
 /// The structure of a regular L; see the constants of `dvi_core::NondegenerateLagrangian`.
@@ -23,8 +21,6 @@ pub(crate) struct MassMatrix {
     pub(crate) uniform: bool,
     pub(crate) diagonal: bool,
     pub(crate) quadratic: bool,
-    /// Whether L has a pole where bodies meet.
-    pole: bool,
     /// What M depends on, of `q`, `v` and `t`.
     depends_on: Vec<&'static str>,
     /// Blocks that M does not involve, and whether L mentions their velocities at all.
@@ -75,7 +71,6 @@ impl MassMatrix {
             uniform,
             diagonal,
             quadratic: formulas.quadratic,
-            pole: has_pole_where_bodies_meet(graph, formulas.lagrangian),
             depends_on,
             massless,
             multipliers,
@@ -216,15 +211,7 @@ impl MassMatrix {
                 "Begin with `Constrained` around `Variational::midpoint()`."
             }
         };
-        let encounters = "Where bodies meet, L has a pole, and steps of one length lose the energy in \
-                          close encounters: `Integrator::controlled` makes them shorter there, with \
-                          `Reversible` symmetrically in time, or with `ErrorControl` and `Gauss` to a \
-                          given error.";
-        let encounters = (constrained.is_none() && self.pole).then(|| encounters.to_string());
-        [form, step.to_string(), degree.to_string(), begin.to_string()]
-            .into_iter()
-            .chain(encounters)
-            .collect()
+        [form, step.to_string(), degree.to_string(), begin.to_string()].into()
     }
 }
 
@@ -285,31 +272,6 @@ fn depends_on(graph: &Graph, mass: &[Entry]) -> Vec<&'static str> {
     let any = |property: fn(&Node) -> bool| reachable.iter().any(|id| property(graph.node(*id)));
     let found = [("q", any(Node::is_position)), ("v", any(Node::is_velocity)), ("t", any(Node::is_time))];
     found.into_iter().filter(|(_, found)| *found).map(|(name, _)| name).collect()
-}
-
-/// Whether a denominator, or what a logarithm is taken of, is zero where all coordinates are equal: that of
-/// a potential between two bodies is, if nothing softens it, and that of a potential around a fixed centre
-/// is not.
-fn has_pole_where_bodies_meet(graph: &Graph, lagrangian: Expr) -> bool {
-    let is_pole = |id: Id| match *graph.node(id) {
-        Node::Reciprocal(of) => Some(of),
-        Node::Unary(Unary::Ln | Unary::Log2 | Unary::Log10, of) => Some(of.node),
-        Node::Binary(Binary::Powf, base, exponent) if exponent.as_number().is_some_and(|e| e < 0.0) => {
-            Some(base.node)
-        }
-        _ => None,
-    };
-    let poles: Vec<Id> = graph.reachable([lagrangian.node]).into_iter().filter_map(is_pole).collect();
-    if poles.is_empty() {
-        return false;
-    }
-    let mut graph = graph.clone();
-    let place = Coordinate { block: 0, index: Index::literal(0) };
-    let place: Expr = graph.intern(Node::Coordinate(place)).into();
-    poles.into_iter().any(|of| {
-        let meeting = |graph: &mut Graph, id| graph.node(id).is_position().then_some(place);
-        graph.rebuild(of, meeting).is_zero()
-    })
 }
 
 fn mixes_position_and_velocity(graph: &Graph, entries: &[SecondContribution]) -> bool {
