@@ -23,7 +23,7 @@ mod tests;
 
 pub(crate) use declared::declared;
 pub(crate) use lines::{Equation, block};
-pub(crate) use names::plain;
+use names::plain;
 
 /// How tightly a formula holds together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -109,14 +109,9 @@ impl Typesetter {
     }
 
     /// `name` = `formula`, with the `let`s in it.
-    pub(crate) fn equation(&mut self, name: impl Into<String>, formula: &Expr) -> Equation {
+    fn equation(&mut self, name: impl Into<String>, formula: &Expr) -> Equation {
         let terms = self.terms(formula);
         Equation::new(name.into(), terms, std::mem::take(&mut self.lets))
-    }
-
-    /// The LaTeX of a formula without `let`s, such as the place of a coordinate.
-    pub(crate) fn text(&mut self, formula: &Expr) -> String {
-        self.expr(formula).text
     }
 
     /// The terms of a sum, each with its sign.
@@ -245,8 +240,6 @@ impl Typesetter {
                 Tex::new(Strength::Sum, format!("{} + {right}", left.text))
             }
             BinOp::Sub(_) => Tex::new(Strength::Sum, format!("{} - {}", left.text, right.last())),
-            // As the compiler writes a half of a reciprocal.
-            BinOp::Mul(_) if right.text == "1" => left,
             BinOp::Mul(_) => {
                 let is_series = right.strength == Strength::Series;
                 let strength = if is_series { Strength::Series } else { Strength::Product };

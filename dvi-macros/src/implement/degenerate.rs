@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::document::Account;
+use super::document::{Account, beside_force};
 use super::pairs::pairs;
 use super::{by_index, in_numbers, over, over_numbers, suited};
 use crate::emit::Emitter;
@@ -66,15 +66,10 @@ pub(crate) fn degenerate(
     }
     account.observed(checked, &formulas.momenta, &formulas.events);
     let coordinate = |coordinate: &_| print_coordinate(coordinate, emitter.model);
-    account.derived(&programs.one_form.statements, |account, _, entry| {
-        let along = coordinate(entry);
-        (format!("α_{along}"), Some(format!(r"\alpha_{{{}}}", account.in_tex(&along))))
-    });
-    account.derived(&programs.hamiltonian_gradient.statements, |account, _, entry| {
-        let [text, tex] = account.beside_force('-', entry);
-        let by = coordinate(entry);
-        let text = format!("∂H/∂{by}{}", text.replace('-', "−"));
-        (text, Some(format!(r"\partial H / \partial {}{tex}", account.in_tex(&by))))
+    account.derived(&programs.one_form.statements, |_, entry| format!("α_{}", coordinate(entry)));
+    account.derived(&programs.hamiltonian_gradient.statements, |_, entry| {
+        let force = beside_force(emitter, &programs.shared, '−', entry);
+        format!("∂H/∂{}{force}", coordinate(entry))
     });
     let krate = emitter.krate();
     let time = programs.time.as_ref().map(|_| {

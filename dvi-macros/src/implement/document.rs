@@ -8,27 +8,23 @@ use crate::emit::Emitter;
 use crate::errors::text;
 use crate::model::{Axis, Model};
 use crate::operations::Operations;
-use crate::print::{print_coordinate, print_expr, print_index, print_loops, print_velocity, write_expr};
+use crate::print::{print_coordinate, print_expr, print_index, print_loops, print_velocity};
 use crate::program::Programs;
 use crate::statement::{Output, Place, Row, Statement};
 use crate::symbolic::{Coordinate, Count, Expr, Index, Rows, Variable};
-use crate::syntax::{Attribute, Constrained, Factor, Force, closure, value};
-use crate::typeset::{Equation, Typesetter, block, declared, plain};
+use crate::syntax::{Attribute, Constrained, Factor, closure, value};
+use crate::typeset::{Equation, Typesetter, block, declared};
 use crate::validate::Checked;
 
 /// What a system says about itself.
 pub(super) struct Account<'a> {
     pub(super) emitter: &'a Emitter<'a>,
-    attribute: &'a Attribute,
     pub(super) programs: &'a Programs,
     opening: &'static str,
     /// Declared formulas, then derived ones, as (name, text).
     formulas: Vec<(String, String)>,
-    /// The declared ones as they were written, and those of the derived ones that are short.
-    equations: [Vec<Equation>; 2],
-    typesetter: Typesetter,
-    /// Whether there are some that are not typeset.
-    has_more: bool,
+    /// The declared ones as they were written.
+    equations: Vec<Equation>,
     sentences: Vec<String>,
 }
 
@@ -42,11 +38,8 @@ impl<'a> Account<'a> {
         let functions =
             functions.into_iter().map(|(name, value)| (name.to_string(), quantity(emitter, value)));
         let formulas = functions.chain(attribute.shared.iter().filter_map(definition)).collect();
-        let mut typesetter = Typesetter::new(attribute, emitter.model.vectors());
-        let declared = declared(attribute, &mut typesetter);
-        let has_more = declared.iter().any(Equation::is_endless);
-        let equations = [declared, Vec::new()];
-        Self { emitter, attribute, programs, opening, formulas, equations, typesetter, has_more, sentences }
+        let equations = declared(attribute, &mut Typesetter::new(attribute, emitter.model.vectors()));
+        Self { emitter, programs, opening, formulas, equations, sentences }
     }
 
     /// Adds what is said of the system as a whole.
@@ -62,8 +55,8 @@ impl<'a> Account<'a> {
         let named = names.iter().chain(others).zip(momenta.iter().chain(events));
         self.formulas.extend(named.map(|(name, value)| (name.clone(), quantity(emitter, *value))));
         if let Some(forces) = &self.programs.forces {
-            self.derived(&forces.statements, |_, _, entry| {
-                (format!("force({})", print_coordinate(entry, emitter.model)), None)
+            self.derived(&forces.statements, |_, entry| {
+                format!("force({})", print_coordinate(entry, emitter.model))
             });
             self.sentence(
                 "Forces act: no method preserves a form, and energy and momenta change as the forces make them."
@@ -78,35 +71,18 @@ impl<'a> Account<'a> {
         }
     }
 
-    /// Adds derivatives, named by what they are entries of and where: as text, and in LaTeX if they are not
-    /// declared as they are. What loops add to entries is no equation, and stands as text alone.
+    /// Adds derivatives, named by what they are entries of and where.
     pub(super) fn derived(
         &mut self,
         statements: &[Statement],
-        name: impl Fn(&mut Self, Output, &Coordinate) -> (String, Option<String>),
+        name: impl Fn(Output, &Coordinate) -> String,
     ) {
-        let are_equations = statements.iter().all(|statement| statement.loops.is_empty());
-        for statement in statements {
-            let Some((output, coordinate)) = statement.place.entry() else { continue };
-            let (text, tex) = name(self, output, coordinate);
-            self.formulas.push((text, in_loops(self.emitter, statement)));
-            match tex {
-                Some(name) if are_equations => self.typeset(name, statement.value),
-                Some(_) => self.has_more = true,
-                None => {}
-            }
-        }
-    }
-
-    /// Typesets a derived formula, if it is short.
-    pub(super) fn typeset(&mut self, name: String, value: Expr) {
-        let text = write_expr(self.emitter.graph, value, self.emitter.model);
-        let formula = text.and_then(|text| syn::parse_str(&text).ok());
-        let equation = formula.map(|formula| self.typesetter.equation(name, &formula));
-        match equation.filter(Equation::is_short) {
-            Some(equation) => self.equations[1].push(equation),
-            None => self.has_more = true,
-        }
+        let emitter = self.emitter;
+        let entries = statements.iter().filter_map(|statement| {
+            let (output, coordinate) = statement.place.entry()?;
+            Some((name(output, coordinate), in_loops(emitter, statement)))
+        });
+        self.formulas.extend(entries);
     }
 
     /// Adds the constraints with their derivatives, and how many there are.
@@ -193,47 +169,27 @@ impl<'a> Account<'a> {
 
     /// The text that the struct's own documentation is continued with.
     pub(super) fn documentation(&self) -> String {
-        let [declared, derived] = &self.equations;
-        let mut text = format!("\n# Dynamics\n\n{}\n\n{}", self.opening, block(declared));
-        if !derived.is_empty() {
-            text += &format!("The compiler makes of it:\n\n{}", block(derived));
-        }
+        let mut text = format!("\n# Dynamics\n\n{}\n\n{}", self.opening, block(&self.equations));
         for sentence in &self.sentences {
             text += &format!("- {sentence}\n");
         }
-        if self.has_more {
-            text += &format!("- `{}::REPORT` has all formulas.\n", self.emitter.model.item.ident);
-        }
-        text
+        text + &format!("- `{}::REPORT` has all formulas.\n", self.emitter.model.item.ident)
     }
+}
 
-    /// A place as the language has it, such as `x[i]` or `dot(x)`, in LaTeX.
-    pub(super) fn in_tex(&mut self, place: &str) -> String {
-        syn::parse_str(place).map_or_else(|_| plain(place), |place| self.typesetter.text(&place))
-    }
-
-    /// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with
-    /// another sign, as text and in LaTeX; nothing where no force acts.
-    pub(super) fn beside_force(&mut self, sign: char, entry: &Coordinate) -> [String; 2] {
-        let acts =
-            |statement: &Statement| statement.place.entry().is_some_and(|(_, on)| on.block == entry.block);
-        if !self.programs.forces.iter().any(|forces| forces.statements.iter().any(acts)) {
-            return Default::default();
-        }
-        let model = self.emitter.model;
-        let on = print_coordinate(entry, model);
-        let is_on = |force: &Force| match force {
-            Force::Components(_) => true,
-            Force::On(name, _) => *name == model.blocks[entry.block as usize].name,
-        };
-        let mut tex = String::new();
-        if self.attribute.forces.iter().any(is_on) {
-            tex += &format!(" {sign} F_{{{}}}", self.in_tex(&on));
-        }
-        if self.attribute.dissipation.is_some() {
-            tex += &format!(r" - \partial R / \partial {}", self.in_tex(&print_velocity(entry, model)));
-        }
-        [format!(" {sign} force({on})"), tex]
+/// ` + force(x)` behind the derivative by x of a function that stands beside the force on x, or with another
+/// sign; nothing where no force acts.
+pub(super) fn beside_force(
+    emitter: &Emitter<'_>,
+    programs: &Programs,
+    sign: char,
+    entry: &Coordinate,
+) -> String {
+    let acts =
+        |statement: &Statement| statement.place.entry().is_some_and(|(_, on)| on.block == entry.block);
+    match programs.forces.iter().any(|forces| forces.statements.iter().any(acts)) {
+        true => format!(" {sign} force({})", print_coordinate(entry, emitter.model)),
+        false => String::new(),
     }
 }
 

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constraints::constraints;
-use super::document::Account;
+use super::document::{Account, beside_force};
 use super::manifold::manifold;
 use super::pairs::pairs;
 use super::{in_numbers, suited};
@@ -27,27 +27,21 @@ pub(crate) fn regular(
     structure: &MassMatrix,
     checked: &Checked,
 ) -> TokenStream {
-    let (model, energy) = (emitter.model, programs.energy.statements.first());
-    let energy = energy.map(|statement| statement.value);
+    let model = emitter.model;
+    let energy = programs.energy.statements.first().map_or(Expr::ZERO, |statement| statement.value);
     let mut account = Account::new(
         (emitter, attribute, &programs.shared),
         "L(q, v, t), and what is declared with it:",
-        [("L", formulas.lagrangian), ("E", energy.unwrap_or(Expr::ZERO))],
+        [("L", formulas.lagrangian), ("E", energy)],
         structure.sentences(formulas.constraints.as_ref().map(|declared| declared.of), model),
     );
     account.observed(checked, &formulas.momenta, &formulas.events);
     account.constraints();
-    if let Some(energy) = energy {
-        account.typeset("E".to_string(), energy);
-    }
-    account.derived(&programs.shared.gradient.statements, |account, output, entry| match output {
-        Output::Lv => {
-            let by = print_velocity(entry, model);
-            (format!("∂L/∂{by}"), Some(format!(r"\partial L / \partial {}", account.in_tex(&by))))
-        }
+    account.derived(&programs.shared.gradient.statements, |output, entry| match output {
+        Output::Lv => format!("∂L/∂{}", print_velocity(entry, model)),
         Output::Lq | Output::Vector => {
-            let ([text, tex], by) = (account.beside_force('+', entry), print_coordinate(entry, model));
-            (format!("∂L/∂{by}{text}"), Some(format!(r"\partial L / \partial {}{tex}", account.in_tex(&by))))
+            let force = beside_force(emitter, &programs.shared, '+', entry);
+            format!("∂L/∂{}{force}", print_coordinate(entry, model))
         }
     });
     let energy = emitter.value(&programs.energy);

@@ -25,15 +25,9 @@ impl Equation {
     }
 
     /// Whether it is too long to be read.
-    pub(crate) fn is_endless(&self) -> bool {
+    fn is_endless(&self) -> bool {
         let lets = self.lets.iter().flat_map(|(_, terms)| terms);
         self.terms.iter().chain(lets).map(|term| width(term)).sum::<usize>() > LONGEST
-    }
-
-    /// Whether its lines are no wider than a page, where there are no more than a few.
-    pub(crate) fn is_short(&self) -> bool {
-        let widths = || self.terms.iter().map(|term| width(term));
-        widths().all(|width| width <= WIDTH) && widths().sum::<usize>() <= 3 * WIDTH
     }
 }
 

@@ -18,7 +18,7 @@ const GREEK: [&str; 34] = [
 ];
 
 /// A text that stays as it is.
-pub(crate) fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let escaped = |letter: char| match letter {
         '\\' | '^' | '~' => " ".to_owned(),
         '_' | '{' | '}' | '&' | '%' | '$' | '#' => format!("\\{letter}"),

@@ -177,7 +177,7 @@ fn what_is_read_is_what_was_written() {
         let written = tree.written();
         let formula = syn::parse_str(&written).expect("a formula");
         let mut typesetter = Typesetter::default();
-        let whole = typesetter.text(&formula);
+        let whole = typesetter.expr(&formula).text;
         let terms = typesetter.terms(&formula).join(" ");
         for tex in [whole, terms] {
             let mut reader = Reader { rest: &tex, at };
