@@ -1,7 +1,5 @@
 //! Whatever the tokens: no panic, no overflow of the stack, and Rust comes out.
 
-use std::cell::RefCell;
-
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use proptest::prelude::*;
 use quote::quote;
@@ -85,7 +83,6 @@ fn any_tokens() -> impl Strategy<Value = TokenStream> {
 enum Mutation {
     Delete(usize),
     Duplicate(usize),
-    Swap(usize, usize),
     Replace(usize, usize),
     Insert(usize, usize),
     Unwrap(usize),
@@ -96,7 +93,6 @@ fn any_mutation() -> impl Strategy<Value = Mutation> {
     prop_oneof![
         place.clone().prop_map(Mutation::Delete),
         place.clone().prop_map(Mutation::Duplicate),
-        (place.clone(), place.clone()).prop_map(|(a, b)| Mutation::Swap(a, b)),
         (place.clone(), place.clone()).prop_map(|(a, b)| Mutation::Replace(a, b)),
         (place.clone(), place.clone()).prop_map(|(a, b)| Mutation::Insert(a, b)),
         place.prop_map(Mutation::Unwrap),
@@ -109,16 +105,6 @@ fn count(tokens: &TokenStream) -> usize {
         _ => 1,
     };
     tokens.clone().into_iter().map(size).sum()
-}
-
-/// Token number `at`, counted through all brackets.
-fn nth(tokens: &TokenStream, mut at: usize) -> Option<TokenTree> {
-    let found = RefCell::new(None);
-    edit(tokens, &mut at, &|token| {
-        found.replace(Some(token));
-        Vec::new()
-    });
-    found.into_inner()
 }
 
 /// `tokens` with token number `at`, counted through all brackets, replaced.
@@ -154,13 +140,6 @@ fn mutated(tokens: &TokenStream, mutation: &Mutation) -> TokenStream {
             TokenTree::Group(group) => group.stream().into_iter().collect(),
             other => vec![other],
         }),
-        Mutation::Swap(one, other) => {
-            let (Some(a), Some(b)) = (nth(tokens, one % length), nth(tokens, other % length)) else {
-                return tokens.clone();
-            };
-            let first = edit(tokens, &mut (one % length), &|_| vec![b.clone()]);
-            edit(&first, &mut (other % count(&first).max(1)), &|_| vec![a.clone()])
-        }
     }
 }
 

@@ -15,17 +15,11 @@ use super::system::{Constraint, Dynamics, Gauge, System};
 use crate::syntax::Constrained;
 use indices::Scope;
 
-/// Whether velocities may stand in a formula.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Velocities {
-    None,
-    Any,
-}
-
 struct Generator<'a> {
     random: &'a mut Random,
     system: System,
-    velocities: Velocities,
+    /// Whether velocities may stand in a formula.
+    may_move: bool,
     /// The number of nodes that may still be written.
     budget: usize,
     /// What was written before, to be written again: the same parts in several places are what a
@@ -38,8 +32,7 @@ pub(super) fn system(random: &mut Random) -> System {
     let regular = random.chance(40);
     let system = declarations::declarations(random, regular);
     let budget = 10 + random.below(30);
-    let mut generator =
-        Generator { random, system, velocities: Velocities::None, budget, written: Vec::new() };
+    let mut generator = Generator { random, system, may_move: false, budget, written: Vec::new() };
     let dynamics = if regular { generator.regular() } else { generator.degenerate() };
     generator.system.dynamics = dynamics;
     if !regular && !generator.system.has_spinors() && generator.random.chance(40) {
@@ -50,7 +43,7 @@ pub(super) fn system(random: &mut Random) -> System {
     }
     for _ in 0..generator.random.below(3) {
         generator.budget = 8;
-        generator.velocities = if regular { Velocities::Any } else { Velocities::None };
+        generator.may_move = regular;
         let momentum = generator.value(&Scope::outside(), 3);
         generator.system.momenta.push(momentum);
     }
@@ -64,14 +57,14 @@ pub(super) fn system(random: &mut Random) -> System {
             1 => Constrained::Gaps,
             _ => Constrained::Positions,
         };
-        generator.velocities = Velocities::None;
+        generator.may_move = false;
         generator.system.constraints = generator.constraints();
     }
     if regular && generator.random.chance(30) {
         generator.system.dissipation = Some(generator.dissipation());
     }
     if generator.random.chance(30) {
-        generator.velocities = if regular { Velocities::Any } else { Velocities::None };
+        generator.may_move = regular;
         generator.system.forces = generator.forces();
         return generator.system;
     }
@@ -191,7 +184,7 @@ impl Generator<'_> {
 
     fn regular(&mut self) -> Dynamics {
         let scope = Scope::outside();
-        self.velocities = Velocities::Any;
+        self.may_move = true;
         let value = self.value(&scope, 6);
         Dynamics::Regular(if self.random.chance(95) { self.kinetic().plus(value) } else { value })
     }

@@ -1,7 +1,7 @@
 //! What concerns velocities: one-forms, affine Lagrangians, kinetic energies.
 
+use super::Generator;
 use super::indices::Scope;
-use super::{Generator, Velocities};
 use crate::oracle_tests::formula::{Atom, Formula, Index, Loops};
 
 impl Generator<'_> {
@@ -82,7 +82,7 @@ impl Generator<'_> {
     /// A function of the coordinates, most often with c Σ xⱼ yⱼ in it, which may cancel in the one-form.
     pub(super) fn gauge(&mut self) -> Formula {
         self.budget = self.budget.max(8);
-        self.velocities = Velocities::None;
+        self.may_move = false;
         let value = self.value(&Scope::outside(), 5);
         let (x, y) = (0, 1);
         if self.system.blocks[x].size != self.system.blocks[y].size || self.random.chance(20) {
@@ -143,7 +143,7 @@ impl Generator<'_> {
     /// A function with velocities in it.
     pub(super) fn dissipation(&mut self) -> Formula {
         self.budget = 8;
-        self.velocities = Velocities::Any;
+        self.may_move = true;
         let (scope, value) = (Scope::outside(), self.value(&Scope::outside(), 4));
         match self.random.below(3) {
             0 => value.times(self.velocity(&scope)),
@@ -159,9 +159,9 @@ impl Generator<'_> {
         let term = match self.random.below(4) {
             0 => self.parameter(&scope).times(square),
             1 => {
-                let before = std::mem::replace(&mut self.velocities, Velocities::None);
+                let before = std::mem::replace(&mut self.may_move, false);
                 let mass = self.value(&scope, 2);
-                self.velocities = before;
+                self.may_move = before;
                 self.positive(mass).times(square)
             }
             _ => square,

@@ -1,7 +1,7 @@
 //! Random values: everything but what concerns velocities as such.
 
+use super::Generator;
 use super::indices::Scope;
-use super::{Generator, Velocities};
 use crate::oracle_tests::formula::{Condition, Formula, Loops, Relation};
 use crate::oracle_tests::functions::{BinaryFunction, OWN, SCALAR_FIELDS, UNARY, UnaryFunction};
 use crate::oracle_tests::rotations::{COMPONENTS, ENTRIES};
@@ -31,7 +31,7 @@ impl Generator<'_> {
             return None;
         }
         let again = self.random.pick(&self.written).clone();
-        let still = self.velocities == Velocities::Any || !again.has_velocities();
+        let still = self.may_move || !again.has_velocities();
         (still && scope.admits_formula(&again, &self.system)).then_some(again)
     }
 
@@ -152,7 +152,7 @@ impl Generator<'_> {
                 Some(name) => Formula::Name(name),
                 None => self.coordinate(scope),
             },
-            11..=13 if self.velocities == Velocities::Any => self.velocity(scope),
+            11..=13 if self.may_move => self.velocity(scope),
             _ => self.coordinate(scope),
         }
     }

@@ -1,7 +1,7 @@
 //! Random vectors, and numbers that are made of them.
 
+use super::Generator;
 use super::indices::Scope;
-use super::{Generator, Velocities};
 use crate::oracle_tests::formula::{Formula, Index};
 use crate::oracle_tests::rotations::COMPONENTS;
 use crate::oracle_tests::system::{Container, System};
@@ -71,7 +71,7 @@ impl Generator<'_> {
         let leaf = match self.random.below(8) {
             0 => self.vector_parameter(scope),
             1..=2 => scope.name(self.random, true).map(Formula::VectorName),
-            3 if self.velocities == Velocities::Any => self.vector_velocity(scope),
+            3 if self.may_move => self.vector_velocity(scope),
             _ => None,
         };
         let leaf = leaf.or_else(|| self.vector_coordinate(scope));
