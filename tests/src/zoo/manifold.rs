@@ -12,12 +12,6 @@ use dvi_core::rotations;
     coordinates(R: SO3),
     lagrangian = (inertia[0] * omega(R)[0].powi(2) + inertia[1] * omega(R)[1].powi(2) + inertia[2] * omega(R)[2].powi(2)) / 2.0
         - weight * (R[2][0] * tip[0] + R[2][1] * tip[1] + R[2][2] * tip[2]),
-    momenta(
-        x = R[0][0] * inertia[0] * omega(R)[0] + R[0][1] * inertia[1] * omega(R)[1] + R[0][2] * inertia[2] * omega(R)[2],
-        y = R[1][0] * inertia[0] * omega(R)[0] + R[1][1] * inertia[1] * omega(R)[1] + R[1][2] * inertia[2] * omega(R)[2],
-        z = R[2][0] * inertia[0] * omega(R)[0] + R[2][1] * inertia[1] * omega(R)[1] + R[2][2] * inertia[2] * omega(R)[2],
-        spin = inertia[2] * omega(R)[2],
-    ),
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
@@ -31,8 +25,6 @@ pub struct Body {
 
 /// A body that nothing pulls at.
 pub const FREE: Body = Body { inertia: [1.0, 2.0, 3.5], tip: [0.0; 3], weight: 0.0 };
-/// A symmetric top.
-pub const TOP: Body = Body { inertia: [1.0, 1.0, 0.6], tip: [0.0, 0.0, 1.0], weight: 1.2 };
 /// A body without symmetry in a field.
 pub const UNEVEN: Body = Body { inertia: [1.0, 2.0, 2.4], tip: [0.3, -0.2, 0.5], weight: 1.5 };
 
@@ -116,11 +108,6 @@ macro_rules! beside {
 
 beside!(Separable, zero * x);
 beside!(NotSeparable, zero * omega(R)[0] * R[0][0]);
-
-/// A body that is tilted, with an angular velocity in its frame.
-pub fn tilted(omega: [f64; 3]) -> BodyState {
-    BodyState { R: rotations::exp([0.4, -0.3, 0.2]), omega_R: omega }
-}
 
 /// A state of the coupled system in which everything moves.
 pub fn coupled() -> CoupledState {

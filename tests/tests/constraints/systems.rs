@@ -1,6 +1,5 @@
 //! Systems with constraints.
 
-use dvi_core::Scalar;
 use dvi_core::field::{Axis, Spline};
 use dvi_core::prelude::*;
 use dvi_tests::Outcome;
@@ -67,22 +66,10 @@ pub(crate) struct Hung {
 #[derive(Clone, Debug)]
 pub(crate) struct Linked<const N: usize>;
 
-fn track<T: Scalar>(x: T) -> T {
-    (x * T::lift(2.0)).sin()
-}
-fn track_slope<T: Scalar>(x: T) -> T {
-    (x * T::lift(2.0)).cos() * T::lift(2.0)
-}
-fn track_curvature<T: Scalar>(x: T) -> T {
-    -(x * T::lift(2.0)).sin() * T::lift(4.0)
-}
-
-/// A bead on a track that is given by a function, and one on a surface that is given by a table.
+/// A bead on a surface that is given by a table.
 #[lagrangian(
     coordinates(x, y, z),
     lagrangian = (dot(x).powi(2) + dot(y).powi(2) + dot(z).powi(2)) / 2.0 - z,
-    functions(track = [track, track_slope, track_curvature]),
-    constraint = y - track(x) - 0.2 * track(t * x),
     constraint = z - surface(x, y),
 )]
 #[derive(Clone, Debug)]

@@ -1,46 +1,11 @@
-//! Families with two indices: discs that collide with each other in the plane.
+//! Families with two indices.
 
-use approx::{assert_abs_diff_eq, assert_relative_eq};
+use approx::assert_abs_diff_eq;
 use dvi_core::prelude::*;
 use dvi_core::{ConstrainedSystem, Space, UnilateralLagrangian};
 
-use super::Outcome;
-
-/// Discs in a box.
-#[lagrangian(
-    coordinates(x[n], y[n]),
-    lagrangian = sum(0..n, |i| m[i] * (dot(x[i]).powi(2) + dot(y[i]).powi(2)) / 2.0),
-    impact(i in 0..n, j in i + 1..n) = (x[i] - x[j]).hypot(y[i] - y[j]) - 2.0 * r,
-    impact(i in 0..n) = 1.0 - r - x[i].abs(),
-    impact(i in 0..n) = 1.0 - r - y[i].abs(),
-)]
-struct Discs {
-    n: usize,
-    m: Vec<f64>,
-    r: f64,
-}
-
-const R: f64 = 0.12;
-
-#[test]
-fn discs_keep_their_energy() -> Outcome {
-    let discs = Discs { n: 4, m: vec![1.0, 2.0, 0.5, 1.5], r: R };
-    let start = DiscsState {
-        x: vec![-0.6, -0.1, 0.3, 0.7],
-        y: vec![0.2, -0.4, 0.5, -0.1],
-        dot_x: vec![0.9, -0.3, 0.4, -1.1],
-        dot_y: vec![-0.2, 0.8, -0.7, 0.3],
-    };
-    let mut run = Integrator::new(&discs, Impacts::reflecting(Variational::midpoint()), 0.01, start)?;
-    let energy = run.energy();
-    run.take_steps(1000)?;
-    assert!(run.memory().total() > 30, "{} impacts", run.memory().total());
-    assert_relative_eq!(run.energy(), energy, max_relative = 1e-12);
-    Ok(())
-}
-
-/// Surfaces are numbered row by row: ranges that grow, that end before they begin, that go on backwards, in three kinds
-/// of sizes.
+/// Surfaces are numbered row by row: ranges that grow, that end before they begin, that go on backwards, in
+/// three kinds of sizes.
 #[lagrangian(
     coordinates(x[n]),
     lagrangian = sum(0..n, |i| dot(x[i]).powi(2)) / 2.0,
