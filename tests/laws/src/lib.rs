@@ -24,8 +24,8 @@ use systems::*;
 use dvi_tests::configurations::quasi_periodic;
 use dvi_tests::systems::*;
 use dvi_tests::zoo::constrained::{
-    Bead, BeadParameterState, Charge, Double, DoubleAngles, DoubleAnglesState, Links, Spherical, Swing,
-    SwingAngleState, on_ring, swinging,
+    Bead, Charge, Double, DoubleAngles, DoubleAnglesState, Links, Spherical, Swing, SwingAngleState,
+    swinging,
 };
 use dvi_tests::zoo::nonholonomic::{Particle, Steered};
 use dvi_tests::zoo::particles::Mirror;
@@ -447,8 +447,8 @@ pub fn constrained() -> Vec<Case> {
         on(Swing { gamma: 0.4 }, [&[at.x, at.y], &[at.dot_x, at.dot_y]], 0.05)
     };
     let bead = {
-        let at = on_ring(&BeadParameterState { s: 0.4, dot_s: 0.5 });
-        on(Bead, [&[at.x, at.y], &[at.dot_x, at.dot_y]], 0.05)
+        let (half, (sin, cos)) = (0.5_f64.sqrt(), 0.4_f64.sin_cos());
+        on(Bead, [&[cos, half * sin], &[-0.5 * sin, half * 0.5 * cos]], 0.05)
     };
     let links = {
         let (system, at) = Links::stretched(vec![1.0; 4]);

@@ -110,22 +110,6 @@ pub fn swinging(state: &SwingAngleState, t: f64) -> SwingState {
 #[derive(Clone, Copy, Debug)]
 pub struct Bead;
 
-/// The same by the parameter of the ellipse.
-#[lagrangian(
-    coordinates(s),
-    lagrangian = -(2.0 + s.cos()) * (1.0 - dot(s).powi(2) * (s.sin().powi(2) + s.cos().powi(2) / 2.0)).sqrt()
-        - s.sin() / 2.0_f64.sqrt(),
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct BeadParameter;
-
-/// Where a bead is.
-pub fn on_ring(state: &BeadParameterState) -> BeadState {
-    let BeadParameterState { s, dot_s } = *state;
-    let half = 0.5_f64.sqrt();
-    BeadState { x: s.cos(), y: half * s.sin(), dot_x: -dot_s * s.sin(), dot_y: half * dot_s * s.cos() }
-}
-
 /// A charge on a sphere in a magnetic field along z: L has terms linear in v, and is symmetric about z.
 #[lagrangian(
     coordinates(r[3]),
