@@ -129,7 +129,6 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         self.stopping.validate()?;
         evaluate(system, q, v, t)?;
         manifold::check(system, [q, v])?;
-        manifold::admit_numbers(system, v)?;
         let [mut seed, mut l_q, mut l_v]: [Vector<S, T>; 3] = system.space().vectors();
         momentum(system, q, v, &mut seed);
         system.gradient(q, v, t, &mut l_q, &mut l_v);

@@ -46,14 +46,6 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Begin<'_, S, R, T> {
         Path { q: self.q, displacement, h: self.interval.h }
     }
 
-    /// The nodes of a drift with their weights.
-    #[inline]
-    fn drifts(&self) -> impl Iterator<Item = [T; 2]> {
-        let once = (!has_spheres::<S, T>()).then(|| [T::lift(0.0), self.interval.h]);
-        let each = has_spheres::<S, T>().then(|| nodes(self.rule, self.interval.h));
-        once.into_iter().chain(each.into_iter().flatten())
-    }
-
     /// Sets `p` to the momentum at the end of the displacement.
     #[inline]
     pub(super) fn balance(
@@ -124,7 +116,9 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Equations<S, T> for Begin<'_, S
             }
             return;
         };
-        for [c, weight] in self.drifts() {
+        let once = (!has_spheres::<S, T>()).then(|| [T::lift(0.0), self.interval.h]);
+        let each = has_spheres::<S, T>().then(|| nodes(self.rule, self.interval.h));
+        for [c, weight] in once.into_iter().chain(each.into_iter().flatten()) {
             node.drift(system, path, self.interval.time(c), c);
             node.add_kinetic(system, mass, weight, entries);
             node.bend(system, path, [c, weight], Forces::Without, entries);

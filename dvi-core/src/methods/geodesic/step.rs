@@ -110,15 +110,13 @@ fn check_angles<S: ManifoldLagrangian<T>, T: Real>(
     displacement: &[T],
 ) -> Result<(), StepFailure> {
     let half = T::lift(core::f64::consts::PI);
-    let blocks = blocks(system).filter(|block| block.factor != Factor::Line);
-    let far =
-        blocks.map(|block| (block, vector(displacement, block).norm())).find(|(_, angle)| *angle >= half);
-    // That an angle is a number was seen where it was solved for.
-    match far {
-        Some((block, angle)) => {
-            let (name, index) = (block.name, block.index);
-            Err(StepFailure::HalfTurn { block: name, index, angle: reported(angle) })
+    for block in blocks(system).filter(|block| block.factor != Factor::Line) {
+        let angle = vector(displacement, block).norm();
+        // That an angle is a number was seen where it was solved for.
+        if angle >= half {
+            let (block, index, angle) = (block.name, block.index, reported(angle));
+            return Err(StepFailure::HalfTurn { block, index, angle });
         }
-        None => Ok(()),
     }
+    Ok(())
 }
