@@ -10,6 +10,8 @@ use crate::scalar::norm::{larger, reported};
 use crate::system::start::is_length;
 use crate::{Real, RegularLagrangian, Scalar, Space, System, Vector};
 
+/// The largest defect of the discrete energy, relative to the scale at the start.
+const TOLERANCE: f64 = 1e-14;
 /// So many rounding errors of the terms of E_d count as none.
 const ROUNDINGS: f64 = 4.0;
 
@@ -36,7 +38,8 @@ const ROUNDINGS: f64 = 4.0;
 ///
 /// Where another solution is nearer than the one that belongs to the steps before, or that one has ended,
 /// lengths jump: on a Kepler orbit of eccentricity 0.9 by a factor of two. In dual numbers the derivative of
-/// h is that of an iteration before the last, and as close as the tolerance.
+/// h is that of an iteration before the last. The defect of E_d is at most 1e-14 of the larger of |E| and
+/// v·∂L/∂v at the start, or what rounding leaves.
 ///
 /// A step takes several of the method: about seven evaluations of derivatives in the experiment
 /// `energy-momentum`, where steps of one length are nearer to the motion for the same work. The scheme is
@@ -62,15 +65,12 @@ const ROUNDINGS: f64 = 4.0;
 pub struct EnergyMomentum {
     /// The length of the first step, which sets the discrete energy; negative to run back in time.
     pub first_step: f64,
-    /// The largest defect of the discrete energy to accept, relative to the larger of |E| and v·∂L/∂v at the
-    /// start. Where rounding leaves more, that is accepted. Default: 1e-14.
-    pub tolerance: f64,
 }
 
 impl EnergyMomentum {
-    /// With the default tolerance.
+    /// With the length of the first step.
     pub fn new(first_step: f64) -> Self {
-        Self { first_step, tolerance: 1e-14 }
+        Self { first_step }
     }
 }
 
@@ -136,10 +136,6 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
     const REJECTS: bool = true;
 
     fn begin(&self, system: &S, q: &[T], v: &[T], t: T) -> Result<(Self::Memory, T), StartError> {
-        if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
-            let (value, range) = (self.tolerance, "positive and finite");
-            return Err(StartError::Parameter { name: "tolerance", value, range });
-        }
         if !is_length(self.first_step) {
             return Err(StartError::Step { h: self.first_step });
         }
@@ -188,7 +184,7 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
         memory.start.copy_from_slice(run.q());
         run.velocity(t, &mut memory.velocity)?;
         memory.set_rounding(run.system(), t);
-        let tolerance = T::lift(self.tolerance) * memory.scale;
+        let tolerance = T::lift(TOLERANCE) * memory.scale;
         let h = memory.h;
         let best = Err(StepFailure::StepLength { h: reported(h) });
         let mut search = Search { run, memory, t, tolerance, best };
