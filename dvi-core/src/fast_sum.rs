@@ -149,17 +149,7 @@ const LARGEST: f64 = 1e-2;
 /// over pairs: take methods whose steps are explicit or solved by the fixed point.
 ///
 /// In space an evaluation takes longer than in the plane, and so do the matrices for it, which take memory
-/// besides. For 1/√(r² + c²) and bodies in a cube it took on one thread, with the matrices in the first
-/// evaluation:
-///
-/// | tolerance | bodies | evaluation | matrices | memory | relative error |
-/// |---|---|---|---|---|---|
-/// | 1e-3 | 2·10⁴ | 0.04 s | 0.4 s | 0.10 GB | 5e-6 |
-/// | 1e-3 | 10⁵ | 0.2 s | 0.8 s | 0.14 GB | 7e-6 |
-/// | 1e-4 | 2·10⁴ | 0.04 s | 0.3 s | 0.10 GB | 1e-6 |
-/// | 1e-4 | 10⁵ | 0.3 s | 0.8 s | 0.22 GB | 1e-6 |
-/// | 1e-6 | 2·10⁴ | 0.08 s | 2.7 s | 0.40 GB | 2e-8 |
-/// | 1e-6 | 10⁵ | 0.5 s | 6.8 s | 0.75 GB | 2e-8 |
+/// besides: some 0.1 GB for a tolerance of 1e-3, and several times as much for 1e-6.
 ///
 /// An evaluation takes memory for its cubes, which is kept for the next one; it allocates when there are
 /// more cubes than ever before. For cubes of a size that was not there before it computes matrices, which
