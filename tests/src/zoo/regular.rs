@@ -1,6 +1,6 @@
 //! Regular Lagrangians: separable and not, quadratic in the velocities and not, with arrays and time.
 
-use dvi_core::{degenerate_lagrangian, lagrangian};
+use dvi_core::lagrangian;
 
 /// A planet around a fixed sun.
 #[lagrangian(
