@@ -27,9 +27,7 @@ use crate::state::Statistics;
 use crate::{Lagrangian, Real};
 
 pub use crate::mechanics::{Interval, Span};
-pub use frequency::{
-    Constant, Curvature, Frequency, Radial, Reading, Unfitted,
-};
+pub use frequency::{Constant, Curvature, Frequency, Radial, Reading, Unfitted};
 pub use node::OneNode;
 pub(crate) use node::{Node, NodeWork, Nodes, SumOverNodes, linearize};
 pub use quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};

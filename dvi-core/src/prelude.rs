@@ -42,8 +42,8 @@ pub use crate::record::Recorded;
 pub use crate::run::{Checkpoint, Together};
 #[doc(inline)]
 pub use crate::run::{
-    Dense, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator, Reversible, Run,
-    StepControl, Watch,
+    Dense, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator, Reversible, Run, StepControl,
+    Watch,
 };
 #[doc(inline)]
 pub use crate::solve::{Solver, Stopping};

@@ -173,7 +173,7 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: Frequency, T: Real>(
             "Frequency::fixed does not give a finite number",
         ),
         Some(Reading::Variational) => {
-            let [point, mut dq, mut dv, mut da] = space.vectors();
+            let [point, mut dq, mut dv, mut da] = space.vectors::<T, 4>();
             match frequency.derivatives(&point, &point, &point, &mut dq, &mut dv, &mut da) {
                 Some(_) => Ok(()),
                 None => unsupported(

@@ -9,9 +9,9 @@
 //! D₂)L_d.
 
 use crate::Real;
+use crate::discrete::Interval;
 use crate::discrete::basis::{Bases, Basis};
 use crate::discrete::frequency;
-use crate::discrete::Interval;
 use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::{Lobatto, MOST};
 use crate::space::elimination;
@@ -49,7 +49,7 @@ impl<const NODES: usize, T: Real> Fit<NODES, T> {
             rule,
             differentiation: rule.differentiation(),
             u: zero,
-            weights: core::array::from_fn(|j| T::lift(rule.b[j])),
+            weights: rule.b.map(T::lift),
             point: zeros,
             velocity: zeros,
             left: [[zero; 2]; NODES],

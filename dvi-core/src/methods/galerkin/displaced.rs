@@ -55,7 +55,7 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real>
             ..
         } = self;
         if F::UNFITTED || frequency.reading().is_none() {
-            return fit.to(frequency.fixed() * interval.h);
+            return fit.to(frequency.fixed::<T>() * interval.h);
         }
         let NodeWork { point: end, velocity, gradient: force, .. } = &mut **node;
         let delta = &unknowns[NODES - 1];
@@ -115,8 +115,8 @@ impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real>
     }
 }
 
-impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real>
-    CoupledEquations<NODES, S, T> for Displaced<'_, NODES, S, F, T>
+impl<const NODES: usize, S: NondegenerateLagrangian<T>, F: Frequency, T: Real> CoupledEquations<NODES, S, T>
+    for Displaced<'_, NODES, S, F, T>
 {
     fn unknowns(&mut self) -> &mut [Vector<S, T>; NODES] {
         self.unknowns

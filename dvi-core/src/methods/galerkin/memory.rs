@@ -93,7 +93,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
             weights: space.vectors(),
         };
         if reading.is_none() {
-            path.fit.to(self.frequency.fixed() * h).map_err(StartError::Starter)?;
+            path.fit.to(self.frequency.fixed::<T>() * h).map_err(StartError::Starter)?;
         }
         let ladder = Ladder::new(solver, || newton_matrix(system, [q, v], t, solver.storing()));
         Ok(PhaseMemory { carried, ladder, own: path })
