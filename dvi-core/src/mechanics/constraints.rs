@@ -169,9 +169,21 @@ impl<S: ConstrainedLagrangian<T>, T: Real, U: LinearEquations<T>> LinearEquation
     }
 }
 
+/// What is found of a motion along the constraints at one of its points.
+pub(crate) struct Tangent<'a, T> {
+    /// On the way in a momentum with components across the constraints, on the way out one without.
+    pub(crate) p: &'a mut [T],
+    /// On the way in a guess of the velocity.
+    pub(crate) v: &'a mut [T],
+    /// The impulse of the constraints, one number for each; written only.
+    pub(crate) impulse: &'a mut [T],
+    /// Work space, n numbers.
+    pub(crate) work: &'a mut [T],
+}
+
 impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
     /// Adds the impulse Gᵀι to p that makes the velocity v, ∂L/∂v(q, v, t) = p, one that the constraints
-    /// admit, from a guess of v. ι, one number for each constraint, is written only; n numbers are storage.
+    /// admit.
     ///
     /// # Errors
     /// As [`solve`](Self::solve), and [`StepFailure::NotConverged`].
@@ -179,16 +191,17 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         &mut self,
         system: &S,
         at: At<'_, T>,
-        [p, v, impulse, work]: [&mut [T]; 4],
+        tangent: Tangent<'_, T>,
     ) -> Result<(), StepFailure> {
+        let Tangent { p, v, impulse, work } = tangent;
         impulse.fill(T::lift(0.0));
         // With an L that is quadratic in v the equations are linear.
         if S::QUADRATIC {
-            self.improve_tangent(Due::Nothing, system, at, [p, v, impulse, work])?;
+            self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         } else {
             newton(Stopping::default(), &mut Statistics::default(), &mut |due, _| {
                 due.prepare_alone(system, &mut self.weights, v);
-                self.improve_tangent(*due, system, at, [p, v, impulse, work])
+                self.improve_tangent(*due, system, at, Tangent { p, v, impulse, work })
             })?;
         }
         // Rounding may have left the velocity off the constraints.
@@ -203,7 +216,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
                     }
                 }
             }
-            self.improve_tangent(Due::Nothing, system, at, [p, v, impulse, work])?;
+            self.improve_tangent(Due::Nothing, system, at, Tangent { p, v, impulse, work })?;
         }
         // In the equations the impulse is subtracted.
         negate(impulse);
@@ -217,7 +230,7 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         due: Due,
         system: &S,
         at: At<'_, T>,
-        [p, v, impulse, work]: [&mut [T]; 4],
+        Tangent { p, v, impulse, work }: Tangent<'_, T>,
     ) -> Result<T, StepFailure> {
         let n = v.len();
         let upper = legendre::Equations { system, points: [at.q, v, p], t: at.t, l_q: work };

@@ -4,7 +4,9 @@ use super::reduced::Reduced;
 use crate::discrete::DiscreteLagrangian;
 use crate::error::StartError;
 use crate::mechanics::constraints::turning::Gradients;
-use crate::mechanics::constraints::{At, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers};
+use crate::mechanics::constraints::{
+    At, ConstrainedLagrangian, ConstraintSolver, Constraints, Multipliers, Tangent,
+};
 use crate::mechanics::orientation::MassOrientation;
 use crate::memory::{Aside, Memory, lasting};
 use crate::methods::Steps;
@@ -99,8 +101,8 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         let Place { p, v: velocity, impulses: [_, impulse] } = &mut here;
         system.gradient(q, v, t, &mut work, p);
         velocity.copy_from_slice(v);
-        let tangent = solver.tangent(system, At { q, t }, [p, velocity, impulse, &mut work]);
-        tangent.map_err(StartError::Starter)?;
+        let tangent = Tangent { p, v: velocity, impulse, work: &mut work };
+        solver.tangent(system, At { q, t }, tangent).map_err(StartError::Starter)?;
         impulse.fill(T::lift(0.0));
         let orientation = (!S::CONSTANT_MASS).then(|| MassOrientation::new(system, q, v, t));
         Ok(Self {

@@ -3,7 +3,7 @@
 use super::memory::{Arrival, ConstrainedMemory, Place};
 use crate::discrete::{Departing, DiscreteLagrangian, Interval, Span};
 use crate::error::StepFailure;
-use crate::mechanics::constraints::{At, Bordered, ConstrainedLagrangian, Lower};
+use crate::mechanics::constraints::{At, Bordered, ConstrainedLagrangian, Lower, Tangent};
 use crate::memory::Memory;
 use crate::methods::Step;
 use crate::scalar::norm;
@@ -128,7 +128,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
         let at = At { q: next, t: interval.time(T::lift(1.0)) };
         statistics.linearizations += 1;
         statistics.factorisations += 1;
-        solver.tangent(system, at, [p, v, last, work])?;
+        solver.tangent(system, at, Tangent { p, v, impulse: last, work })?;
         orientation.as_mut().map_or(Ok(()), |orientation| orientation.check(system, next, v, at.t))
     }
 
