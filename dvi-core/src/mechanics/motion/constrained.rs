@@ -11,6 +11,9 @@ use crate::scalar::norm;
 use crate::system::{Holonomic, Nonholonomic};
 use crate::{HolonomicLagrangian, NonholonomicLagrangian, Real, Space, Vector};
 
+/// An acceleration, and λ.
+type Accelerated<S, T> = (Vector<S, T>, Multipliers<S, T>);
+
 /// Returns the acceleration of the motion through (`q`, `v`, `t`), and λ.
 ///
 /// # Errors
@@ -19,7 +22,7 @@ pub(crate) fn acceleration<S: ConstrainedLagrangian<T>, T: Real>(
     system: &S,
     [q, v]: [&[T]; 2],
     t: T,
-) -> Result<(Vector<S, T>, Multipliers<S, T>), StepFailure> {
+) -> Result<Accelerated<S, T>, StepFailure> {
     let mut acceleration: Vector<S, T> = system.space().vector();
     let mut multipliers: Multipliers<S, T> = system.multipliers().vector();
     let mut solver = ConstraintSolver::new(system, q, v, t);
