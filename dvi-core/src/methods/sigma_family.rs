@@ -93,18 +93,21 @@ pub struct Sigma<T = f64> {
     /// with [`StepFailure::ParasiticMode`](crate::error::StepFailure) and the run stays where it is.
     /// Default: ½. `None` lets the run go on whatever it has become.
     ///
-    /// The mode is measured after 4 to 256 steps, before it can have reached the limit at a rate of the flow. One
+    /// The limit is tested before each step, except in two cases. If α is affine and σ ≠ ½, the mode is
+    /// measured after 4 to 256 steps, before it can have reached the limit at a rate of the flow; there a mode
     /// that is large from the first steps on may become three times as large, if that is more than the limit.
     /// If α is affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
     ///
     /// The limit is one of the mode and not of the energy, and has limits of its own:
+    /// - A mode that appears from one step to the next is judged when it has been seen several times.
     /// - Where α is far from affine, or the motion passes near a saddle, the energy error of short steps may
     ///   have grown tenfold before.
     /// - The mode is compared with the motion of the coordinates together, and of each that moves at least a
     ///   tenth as much as the largest. In coordinates that are small beside another that is not lost, it is
     ///   seen late or not at all: choose units in which they are of one size.
-    /// - A motion that turns by more than 70° in a step cannot be told from the mode, nor can a path whose
-    ///   curvature changes within two or three steps again and again: such a run may be stopped.
+    /// - A motion that turns by more than 70° in a step cannot be told from the mode, nor can, if α is not
+    ///   affine, a path whose curvature changes several times within two or three steps: such a run may be
+    ///   stopped.
     ///
     /// [`EnergyLimit`](crate::methods::EnergyLimit) around the method limits the energy.
     pub parasitic_limit: Option<f64>,

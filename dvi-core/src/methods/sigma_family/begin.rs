@@ -2,7 +2,7 @@
 
 use super::Sigma;
 use super::memory::{Carried, Leaps, SigmaMemory, Work};
-use super::parasitic_mode::Monitor;
+use super::parasitic_mode::{Monitor, Pace};
 use crate::discrete::{DiscreteLagrangian, Interval, OneNode, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::combination::{Combination, Inverse, Product};
@@ -76,11 +76,17 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         let solver = if method.is_end() { Solver::FixedPoint } else { method.solver.in_numbers::<T>() };
         let newton = || of_second_derivatives(system, q, &rest, t, solver.storing());
         system.one_form(q, t, &mut one_form);
-        // Where α is affine and σ = ½, the mode is only reversed.
-        let limit = method.parasitic_limit.filter(|_| !(S::AFFINE && method.is_midpoint()));
+        let (limit, pace) = match method.parasitic_limit {
+            // The mode is only reversed.
+            Some(_) if S::AFFINE && method.is_midpoint() => (None, Pace::Seldom),
+            None => (None, Pace::Seldom),
+            // K' = −K: c is reversed, and a gradient added to it.
+            limit if S::AFFINE => (limit, Pace::WithTheFlow),
+            limit => (limit, Pace::EachStep),
+        };
         Ok(Self {
             ladder: Ladder::new(solver, newton),
-            monitor: Monitor::new(system, limit),
+            monitor: Monitor::new(system, limit, pace),
             carried: Carried {
                 defect: space.vector(),
                 defect_vanishes: false,

@@ -94,8 +94,8 @@ impl<S: System, T: Real> SigmaMemory<S, T> {
     }
 
     /// The parasitic mode as it was measured last, over five consecutive points; `None` before that. It is
-    /// measured after 4 to 256 steps, the sooner the larger the mode and the longer the steps; without a
-    /// limit, or where α is affine and σ = ½, before every 256th step.
+    /// measured before each step; if α is affine, after 4 to 256 steps, the sooner the larger the mode and the
+    /// longer the steps; without a limit, or where α is affine and σ = ½, before every 256th step.
     pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
         self.monitor.last().map(|(_, mode)| mode)
     }

@@ -7,11 +7,14 @@
 //! in a step the ratio is tan²(θ/2). The solution of a stable step with σ ≠ ½ has θ < π/2, and the parasitic
 //! mode is its mirror image, π − θ (the two roots of Rowley & Marsden 2002, section 4.1, meet at θ = π/2).
 
+mod pace;
+
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
-use crate::methods::walk::BLOCK;
 use crate::scalar::norm::{larger, reported};
 use crate::{Real, Scalar, Space, System, Vector};
+use pace::First;
+pub(super) use pace::Pace;
 
 /// How many points are kept besides the present one.
 const KEPT: usize = 4;
@@ -35,20 +38,23 @@ const STEADY: f64 = 0.01;
 /// The second differences of a coordinate count as no smaller than this fraction of the largest of all.
 const FLOOR: f64 = 0.1;
 
-/// A run ends when so many looks in a row have seen the mode above the limit: where a path is straight or has
-/// a kink, a smooth motion may look as if it alternated, to one look.
-const LOOKS: u32 = 2;
+/// What it takes to end a run: this many looks in a row above the limit, or two of which the last is above
+/// it this many times.
+#[derive(Clone, Copy, Debug)]
+struct Evidence {
+    looks: u32,
+    sudden: f64,
+}
 
-/// A mode that is large from the first steps on, as it is where steps are long, may become this many times
-/// as large.
-const GROWTH: f64 = 3.0;
+/// Where a path is straight, a smooth motion may look as if it alternated, to one look.
+const GROWING: Evidence = Evidence { looks: 2, sudden: 4.0 };
 
-/// How many looks show the mode as it is from the start.
-const FIRST_LOOKS: u32 = 2;
+/// A path whose curvature changes within a step or two seems to alternate, all at once, to all looks that
+/// see the place, which are five to seven, and up to three times as large as it is curved.
+const AT_ONCE: Evidence = Evidence { looks: 8, sudden: 16.0 };
 
-/// By how many radians the motion turns while the mode may grow e-fold; from this follows when to look
-/// again.
-const RADIANS: f64 = 4.0;
+/// A mode that is this many times as large as a step before has not grown.
+const JUMP: f64 = 5.0;
 
 /// The parasitic mode at five consecutive points of a run.
 ///
@@ -87,8 +93,8 @@ pub(super) struct Monitor<S: System, T: Real> {
     together: T,
     /// The completed steps.
     pub(super) steps: u64,
-    /// The run is examined where the number of steps is a multiple of this power of two: with a limit, before
-    /// the mode can have become too large, after 4 to 256 steps; without one, seldom.
+    pace: Pace,
+    /// The run is examined where the number of steps is a multiple of this power of two.
     pub(super) period: u64,
     limit: Option<f64>,
     /// Before which step it was examined last, zero if it was not, and what was measured.
@@ -96,30 +102,26 @@ pub(super) struct Monitor<S: System, T: Real> {
     mode: ParasiticMode<T>,
     /// How many looks in a row, the last among them, have seen it above the limit.
     above: u32,
+    /// How many looks have passed, of those at each step, since the mode has become large at once.
+    since_jump: u32,
     first: First,
 }
 
-/// The mode in the first looks of a run: the largest relative size and amplitude.
-#[derive(Clone, Copy, Debug, Default)]
-struct First {
-    looks: u32,
-    relative: f64,
-    amplitude: f64,
-}
-
 impl<S: System, T: Real> Monitor<S, T> {
-    pub(super) fn new(system: &S, limit: Option<f64>) -> Self {
+    pub(super) fn new(system: &S, limit: Option<f64>, pace: Pace) -> Self {
         let vector = || system.space().vector();
         Self {
             points: system.space().vectors(),
             sizes: vector(),
             together: T::lift(0.0),
             steps: 0,
-            period: if limit.is_some() { KEPT as u64 } else { BLOCK },
+            pace,
+            period: pace.first_period(),
             limit,
             examined: 0,
             mode: ParasiticMode { amplitude: T::lift(0.0), relative: T::lift(0.0), is_significant: false },
             above: 0,
+            since_jump: u32::MAX,
             first: First::default(),
         }
     }
@@ -176,7 +178,9 @@ impl<S: System, T: Real> Monitor<S, T> {
             _ => self.measure(step, q),
         };
         let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
-        let Some(limit) = self.limit.filter(|_| self.above >= LOOKS) else { return Ok(()) };
+        let Evidence { looks, sudden } = if self.since_jump < AT_ONCE.looks { AT_ONCE } else { GROWING };
+        let has_passed = |&limit: &f64| self.above >= looks || (self.above > 1 && relative > sudden * limit);
+        let Some(limit) = self.limit.filter(has_passed) else { return Ok(()) };
         // Whoever tries the step again is to be told again.
         self.period = self.period.min(KEPT as u64);
         Err(StepFailure::ParasiticMode { amplitude, relative, limit })
@@ -184,7 +188,7 @@ impl<S: System, T: Real> Monitor<S, T> {
 
     fn measure(&mut self, step: u64, q: &[T]) -> ParasiticMode<T> {
         let (zero, two) = (T::lift(0.0), T::lift(2.0));
-        let Self { points, sizes, together, mode, examined, limit, .. } = self;
+        let Self { points, sizes, together, mode, examined, pace, .. } = self;
         let point = |j: u64| &points[((step + j) % KEPT as u64) as usize];
         let [a, b, c, d] = [point(0), point(1), point(2), point(3)];
         let alternating = |i: usize, e: T| a[i] - T::lift(4.0) * (b[i] + d[i]) + T::lift(6.0) * c[i] + e;
@@ -204,7 +208,7 @@ impl<S: System, T: Real> Monitor<S, T> {
         }
         // Where the path has become straight, a mode that stays as it was does no more harm than before.
         let change = Scalar::abs(T::lift(16.0) * mode.amplitude - amplitude);
-        let stays = limit.is_some() && *examined > 0 && change <= T::lift(STEADY) * amplitude;
+        let stays = *pace == Pace::WithTheFlow && *examined > 0 && change <= T::lift(STEADY) * amplitude;
         let [kept, remembered] =
             [FORGOTTEN_TOGETHER, FORGOTTEN].map(|part| T::lift(if stays { 1.0 } else { 1.0 - part }));
         *together = larger(turned, *together * kept * kept);
@@ -222,58 +226,15 @@ impl<S: System, T: Real> Monitor<S, T> {
         let noise = T::lift(ROUNDING) * T::default_epsilon() * size;
         let is_significant = amplitude > noise && amplitude > T::lift(HARMLESS) * increment;
         let mode = ParasiticMode { amplitude, relative, is_significant };
-        if let Some(limit) = self.limit {
-            self.keep_pace(limit, (step, &mode), [turned, moved].map(reported));
+        if self.pace == Pace::WithTheFlow {
+            self.keep_pace(step, &mode, reported(turned), reported(moved));
         }
+        let has_jumped = self.last().is_some_and(|(_, last)| mode.relative > T::lift(JUMP) * last.relative);
+        let is_jump = self.pace == Pace::EachStep && has_jumped;
+        self.since_jump = if is_jump { 0 } else { self.since_jump.saturating_add(1) };
         self.above = if self.is_above(&mode) { self.above.saturating_add(1) } else { 0 };
         (self.examined, self.mode) = (step, mode);
         mode
-    }
-
-    /// Whether the mode is above the limit, and larger than where it came from.
-    fn is_above(&self, mode: &ParasiticMode<T>) -> bool {
-        let [amplitude, relative] = [mode.amplitude, mode.relative].map(reported);
-        let First { looks, relative: first, amplitude: from } = self.first;
-        self.limit.is_some_and(|limit| relative > limit)
-            && mode.is_significant
-            && looks >= FIRST_LOOKS
-            && (relative > GROWTH * first || amplitude > GROWTH * from)
-    }
-
-    /// Notes the mode of the first looks, and sets when to look again: before the mode can have reached the
-    /// limit if it grows with the turning of the path, `turned`/`moved` being the square of the angle of a
-    /// step, or as it has grown since the last look; and not much later than half as far again as the run
-    /// has come.
-    fn keep_pace(&mut self, limit: f64, (step, mode): (u64, &ParasiticMode<T>), [turned, moved]: [f64; 2]) {
-        let size = |mode: &ParasiticMode<T>| if mode.is_significant { reported(mode.relative) } else { 0.0 };
-        let relative = size(mode);
-        let First { looks, relative: first, amplitude } = &mut self.first;
-        if *looks < FIRST_LOOKS {
-            *looks += 1;
-            *first = first.max(relative);
-            *amplitude = amplitude.max(reported(mode.amplitude));
-        }
-        let limit = limit.max(GROWTH * self.first.relative);
-        let room = Scalar::ln((limit / relative).clamp(1.0, f64::MAX));
-        let grown = self.last().map_or(0.0, |(_, last)| Scalar::ln((relative / size(&last)).max(1.0)));
-        let since = self.last().map_or(1, |(last, _)| step - last) as f64;
-        // (steps · angle)² ≤ (RADIANS room)², which is false of what is not a number.
-        let fits = |steps: u64| {
-            let (by_angle, steps_squared) = (RADIANS * room, (steps * steps) as f64);
-            steps_squared * turned <= by_angle * by_angle * moved
-                && (grown.is_infinite() || steps as f64 * grown <= room * since)
-                && steps * 4 <= step.max(2 * KEPT as u64)
-        };
-        self.period = KEPT as u64;
-        while self.period < BLOCK && fits(2 * self.period) {
-            self.period *= 2;
-        }
-    }
-
-    #[cfg(feature = "alloc")]
-    fn is_sound(&self) -> bool {
-        let in_order = self.examined <= self.steps && self.steps < u64::MAX / 2;
-        in_order && self.period.is_power_of_two() && self.period <= BLOCK
     }
 }
 
@@ -281,10 +242,9 @@ impl<S: System, T: Real> Memory<T> for Monitor<S, T> {
     lasting!(
         T;
         vectors points, numbers sizes, size together, count steps, count period, count examined, part mode,
-        count above, part first;
+        count above, count since_jump, part first;
         is_sound
     );
 }
 
 lasting!([T: Real] ParasiticMode<T>, T; size amplitude, size relative, flag is_significant);
-lasting!([T: Real] First, T; count looks, bits relative, bits amplitude);
