@@ -64,9 +64,8 @@ pub struct Interior<const NODES: usize, const W: usize, S: System, T: Real, E> {
     evaluation: PhantomData<E>,
 }
 
-impl<const NODES: usize, const W: usize, S: System, T: Real, E> Memory<T> for Interior<NODES, W, S, T, E> {
-    lasting!(T; packs completed, numbers first, number last);
-}
+lasting!([const NODES: usize, const W: usize, S: System, T: Real, E] Interior<NODES, W, S, T, E>, T;
+    packs completed, numbers first, number last);
 
 /// The interior nodes of a step.
 pub trait InteriorNodes<const NODES: usize, S: System, T: Real>: Memory<T> + Sized {

@@ -44,13 +44,10 @@ pub(super) struct Displacements<const NODES: usize, S: System, T: Real> {
     pub(super) nodes: [History<S, T>; NODES],
 }
 
-impl<const NODES: usize, S: System, T: Real> Memory<T> for Displacements<NODES, S, T> {
-    lasting!(T; parts nodes);
-}
+lasting!([const NODES: usize, S: System, T: Real] Displacements<NODES, S, T>, T; parts nodes);
 
-impl<const NODES: usize, S: System, T: Real, I: Memory<T>> Memory<T> for Path<NODES, S, T, I> {
-    lasting!(T; parts interior, parts displacements);
-}
+lasting!([const NODES: usize, S: System, T: Real, I: Memory<T>] Path<NODES, S, T, I>, T;
+    parts interior, parts displacements);
 
 impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
     /// Of a run from (q, v, t), whose steps have the length h.

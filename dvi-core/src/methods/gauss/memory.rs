@@ -1,16 +1,15 @@
 //! Where a Gauss step is, and what it leaves to the next one.
 
-use core::fmt;
-
 use super::coefficients::Coefficients;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
     AtStages, EquationsOf, FirstOrder, PackedOf, PointOf, StageEvaluation, StageWork, weigh,
 };
-use crate::memory::{Aside, Memory, lasting};
+use crate::memory::{Aside, lasting};
 use crate::methods::collocation::packs::{at, beside, combine, nothing, replace, sum};
 use crate::methods::collocation::stages::NewtonStages;
 use crate::scalar::Lanes;
+use crate::shown::shown;
 use crate::solve::{Due, Guess, Ladder};
 use crate::state::Statistics;
 use crate::state::summation::{Summation, left_out};
@@ -54,23 +53,14 @@ pub(super) struct Path<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T
 
 type StagesOf<const STAGES: usize, S, T> = PackedOf<S, T, Lanes<STAGES, T>>;
 
-impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Memory<T>
-    for GaussMemory<STAGES, S, T>
-{
-    lasting!(T; part path, part ladder);
-}
+lasting!([const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real] GaussMemory<STAGES, S, T>, T;
+    part path, part ladder);
 
-impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Memory<T> for Path<STAGES, S, T> {
-    lasting!(T; part equations, packs completed, number last, number momentum, part rest);
-}
+lasting!([const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real] Path<STAGES, S, T>, T;
+    part equations, packs completed, number last, number momentum, part rest);
 
-impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> fmt::Debug
-    for GaussMemory<STAGES, S, T>
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("GaussMemory").field("completed", &self.path.completed).finish_non_exhaustive()
-    }
-}
+shown!([const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real] GaussMemory<STAGES, S, T>,
+    |memory| completed: memory.path.completed);
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
     pub(super) fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Self, StartError> {
