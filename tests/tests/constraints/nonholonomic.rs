@@ -2,8 +2,7 @@
 
 use dvi_core::prelude::*;
 use dvi_core::{
-    ConstrainedSystem, Fixed, NondegenerateLagrangian, NonholonomicLagrangian, RunTime, Space, System,
-    Varied,
+    ConstrainedSystem, Fixed, NondegenerateLagrangian, NonholonomicLagrangian, RunTime, Space, Varied,
 };
 use dvi_tests::zoo::nonholonomic::KnifeEdge;
 use num_dual::Dual64;
@@ -64,23 +63,6 @@ fn structure_is_that_of_the_lagrangian() {
     const { assert!(!<Train as NondegenerateLagrangian>::CONSTANT_MASS) };
     const { assert!(KnifeEdge::AUTONOMOUS && Disc::<f64>::AUTONOMOUS) };
     const { assert!(!Train::AUTONOMOUS && !Ring::<3>::AUTONOMOUS) };
-}
-
-#[test]
-fn indices_are_checked_against_their_arrays() {
-    assert_eq!(Train { headings: vec![0.0; 3] }.check(), Ok(()));
-    assert_eq!(Listed { n: 3, slopes: vec![0.5; 2] }.check().map_err(|error| error.array), Err("slopes"));
-}
-
-/// A parameter for each constraint.
-#[lagrangian(
-    coordinates(x[n], y[n]),
-    lagrangian = sum(0..n, |i| dot(x[i]).powi(2) + dot(y[i]).powi(2)),
-    nonholonomic(i in 0..n) = dot(y[i]) - slopes[i] * dot(x[i]),
-)]
-struct Listed {
-    n: usize,
-    slopes: Vec<f64>,
 }
 
 #[test]
