@@ -42,17 +42,12 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
             return Ok(None);
         }
         let first = if is_closed { zero } else { here };
-        let low = match is_behind {
-            true => one,
-            false => match self.least(surface, end, first)? {
-                Some(low) => low,
-                None => return Ok(None),
-            },
-        };
-        let open = match is_closed {
-            true => self.open(surface, end, self.cubic(surface, end, zero).closes_before(low))?,
-            false => zero,
-        };
+        let low = if is_behind { Some(one) } else { self.least(surface, end, first)? };
+        let Some(low) = low else { return Ok(None) };
+        let mut open = zero;
+        if is_closed {
+            open = self.open(surface, end, self.cubic(surface, end, zero).closes_before(low))?;
+        }
         self.locate(surface, end, [open, low]).map(Some)
     }
 

@@ -136,13 +136,12 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         }
         // On the other side of half the impulse of a reflection the motion goes on towards the surface.
         let is_behind = lambda / reflection > T::lift(0.5);
-        let wall = &self.memory.wall;
+        let wall = &mut self.memory.wall;
         // Δ/s has the rounding of the coordinates over s.
         let terms = Scalar::abs(wall.energy) + wall.terms[0] + wall.terms[1] / Scalar::abs(s);
         let rounding = T::lift(ROUNDINGS) * T::default_epsilon() * terms;
         let is_solved = Scalar::abs(defect) <= T::lift(NEAR) * Scalar::abs(reflection * rate)
             || (s != T::lift(0.0) && Scalar::abs(defect) <= rounding);
-        let wall = &mut self.memory.wall;
         wall.is_grazing = !(is_behind && is_solved);
         wall.impulse = if wall.is_grazing { reflection } else { lambda };
         Ok(())
