@@ -10,7 +10,7 @@ mod stopping;
 
 use crate::Real;
 use crate::error::StepFailure;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::carries_derivatives;
 use crate::space::linear::Storing;
 use crate::state::Statistics;
@@ -251,13 +251,9 @@ impl<N> Ladder<N> {
     }
 }
 
-impl<N, T: Real> Memory<T> for Ladder<N> {
-    lasting!(T; parts newton);
-}
+lasting!([N, T: Real] Ladder<N>, T; parts newton);
 
-impl<N, T: Real> Memory<T> for Newton<N> {
-    lasting!(T; count steps_left);
-}
+lasting!([N, T: Real] Newton<N>, T; count steps_left);
 
 impl<N> Newton<N> {
     #[inline(never)]

@@ -5,7 +5,7 @@
 //! those of the blocks of D count. Source: Bunch & Kaufman 1977, Math. Comp. 31, 163–179.
 
 use crate::error::StepFailure;
-use crate::memory::{Memory, lasting};
+use crate::memory::lasting;
 use crate::scalar::norm::{is_pivot, larger, singular};
 use crate::{Real, Scalar};
 
@@ -50,9 +50,7 @@ impl<T: Real> Inertia<T> {
     }
 }
 
-impl<T: Real> Memory<T> for Inertia<T> {
-    lasting!(T; count negative, numbers least);
-}
+lasting!([T: Real] Inertia<T>, T; count negative, numbers least);
 
 /// Of the row-major n×n `matrix`, which is overwritten; `removed` has n entries of storage. A pivot counts
 /// as zero when it is no larger than n ε times the largest number that was subtracted to form it.

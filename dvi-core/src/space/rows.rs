@@ -9,11 +9,7 @@ use core::fmt::Debug;
 use core::ops::DerefMut;
 
 use crate::Scalar;
-#[cfg(feature = "alloc")]
-use crate::error::CheckpointError;
-use crate::memory::Memory;
-#[cfg(feature = "alloc")]
-use crate::memory::{Record, lasting};
+use crate::memory::{Memory, lasting};
 use crate::space::Sink;
 
 /// Rows that are filled entry by entry.
@@ -39,21 +35,7 @@ impl<T: Scalar, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Sink<T> fo
     }
 }
 
-impl<T: Copy, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>> Memory<T> for FullRows<A> {
-    fn restore(&mut self, from: &Self) {
-        for (to, from) in self.0.iter_mut().zip(from.0.iter()) {
-            to.copy_from_slice(from);
-        }
-    }
-    #[cfg(feature = "alloc")]
-    fn save(&self, record: &mut Record<T>) {
-        self.0.iter().for_each(|row| record.numbers(row));
-    }
-    #[cfg(feature = "alloc")]
-    fn load(&mut self, record: &mut Record<T>) -> Result<(), CheckpointError> {
-        self.0.iter_mut().try_for_each(|row| record.read(row))
-    }
-}
+lasting!([T: Copy, V: DerefMut<Target = [T]>, A: DerefMut<Target = [V]>] FullRows<A>, T; vectors 0);
 
 impl<T: Scalar, V: DerefMut<Target = [T]> + Debug, A: DerefMut<Target = [V]> + Debug> RowMatrix<T>
     for FullRows<A>
@@ -144,9 +126,7 @@ impl<T: Scalar> Sink<T> for SparseRows<T> {
 }
 
 #[cfg(feature = "alloc")]
-impl<T: Copy> Memory<T> for SparseRows<T> {
-    lasting!(T; numbers entries);
-}
+lasting!([T: Copy] SparseRows<T>, T; numbers entries);
 
 #[cfg(feature = "alloc")]
 impl<T: Scalar> RowMatrix<T> for SparseRows<T> {
