@@ -197,7 +197,12 @@ pub trait System: Held<System = Self> {
     where
         Self: Sized,
     {
-        names::values(self, q, v)
+        let lowered = spinors::lowered(self, q);
+        names::entries(self).map(move |(name, place)| match &lowered {
+            _ if name.is_velocity => v[place],
+            Some(lowered) => lowered[place],
+            None => q[place],
+        })
     }
 
     /// The state with these entries, in the order of [`names`](Self::names); those that are lacking are zero.
@@ -205,7 +210,13 @@ pub trait System: Held<System = Self> {
     where
         Self: Sized,
     {
-        names::state(self, values)
+        let (mut q, mut v) = (self.space().vector(), self.space().vector());
+        for ((name, place), value) in names::entries(self).zip(values) {
+            let half: &mut [T] = if name.is_velocity { &mut v } else { &mut q };
+            half[place] = value;
+        }
+        spinors::lift_all(self, &mut q);
+        Self::State::read(&|block| self.block_len(block), &q, &v)
     }
 }
 

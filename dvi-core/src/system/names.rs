@@ -1,37 +1,15 @@
 //! The entries of a state one after the other, with names: for the columns of a table.
 
-use super::spinors::{self, is_spinor};
-use super::{CoordinateBlock, State, System};
+use super::spinors::is_spinor;
+use super::{CoordinateBlock, System};
 use crate::name::{Axis, Name};
 use crate::scalar::spinor;
-use crate::{Scalar, Space};
 
 /// The names of all entries of the states of `system`, coordinates first, each with its place among the
 /// coordinates or among the velocities. Those of unit vectors of a degenerate system stand where
-/// [`spinors::lower_all`] puts them.
+/// [`lower_all`](super::spinors::lower_all) puts them.
 pub(crate) fn entries<S: System>(system: &S) -> Entries<'_, S> {
     Entries { system, is_velocity: false, block: 0, first: 0, index: 0 }
-}
-
-/// The entries of a state in flat form, in the order of [`System::names`].
-pub(crate) fn values<S: System, T: Scalar>(system: &S, q: &[T], v: &[T]) -> impl Iterator<Item = T> {
-    let lowered = spinors::lowered(system, q);
-    entries(system).map(move |(name, place)| match &lowered {
-        _ if name.is_velocity => v[place],
-        Some(lowered) => lowered[place],
-        None => q[place],
-    })
-}
-
-/// The state with these entries, in the order of [`System::names`]; those that are lacking are zero.
-pub(crate) fn state<S: System, T: Scalar>(system: &S, values: impl IntoIterator<Item = T>) -> S::State<T> {
-    let (mut q, mut v) = (system.space().vector(), system.space().vector());
-    for ((name, place), value) in entries(system).zip(values) {
-        let half: &mut [T] = if name.is_velocity { &mut v } else { &mut q };
-        half[place] = value;
-    }
-    spinors::lift_all(system, &mut q);
-    State::read(&|block| system.block_len(block), &q, &v)
 }
 
 /// Stands before an entry.

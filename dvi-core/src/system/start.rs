@@ -4,7 +4,7 @@ use crate::error::{StartError, StepError, StepFailure};
 use crate::name::Name;
 use crate::scalar::norm::reported;
 use crate::scalar::smallest_normal;
-use crate::system::names::{entries, values};
+use crate::system::names::entries;
 use crate::system::{Factor, TimeTransform, TimeTransformed, spinors};
 use crate::{Lagrangian, Real, Scalar, Space, State, System, Vector, Weights};
 
@@ -215,7 +215,7 @@ pub(crate) fn with_energy<S: TimeTransformed<T>, T: Real>(
 
 /// Checks that the entries of a state are finite.
 pub(crate) fn finite<S: System, T: Real>(system: &S, q: &[T], v: &[T]) -> Result<(), StartError> {
-    for (entry, value) in system.names().zip(values(system, q, v)) {
+    for (entry, value) in system.names().zip(system.values_of(q, v)) {
         if !value.is_finite() {
             return Err(StartError::NotFinite { entry, value: reported(value) });
         }
