@@ -33,7 +33,7 @@ fn run(shard: Shard, checkpoint: &Path) -> Result<Results, EnsembleError> {
         .until(["left the well"], |_, state, _| [state.x.hypot(state.y) - 3.0])
         .checkpoints(checkpoint, Duration::from_secs(10))
         .shard(shard)
-        .on_progress(|p| eprintln!("{} of {} have ended", p.finished + p.exited + p.failed, p.members))
+        .on_progress(|p| eprintln!("{} of {} have ended", p.ended, p.members))
         .take_steps(20_000)
 }
 

@@ -137,7 +137,7 @@ pub struct Ensemble<'a, S: Lagrangian, M: Method<S, f64>> {
 ///     .on_progress(|progress| told.push(*progress))
 ///     .take_steps(1000)?;
 /// let last = told.last().unwrap();
-/// assert_eq!((last.finished, last.members, last.steps), (10, 10, 10_000));
+/// assert_eq!((last.ended, last.members, last.steps), (10, 10, 10_000));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -145,12 +145,8 @@ pub struct Ensemble<'a, S: Lagrangian, M: Method<S, f64>> {
 pub struct Progress {
     /// The members.
     pub members: u64,
-    /// Those that have taken all steps.
-    pub finished: u64,
-    /// Those that have left.
-    pub exited: u64,
-    /// Those that have failed.
-    pub failed: u64,
+    /// Those that have ended, in one way or another.
+    pub ended: u64,
     /// The steps that all members together have taken.
     pub steps: u128,
 }

@@ -11,9 +11,9 @@ use rayon::slice::ParallelSliceMut;
 
 use super::error::EnsembleError;
 use super::file;
-use super::group::{Place, Slot};
+use super::group::Slot;
 use super::plan::Plan;
-use super::{Outcome, Progress, Results, Shard, Tell};
+use super::{Progress, Results, Shard, Tell};
 
 /// How often progress is told.
 const PROGRESS: Duration = Duration::from_secs(1);
@@ -115,16 +115,10 @@ impl Rounds {
 
     fn tell(&self, on_progress: &mut Option<Tell<'_>>) {
         let Some(on_progress) = on_progress else { return };
-        let mut progress = Progress { members: self.slots.len() as u64, ..Progress::default() };
-        for slot in &self.slots {
-            progress.steps += u128::from(slot.steps());
-            let Place::Ended(member) = &slot.place else { continue };
-            match member.outcome {
-                Outcome::Finished => progress.finished += 1,
-                Outcome::Exited { .. } => progress.exited += 1,
-                Outcome::Failed { .. } => progress.failed += 1,
-            }
-        }
-        on_progress(&progress);
+        on_progress(&Progress {
+            members: self.slots.len() as u64,
+            ended: self.slots.iter().filter(|slot| slot.has_ended()).count() as u64,
+            steps: self.slots.iter().map(|slot| u128::from(slot.steps())).sum(),
+        });
     }
 }
