@@ -70,11 +70,6 @@
 //! part of the tolerance. An iteration that is to solve an implicit step further than that may go on between
 //! two sides of a jump: give such methods a [`Stopping`](crate::solve::Stopping) whose tolerance is not far
 //! below that of the sum. With the default, to rounding errors, steps take more iterations, or fail.
-//!
-//! # Threads
-//!
-//! With the feature `threads` an evaluation is shared by the threads of `rayon`, those of the pool in which
-//! it is called. Results are bitwise the same for every number of threads.
 
 mod basis;
 mod directions;
