@@ -1,6 +1,5 @@
 //! Where members end: at limits, beside closed forms, whatever the length of a step.
 
-use std::f64::consts::FRAC_PI_3;
 use std::time::Duration;
 
 use approx::assert_abs_diff_eq;
@@ -28,25 +27,6 @@ fn ends<'m>(member: &'m Member, reason: &str, time: f64, state: &[f64]) -> &'m M
     assert_abs_diff_eq!(member.time, time, epsilon = 1e-10);
     assert_abs_diff_eq!(member.state[..], state[..], epsilon = 1e-10);
     member
-}
-
-/// From x = a at rest a spring comes to x = a/2 at the time π/3, in the middle of a step.
-#[test]
-fn springs_end_within_a_step() -> Checked {
-    let amplitudes = [0.5, 1.0, 2.0];
-    for h in [0.25, -0.25] {
-        let starts = amplitudes.map(|x| SpringState { x, dot_x: 0.0 });
-        let results = Ensemble::new(&SPRING, Gauss::<8>::new(), h, starts)
-            .until(["half of it"], |_, state, _| [state.x.hypot(state.dot_x) / 2.0 - state.x])
-            .take_steps(100)?;
-        for (member, a) in results.members().iter().zip(amplitudes) {
-            let (time, velocity) = (FRAC_PI_3.copysign(h), -a * FRAC_PI_3.sin().copysign(h));
-            let member = ends(member, "half of it", time, &[a / 2.0, velocity]);
-            assert_eq!(member.steps, 5);
-            assert_abs_diff_eq!(member.energy.last, a * a / 2.0, epsilon = 1e-12);
-        }
-    }
-    Ok(())
 }
 
 /// Parabolas, of which the trapezoid is exact: on the ground, and under a ceiling that only a part of one

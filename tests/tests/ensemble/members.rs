@@ -55,17 +55,6 @@ fn failures_are_recorded() -> Checked {
 }
 
 #[test]
-fn states_that_are_no_numbers_fail_alone() -> Checked {
-    let mut states = wells(3);
-    states[1].y = f64::NAN;
-    let results = Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, states).take_steps(10)?;
-    let [a, b, c] = results.members() else { return Err("there are three".into()) };
-    assert_eq!([&a.outcome, &c.outcome], [&Outcome::Finished; 2]);
-    assert_eq!(b.outcome, Outcome::Failed { error: "y = NaN in the state".into() });
-    Ok(())
-}
-
-#[test]
 fn draws_depend_on_seed_and_member_alone() {
     let of = |draw: &mut dvi_core::ensemble::Draw| [draw.normal(0.0, 1.0), draw.uniform(-1.0, 3.0)];
     let draws = Draws::new(3);
