@@ -29,13 +29,8 @@ impl Alternatives {
             let parse =
                 |i: usize| row[i].parse().with_context(|| format!("{name}: `{}` is not a number", &row[i]));
             let evaluations = row[5].parse().ok();
-            let point = Point {
-                method: row[1].to_owned(),
-                knob: parse(2)?,
-                milliseconds: parse(3)?,
-                error: parse(4)?,
-                evaluations,
-            };
+            let point =
+                Point { method: row[1].to_owned(), milliseconds: parse(3)?, error: parse(4)?, evaluations };
             rows.push((row[0].to_owned(), point));
         }
         Ok(Self(rows))

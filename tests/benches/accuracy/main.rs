@@ -7,8 +7,8 @@
 //! steps, of a run that is not timed; the run that is timed looks at no energy. A time is that of the
 //! processor, and the median of interleaved runs in one process.
 //!
-//! What is written, in `accuracy` in the target folder or in DIR: a CSV of all points. If `alternatives.csv`
-//! is there, which `tests/benches/alternatives/run` writes, its points are among them.
+//! If `alternatives.csv`, which `tests/benches/alternatives/run` writes, is in `accuracy` in the target folder,
+//! or in DIR, its points are among them.
 
 mod alternatives;
 mod fields;
@@ -28,9 +28,7 @@ use problems::{GAUSS_16, KAHAN_LI, REFERENCE, TO_TOLERANCE};
 use report::Measured;
 
 fn main() -> Result<()> {
-    let folder = folder()?;
-    dvi_examples::output::prepare_folder(&folder)?;
-    let alternatives = Alternatives::read(&folder)?;
+    let alternatives = Alternatives::read(&folder()?)?;
     let problems = [problems::vortices(), problems::kepler(), problems::planets()];
     let mut all = Vec::new();
     for problem in &problems {
@@ -40,14 +38,12 @@ fn main() -> Result<()> {
         measured.print();
         all.push(measured);
     }
-    report::write(&all, &folder)?;
     let [vortices, _, planets] = &all[..] else { bail!("three problems") };
     println!();
     for gauss in [GAUSS_16, TO_TOLERANCE] {
         bar("vortices, |ΔH| ≤ 1e-10", gauss, REFERENCE, vortices.ratio(gauss, REFERENCE, 1e-10), 0.4);
     }
     bar("planets, |ΔH|/|H| ≤ 1e-13", GAUSS_16, KAHAN_LI, planets.ratio(GAUSS_16, KAHAN_LI, 1e-13), 0.7);
-    println!("written: {}", folder.display());
     Ok(())
 }
 

@@ -16,7 +16,6 @@ const LARGEST_ERROR: f64 = 1e-2;
 #[derive(Clone, Debug)]
 pub(crate) struct Point {
     pub(crate) method: String,
-    pub(crate) knob: f64,
     pub(crate) milliseconds: f64,
     pub(crate) error: f64,
     /// Evaluations of the right-hand side, where they are known.
@@ -35,9 +34,8 @@ pub(crate) fn measure(problem: &Problem) -> Vec<Point> {
             }
         }
     }
-    let point = |((method, run, seen), times): ((&Method, &Run, Seen), &Vec<f64>)| Point {
+    let point = |((method, _, seen), times): ((&Method, &Run, Seen), &Vec<f64>)| Point {
         method: method.name.clone(),
-        knob: run.knob,
         milliseconds: median(times),
         error: seen.error,
         evaluations: Some(seen.evaluations),

@@ -33,7 +33,6 @@ impl<S: Lagrangian + 'static> Setting<S> {
         let run = |steps: u64| {
             let [alone, watched] = [method.clone(), method.clone()];
             OneRun::new(
-                steps as f64,
                 move || self.alone(alone.clone(), steps).is_some(),
                 move || self.watched(watched.clone(), steps),
             )
@@ -48,7 +47,6 @@ impl<S: Lagrangian + 'static> Setting<S> {
     {
         let run = |&tolerance: &f64| {
             OneRun::new(
-                tolerance,
                 move || self.alone_to(method, tolerance).is_some(),
                 move || self.watched_to(method, tolerance),
             )

@@ -29,8 +29,6 @@ pub(crate) struct Seen {
 
 /// One run, which can be made as often as wanted.
 pub(crate) struct Run {
-    /// The number of steps, or the tolerance.
-    pub(crate) knob: f64,
     /// The run by itself, which looks at no energy; false if it does not come to its end.
     alone: Box<dyn Fn() -> bool>,
     /// The same run with the energy after each step.
@@ -39,11 +37,10 @@ pub(crate) struct Run {
 
 impl Run {
     pub(crate) fn new(
-        knob: f64,
         alone: impl Fn() -> bool + 'static,
         watched: impl Fn() -> Option<Seen> + 'static,
     ) -> Self {
-        Self { knob, alone: Box::new(alone), watched: Box::new(watched) }
+        Self { alone: Box::new(alone), watched: Box::new(watched) }
     }
 
     /// What the run shows, if it comes to its end.

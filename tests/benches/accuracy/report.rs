@@ -1,9 +1,4 @@
-//! What is printed and written: tables, and a CSV of all points.
-
-use std::path::Path;
-
-use anyhow::Result;
-use dvi_examples::output::Table;
+//! The tables that are printed.
 
 use crate::measure::Point;
 use crate::problem::Problem;
@@ -58,16 +53,4 @@ impl Measured<'_> {
         let [ratio, evaluations] = [ratio, evaluations].map(|text| text.unwrap_or_default());
         format!("{:.3}{ratio}{evaluations}", point.milliseconds)
     }
-}
-
-/// Writes `accuracy.csv` with all points.
-pub(crate) fn write(all: &[Measured<'_>], folder: &Path) -> Result<()> {
-    let columns = "problem,method,steps_or_tolerance,milliseconds,energy_error,evaluations";
-    let rows = all.iter().flat_map(|Measured { problem, points }| {
-        points.iter().map(|Point { method, knob, milliseconds, error, evaluations }| {
-            let evaluations = evaluations.map(|count| count as f64);
-            ([problem.name, method], [Some(*knob), Some(*milliseconds), Some(*error), evaluations])
-        })
-    });
-    Table::of(columns, rows)?.save(folder, "accuracy")
 }

@@ -41,7 +41,6 @@ impl<F: Field<N>, const N: usize> Task<F, N> {
         let run = |&tolerance: &f64| {
             let (alone, watched) = (self.clone(), self.clone());
             Run::new(
-                tolerance,
                 move || alone.solved(tolerance, |_| ()).is_some(),
                 move || {
                     let field = &watched.field;
