@@ -210,7 +210,7 @@ impl Function<'_> {
         }
         let one_by_one = self.emitter.loop_over(over, &self.terms(folds, body));
         match self.pairs(over, folds, body) {
-            Some(pairs) => pairs.or(&one_by_one),
+            Some([many, parts]) => quote!(if #many { #parts } else { #one_by_one }),
             None => one_by_one,
         }
     }

@@ -138,13 +138,8 @@ fn is_parameter(node: &Node, field: usize) -> bool {
     matches!(node, Node::Parameter(parameter) if parameter.field as usize == field)
 }
 
-/// The implementation of a trait that a system has in all numbers `__T`.
+/// The implementation of a trait, with its arguments, that a system has in all numbers `__T`.
 fn in_numbers(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStream) -> TokenStream {
-    in_numbers_with(emitter, &quote!(#implemented<__T>), items)
-}
-
-/// The same, of a trait that is given with its arguments.
-fn in_numbers_with(emitter: &Emitter<'_>, implemented: &TokenStream, items: &TokenStream) -> TokenStream {
     let (krate, allow) = (emitter.krate(), allow());
     let implementation = over(krate, emitter.model.named(), &over_numbers(emitter), implemented, items);
     quote!(#[automatically_derived] #allow #implementation)
@@ -334,7 +329,7 @@ fn lagrangian(emitter: &Emitter<'_>, programs: &Programs, members: &TokenStream)
             #events
             #seams
     };
-    in_numbers(emitter, &quote!(Lagrangian), &items)
+    in_numbers(emitter, &quote!(Lagrangian<__T>), &items)
 }
 
 /// The body of number `__index` among several, or `otherwise`.

@@ -15,7 +15,7 @@ use syn::visit::Visit as _;
 use syn::{BinOp, Expr, ExprIf, Lit, Local, Pat, Stmt, UnOp};
 
 use crate::errors::text;
-use crate::syntax::{Attribute, Factor, closure, last_value};
+use crate::syntax::{Attribute, Factor, bound, closure, last_value};
 use names::{Arrays, number};
 
 #[cfg(test)]
@@ -190,7 +190,7 @@ impl Typesetter {
     }
 
     fn pattern(&mut self, pattern: &Pat) -> String {
-        bound(pattern).map_or_else(|| plain(&text(pattern)), |name| self.symbol(&name))
+        bound(pattern).first().map_or_else(|| plain(&text(pattern)), |name| self.symbol(&name.to_string()))
     }
 
     fn statements(&mut self, block: &syn::Block) -> Tex {
@@ -304,14 +304,5 @@ impl Typesetter {
             }
             other => plain(&text(other)),
         }
-    }
-}
-
-/// The name that a pattern binds.
-fn bound(pattern: &Pat) -> Option<String> {
-    match pattern {
-        Pat::Ident(name) => Some(name.ident.to_string()),
-        Pat::Type(typed) => bound(&typed.pat),
-        _ => None,
     }
 }

@@ -36,20 +36,6 @@ use crate::schedule::{Accumulated, Step};
 use crate::statement::Output;
 use crate::symbolic::{Atom, Index, Loop, Node};
 
-/// What is emitted where there are many bodies.
-pub(super) struct Pairs {
-    many: TokenStream,
-    parts: TokenStream,
-}
-
-impl Pairs {
-    /// The parts where there are many, and else the loop `one_by_one`.
-    pub(super) fn or(self, one_by_one: &TokenStream) -> TokenStream {
-        let Self { many, parts } = self;
-        quote!(if #many { #parts } else { #one_by_one })
-    }
-}
-
 /// How a value depends on the sums over the other bodies.
 #[derive(Clone, Debug, PartialEq)]
 enum Dependence {
@@ -108,8 +94,13 @@ impl Function<'_> {
         }
     }
 
-    /// The parts of a loop over bodies, if it can be cut.
-    pub(super) fn pairs(&self, over: &Loop, folds: &[Accumulated], body: &[Step]) -> Option<Pairs> {
+    /// Whether there are many bodies in a loop over them, and its parts, if it can be cut.
+    pub(super) fn pairs(
+        &self,
+        over: &Loop,
+        folds: &[Accumulated],
+        body: &[Step],
+    ) -> Option<[TokenStream; 2]> {
         let is_outermost = over.depth == 0 && matches!(self.element, Element::Number) && folds.is_empty();
         let nest = if is_outermost { self.nest(over, body)? } else { return None };
         let krate = self.emitter.krate();
@@ -124,23 +115,21 @@ impl Function<'_> {
             nest.outputs.iter().map(|(output, block)| output_array(*output, *block)).collect();
         let (count, part) = (arrays.len(), self.part(&nest));
         let (body, [lower, upper, first]) = (open(over.depth), ["lower", "upper", "first"].map(local));
-        Some(Pairs {
-            many: quote!(#krate::__private::are_many(#bodies)),
-            parts: quote! {
-                #alone
-                #(#slices)*
-                #krate::__private::halves(
-                    #bodies,
-                    [#(&mut #arrays[..]),*],
-                    #ForceInline
-                    |
-                        #body: ::core::primitive::usize,
-                        [#lower, #upper, #first]: [::core::primitive::usize; 3],
-                        [#(#arrays),*]: &mut [&mut [__T]; #count],
-                    | { #part },
-                );
-            },
-        })
+        let parts = quote! {
+            #alone
+            #(#slices)*
+            #krate::__private::halves(
+                #bodies,
+                [#(&mut #arrays[..]),*],
+                #ForceInline
+                |
+                    #body: ::core::primitive::usize,
+                    [#lower, #upper, #first]: [::core::primitive::usize; 3],
+                    [#(#arrays),*]: &mut [&mut [__T]; #count],
+                | { #part },
+            );
+        };
+        Some([quote!(#krate::__private::are_many(#bodies)), parts])
     }
 
     /// The two loops, if what they do can be cut into parts.

@@ -118,5 +118,5 @@ fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
         fn #rate_of(&self, __q: &[__T], __v: &[__T], __t: __T, __g: &mut [__T]) { #rate }
         #curvature
     };
-    in_numbers(emitter, &name, &items)
+    in_numbers(emitter, &quote!(#name<__T>), &items)
 }

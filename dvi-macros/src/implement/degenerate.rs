@@ -172,7 +172,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
                 #gradients
             }
     };
-    let lagrangian = in_numbers(emitter, &quote!(DegenerateLagrangian), &items);
+    let lagrangian = in_numbers(emitter, &quote!(DegenerateLagrangian<__T>), &items);
     let proper = proper(emitter, &structure.class);
     let time_transformed = programs.time.as_ref().map(|time| time_transformed(emitter, time));
     let pairs = programs.pairs.as_ref().map(|sum| pairs(emitter, sum));
@@ -192,7 +192,7 @@ fn time_transformed(
             #krate::system::TimeTransform { rate: { #rate }, hamiltonian: { #hamiltonian } }
         }
     };
-    in_numbers(emitter, &quote!(TimeTransformed), &items)
+    in_numbers(emitter, &quote!(TimeTransformed<__T>), &items)
 }
 
 /// The implementation of `ProperlyDegenerate`, or what says why there is none.
@@ -205,7 +205,7 @@ fn proper(emitter: &Emitter<'_>, class: &Class) -> TokenStream {
             #ForceInline
             fn place(&self, __coordinate: ::core::primitive::usize) -> ::core::primitive::usize { #place }
         };
-        return in_numbers(emitter, &quote!(ProperlyDegenerate), &items);
+        return in_numbers(emitter, &quote!(ProperlyDegenerate<__T>), &items);
     }
     let components = class.names(model, true).join(", ");
     let message = format!(

@@ -26,6 +26,6 @@ pub(super) fn manifold(emitter: &Emitter<'_>) -> TokenStream {
         fn tangent(&self) -> Self::Tangent { #value }
     };
     let system = of_type(emitter.krate(), model.named(), &quote!(ManifoldSystem), &items);
-    let lagrangian = in_numbers(emitter, &quote!(ManifoldLagrangian), &suited());
+    let lagrangian = in_numbers(emitter, &quote!(ManifoldLagrangian<__T>), &suited());
     quote!(#system #lagrangian)
 }

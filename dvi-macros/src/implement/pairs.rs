@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::in_numbers_with;
+use super::in_numbers;
 use crate::emit::inlining::ForceInline;
 use crate::emit::{Emitter, local};
 use crate::program::PairPrograms;
@@ -68,7 +68,7 @@ pub(super) fn pairs(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream 
         fn rest_energy(&self, __q: &[__T], __v: &[__T], __t: __T) -> __T { #energy }
         #special
     };
-    in_numbers_with(emitter, &quote!(PairSum<__T, #axes>), &items)
+    in_numbers(emitter, &quote!(PairSum<__T, #axes>), &items)
 }
 
 fn weight(emitter: &Emitter<'_>, pairs: &PairPrograms) -> TokenStream {

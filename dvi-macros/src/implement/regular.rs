@@ -71,12 +71,12 @@ fn implementation(emitter: &Emitter<'_>, programs: &RegularPrograms, structure: 
         #[inline]
         fn momentum_rate(&self, __q: &[__T], __v: &[__T], __t: __T, __vector: &mut [__T]) { #rate }
     };
-    let lagrangian = in_numbers(emitter, &quote!(NondegenerateLagrangian), &lagrangian);
-    let separable = separable.then(|| in_numbers(emitter, &quote!(Separable), &suited()));
+    let lagrangian = in_numbers(emitter, &quote!(NondegenerateLagrangian<__T>), &lagrangian);
+    let separable = separable.then(|| in_numbers(emitter, &quote!(Separable<__T>), &suited()));
     let motion = match &programs.shared.constraints {
         Some(programs) => constraints(emitter, programs),
         None if emitter.model.is_on_manifold() => manifold(emitter),
-        None => in_numbers(emitter, &quote!(RegularLagrangian), &suited()),
+        None => in_numbers(emitter, &quote!(RegularLagrangian<__T>), &suited()),
     };
     let pairs = programs.pairs.as_ref().map(|sum| pairs(emitter, sum));
     quote!(#lagrangian #motion #separable #pairs)

@@ -2,9 +2,9 @@
 
 use syn::{Expr, ExprCall, ExprClosure};
 
-use super::{Strength, Tex, Typesetter, bound, plain};
+use super::{Strength, Tex, Typesetter, plain};
 use crate::errors::text;
-use crate::syntax::literal;
+use crate::syntax::{bound, literal};
 use crate::words::{AREA, SUMS, VELOCITIES};
 
 /// Functions that LaTeX has under another name than Rust.
@@ -88,7 +88,7 @@ impl Typesetter {
     /// A sum over an index or two.
     fn sum(&mut self, name: &str, range: &Expr, closure: &ExprClosure) -> Tex {
         let indices: Vec<String> =
-            closure.inputs.iter().filter_map(bound).map(|index| self.symbol(&index)).collect();
+            closure.inputs.iter().flat_map(bound).map(|index| self.symbol(&index.to_string())).collect();
         let [first, last] = self.ends(range);
         let limits = match name {
             "sum_pairs" => format!(r"_{{{first} \le {} \le {last}}}", indices.join(" < ")),

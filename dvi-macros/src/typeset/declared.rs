@@ -3,7 +3,7 @@
 use syn::Expr;
 
 use super::{Equation, Typesetter};
-use crate::syntax::{Attribute, Constrained, Constraint, Force};
+use crate::syntax::{Attribute, Constrained, Constraint, Force, bound};
 
 /// The formulas of a system as they were written.
 pub(crate) fn declared(attribute: &Attribute, typesetter: &mut Typesetter) -> Vec<Equation> {
@@ -33,7 +33,7 @@ pub(crate) fn declared(attribute: &Attribute, typesetter: &mut Typesetter) -> Ve
         }
     }
     let constraints = attribute.constraints.iter();
-    equations.extend(constraints.flat_map(|one| constraint(attribute.constrained, one, typesetter)));
+    equations.extend(constraints.map(|one| constraint(attribute.constrained, one, typesetter)));
     for named in attribute.momenta.iter().chain(&attribute.events) {
         // Upright, as a `let` may have the same name.
         let name = format!(r"\text{{{}}}", named.name.to_string().replace('_', r"\_"));
@@ -58,8 +58,8 @@ fn components(
 fn component(of: &str, coordinate: &str, formula: &Expr, typesetter: &mut Typesetter) -> Equation {
     match formula {
         Expr::Closure(closure) => {
-            let bound = closure.inputs.iter().filter_map(super::bound);
-            let indices: Vec<String> = bound.map(|index| typesetter.symbol(&index)).collect();
+            let names = closure.inputs.iter().flat_map(bound);
+            let indices: Vec<String> = names.map(|name| typesetter.symbol(&name.to_string())).collect();
             let entry = typesetter.placed(coordinate, None, &indices);
             typesetter.equation(format!("{of}_{{{entry}}}"), &closure.body)
         }
@@ -70,18 +70,13 @@ fn component(of: &str, coordinate: &str, formula: &Expr, typesetter: &mut Typese
     }
 }
 
-/// 0 = g(q, t), or 0 ≤ g(q, t); several where a list is declared.
-fn constraint(of: Option<Constrained>, one: &Constraint, typesetter: &mut Typesetter) -> Vec<Equation> {
+/// 0 = g(q, t), or 0 ≤ g(q, t).
+fn constraint(of: Option<Constrained>, one: &Constraint, typesetter: &mut Typesetter) -> Equation {
     let relation = match of {
         Some(Constrained::Gaps) => r"\le",
         Some(Constrained::Positions | Constrained::Velocities) | None => "=",
     };
     let ranges = one.family.iter().map(|member| typesetter.range(&member.index.to_string(), &member.range));
     let range = Some(ranges.collect::<Vec<_>>().join(r", \ ")).filter(|range| !range.is_empty());
-    let formulas: Vec<&Expr> = match &one.formula {
-        Expr::Array(list) => list.elems.iter().collect(),
-        formula => vec![formula],
-    };
-    let equations = formulas.into_iter().map(|formula| typesetter.equation("0", formula));
-    equations.map(|equation| Equation { relation, range: range.clone(), ..equation }).collect()
+    Equation { relation, range, ..typesetter.equation("0", &one.formula) }
 }
