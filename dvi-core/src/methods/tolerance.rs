@@ -50,18 +50,10 @@ impl Tolerance {
     pub(crate) fn of_coordinate<T: Real>(self, size: T) -> T {
         T::lift(self.absolute) + T::lift(self.relative) * size
     }
-
-    /// What is allowed in a momentum, where the largest has this size.
-    pub(crate) fn of_momentum<T: Real>(self, size: T) -> T {
-        T::lift(self.relative) * size
-    }
 }
 
-/// max |xⱼ|/wⱼ, where `allowed`(j) = wⱼ; no error is within every tolerance, also that of zero.
-pub(crate) fn in_units_of<T: Real>(errors: &[T], allowed: impl Fn(usize) -> T) -> T {
-    let zero = T::lift(0.0);
-    errors.iter().enumerate().fold(zero, |largest, (j, &error)| {
-        let size = Scalar::abs(error);
-        if size > zero { larger(largest, size / allowed(j)) } else { largest }
-    })
+/// |x|/w, where `allowed` = w; no error is within every tolerance, also that of zero.
+pub(crate) fn in_units_of<T: Real>(error: T, allowed: T) -> T {
+    let (zero, size) = (T::lift(0.0), Scalar::abs(error));
+    if size > zero { larger(zero, size / allowed) } else { zero }
 }

@@ -125,7 +125,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         let mut relative = zero;
         for (part, [defect, speed]) in sizes.into_iter().enumerate().take(y.len()) {
             norm::finite(&increment[part])?;
-            relative = norm::larger(relative, in_units_of(&[defect], |_| speed));
+            relative = norm::larger(relative, in_units_of(defect, speed));
         }
         let last_power = T::lift((STAGES + 1) as f64) * relative;
         let (rho, mut powers) = (Scalar::powf(last_power, T::lift(1.0 / STAGES as f64)), [one; STAGES]);
@@ -172,9 +172,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
                     0 => {
                         tolerance.of_coordinate(norm::larger(Scalar::abs(y[0][j]), Scalar::abs(next[0][j])))
                     }
-                    _ => tolerance.of_momentum(momentum),
+                    _ => T::lift(tolerance.relative) * momentum,
                 };
-                largest = norm::larger(largest, in_units_of(&[error], |_| allowed));
+                largest = norm::larger(largest, in_units_of(error, allowed));
             }
         }
         self.momentum = momentum;
