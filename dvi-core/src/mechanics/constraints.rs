@@ -206,8 +206,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         }
         // Rounding may have left the velocity off the constraints.
         loop {
-            let Self { residuals, solution, .. } = self;
-            residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + Scalar::abs(solution[j]));
+            let Self { residuals, scales, solution, .. } = self;
+            residuals.evaluate(system, at, v, scales, |j| Scalar::abs(v[j]) + Scalar::abs(solution[j]));
             if residuals.are_settled() {
                 match residuals.worst(system, at, v) {
                     None => break,

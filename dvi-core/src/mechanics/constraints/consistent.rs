@@ -111,8 +111,8 @@ pub(crate) fn check<S: ConstrainedLagrangian<T>, T: Real>(
     // A redundant constraint is named by these equations.
     let mut solver = ConstraintSolver::new(system, q, v, t);
     let determined = change(&mut solver, system, [q, v], t, Lower::Velocity(at, v)).map(|_| ());
-    let residuals = &mut solver.residuals;
-    residuals.evaluate(system, at, v, |j| sizes[j]);
+    let ConstraintSolver { residuals, scales, .. } = &mut solver;
+    residuals.evaluate(system, at, v, scales, |j| sizes[j]);
     match residuals.worst(system, at, v) {
         None if of_run.is_none() => determined.map_err(StartError::Undetermined),
         None => determined.map_err(StartError::Starter),
@@ -155,8 +155,8 @@ fn align<S: ConstrainedLagrangian<T>, T: Real>(
     for iteration in 0..ITERATIONS {
         let change = change(&mut solver, system, [q, v], t, Lower::Velocity(at, v));
         subtract(v, change.map_err(StartError::Projection)?);
-        let residuals = &mut solver.residuals;
-        residuals.evaluate(system, at, v, |j| Scalar::abs(v[j]) + smallest_normal());
+        let ConstraintSolver { residuals, scales, .. } = &mut solver;
+        residuals.evaluate(system, at, v, scales, |j| Scalar::abs(v[j]) + smallest_normal());
         worst = residuals.worst(system, at, v);
         if iteration > 0 && worst.is_none() {
             break;

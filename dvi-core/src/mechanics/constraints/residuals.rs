@@ -38,7 +38,6 @@ pub(crate) struct Residuals<S: ConstrainedSystem, T: Real> {
     /// The values near by, or the largest velocities.
     others: Multipliers<S, T>,
     point: Vector<S, T>,
-    units: Vector<S, T>,
     /// The largest value before the last correction.
     before: Option<T>,
 }
@@ -47,23 +46,22 @@ pub(crate) struct Residuals<S: ConstrainedSystem, T: Real> {
 const KEPT: f64 = 16.0;
 
 impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
-    /// In units D of the coordinates.
-    pub(crate) fn new(system: &S, units: &[T]) -> Self {
+    pub(crate) fn new(system: &S) -> Self {
         let [values, sizes, others] = system.multipliers().vectors();
-        let [point, mut kept]: [Vector<S, T>; 2] = system.space().vectors();
-        kept.copy_from_slice(units);
-        Self { values, sizes, others, point, units: kept, before: None }
+        Self { values, sizes, others, point: system.space().vector(), before: None }
     }
 
-    /// Looks at a velocity, whose entries are rounded relative to `scale`, or to the smallest normal number.
+    /// Looks at a velocity, in units D of the coordinates. Its entries are rounded relative to `scale`, or to
+    /// the smallest normal number.
     pub(crate) fn evaluate(
         &mut self,
         system: &S,
         At { q, t }: At<'_, T>,
         v: &[T],
+        units: &[T],
         scale: impl Fn(usize) -> T,
     ) {
-        let Self { values, sizes, others: speeds, units, .. } = self;
+        let Self { values, sizes, others: speeds, .. } = self;
         sizes.fill(T::lift(0.0));
         speeds.fill(T::lift(0.0));
         let mut terms = |k: usize, j: usize, entry: T| {

@@ -26,7 +26,7 @@ pub(crate) struct ConstraintSolver<S: ConstrainedSystem, T: Real> {
     /// The last solution: x, then the change of ν.
     pub(super) solution: Augmented<S, T>,
     /// D, then S.
-    scales: Augmented<S, T>,
+    pub(super) scales: Augmented<S, T>,
     /// Of velocities.
     pub(super) residuals: Residuals<S, T>,
     /// What the rows of a residual are made of.
@@ -64,13 +64,12 @@ impl<S: ConstrainedLagrangian<T>, T: Real> ConstraintSolver<S, T> {
         });
         let mut scales: Augmented<S, T> = space.vector();
         scales::balance(system, At { q, t }, v, scales.split_at_mut(n));
-        let residuals = Residuals::new(system, &scales[..n]);
         Self {
             matrix,
             solution: space.vector(),
             sums: space.vector(),
             scales,
-            residuals,
+            residuals: Residuals::new(system),
             weights: system.space().vector(),
         }
     }
