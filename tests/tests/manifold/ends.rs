@@ -95,7 +95,7 @@ mod singular {
     )]
     struct OfNumbers;
 
-    fn ends<S: ManifoldLagrangian>(system: &S, start: S::State<f64>) {
+    fn ends<S: ManifoldLagrangian>(system: &S, start: &S::State<f64>) {
         for h in [0.05, 0.01] {
             let mut run = Integrator::new(system, Geodesic::midpoint(), h, start.clone()).expect("begins");
             let energy = run.energy();
@@ -103,21 +103,17 @@ mod singular {
             // With short steps a motion may turn back before it comes there.
             let is_right = (run.energy() - energy).abs() < 0.05 * energy.abs();
             assert!(failure.is_err() || is_right, "h = {h}: {energy} became {}", run.energy());
+            let is_seen = matches!(failure, Err(StepFailure::Orientation { matrix: "the mass matrix", .. }));
+            assert!(is_seen || h < 0.05, "{failure:?}");
         }
-        let mut run = Integrator::new(system, Geodesic::midpoint(), 0.05, start).expect("begins");
-        let failure = run.take_steps(120).map_err(|error| error.failure);
-        assert!(
-            matches!(failure, Err(StepFailure::Orientation { matrix: "the mass matrix", .. })),
-            "{failure:?}"
-        );
     }
 
     #[test]
     fn what_is_singular_on_the_way_ends_the_run() {
-        ends(&OnSphere, OnSphereState { s: [0.6, 0.0, 0.8], dot_s: [0.8, 0.1, -0.6] });
-        ends(&OfBody, OfBodyState { R: rotations::exp([0.1, 0.0, 0.0]), omega_R: [1.0, 0.1, 0.2] });
+        ends(&OnSphere, &OnSphereState { s: [0.6, 0.0, 0.8], dot_s: [0.8, 0.1, -0.6] });
+        ends(&OfBody, &OfBodyState { R: rotations::exp([0.1, 0.0, 0.0]), omega_R: [1.0, 0.1, 0.2] });
         let [s, dot_s] = [[0.6, 0.0, 0.8], [0.0, 0.1, 0.0]];
-        ends(&OfNumbers, OfNumbersState { s, x: 1.0, y: 0.3, dot_s, dot_x: -0.5, dot_y: 0.2 });
+        ends(&OfNumbers, &OfNumbersState { s, x: 1.0, y: 0.3, dot_s, dot_x: -0.5, dot_y: 0.2 });
     }
 }
 

@@ -177,7 +177,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
 
     /// Makes the tangent vectors at a point those of its velocities: for p = ∂L/∂v.
     fn rest(&mut self, system: &S, q: &[T], v: &[T]) {
-        let one = T::lift(1.0);
+        let (one, set) = (T::lift(1.0), Variation::<S, T>::set);
         self.work.point.copy_from_slice(q);
         self.work.velocity.copy_from_slice(v);
         for block in blocks(system) {
@@ -187,16 +187,12 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
                 }
                 Factor::Rotation => {
                     block.places().skip(3).for_each(|place| self.work.velocity[place] = T::lift(0.0));
-                    Variation::<S, T>::set(&mut self.first.velocity, block, &Matrix3::identity());
+                    set(&mut self.first.velocity, block, &Matrix3::identity());
                 }
                 Factor::Sphere => {
                     let circle = GreatCircle::new(vector(q, block), Vector3::zeros());
                     let columns = [circle.direction, circle.axis, Vector3::zeros()];
-                    Variation::<S, T>::set(
-                        &mut self.first.velocity,
-                        block,
-                        &Matrix3::from_columns(&columns),
-                    );
+                    set(&mut self.first.velocity, block, &Matrix3::from_columns(&columns));
                 }
             }
         }
