@@ -18,6 +18,21 @@ use memory::ImpactsMemory;
 use passage::Passage;
 
 /// What is kept at an impact, beside the components of the momentum along the surface.
+///
+/// ```
+/// use dvi_core::prelude::*;
+///
+/// #[lagrangian(coordinates(y), lagrangian = dot(y).powi(2) / 2.0 - y, impact = y)]
+/// struct Ball;
+///
+/// let start = BallState { y: 1.0, dot_y: 0.0 };
+/// let method = Impacts { restitution: 0.8, ..Impacts::reflecting(Variational::midpoint()) };
+/// assert_eq!(method.collision, Collision::Reflection);
+/// let mut run = Integrator::new(&Ball, method, 0.01, start)?;
+/// run.take_steps(200)?; // it has met the floor once, at t = √2
+/// assert!((run.energy() - 0.8 * 0.8).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Collision {
     /// The discrete energy: that of the flight before the impact and of the one after it are the same

@@ -121,8 +121,8 @@ where
         out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let StageWork { gradient, entries, slope, .. } = work;
-        let work = ([&mut gradient[..], &mut entries[..]], &mut slope[0][..]);
+        let StageWork { gradient, entries, vector, .. } = work;
+        let work = ([&mut gradient[..], &mut entries[..]], &mut vector[..]);
         equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work, out, statistics)
     }
 }

@@ -12,7 +12,18 @@ use crate::{Real, Space, System, Vector};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OneByOne;
 
-/// Stages are evaluated at once, in the lanes of one pack, with the same bits.
+/// Stages are evaluated at once, in the lanes of one pack.
+///
+/// ```
+#[doc = include_str!("../../../docs/hidden/pendulum.txt")]
+/// let method: Gauss<8, InLanes> = Gauss::new().in_lanes();
+/// let mut run = Integrator::new(&Pendulum, method, 0.3, start.clone())?;
+/// let mut alone = Integrator::new(&Pendulum, Gauss::<8>::new(), 0.3, start)?;
+/// run.take_steps(100)?;
+/// alone.take_steps(100)?;
+/// assert_eq!(run.state(), alone.state()); // bit for bit
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct InLanes;
 
@@ -22,6 +33,7 @@ pub struct StageWork<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real>
     /// One stage.
     pub(crate) point: PointOf<S, T>,
     pub(crate) slope: PointOf<S, T>,
+    pub(super) vector: Vector<S, T>,
     /// All stages: forces or ∇H, or X itself.
     pub(super) gradient: Vector<S, Lanes<W, T>>,
     /// Of Ω; of a regular system, the velocity zero.
@@ -32,7 +44,7 @@ impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageWork<W, S,
     pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
         let [point, slope] = S::Kind::points(system);
-        Self { point, slope, gradient: space.vector(), entries: space.vector() }
+        Self { point, slope, vector: space.vector(), gradient: space.vector(), entries: space.vector() }
     }
 }
 

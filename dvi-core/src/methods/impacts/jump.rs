@@ -117,7 +117,7 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
     /// E_d of the flight of length `s` to the present point; of a short one the energy there.
     pub(super) fn energy(&mut self, s: T) -> Result<T, StepFailure> {
         let Self { method, system, memory, q, t, h, .. } = self;
-        let ImpactsMemory { start, impulse: delta, work, .. } = &mut **memory;
+        let ImpactsMemory { start, delta, work, .. } = &mut **memory;
         if Scalar::abs(s) > T::lift(SHORT) * Scalar::abs(*h) {
             for (delta, (&q1, &q0)) in delta.iter_mut().zip(q.iter().zip(start.q.iter())) {
                 *delta = q1 - q0;

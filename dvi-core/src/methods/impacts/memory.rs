@@ -53,8 +53,8 @@ pub struct ImpactsMemory<S: ConstrainedSystem, I, T: Real> {
     /// How many of these were reflected because no impulse keeps the discrete energy.
     pub(super) grazing: u64,
     pub(super) v: Vector<S, T>,
-    /// Storage for an impulse, or for Δ of a flight.
     pub(super) impulse: Vector<S, T>,
+    pub(super) delta: Vector<S, T>,
     pub(super) work: [Vector<S, T>; 2],
 }
 
@@ -110,7 +110,7 @@ impl<S: UnilateralLagrangian<T>, I, T: Real> ImpactsMemory<S, I, T> {
             Impact { surface: 0, time: zero, impulse: zero, q, v_before, v, part: zero }
         };
         let mut point = || inner().map(|inner| Kept { q: q.clone(), memory: inner });
-        let [v, impulse, l_q, l_v] = system.space().vectors();
+        let [v, impulse, delta, l_q, l_v] = system.space().vectors();
         Ok(Self {
             before: point()?,
             start: point()?,
@@ -127,6 +127,7 @@ impl<S: UnilateralLagrangian<T>, I, T: Real> ImpactsMemory<S, I, T> {
             grazing: 0,
             v,
             impulse,
+            delta,
             work: [l_q, l_v],
         })
     }
