@@ -103,19 +103,22 @@ fn lanes_may_change_on_the_way() -> Checked {
     Ok(())
 }
 
-/// Where numbers have just overflown a force is infinite, and no run goes on from there: a member is left a
-/// step later, when it has failed.
+/// Where what a run carries has just overflown, no other goes on from there: a member is left a step later,
+/// when it has failed.
 #[test]
 fn members_are_not_left_where_they_cannot_go_on() -> Checked {
-    let start = HenonHeilesState { x: 0.0, y: -1e10, dot_x: 0.0, dot_y: 0.0 };
-    let ensemble = || Ensemble::new(&HenonHeiles, Variational::trapezoid(), 0.05, [start]).stride(1);
-    let (plain, path, mut told) = (ensemble().take_steps(48)?, file("overflown.ckpt"), Vec::new());
-    let interrupted =
-        ensemble().checkpoints(&path, Duration::ZERO).on_progress(|p| told.push(p.steps)).take_steps(48)?;
+    let start = HenonHeilesState { x: 0.0, y: -1.3e17, dot_x: 0.0, dot_y: 0.0 };
+    let method = Galerkin::<3>::new();
+    let mut run = Integrator::new(&HenonHeiles, method, 0.05, start)?;
+    run.take_steps(1)?;
+    assert!(Integrator::resume(&HenonHeiles, method, &run.checkpoint()).is_err());
+
+    let ensemble = || Ensemble::new(&HenonHeiles, method, 0.05, [start]).stride(1);
+    let (plain, path) = (ensemble().take_steps(9)?, file("overflown.ckpt"));
+    let interrupted = ensemble().checkpoints(&path, Duration::ZERO).take_steps(9)?;
     assert_eq!(bytes(&interrupted)?, bytes(&plain)?);
     let member = &plain.members()[0];
-    assert!(matches!(member.outcome, Outcome::Failed { .. }), "{:?}", member.outcome);
-    assert!(member.steps > 3 && told.iter().copied().eq(0..=u128::from(member.steps)), "{told:?}");
+    assert!(matches!(member.outcome, Outcome::Failed { .. }) && member.steps == 1, "{member:?}");
     Ok(())
 }
 
