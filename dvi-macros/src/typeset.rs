@@ -168,8 +168,9 @@ impl Typesetter {
             (Pat::Tuple(names), None) => self.tuple(names, init),
             (pat, None) => {
                 let value = self.terms(init);
-                let vector = bound(pat).filter(|_| self.is_vector(init));
-                self.vectors.extend(vector.map(|name| (name, 0)));
+                if self.is_vector(init) {
+                    self.vectors.extend(bound(pat).into_iter().map(|name| (name.to_string(), 0)));
+                }
                 let name = self.pattern(pat);
                 self.lets.push((name, value));
             }

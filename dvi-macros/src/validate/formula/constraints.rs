@@ -36,6 +36,13 @@ impl Evaluation<'_> {
         Ok(Combination { value, rate })
     }
 
+    /// The members of a declared constraint with their numbers.
+    fn members(&mut self, Constraint { family, formula }: &Constraint) -> Value<Vec<(i64, Jet)>> {
+        let mut members = Vec::new();
+        self.passes(family, formula, 0, &mut members)?;
+        Ok(members)
+    }
+
     /// Takes down the members of the rest of a family, with so many before them, and counts them.
     fn passes(
         &mut self,
