@@ -14,7 +14,7 @@ fn begin(parasitic_limit: Option<f64>) -> Result<Integrator<&'static Oscillator,
 
 #[test]
 fn a_failure_among_many_steps_is_that_of_the_step() -> Outcome {
-    for (limit, least) in [(None, 500), (Sigma::<f64>::leapfrog().parasitic_limit, 8)] {
+    for (limit, least) in [(None, 500), (Some(0.5), 8)] {
         let (mut single, mut at_once) = (begin(limit)?, begin(limit)?);
         let error = (0..10_000).find_map(|_| single.advance().err()).ok_or("no error")?;
         let found = at_once.take_steps(10_000).err().ok_or("no error")?;
