@@ -31,14 +31,14 @@ pub(crate) struct Front {
 }
 
 impl Front {
-    /// The fronts of the matrix whose rows have entries in these columns, if they have no more numbers than
-    /// `most`, and if they are found soon: patterns that fill as they are eliminated take the cube of their
-    /// size. Each row needs an entry on the diagonal.
+    /// The fronts of the matrix whose rows have entries in these columns, if their factors have no more
+    /// numbers than `most`, and if they are found soon: patterns that fill as they are eliminated take the
+    /// cube of their size. Each row needs an entry on the diagonal.
     pub(super) fn of(rows: Vec<Vec<u32>>, most: usize) -> Option<Vec<Self>> {
-        let mut elimination = Elimination::new(rows);
+        let (mut elimination, mut numbers) = (Elimination::new(rows), 0);
         while let Some((_, column)) = elimination.next.pop_first() {
-            elimination.eliminate(column);
-            if storage(&elimination.fronts) > most || elimination.takes_too_long() {
+            numbers += elimination.eliminate(column);
+            if numbers > most || elimination.takes_too_long() {
                 return None;
             }
         }
@@ -147,8 +147,8 @@ impl Elimination {
     }
 
     /// Eliminates a column that has been taken from the next, and with it those that no other rows have
-    /// entries in.
-    fn eliminate(&mut self, column: u32) {
+    /// entries in. Returns how many numbers their factors have.
+    fn eliminate(&mut self, column: u32) -> usize {
         let mut columns = self.reach(column);
         columns.sort_unstable();
         let (n, set) = (self.sets_of.len(), self.sets.len() as u32);
@@ -171,13 +171,14 @@ impl Elimination {
         let (mut columns, left): (Vec<u32>, Vec<u32>) = columns.into_iter().partition(is_pivot);
         let pivots = columns.len();
         columns.extend(&left);
-        let begin = self.fronts.last().map_or(0, |front| front.rows.end);
-        let numbers = storage(&self.fronts);
-        let numbers = numbers..numbers + rows * columns.len();
-        self.fronts.push(Front { columns, pivots, own, children, rows: begin..begin + rows, numbers });
+        let factors = pivots * (columns.len() + rows - pivots);
+        let [row, number] = self.fronts.last().map_or([0; 2], |front| [front.rows.end, front.numbers.end]);
+        let numbers = number..number + rows * columns.len();
+        self.fronts.push(Front { columns, pivots, own, children, rows: row..row + rows, numbers });
         left.iter().for_each(|&other| self.sets_of[other as usize].push(set));
         self.sets.push(Rows { columns: left.clone(), count: rows - pivots });
         self.place_all(left);
+        factors
     }
 
     fn takes_too_long(&self) -> bool {
