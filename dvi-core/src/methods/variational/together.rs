@@ -10,7 +10,7 @@ use crate::methods::together::{Companion, InStep, all_finite, load, load_if_all_
 use crate::methods::walk::BLOCK;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::read_lane;
-use crate::scalar::simd::widest_if;
+use crate::scalar::simd::{Task, widest};
 use crate::system::Packable;
 use crate::{NondegenerateLagrangian, RegularLagrangian, Space, System, Vector};
 
@@ -69,11 +69,8 @@ where
                 for (kept, now) in kept.iter_mut().zip(now.iter()) {
                     kept.copy_from_slice(now);
                 }
-                widest_if(
-                    true,
-                    #[cfg_attr(not(debug_assertions), inline(always))]
-                    || kick(system, reciprocals, (clock.after(taken), steps), now),
-                );
+                let clock = clock.after(taken);
+                widest(Kicks { system, reciprocals, clock, steps, packs: now });
                 let [q, p, _] = &*now;
                 // A collision shows in the force, which is in the momentum.
                 if !(all_finite(q) && all_finite(p)) {
@@ -100,24 +97,32 @@ where
 }
 
 /// Some steps.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn kick<const W: usize, S: NondegenerateLagrangian<Lanes<W>>>(
-    system: &S,
-    reciprocals: &[Lanes<W>],
-    (clock, steps): (Clock<f64>, u64),
-    [q, p, force]: &mut [Vector<S, Lanes<W>>; 3],
-) {
-    let (h, half) = (Lanes::all(clock.step_size()), Lanes::all(0.5 * clock.step_size()));
-    for step in 0..steps {
-        for (((q, p), &force), &reciprocal) in
-            q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals)
-        {
-            *p += half * force;
-            *q += h * (*p * reciprocal);
-        }
-        system.force(q, &[], Lanes::all(clock.after(step + 1).time()), force);
-        for (p, &force) in p.iter_mut().zip(force.iter()) {
-            *p += half * force;
+struct Kicks<'a, const W: usize, S: System> {
+    system: &'a S,
+    reciprocals: &'a [Lanes<W>],
+    clock: Clock<f64>,
+    steps: u64,
+    packs: &'a mut [Vector<S, Lanes<W>>; 3],
+}
+
+impl<const W: usize, S: NondegenerateLagrangian<Lanes<W>>> Task for Kicks<'_, W, S> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) {
+        let Self { system, reciprocals, clock, steps, packs: [q, p, force] } = self;
+        let (h, half) = (Lanes::all(clock.step_size()), Lanes::all(0.5 * clock.step_size()));
+        for step in 0..steps {
+            for (((q, p), &force), &reciprocal) in
+                q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals)
+            {
+                *p += half * force;
+                *q += h * (*p * reciprocal);
+            }
+            system.force(q, &[], Lanes::all(clock.after(step + 1).time()), force);
+            for (p, &force) in p.iter_mut().zip(force.iter()) {
+                *p += half * force;
+            }
         }
     }
 }

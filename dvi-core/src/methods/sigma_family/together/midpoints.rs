@@ -6,7 +6,7 @@ use crate::methods::sigma_family::Sigma;
 use crate::methods::together::{Companion, all_finite, load, of_lanes};
 use crate::scalar::lanes::read_lane;
 use crate::scalar::passes::lanes_stay_together;
-use crate::scalar::simd::widest_if;
+use crate::scalar::simd::{Task, widest};
 use crate::scalar::{Comparison, Lanes, smallest_normal};
 use crate::solve::{Convergences, Stopping, Verdict, sizes};
 use crate::state::history::{DEPTH, extrapolate};
@@ -46,7 +46,7 @@ where
         while taken < count {
             let steps = look(runs, q, one, count - taken);
             let [corrected, weights] = &mut *kept;
-            let midpoints = Midpoints {
+            let (done, iterations) = widest(Midpoints {
                 system,
                 stopping: method.stopping,
                 budget,
@@ -61,12 +61,7 @@ where
                 weights,
                 history,
                 place: &mut place,
-            };
-            let (done, iterations) = widest_if(
-                true,
-                #[cfg_attr(not(debug_assertions), inline(always))]
-                || midpoints.run(),
-            );
+            });
             taken += done;
             for (run, iterations) in runs.iter_mut().zip(iterations) {
                 run.memory.monitor.steps += done;
@@ -111,8 +106,10 @@ struct Midpoints<'a, const W: usize, S: System> {
     place: &'a mut usize,
 }
 
-impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
-    /// Returns how many steps all runs have taken, and the iterations of each in these.
+impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Midpoints<'_, W, S> {
+    /// How many steps all runs have taken, and the iterations of each in these.
+    type Output = (u64, [u64; W]);
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(mut self) -> (u64, [u64; W]) {
         let mut iterations = [0; W];
@@ -124,7 +121,9 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         }
         (self.steps, iterations)
     }
+}
 
+impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
     /// Takes sizes as [`Due`](crate::solve::Due) does.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_sizes(&mut self) {
