@@ -105,20 +105,24 @@ fn together(graph: &mut Graph, sum: &PairSum, rest: Expr) -> Expr {
     graph.add(rest, pairs)
 }
 
-/// w_j w_k 2 K' (x_j − x_k) on each coordinate of body j, for all k ≠ j.
+/// 2 w_j w_k K' (x_j − x_k) on each coordinate of body j, and the opposite on that of body k, for all j < k: the
+/// pairs of the energy, of which a check may visit some.
 fn pair_gradient(graph: &mut Graph, sum: &PairSum, slope: Expr) -> Vec<Statement> {
     let bodies = [Atom::Open(0), Atom::Open(1)];
     let (differences, _) = sum.distance(graph, bodies.clone());
     let weighted = sum.weighted(graph, slope, bodies).scaled(2.0);
     let all = Range::up_to(sum.bodies.clone());
-    let others = Range { except: Some(Index::open(0)), ..all.clone() };
-    let loops = vec![Loop { depth: 0, range: all }, Loop { depth: 1, range: others }];
+    let above = Range { lower: Index::open(0).plus(&Index::literal(1), 1), ..all.clone() };
+    let loops = vec![Loop { depth: 0, range: all }, Loop { depth: 1, range: above }];
     let parts = sum.blocks.iter().zip(differences);
     parts
-        .map(|(block, difference)| Statement {
-            loops: loops.clone(),
-            place: Place::Entry(Output::Vector, Coordinate { block: *block, index: Index::open(0) }),
-            value: graph.multiply(weighted, difference),
+        .flat_map(|(block, difference)| {
+            let value = graph.multiply(weighted, difference);
+            [(0, value), (1, value.negated())].map(|(body, value)| Statement {
+                loops: loops.clone(),
+                place: Place::Entry(Output::Vector, Coordinate { block: *block, index: Index::open(body) }),
+                value,
+            })
         })
         .collect()
 }
