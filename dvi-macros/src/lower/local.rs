@@ -280,13 +280,14 @@ impl<'ast> Visit<'ast> for Places<'_, '_> {
     }
 }
 
-/// Whether it is made of names and literals alone, so that it is an index where these are.
+/// Whether it is made of names, lengths and literals alone, so that it is an index where these are.
 fn is_arithmetic(syntax: &Syntax) -> bool {
     match syntax {
         Syntax::Paren(inner) => is_arithmetic(&inner.expr),
         Syntax::Unary(unary) => is_arithmetic(&unary.expr),
         Syntax::Binary(binary) => is_arithmetic(&binary.left) && is_arithmetic(&binary.right),
         Syntax::Path(_) | Syntax::Lit(_) => true,
+        Syntax::MethodCall(call) => call.method == "len",
         _ => false,
     }
 }
