@@ -363,6 +363,7 @@ const _: () = assert!(size_of::<StepFailure>() <= 40);
 impl StepFailure {
     pub(crate) const DISCRETE_LAGRANGIAN: &'static str = "the matrix D₁D₂L_d of the discrete Lagrangian";
     pub(crate) const MASS: &'static str = "the mass matrix";
+    #[cfg(feature = "random")]
     pub(crate) const MASS_ROOT: &'static str = "the root of the mass matrix";
     pub(crate) const OMEGA: &'static str = "Ω = −dα";
     pub(crate) const STAGES: &'static str = "the matrix of the equations of the stages";
