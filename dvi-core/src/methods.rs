@@ -211,8 +211,8 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
 
     /// Sets `q` and `v` to the `index`-th of the places within the last step that are known, such as the
     /// stages of a method of high order, whose steps are long, and returns the part of the step; in their
-    /// order, from the first one on. Of degenerate systems there is no `v`. There are none if nothing else is
-    /// said. A search for events looks at up to eight.
+    /// order, from the first one on. Of degenerate systems there is no `v`. There are none if nothing else
+    /// is said. A search for events looks at up to eight.
     fn place(
         &self,
         _memory: &mut Self::Memory,

@@ -1,8 +1,8 @@
 //! Many masses: Newton's method on chains, lattices, trees of rods, and vortices, each of which moves all
 //! others; and steps by the fixed point beside their forces.
 //!
-//! `cargo bench -p dvi-benches --bench large [-- --markdown]`. Times are those of one step; throughput counts
-//! masses times steps.
+//! `cargo bench -p dvi-benches --bench large [-- --markdown]`. Times are those of one step; throughput
+//! counts masses times steps.
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};

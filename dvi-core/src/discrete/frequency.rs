@@ -53,8 +53,8 @@ pub trait Frequency: Debug {
         None
     }
 
-    /// The frequency, where it does not depend on the motion: needed if [`reading`](Self::reading) is `None`.
-    /// Not a number unless it is given; a run that needs it is then refused.
+    /// The frequency, where it does not depend on the motion: needed if [`reading`](Self::reading) is
+    /// `None`. Not a number unless it is given; a run that needs it is then refused.
     fn fixed<T: Real>(&self) -> T {
         T::lift(f64::NAN)
     }

@@ -34,9 +34,9 @@ use equations::{NODES, Step, Work};
 /// rule, which preserves Ω.
 ///
 /// Elsewhere a step changes Ω by terms of the order h⁵. Its energy drifts, by terms of the order h⁴ per unit
-/// of time. Where a motion has a reversing symmetry, as that of a guiding centre in a magnetic mirror, none is
-/// seen. Source: Kraus 2017, *Projected variational integrators for degenerate Lagrangian systems*, with the
-/// midpoint rule.
+/// of time. Where a motion has a reversing symmetry, as that of a guiding centre in a magnetic mirror, none
+/// is seen. Source: Kraus 2017, *Projected variational integrators for degenerate Lagrangian systems*, with
+/// the midpoint rule.
 ///
 /// A step is solved by Newton's method for 2n unknowns.
 ///

@@ -53,7 +53,8 @@ pub use start::Start;
 ///   distance d the equation has solutions for h ≤ πd²/Γ only.
 /// - σ = ½, α not affine: it grows at a rate of the flow, whatever h.
 /// - σ = 0: it grows like the distance of neighbouring trajectories, soon on chaotic data.
-/// - other σ: it grows exponentially on many orbits, at a rate of (1 − 2σ)² times one of the flow, whatever h.
+/// - other σ: it grows exponentially on many orbits, at a rate of (1 − 2σ)² times one of the flow, whatever
+///   h.
 ///
 /// A start by a step leaves a mode of order h³. These have no such mode: σ = ½ if α is affine,
 /// [`OneStep`](super::OneStep) and [`OneStepGauss`](super::OneStepGauss) if the system is in their class,
@@ -94,9 +95,9 @@ pub struct Sigma<T = f64> {
     /// Default: ½. `None` lets the run go on whatever it has become.
     ///
     /// The limit is tested before each step, except in two cases. If α is affine and σ ≠ ½, the mode is
-    /// measured after 4 to 256 steps, before it can have reached the limit at a rate of the flow; there a mode
-    /// that is large from the first steps on may become three times as large, if that is more than the limit.
-    /// If α is affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
+    /// measured after 4 to 256 steps, before it can have reached the limit at a rate of the flow; there a
+    /// mode that is large from the first steps on may become three times as large, if that is more than the
+    /// limit. If α is affine and σ = ½, where the mode keeps its amplitude, nothing is tested.
     ///
     /// The limit is one of the mode and not of the energy, and has limits of its own:
     /// - A mode that appears from one step to the next is judged when it has been seen several times.

@@ -11,8 +11,8 @@ pub(crate) fn reported<T: Real>(value: T) -> f64 {
 /// Where a vector has this many entries, it is worth to look at several at once.
 pub(crate) const MANY: usize = 32;
 
-/// maxᵢ |xᵢ|; an entry that is not a number does not count. Eight maxima do not wait for one another if there
-/// are many entries.
+/// maxᵢ |xᵢ|; an entry that is not a number does not count. Eight maxima do not wait for one another if
+/// there are many entries.
 #[inline]
 pub(crate) fn largest<T: Real>(x: &[T]) -> T {
     let one_by_one = |x: &[T]| x.iter().fold(T::lift(0.0), |largest, &x| larger(largest, Scalar::abs(x)));

@@ -198,8 +198,8 @@ impl<T: Real> Course<T> {
         if carries_derivatives::<T>() {
             new.more = MORE_BY_FIXED_POINT;
         }
-        // Less is asked for than the arithmetic gives: what is left over has the same sign in every step, and
-        // adds up however small it is.
+        // Less is asked for than the arithmetic gives: what is left over has the same sign in every step,
+        // and adds up however small it is.
         if new.tolerance < T::default_epsilon() {
             (new.tolerance, new.stalling) = (T::lift(NOTHING), T::lift(0.0));
         }

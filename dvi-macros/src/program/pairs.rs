@@ -105,8 +105,8 @@ fn together(graph: &mut Graph, sum: &PairSum, rest: Expr) -> Expr {
     graph.add(rest, pairs)
 }
 
-/// 2 w_j w_k K' (x_j − x_k) on each coordinate of body j, and the opposite on that of body k, for all j < k: the
-/// pairs of the energy, of which a check may visit some.
+/// 2 w_j w_k K' (x_j − x_k) on each coordinate of body j, and the opposite on that of body k, for all j <
+/// k: the pairs of the energy, of which a check may visit some.
 fn pair_gradient(graph: &mut Graph, sum: &PairSum, slope: Expr) -> Vec<Statement> {
     let bodies = [Atom::Open(0), Atom::Open(1)];
     let (differences, _) = sum.distance(graph, bodies.clone());

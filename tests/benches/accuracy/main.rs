@@ -7,8 +7,8 @@
 //! steps, of a run that is not timed; the run that is timed looks at no energy. A time is that of the
 //! processor, and the median of interleaved runs in one process.
 //!
-//! If `alternatives.csv`, which `tests/benches/alternatives/run` writes, is in `accuracy` in the target folder,
-//! or in DIR, its points are among them.
+//! If `alternatives.csv`, which `tests/benches/alternatives/run` writes, is in `accuracy` in the target
+//! folder, or in DIR, its points are among them.
 
 mod alternatives;
 mod fields;

@@ -51,8 +51,8 @@ impl<S: ConstrainedLagrangian<T>, T: Real> Residuals<S, T> {
         Self { values, sizes, others, point: system.space().vector(), before: None }
     }
 
-    /// Looks at a velocity, in units D of the coordinates. Its entries are rounded relative to `scale`, or to
-    /// the smallest normal number.
+    /// Looks at a velocity, in units D of the coordinates. Its entries are rounded relative to `scale`, or
+    /// to the smallest normal number.
     pub(crate) fn evaluate(
         &mut self,
         system: &S,

@@ -1,5 +1,5 @@
-//! How a node of a step varies with the ends of the geodesic, each factor of the manifold in its own way; and
-//! second derivatives over the coordinates as those over the tangent vectors of their blocks.
+//! How a node of a step varies with the ends of the geodesic, each factor of the manifold in its own way;
+//! and second derivatives over the coordinates as those over the tangent vectors of their blocks.
 
 use nalgebra::{Matrix3, Vector3};
 

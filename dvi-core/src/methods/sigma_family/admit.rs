@@ -11,8 +11,8 @@ use crate::{DegenerateLagrangian, Real, Vector};
 impl<T: Real> Sigma<T> {
     /// Whether options are in range and go together, with each other and with the system at (`q`, `t`). The
     /// implicit midpoint rule alone keeps the lengths of unit vectors, and where Dα is not constant and
-    /// antisymmetric, σ = ½ alone is zero-stable: of other members the matrix K'K⁻¹, by which a step multiplies
-    /// the defect, has eigenvalues outside of the unit circle.
+    /// antisymmetric, σ = ½ alone is zero-stable: of other members the matrix K'K⁻¹, by which a step
+    /// multiplies the defect, has eigenvalues outside of the unit circle.
     pub(super) fn go_with<S: DegenerateLagrangian<T>>(
         &self,
         system: &S,

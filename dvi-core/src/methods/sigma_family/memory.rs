@@ -87,15 +87,15 @@ impl<S: System, T: Real> Memory<T> for Carried<S, T> {
 }
 
 impl<S: System, T: Real> SigmaMemory<S, T> {
-    /// c = p − α(q) at the current point, one entry per coordinate: the parasitic mode in p if σ = ½ and α is
-    /// affine. Elsewhere c is of order h(1 − 2σ) on an orbit without such a mode.
+    /// c = p − α(q) at the current point, one entry per coordinate: the parasitic mode in p if σ = ½ and α
+    /// is affine. Elsewhere c is of order h(1 − 2σ) on an orbit without such a mode.
     pub fn defect(&self) -> &[T] {
         &self.carried.defect
     }
 
     /// The parasitic mode as it was measured last, over five consecutive points; `None` before that. It is
-    /// measured before each step; if α is affine, after 4 to 256 steps, the sooner the larger the mode and the
-    /// longer the steps; without a limit, or where α is affine and σ = ½, before every 256th step.
+    /// measured before each step; if α is affine, after 4 to 256 steps, the sooner the larger the mode and
+    /// the longer the steps; without a limit, or where α is affine and σ = ½, before every 256th step.
     pub fn parasitic_mode(&self) -> Option<ParasiticMode<T>> {
         self.monitor.last().map(|(_, mode)| mode)
     }

@@ -37,8 +37,9 @@ const STEADY: f64 = 0.01;
 const FLOOR: f64 = 0.1;
 
 /// How many looks in a row end a run whose mode has become large at once: a path whose curvature changes
-/// within a step or two seems to alternate to all looks that see the place, which are five to seven. Of other
-/// modes it takes two: where a path is straight, a smooth motion may look as if it alternated, to one look.
+/// within a step or two seems to alternate to all looks that see the place, which are five to seven. Of
+/// other modes it takes two: where a path is straight, a smooth motion may look as if it alternated, to one
+/// look.
 const AT_ONCE: u32 = 8;
 
 /// Two looks are enough there too if the last sees the mode this many times above the limit. Where the

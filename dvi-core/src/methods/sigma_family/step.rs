@@ -8,8 +8,8 @@
 //! KΔ = c0 − (1−σ)h∇H(q_σ)        c1 = K'Δ − σh∇H(q_σ)        K' = σ(Dα)ᵀ − (1−σ)Dα = −K
 //!
 //! At σ = 0 and 1 no gradient of the unknown point occurs in the first: explicit. Steps with σ = 0 are
-//! [`leaps`](super::leapfrog). At σ = ½, c1 = −c0; with c0 = 0 the scheme is the implicit midpoint rule. If α
-//! is not affine, σ = ½.
+//! [`leaps`](super::leapfrog). At σ = ½, c1 = −c0; with c0 = 0 the scheme is the implicit midpoint rule. If
+//! α is not affine, σ = ½.
 
 use super::Step;
 use super::affine::fixed_point;

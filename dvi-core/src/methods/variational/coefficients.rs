@@ -40,8 +40,8 @@ pub enum Fitting {
     /// (midpoint at ωh = 1: 1.188), so that a run from given velocities has a wrong amplitude for ever.
     #[default]
     Phase,
-    /// Positions and momenta: the weights are multiplied by (sin u/u)/S, u = ωh, S = Σ wⱼ cos((1 − 2cⱼ)u). Not
-    /// with [`Reading::Variational`](crate::discrete::Reading::Variational).
+    /// Positions and momenta: the weights are multiplied by (sin u/u)/S, u = ωh, S = Σ wⱼ cos((1 − 2cⱼ)u).
+    /// Not with [`Reading::Variational`](crate::discrete::Reading::Variational).
     PhaseAndMomentum,
 }
 

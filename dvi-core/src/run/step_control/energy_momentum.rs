@@ -1,5 +1,5 @@
-//! Steps of such a length that the discrete energy stays the same. Of the two [equations](EnergyMomentum) the
-//! first is the step of the method; what is left is one equation for h.
+//! Steps of such a length that the discrete energy stays the same. Of the two [equations](EnergyMomentum)
+//! the first is the step of the method; what is left is one equation for h.
 
 use super::search::Search;
 use super::{ControlledRun, StepControl};
