@@ -50,12 +50,6 @@ pub struct Event<S, T> {
     pub state: S,
 }
 
-impl<S, T> From<Event<S, T>> for (T, S) {
-    fn from(Event { time, state, .. }: Event<S, T>) -> Self {
-        (time, state)
-    }
-}
-
 /// An [`Event`] of a run `R`.
 type EventOf<R> = Event<StateOf<R>, <R as Run>::Scalar>;
 
