@@ -12,7 +12,7 @@ use super::plan::Plan;
 use super::sealed::{self, Found, Reader};
 
 /// Begins each file; after it stands the content, sealed.
-const MARK: &[u8] = b"dvi ensemble checkpoint 8\n";
+const MARK: &[u8] = b"dvi ensemble checkpoint 9\n";
 
 /// What a file holds.
 pub(super) type Saved = (Plan, Shard, Vec<Slot>);

@@ -7,11 +7,10 @@ use std::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use super::error::EnsembleError;
-use super::limits::{AnyWatched, Exit};
+use super::limits::Taken;
 use super::member::{At, Member, Outcome, Seen};
 use super::settings::Settings;
 use crate::Lagrangian;
-use crate::error::{StartError, StepError};
 use crate::methods::Method;
 use crate::run::{Checkpoint, Integrator, Run};
 
@@ -28,7 +27,6 @@ pub(super) enum Place {
 pub(super) struct UnderWay {
     checkpoint: Checkpoint,
     seen: Seen,
-    watched: Option<Vec<f64>>,
 }
 
 /// A member with its place.
@@ -41,14 +39,8 @@ pub(super) struct Slot {
 /// A member that runs.
 struct Runner<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
     slot: &'s mut Slot,
-    run: Course<'s, 'a, S, M>,
+    run: Integrator<&'a S, M>,
     seen: Seen,
-}
-
-/// A run that steps alone count of, or one that is watched.
-enum Course<'s, 'a, S: Lagrangian, M: Method<S, f64>> {
-    Free(Integrator<&'a S, M>),
-    Watched(AnyWatched<'s, 'a, S, M>),
 }
 
 impl Slot {
@@ -86,7 +78,7 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             runners.extend(self.begin(slot, count)?);
         }
         let Some(first) = runners.first() else { return Ok(()) };
-        let mut packs = self.packs().map(|(_, new)| new(first.run.run()));
+        let mut packs = self.packs().map(|(_, new)| new(&first.run));
         // Members of a group may have been interrupted at different steps: those that are behind catch up.
         while let Some(at) = runners.iter().map(Runner::steps).min() {
             let steps = self.stride.min(count.saturating_sub(at));
@@ -95,10 +87,10 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
             let mut behind: Vec<Runner<'_, 'a, S, M>> = behind;
             let results = match &mut packs {
                 Some(packs) => {
-                    let runs = behind.iter_mut().filter_map(Runner::free).collect();
-                    packs(runs, steps).into_iter().map(|taken| taken.map(|()| None)).collect()
+                    let runs = behind.iter_mut().map(|runner| &mut runner.run).collect();
+                    packs(runs, steps).into_iter().map(|taken| Ok(taken.map(|()| None)?)).collect()
                 }
-                None => behind.iter_mut().map(|runner| runner.take_steps(steps)).collect::<Vec<_>>(),
+                None => behind.iter_mut().map(|runner| runner.take_steps(self, steps)).collect::<Vec<_>>(),
             };
             let looked_at = behind.into_iter().zip(results);
             others.extend(looked_at.filter_map(|(runner, result)| runner.looked_at(result, count)));
@@ -122,93 +114,48 @@ impl<'a, S: Lagrangian, M: Method<S, f64> + Clone> Settings<'a, S, M> {
         match &slot.place {
             Place::Ended(_) => Ok(None),
             Place::UnderWay(under_way) => {
-                let resumed = self.resume(system, number, under_way);
+                let resumed = Integrator::resume(system, self.method(number), &under_way.checkpoint);
                 let run = resumed.map_err(|error| EnsembleError::Resume { member: number, error })?;
                 let seen = under_way.seen.clone();
                 Ok(Some(Runner { slot, run, seen }))
             }
-            Place::Waiting => match self.first(system, number, state.clone()) {
-                Ok((run, exit)) => {
-                    let seen = Seen::first(&At::end_of(run.run()));
-                    Ok(Runner { slot, run, seen }.looked_at(Ok(exit), count))
+            Place::Waiting => {
+                let begun = Integrator::new(system, self.method(number), self.h, state.clone())
+                    .and_then(|run| Ok((self.beyond(system, number, &run)?, run)));
+                match begun {
+                    Ok((exit, run)) => {
+                        let seen = Seen::first(&At::end_of(&run));
+                        Ok(Runner { slot, run, seen }.looked_at(Ok(exit), count))
+                    }
+                    Err(error) => {
+                        slot.place =
+                            Place::Ended(Member::without_run(number, system, state, error.to_string()));
+                        Ok(None)
+                    }
                 }
-                Err(error) => {
-                    slot.place = Place::Ended(Member::without_run(number, system, state, error.to_string()));
-                    Ok(None)
-                }
-            },
-        }
-    }
-
-    /// A run that begins, and why it ends at once if it does.
-    #[allow(clippy::type_complexity)]
-    fn first(
-        &self,
-        system: &'a S,
-        number: u64,
-        state: S::State<f64>,
-    ) -> Result<(Course<'_, 'a, S, M>, Option<Exit<S>>), StartError> {
-        let run = Integrator::new(system, self.method(number), self.h, state)?;
-        let exit = self.beyond(system, number, &run)?;
-        Ok((self.course(system, run, None)?, exit))
-    }
-
-    fn resume(
-        &self,
-        system: &'a S,
-        number: u64,
-        UnderWay { checkpoint, watched, .. }: &UnderWay,
-    ) -> Result<Course<'_, 'a, S, M>, StartError> {
-        let run = Integrator::resume(system, self.method(number), checkpoint)?;
-        self.course(system, run, watched.as_deref())
-    }
-
-    fn course(
-        &self,
-        system: &'a S,
-        run: Integrator<&'a S, M>,
-        saved: Option<&[f64]>,
-    ) -> Result<Course<'_, 'a, S, M>, StartError> {
-        match &self.limits {
-            None => Ok(Course::Free(run)),
-            Some(limits) => limits.watch(system, run, saved).map(Course::Watched),
-        }
-    }
-}
-
-impl<'a, S: Lagrangian, M: Method<S, f64>> Course<'_, 'a, S, M> {
-    fn run(&self) -> &Integrator<&'a S, M> {
-        match self {
-            Self::Free(run) => run,
-            Self::Watched(watched) => watched.run(),
+            }
         }
     }
 }
 
 impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
     fn steps(&self) -> u64 {
-        self.run.run().steps()
-    }
-
-    /// A run that may go in lanes.
-    fn free(&mut self) -> Option<&mut Integrator<&'a S, M>> {
-        match &mut self.run {
-            Course::Free(run) => Some(run),
-            Course::Watched(_) => None,
-        }
+        self.run.steps()
     }
 
     /// Takes `count` steps, up to a limit.
-    fn take_steps(&mut self, count: u64) -> Result<Option<Exit<S>>, StepError> {
-        match &mut self.run {
-            Course::Watched(watched) => watched.take_steps(count),
-            Course::Free(run) => run.take_steps(count).map(|()| None),
+    fn take_steps(&mut self, settings: &Settings<'a, S, M>, count: u64) -> Taken<S> {
+        match &settings.limits {
+            None => Ok(self.run.take_steps(count).map(|()| None)?),
+            Some(limits) => {
+                limits.take_steps(settings.system(self.slot.number as usize), &mut self.run, count)
+            }
         }
     }
 
     /// The runner, unless this look shows that the member has ended.
-    fn looked_at(mut self, result: Result<Option<Exit<S>>, StepError>, count: u64) -> Option<Self> {
-        let run = self.run.run();
+    fn looked_at(mut self, result: Taken<S>, count: u64) -> Option<Self> {
+        let run = &self.run;
         let place = match &result {
             Ok(Some((event, _))) => At::event(run.system(), event),
             Ok(None) | Err(_) => Ok(At::end_of(run)),
@@ -237,13 +184,9 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Runner<'_, 'a, S, M> {
         M: Clone,
     {
         let Self { slot, run, seen } = self;
-        let watched = match run {
-            Course::Free(_) => None,
-            Course::Watched(watched) => Some(watched.save()),
-        };
-        let under_way = UnderWay { checkpoint: run.run().checkpoint(), seen: seen.clone(), watched };
-        let can_go_on =
-            settings.resume(settings.system(slot.number as usize), slot.number, &under_way).is_ok();
+        let under_way = UnderWay { checkpoint: run.checkpoint(), seen: seen.clone() };
+        let (system, method) = (settings.system(slot.number as usize), settings.method(slot.number));
+        let can_go_on = Integrator::resume(system, method, &under_way.checkpoint).is_ok();
         if can_go_on {
             slot.place = Place::UnderWay(Box::new(under_way));
         }

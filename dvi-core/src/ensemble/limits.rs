@@ -1,19 +1,21 @@
-//! Limits at which members end, watched in each step.
+//! Limits at which members end: events of their runs, sought anew from look to look.
 
 use std::boxed::Box;
 use std::vec::Vec;
 
 use super::settings::Settings;
-use crate::error::{CheckpointError, StartError, StepError};
+use crate::error::StartError;
 use crate::methods::Method;
-use crate::run::{Dense, Direction, Event, Integrator, Run, Watch};
+use crate::run::{Direction, Event, Integrator, Run};
 use crate::{Lagrangian, System};
 
 type RunOf<'a, S, M> = Integrator<&'a S, M>;
-pub(super) type AnyWatched<'s, 'a, S, M> = Box<dyn Watched<'a, S, M> + 's>;
 
 /// An event at which a member ends, and why.
 pub(super) type Exit<S> = (Event<<S as System>::State<f64>, f64>, &'static str);
+
+/// What steps have led to: a limit, or the last of them; or why they could not be taken.
+pub(super) type Taken<S> = Result<Option<Exit<S>>, Box<dyn core::error::Error>>;
 
 /// Functions g(system, state, t), each with the reason why a member ends where it comes to zero.
 pub(super) struct Given<G, const N: usize> {
@@ -28,40 +30,12 @@ pub(super) trait Limits<'a, S: Lagrangian, M: Method<S, f64>>: Send + Sync {
     /// The values of g where a run is.
     fn values(&self, run: &RunOf<'a, S, M>) -> Vec<f64>;
 
-    /// A run of `system` that is watched from where it is on, or as one was that was interrupted there.
+    /// Takes `count` steps of a run of `system`, up to a limit. What has been known of g before has no part in
+    /// it, so that nothing of that is written down when a member is interrupted.
     ///
     /// # Errors
-    /// As [`Watch::new`]; [`CheckpointError::Damaged`].
-    fn watch<'s>(
-        &'s self,
-        system: &'a S,
-        run: RunOf<'a, S, M>,
-        saved: Option<&[f64]>,
-    ) -> Result<AnyWatched<'s, 'a, S, M>, StartError>
-    where
-        'a: 's,
-        S: 's,
-        M: 's;
-}
-
-/// A run that is watched in each step.
-pub(super) trait Watched<'a, S: Lagrangian, M: Method<S, f64>> {
-    fn run(&self) -> &RunOf<'a, S, M>;
-
-    /// Takes `count` steps, up to a limit.
-    ///
-    /// # Errors
-    /// As [`Watch::search`].
-    fn take_steps(&mut self, count: u64) -> Result<Option<Exit<S>>, StepError>;
-
-    /// What is known of the limits, for a run that goes on.
-    fn save(&self) -> Vec<f64>;
-}
-
-struct WatchedRun<'s, 'a, S: Lagrangian, M: Method<S, f64>, G, const N: usize> {
-    run: Dense<RunOf<'a, S, M>>,
-    watch: Watch<RunOf<'a, S, M>, G, N>,
-    reasons: &'s [&'static str; N],
+    /// As [`Run::events`] and [`Events::advance`](crate::run::Events::advance).
+    fn take_steps(&self, system: &S, run: &mut RunOf<'a, S, M>, count: u64) -> Taken<S>;
 }
 
 impl<'a, S: Lagrangian, M: Method<S, f64>, G, const N: usize> Limits<'a, S, M> for Given<G, N>
@@ -76,52 +50,16 @@ where
         (self.g)(run.system(), &run.state(), run.time()).into()
     }
 
-    fn watch<'s>(
-        &'s self,
-        system: &'a S,
-        run: RunOf<'a, S, M>,
-        saved: Option<&[f64]>,
-    ) -> Result<AnyWatched<'s, 'a, S, M>, StartError>
-    where
-        'a: 's,
-        S: 's,
-        M: 's,
-    {
-        let mut run = Dense::new(run)?;
-        let g = move |t: f64, state: &S::State<f64>| (self.g)(system, state, t);
-        let mut watch = Watch::new(&mut run, [Direction::Rising; N], g)?;
-        if let Some(saved) = saved {
-            watch.load(saved).ok_or(CheckpointError::Damaged)?;
-        }
-        Ok(Box::new(WatchedRun { run, watch, reasons: &self.reasons }))
-    }
-}
-
-impl<'a, S: Lagrangian, M: Method<S, f64>, G, const N: usize> Watched<'a, S, M>
-    for WatchedRun<'_, 'a, S, M, G, N>
-where
-    G: FnMut(f64, &S::State<f64>) -> [f64; N],
-{
-    fn run(&self) -> &RunOf<'a, S, M> {
-        &self.run
-    }
-
-    fn take_steps(&mut self, count: u64) -> Result<Option<Exit<S>>, StepError> {
-        let Self { run, watch, reasons } = self;
+    fn take_steps(&self, system: &S, run: &mut RunOf<'a, S, M>, count: u64) -> Taken<S> {
+        let mut events =
+            run.events([Direction::Rising; N], |t: f64, state: &S::State<f64>| (self.g)(system, state, t))?;
         for _ in 0..count {
-            run.advance()?;
-            watch.search(run)?;
-            let end = run.time();
-            if let Some(event) = watch.next_until(run, end)? {
-                let reason = reasons[event.index];
+            if let Some(event) = events.advance()? {
+                let reason = self.reasons[event.index];
                 return Ok(Some((event, reason)));
             }
         }
         Ok(None)
-    }
-
-    fn save(&self) -> Vec<f64> {
-        self.watch.save()
     }
 }
 

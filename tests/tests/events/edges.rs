@@ -273,36 +273,6 @@ fn times_of_events_carry_derivatives() -> Outcome {
     Ok(())
 }
 
-/// A run that goes on from a checkpoint, with what was known of its conditions, has the events of the whole.
-#[test]
-fn events_go_on_from_a_checkpoint() -> Outcome {
-    let orbit = KeplerState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 1.2 };
-    let (system, method) = (Kepler { mu: 1.0 }, Gauss::<3>::new());
-    let directions = [Direction::Rising, Direction::Either];
-    let g = |t: f64, s: &KeplerState| [s.x * s.dot_x + s.y * s.dot_y, t.sin() - 0.999];
-    let mut whole = Dense::new(Integrator::new(&system, method, 0.1, orbit)?)?;
-    let mut watch = Watch::new(&mut whole, directions, g)?;
-    let (mut saved, mut found) = (watch.save(), 0);
-    while whole.time() < 40.0 {
-        let mut part = Dense::new(Integrator::resume(&system, method, &whole.checkpoint())?)?;
-        let mut again = Watch::new(&mut part, directions, g)?;
-        assert_eq!((again.load(&saved), again.load(&saved[1..])), (Some(()), None));
-        for (run, watch) in [(&mut whole, &mut watch), (&mut part, &mut again)] {
-            run.advance()?;
-            watch.search(run)?;
-        }
-        let t = whole.time();
-        while let Some(event) = watch.next_until(&mut whole, t)? {
-            assert_eq!(again.next_until(&mut part, t)?, Some(event));
-            found += 1;
-        }
-        assert_eq!(again.next_until(&mut part, t)?, None);
-        saved = watch.save();
-    }
-    assert!(found > 10, "{found}");
-    Ok(())
-}
-
 #[lagrangian(coordinates(x), lagrangian = (dot(x).powi(2) - x * x) / 2.0)]
 struct Oscillator;
 

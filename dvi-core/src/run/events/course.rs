@@ -19,33 +19,6 @@ pub(super) struct Watched<T> {
     pub(super) course: Option<Course<T>>,
 }
 
-#[cfg(feature = "alloc")]
-impl<T: Real> Watched<T> {
-    /// As numbers, of which the first says how many steps are known of.
-    pub(super) fn save(&self) -> [T; 5] {
-        let zero = T::lift(0.0);
-        match self.course {
-            None => [zero, self.g, zero, zero, zero],
-            Some(Course { slope, bend: None, rate }) => [T::lift(1.0), self.g, slope, zero, rate],
-            Some(Course { slope, bend: Some(bend), rate }) => [T::lift(2.0), self.g, slope, bend, rate],
-        }
-    }
-
-    /// What has been saved, if these numbers are.
-    pub(super) fn load(&[steps, g, slope, bend, rate]: &[T; 5]) -> Option<Self> {
-        let course = if steps == T::lift(0.0) {
-            None
-        } else if steps == T::lift(1.0) {
-            Some(Course { slope, bend: None, rate })
-        } else if steps == T::lift(2.0) {
-            Some(Course { slope, bend: Some(bend), rate })
-        } else {
-            return None;
-        };
-        Some(Self { g, course })
-    }
-}
-
 /// How a condition has changed in steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course<T> {

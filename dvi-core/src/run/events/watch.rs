@@ -123,26 +123,6 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         self.next_before(run, Some(t))
     }
 
-    /// What is known of the conditions, for those of a run that goes on from a checkpoint of this one, whose
-    /// events are then the same. Events of the last step that have not been handed out are no part of it.
-    #[cfg(feature = "alloc")]
-    pub fn save(&self) -> alloc::vec::Vec<R::Scalar> {
-        self.watched.iter().flat_map(Watched::save).collect()
-    }
-
-    /// Takes over what [`save`](Self::save) has listed, if there are as many numbers.
-    #[cfg(feature = "alloc")]
-    pub fn load(&mut self, saved: &[R::Scalar]) -> Option<()> {
-        let (conditions, []) = saved.as_chunks() else { return None };
-        if conditions.len() != N {
-            return None;
-        }
-        for (watched, saved) in self.watched.iter_mut().zip(conditions) {
-            *watched = Watched::load(saved)?;
-        }
-        Some(())
-    }
-
     /// The conditions where the run is.
     ///
     /// # Errors
