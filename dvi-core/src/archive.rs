@@ -14,7 +14,6 @@
 mod error;
 mod file;
 
-use std::any::type_name;
 use std::fmt::Debug;
 use std::format;
 use std::path::Path;
@@ -233,14 +232,9 @@ where
     let mut parameters = Fingerprint::new();
     facts::parameters(&mut parameters, system, run.q(), &run.v(), run.time());
     let names: Vec<_> = crate::System::names(system).map(|name| name.to_string()).collect();
-    let facts = [
-        ("version of the library", env!("CARGO_PKG_VERSION").to_string()),
-        ("system", type_name::<H::System>().to_string()),
-        ("list of coordinates", names.join(" ")),
-        ("fingerprint of the formulas", facts::formulas::<H::System>()),
+    let others = [
         ("fingerprint of the parameters and the start", parameters.to_string()),
-        ("method", format!("{} {:?}", type_name::<M>(), run.method())),
         ("step control", format!("{control:?}")),
     ];
-    facts.into_iter().map(|(what, value)| (what.to_string(), value)).collect()
+    facts::of::<H::System, M>(&names, run.method(), others)
 }

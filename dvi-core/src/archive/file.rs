@@ -12,7 +12,7 @@ use crate::ensemble::sealed::{self, Found, Reader};
 use crate::run::Checkpoint;
 
 /// Begins each file; after it stand the facts, and then the checkpoints, each of them sealed.
-const MARK: &[u8] = b"dvi run archive 2\n";
+const MARK: &[u8] = b"dvi run archive 3\n";
 
 const CHANGED: &str = "a checkpoint has changed since it was written";
 
@@ -84,7 +84,7 @@ impl File {
         };
         let found: Facts =
             postcard::from_bytes(&found).map_err(|_| self.damaged("it is one of another version"))?;
-        if let Some(difference) = facts::difference(facts, &found, |_, _| true) {
+        if let Some(difference) = facts::difference(facts, &found) {
             return Err(self.foreign(difference));
         }
         let mut longest = 0;

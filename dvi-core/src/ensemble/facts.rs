@@ -1,5 +1,8 @@
 //! What tells one computation from another, as texts: what has been written belongs to one of them.
 
+use std::any::type_name;
+use std::fmt::Debug;
+use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
@@ -10,26 +13,39 @@ use crate::{Lagrangian, Space};
 /// Each fact with what it is.
 pub(crate) type Facts = Vec<(String, String)>;
 
-/// The first fact in which `found` differs, of those that are `told`.
-pub(crate) fn difference(
-    expected: &Facts,
-    found: &Facts,
-    told: impl Fn(&str, [&str; 2]) -> bool,
-) -> Option<Difference> {
-    let mut facts = expected.iter().zip(found);
-    let (fact, (_, found)) =
-        facts.find(|((what, expected), (_, found))| expected != found && told(what, [expected, found]))?;
-    Some(Difference { what: fact.0.clone(), expected: fact.1.clone(), found: found.clone() })
+/// What a method on a system with coordinates of these names is, and `others`.
+pub(crate) fn of<S: Lagrangian, M: Debug>(
+    names: &[String],
+    method: &M,
+    others: impl IntoIterator<Item = (&'static str, String)>,
+) -> Facts {
+    let mut formulas = Fingerprint::new();
+    for formula in S::REPORT.formulas {
+        formulas.text(formula.name);
+        formulas.text(formula.text);
+    }
+    let facts = [
+        ("version of the library", env!("CARGO_PKG_VERSION").to_string()),
+        ("system", type_name::<S>().to_string()),
+        ("list of coordinates", names.join(" ")),
+        ("fingerprint of the formulas", formulas.to_string()),
+        ("method", text(method)),
+    ];
+    facts.into_iter().chain(others).map(|(what, value)| (what.to_string(), value)).collect()
 }
 
-/// A fingerprint of the formulas of a system.
-pub(crate) fn formulas<S: Lagrangian>() -> String {
-    let mut fingerprint = Fingerprint::new();
-    for formula in S::REPORT.formulas {
-        fingerprint.text(formula.name);
-        fingerprint.text(formula.text);
-    }
-    fingerprint.to_string()
+/// A method as a text: what it says of itself need not say the number of its stages, which its type does.
+pub(crate) fn text<M: Debug>(method: &M) -> String {
+    format!("{} {method:?}", type_name::<M>())
+}
+
+/// The first fact in which `found` differs. One that is empty is not known, and belongs to all.
+pub(crate) fn difference(expected: &Facts, found: &Facts) -> Option<Difference> {
+    let mut facts = expected.iter().zip(found);
+    let ((what, expected), (_, found)) = facts.find(|((_, expected), (_, found))| {
+        expected != found && !expected.is_empty() && !found.is_empty()
+    })?;
+    Some(Difference { what: what.clone(), expected: expected.clone(), found: found.clone() })
 }
 
 /// Adds what the parameters of a system do at a state.

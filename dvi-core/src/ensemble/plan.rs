@@ -1,6 +1,5 @@
 //! What tells one ensemble from another: results and checkpoints belong to one plan.
 
-use std::any::type_name;
 use std::fmt;
 use std::format;
 use std::string::{String, ToString};
@@ -15,9 +14,6 @@ use super::settings::{Settings, Swept, Systems};
 use crate::methods::Method;
 use crate::state::fingerprint::Fingerprint;
 use crate::{Lagrangian, Space, State};
-
-/// A fact that not every ensemble knows: then it is empty, and belongs to all.
-const TEXTS: &str = "fingerprint of the texts of the systems";
 
 /// What an ensemble computes, as texts and fingerprints, and what its table looks like.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,23 +54,17 @@ impl Plan {
             swept.text(name);
             values.iter().for_each(|&value| swept.number(value));
         }
-        // What a method says of itself need not say the number of its stages, which its type does.
-        let method_text = |method: &M| format!("{} {method:?}", type_name::<M>());
         let mut varied = Fingerprint::new();
         if settings.vary.is_some() {
-            (0..states.len() as u64).for_each(|number| varied.text(&method_text(&settings.method(number))));
+            (0..states.len() as u64).for_each(|number| varied.text(&facts::text(&settings.method(number))));
         }
         let reasons = settings.limits.as_ref().map_or(&[][..], |limits| limits.reasons());
-        let facts = [
-            ("version of the library", env!("CARGO_PKG_VERSION").to_string()),
-            ("system", type_name::<S>().to_string()),
+        let others = [
             ("number of members", states.len().to_string()),
-            ("list of coordinates", names.join(" ")),
-            ("fingerprint of the formulas", facts::formulas::<S>()),
             ("fingerprint of the parameters", systems),
-            (TEXTS, texts),
+            // Empty where systems are not asked for it.
+            ("fingerprint of the texts of the systems", texts),
             ("fingerprint of the initial states", starts),
-            ("method", method_text(&settings.method)),
             ("fingerprint of the methods of members", varied.to_string()),
             ("step h", format!("{h:?}")),
             ("number of steps", steps.to_string()),
@@ -86,7 +76,7 @@ impl Plan {
             title: S::REPORT.system.into(),
             parameters,
             coordinates,
-            facts: facts.into_iter().map(|(what, value)| (what.to_string(), value)).collect(),
+            facts: facts::of::<S, M>(&names, &settings.method, others),
             members: states.len() as u64,
             names,
             momenta: S::REPORT.momenta.iter().map(|&name| name.into()).collect(),
@@ -95,9 +85,7 @@ impl Plan {
 
     /// The first thing in which `found` differs.
     pub(super) fn difference(&self, found: &Self) -> Option<Difference> {
-        let is_told =
-            |what: &str, values: [&str; 2]| what != TEXTS || values.iter().all(|value| !value.is_empty());
-        facts::difference(&self.facts, &found.facts, is_told)
+        facts::difference(&self.facts, &found.facts)
     }
 }
 

@@ -5,31 +5,42 @@ use std::io::{self, BufWriter, Write};
 use std::string::String;
 use std::vec::Vec;
 
+use super::Record;
 use super::column::{Column, Values};
 
 const MARK: &[u8] = b"\x93NUMPY\x03\x00";
 /// The data begin at a multiple of this.
 const ALIGNMENT: usize = 64;
 
-pub(super) fn write(columns: &[Column], rows: usize, to: impl Write) -> io::Result<()> {
-    let letters: Vec<usize> = columns.iter().map(letters).collect();
-    let mut to = BufWriter::new(to);
-    to.write_all(&head(columns, &letters, rows)?)?;
-    for row in 0..rows {
-        for (column, &letters) in columns.iter().zip(&letters) {
-            match &column.values {
-                Values::Numbers(numbers) => to.write_all(&numbers[row].to_le_bytes())?,
-                Values::Counts(counts) => to.write_all(&counts[row].to_le_bytes())?,
-                Values::Texts(texts) => {
-                    let text = texts[row].chars().map(u32::from);
-                    for letter in text.chain(core::iter::repeat(0)).take(letters) {
-                        to.write_all(&letter.to_le_bytes())?;
+impl Record {
+    /// Writes an array of records in the format of NumPy, with the columns as its fields:
+    /// `numpy.load(file)["energy"]`. Numbers are of type `<f8`, counts `<u8`, and texts `<U…`, which take
+    /// four bytes for each letter of the longest one of their column. Where the names of the columns take
+    /// more than 10,000 letters, NumPy wants to be told that they may: `numpy.load(file,
+    /// max_header_size=10**7)`.
+    ///
+    /// # Errors
+    /// Those of `to`.
+    pub fn write_npy(&self, to: impl Write) -> io::Result<()> {
+        let letters: Vec<usize> = self.columns.iter().map(letters).collect();
+        let mut to = BufWriter::new(to);
+        to.write_all(&head(&self.columns, &letters, self.rows())?)?;
+        for row in 0..self.rows() {
+            for (column, &letters) in self.columns.iter().zip(&letters) {
+                match &column.values {
+                    Values::Numbers(numbers) => to.write_all(&numbers[row].to_le_bytes())?,
+                    Values::Counts(counts) => to.write_all(&counts[row].to_le_bytes())?,
+                    Values::Texts(texts) => {
+                        let text = texts[row].chars().map(u32::from);
+                        for letter in text.chain(core::iter::repeat(0)).take(letters) {
+                            to.write_all(&letter.to_le_bytes())?;
+                        }
                     }
                 }
             }
         }
+        to.flush()
     }
-    to.flush()
 }
 
 /// The letters of the longest text of a column, at least one: there is no type for texts of none.

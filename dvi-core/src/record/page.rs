@@ -22,23 +22,33 @@ const SCRIPTS: [&str; 6] = [
     include_str!("page/main.js"),
 ];
 
-pub(super) fn write(record: &Record, to: impl Write) -> io::Result<()> {
-    let mut to = BufWriter::new(to);
-    let mut rest = TEMPLATE;
-    // Names in double braces stand for what is put there.
-    while let Some((before, after)) = rest.split_once("{{") {
-        to.write_all(before.as_bytes())?;
-        let (name, after) = after.split_once("}}").unwrap_or((after, ""));
-        match name {
-            "title" => escaped(record.title(), &mut to)?,
-            "style" => STYLES.iter().try_for_each(|style| to.write_all(style.as_bytes()))?,
-            "script" => SCRIPTS.iter().try_for_each(|script| to.write_all(script.as_bytes()))?,
-            _ => to.write_all(data(record)?.as_bytes())?,
+impl Record {
+    /// Writes a page of HTML that shows the columns over time, any column against any other, and, if there
+    /// are [bodies](Self::with_body), how they move. It is one file, which needs no network and no server:
+    /// less than 100 kB, and about 20 bytes for each number. Numbers that are none are gaps. Of long columns
+    /// at most 4000 points over time are drawn, the extremes among them, and 60,000 against each other; the
+    /// page says of how many. Columns of texts are not on it.
+    ///
+    /// # Errors
+    /// Those of `to`.
+    pub fn write_page(&self, to: impl Write) -> io::Result<()> {
+        let mut to = BufWriter::new(to);
+        let mut rest = TEMPLATE;
+        // Names in double braces stand for what is put there.
+        while let Some((before, after)) = rest.split_once("{{") {
+            to.write_all(before.as_bytes())?;
+            let (name, after) = after.split_once("}}").unwrap_or((after, ""));
+            match name {
+                "title" => escaped(self.title(), &mut to)?,
+                "style" => STYLES.iter().try_for_each(|style| to.write_all(style.as_bytes()))?,
+                "script" => SCRIPTS.iter().try_for_each(|script| to.write_all(script.as_bytes()))?,
+                _ => to.write_all(data(self)?.as_bytes())?,
+            }
+            rest = after;
         }
-        rest = after;
+        to.write_all(rest.as_bytes())?;
+        to.flush()
     }
-    to.write_all(rest.as_bytes())?;
-    to.flush()
 }
 
 /// A text between tags.

@@ -1,12 +1,11 @@
 //! The record itself: columns, what is known of them, and where they are written.
 
-use std::io::{self, Write};
 use std::string::String;
 use std::vec::Vec;
 
+use super::RecordError;
 use super::body::{self, Body};
 use super::column::{Column, Values};
-use super::{RecordError, npy, page};
 
 /// A table of named columns, all of one length, and what it knows of the motion: which columns are the
 /// positions of bodies.
@@ -154,29 +153,5 @@ impl Record {
             let names: Vec<&str> = self.columns.iter().map(|column| &column.name[..]).collect();
             RecordError::Missing { name: name.into(), columns: names.join(", ") }
         })
-    }
-
-    /// Writes an array of records in the format of NumPy, with the columns as its fields:
-    /// `numpy.load(file)["energy"]`. Numbers are of type `<f8`, counts `<u8`, and texts `<U…`, which take
-    /// four bytes for each letter of the longest one of their column. Where the names of the columns take
-    /// more than 10,000 letters, NumPy wants to be told that they may: `numpy.load(file,
-    /// max_header_size=10**7)`.
-    ///
-    /// # Errors
-    /// Those of `to`.
-    pub fn write_npy(&self, to: impl Write) -> io::Result<()> {
-        npy::write(&self.columns, self.rows(), to)
-    }
-
-    /// Writes a page of HTML that shows the columns over time, any column against any other, and, if there
-    /// are [bodies](Self::with_body), how they move. It is one file, which needs no network and no server:
-    /// less than 100 kB, and about 20 bytes for each number. Numbers that are none are gaps. Of long columns
-    /// at most 4000 points over time are drawn, the extremes among them, and 60,000 against each other; the
-    /// page says of how many. Columns of texts are not on it.
-    ///
-    /// # Errors
-    /// Those of `to`.
-    pub fn write_page(&self, to: impl Write) -> io::Result<()> {
-        page::write(self, to)
     }
 }
