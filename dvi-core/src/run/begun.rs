@@ -3,7 +3,7 @@
 use super::StepControl;
 use super::clock::Time;
 use crate::error::StartError;
-use crate::memory::Aside;
+use crate::memory::{Aside, Memory, lasting};
 use crate::methods::Kept;
 use crate::methods::{Carries, Method};
 use crate::state::Statistics;
@@ -19,6 +19,8 @@ pub(super) struct Begun<Q, K, L, T> {
     pub(super) time: Time<T>,
     pub(super) statistics: Statistics,
 }
+
+lasting!([T: Real, Q, K: Memory<T>, L: Memory<T>] Begun<Q, K, L, T>, T; part memory, part control_memory, part time);
 
 /// The same under a control.
 pub(super) type BegunOf<S, K, C, T> = Begun<Vector<S, T>, K, <C as Carries<S, T>>::Memory, T>;

@@ -105,16 +105,13 @@ impl<T: Real> TryFrom<Sealed<T>> for Checkpoint<T> {
 const BEYOND: u64 = u64::MAX / 2;
 
 impl<T: Real> Checkpoint<T> {
-    /// Of a run whose clock and control are saved by `save`.
+    /// Of a run that has saved what it carries.
     pub(crate) fn of<S: Lagrangian<T>, M: Method<S, T>>(
         system: &S,
         stepper: &Stepper<S, M, T>,
         [time, step_size]: [T; 2],
-        save: impl FnOnce(&mut Record<T>),
+        record: Record<T>,
     ) -> Self {
-        let mut record = Record::new();
-        stepper.memory.save(&mut record);
-        save(&mut record);
         let v = stepper.known_velocity(system, time)[..velocities(system)].to_vec();
         let v = if v.iter().all(|v| v.is_finite()) { v } else { Vec::new() };
         let (q, statistics) = (stepper.q.to_vec(), stepper.statistics);
@@ -184,11 +181,11 @@ impl<T: Real> Checkpoint<T> {
         Ok([q, v])
     }
 
-    /// What has been saved, to be read, if it is as much as `save` would append.
-    pub(crate) fn record(&self, save: impl FnOnce(&mut Record<T>)) -> Result<Record<T>, CheckpointError> {
-        let mut expected = Record::new();
-        save(&mut expected);
-        self.0.record.fits(&expected)?;
-        Ok(self.0.record.clone())
+    /// Loads what has been saved, if it is as much as `carried` saves.
+    pub(crate) fn load(&self, carried: &mut impl Memory<T>) -> Result<(), CheckpointError> {
+        let (mut record, mut expected) = (self.0.record.clone(), Record::new());
+        carried.save(&mut expected);
+        record.fits(&expected)?;
+        carried.load(&mut record)
     }
 }

@@ -8,7 +8,6 @@ use super::{Integrator, Run};
 #[cfg(feature = "ensembles")]
 use crate::Held;
 use crate::error::{CheckpointError, StartError};
-use crate::memory::Memory;
 use crate::methods::Method;
 use crate::scalar::norm::reported;
 use crate::system::start::validate;
@@ -49,15 +48,8 @@ pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T
     let lengths = |q: &_, v: &_| Ok((control.begin_again(system, q, v, t)?, h));
     let mut begun =
         carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;
-    let Begun { memory, control_memory, time, .. } = &mut begun;
-    let record = &mut checkpoint.record(|expected| {
-        memory.save(expected);
-        control_memory.save(expected);
-        time.save(expected);
-    })?;
-    memory.load(record)?;
-    control_memory.load(record)?;
-    time.load(record)?;
+    checkpoint.load(&mut begun)?;
+    let time = &mut begun.time;
     let is_length = C::ONE_LENGTH || (time.h == h && h != T::lift(0.0));
     if time.after(statistics.steps).time() != t || !is_length {
         return Err(CheckpointError::Damaged.into());

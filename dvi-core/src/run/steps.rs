@@ -9,7 +9,7 @@ use super::clock::Time;
 use super::{Between, ControlledRun, Integrator, Run, StepControl, Stepper};
 use crate::error::{StartError, StepError, StepFailure};
 #[cfg(feature = "alloc")]
-use crate::memory::Memory;
+use crate::memory::{Memory, Record};
 use crate::methods::{Clock, Method};
 use crate::shown::shown;
 use crate::state::Statistics;
@@ -58,10 +58,11 @@ where
 
     #[cfg(feature = "alloc")]
     fn checkpoint(&self) -> Checkpoint<T> {
-        Checkpoint::of(self.system(), &self.stepper, [self.time(), self.step_size()], |record| {
-            self.control_memory.save(record);
-            self.time.save(record);
-        })
+        let mut record = Record::new();
+        self.stepper.memory.save(&mut record);
+        self.control_memory.save(&mut record);
+        self.time.save(&mut record);
+        Checkpoint::of(self.system(), &self.stepper, [self.time(), self.step_size()], record)
     }
 
     /// Of steps of one length t₀ + steps · h, of others their sum, compensated: rounding errors do not add
