@@ -25,10 +25,9 @@ pub(super) struct Equations {
     border: usize,
     /// How far from the diagonal the band has entries.
     reach: usize,
-    /// Row by row: the entries of the band around the diagonal, then those of the border.
-    upper: Vec<f64>,
-    /// The rows below the band, all entries.
-    lower: Vec<f64>,
+    /// Row by row: the entries of the band around the diagonal, then those of the border; below the band all
+    /// entries of a row.
+    entries: Vec<f64>,
 }
 
 impl Equations {
@@ -37,14 +36,14 @@ impl Equations {
         let count = points.len();
         let border = if basis.is_periodic() { (P - 1) / 2 } else { 0 };
         let (inner, reach) = (count - border, if border == 0 { P } else { border });
-        let width = 2 * reach + 1 + border;
-        let (upper, lower) = (vec![0.0; inner * width], vec![0.0; border * count]);
-        let mut equations = Self { inner, border, reach, upper, lower };
+        let mut equations = Self { inner, border, reach, entries: Vec::new() };
+        equations.entries = vec![0.0; equations.place(count, 0)];
         for (row, &x) in points.iter().enumerate() {
             let (first, values) = basis.at_point(x);
             for (i, &value) in values.iter().enumerate().take(P + 1).filter(|(_, value)| **value != 0.0) {
                 // With a period, the function around the point is in the diagonal.
-                *equations.entry(row, (first + i + count - border) % count) += value;
+                let place = equations.place(row, (first + i + count - border) % count);
+                equations.entries[place] += value;
             }
         }
         equations.factor();
@@ -55,38 +54,33 @@ impl Equations {
         self.inner + self.border
     }
 
-    fn width(&self) -> usize {
-        2 * self.reach + 1 + self.border
-    }
-
-    /// An entry of the matrix, which is one of the band or of its border.
-    fn entry(&mut self, row: usize, column: usize) -> &mut f64 {
-        let (width, count) = (self.width(), self.count());
+    /// Where an entry of the matrix stands, which is one of the band or of its border.
+    fn place(&self, row: usize, column: usize) -> usize {
+        let width = 2 * self.reach + 1 + self.border;
         if row >= self.inner {
-            &mut self.lower[(row - self.inner) * count + column]
+            self.inner * width + (row - self.inner) * self.count() + column
         } else if column >= self.inner {
-            &mut self.upper[row * width + 2 * self.reach + 1 + column - self.inner]
+            row * width + 2 * self.reach + 1 + column - self.inner
         } else {
-            &mut self.upper[row * width + self.reach + column - row]
+            row * width + self.reach + column - row
         }
     }
 
-    /// The columns of the band that a pivot has on its right, and the rows that it has below.
-    fn after(&self, pivot: usize) -> core::ops::Range<usize> {
-        pivot + 1..(pivot + self.reach + 1).min(self.inner)
+    /// The columns with entries on the right of a pivot, and the rows with entries below it.
+    fn after(&self, pivot: usize) -> impl Iterator<Item = usize> + use<> {
+        let in_band = pivot + 1..(pivot + self.reach + 1).min(self.inner);
+        in_band.chain((pivot + 1).max(self.inner)..self.count())
     }
 
     fn factor(&mut self) {
-        let count = self.count();
-        for k in 0..count {
-            let rows = if k < self.inner { self.after(k) } else { 0..0 };
-            for row in rows.chain((k + 1).max(self.inner)..count) {
-                let factor = *self.entry(row, k) / *self.entry(k, k);
-                *self.entry(row, k) = factor;
-                let columns = if k < self.inner { self.after(k) } else { 0..0 };
-                for column in columns.chain((k + 1).max(self.inner)..count) {
-                    let above = *self.entry(k, column);
-                    *self.entry(row, column) -= factor * above;
+        for k in 0..self.count() {
+            for row in self.after(k) {
+                let below = self.place(row, k);
+                let factor = self.entries[below] / self.entries[self.place(k, k)];
+                self.entries[below] = factor;
+                for column in self.after(k) {
+                    let (above, place) = (self.entries[self.place(k, column)], self.place(row, column));
+                    self.entries[place] -= factor * above;
                 }
             }
         }
@@ -94,35 +88,18 @@ impl Equations {
 
     /// The unknowns of the values in `line`, in place.
     fn solve(&self, line: &mut [f64]) {
-        let (inner, reach, width, count) = (self.inner, self.reach, self.width(), self.count());
-        for row in 0..inner {
-            let band = &self.upper[row * width..];
-            for column in row.saturating_sub(reach)..row {
-                line[row] -= band[reach + column - row] * line[column];
+        let entry = |row: usize, column: usize| self.entries[self.place(row, column)];
+        for row in 0..self.count() {
+            let first = if row < self.inner { row.saturating_sub(self.reach) } else { 0 };
+            for column in first..row {
+                line[row] -= entry(row, column) * line[column];
             }
         }
-        for row in inner..count {
-            let factors = &self.lower[(row - inner) * count..];
-            for column in 0..row {
-                line[row] -= factors[column] * line[column];
-            }
-        }
-        for row in (inner..count).rev() {
-            let factors = &self.lower[(row - inner) * count..];
-            for column in row + 1..count {
-                line[row] -= factors[column] * line[column];
-            }
-            line[row] /= factors[row];
-        }
-        for row in (0..inner).rev() {
-            let band = &self.upper[row * width..][..width];
+        for row in (0..self.count()).rev() {
             for column in self.after(row) {
-                line[row] -= band[reach + column - row] * line[column];
+                line[row] -= entry(row, column) * line[column];
             }
-            for column in inner..count {
-                line[row] -= band[2 * reach + 1 + column - inner] * line[column];
-            }
-            line[row] /= band[reach];
+            line[row] /= entry(row, row);
         }
     }
 
