@@ -21,7 +21,7 @@ use crate::{Real, Scalar};
 
 /// A banded matrix, in an order of its own.
 #[derive(Clone, Debug)]
-pub(super) struct Banded<T> {
+pub struct Banded<T> {
     order: Order,
     /// The coordinate of each place.
     coordinate: Vec<u32>,

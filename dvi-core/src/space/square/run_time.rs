@@ -13,10 +13,7 @@ use crate::{Real, RunTime, Scalar};
 
 /// The square matrix of a [`RunTime`] space.
 #[derive(Clone, Debug)]
-pub struct RunTimeSquare<T: Scalar>(Storage<T>);
-
-#[derive(Clone, Debug)]
-enum Storage<T: Scalar> {
+pub enum RunTimeSquare<T: Scalar> {
     Full(Full<RunTime, T>),
     /// The entries near the diagonal.
     Banded(Banded<T>),
@@ -28,9 +25,9 @@ enum Storage<T: Scalar> {
 macro_rules! stored {
     ($storage:expr, $matrix:ident => $done:expr) => {
         match $storage {
-            Storage::Full($matrix) => $done,
-            Storage::Banded($matrix) => $done,
-            Storage::Sparse($matrix) => $done,
+            RunTimeSquare::Full($matrix) => $done,
+            RunTimeSquare::Banded($matrix) => $done,
+            RunTimeSquare::Sparse($matrix) => $done,
         }
     };
 }
@@ -45,21 +42,21 @@ impl<T: Scalar> RunTimeSquare<T> {
 
     /// Stored in this way.
     pub(crate) fn in_layout(dimension: usize, layout: Layout) -> Self {
-        Self(match layout {
-            Layout::Full => Storage::Full(Full::new(RunTime { dimension })),
-            Layout::Banded(order) => Storage::Banded(Banded::new(order)),
-            Layout::Sparse(rows, fronts) => Storage::Sparse(Box::new(Sparse::new(&rows, fronts))),
-        })
+        match layout {
+            Layout::Full => Self::Full(Full::new(RunTime { dimension })),
+            Layout::Banded(order) => Self::Banded(Banded::new(order)),
+            Layout::Sparse(rows, fronts) => Self::Sparse(Box::new(Sparse::new(&rows, fronts))),
+        }
     }
 }
 
 impl<T: Real> Sink<T> for RunTimeSquare<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: usize, column: usize, entry: T) {
-        match &mut self.0 {
-            Storage::Full(full) => full.matrix.add(row, column, entry),
-            Storage::Banded(matrix) => matrix.add(row, column, entry),
-            Storage::Sparse(matrix) => matrix.entries.add(row, column, entry),
+        match self {
+            Self::Full(full) => full.matrix.add(row, column, entry),
+            Self::Banded(matrix) => matrix.add(row, column, entry),
+            Self::Sparse(matrix) => matrix.entries.add(row, column, entry),
         }
     }
 }
@@ -68,34 +65,34 @@ impl<T: Real> SquareMatrix<T> for RunTimeSquare<T> {
     type Entries = Self;
 
     fn cleared(&mut self) -> &mut Self {
-        stored!(&mut self.0, matrix => _ = matrix.cleared());
+        stored!(self, matrix => _ = matrix.cleared());
         self
     }
     fn scale_rows(&mut self, scales: &[T]) {
-        stored!(&mut self.0, matrix => matrix.scale_rows(scales));
+        stored!(self, matrix => matrix.scale_rows(scales));
     }
     fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
-        stored!(&mut self.0, matrix => matrix.eliminate(scales, x))
+        stored!(self, matrix => matrix.eliminate(scales, x))
     }
     fn eliminate_two(&self, weights: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>> {
-        stored!(&self.0, matrix => matrix.eliminate_two(weights, x))
+        stored!(self, matrix => matrix.eliminate_two(weights, x))
     }
     fn factor(&mut self) -> Result<(), StepFailure> {
-        stored!(&mut self.0, matrix => matrix.factor())
+        stored!(self, matrix => matrix.factor())
     }
     fn factor_in_any_units(&mut self) -> Result<(), StepFailure> {
-        stored!(&mut self.0, matrix => matrix.factor_in_any_units())
+        stored!(self, matrix => matrix.factor_in_any_units())
     }
     fn factor_with_care(&mut self, work: [&mut [T]; 2]) -> Result<(), StepFailure> {
-        stored!(&mut self.0, matrix => matrix.factor_with_care(work))
+        stored!(self, matrix => matrix.factor_with_care(work))
     }
     fn solve(&self, x: &mut [T]) {
-        stored!(&self.0, matrix => matrix.solve(x));
+        stored!(self, matrix => matrix.solve(x));
     }
     fn is_positive(&self) -> bool {
-        stored!(&self.0, matrix => matrix.is_positive())
+        stored!(self, matrix => matrix.is_positive())
     }
     fn multiply_add(&self, factor: T, x: &[T], sum: &mut [T]) {
-        stored!(&self.0, matrix => matrix.multiply_add(factor, x, sum));
+        stored!(self, matrix => matrix.multiply_add(factor, x, sum));
     }
 }

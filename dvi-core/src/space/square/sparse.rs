@@ -21,7 +21,7 @@ use crate::{Real, Scalar};
 
 /// A sparse matrix.
 #[derive(Clone, Debug)]
-pub(super) struct Sparse<T> {
+pub struct Sparse<T> {
     pub(super) entries: SparseRows<T>,
     fronts: Vec<Front>,
     /// Front by front, row by row: in the rows of pivots U, and before the pivot its multipliers; in the
