@@ -6,7 +6,7 @@ use crate::mechanics::constraints::{ConstrainedLagrangian, Multipliers};
 use crate::mechanics::motion::Rates;
 use crate::mechanics::motion::constrained::acceleration;
 use crate::system::spinors;
-use crate::system::start::{evaluate, flatten, named, validate, velocities};
+use crate::system::start::{flatten, named, validate, velocities};
 use crate::system::{Kind, System};
 use crate::{Lagrangian, Real, Space, State, Vector};
 
@@ -163,7 +163,5 @@ fn point<S: Lagrangian<T>, T: Real>(
     state: &S::State<T>,
 ) -> Result<[Vector<S, T>; 2], StartError> {
     validate(system, t)?;
-    let [q, v] = flatten(system, state)?;
-    evaluate(system, &q, &v, t)?;
-    Ok([q, v])
+    flatten(system, t, state)
 }

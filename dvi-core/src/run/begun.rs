@@ -7,7 +7,7 @@ use crate::memory::{Aside, Memory, lasting};
 use crate::methods::Kept;
 use crate::methods::{Carries, Method};
 use crate::state::Statistics;
-use crate::system::start::{consistent, evaluate, flatten, named, validate, velocities};
+use crate::system::start::{consistent, flatten, named, validate, velocities};
 use crate::{Lagrangian, Real, Vector};
 
 /// What a run carries from a point with coordinates `Q` on: that of its method, and of its control.
@@ -32,10 +32,9 @@ pub(super) fn point<S: Lagrangian<T>, T: Real>(
     start: &S::State<T>,
 ) -> Result<[Vector<S, T>; 2], StartError> {
     validate(system, t)?;
-    let [q, v] = flatten(system, start)?;
-    evaluate(system, &q, &v, t)?;
-    consistent(system, &q, t)?;
-    Ok([q, v])
+    let at = flatten(system, t, start)?;
+    consistent(system, &at[0], t)?;
+    Ok(at)
 }
 
 /// From a point with velocities, by what `control` and `method` begin with there, the latter with steps of a

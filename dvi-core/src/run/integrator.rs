@@ -13,7 +13,7 @@ use crate::error::StartError;
 #[cfg(doc)]
 use crate::error::StepFailure;
 use crate::methods::{Carries, Sigma, SigmaMemory, Suits, SuitsAnyStep};
-use crate::system::start::{evaluate, flatten};
+use crate::system::start::flatten;
 use crate::system::{Same, StateOf};
 use crate::{DegenerateLagrangian, Held, Lagrangian, Real};
 
@@ -95,8 +95,7 @@ impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrat
         M: Carries<H::System, T, Memory = SigmaMemory<H::System, T>>,
     {
         let (held, t) = (system.held(), T::lift(0.0));
-        let (at, [q1, rest]) = (point(held, t, &first)?, flatten(held, &second)?);
-        evaluate(held, &q1, &rest, t + h)?;
+        let (at, [q1, _]) = (point(held, t, &first)?, flatten(held, t + h, &second)?);
         let begin = |q0: &_, _: &_, h| method.begin_between(held, [q0, &q1], t, h);
         let length = OneLength(h);
         let begun =

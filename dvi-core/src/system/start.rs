@@ -228,14 +228,17 @@ pub(crate) fn velocities<S: System>(system: &S) -> usize {
     if S::REGULAR { system.space().dimension() } else { 0 }
 }
 
-/// The coordinates and, if the system is regular, the velocities of a state that is one of the system.
+/// The coordinates and, if the system is regular, the velocities of a state that is one of the system, and at
+/// which it is defined at time `t`.
 pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
     system: &S,
+    t: T,
     state: &S::State<T>,
 ) -> Result<[Vector<S, T>; 2], StartError> {
-    let (mut q, mut v) = (system.space().vector(), system.space().vector());
+    let [mut q, mut v] = system.space().vectors();
     state.write(&|block| system.block_len(block), &mut q, &mut v)?;
     finite(system, &q, &v)?;
     spinors::check(system, &q)?;
+    evaluate(system, &q, &v, t)?;
     Ok([q, v])
 }
