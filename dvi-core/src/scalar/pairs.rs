@@ -67,15 +67,9 @@ impl<const B: usize, T> Bodies<'_, B, T> {
         // Whole packs.
         let size = (self.count() / 2).next_multiple_of(CHUNK).min(self.count());
         let middle = self.first + size;
-        let mut second = core::array::from_fn(|_| &mut [][..]);
-        let mut rest = second.iter_mut();
-        let first = self.entries.each_mut().map(|entries| {
-            let (first, second) = entries.split_at_mut(size);
-            if let Some(rest) = rest.next() {
-                *rest = second;
-            }
-            first
-        });
+        let mut parts = self.entries.each_mut().map(|entries| entries.split_at_mut(size));
+        let first = parts.each_mut().map(|(first, _)| core::mem::take(first));
+        let second = parts.map(|(_, second)| second);
         [
             Bodies { first: self.first, past: middle, entries: first },
             Bodies { first: middle, past: self.past, entries: second },
