@@ -99,7 +99,7 @@ use self::expansion::Expansion;
 use self::packs::Pack;
 use self::quantity::{Gradient, Potential, Quantity};
 use self::tree::NotFinite;
-use self::work::{Operations, Terms, Work};
+use self::work::{Operations, Work};
 use crate::error::{IndexError, LengthError};
 use crate::shown::shown;
 use crate::{PairSum, Space, State, Vector};
@@ -259,8 +259,8 @@ where
         let mut inner = self.inner.borrow_mut();
         let (expansion, work) = &mut *inner;
         let weight = |body: usize| PairSum::<f64, D>::weight(self.system, body);
-        let terms = Terms { weight: &weight, kernel: &|r2: Pack| self.system.kernel(r2) };
-        let found = work.evaluate::<Q>(expansion, terms, &factor, self.places(q))?;
+        let kernel = |r2: Pack| self.system.kernel(r2);
+        let found = work.evaluate::<Q>(expansion, &weight, &kernel, &factor, self.places(q))?;
         found.for_each(|(body, sums)| each(body, weight(body), sums));
         Ok(())
     }

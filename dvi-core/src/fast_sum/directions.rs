@@ -84,16 +84,14 @@ fn leading(columns: &DMatrix<f64>, least: f64) -> (DMatrix<f64>, Vec<f64>) {
 mod tests {
     use nalgebra::DMatrix;
 
+    use super::super::transfer::numbers;
     use super::leading;
 
     /// Matrices of rank 3 with singular values far apart.
     #[test]
     fn directions_of_a_low_rank_are_found() {
-        let mut state = 5_u64;
-        let mut entry = |_, _| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
-        };
+        let mut number = numbers(5);
+        let mut entry = |_, _| number();
         for (rows, columns) in [(10, 5), (5, 10), (40, 90), (3, 3), (1, 4)] {
             let mut factor = DMatrix::from_fn(rows, 3, &mut entry);
             factor.column_mut(1).scale_mut(1e-4);

@@ -12,7 +12,7 @@ use super::neighbours::add_reactions;
 use super::packs::{LANES, NOTHING, Pack, add_before, coordinates};
 use super::quantity::Quantity;
 use super::shares::Piece;
-use super::subspace::{Subspace, number};
+use super::subspace::Subspace;
 use super::transfer::Transfer;
 use super::work::Sorted;
 use crate::scalar::widest_if;
@@ -50,7 +50,7 @@ impl<const D: usize> Actions<'_, D> {
         let Some(above) = self.above else { return };
         for (side, matrix) in subspace.narrow.iter().enumerate() {
             let all = self.bodies.tree.cubes[cubes.clone()].iter().enumerate();
-            let on_side = all.filter(|(_, cube)| number(cube.side()) == side);
+            let on_side = all.filter(|(_, cube)| cube.side() == side);
             let ends = on_side
                 .map(|(place, cube)| Ends { from: above.row(cube.whole), to: place * subspace.stride });
             matrix.add_all(ends, above.rows, locals);

@@ -76,40 +76,28 @@ impl Matrix {
             || {
                 let mut fours = ends.chunks_exact(VECTORS);
                 for four in &mut fours {
-                    self.add_four([four[0], four[1], four[2], four[3]], from, to);
+                    self.add_several([four[0], four[1], four[2], four[3]], ROWS, from, to);
                 }
                 for one in fours.remainder() {
-                    self.add_one([*one], from, to);
+                    self.add_several([*one], ROWS_OF_ONE, from, to);
                 }
             },
         );
     }
 
+    /// Adds the products with `V` vectors, so many packs of rows at once at most.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_four(&self, ends: [Ends; VECTORS], from: &[f64], to: &mut [f64]) {
-        for Range { start, end } in parts(self.rows / LANES, ROWS) {
+    fn add_several<const V: usize>(&self, ends: [Ends; V], most: usize, from: &[f64], to: &mut [f64]) {
+        for Range { start, end } in parts(self.rows / LANES, most) {
             match end - start {
-                1 => self.add_rows::<VECTORS, 1>(start, ends, from, to),
-                2 => self.add_rows::<VECTORS, 2>(start, ends, from, to),
-                3 => self.add_rows::<VECTORS, 3>(start, ends, from, to),
-                4 => self.add_rows::<VECTORS, 4>(start, ends, from, to),
-                _ => self.add_rows::<VECTORS, ROWS>(start, ends, from, to),
-            }
-        }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_one(&self, ends: [Ends; 1], from: &[f64], to: &mut [f64]) {
-        for Range { start, end } in parts(self.rows / LANES, ROWS_OF_ONE) {
-            match end - start {
-                1 => self.add_rows::<1, 1>(start, ends, from, to),
-                2 => self.add_rows::<1, 2>(start, ends, from, to),
-                3 => self.add_rows::<1, 3>(start, ends, from, to),
-                4 => self.add_rows::<1, 4>(start, ends, from, to),
-                5 => self.add_rows::<1, 5>(start, ends, from, to),
-                6 => self.add_rows::<1, 6>(start, ends, from, to),
-                7 => self.add_rows::<1, 7>(start, ends, from, to),
-                _ => self.add_rows::<1, ROWS_OF_ONE>(start, ends, from, to),
+                1 => self.add_rows::<V, 1>(start, ends, from, to),
+                2 => self.add_rows::<V, 2>(start, ends, from, to),
+                3 => self.add_rows::<V, 3>(start, ends, from, to),
+                4 => self.add_rows::<V, 4>(start, ends, from, to),
+                5 => self.add_rows::<V, 5>(start, ends, from, to),
+                6 => self.add_rows::<V, 6>(start, ends, from, to),
+                7 => self.add_rows::<V, 7>(start, ends, from, to),
+                _ => self.add_rows::<V, ROWS_OF_ONE>(start, ends, from, to),
             }
         }
     }

@@ -5,7 +5,7 @@ use super::expansion::{Expansion, Row, Stage};
 use super::matrix::{Ends, VECTORS, padded};
 use super::packs::{LANES, NOTHING, Pack, add_lanes, coordinates, load_before};
 use super::shares::Piece;
-use super::subspace::{Subspace, number};
+use super::subspace::Subspace;
 use super::tree::Cube;
 use super::work::Sorted;
 use crate::scalar::widest_if;
@@ -62,7 +62,7 @@ impl<const D: usize> Sources<'_, D> {
                 .iter()
                 .enumerate()
                 .flat_map(|(place, cube)| cube.parts().map(move |part| (place, part)));
-            let on_side = parts.filter(|(_, part)| number(tree.cubes[*part].side()) == side);
+            let on_side = parts.filter(|(_, part)| tree.cubes[*part].side() == side);
             let ends = on_side.map(|(place, part)| Ends { from: below.row(part), to: place * stride });
             matrix.add_all(ends, below.rows, moments);
         }

@@ -46,8 +46,7 @@ impl Subspace {
         let size = basis.len();
         let mut directions = own.map_or_else(|| Directions::none(size), |own| own.directions.clone());
         // The functions of larger cubes in a part on some side.
-        let narrowed =
-            |above: &Self, number: usize| narrowing(basis, side(number)) * &above.directions.functions;
+        let narrowed = |above: &Self, side: usize| narrowing(basis, side) * &above.directions.functions;
         if let Some(above) = above {
             // A force is a slope, and the cubes are half as large. Constants make none, and have a column of
             // their own.
@@ -83,20 +82,12 @@ impl Subspace {
 
 /// From the local expansion of a cube to that of its part on a side: Aᵀ, where B_m(u) = Σ_n A_{mn} B_n(c)
 /// with u = (c ± 1)/2. It is exact, because the degree of a term does not grow.
-fn narrowing<const D: usize>(basis: &Basis<D>, side: [bool; D]) -> DMatrix<f64> {
-    let halves = side.map(|is_upper| half(basis.order, if is_upper { 1.0 } else { -1.0 }));
+fn narrowing<const D: usize>(basis: &Basis<D>, side: usize) -> DMatrix<f64> {
+    let is_upper = |axis: usize| side >> axis & 1 == 1;
+    let halves: [_; D] =
+        core::array::from_fn(|axis| half(basis.order, if is_upper(axis) { 1.0 } else { -1.0 }));
     DMatrix::from_fn(basis.len(), basis.len(), |n, m| {
         let [n, m] = [basis.degrees[n], basis.degrees[m]];
         (0..D).map(|axis| halves[axis][m[axis]][n[axis]]).product()
     })
-}
-
-/// The side with a number.
-fn side<const D: usize>(number: usize) -> [bool; D] {
-    core::array::from_fn(|axis| number >> axis & 1 == 1)
-}
-
-/// The number of a side.
-pub(super) fn number<const D: usize>(side: [bool; D]) -> usize {
-    side.iter().rev().fold(0, |number, side| 2 * number + usize::from(*side))
 }

@@ -126,6 +126,14 @@ fn matrix<const D: usize>(
     Some(coefficients.select_rows(&functions).select_columns(&functions))
 }
 
+/// Numbers in [−1, 1) from a linear congruential generator.
+pub(super) fn numbers(mut state: u64) -> impl FnMut() -> f64 {
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
+    }
+}
+
 /// Columns that a matrix is sampled by.
 const SAMPLES: usize = 8;
 
@@ -145,11 +153,7 @@ fn range<const D: usize>(
     tolerance: f64,
 ) -> Option<Directions> {
     let size = basis.len();
-    let mut state = 2009_u64;
-    let mut entry = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
-    };
+    let mut entry = numbers(2009);
     let mut largest = 0.0;
     let mut samples = Vec::new();
     for t in offsets {

@@ -42,9 +42,9 @@ impl<const D: usize> Cube<D> {
         core::array::from_fn(|axis| self.cell[axis] as i32 - other.cell[axis] as i32)
     }
 
-    /// On which half of the cube around it this one lies.
-    pub(super) fn side(&self) -> [bool; D] {
-        self.cell.map(|place| place & 1 == 1)
+    /// On which side of the cube around it this one lies: bit by bit, whether on the upper half of an axis.
+    pub(super) fn side(&self) -> usize {
+        self.cell.iter().rev().fold(0, |side, place| side << 1 | (place & 1) as usize)
     }
 }
 
@@ -159,15 +159,8 @@ impl<const D: usize> Tree<D> {
             let past = first + bodies.partition_point(|(key, _)| (key >> shift) & ((1 << D) - 1) <= part);
             if past > first {
                 let cell = core::array::from_fn(|axis| 2 * cube.cell[axis] + (part >> axis & 1) as u32);
-                self.cubes.push(Cube {
-                    level: cube.level + 1,
-                    cell,
-                    first,
-                    past,
-                    whole,
-                    first_part: 0,
-                    past_part: 0,
-                });
+                // Not divided, as the one around it was so far.
+                self.cubes.push(Cube { level: cube.level + 1, cell, first, past, whole, ..cube });
             }
             first = past;
         }

@@ -83,13 +83,6 @@ pub(super) struct Work<const D: usize> {
     reactions: Vec<Pack>,
 }
 
-/// What is to be summed: weights and K of a system.
-#[derive(Clone, Copy)]
-pub(super) struct Terms<'s> {
-    pub(super) weight: &'s dyn Fn(usize) -> f64,
-    pub(super) kernel: &'s dyn Fn(Pack) -> Pack,
-}
-
 impl<const D: usize> Work<D> {
     /// For forces with relative errors of about `tolerance`.
     pub(super) fn new(tolerance: f64) -> Self {
@@ -111,17 +104,18 @@ impl<const D: usize> Work<D> {
         }
     }
 
-    /// Sums the quantity Q, of which `factor` is what depends on the squared distance, for bodies at these
-    /// places. Returns each body with its sums.
+    /// Sums the quantity Q, of which `factor` is what depends on the squared distance, for bodies with these
+    /// weights and at these places, with the `kernel` K. Returns each body with its sums.
     pub(super) fn evaluate<Q: Quantity<D>>(
         &mut self,
         expansion: &mut Expansion<D>,
-        terms: Terms<'_>,
+        weight: &dyn Fn(usize) -> f64,
+        kernel: &dyn Fn(Pack) -> Pack,
         factor: &(impl Fn(Pack) -> Pack + Sync),
         places: [&[f64]; D],
     ) -> Result<impl Iterator<Item = (usize, [f64; D])>, NotFinite> {
-        self.sort(expansion, terms.weight, places)?;
-        self.plan(expansion, terms.kernel);
+        self.sort(expansion, weight, places)?;
+        self.plan(expansion, kernel);
         self.pass::<Q>(expansion, factor);
         let has_expansions = self.levels.iter().any(|level| level.transfer.is_some());
         let part = ALLOWED * self.tolerance;
