@@ -35,18 +35,21 @@ const UPPER: [&[[f64; 2]]; MOST - 1] = [
       [1.0, 1.0 / 72.0]],
 ];
 
+/// Node number `place` of `count` ≤ [`MOST`], and its weight.
+fn node(count: usize, place: usize) -> [f64; 2] {
+    let upper = UPPER[count - 2];
+    if let Some(from_centre) = (place + upper.len()).checked_sub(count) {
+        return upper[from_centre];
+    }
+    // Below the centre a node would have finer digits than 2⁻⁵³; it is what that above leaves of 1.
+    let [c, b] = upper[upper.len() - 1 - place];
+    [1.0 - c, b]
+}
+
 /// The nodes and weights of the rule with S + 1 nodes, but for the first, which is 0 and has the weight of
 /// the last. They are the extrema of P_S: each gap between two of its zeros has one.
 pub(in crate::methods) fn extrema<const S: usize>() -> [[f64; 2]; S] {
-    let upper = UPPER[S - 1];
-    core::array::from_fn(|i| {
-        let (node, mirrored) = (i + 1, S - 1 - i);
-        if let Some(&extremum) = upper.iter().rev().nth(mirrored) {
-            return extremum;
-        }
-        let [c, b] = upper[upper.len() - 1 - node];
-        [1.0 - c, b]
-    })
+    core::array::from_fn(|i| node(S + 1, i + 1))
 }
 
 /// Nodes and weights.
@@ -59,15 +62,8 @@ pub(in crate::methods) struct Lobatto<const S: usize> {
 impl<const S: usize> Lobatto<S> {
     pub(in crate::methods) fn new() -> Self {
         const { assert!(S >= 3 && S <= MOST, "interior displacements are available with 3 to 9 nodes") };
-        let (upper, mut new) = (UPPER[S - 2], Self { c: [0.0; S], b: [0.0; S] });
-        for (place, &[c, b]) in upper.iter().rev().enumerate() {
-            // Below the centre a node would have finer digits than 2⁻⁵³; it is what that above leaves of 1.
-            new.c[place] = 1.0 - c;
-            new.c[S - 1 - place] = c;
-            new.b[place] = b;
-            new.b[S - 1 - place] = b;
-        }
-        new
+        let nodes: [[f64; 2]; S] = core::array::from_fn(|place| node(S, place));
+        Self { c: nodes.map(|[c, _]| c), b: nodes.map(|[_, b]| b) }
     }
 
     /// ν of the nodes. All entries, as the nodes, are multiples of 2⁻⁵³ and at most 1 in size, whose
