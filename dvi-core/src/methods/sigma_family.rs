@@ -21,7 +21,7 @@ mod together;
 use crate::discrete::{Interval, OneNode};
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
-use crate::methods::{self, Carries, Clock, Method, PreservedForm, Steps, scheme};
+use crate::methods::{self, Carries, Clock, Gauss, Method, PreservedForm, Steps, scheme};
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, System, Vector};
@@ -29,6 +29,7 @@ use crate::{DegenerateLagrangian, Real, System, Vector};
 pub(crate) use memory::SigmaMemory;
 pub use parasitic_mode::ParasiticMode;
 pub use start::Start;
+use start::one_step;
 
 /// The σ-family: a discrete Lagrangian with one node between the ends.
 ///
@@ -195,7 +196,10 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
         if self.is_midpoint_rule::<S>() {
             return SigmaMemory::without_defect(system, self, q, t, h);
         }
-        let q1 = self.start.second_point(system, q, t, h)?;
+        let q1 = match self.start {
+            Start::Consistent => one_step(&Gauss::<1>::new(), system, q, t, h)?,
+            Start::RungeKutta(method) => one_step(&method, system, q, t, h)?,
+        };
         SigmaMemory::between(system, self, [q, &q1], t, h)
     }
 

@@ -5,7 +5,7 @@
 
 use super::{Sigma, SigmaMemory};
 use crate::error::StartError;
-use crate::methods::{Gauss, Method, RungeKutta, Step};
+use crate::methods::{Method, RungeKutta, Step};
 use crate::state::Statistics;
 use crate::system::spinors;
 use crate::{DegenerateLagrangian, Real, Vector};
@@ -33,23 +33,8 @@ pub enum Start {
     RungeKutta(RungeKutta),
 }
 
-impl Start {
-    pub(super) fn second_point<S: DegenerateLagrangian<T>, T: Real>(
-        self,
-        system: &S,
-        q: &Vector<S, T>,
-        t: T,
-        h: T,
-    ) -> Result<Vector<S, T>, StartError> {
-        match self {
-            Self::Consistent => one_step(&Gauss::<1>::new(), system, q, t, h),
-            Self::RungeKutta(method) => one_step(&method, system, q, t, h),
-        }
-    }
-}
-
 /// Where a step of `method` leads to.
-fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
+pub(super) fn one_step<S: DegenerateLagrangian<T>, T: Real, M: Method<S, T>>(
     method: &M,
     system: &S,
     q: &Vector<S, T>,
