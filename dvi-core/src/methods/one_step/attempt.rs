@@ -72,7 +72,12 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         let Step { system, q, t, h, .. } = *step;
-        begin(point, step, guess, [&mut self.unknown, &mut self.turn]);
+        // Of what is solved for of Δ along x, and of ȳ along y.
+        let (part, half) = (step.part(), T::lift(0.5));
+        point.rates.guess(h, guess, [&mut self.unknown, &mut self.turn]);
+        for (i, unknown) in self.unknown.iter_mut().enumerate() {
+            *unknown = if is_x(system, i) { part * h * *unknown } else { q[i] + half * h * *unknown };
+        }
         self.momentum.copy_from_slice(&point.p);
         self.solve::<J>(step, stopping, statistics)?;
         let node = self.kick::<J>(step, statistics);
@@ -85,7 +90,7 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
         norm::finite(next)?;
         // Between two branches Ω changes its sign.
         norm::mean(q, next, middle);
-        let within: [(&[T], T); 2] = [(middle, t + T::lift(0.5) * h), (last, node)];
+        let within: [(&[T], T); 2] = [(middle, t + half * h), (last, node)];
         point.orientation.pass(system, &within, (next, t + h))
     }
 
@@ -194,21 +199,5 @@ impl<S: ProperlyDegenerate<T>, T: Real> Work<S, T> {
     #[inline]
     pub(super) fn leave(&self, q: &mut Vector<S, T>, point: &mut Point<S, T>, h: T) {
         point.arrive(q, (&self.next, &self.momentum), h, [&self.rates, &self.turn]);
-    }
-}
-
-/// Sets `unknown` to the guess: of what is solved for of Δ along x, and of ȳ along y.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn begin<S: ProperlyDegenerate<T>, T: Real>(
-    point: &Point<S, T>,
-    step: &Step<'_, S, T>,
-    guess: Guess,
-    [unknown, turn]: [&mut Vector<S, T>; 2],
-) {
-    let Step { system, q, h, .. } = *step;
-    let (part, half) = (step.part(), T::lift(0.5));
-    point.rates.guess(h, guess, [unknown, turn]);
-    for (i, unknown) in unknown.iter_mut().enumerate() {
-        *unknown = if is_x(system, i) { part * h * *unknown } else { q[i] + half * h * *unknown };
     }
 }
