@@ -45,16 +45,6 @@ pub(in crate::methods) struct Departure<'a, T> {
     pub(in crate::methods) h: T,
 }
 
-/// A stage that has been found.
-#[derive(Clone, Copy)]
-pub(in crate::methods) struct Stage<'a, T> {
-    pub(in crate::methods) point: &'a [T],
-    pub(in crate::methods) velocity: &'a [T],
-    pub(in crate::methods) force: &'a [T],
-    pub(in crate::methods) momentum: &'a [T],
-    pub(in crate::methods) time: T,
-}
-
 impl<const STAGES: usize, S: Lagrangian<T>, T: Real> NewtonStages<STAGES, S, T> {
     pub(in crate::methods) fn new(system: &S, [q, v]: [&[T]; 2], t: T, storing: Storing) -> Self {
         let (space, mut node) = (system.space(), NodeWork::new(system));
@@ -71,7 +61,8 @@ impl<const STAGES: usize, S: Lagrangian<T>, T: Real> NewtonStages<STAGES, S, T> 
         }
     }
 
-    /// Improves the increments from a guess until the equations `E` hold, and gives each stage to `take`.
+    /// Improves the increments from a guess until the equations `E` hold, and gives each stage to `take`: its
+    /// number and time, its point, velocity and momentum, and F there.
     ///
     /// # Errors
     /// As [`solve_coupled`], or what `take` finds.
@@ -79,10 +70,9 @@ impl<const STAGES: usize, S: Lagrangian<T>, T: Real> NewtonStages<STAGES, S, T> 
         &mut self,
         system: &S,
         from: Departure<'_, T>,
-        guess: Guess,
-        stopping: Stopping,
+        (guess, stopping): (Guess, Stopping),
         statistics: &mut Statistics,
-        mut take: impl FnMut(usize, Stage<'_, T>, &mut Statistics) -> Result<(), StepFailure>,
+        mut take: impl FnMut(usize, T, &NodeWork<S, T>, &[T], &mut Statistics) -> Result<(), StepFailure>,
     ) -> Result<(), StepFailure> {
         let Self { solver, tableau, increments, forces, residuals, weights, node } = self;
         let tolerance = stopping.tolerance;
@@ -106,11 +96,10 @@ impl<const STAGES: usize, S: Lagrangian<T>, T: Real> NewtonStages<STAGES, S, T> 
         stages.evaluate(residuals, statistics)?;
         for stage in 0..STAGES {
             stages.place(stage);
-            let time = stages.time();
             stages.set_momentum();
-            let Stages { node: NodeWork { point, velocity, momentum, .. }, forces, .. } = &stages;
-            norm::finite(velocity).and(norm::finite(&forces[stage]))?;
-            take(stage, Stage { point, velocity, force: &forces[stage], momentum, time }, statistics)?;
+            let (node, force) = (&*stages.node, &stages.forces[stage]);
+            norm::finite(&node.velocity).and(norm::finite(force))?;
+            take(stage, stages.time(), node, force, statistics)?;
         }
         Ok(())
     }

@@ -3,10 +3,11 @@
 use core::ops::Deref;
 
 use super::memory::Path;
+use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, StageWork, weigh};
 use crate::memory::Aside;
-use crate::methods::collocation::stages::{Departure, NewtonStages, Stage};
+use crate::methods::collocation::stages::{Departure, NewtonStages};
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::passes::multiply;
@@ -80,8 +81,8 @@ where
     let Path { equations, coefficients, slopes, terms, y, rest, work, .. } = path;
     let StageWork { point, slope, .. } = work;
     let from = Departure { q: [part(y, 0), part(rest, 0)], p: [part(y, 1), part(rest, 1)], t, h };
-    let take = |stage: usize, found: Stage<'_, T>, statistics: &mut Statistics| {
-        let Stage { point: place, velocity, force, momentum, time } = found;
+    let take = |stage, time, node: &NodeWork<S, T>, force: &[T], statistics: &mut Statistics| {
+        let NodeWork { point: place, velocity, momentum, .. } = node;
         for (slopes, slope) in slopes.iter_mut().zip([velocity, force]) {
             write_lane(stage, slope, slopes);
         }
@@ -96,7 +97,7 @@ where
         }
         Ok(())
     };
-    let solved = newton.solve::<S::Kind>(system, from, guess, stopping, statistics, take);
+    let solved = newton.solve::<S::Kind>(system, from, (guess, stopping), statistics, take);
     solved.map_err(|failure| failure.of(StepFailure::STAGES))?;
     let weights = Lanes::all(h) * coefficients.b;
     for (slopes, terms) in slopes.iter().zip(terms.iter_mut()) {

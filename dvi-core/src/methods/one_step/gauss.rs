@@ -111,10 +111,10 @@ impl<const STAGES: usize, S: ProperlyDegenerate<T>, T: Real> Method<S, T> for On
             let OnePoint { p, rates, orientation } = &mut *point;
             rates.guess(h, guess, stages.increments.each_mut());
             stages.increments.iter_mut().for_each(|w| multiply(w, h));
-            let from = Departure { q: [q, zero], p: [p, zero], t, h };
+            let (from, search) = (Departure { q: [q, zero], p: [p, zero], t, h }, (guess, stopping));
             // Between two branches Ω changes its sign.
-            stages.solve::<Regular>(system, from, guess, stopping, statistics, |_, stage, _| {
-                orientation.compare(system, stage.point, stage.time)
+            stages.solve::<Regular>(system, from, search, statistics, |_, time, node, _, _| {
+                orientation.compare(system, &node.point, time)
             })?;
             let NewtonStages { tableau: Collocation { b, .. }, increments, forces, .. } = &*stages;
             for i in 0..q.len() {
