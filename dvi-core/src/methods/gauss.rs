@@ -286,6 +286,6 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
             path.evaluate_part::<E>(1, system, [t, h], statistics)?;
         }
         path.displace(h);
-        path.arrive(memory::first_part::<S, T>(&path.equations), summation, system, q, [t, h])
+        path.arrive(Path::<STAGES, S, T>::FIRST_PART, summation, system, q, [t, h])
     }
 }

@@ -27,7 +27,7 @@
 //! costs S + 1 evaluations of X. A change of X that comes and goes between two of these 2S + 1 points is
 //! seen by none of them.
 
-use super::memory::{Path, first_part};
+use super::memory::Path;
 use crate::error::StepFailure;
 use crate::mechanics::motion::{AtStages, FirstOrder, StageEvaluation};
 use crate::methods::collocation::packs::{at, combine, sum};
@@ -76,7 +76,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         self.set_velocities();
         let Self { equations, coefficients, completed, slopes, stages, renewed, y, increment, work, .. } =
             self;
-        let (extrema, first) = (&coefficients.extrema, first_part::<S, T>(equations));
+        let (extrema, first) = (&coefficients.extrema, Self::FIRST_PART);
         S::Kind::evaluate(equations, system, y, t, increment, statistics)?;
         for part in 0..first {
             completed[part].copy_from_slice(&slopes[part]);
@@ -110,8 +110,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     /// The error that the defects lead to, in units of `tolerance`.
     #[inline]
     fn estimate(&mut self, t: T, [h, usual]: [T; 2], tolerance: Tolerance) -> Result<T, StepFailure> {
-        let Self { equations, coefficients, completed, slopes, y, increment, next, .. } = &*self;
-        let (extrema, first, last) = (&coefficients.extrema, first_part::<S, T>(equations), y.len() - 1);
+        let Self { coefficients, completed, slopes, y, increment, next, .. } = &*self;
+        let (extrema, first, last) = (&coefficients.extrema, Self::FIRST_PART, y.len() - 1);
         let (zero, one) = (T::lift(0.0), T::lift(1.0));
         let largest_of = |packs: &[Lanes<STAGES, T>]| {
             packs.iter().fold(zero, |most, pack| norm::larger(most, norm::largest(&pack.0)))

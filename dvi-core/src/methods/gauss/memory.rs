@@ -63,6 +63,10 @@ shown!([const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real] GaussMe
     |memory| completed: memory.path.completed);
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
+    /// The first part whose slopes are carried from step to step. Of equations of second order, of which only
+    /// forces are evaluated, that is the second.
+    pub(super) const FIRST_PART: usize = S::Kind::OF_SECOND_ORDER as usize;
+
     pub(super) fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Self, StartError> {
         let mut equations = S::Kind::begin(system, q, v, t)?;
         let [mut y, mut slope, rest, increment, next]: [PointOf<S, T>; 5] = S::Kind::points(system);
@@ -106,7 +110,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     /// next step, or to zero: where they have a kink it leads far away, out of the domain of L too.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn guess(&mut self, guess: Guess, h: T) {
-        let Self { equations, coefficients, completed, last, again, slopes, terms, y, .. } = self;
+        let Self { coefficients, completed, last, again, slopes, terms, y, .. } = self;
         let weights = Lanes::all(h) * coefficients.b;
         let continued;
         let continuation = if *again {
@@ -118,7 +122,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             continued = coefficients.continuation_over(h / *last);
             &continued
         };
-        for part in first_part::<S, T>(equations)..y.len() {
+        for part in Self::FIRST_PART..y.len() {
             guess.begin(
                 &mut slopes[part],
                 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -137,12 +141,9 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
 
     /// Sets the positions of the stages of the last step, and their velocities.
     pub(super) fn set_stages(&mut self) {
-        let is_reduced = first_part::<S, T>(&self.equations) > 0;
-        if is_reduced {
-            self.set_velocities();
-        }
+        self.set_velocities();
         let Self { coefficients, completed, last, slopes, terms, stages, y, .. } = self;
-        if !is_reduced {
+        if !S::Kind::OF_SECOND_ORDER {
             slopes[0].copy_from_slice(&completed[0]);
         }
         weigh(Lanes::all(*last) * coefficients.b, &slopes[0], &mut terms[0]);
@@ -228,13 +229,4 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         *last = h;
         Ok(())
     }
-}
-
-/// The first part whose slopes are carried from step to step. Of equations of second order, of which only
-/// forces are evaluated, that is the second.
-#[inline]
-pub(super) fn first_part<S: System<Kind: FirstOrder<S, T>>, T: Real>(
-    equations: &EquationsOf<S, T>,
-) -> usize {
-    usize::from(S::Kind::reciprocal_masses(equations).is_some())
 }
