@@ -15,10 +15,9 @@ use crate::state::Statistics;
 use crate::system::{Kind, Regular, Same};
 use crate::{Lagrangian, Real, Scalar, Sink, Space, System, Vector, Weights};
 
-use stages::FirstOrderInLanes;
 pub use stages::InLanes;
 pub(crate) use stages::{AtStages, StageWork, weigh, weigh_each};
-pub(crate) use stages::{Evaluation, OneByOne, StageEvaluation};
+pub(crate) use stages::{Evaluation, FirstOrderAtStages, OneByOne};
 
 /// A point y, or its velocity: `K` vectors of the space.
 #[derive(Clone, Debug)]

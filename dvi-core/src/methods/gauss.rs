@@ -21,7 +21,7 @@ mod newton;
 mod second_order;
 
 use crate::error::{StartError, StepFailure};
-use crate::mechanics::motion::{FirstOrder, InLanes, OneByOne, StageEvaluation};
+use crate::mechanics::motion::{Evaluation, FirstOrder, FirstOrderAtStages, InLanes, OneByOne};
 use crate::methods::{
     Carries, Here, Method, PreservedForm, Step, Tabulated, Tolerance, VariableStep, scheme,
 };
@@ -128,8 +128,8 @@ impl<const STAGES: usize, E, S: System<Kind: FirstOrder<S, T>>, T: Real> Carries
 
 impl<const STAGES: usize, E, S, T: Real> Method<S, T> for Gauss<STAGES, E>
 where
-    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
-    E: StageEvaluation<STAGES, S, T>,
+    S: Lagrangian<T> + System<Kind: FirstOrderAtStages<E, STAGES, S, T>>,
+    E: Evaluation,
 {
     type Suited<X> = <S::Kind as FirstOrder<S, T>>::Suited<X>;
 
@@ -231,8 +231,8 @@ const LONG: usize = 6;
 
 impl<const STAGES: usize, E, S, T: Real> VariableStep<S, T> for Gauss<STAGES, E>
 where
-    S: Lagrangian<T> + System<Kind: FirstOrder<S, T>>,
-    E: StageEvaluation<STAGES, S, T>,
+    S: Lagrangian<T> + System<Kind: FirstOrderAtStages<E, STAGES, S, T>>,
+    E: Evaluation,
 {
     type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }
@@ -250,8 +250,8 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure>
     where
-        S: System<Kind: FirstOrder<S, T>>,
-        E: StageEvaluation<STAGES, S, T>,
+        S: System<Kind: FirstOrderAtStages<E, STAGES, S, T>>,
+        E: Evaluation,
     {
         let Self { stopping, summation, .. } = *self;
         S::Kind::gather(&mut path.equations, q, &mut path.y);

@@ -1,6 +1,8 @@
 //! Ω q' = ∇H + ∂α/∂t, on Q.
 
-use super::{AtStages, FirstOrder, FirstOrderInLanes, Point, Rates, StageEquations, StageWork, points};
+use super::{
+    AtStages, FirstOrder, FirstOrderAtStages, InLanes, Point, Rates, StageEquations, StageWork, points,
+};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::VectorField;
 use crate::mechanics::orientation::FormOrientation;
@@ -109,12 +111,12 @@ impl<S: DegenerateLagrangian<T>, T: Real> StageEquations<S, T> for Degenerate {
 }
 
 #[diagnostic::do_not_recommend]
-impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Degenerate
+impl<const W: usize, S, T: Real> FirstOrderAtStages<InLanes, W, S, T> for Degenerate
 where
     S: DegenerateLagrangian<T> + DegenerateLagrangian<Lanes<W, T>>,
 {
     #[inline]
-    fn evaluate_in_lanes(
+    fn evaluate_at_stages(
         equations: &mut FlowOnQ<S, T>,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,

@@ -1,8 +1,6 @@
 //! q' = v, where ∂L/∂v(q, v, t) = p, and p' = ∂L/∂q(q, v, t), on T*Q.
 
-use super::{
-    AtStages, FirstOrder, FirstOrderInLanes, OneByOne, Point, Rates, StageEvaluation, StageWork, points,
-};
+use super::{AtStages, FirstOrder, FirstOrderAtStages, InLanes, OneByOne, Point, Rates, StageWork, points};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::legendre::Legendre;
 use crate::mechanics::mass::Mass;
@@ -172,12 +170,12 @@ impl<S: RegularLagrangian<T>, T: Real> FirstOrder<S, T> for Regular {
 }
 
 #[diagnostic::do_not_recommend]
-impl<const W: usize, S, T: Real> FirstOrderInLanes<W, S, T> for Regular
+impl<const W: usize, S, T: Real> FirstOrderAtStages<InLanes, W, S, T> for Regular
 where
     S: RegularLagrangian<T> + RegularLagrangian<Lanes<W, T>>,
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate_in_lanes(
+    fn evaluate_at_stages(
         equations: &mut HamiltonsEquations<S, T>,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
@@ -191,7 +189,9 @@ where
             return Ok(());
         }
         let Some(reciprocals) = equations.mass.reciprocals() else {
-            return OneByOne::evaluate_part(equations, at, work, out, statistics);
+            return <Self as FirstOrderAtStages<OneByOne, W, S, T>>::evaluate_at_stages(
+                equations, at, work, out, statistics,
+            );
         };
         if <S as NondegenerateLagrangian<T>>::CONSTANT_MASS {
             for ((velocity, &p), &reciprocal) in out.iter_mut().zip(p.iter()).zip(reciprocals) {

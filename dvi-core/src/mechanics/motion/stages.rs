@@ -1,7 +1,7 @@
 //! The equations of motion at all stages of a step, of which each has a lane: evaluated one by one, or in
 //! the lanes.
 
-use super::{EquationsOf, FirstOrder, PackedOf, PointOf};
+use super::{FirstOrder, PackedOf, PointOf};
 use crate::error::StepFailure;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
@@ -120,71 +120,19 @@ impl Evaluation for InLanes {
     const WIDE: bool = true;
 }
 
-/// How the equations of motion are evaluated at the `W` stages of a step.
-pub trait StageEvaluation<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real>: Evaluation {
-    /// Sets `out` to an entry of X at all stages, as [`FirstOrder::evaluate_part`] does at one.
-    ///
-    /// # Errors
-    /// As there, of the first stage that fails.
-    fn evaluate_part(
-        equations: &mut EquationsOf<S, T>,
-        at: &AtStages<'_, W, S, T>,
-        work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure>;
-}
-
-impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageEvaluation<W, S, T> for OneByOne {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate_part(
-        equations: &mut EquationsOf<S, T>,
-        at: &AtStages<'_, W, S, T>,
-        work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        let StageWork { point, slope, .. } = work;
-        for stage in 0..W {
-            for (to, from) in point.iter_mut().zip(at.y.iter()) {
-                read_lane(stage, from, to);
-            }
-            read_lane(stage, at.velocity, &mut slope[0]);
-            S::Kind::evaluate_part(equations, at.system, at.part, point, at.t.0[stage], slope, statistics)?;
-            write_lane(stage, &slope[at.part], out);
-        }
-        Ok(())
-    }
-}
-
-impl<const W: usize, S: System<Kind: FirstOrderInLanes<W, S, T>>, T: Real> StageEvaluation<W, S, T>
-    for InLanes
-{
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn evaluate_part(
-        equations: &mut EquationsOf<S, T>,
-        at: &AtStages<'_, W, S, T>,
-        work: &mut StageWork<W, S, T>,
-        out: &mut Vector<S, Lanes<W, T>>,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
-        S::Kind::evaluate_in_lanes(equations, at, work, out, statistics)
-    }
-}
-
-/// The equations of motion of a system `S` at `W` points at once.
+/// The equations of motion of a system `S` at the `W` stages of a step, evaluated as `E` says.
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` cannot be evaluated in lanes",
     label = "it is no system, it has constraints, impacts, rotations or unit vectors, or a parameter of it is not of one type in all of them",
     note = "`Gauss` without `in_lanes` takes parameters of type `Varied`"
 )]
-pub trait FirstOrderInLanes<const W: usize, S: System, T: Real>: FirstOrder<S, T> {
-    /// As [`StageEvaluation::evaluate_part`].
+pub trait FirstOrderAtStages<E, const W: usize, S: System, T: Real>: FirstOrder<S, T> {
+    /// Sets `out` to an entry of X at all stages, as [`FirstOrder::evaluate_part`] does at one.
     ///
     /// # Errors
-    /// As there.
-    fn evaluate_in_lanes(
-        equations: &mut EquationsOf<S, T>,
+    /// As there, of the first stage that fails.
+    fn evaluate_at_stages(
+        equations: &mut Self::Equations,
         at: &AtStages<'_, W, S, T>,
         work: &mut StageWork<W, S, T>,
         out: &mut Vector<S, Lanes<W, T>>,
@@ -192,4 +140,29 @@ pub trait FirstOrderInLanes<const W: usize, S: System, T: Real>: FirstOrder<S, T
     ) -> Result<(), StepFailure>
     where
         S: System<Kind = Self>;
+}
+
+impl<K: FirstOrder<S, T>, const W: usize, S: System, T: Real> FirstOrderAtStages<OneByOne, W, S, T> for K {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluate_at_stages(
+        equations: &mut Self::Equations,
+        at: &AtStages<'_, W, S, T>,
+        work: &mut StageWork<W, S, T>,
+        out: &mut Vector<S, Lanes<W, T>>,
+        statistics: &mut Statistics,
+    ) -> Result<(), StepFailure>
+    where
+        S: System<Kind = Self>,
+    {
+        let StageWork { point, slope, .. } = work;
+        for stage in 0..W {
+            for (to, from) in point.iter_mut().zip(at.y.iter()) {
+                read_lane(stage, from, to);
+            }
+            read_lane(stage, at.velocity, &mut slope[0]);
+            Self::evaluate_part(equations, at.system, at.part, point, at.t.0[stage], slope, statistics)?;
+            write_lane(stage, &slope[at.part], out);
+        }
+        Ok(())
+    }
 }

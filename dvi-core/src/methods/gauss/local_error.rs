@@ -29,7 +29,7 @@
 
 use super::memory::Path;
 use crate::error::StepFailure;
-use crate::mechanics::motion::{AtStages, FirstOrder, StageEvaluation};
+use crate::mechanics::motion::{AtStages, Evaluation, FirstOrder, FirstOrderAtStages};
 use crate::methods::collocation::packs::{at, combine, sum};
 use crate::methods::tolerance::{Tolerance, in_units_of};
 use crate::scalar::simd::widest_if;
@@ -46,14 +46,17 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     /// that begins at rest makes all of its momentum, and is as wrong in it however short it is, where a
     /// force begins as a power of the time: so the momentum is meant that this force makes in a step of the
     /// usual length.
-    pub(super) fn local_error<E: StageEvaluation<STAGES, S, T>>(
+    pub(super) fn local_error<E: Evaluation>(
         &mut self,
         system: &S,
         t: T,
         [h, usual]: [T; 2],
         tolerance: Tolerance,
         statistics: &mut Statistics,
-    ) -> Result<T, StepFailure> {
+    ) -> Result<T, StepFailure>
+    where
+        S::Kind: FirstOrderAtStages<E, STAGES, S, T>,
+    {
         widest_if(
             E::WIDE,
             #[inline]
@@ -67,12 +70,15 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     /// Sets `increment` to the defect at the start of the step, and `slopes` to those at the other extrema,
     /// but for those of q where q' = p/m: there the defect is a multiple of P_S.
     #[inline]
-    fn evaluate_defects<E: StageEvaluation<STAGES, S, T>>(
+    fn evaluate_defects<E>(
         &mut self,
         system: &S,
         [t, h]: [T; 2],
         statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<(), StepFailure>
+    where
+        S::Kind: FirstOrderAtStages<E, STAGES, S, T>,
+    {
         self.set_velocities();
         let Self { equations, coefficients, completed, slopes, stages, renewed, y, increment, work, .. } =
             self;
@@ -89,7 +95,7 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         for part in first..y.len() {
             let t = Lanes::all(t) + extrema.c * Lanes::all(h);
             let at = AtStages { system, part, y: &*stages, velocity: &slopes[0], t };
-            E::evaluate_part(equations, &at, work, renewed, statistics)?;
+            S::Kind::evaluate_at_stages(equations, &at, work, renewed, statistics)?;
             slopes[part].copy_from_slice(renewed);
         }
         for part in 0..y.len() {

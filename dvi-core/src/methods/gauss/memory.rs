@@ -3,7 +3,7 @@
 use super::coefficients::Coefficients;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{
-    AtStages, EquationsOf, FirstOrder, PackedOf, PointOf, StageEvaluation, StageWork, weigh,
+    AtStages, EquationsOf, FirstOrder, FirstOrderAtStages, PackedOf, PointOf, StageWork, weigh,
 };
 use crate::memory::{Aside, lasting};
 use crate::methods::collocation::packs::{at, beside, combine, nothing, replace, sum};
@@ -153,13 +153,16 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
     /// Evaluates one part of the slopes at the points of all stages, and returns the largest change of a
     /// velocity.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn evaluate_part<E: StageEvaluation<STAGES, S, T>>(
+    pub(super) fn evaluate_part<E>(
         &mut self,
         part: usize,
         system: &S,
         [t, h]: [T; 2],
         statistics: &mut Statistics,
-    ) -> Result<T, StepFailure> {
+    ) -> Result<T, StepFailure>
+    where
+        S::Kind: FirstOrderAtStages<E, STAGES, S, T>,
+    {
         let Self { equations, coefficients, slopes, terms, stages, renewed, weights: units, work, .. } =
             self;
         let (velocity, forces) = slopes.split_at_mut(1);
@@ -168,11 +171,11 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
         let weights = Lanes::all(h) * coefficients.b;
         if part > 0 {
             let force = &mut forces[part - 1];
-            E::evaluate_part(equations, &at, work, force, statistics)?;
+            S::Kind::evaluate_at_stages(equations, &at, work, force, statistics)?;
             weigh(weights, force, &mut terms[part]);
             return Ok(T::lift(0.0));
         }
-        E::evaluate_part(equations, &at, work, renewed, statistics)?;
+        S::Kind::evaluate_at_stages(equations, &at, work, renewed, statistics)?;
         let terms = &mut terms[0][..];
         let weigh = |k: usize, slope| terms[k] = weights * slope;
         Ok(replace(system, units, &mut velocity[0], renewed, weigh))
