@@ -123,8 +123,8 @@ where
         out: &mut Vector<S, Lanes<W, T>>,
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
-        let StageWork { gradient, entries, vector, .. } = work;
-        let work = ([&mut gradient[..], &mut entries[..]], &mut vector[..]);
+        let StageWork { point, gradient, entries, .. } = work;
+        let work = ([&mut gradient[..], &mut entries[..]], &mut point[0][..]);
         equations.field.evaluate_in_lanes(at.system, &at.y.0[0], at.t, work, out, statistics)
     }
 }

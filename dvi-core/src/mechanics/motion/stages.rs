@@ -33,7 +33,6 @@ pub struct StageWork<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real>
     /// One stage.
     pub(crate) point: PointOf<S, T>,
     pub(crate) slope: PointOf<S, T>,
-    pub(super) vector: Vector<S, T>,
     /// All stages: forces or ∇H, or X itself.
     pub(super) gradient: Vector<S, Lanes<W, T>>,
     /// Of Ω; of a regular system, the velocity zero.
@@ -44,7 +43,7 @@ impl<const W: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> StageWork<W, S,
     pub(crate) fn new(system: &S) -> Self {
         let space = system.space();
         let [point, slope] = S::Kind::points(system);
-        Self { point, slope, vector: space.vector(), gradient: space.vector(), entries: space.vector() }
+        Self { point, slope, gradient: space.vector(), entries: space.vector() }
     }
 }
 
