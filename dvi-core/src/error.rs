@@ -272,6 +272,18 @@ pub enum StartError {
     Checkpoint(#[from] CheckpointError),
 }
 
+impl StartError {
+    /// [`Parameter`](Self::Parameter), unless the `value` of an option is in its `range`.
+    pub(crate) fn unless(
+        in_range: bool,
+        name: &'static str,
+        value: f64,
+        range: &'static str,
+    ) -> Result<(), Self> {
+        if in_range { Ok(()) } else { Err(Self::Parameter { name, value, range }) }
+    }
+}
+
 /// A checkpoint that does not fit the run that is to go on from it.
 #[derive(Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]

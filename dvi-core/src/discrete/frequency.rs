@@ -142,10 +142,8 @@ impl Frequency for Constant {
     }
 
     fn validate(&self) -> Result<(), StartError> {
-        if (0.0..f64::INFINITY).contains(&self.0) {
-            return Ok(());
-        }
-        Err(StartError::Parameter { name: "omega", value: self.0, range: "0 <= omega, finite" })
+        let in_range = (0.0..f64::INFINITY).contains(&self.0);
+        StartError::unless(in_range, "omega", self.0, "0 <= omega, finite")
     }
 }
 

@@ -169,22 +169,16 @@ impl Quadrature {
     /// [`StartError::Parameter`] if there are no or more than five nodes, the numbers of nodes and weights
     /// differ, a node lies outside of \[0, 1\], or the weights do not sum up to one within 1e-12.
     pub fn new(nodes: &[f64], weights: &[f64]) -> Result<Self, StartError> {
-        let wrong = |name, value, range| Err(StartError::Parameter { name, value, range });
-        if nodes.is_empty() || nodes.len() > NODES {
-            return wrong("nodes.len()", nodes.len() as f64, "1 to 5");
-        }
-        if weights.len() != nodes.len() {
-            return wrong("weights.len()", weights.len() as f64, "as many weights as nodes");
-        }
-        if let Some(&node) = nodes.iter().find(|&&c| !(0.0..=1.0).contains(&c)) {
-            return wrong("node", node, "0 <= node <= 1");
+        let (count, weight_count) = (nodes.len(), weights.len());
+        StartError::unless((1..=NODES).contains(&count), "nodes.len()", count as f64, "1 to 5")?;
+        let as_many = weight_count == count;
+        StartError::unless(as_many, "weights.len()", weight_count as f64, "as many weights as nodes")?;
+        for &node in nodes {
+            StartError::unless((0.0..=1.0).contains(&node), "node", node, "0 <= node <= 1")?;
         }
         let sum: f64 = weights.iter().sum();
         let differs = if sum > 1.0 { sum - 1.0 } else { 1.0 - sum };
-        let close = differs <= 1e-12;
-        if !close {
-            return wrong("sum of the weights", sum, "1");
-        }
+        StartError::unless(differs <= 1e-12, "sum of the weights", sum, "1")?;
         let mut rule = Self::of(([0.0; NODES], [0.0; NODES]), nodes.len());
         rule.nodes[..nodes.len()].copy_from_slice(nodes);
         rule.weights[..nodes.len()].copy_from_slice(weights);

@@ -80,10 +80,7 @@ where
     type Suited<X> = <M as Method<S, T>>::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        if self.limit.is_nan() || self.limit <= 0.0 {
-            let (value, range) = (self.limit, "positive");
-            return Err(StartError::Parameter { name: "limit", value, range });
-        }
+        StartError::unless(self.limit > 0.0, "limit", self.limit, "positive")?;
         let begin = || self.method.begin(system, q, v, t, h);
         let (start, before) = (watched(system, q, v, t), Kept { q: q.clone(), memory: begin()? });
         Ok(EnergyLimitMemory { inner: begin()?, before, v: system.space().vector(), start })

@@ -156,13 +156,7 @@ where
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let e = self.restitution;
-        if e.is_nan() || e <= 0.0 || e > 1.0 {
-            return Err(StartError::Parameter {
-                name: "restitution",
-                value: e,
-                range: "above 0 and up to 1",
-            });
-        }
+        StartError::unless(e > 0.0 && e <= 1.0, "restitution", e, "above 0 and up to 1")?;
         let refused = if self.collision == Collision::Reflection {
             None
         } else if S::FORCED || !S::AUTONOMOUS {

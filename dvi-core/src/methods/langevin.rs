@@ -89,9 +89,8 @@ lasting!([S: System, T: Real] LangevinMemory<S, T>, T; part carried, count step)
 impl Langevin {
     fn validate<T: Real>(&self, h: T) -> Result<(), StartError> {
         for (name, value) in [("friction", self.friction), ("temperature", self.temperature)] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(StartError::Parameter { name, value, range: "not negative, and finite" });
-            }
+            let in_range = value >= 0.0 && value.is_finite();
+            StartError::unless(in_range, name, value, "not negative, and finite")?;
         }
         if h < T::lift(0.0) {
             let reason = "friction and noise have a direction in time";

@@ -173,10 +173,8 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Newmark<T
     type Suited<X> = <S as Separable<T>>::Suited<<<S as RegularLagrangian<T>>::Suited<X> as Same<X>>::As>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, _h: T) -> Result<Self::Memory, StartError> {
-        if !(self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5)) {
-            let (value, range) = (reported(self.beta), "0 <= beta <= 1/2");
-            return Err(StartError::Parameter { name: "beta", value, range });
-        }
+        let in_range = self.beta >= T::lift(0.0) && self.beta <= T::lift(0.5);
+        StartError::unless(in_range, "beta", reported(self.beta), "0 <= beta <= 1/2")?;
         self.stopping.validate()?;
         let solver = if self.is_verlet() { Solver::FixedPoint } else { self.solver.in_numbers::<T>() };
         PhaseMemory::new(system, (q, v, t), (solver, self.summation), ())

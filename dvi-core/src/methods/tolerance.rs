@@ -36,14 +36,16 @@ pub struct Tolerance {
 impl Tolerance {
     /// Whether both are in range.
     pub(crate) fn validate<T: Real>(self) -> Result<(), StartError> {
-        let parameter = |name, value, range| Err(StartError::Parameter { name, value, range });
-        if !(self.relative >= reported(T::default_epsilon()) && self.relative.is_finite()) {
-            return parameter("relative", self.relative, "finite, and at least the rounding of the numbers");
-        }
-        if !(self.absolute >= 0.0 && self.absolute.is_finite()) {
-            return parameter("absolute", self.absolute, "zero or positive, and finite");
-        }
-        Ok(())
+        let Self { relative, absolute } = self;
+        let in_range = relative >= reported(T::default_epsilon()) && relative.is_finite();
+        StartError::unless(
+            in_range,
+            "relative",
+            relative,
+            "finite, and at least the rounding of the numbers",
+        )?;
+        let in_range = absolute >= 0.0 && absolute.is_finite();
+        StartError::unless(in_range, "absolute", absolute, "zero or positive, and finite")
     }
 
     /// What is allowed in a coordinate of this size.

@@ -69,14 +69,9 @@ impl Default for Stopping {
 
 impl Stopping {
     pub(crate) fn validate(self) -> Result<(), StartError> {
-        if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
-            let range = "0 <= tolerance < 1";
-            return Err(StartError::Parameter { name: "tolerance", value: self.tolerance, range });
-        }
-        if self.max_iterations == 0 {
-            return Err(StartError::Parameter { name: "max_iterations", value: 0.0, range: "at least 1" });
-        }
-        Ok(())
+        let in_range = self.tolerance >= 0.0 && self.tolerance < 1.0;
+        StartError::unless(in_range, "tolerance", self.tolerance, "0 <= tolerance < 1")?;
+        StartError::unless(self.max_iterations > 0, "max_iterations", 0.0, "at least 1")
     }
 }
 

@@ -10,9 +10,7 @@ use crate::{Lagrangian, Real, Scalar, Space, State, System, Vector, Weights};
 
 /// Whether a run can begin at time `t`, and the formulas of `system` stay within its arrays.
 pub(crate) fn validate<S: Lagrangian<T>, T: Real>(system: &S, t: T) -> Result<(), StartError> {
-    if !t.is_finite() {
-        return Err(StartError::Parameter { name: "t", value: reported(t), range: "finite" });
-    }
+    StartError::unless(t.is_finite(), "t", reported(t), "finite")?;
     Ok(system.check()?)
 }
 

@@ -20,20 +20,15 @@ impl<T: Real> Sigma<T> {
         t: T,
     ) -> Result<(), StartError> {
         let in_range = self.sigma >= T::lift(0.0) && self.sigma <= T::lift(1.0);
-        if !in_range {
-            let value = norm::reported(self.sigma);
-            return Err(StartError::Parameter { name: "sigma", value, range: "0 <= sigma <= 1" });
-        }
+        StartError::unless(in_range, "sigma", norm::reported(self.sigma), "0 <= sigma <= 1")?;
         if self.summation == Summation::Compensated && (!S::AFFINE || self.is_end()) {
             let reason = "it is for affine one-forms and 0 < sigma < 1";
             return Err(StartError::Unsupported { option: "Summation::Compensated", reason });
         }
-        match self.parasitic_limit {
-            Some(value) if value.is_nan() || value <= 0.0 => {
-                return Err(StartError::Parameter { name: "parasitic_limit", value, range: "positive" });
-            }
-            _ => self.stopping.validate()?,
+        if let Some(limit) = self.parasitic_limit {
+            StartError::unless(limit > 0.0, "parasitic_limit", limit, "positive")?;
         }
+        self.stopping.validate()?;
         if self.is_midpoint_rule::<S>() {
             return Ok(());
         }

@@ -223,10 +223,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         if !is_length(self.first_step) {
             return Err(StartError::Step { h: self.first_step });
         }
-        if self.longest_step.is_nan() || self.longest_step <= 0.0 {
-            let (value, range) = (self.longest_step, "positive");
-            return Err(StartError::Parameter { name: "longest_step", value, range });
-        }
+        StartError::unless(self.longest_step > 0.0, "longest_step", self.longest_step, "positive")?;
         if let Some(value) = breaks::misplaced(self.breaks) {
             let range = "finite, and not before the one before it";
             return Err(StartError::Parameter { name: "breaks", value, range });

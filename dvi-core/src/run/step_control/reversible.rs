@@ -87,16 +87,10 @@ impl Reversible {
     }
 
     fn validate(&self) -> Result<(), StartError> {
-        let parameter = |name, value, range| Err(StartError::Parameter { name, value, range });
-        if !self.epsilon.is_finite() || self.epsilon == 0.0 {
-            return parameter("epsilon", self.epsilon, "finite and different from zero");
-        }
-        if let Some(start) = self.start
-            && !is_density(start)
-        {
-            return parameter("start", start, "positive and finite");
-        }
-        Ok(())
+        let in_range = self.epsilon.is_finite() && self.epsilon != 0.0;
+        StartError::unless(in_range, "epsilon", self.epsilon, "finite and different from zero")?;
+        let Some(start) = self.start else { return Ok(()) };
+        StartError::unless(is_density(start), "start", start, "positive and finite")
     }
 }
 
