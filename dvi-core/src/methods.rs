@@ -119,7 +119,7 @@ pub(crate) use together::Companion;
 pub use together::InStep;
 pub use tolerance::Tolerance;
 pub use variational::{Fitting, Variational};
-pub use variational_method::{InnerScheme, VariationalMethod};
+pub use variational_method::VariationalMethod;
 
 /// Jumps of the velocity in a step, at most.
 pub(crate) const JUMPS: usize = 16;

@@ -100,7 +100,7 @@ fn rods(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rods in a tree, constrained midpoint, h = 0.01");
     group.sample_size(10);
     for n in [63, 127, 255] {
-        let (system, method) = (Mobile { half: n / 2 }, Constrained::new(Variational::midpoint()));
+        let (system, method) = (Mobile { half: n / 2 }, Constrained::new(Midpoint));
         let run = Integrator::new(&system, method, 0.01, system.at_rest());
         steps(&mut group, (BenchmarkId::from_parameter(n), n), run);
     }

@@ -74,7 +74,7 @@ fn constrained_runs_of_a_loose_tolerance_go_on_from_everywhere() -> Outcome {
         for h in [0.03, 0.1, 0.2] {
             check(Rattle { stopping, ..Rattle::default() }, h)
                 .map_err(|error| format!("RATTLE, {tolerance:e}, {h}: {error}"))?;
-            let constrained = Constrained { stopping, ..Constrained::new(Variational::midpoint()) };
+            let constrained = Constrained { stopping, ..Constrained::new(Midpoint) };
             check(constrained, h).map_err(|error| format!("{tolerance:e}, {h}: {error}"))?;
         }
     }

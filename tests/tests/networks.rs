@@ -106,8 +106,7 @@ fn sparse_newton_steps_are_those_without_a_matrix() {
 fn rods_in_a_tree_keep_their_lengths() {
     let system = Mobile { half: N / 2 };
     let mut run =
-        Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.01, system.at_rest())
-            .expect("starts");
+        Integrator::new(&system, Constrained::new(Midpoint), 0.01, system.at_rest()).expect("starts");
     let energy = run.energy();
     run.take_steps(50).expect("steps");
     let state: MobileState = run.state();

@@ -141,8 +141,8 @@ fn of_regular_systems() {
 #[test]
 fn of_systems_with_constraints() {
     check! {
-        Bead[5]: Rattle::default(), Constrained::new(Variational::midpoint());
-        Blade[3]: Constrained::new(Variational::midpoint());
+        Bead[5]: Rattle::default(), Constrained::new(Midpoint);
+        Blade[3]: Constrained::new(Midpoint);
     }
 }
 

@@ -4,7 +4,7 @@
 //! one after each (Benettin et al. 1980).
 
 use super::TangentMap;
-use crate::discrete::{DiscreteLagrangian, Interval};
+use crate::discrete::{Interval, Nodes};
 use crate::error::StepError;
 use crate::methods::{Method, VariationalMethod};
 use crate::run::{Integrator, Run, StepControl};
@@ -30,8 +30,8 @@ use crate::{Held, Lagrangian, Real, Scalar, Space, System, Vector, Weights};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct LyapunovExponent<S: System, L, T: Real = f64> {
-    map: TangentMap<S, L, T>,
+pub struct LyapunovExponent<S: System, N, T: Real = f64> {
+    map: TangentMap<S, N, T>,
     dq: Vector<S, T>,
     dp: Vector<S, T>,
     origin: Vector<S, T>,
@@ -39,12 +39,12 @@ pub struct LyapunovExponent<S: System, L, T: Real = f64> {
     elapsed: T,
 }
 
-impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> LyapunovExponent<S, L, T> {
+impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> LyapunovExponent<S, N, T> {
     /// The exponent of the given run, from its current state on. The first perturbation has a direction of
     /// no significance, and that of a degenerate system keeps p = α(q).
     pub fn new<H: Held<System = S>, M, C: StepControl<S, T>>(run: &Integrator<H, M, T, C>) -> Self
     where
-        M: Method<S, T> + VariationalMethod<S, T, DiscreteLagrangian = L>,
+        M: Method<S, T> + VariationalMethod<S, T, Nodes = N>,
     {
         let (system, space) = (run.system(), run.system().space());
         let direction = |offset: usize| {
@@ -90,7 +90,7 @@ impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> LyapunovExponent<S,
         run: &mut Integrator<H, M, T, C>,
     ) -> Result<(), StepError>
     where
-        M: Method<S, T> + VariationalMethod<S, T, DiscreteLagrangian = L>,
+        M: Method<S, T> + VariationalMethod<S, T, Nodes = N>,
     {
         let (t, step) = (run.time(), run.steps());
         self.origin.copy_from_slice(run.q());

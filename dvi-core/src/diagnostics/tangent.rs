@@ -11,7 +11,7 @@
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 
-use crate::discrete::{DiscreteLagrangian, Interval, Span};
+use crate::discrete::{DiscreteLagrangian, Interval, Nodes, Span};
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::scalar::passes::negate;
@@ -20,7 +20,7 @@ use crate::space::elimination::{self, multiply_add};
 use crate::space::lines;
 use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
 
-/// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of the discrete Lagrangian `L`.
+/// The tangent map (δq0, δp0) ↦ (δq1, δp1) of one step of a discrete Lagrangian with the nodes `N`.
 ///
 /// ```
 #[doc = include_str!("../../docs/hidden/pendulum.txt")]
@@ -36,8 +36,8 @@ use crate::{Lagrangian, Matrix, Real, Space, System, Vector};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct TangentMap<S: System, L, T: Real = f64> {
-    discrete: L,
+pub struct TangentMap<S: System, N, T: Real = f64> {
+    discrete: DiscreteLagrangian<S, N, T>,
     hessian: [Matrix<S, T>; 4],
     factors: Matrix<S, T>,
     permutation: Vector<S, usize>,
@@ -45,10 +45,10 @@ pub struct TangentMap<S: System, L, T: Real = f64> {
     next: [Vector<S, T>; 2],
 }
 
-impl<S: Lagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> TangentMap<S, L, T> {
+impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> TangentMap<S, N, T> {
     /// Storage for steps of `method` on `system`; the map is that of the step given to
     /// [`evaluate`](Self::evaluate).
-    pub fn new(system: &S, method: &impl VariationalMethod<S, T, DiscreteLagrangian = L>) -> Self {
+    pub fn new(system: &S, method: &impl VariationalMethod<S, T, Nodes = N>) -> Self {
         let space = system.space();
         Self {
             discrete: method.discrete_lagrangian(system),

@@ -10,7 +10,8 @@
 //! eqs. 9, 10 and 17).
 
 use super::basis::Basis;
-use super::{DiscreteLagrangian, Interval, Span};
+use super::quadrature::Rule;
+use super::{Interval, Span};
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::{Lagrangian, Real, Space, System, Vector, Weights};
@@ -94,22 +95,28 @@ pub trait Nodes<T: Real> {
     }
 }
 
-/// A discrete Lagrangian with these nodes, and the storage that it needs.
+/// What one interval contributes to the discrete equations of a system, by a rule with these nodes.
+///
+/// On a system with [forces](Lagrangian::applied_force) D₁L_d means D₁L_d + F⁻ and D₂L_d means D₂L_d + F⁺,
+/// with the discrete forces that the rule of L_d makes of F (Marsden & West 2001, section 3.2): of a rule
+/// with nodes qʲ they are F⁻ = h Σ wⱼ bⱼ F(qʲ, q̇ʲ) and F⁺ = h Σ wⱼ b̄ⱼ F(qʲ, q̇ʲ).
+///
+/// All derivatives are **added** to what is passed. A value of this type has the storage that it needs, so
+/// that nothing is allocated.
 #[derive(Debug)]
-pub struct SumOverNodes<S: System, N, T: Real = f64> {
+pub struct DiscreteLagrangian<S: System, N, T: Real = f64> {
     nodes: N,
     pub(crate) work: NodeWork<S, T>,
 }
 
-impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> SumOverNodes<S, N, T> {
+impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, N, T> {
     pub(crate) fn of(system: &S, nodes: N) -> Self {
         Self { nodes, work: NodeWork::new(system) }
     }
-}
 
-impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOverNodes<S, N, T> {
+    /// Adds D₁L_d to `d1` and D₁L_d + D₂L_d to `sum`, each one entry per coordinate.
     #[inline]
-    fn derivatives(
+    pub fn derivatives(
         &mut self,
         Span { system, interval, q0, delta }: Span<'_, S, T>,
         d1: &mut [T],
@@ -128,12 +135,17 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, T> for SumOve
         }
     }
 
+    /// Adds D₁L_d to `d1` and D₁D₂L_d to `sink`, entry (i, j) of q0ⁱ and q1ʲ.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn linearize<K: Sink<T>>(&mut self, span: Span<'_, S, T>, d1: &mut [T], sink: &mut K) {
+    pub fn linearize<K: Sink<T>>(&mut self, span: Span<'_, S, T>, d1: &mut [T], sink: &mut K) {
         linearize(&self.nodes, span, &mut self.work, d1, sink);
     }
 
-    fn hessian<K: Sink<T>>(
+    /// Adds D₁D₁L_d, D₁D₂L_d, with a row for each entry of q0 and a column for each of q1, its transpose
+    /// D₂D₁L_d and D₂D₂L_d to sinks: tangent maps and the preserved two-form come from these. With forces on
+    /// the system these are the derivatives of D₁L_d + F⁻ and D₂L_d + F⁺, and no matrix is the transpose of
+    /// another.
+    pub fn hessian<K: Sink<T>>(
         &mut self,
         Span { system, interval, q0, delta }: Span<'_, S, T>,
         [d11, d12, d21, d22]: [&mut K; 4],
@@ -168,7 +180,7 @@ pub(crate) fn linearize<S: Lagrangian<T>, T: Real, K: Sink<T>>(
 }
 
 /// The discrete Lagrangian h L(q0 + σΔ, Δ/h) of any L, with the storage that it needs.
-pub type OneNode<S, T = f64> = SumOverNodes<S, Between<T>, T>;
+pub type OneNode<S, T = f64> = DiscreteLagrangian<S, Between<T>, T>;
 
 /// A node at q0 + σΔ.
 #[derive(Clone, Copy, Debug)]
@@ -207,5 +219,19 @@ impl<T: Real> Nodes<T> for Between<T> {
             point[i] = q0[i] + self.0 * delta[i];
             velocity[i] = delta[i] * per_h;
         }
+    }
+}
+
+/// The nodes of a rule, with linear interpolation.
+#[derive(Debug)]
+pub struct RuleNodes<R>(pub(crate) R);
+
+impl<R: Rule, T: Real> Nodes<T> for RuleNodes<R> {
+    fn count(&self) -> usize {
+        self.0.nodes().len()
+    }
+    fn node(&self, j: usize) -> Node<T> {
+        let (c, weight) = (self.0.nodes()[j], self.0.weights()[j]);
+        Node::new(T::lift(c), T::lift(weight), Basis::linear(c))
     }
 }

@@ -21,6 +21,10 @@ pub(crate) const NODES: usize = 5;
 ///
 /// [`Midpoint`], [`Trapezoid`] and [`Simpson`] are known at compile time: their steps are straight code. A
 /// [`Quadrature`] is any rule, chosen at run time.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no quadrature rule",
+    note = "rules are `Midpoint`, `Trapezoid`, `Simpson` and any `Quadrature`"
+)]
 pub trait Rule: Copy + core::fmt::Debug {
     /// Whether the compiler knows that this is the trapezoidal rule.
     const TRAPEZOIDAL: bool = false;

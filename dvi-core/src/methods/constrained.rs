@@ -4,24 +4,23 @@ mod memory;
 mod reduced;
 mod step;
 
-use crate::discrete::frequency::Unfitted;
-use crate::discrete::quadrature::Trapezoid;
+use crate::discrete::quadrature::{Quadrature, Rule, Trapezoid};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::constraints::consistent::check;
 use crate::mechanics::constraints::{ConstrainedLagrangian, Constraints};
-use crate::methods::{Carries, Clock, Here, Method, Scheme, Step, Steps, VariableStep, scheme};
-use crate::methods::{InnerScheme, Variational};
+#[cfg(doc)]
+use crate::methods::Scheme;
+use crate::methods::{Carries, Clock, Here, Method, PreservedForm, Step, Steps, VariableStep, scheme};
 use crate::solve::Stopping;
-use crate::system::Same;
 use crate::system::start::evaluate;
 use crate::{Real, Vector};
 
 use memory::ConstrainedMemory;
 
-/// The step of a variational method for systems with constraints, of positions by `constraint = …` or of
-/// velocities by `nonholonomic = …`. The method is [`Variational`](crate::methods::Variational) with any
-/// rule and no frequency. Its solver, its `stopping` and its summation would have no effect here, and are
-/// errors of the start if they are not left at their defaults.
+/// The step of a quadrature rule with linear interpolation, as that of
+/// [`Variational`](crate::methods::Variational), for systems with constraints, of positions by `constraint =
+/// …` or of velocities by `nonholonomic = …`. What watches the steps goes around it, as in `EnergyLimit {
+/// method: Constrained::new(Midpoint), limit }`.
 ///
 /// ```math
 /// p_0 = -D_1 L_d(q_0, q_1) - A(q_0)^\mathsf{T} \iota_0, \qquad p_1 = D_2 L_d(q_0, q_1) + A(q_1)^\mathsf{T} \iota_1
@@ -40,8 +39,8 @@ use memory::ConstrainedMemory;
 /// (Ryckaert, Ciccotti & Berendsen 1977). With nonholonomic constraints it is the discrete principle of
 /// Lagrange and d'Alembert (Cortés & Martínez 2001). Each step is solved by Newton's method for q1 and ι0
 /// together; along a chain its equations are banded. RATTLE with up to ten constraints and a separable L, as
-/// [`Rattle`] and `Constrained::new(Variational::trapezoid())`, evaluates the force once and no second
-/// derivative of L: its equations are those for ι0 alone, with a full matrix.
+/// [`Rattle`], evaluates the force once and no second derivative of L: its equations are those for ι0 alone,
+/// with a full matrix.
 ///
 /// On holonomic constraints the steps preserve dq ∧ dp, and the momentum maps of symmetries that act
 /// linearly and leave L and g as they are (Marsden & West 2001, section 3.5.2; Wendlandt & Marsden 1997).
@@ -68,8 +67,7 @@ use memory::ConstrainedMemory;
 ///
 /// let pendulum = Pendulum { g: 9.81, length: 1.0 };
 /// let start = PendulumState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
-/// let method = Constrained::new(Variational::trapezoid());
-/// let mut run = Integrator::new(&pendulum, method, 0.01, start)?;
+/// let mut run = Integrator::new(&pendulum, Constrained::new(Trapezoid), 0.01, start)?;
 /// run.take_steps(10_000)?;
 /// let PendulumState { x, y, dot_x, dot_y } = run.state();
 /// assert!((x * x + y * y - 1.0).abs() < 1e-14);
@@ -77,10 +75,10 @@ use memory::ConstrainedMemory;
 /// assert!(run.energy().abs() < 1e-3 * 9.81);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Constrained<M> {
-    /// What has a discrete Lagrangian.
-    pub scheme: M,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Constrained<R> {
+    /// Nodes and weights.
+    pub rule: R,
     /// The criterion by which a step counts as solved. Default: to rounding errors.
     pub stopping: Stopping,
 }
@@ -107,43 +105,36 @@ pub struct Constrained<M> {
 /// assert!((tension[0] + 0.25).abs() < 1e-4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type Rattle = Constrained<Variational<Unfitted, Trapezoid>>;
+pub type Rattle = Constrained<Trapezoid>;
 
-impl Default for Rattle {
-    fn default() -> Self {
-        Self::new(Variational::trapezoid())
+impl<R: Rule> Constrained<R> {
+    /// Any rule.
+    pub fn new(rule: R) -> Self {
+        Self { rule, stopping: Stopping::default() }
     }
 }
 
-impl<M> Constrained<M> {
-    /// The method with default options.
-    pub fn new(scheme: M) -> Self {
-        Self { scheme, stopping: Stopping::default() }
-    }
+scheme! {
+    [R: Rule] Constrained<R>, |method|
+    order: if method.rule.is_exact_for_linear() { 2 } else { 1 },
+    is_symmetric: method.rule.is_symmetric(),
+    preserved_form: PreservedForm::Canonical,
 }
 
-scheme! { [M: Scheme] Constrained<M>, as scheme }
-
-impl<S: ConstrainedLagrangian<T>, T: Real, M: InnerScheme<S, T>> Carries<S, T> for Constrained<M> {
-    type Memory = ConstrainedMemory<S, M::DiscreteLagrangian, T>;
+impl<S: ConstrainedLagrangian<T>, R, T: Real> Carries<S, T> for Constrained<R> {
+    type Memory = ConstrainedMemory<S, R, T>;
 }
 
-/// `X` if `S` has constraints, and unknown if it has none: rustc asks nothing of the scheme then.
-type IfConstrained<S, X, T> = <<S as ConstrainedLagrangian<T>>::Suited<X> as Same<X>>::As;
-
-impl<S: ConstrainedLagrangian<T>, T: Real, M> Method<S, T> for Constrained<M>
-where
-    IfConstrained<S, M, T>: InnerScheme<S, T>,
-{
-    type Suited<X> = <IfConstrained<S, M, T> as InnerScheme<S, T>>::Suited<IfConstrained<S, X, T>>;
+impl<S: ConstrainedLagrangian<T>, R: Rule, T: Real> Method<S, T> for Constrained<R> {
+    type Suited<X> = <S as ConstrainedLagrangian<T>>::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
+        Quadrature::new(self.rule.nodes(), self.rule.weights())?;
         self.stopping.validate()?;
-        let l_d = self.scheme.inside(system)?;
         evaluate(system, q, v, t)?;
         check(system, [q, v], t, Some((h, self.stopping.tolerance)))?;
-        let mut memory = ConstrainedMemory::new(system, l_d, [q, v], t)?;
-        if IfConstrained::<S, M, T>::IS_VERLET && S::Kind::OF_POSITIONS {
+        let mut memory = ConstrainedMemory::new(system, self.rule, [q, v], t)?;
+        if S::SEPARABLE && R::TRAPEZOIDAL && S::Kind::OF_POSITIONS {
             memory.reduce(system, [q, v], t);
         }
         Ok(memory)
@@ -152,7 +143,7 @@ where
     #[inline]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
-        if IfConstrained::<S, M, T>::IS_VERLET && S::Kind::OF_POSITIONS {
+        if S::SEPARABLE && R::TRAPEZOIDAL && S::Kind::OF_POSITIONS {
             let one = Steps { system, q, clock: Clock::new(t, h), count: 1, statistics };
             if memory.stride(one, self.stopping) == Some(1) {
                 return Ok(());
@@ -166,7 +157,7 @@ where
         let Steps { system, q, clock, count, statistics } = steps;
         let (mut taken, mut strides) = (0, true);
         while taken < count {
-            if IfConstrained::<S, M, T>::IS_VERLET && S::Kind::OF_POSITIONS && strides {
+            if S::SEPARABLE && R::TRAPEZOIDAL && S::Kind::OF_POSITIONS && strides {
                 let (clock, count) = (clock.after(taken), count - taken);
                 let more = memory.stride(Steps { system, q, clock, count, statistics }, self.stopping);
                 // What leads to no number is taken again step by step, to see where it arises.
@@ -190,9 +181,6 @@ where
     }
 }
 
-impl<S: ConstrainedLagrangian<T>, T: Real, M> VariableStep<S, T> for Constrained<M>
-where
-    IfConstrained<S, M, T>: InnerScheme<S, T>,
-{
+impl<S: ConstrainedLagrangian<T>, R: Rule, T: Real> VariableStep<S, T> for Constrained<R> {
     type SuitedToAnyStep<X> = <Self as Method<S, T>>::Suited<X>;
 }

@@ -4,6 +4,7 @@
 //! Störmer–Verlet on a head-on Kepler orbit goes from energy −1 to 285 within two steps, and nothing but the
 //! energy says so.
 
+use crate::discrete::DiscreteLagrangian;
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
 use crate::methods::{
@@ -168,9 +169,9 @@ where
 }
 
 impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
-    type DiscreteLagrangian = M::DiscreteLagrangian;
+    type Nodes = M::Nodes;
 
-    fn discrete_lagrangian(&self, system: &S) -> M::DiscreteLagrangian {
+    fn discrete_lagrangian(&self, system: &S) -> DiscreteLagrangian<S, M::Nodes, T> {
         self.method.discrete_lagrangian(system)
     }
 }

@@ -18,7 +18,7 @@ mod start;
 mod step;
 mod together;
 
-use crate::discrete::{Interval, OneNode};
+use crate::discrete::{Between, Interval, OneNode};
 use crate::error::{StartError, StepFailure};
 use crate::methods::VariationalMethod;
 use crate::methods::{self, Carries, Clock, Gauss, Method, PreservedForm, Steps, scheme};
@@ -253,7 +253,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Method<S, T> for Sigma<T> {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> VariationalMethod<S, T> for Sigma<T> {
-    type DiscreteLagrangian = OneNode<S, T>;
+    type Nodes = Between<T>;
 
     fn discrete_lagrangian(&self, system: &S) -> OneNode<S, T> {
         OneNode::new(system, self.sigma)

@@ -38,7 +38,7 @@ use crate::system::{ConstrainedSystem, Holonomic, NondegenerateLagrangian, Syste
     label = "its attribute has no `constraint`, or a parameter is no number",
     note = "regular systems without constraints are stepped by `Variational`, `Galerkin` or `Newmark`, \
         and degenerate ones by `Sigma` or `OneStep`",
-    note = "systems with `nonholonomic = …` are stepped by `Constrained` around `Variational`"
+    note = "systems with `nonholonomic = …` are stepped by `Constrained` with any rule"
 )]
 pub trait HolonomicLagrangian<T: Scalar = f64>:
     NondegenerateLagrangian<T> + ConstrainedSystem + System<Kind = Holonomic>

@@ -63,7 +63,7 @@ pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     message = "`{Self}` is not a regular system without constraints or impacts, and this is for systems with `#[lagrangian]`",
     label = "its Lagrangian is degenerate, it has constraints, impacts, rotations or unit vectors, a parameter is no number, or it has no attribute",
     note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` around `Variational`, and those with `constraint = …` by `Rattle` too",
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` with any rule, and those with `constraint = …` by `Rattle` too",
     note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
     note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]

@@ -19,11 +19,11 @@ const COUNTED: [usize; 3] = [25, 50, 100];
 type Motion = Series<3>;
 
 fn trapezoid() -> impl Method<Links, f64> + Copy {
-    Constrained::new(Variational::trapezoid())
+    Constrained::new(Trapezoid)
 }
 
 fn midpoint() -> impl Method<Links, f64> + Copy {
-    Constrained::new(Variational::midpoint())
+    Constrained::new(Midpoint)
 }
 
 fn bent(links: &Links) -> Problem<'_, Links> {

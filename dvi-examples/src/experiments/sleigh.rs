@@ -16,8 +16,8 @@ const TURNED: f64 = 8.0;
 const DRAWN: f64 = 12.0;
 const STRAIGHT: f64 = 24.0;
 
-pub fn midpoint() -> Constrained<Variational<Unfitted, Midpoint>> {
-    Constrained::new(Variational::midpoint())
+pub fn midpoint() -> Constrained<Midpoint> {
+    Constrained::new(Midpoint)
 }
 
 /// Time, state and energy from step to step, for each of [`STEPS`]; and the motion at multiples of [`FINE`],

@@ -208,7 +208,7 @@ impl MassMatrix {
             (Some(Constrained::Gaps), false) => "Begin with `Impacts` around `Variational::midpoint()`.",
             (Some(Constrained::Positions), true) => "Begin with `Rattle`.",
             (Some(Constrained::Positions), false) | (Some(Constrained::Velocities), _) => {
-                "Begin with `Constrained` around `Variational::midpoint()`."
+                "Begin with `Constrained::new(Midpoint)`."
             }
         };
         [form, step.to_string(), degree.to_string(), begin.to_string()].into()

@@ -81,9 +81,6 @@ mod without_constraints {
     fn run() {
         let _ = Integrator::new(&Pendulum, Variational::trapezoid(), 0.1, start());
         let _ = Integrator::new(&Pendulum, Gauss::<2>::new(), 0.1, start());
-        // Its limit would not be watched.
-        let limited = EnergyLimit { method: Variational::midpoint(), limit: 1e-6 };
-        let _ = Integrator::new(&Pendulum, Constrained::new(limited), 0.1, start());
     }
 }
 

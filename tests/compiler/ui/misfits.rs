@@ -65,7 +65,7 @@ run! { composed: {
     Integrator::new(&Vortex, EnergyLimit { method, limit: 1e-3 }, 0.1, VORTEX)
 } }
 
-run! { without_constraints: Integrator::new(&Bead, Constrained::new(Variational::midpoint()), 0.1, BEAD) }
+run! { without_constraints: Integrator::new(&Bead, Constrained::new(Midpoint), 0.1, BEAD) }
 
 fn controlled() -> Outcome {
     let control = ErrorControl::new(1e-9, 0.1);

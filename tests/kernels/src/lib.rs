@@ -8,7 +8,7 @@ mod top_by_hand;
 pub mod vortices_by_hand;
 pub mod wide;
 
-use dvi_core::discrete::{DiscreteLagrangian, Frequency, Interval, OneNode, Rule, Span};
+use dvi_core::discrete::{Frequency, Interval, OneNode, Rule, Span};
 use dvi_core::prelude::*;
 use dvi_core::rotations;
 use dvi_core::{Real, Scalar, Space, Vector};

@@ -460,13 +460,13 @@ pub fn constrained() -> Vec<Case> {
         Composition::kahan_li_6(Rattle::default()) => ONE, Elsewhere;
     });
     rows!(table, [double, on(Charge { b: 0.7 }, sphere, 0.05), swing, bead, links], |at| {
-        Constrained::new(Variational::midpoint()) => ONE, discrete(&[0.5], &[1.0]);
-        Constrained::new(Variational::new(Quadrature::trapezoid()))
+        Constrained::new(Midpoint) => ONE, discrete(&[0.5], &[1.0]);
+        Constrained::new(Quadrature::trapezoid())
             => ONE, discrete(&[0.0, 1.0], &[0.5, 0.5]);
-        Constrained::new(Variational::new(Quadrature::simpson()))
+        Constrained::new(Quadrature::simpson())
             => ONE, discrete(&[0.0, 0.5, 1.0], &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]);
-        Constrained::new(Variational::sigma(0.3)) => ONE, discrete(&[0.3], &[1.0]);
-        Composition::suzuki(Constrained::new(Variational::midpoint())) => ONE, Elsewhere;
+        Constrained::new(Quadrature::sigma(0.3)) => ONE, discrete(&[0.3], &[1.0]);
+        Composition::suzuki(Constrained::new(Midpoint)) => ONE, Elsewhere;
     });
     table
 }
@@ -477,12 +477,12 @@ pub fn nonholonomic() -> Vec<Case> {
     let particle = on(Particle, [&[1.0, 0.5, 0.2], &[0.4, -0.8, 0.2]], 0.05);
     let steered = on(Steered, [&[0.5, 0.0], &[1.0, 0.5 + f64::cos(0.7)]], 0.05);
     rows!(table, [particle, steered], |at| {
-        Constrained::new(Variational::midpoint()) => ONE, discrete(&[0.5], &[1.0]);
-        Constrained::new(Variational::new(Quadrature::trapezoid()))
+        Constrained::new(Midpoint) => ONE, discrete(&[0.5], &[1.0]);
+        Constrained::new(Quadrature::trapezoid())
             => ONE, discrete(&[0.0, 1.0], &[0.5, 0.5]);
-        Constrained::new(Variational::sigma(0.3)) => ONE, discrete(&[0.3], &[1.0]);
-        Composition::suzuki(Constrained::new(Variational::midpoint())) => ONE, Elsewhere;
-        Composition::kahan_li_6(Constrained::new(Variational::midpoint())) => ONE, Elsewhere;
+        Constrained::new(Quadrature::sigma(0.3)) => ONE, discrete(&[0.3], &[1.0]);
+        Composition::suzuki(Constrained::new(Midpoint)) => ONE, Elsewhere;
+        Composition::kahan_li_6(Constrained::new(Midpoint)) => ONE, Elsewhere;
     });
     table
 }
@@ -553,7 +553,7 @@ pub fn fused() -> Vec<Fused> {
     );
     rows!(FusedRod, [[0.6, -0.8], [0.8, 0.6]], 0.1;
         Rattle::default(),
-        Constrained::new(Variational::midpoint()),
+        Constrained::new(Midpoint),
         Composition::suzuki(Rattle::default()),
     );
     rows!(FusedBall, [[0.3, 0.1], [0.2, -0.4]], 0.1;

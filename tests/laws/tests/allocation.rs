@@ -133,7 +133,7 @@ struct Balls {
 /// Bytes that a constrained run of a chain of `n` rods takes.
 fn of_links(n: usize) -> f64 {
     let (system, start) = Links::stretched(vec![1.0; n]);
-    bytes(&system, Constrained::new(Variational::midpoint()), (0.01, 3), start)
+    bytes(&system, Constrained::new(Midpoint), (0.01, 3), start)
 }
 
 /// Bytes that a run of `n` such bodies takes.

@@ -106,7 +106,7 @@ fn compare<const N: usize, M: Method<Chain<N>, f64> + Clone>(
 /// or ends where the motion leads.
 #[test]
 fn steps_end_on_the_branch_of_the_motion() -> Outcome {
-    let (rattle, midpoint) = (Rattle::default(), Constrained::new(Variational::midpoint()));
+    let (rattle, midpoint) = (Rattle::default(), Constrained::new(Midpoint));
     let found = [
         compare::<1, _>(&rattle, 5.0)?,
         compare::<2, _>(&rattle, 0.0)?,

@@ -25,7 +25,7 @@ fn lost(h: f64) -> Outcome<[f64; 2]> {
     for k in 0..MOTIONS {
         let near = SleighState { x: NEAR.x + 0.05 * f64::from(k), ..NEAR };
         let start = Sleigh.projected(0.0, &near)?;
-        let mut run = Integrator::new(&Sleigh, Constrained::new(Variational::midpoint()), h, start)?;
+        let mut run = Integrator::new(&Sleigh, Constrained::new(Midpoint), h, start)?;
         let begin = run.energy();
         assert!(k > 0 || (begin - 1.0647).abs() < 1e-4, "{begin}");
         for mean in &mut mean {
@@ -47,7 +47,7 @@ fn the_energy_of_a_chaotic_motion_drifts() -> Outcome {
 /// Two runs that begin 10⁻¹⁰ apart.
 #[test]
 fn the_motion_is_chaotic() -> Outcome {
-    let method = Constrained::new(Variational::midpoint());
+    let method = Constrained::new(Midpoint);
     let start = Sleigh.projected(0.0, &NEAR)?;
     let near = Sleigh.projected(0.0, &SleighState { x: NEAR.x + 1e-10, ..NEAR })?;
     let mut one = Integrator::new(&Sleigh, method, 0.1, start)?;

@@ -92,7 +92,7 @@ impl Tally {
     ) -> Outcome {
         let start = S::State::read(&|block| system.block_len(block), &q, &v);
         let Ok(start) = system.projected(0.0, &start) else { return Ok(()) };
-        let mut run = Integrator::new(system, Constrained::new(Variational::midpoint()), h, start)?;
+        let mut run = Integrator::new(system, Constrained::new(Midpoint), h, start)?;
         let v: Vec<f64> = system.values(&run.state())?.skip(4).collect();
         let expected = velocity(system, m, &q, &v, h);
         match (run.advance().is_ok(), expected) {

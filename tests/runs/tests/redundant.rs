@@ -21,7 +21,7 @@ const REST: PlanesState = PlanesState { q: [0.0; 4], dot_q: [0.0; 4] };
 /// Whether a run begins, by each method, and by a question at the state.
 fn begins(system: &Planes) -> [Result<(), StartError>; 3] {
     [
-        Integrator::new(system, Constrained::new(Variational::midpoint()), 0.1, REST).map(drop),
+        Integrator::new(system, Constrained::new(Midpoint), 0.1, REST).map(drop),
         Integrator::new(system, Rattle::default(), 0.1, REST).map(drop),
         system.projected(0.0, &REST).map(drop),
     ]
@@ -70,7 +70,7 @@ fn combinations_are_found() {
         let [general, rattle, projected] = begins(&system);
         let system = Held { m: masses(&mut numbers, number), rows: rows(&mut numbers, 0.0) };
         let rest = HeldState { q: [0.0; 3], dot_q: [0.0; 3] };
-        let held = Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.1, rest).map(drop);
+        let held = Integrator::new(&system, Constrained::new(Midpoint), 0.1, rest).map(drop);
         let all = [general, rattle, projected, held, system.projected(0.0, &rest).map(drop)];
         for (missed, begun) in missed.iter_mut().zip(all) {
             *missed += usize::from(begun.map_err(is_last) != Err(true));

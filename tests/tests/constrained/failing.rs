@@ -50,8 +50,8 @@ fn a_step_that_is_too_long_fails_and_leaves_the_state() -> Outcome {
     for h in [1.2, 2.0, 5.0, 1e3] {
         for failure in [
             fails(Rattle::default(), h)?,
-            fails(Constrained::new(Variational::new(Quadrature::trapezoid())), h)?,
-            fails(Constrained::new(Variational::midpoint()), h)?,
+            fails(Constrained::new(Quadrature::trapezoid()), h)?,
+            fails(Constrained::new(Midpoint), h)?,
         ] {
             let is_explained = matches!(
                 failure,
@@ -105,6 +105,6 @@ fn a_constraint_that_is_no_number_is_named() -> Outcome {
         );
         Ok(())
     }
-    ends(Constrained::new(Variational::midpoint()), false)?;
+    ends(Constrained::new(Midpoint), false)?;
     ends(Rattle::default(), true)
 }

@@ -50,9 +50,8 @@ fn a_light_joint_stays_on_its_rods() -> Outcome {
             let system = Joint { m, far: 0.0 };
             let near = JointState { x: [0.9, 1.5], y: [0.1, 0.8], dot_x: [0.3, -0.2], dot_y: [0.5, 0.4] };
             let start = system.projected(0.0, &near)?;
-            let trapezoid =
-                follow(&system, Constrained::new(Variational::new(Quadrature::trapezoid())), start)?;
-            let midpoint = follow(&system, Constrained::new(Variational::midpoint()), start)?;
+            let trapezoid = follow(&system, Constrained::new(Quadrature::trapezoid()), start)?;
+            let midpoint = follow(&system, Constrained::new(Midpoint), start)?;
             for found in
                 [off(&system, &start), trapezoid, midpoint, follow(&system, Rattle::default(), start)?]
             {
@@ -89,7 +88,7 @@ fn what_is_projected_is_a_start() -> Outcome {
         };
         for h in [1e-6, 1.0, 1e6] {
             Integrator::new(&system, Rattle::default(), h, start)?;
-            Integrator::new(&system, Constrained::new(Variational::midpoint()), h, start)?;
+            Integrator::new(&system, Constrained::new(Midpoint), h, start)?;
         }
         system.multipliers_at(0.0, &start)?;
     }

@@ -21,7 +21,7 @@ fn multipliers_of_a_step_are_those_of_the_motion() -> Outcome {
         let h = TIME / steps as f64;
         let start = angles.masses(&begin);
         let mut rattle = Integrator::new(&system, Rattle::default(), h, start)?;
-        let mut general = Integrator::new(&system, Constrained::new(Variational::midpoint()), h, start)?;
+        let mut general = Integrator::new(&system, Constrained::new(Midpoint), h, start)?;
         rattle.take_steps(steps / 2)?;
         general.take_steps(steps / 2)?;
         let mut exact = Integrator::new(&angles, Gauss::<4>::new(), h / 16.0, begin)?;

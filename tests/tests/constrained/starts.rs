@@ -25,7 +25,7 @@ fn a_start_off_a_constraint_is_an_error_that_names_it() {
     assert!(constraint == 1 && (value - 0.1).abs() < 1e-14, "{constraint} {value}");
     let start = DoubleState { x: [0.0, 0.0], y: [-1.0, -1.7], dot_x: [0.1, 0.1], dot_y: [0.0, 0.3] };
     let Err(StartError::AcrossConstraint { constraint, rate }) =
-        Integrator::new(&double, Constrained::new(Variational::midpoint()), 0.1, start).map(drop)
+        Integrator::new(&double, Constrained::new(Midpoint), 0.1, start).map(drop)
     else {
         panic!("a velocity across the constraints")
     };
@@ -101,7 +101,7 @@ fn redundant_and_inconsistent_constraints_are_named() {
     };
     for error in [
         Integrator::new(&redundant, Rattle::default(), 0.1, state).map(drop),
-        Integrator::new(&redundant, Constrained::new(Variational::midpoint()), 0.1, state).map(drop),
+        Integrator::new(&redundant, Constrained::new(Midpoint), 0.1, state).map(drop),
         redundant.projected(0.0, &state).map(drop),
     ] {
         assert_eq!(error.map_err(named), Err(2));
@@ -146,7 +146,7 @@ fn far_and_near_states_are_projected() -> Outcome {
         let found: PendulumStateOf<f32> = PENDULUM.projected(0.0, &start)?;
         let off = [found.x - 0.8_f32.sqrt(), found.y - 0.2_f32.sqrt()];
         assert!(off.iter().all(|off| off.abs() < 2e-6), "{size:e}: {found:?}");
-        Integrator::new(&PENDULUM, Constrained::new(Variational::midpoint()), 0.01_f32, found)?;
+        Integrator::new(&PENDULUM, Constrained::new(Midpoint), 0.01_f32, found)?;
     }
     // Where the squares are no numbers, that is said.
     let said = |x: f64| PENDULUM.projected(0.0, &at(x, 0.0)).map_err(|error| error.to_string());
@@ -222,7 +222,7 @@ fn redundant_constraints_of_a_chain_are_named() {
     for i in 17..30 {
         state.x[i] = state.x[i - 1] + system.rod[i];
     }
-    let error = Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.1, state).map(drop);
+    let error = Integrator::new(&system, Constrained::new(Midpoint), 0.1, state).map(drop);
     let Err(StartError::Starter(StepFailure::RedundantConstraint { constraint, .. })) = error else {
         panic!("{error:?}")
     };
@@ -260,23 +260,10 @@ fn multipliers_and_accelerations_at_a_state_in_closed_form() -> Outcome {
     Ok(())
 }
 
-/// What would have no effect is refused, and the limit of an energy goes around.
+/// The limit of an energy goes around.
 #[test]
-fn options_of_the_inner_method_are_its_defaults() -> Outcome {
-    let midpoint = Variational::midpoint();
-    for (inner, name) in [
-        (Variational { summation: Summation::Compensated, ..midpoint }, "Summation::Compensated"),
-        (Variational { solver: Solver::NewtonKrylov, ..midpoint }, "solver"),
-        (
-            Variational { stopping: Stopping { tolerance: 1e-9, ..Stopping::default() }, ..midpoint },
-            "stopping",
-        ),
-    ] {
-        let begun = Integrator::new(&PENDULUM, Constrained::new(inner), 0.1, RELEASED).map(drop);
-        let Err(StartError::Unsupported { option, .. }) = begun else { panic!("{begun:?}") };
-        assert!(option.contains(name), "{option}");
-    }
-    let method = EnergyLimit { method: Constrained::new(midpoint), limit: 1e-6 };
+fn the_energy_of_constrained_steps_is_limited() -> Outcome {
+    let method = EnergyLimit { method: Constrained::new(Midpoint), limit: 1e-6 };
     let Err(error) = Integrator::new(&PENDULUM, method, 0.5, RELEASED)?.take_steps(10) else {
         return Err("a rough step".into());
     };

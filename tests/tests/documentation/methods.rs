@@ -41,7 +41,7 @@ fn special() -> Vec<(&'static str, Schemes)> {
     let [rule, sigma] = [Variational::new(Quadrature::simpson()), Variational::sigma(0.3)];
     vec![
         ("[`Rattle`]", schemes![Rattle::default()]),
-        ("[`Constrained`]", schemes![Constrained::new(sigma), Constrained::new(rule)]),
+        ("[`Constrained`]", schemes![Constrained::new(sigma.rule), Constrained::new(rule.rule)]),
         ("[`Impacts::reflecting`]", schemes![Impacts::reflecting(sigma), Impacts::reflecting(rule)]),
         ("[`Impacts::new`]", schemes![Impacts::new(sigma), Impacts::new(rule)]),
         ("[`Geodesic`]", schemes![Geodesic::new(Quadrature::sigma(0.3)), Geodesic::midpoint()]),

@@ -86,6 +86,6 @@ fn rates_are_those_along_the_motion() -> Outcome {
     check_rates(&Prey, &Gauss::<4>::new(), &prey, |t, index| Prey.event_rate(t, index, &prey))?;
     let (sin, cos) = 0.4_f64.sin_cos();
     let bob = BobState { x: sin, y: -cos, dot_x: 0.9 * cos, dot_y: 0.9 * sin };
-    let method = Composition::kahan_li_8(Constrained::new(Variational::midpoint()));
+    let method = Composition::kahan_li_8(Constrained::new(Midpoint));
     check_rates(&Bob, &method, &bob, |t, index| Bob.event_rate(t, index, &bob))
 }

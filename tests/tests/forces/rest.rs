@@ -62,7 +62,7 @@ fn a_run_with_a_varying_mass_begins_at_rest() -> Outcome {
 fn a_run_with_constraints_begins_at_rest() -> Outcome {
     let angle = reference(0.0, |angle, v| friction(v) - angle.cos());
     let start = RodState { x: 1.0, y: 0.0, dot_x: 0.0, dot_y: 0.0 };
-    let mut run = Integrator::new(&Rod, Constrained::new(Variational::midpoint()), 1e-3, start)?;
+    let mut run = Integrator::new(&Rod, Constrained::new(Midpoint), 1e-3, start)?;
     run.take_steps(1000)?;
     assert!((run.state().y - angle.sin()).abs() < 1e-6, "{:?} {angle}", run.state());
     Ok(())

@@ -35,7 +35,7 @@ fn a_system_of_all_kinds_moves_as_one_with_constraints() {
         [&R[..], &s, &x].concat()
     };
     let on_constraints = |steps: u32| {
-        let method = Constrained::new(Variational::midpoint());
+        let method = Constrained::new(Midpoint);
         let start = by_constraints(&coupled());
         let mut run = Integrator::new(&flat, method, 1.5 / f64::from(steps), start)
             .expect("a step that is short enough");

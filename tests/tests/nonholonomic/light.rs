@@ -34,7 +34,7 @@ fn a_light_coordinate_is_projected() -> Outcome {
         let off = [found.dot_x - u, found.dot_y - u, found.dot_z - 2.0 * u];
         assert!(off.iter().all(|off: &f64| off.abs() < 1e-15), "{mass:e} {off:?}");
         // (m + 5) ü = −2z with ż = 2u: an oscillator.
-        let mut run = Integrator::new(&system, Constrained::new(Variational::midpoint()), 0.01, found)?;
+        let mut run = Integrator::new(&system, Constrained::new(Midpoint), 0.01, found)?;
         for _ in 0..1000 {
             run.advance()?;
             let LightState { dot_x, dot_y, dot_z, .. } = run.state();
@@ -65,9 +65,7 @@ fn at(x: f64, slip: f64) -> KnifeEdgeState {
 fn a_slip_is_one_everywhere() {
     for x in [0.0, 1.0, 6.4e6, 1e15] {
         for h in [1e-6, 1e-3, 1.0] {
-            let begun = |slip| {
-                Integrator::new(&BLADE, Constrained::new(Variational::midpoint()), h, at(x, slip)).map(drop)
-            };
+            let begun = |slip| Integrator::new(&BLADE, Constrained::new(Midpoint), h, at(x, slip)).map(drop);
             assert_eq!(begun(1e-13), Ok(()));
             for slip in [1e-10, 1e-6, 0.01] {
                 assert_eq!(
@@ -86,9 +84,7 @@ fn a_slip_is_one_everywhere() {
         dot_y: slip,
         dot_angle: 0.5,
     };
-    let begun = |slip| {
-        Integrator::new(&BLADE, Constrained::new(Variational::midpoint()), 1e-3, single(slip)).map(drop)
-    };
+    let begun = |slip| Integrator::new(&BLADE, Constrained::new(Midpoint), 1e-3, single(slip)).map(drop);
     assert!(begun(1e-5).is_ok() && matches!(begun(0.01), Err(StartError::AcrossConstraint { .. })));
 }
 
@@ -122,12 +118,12 @@ fn what_is_projected_is_a_start() -> Outcome {
         let system = Bundle { m, a, b, c };
         let start = system.projected(0.0, &BundleState { q, dot_q })?;
         for h in [1e-6, 1.0, 1e6] {
-            Integrator::new(&system, Constrained::new(Variational::midpoint()), h, start)?;
+            Integrator::new(&system, Constrained::new(Midpoint), h, start)?;
         }
         system.multipliers_at(0.0, &start)?;
         let single = BundleStateOf { q: q.map(|x| x as f32), dot_q: dot_q.map(|x| x as f32) };
         let start = system.projected(0.0, &single)?;
-        Integrator::new(&system, Constrained::new(Variational::midpoint()), 1e-3_f32, start)?;
+        Integrator::new(&system, Constrained::new(Midpoint), 1e-3_f32, start)?;
     }
     Ok(())
 }

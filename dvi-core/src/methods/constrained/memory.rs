@@ -1,7 +1,8 @@
 //! Where a constrained run is.
 
 use super::reduced::Reduced;
-use crate::discrete::DiscreteLagrangian;
+use crate::discrete::quadrature::Rule;
+use crate::discrete::{DiscreteLagrangian, RuleNodes};
 use crate::error::StartError;
 use crate::mechanics::constraints::turning::Gradients;
 use crate::mechanics::constraints::{
@@ -15,7 +16,7 @@ use crate::{ConstrainedSystem, Real, Space, Vector};
 
 /// Where a constrained run is, what its next step is guessed from, and work space.
 #[derive(Debug)]
-pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
+pub struct ConstrainedMemory<S: ConstrainedSystem, R, T: Real> {
     pub(super) here: Place<S, T>,
     /// Δ − h v0 of the last step, and h.
     pub(super) bend: Vector<S, T>,
@@ -26,7 +27,7 @@ pub struct ConstrainedMemory<S: ConstrainedSystem, L, T: Real> {
     pub(super) is_positive: bool,
     /// If the mass matrix depends on the state.
     pub(super) orientation: Option<MassOrientation<S, T>>,
-    pub(super) l_d: L,
+    pub(super) l_d: DiscreteLagrangian<S, RuleNodes<R>, T>,
     pub(super) solver: ConstraintSolver<S, T>,
     pub(super) arrival: Arrival<S, T>,
     /// Where the run is instead of `here`, if its steps are solved for the impulses alone and that is open.
@@ -62,7 +63,7 @@ impl<S: ConstrainedSystem, T: Real> Place<S, T> {
     }
 }
 
-impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
+impl<S: ConstrainedSystem, R, T: Real> ConstrainedMemory<S, R, T> {
     /// The discrete momentum at the current point, one entry per coordinate.
     pub fn p(&self) -> &[T] {
         self.open().map_or(&self.here.p, |reduced| &reduced.here.p)
@@ -86,16 +87,16 @@ impl<S: ConstrainedSystem, L, T: Real> ConstrainedMemory<S, L, T> {
 
 lasting!([S: ConstrainedSystem, T: Real] Place<S, T>, T; numbers p, numbers v, vectors impulses);
 
-impl<S: ConstrainedSystem, L, T: Real> Memory<T> for ConstrainedMemory<S, L, T> {
+impl<S: ConstrainedSystem, R, T: Real> Memory<T> for ConstrainedMemory<S, R, T> {
     lasting!(
         T; part here, numbers bend, number last_step, part solver, parts gradients, parts orientation,
         parts reduced
     );
 }
 
-impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> ConstrainedMemory<S, L, T> {
+impl<S: ConstrainedLagrangian<T>, R: Rule, T: Real> ConstrainedMemory<S, R, T> {
     /// At (`q`, `v`, `t`).
-    pub(super) fn new(system: &S, l_d: L, [q, v]: [&[T]; 2], t: T) -> Result<Self, StartError> {
+    pub(super) fn new(system: &S, rule: R, [q, v]: [&[T]; 2], t: T) -> Result<Self, StartError> {
         let [bend, increment, weights, next, mut work] = system.space().vectors();
         let (mut here, mut solver) = (Place::new(system), ConstraintSolver::new(system, q, v, t));
         let Place { p, v: velocity, impulses: [_, impulse] } = &mut here;
@@ -112,7 +113,7 @@ impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> Constrai
             gradients: S::Kind::OF_POSITIONS.then(|| Gradients::new(system, At { q, t }, v)),
             is_positive: solver.is_positive(),
             orientation: orientation.transpose().map_err(StartError::Starter)?,
-            l_d,
+            l_d: DiscreteLagrangian::of(system, RuleNodes(rule)),
             solver,
             arrival: Arrival { increment, weights, q: next, place: Place::new(system), work },
             reduced: None,

@@ -1,7 +1,8 @@
 //! The step for all unknowns: Newton's method for Δ and ι0, and the tangent at the end for v1 and ι1.
 
 use super::memory::{Arrival, ConstrainedMemory, Place};
-use crate::discrete::{Departing, DiscreteLagrangian, Interval, Span};
+use crate::discrete::quadrature::Rule;
+use crate::discrete::{Departing, Interval, Span};
 use crate::error::StepFailure;
 use crate::mechanics::constraints::{At, Bordered, ConstrainedLagrangian, Lower, Tangent};
 use crate::memory::Memory;
@@ -12,7 +13,7 @@ use crate::state::Statistics;
 use crate::state::rates::is_similar;
 use crate::{Real, Scalar};
 
-impl<S: ConstrainedLagrangian<T>, L: DiscreteLagrangian<S, T>, T: Real> ConstrainedMemory<S, L, T> {
+impl<S: ConstrainedLagrangian<T>, R: Rule, T: Real> ConstrainedMemory<S, R, T> {
     /// Takes a step for all unknowns.
     #[inline(never)]
     pub(super) fn take(&mut self, step: Step<'_, S, T>, stopping: Stopping) -> Result<(), StepFailure> {

@@ -3,7 +3,7 @@
 use super::Sigma;
 use super::memory::{Carried, Leaps, SigmaMemory, Work};
 use super::parasitic_mode::{Monitor, Pace};
-use crate::discrete::{DiscreteLagrangian, Interval, OneNode, Span};
+use crate::discrete::{Interval, OneNode, Span};
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::combination::{Combination, Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;

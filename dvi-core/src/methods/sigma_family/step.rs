@@ -15,7 +15,7 @@ use super::Step;
 use super::affine::fixed_point;
 use super::begin::scaled_matrix;
 use super::memory::{Carried, SigmaMemory, Work};
-use crate::discrete::{Departing, DiscreteLagrangian, Span};
+use crate::discrete::{Departing, Span};
 use crate::error::StepFailure;
 use crate::scalar::norm;
 use crate::scalar::passes::{add, negate, subtract};

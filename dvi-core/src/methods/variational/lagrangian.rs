@@ -8,13 +8,12 @@ use super::coefficients::{Coefficients, Placed};
 use crate::discrete::basis::Basis;
 use crate::discrete::frequency::{Frequency, Local, Unfitted};
 use crate::discrete::quadrature::Rule;
-use crate::discrete::{Interval, Node, NodeWork, Nodes, Span, SumOverNodes, linearize};
-use crate::error::{StartError, StepFailure};
+use crate::discrete::{DiscreteLagrangian, Interval, NodeWork, Nodes, RuleNodes, Span, linearize};
+use crate::error::StepFailure;
+use crate::methods::VariationalMethod;
 use crate::methods::step::{Begin, Equations, Kinetic, Share, set_force};
-use crate::methods::{InnerScheme, VariationalMethod};
-use crate::solve::{Solver, Stopping};
 use crate::space::Sink;
-use crate::state::{Statistics, Summation};
+use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, System};
 
 /// When a frequency is read from the motion, which the compiler knows in the loop of an iteration.
@@ -217,54 +216,10 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
     }
 }
 
-/// The nodes of a rule, with linear interpolation.
-#[derive(Debug)]
-pub struct RuleNodes<R>(R);
-
-impl<R: Rule, T: Real> Nodes<T> for RuleNodes<R> {
-    fn count(&self) -> usize {
-        self.0.nodes().len()
-    }
-    fn node(&self, j: usize) -> Node<T> {
-        let (c, weight) = (self.0.nodes()[j], self.0.weights()[j]);
-        Node::new(T::lift(c), T::lift(weight), Basis::linear(c))
-    }
-}
-
 impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> VariationalMethod<S, T> for Variational<Unfitted, R> {
-    type DiscreteLagrangian = SumOverNodes<S, RuleNodes<R>, T>;
+    type Nodes = RuleNodes<R>;
 
-    fn discrete_lagrangian(&self, system: &S) -> SumOverNodes<S, RuleNodes<R>, T> {
-        SumOverNodes::of(system, RuleNodes(self.rule))
-    }
-}
-
-impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> InnerScheme<S, T> for Variational<Unfitted, R> {
-    type Suited<X> = X;
-
-    const IS_VERLET: bool = S::SEPARABLE && R::TRAPEZOIDAL;
-
-    fn inside(&self, system: &S) -> Result<Self::DiscreteLagrangian, StartError> {
-        self.validate::<S, T>(system)?;
-        let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-        if self.summation != Summation::default() {
-            return unsupported(
-                "Summation::Compensated",
-                "`Constrained` adds up the increments of its steps plainly",
-            );
-        }
-        if self.solver != Solver::default() {
-            return unsupported(
-                "the solver of the inner method",
-                "`Constrained` solves its steps by Newton's method",
-            );
-        }
-        if self.stopping != Stopping::default() {
-            return unsupported(
-                "the `stopping` of the inner method",
-                "`Constrained` has one of its own, which counts",
-            );
-        }
-        Ok(self.discrete_lagrangian(system))
+    fn discrete_lagrangian(&self, system: &S) -> DiscreteLagrangian<S, RuleNodes<R>, T> {
+        DiscreteLagrangian::of(system, RuleNodes(self.rule))
     }
 }
