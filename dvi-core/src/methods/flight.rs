@@ -3,7 +3,6 @@
 use crate::discrete::Span;
 use crate::error::{StartError, StepFailure};
 use crate::methods::{Carries, Here, Scheme, Step};
-use crate::system::Same;
 use crate::{NondegenerateLagrangian, Real, Vector};
 
 /// A method that takes a system from impact to impact: its steps have any lengths, and its momentum may be
@@ -15,9 +14,6 @@ use crate::{NondegenerateLagrangian, Real, Vector};
     note = "methods that can are `Variational` without a frequency and `Galerkin` without a frequency"
 )]
 pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Scheme + Carries<S, T> {
-    /// As [`Method::Suited`](crate::methods::Method::Suited).
-    type Suited<M>: Same<M, As = M>;
-
     /// Prepares a run from (`q`, `v`, `t`), whose longest steps have the length `h`.
     ///
     /// # Errors

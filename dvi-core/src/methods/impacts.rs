@@ -152,7 +152,7 @@ impl<S: UnilateralLagrangian<T>, T: Real, M> Method<S, T> for Impacts<M>
 where
     IfUnilateral<S, M, T>: FreeFlight<S, T>,
 {
-    type Suited<X> = <IfUnilateral<S, M, T> as FreeFlight<S, T>>::Suited<IfUnilateral<S, X, T>>;
+    type Suited<X> = IfUnilateral<S, X, T>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let e = self.restitution;

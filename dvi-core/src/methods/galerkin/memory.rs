@@ -60,10 +60,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         system: &S,
         [q, v]: [&[T]; 2],
         [t, h]: [T; 2],
-    ) -> Result<GalerkinMemory<NODES, S, T, I>, StartError>
-    where
-        F: Frequency,
-    {
+    ) -> Result<GalerkinMemory<NODES, S, T, I>, StartError> {
         self.validate::<S, T>(system)?;
         let solver = match self.solver.in_numbers::<T>() {
             // Any L has no fixed point.

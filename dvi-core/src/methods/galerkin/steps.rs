@@ -17,10 +17,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
     pub(super) fn validate<S: NondegenerateLagrangian<T>, T: Real>(
         &self,
         system: &S,
-    ) -> Result<(), StartError>
-    where
-        F: Frequency,
-    {
+    ) -> Result<(), StartError> {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         frequency::admit(&self.frequency, system)?;
         if let Some(Reading::LeftFrozen | Reading::Variational) = self.frequency.reading() {
@@ -33,9 +30,7 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         }
         self.stopping.validate()
     }
-}
 
-impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
     /// Takes a step from t to t + h.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<S: NondegenerateLagrangian<T>, T: Real>(
@@ -44,7 +39,6 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
         memory: &mut GalerkinMemory<NODES, S, T, E::Interior>,
     ) -> Result<(), StepFailure>
     where
-        F: Frequency,
         E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
     {
         let Step { system, q, t, h, statistics } = step;
@@ -130,8 +124,6 @@ where
     S: NondegenerateLagrangian<T>,
     E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
-    type Suited<X> = X;
-
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         self.depart_from(system, [q, v], [t, h])
     }

@@ -90,8 +90,6 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
 }
 
 impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Variational<Unfitted, R> {
-    type Suited<X> = X;
-
     const HAS_ENERGY: bool = true;
 
     fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
