@@ -4,12 +4,9 @@
 //! Störmer–Verlet on a head-on Kepler orbit goes from energy −1 to 285 within two steps, and nothing but the
 //! energy says so.
 
-use crate::discrete::DiscreteLagrangian;
 use crate::error::{StartError, StepFailure};
 use crate::memory::{Memory, lasting};
-use crate::methods::{
-    Carries, Here, Kept, Method, Scheme, Step, Tolerance, VariableStep, VariationalMethod, scheme,
-};
+use crate::methods::{Carries, Here, Kept, Method, Scheme, Step, Tolerance, VariableStep, scheme};
 use crate::scalar::norm::reported;
 use crate::state::Statistics;
 use crate::system::start::extended;
@@ -166,12 +163,4 @@ where
     Itself<M>: VariableStep<S, T>,
 {
     type SuitedToAnyStep<X> = <M as VariableStep<S, T>>::SuitedToAnyStep<X>;
-}
-
-impl<S: Lagrangian<T>, T: Real, M: VariationalMethod<S, T>> VariationalMethod<S, T> for EnergyLimit<M> {
-    type Nodes = M::Nodes;
-
-    fn discrete_lagrangian(&self, system: &S) -> DiscreteLagrangian<S, M::Nodes, T> {
-        self.method.discrete_lagrangian(system)
-    }
 }

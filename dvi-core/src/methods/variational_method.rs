@@ -11,7 +11,7 @@ use crate::{Lagrangian, Real};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Lagrangian",
     label = "its steps are not variational, it has a frequency, or displacements within a step",
-    note = "such methods are `Sigma`, `Variational` without a frequency, and `EnergyLimit` around them",
+    note = "such methods are `Sigma` and `Variational` without a frequency",
     note = "the tangent map of any method is its run in dual numbers"
 )]
 pub trait VariationalMethod<S: Lagrangian<T>, T: Real>: Scheme {
