@@ -74,8 +74,6 @@ const HAMILTONIANS: &[&str] = &[
     "sum_pairs(0..N, |j, k| g[k - j - 1] * x[j])",
     "sum_pairs(0..N, |i, j| x[i + 1] * x[j])",
     "sum_pairs(0..4, |i, j| x[i])",
-    // A function that takes an index beside a length as a number.
-    "{ let late = |i| ((N - i) as f64) * w; sum(0..N, |i| late(i) * x[i] * x[i]) }",
     // A comma of the attribute behind two bars.
     "if u > 1 || w > 1 { u * u } else { w }",
 ];
