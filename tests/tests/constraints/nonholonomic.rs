@@ -73,7 +73,7 @@ fn reports_name_the_constraints() {
         "∂a[0]/∂angle = dot(x)·cos(angle) + dot(y)·sin(angle)",
         "∂a[0]/∂dot(x) = sin(angle)",
         "1 nonholonomic constraint a(q, v, t) = 0.",
-        "Begin with `Constrained`",
+        "Begin with `Constrained::new(Midpoint)`",
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
