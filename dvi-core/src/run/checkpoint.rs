@@ -109,12 +109,12 @@ impl<T: Real> Checkpoint<T> {
     pub(crate) fn of<S: Lagrangian<T>, M: Method<S, T>>(
         system: &S,
         stepper: &Stepper<S, M, T>,
-        [time, step_size]: [T; 2],
         record: Record<T>,
     ) -> Self {
-        let v = stepper.known_velocity(system, time)[..velocities(system)].to_vec();
+        let v = stepper.known_velocity(system)[..velocities(system)].to_vec();
         let v = if v.iter().all(|v| v.is_finite()) { v } else { Vec::new() };
         let (q, statistics) = (stepper.q.to_vec(), stepper.statistics);
+        let (time, step_size) = (stepper.clock().time(), stepper.time.h);
         Self(Sealed { q, v, time, step_size, statistics, record, checksum: 0 }.with_checksum())
     }
 

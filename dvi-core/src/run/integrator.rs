@@ -5,7 +5,6 @@ use super::Checkpoint;
 #[cfg(doc)]
 use super::Run;
 use super::begun::{Begun, BegunOf, begun, carried, point};
-use super::clock::Time;
 #[cfg(feature = "alloc")]
 use super::resume::resumed;
 use super::{Obeys, OneLength, StepControl, Stepper};
@@ -48,7 +47,6 @@ where
     pub(super) stepper: Stepper<H::System, M, T>,
     pub(crate) control: C,
     pub(super) control_memory: C::Memory,
-    pub(super) time: Time<T>,
 }
 
 impl<H: Held<System: Lagrangian<T>>, M: Carries<H::System, T>, T: Real> Integrator<H, M, T> {
@@ -190,8 +188,8 @@ where
 
     pub(super) fn of(system: H, method: M, control: C, begun: BegunOf<H::System, M::Memory, C, T>) -> Self {
         let Begun { q, memory, kept, control_memory, time, statistics } = begun;
-        let stepper = Stepper { method, memory, q, statistics, failed: false, kept, points: None };
-        Self { system, stepper, control, control_memory, time }
+        let stepper = Stepper { method, memory, q, time, statistics, failed: false, kept, points: None };
+        Self { system, stepper, control, control_memory }
     }
 
     /// The method that takes the steps.

@@ -107,11 +107,11 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
         count: u64,
     ) -> Result<(), StepFailure> {
         for _ in 0..count {
-            let t = run.time.after(run.stepper.statistics.steps).time();
+            let t = run.stepper.clock().time();
             run.stepper.keep();
             let h = self.step(memory, run, t).inspect_err(|_| run.stepper.go_back())?;
             run.stepper.statistics.steps += 1;
-            run.time.advance(h, run.stepper.statistics.steps);
+            run.stepper.time.advance(h, run.stepper.statistics.steps);
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ use super::Checkpoint;
 use super::begun::{Begun, begun};
 use super::clock::Time;
 use super::{Between, ControlledRun, Integrator, Run, StepControl, Stepper};
-use crate::error::{StartError, StepError, StepFailure};
+use crate::error::{StartError, StepError};
 #[cfg(feature = "alloc")]
 use crate::memory::{Memory, Record};
 use crate::methods::{Clock, Method};
@@ -41,7 +41,7 @@ where
     }
 
     fn v(&self) -> Vector<H::System, T> {
-        self.stepper.known_velocity(self.system(), self.time())
+        self.stepper.known_velocity(self.system())
     }
 
     #[inline]
@@ -51,9 +51,10 @@ where
 
     #[inline]
     fn take_steps(&mut self, count: u64) -> Result<(), StepError> {
-        let Self { system, stepper, control, control_memory, time } = self;
-        let mut run = ControlledRun { system: system.held(), stepper, time };
-        control.steps(control_memory, &mut run, count).map_err(|failure| self.error(failure))
+        let Self { system, stepper, control, control_memory } = self;
+        let mut run = ControlledRun { system: system.held(), stepper };
+        let taken = control.steps(control_memory, &mut run, count);
+        taken.map_err(|failure| stepper.error(system.held(), stepper.time.h, failure))
     }
 
     #[cfg(feature = "alloc")]
@@ -61,25 +62,25 @@ where
         let mut record = Record::new();
         self.stepper.memory.save(&mut record);
         self.control_memory.save(&mut record);
-        self.time.save(&mut record);
-        Checkpoint::of(self.system(), &self.stepper, [self.time(), self.step_size()], record)
+        self.stepper.time.save(&mut record);
+        Checkpoint::of(self.system(), &self.stepper, record)
     }
 
     /// Of steps of one length t₀ + steps · h, of others their sum, compensated: rounding errors do not add
     /// up.
     #[inline]
     fn time(&self) -> T {
-        self.present().time()
+        self.stepper.clock().time()
     }
 
     #[inline]
     fn step_size(&self) -> T {
-        self.time.h
+        self.stepper.time.h
     }
 
     #[inline]
     fn clock(&self) -> Option<Clock<T>> {
-        C::ONE_LENGTH.then(|| self.present())
+        C::ONE_LENGTH.then(|| self.stepper.clock())
     }
 
     fn set_state(&mut self, t: T, state: StateOf<H, T>) -> Result<(), StartError> {
@@ -89,31 +90,8 @@ where
         let (memory, steps) = (method.begun_anew(memory, begun), statistics.steps);
         let stepper = &mut self.stepper;
         (stepper.q, stepper.memory, stepper.kept, stepper.failed) = (q, memory, kept, false);
-        (self.control_memory, self.time) = (control_memory, Time::new(t, time.h, steps));
+        (self.control_memory, stepper.time) = (control_memory, Time::new(t, time.h, steps));
         Ok(())
-    }
-}
-
-impl<H: Held<System = S>, S: Lagrangian<T>, M: Method<S, T>, T: Real, C> Integrator<H, M, T, C>
-where
-    C: StepControl<S, T>,
-{
-    /// The clock at the present time.
-    #[inline]
-    pub(super) fn present(&self) -> Clock<T> {
-        self.time.after(self.stepper.statistics.steps)
-    }
-
-    /// Whether steps may be taken many at once, without a look at the end of each.
-    #[cfg(feature = "alloc")]
-    pub(super) fn is_unwatched(&self) -> bool {
-        self.stepper.kept.is_none()
-    }
-
-    #[cold]
-    fn error(&mut self, failure: StepFailure) -> StepError {
-        let (time, h) = (self.time(), self.step_size());
-        self.stepper.error(self.system.held(), time, h, failure)
     }
 }
 
@@ -135,10 +113,7 @@ where
         if self.stepper.failed {
             return None;
         }
-        Some(self.take_steps(n as u64 + 1).and_then(|()| {
-            let time = self.time();
-            self.stepper.try_state(self.system.held(), time)
-        }))
+        Some(self.take_steps(n as u64 + 1).and_then(|()| self.stepper.try_state(self.system.held())))
     }
 }
 

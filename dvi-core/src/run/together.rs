@@ -89,8 +89,9 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
         count: u64,
         results: &mut [Result<(), StepError>],
     ) {
+        // Steps that are looked at where they end are taken one by one.
         let in_lanes = group.iter().all(|&run| {
-            runs[run].is_unwatched() && runs[run].system().space().dimension() == self.dimension
+            runs[run].stepper.kept.is_none() && runs[run].system().space().dimension() == self.dimension
         });
         let mut left = count;
         while left > 0 && !group.is_empty() {
@@ -117,7 +118,7 @@ impl<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + PartialEq> Tog
         let mut companions = Vec::with_capacity(group.len());
         let mut systems = Vec::with_capacity(group.len());
         for (_, run) in runs.iter_mut().enumerate().filter(|(index, _)| group.contains(index)) {
-            let clock = run.present();
+            let clock = run.stepper.clock();
             let Integrator { system, stepper: Stepper { method, memory, q, statistics, .. }, .. } =
                 &mut **run;
             of_all = Some((&*method, clock));
@@ -136,5 +137,5 @@ fn go_together<const W: usize, S: Lagrangian + PartialEq, M: InStep<W, S> + Part
 ) -> bool {
     let [of_a, of_b] = [a.system(), b.system()];
     let share_packs = core::ptr::eq(of_a, of_b) || M::fit(of_a, of_b).unwrap_or_else(|| of_a == of_b);
-    share_packs && a.method() == b.method() && a.present() == b.present()
+    share_packs && a.method() == b.method() && a.stepper.clock() == b.stepper.clock()
 }

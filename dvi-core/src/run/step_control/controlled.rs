@@ -3,7 +3,6 @@
 use crate::error::StepFailure;
 use crate::methods::{Carries, Clock, Method, Step, Tolerance};
 use crate::run::Stepper;
-use crate::run::clock::Time;
 use crate::scalar::norm::reported;
 use crate::shown::shown;
 use crate::state::Statistics;
@@ -15,7 +14,6 @@ use crate::{Lagrangian, Real, System};
 pub struct ControlledRun<'a, S: System, M: Carries<S, T>, T: Real> {
     pub(in crate::run) system: &'a S,
     pub(in crate::run) stepper: &'a mut Stepper<S, M, T>,
-    pub(in crate::run) time: &'a mut Time<T>,
 }
 
 impl<'a, S: Lagrangian<T>, M: Method<S, T>, T: Real> ControlledRun<'a, S, M, T> {

@@ -46,7 +46,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for OneLength<T> {
         run: &mut ControlledRun<'_, S, M, T>,
         count: u64,
     ) -> Result<(), StepFailure> {
-        let clock = run.time.after(run.stepper.statistics.steps);
+        let clock = run.stepper.clock();
         // One of the two is not compiled.
         if S::TIME_TRANSFORMED || S::HAS_DOMAIN {
             run.stepper.steps_looked_at(run.system, clock, count)
