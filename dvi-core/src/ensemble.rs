@@ -230,8 +230,8 @@ impl<'a, S: Lagrangian, M: Method<S, f64>> Ensemble<'a, S, M> {
     /// These are [`Events`](crate::run::Events): time and state of the member are those at the limit, as
     /// accurate as its run is, whatever the length of a step, and a member that a step leads beyond a limit
     /// and back has come to it. A function that is not a number is a failure. Each step is watched, so that
-    /// members go alone, not in lanes; what has been known of g is forgotten at each look at the energy, after
-    /// which a step costs some more.
+    /// members go alone, not in lanes; what has been known of g is forgotten at each look at the energy,
+    /// after which a step costs some more.
     pub fn until<const N: usize>(
         mut self,
         reasons: [&'static str; N],

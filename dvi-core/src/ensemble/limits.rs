@@ -30,8 +30,8 @@ pub(super) trait Limits<'a, S: Lagrangian, M: Method<S, f64>>: Send + Sync {
     /// The values of g where a run is.
     fn values(&self, run: &RunOf<'a, S, M>) -> Vec<f64>;
 
-    /// Takes `count` steps of a run of `system`, up to a limit. What has been known of g before has no part in
-    /// it, so that nothing of that is written down when a member is interrupted.
+    /// Takes `count` steps of a run of `system`, up to a limit. What has been known of g before has no part
+    /// in it, so that nothing of that is written down when a member is interrupted.
     ///
     /// # Errors
     /// As [`Run::events`] and [`Events::advance`](crate::run::Events::advance).

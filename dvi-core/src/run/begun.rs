@@ -20,7 +20,8 @@ pub(super) struct Begun<Q, K, L, T> {
     pub(super) statistics: Statistics,
 }
 
-lasting!([T: Real, Q, K: Memory<T>, L: Memory<T>] Begun<Q, K, L, T>, T; part memory, part control_memory, part time);
+lasting!([T: Real, Q, K: Memory<T>, L: Memory<T>] Begun<Q, K, L, T>, T;
+    part memory, part control_memory, part time);
 
 /// The same under a control.
 pub(super) type BegunOf<S, K, C, T> = Begun<Vector<S, T>, K, <C as Carries<S, T>>::Memory, T>;

@@ -9,8 +9,8 @@ use crate::state::Statistics;
 use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Space as _, State as _, System, Vector};
 
-/// A method that steps a system, and the point that it has reached. It does not know the system: the run that
-/// it is part of does.
+/// A method that steps a system, and the point that it has reached. It does not know the system: the run
+/// that it is part of does.
 pub(crate) struct Stepper<S: System, M: Carries<S, T>, T: Real> {
     pub(crate) method: M,
     pub(crate) memory: M::Memory,
