@@ -15,8 +15,7 @@ use nalgebra::{Matrix3, Quaternion, Vector3, Vector4};
 
 use crate::error::StartError;
 use crate::scalar::carries_derivatives;
-use crate::scalar::norm::{self, reported};
-use crate::system::manifold::TOLERANCE;
+use crate::scalar::norm;
 use crate::system::{Factor, ManifoldSystem};
 
 use crate::{Real, Scalar};
@@ -109,7 +108,6 @@ pub(crate) fn set_quaternion<T: Real>(lifted: &mut [T], block: Block, quaternion
 /// [`StartError::OffManifold`] with the first block that is not; [`StartError::Unsupported`] in numbers with
 /// derivatives if a unit vector rests, where the direction of a great circle has none.
 pub(crate) fn check<S: ManifoldSystem, T: Real>(system: &S, [q, v]: [&[T]; 2]) -> Result<(), StartError> {
-    let tolerance = T::lift(TOLERANCE) * T::default_epsilon();
     for block in blocks(system) {
         let defect = match block.factor {
             Factor::Line => continue,
@@ -128,16 +126,7 @@ pub(crate) fn check<S: ManifoldSystem, T: Real>(system: &S, [q, v]: [&[T]; 2]) -
                 norm::larger(Scalar::abs(s.dot(&s) - T::lift(1.0)), along)
             }
         };
-        let is_small = defect <= tolerance;
-        if !is_small {
-            let (defect, tolerance) = (reported(defect), reported(tolerance));
-            return Err(StartError::OffManifold {
-                block: block.name,
-                index: block.index,
-                defect,
-                tolerance,
-            });
-        }
+        block.check(defect)?;
     }
     Ok(())
 }

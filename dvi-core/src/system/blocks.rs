@@ -3,7 +3,13 @@
 use core::ops::Range;
 
 use super::{CoordinateBlock, System};
+use crate::Real;
+use crate::error::StartError;
 use crate::name::{Axis, Factor};
+use crate::scalar::norm::reported;
+
+/// How far a state may be off the manifold, in units of rounding.
+const TOLERANCE: f64 = 4096.0;
 
 /// Where the numbers of a block of coordinates stand.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +61,20 @@ impl Block {
     #[inline]
     pub(crate) fn dimension(self) -> usize {
         self.factor.dimension(self.coordinates)
+    }
+
+    /// Whether it may be off the manifold by `defect`.
+    ///
+    /// # Errors
+    /// [`StartError::OffManifold`] if it may not.
+    pub(crate) fn check<T: Real>(self, defect: T) -> Result<(), StartError> {
+        let Self { name: block, index, .. } = self;
+        let [defect, tolerance] = [defect, T::lift(TOLERANCE) * T::default_epsilon()].map(reported);
+        if defect <= tolerance {
+            Ok(())
+        } else {
+            Err(StartError::OffManifold { block, index, defect, tolerance })
+        }
     }
 }
 

@@ -3,9 +3,6 @@
 use crate::system::{Manifold, NondegenerateLagrangian, Same, System};
 use crate::{Scalar, Space};
 
-/// How far a state may be off the manifold, in units of rounding.
-pub(crate) const TOLERANCE: f64 = 4096.0;
-
 /// A system with rotations or unit vectors, whatever numbers it is computed in.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system with rotations or unit vectors",

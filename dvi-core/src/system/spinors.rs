@@ -13,10 +13,8 @@ use super::blocks::{Block, blocks};
 use super::{Name, System};
 use crate::error::StartError;
 use crate::name::Factor;
-use crate::scalar::norm::reported;
 use crate::scalar::spinor::{COORDINATES, lift, lower};
 use crate::scalar::{Comparison, Scalar};
-use crate::system::manifold::TOLERANCE;
 use crate::system::report::{CoordinateBlock, Report};
 use crate::{Real, Space, Vector};
 
@@ -117,17 +115,10 @@ pub(crate) fn check<S: System, T: Real>(system: &S, q: &[T]) -> Result<(), Start
     if !has::<S>() {
         return Ok(());
     }
-    let tolerance = reported(T::default_epsilon()) * TOLERANCE;
-    for spinor in spinors(system) {
+    spinors(system).try_for_each(|spinor| {
         let length = of(spinor, q).into_iter().fold(T::lift(0.0), |sum, z| sum + z * z);
-        let defect = reported(Scalar::abs(length * length - T::lift(1.0)));
-        let is_unit = defect <= tolerance;
-        if !is_unit {
-            let Block { name: block, index, .. } = spinor;
-            return Err(StartError::OffManifold { block, index, defect, tolerance });
-        }
-    }
-    Ok(())
+        spinor.check(Scalar::abs(length * length - T::lift(1.0)))
+    })
 }
 
 /// Refuses what would not keep |z|, or is not said in terms of vectors.
