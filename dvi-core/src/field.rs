@@ -60,6 +60,12 @@ pub struct Expansion<const D: usize, T = f64> {
     pub hessian: [[T; D]; D],
 }
 
+/// The expansion of a function that is the same everywhere.
+pub(crate) fn constant<const D: usize, T: Scalar>(value: f64) -> Expansion<D, T> {
+    let zero = T::lift(0.0);
+    Expansion { value: T::lift(value), gradient: [zero; D], hessian: [[zero; D]; D] }
+}
+
 /// A function of `D` variables that has two continuous derivatives and may hold data.
 ///
 /// One evaluation gives the value with all derivatives, so that terms of a formula that need several of them

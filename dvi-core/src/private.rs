@@ -15,7 +15,7 @@ pub use crate::system::report::{CoordinateBlock, Entry, Formula, OperationCount}
 pub use crate::system::stand_in::StandIn;
 
 use crate::error::{IndexError, LengthError, OutsideError};
-use crate::field::Expansion;
+use crate::field::{self, Expansion};
 use crate::scalar::norm::reported;
 use crate::space::lines;
 use crate::{Real, Scalar, System};
@@ -113,8 +113,7 @@ pub fn outside<const D: usize, T: Real>(
 
 /// A function that is the same everywhere, in place of one that is not known.
 pub fn constant<const D: usize, T: Scalar>() -> Expansion<D, T> {
-    let zero = T::lift(0.0);
-    Expansion { value: T::lift(1.0), gradient: [zero; D], hessian: [[zero; D]; D] }
+    field::constant(1.0)
 }
 
 /// The argument to blame for an L that is not a number: the first that left its domain, if there is one, and

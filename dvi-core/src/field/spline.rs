@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use super::basis::{Basis, Local, entry};
 use super::interpolation::Equations;
 use super::table::{SplineError, points, sampled};
-use super::{Axis, Expansion, ScalarField};
+use super::{Axis, Expansion, ScalarField, constant};
 use crate::Scalar;
 
 /// Rounding errors of values may show in a spline enlarged by this factor: half of the digits are left.
@@ -204,11 +204,6 @@ impl<const D: usize, const DEGREE: usize> ScalarField<D> for Spline<D, DEGREE> {
     fn domain(&self) -> [(f64, f64); D] {
         core::array::from_fn(|axis| self.bases[axis].domain())
     }
-}
-
-fn constant<const D: usize, T: Scalar>(value: f64) -> Expansion<D, T> {
-    let zero = T::lift(0.0);
-    Expansion { value: T::lift(value), gradient: [zero; D], hessian: [[zero; D]; D] }
 }
 
 /// Multiplies a function of the variables before `axis` by one of that variable, given with its two
