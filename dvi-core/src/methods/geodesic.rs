@@ -24,10 +24,8 @@ use crate::{ManifoldLagrangian, Real, Space, Vector};
 
 use covectors::{force, momentum};
 use equations::has_spheres;
-use memory::{Kicks, is_positive, mass_rows};
+use memory::{GeodesicMemory, Kicks, is_positive, mass_rows};
 use tangents::{Equations, Legendre, TangentMass};
-
-use memory::GeodesicMemory;
 
 /// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, or
 /// arrays of them, beside numbers.
