@@ -203,7 +203,7 @@ where
     /// | method | functions of its memory |
     /// |---|---|
     /// | `Variational`, `Galerkin`, `Newmark`, `Geodesic`, `Langevin` | `p()`: the momenta ∂L/∂v, with a place for each coordinate; of a rotation the first three are the angular momentum in the body |
-    /// | `Rattle`, `Constrained` | `p()`; `multipliers()`: λ of the last step, one for each constraint; `impulses()` at its two ends |
+    /// | `Rattle`, `Constrained` | `p()`; `multipliers()`: λ of the last step, one for each constraint |
     /// | `Impacts` | `impacts()` of the last step, each an [`Impact`](crate::methods::Impact); how many there were, in `total()` and `grazing()` |
     /// | `Sigma` | `defect()`: p − α(q); `parasitic_mode()`, as it was measured last |
     /// | `Impacts`, `Composition`, `EnergyLimit` | `inner()`: the memory of the method inside |
