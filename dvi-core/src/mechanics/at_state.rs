@@ -104,7 +104,8 @@ impl<S: Lagrangian<T>, T: Real> AtState<T> for S {}
 /// )]
 /// struct Pendulum;
 ///
-/// let state: PendulumState = Pendulum.projected(0.0, &PendulumState { x: 0.0, y: -1.1, dot_x: 2.0, dot_y: 0.3 })?;
+/// let near = PendulumState { x: 0.0, y: -1.1, dot_x: 2.0, dot_y: 0.3 };
+/// let state: PendulumState = Pendulum.projected(0.0, &near)?;
 /// assert_eq!((state.y, state.dot_y), (-1.0, 0.0));
 /// // The rod pulls by v² + 1 upwards, as the force 2λ(x, y).
 /// let multipliers = Pendulum.multipliers_at(0.0, &state)?;

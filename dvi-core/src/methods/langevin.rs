@@ -1,7 +1,8 @@
 //! Langevin dynamics by the splitting BAOAB: the kicks and drifts of the trapezoidal variational integrator
 //! with the exact solution of friction and noise between its two drifts.
 //!
-//! B  p ← p + (h/2)F(q, t)      A  q ← q + (h/2)M⁻¹p      O  p ← c p + √(θ(1 − c²)) A ξ,   c = e^(−γh), A Aᵀ = M
+//! B  p ← p + (h/2)F(q, t)      A  q ← q + (h/2)M⁻¹p
+//! O  p ← c p + √(θ(1 − c²)) A ξ,   c = e^(−γh), A Aᵀ = M
 //!
 //! The normal numbers ξ of step k are those of the k-th stream of a generator, ChaCha with 8 rounds, whose
 //! key is made from the seed. They depend on nothing else, so that runs can be repeated and resumed.

@@ -226,8 +226,8 @@ pub(crate) fn velocities<S: System>(system: &S) -> usize {
     if S::REGULAR { system.space().dimension() } else { 0 }
 }
 
-/// The coordinates and, if the system is regular, the velocities of a state that is one of the system, and at
-/// which it is defined at time `t`.
+/// The coordinates and, if the system is regular, the velocities of a state that is one of the system, and
+/// at which it is defined at time `t`.
 pub(crate) fn flatten<S: Lagrangian<T>, T: Real>(
     system: &S,
     t: T,

@@ -63,8 +63,8 @@ shown!([const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real] GaussMe
     |memory| completed: memory.path.completed);
 
 impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGES, S, T> {
-    /// The first part whose slopes are carried from step to step. Of equations of second order, of which only
-    /// forces are evaluated, that is the second.
+    /// The first part whose slopes are carried from step to step. Of equations of second order, of which
+    /// only forces are evaluated, that is the second.
     pub(super) const FIRST_PART: usize = S::Kind::OF_SECOND_ORDER as usize;
 
     pub(super) fn begin(system: &S, q: &Vector<S, T>, v: &[T], t: T) -> Result<Self, StartError> {
