@@ -13,7 +13,8 @@ use crate::{Lagrangian, Real, State, System, Vector};
 /// What a run of any method does for [`Dense`](crate::run::Dense): it keeps the point at which steps begin,
 /// and a copy of it is moved within the last one.
 pub trait Between<S: System, T: Real> {
-    /// Makes room, and keeps the present point, which is reached at time `t`. All memory is allocated here.
+    /// Makes room, unless it is there already, and keeps the present point, which is reached at time `t`. All
+    /// memory is allocated here.
     ///
     /// # Errors
     /// [`StartError`] if no run of the method can begin here.
@@ -59,9 +60,11 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         let Self { method, memory, q, .. } = self;
         let mut v = q.clone();
         method.velocity(Here { system, q, t }, memory, &mut v).map_err(StartError::Starter)?;
-        let begin = || method.begin_again(system, q, &v[..velocities(system)], t, h);
-        let point = || begin().map(|memory| Kept { q: q.clone(), memory });
-        self.points = Some([point()?.into(), point()?.into(), point()?.into()]);
+        if self.points.is_none() {
+            let begin = || method.begin_again(system, q, &v[..velocities(system)], t, h);
+            let point = || begin().map(|memory| Kept { q: q.clone(), memory });
+            self.points = Some([point()?.into(), point()?.into(), point()?.into()]);
+        }
         self.keep_next();
         self.begin_there();
         Ok(())
