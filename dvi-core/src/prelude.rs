@@ -43,7 +43,6 @@ pub use crate::run::{Checkpoint, Together};
 #[doc(inline)]
 pub use crate::run::{
     Dense, Direction, EnergyMomentum, ErrorControl, Event, Events, Integrator, Reversible, Run, StepControl,
-    Watch,
 };
 #[doc(inline)]
 pub use crate::solve::{Solver, Stopping};

@@ -33,7 +33,7 @@ use between::Between;
 pub use checkpoint::Checkpoint;
 pub use dense::Dense;
 use events::{Conditions, Declared};
-pub use events::{Direction, Event, Events, Watch};
+pub use events::{Direction, Event, Events};
 pub use integrator::Integrator;
 pub use step_control::{
     ControlledRun, EnergyMomentum, ErrorControl, Obeys, OneLength, Reversible, StepControl,

@@ -50,8 +50,6 @@ pub struct Dense<R: Run> {
     taken: u64,
     /// How many there may be before the next point is kept.
     most: u64,
-    /// How often the state has been set.
-    pub(super) beginnings: u64,
     /// The velocity of a state that is looked at, and that on the other side of a jump.
     v: [Vector<R::System, R::Scalar>; 2],
 }
@@ -90,7 +88,7 @@ impl<R: Run> Dense<R> {
         let (t, h, v) = (run.time(), run.step_size(), run.system().space().vectors());
         let (system, between) = run.between();
         between.begin(system, t, h)?;
-        Ok(Self { run, begun: t, taken: 0, most: 1, beginnings: 0, v })
+        Ok(Self { run, begun: t, taken: 0, most: 1, v })
     }
 
     /// Takes one step.
@@ -160,7 +158,6 @@ impl<R: Run> Dense<R> {
     pub fn set_state(&mut self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError> {
         self.run.set_state(t, state)?;
         self.keep();
-        self.beginnings += 1;
         Ok(())
     }
 

@@ -22,11 +22,9 @@ use crate::error::StepFailure;
 use crate::error::{StartError, StepError};
 use crate::run::Run;
 use crate::shown::shown;
-pub(super) use conditions::Conditions;
-
-pub(super) use conditions::Declared;
+pub(super) use conditions::{Conditions, Declared};
 pub use search::Direction;
-pub use watch::Watch;
+use watch::Watch;
 
 /// Where a run meets a condition.
 ///
@@ -133,7 +131,7 @@ where
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G, N> {
     /// The same for conditions of either kind.
     pub(super) fn of(mut dense: Dense<R>, directions: [Direction; N], g: G) -> Result<Self, StartError> {
-        let watch = Watch::of(&mut dense, directions, g)?;
+        let watch = Watch::new(&mut dense, directions, g)?;
         Ok(Self { dense, watch, ended: false })
     }
 
@@ -216,4 +214,4 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Iterator fo
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> FusedIterator for Events<R, G, N> {}
 
-shown!([R: Run + Debug, G, const N: usize] Events<R, G, N>, |events| run: events.dense, watch: events.watch);
+shown!([R: Run + Debug, G, const N: usize] Events<R, G, N>, |events| run: events.dense, directions: events.watch.directions);

@@ -137,22 +137,6 @@ fn a_condition_that_is_no_number_is_an_error() -> Outcome {
     Ok(())
 }
 
-/// Also at the present time, where the next step begins as if nothing had been set.
-#[test]
-fn conditions_are_not_watched_across_a_state_that_is_set() -> Outcome {
-    for later in [0.0, 0.5] {
-        let mut run = Dense::new(free(-1.0, 0.25)?)?;
-        let mut watch = Watch::new(&mut run, [Direction::Either], |_, state: &SpringState| [state.x])?;
-        run.advance()?;
-        watch.search(&mut run)?;
-        run.set_state(run.time() + later, SpringState { x: 1.0, dot_x: 1.0 })?;
-        run.advance()?;
-        let refused = watch.search(&mut run).err();
-        assert!(matches!(refused, Some(StepError { failure: StepFailure::Unreachable { .. }, .. })));
-    }
-    Ok(())
-}
-
 #[test]
 fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
     fn check<R: Run<Scalar = f64>>(mut run: R, sign: f64) -> Outcome {
@@ -161,14 +145,8 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
         let steps = dense.steps();
         let begun = dense.time() - dense.step_size();
         dense.state_at(1.03 * sign)?;
-        let mut watch = Watch::new(&mut dense, [Direction::Either], |_, _| [1.0])?;
         for target in [begun - 1e-9 * sign, -3.0 * sign, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let errors = [
-                dense.state_at(target).err(),
-                dense.advance_to(target).err(),
-                watch.next_until(&mut dense, target).err(),
-            ];
-            for error in errors {
+            for error in [dense.state_at(target).err(), dense.advance_to(target).err()] {
                 let Some(StepFailure::Unreachable { now, target: named }) = error.map(|error| error.failure)
                 else {
                     panic!("{target}: {error:?}")
@@ -178,6 +156,9 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
             }
         }
         assert_eq!(dense.steps(), steps);
+        let behind = begun - 1e-9 * sign;
+        let refused = Events::new(dense, [Direction::Either], |_, _| [1.0])?.next_until(behind).err();
+        assert!(matches!(refused, Some(StepError { failure: StepFailure::Unreachable { .. }, .. })));
         // It may have passed a time by rounding.
         let now = run.time();
         run.dense()?.state_at(now * (1.0 - f64::EPSILON))?;

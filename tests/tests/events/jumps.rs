@@ -152,15 +152,9 @@ fn events_of_an_impact_are_handed_out_when_the_state_is_set_and_when_the_next_st
     assert_eq!((index, next), (0, Some((1, time))));
 
     // Impacts accumulate at t = 3.
-    let mut run = Dense::new(Integrator::new(&Ball, method(0.5), 0.3, start)?)?;
-    let mut watch = Watch::new(&mut run, [Direction::Rising], |_, ball| [ball.dot_y])?;
-    while run.advance().is_ok() {
-        watch.search(&mut run)?;
-    }
-    let (end, mut last) = (run.time(), None);
-    while let Some(event) = watch.next_until(&mut run, end)? {
-        last = Some(event.state.dot_y);
-    }
+    let mut run = Integrator::new(&Ball, method(0.5), 0.3, start)?;
+    let events = run.events([Direction::Rising], |_, ball| [ball.dot_y])?;
+    let last = events.map_while(Result::ok).last().map(|event| event.state.dot_y);
     assert_abs_diff_eq!(last.ok_or("it bounces in the last good step")?, 0.125, epsilon = 1e-12);
     Ok(())
 }

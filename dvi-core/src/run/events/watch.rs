@@ -1,51 +1,28 @@
-//! Conditions that are watched on a run that somebody else drives.
+//! Conditions that are watched on a run: where they are zero in its last step.
 
+use super::Direction;
 use super::conditions::Conditions;
 use super::course::{Course, Watched};
 use super::found::Found;
 use super::search::{Within, numbers};
-use super::{Direction, EventOf};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::methods::JUMPS;
 use crate::run::Run;
 use crate::run::dense::{Dense, PLACES, StateOf};
 use crate::scalar::carries_derivatives;
 use crate::scalar::norm::larger;
-use crate::shown::shown;
 use crate::{Real, Scalar};
 
-/// Conditions that are watched on a run: [`Events`](super::Events) for those who take the steps themselves.
-/// Several can watch one run, each with conditions of its own.
-///
-/// ```
-#[doc = include_str!("../../../docs/hidden/pendulum.txt")]
-/// let mut run = Dense::new(Integrator::new(&Pendulum, Gauss::<4>::new(), 0.1, start)?)?;
-/// let mut bottom = Watch::new(&mut run, [Direction::Either], |_, state| [state.angle])?;
-/// let mut turns = Watch::new(&mut run, [Direction::Either], |_, state| [state.dot_angle])?;
-/// let (mut passages, mut turned) = (0, 0);
-/// while run.time() < 20.0 {
-///     run.advance()?;
-///     bottom.search(&mut run)?;
-///     turns.search(&mut run)?;
-///     passages += usize::from(bottom.next_until(&mut run, 20.0)?.is_some());
-///     turned += usize::from(turns.next_until(&mut run, 20.0)?.is_some());
-/// }
-/// // A quarter of its period of 6.7 after the start, and each half of one from there on.
-/// assert_eq!((passages, turned), (6, 5));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub struct Watch<R: Run, G, const N: usize> {
+/// The conditions of a run, and their events in its last step.
+pub(super) struct Watch<R: Run, G, const N: usize> {
     g: G,
-    directions: [Direction; N],
+    pub(super) directions: [Direction; N],
     /// Of each condition, at the end of the last step.
     watched: [Watched<R::Scalar>; N],
     /// Events of the last step that have not been handed out.
     pub(super) found: Found<R::Scalar, N>,
     /// Where states that are looked at are read to.
     state: StateOf<R>,
-    /// When it has looked last, and how often the state had been set.
-    time: R::Scalar,
-    beginnings: u64,
     /// The last event, but for those where the state was set: its condition and its part of a step.
     pub(super) last: Option<(usize, R::Scalar)>,
     /// Steps since the state was set; before it is, more than one.
@@ -69,58 +46,42 @@ const CLOSED: f64 = 1e-11;
 /// known.
 const SHORT: f64 = 1e-9;
 
-impl<R: Run, G, const N: usize> Watch<R, G, N>
-where
-    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
-{
+impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G, N> {
     /// From the present point of the run on, where each of the conditions `g` crosses zero in its direction.
     /// All memory is allocated here.
     ///
     /// # Errors
     /// [`StartError::Starter`] if there are no velocities, or a condition is no number, at the present
     /// point.
-    pub fn new(run: &mut Dense<R>, directions: [Direction; N], g: G) -> Result<Self, StartError> {
-        Self::of(run, directions, g)
-    }
-}
-
-impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G, N> {
-    /// The same for conditions of either kind.
-    pub(super) fn of(run: &mut Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
+    pub(super) fn new(run: &mut Dense<R>, directions: [Direction; N], mut g: G) -> Result<Self, StartError> {
         let mut state = run.at_end().map_err(StartError::Starter)?.state();
         let time = run.time();
         let at = run.at_end().map_err(StartError::Starter)?;
         let values = numbers(g.values(time, at, &mut state)).map_err(StartError::Starter)?;
         let watched = values.map(|g| Watched { g, course: None });
-        let (found, last, lost, beginnings) = (Found::new(), None, None, run.beginnings);
-        Ok(Self { g, directions, watched, found, state, time, beginnings, last, steps: 2, hops: 0, lost })
+        Ok(Self {
+            g,
+            directions,
+            watched,
+            found: Found::new(),
+            state,
+            last: None,
+            steps: 2,
+            hops: 0,
+            lost: None,
+        })
     }
 
     /// Finds the events of the last step: to be called after each step.
     ///
     /// # Errors
-    /// [`StepFailure::Unreachable`] if it was not called after the step before, or a state was set: then a
-    /// new `Watch` begins. Else as [`Events::next_until`](super::Events::next_until).
-    pub fn search(&mut self, run: &mut Dense<R>) -> Result<(), StepError> {
-        self.check_known()?;
-        if run.last_begun() != self.time || run.beginnings != self.beginnings {
-            return Err(run.unreachable(self.time));
-        }
-        self.time = run.time();
+    /// As [`Events::next_until`](super::Events::next_until).
+    pub(super) fn search(&mut self, run: &mut Dense<R>) -> Result<(), StepError> {
         self.find(run).map_err(|failure| {
             let error = run.error(failure);
             self.lost = Some(error);
             error
         })
-    }
-
-    /// The next event of the last step that is not after time `t`, if there is one.
-    ///
-    /// # Errors
-    /// As [`Events::next_until`](super::Events::next_until), of the last step.
-    pub fn next_until(&mut self, run: &mut Dense<R>, t: R::Scalar) -> Result<Option<EventOf<R>>, StepError> {
-        run.check_ahead(t)?;
-        self.next_before(run, Some(t))
     }
 
     /// The conditions where the run is.
@@ -195,7 +156,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     ) -> Result<(), StepFailure> {
         let [zero, one, left, unsure, short] = [0.0, 1.0, LEFT, UNSURE, SHORT].map(R::Scalar::lift);
         let whole = Scalar::abs(run.step_size());
-        let (h, instant) = (whole * (to - from), instant(self.time, whole));
+        let (h, instant) = (whole * (to - from), instant(run.time(), whole));
         // Stages divide one motion, a jump begins another.
         let motion = if STAGED { [zero, one] } else { [from, to] };
         for (index, mut b) in end.into_iter().enumerate() {
@@ -262,14 +223,13 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     /// # Errors
     /// As [`new`](Self::new); then no events are known.
     pub(super) fn begin_anew(&mut self, run: &mut Dense<R>) -> Result<(), StartError> {
-        (self.time, self.beginnings) = (run.time(), run.beginnings);
         let values = self.at_end(run).map_err(|failure| {
             self.lost = Some(run.error(failure));
             self.found.forget();
             StartError::Starter(failure)
         })?;
         let h = Scalar::abs(run.step_size());
-        let (zero, short) = (R::Scalar::lift(0.0), R::Scalar::lift(LEFT) * h + instant(self.time, h));
+        let (zero, short) = (R::Scalar::lift(0.0), R::Scalar::lift(LEFT) * h + instant(run.time(), h));
         let before = core::mem::replace(&mut self.found, Found::new());
         for (index, (watched, g)) in self.watched.iter_mut().zip(values).enumerate() {
             let is_zero =
@@ -300,5 +260,3 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
 fn instant<T: Real>(t: T, h: T) -> T {
     T::lift(ROUNDINGS) * T::default_epsilon() * (Scalar::abs(t) + h)
 }
-
-shown!([R: Run, G, const N: usize] Watch<R, G, N>, |watch| directions: watch.directions);
