@@ -116,15 +116,21 @@ impl<R: Run> Dense<R> {
     ///
     /// # Errors
     /// [`StepFailure::Unreachable`], with both times, if `t` lies before the last step or is not finite.
-    /// [`StepError`] of the first step that fails; the run stays at the last good state.
+    /// [`StepError`] of the first step that fails; the run stays at the last good state, and states within
+    /// the step before are still known.
     pub fn advance_to(&mut self, t: R::Scalar) -> Result<(), StepError> {
         self.check_ahead(t)?;
         if self.run.clock().is_some() {
             // Whole steps but the last two, of which rounding may be one.
             let ahead = reported((t - self.run.time()) / self.run.step_size()) - 2.0;
             if ahead >= 1.0 {
+                let (t, before) = (self.run.time(), self.run.steps());
+                self.run.between().1.keep_next();
                 let taken = self.run.take_steps(ahead as u64);
-                self.keep();
+                if self.run.steps() > before {
+                    self.run.between().1.begin_there();
+                    (self.begun, self.taken) = (t, self.run.steps() - before);
+                }
                 taken?;
             }
         }

@@ -159,6 +159,19 @@ fn events_of_an_impact_are_handed_out_when_the_state_is_set_and_when_the_next_st
     Ok(())
 }
 
+/// Impacts accumulate at t = 3.
+#[test]
+fn states_within_the_last_good_step_are_known_when_one_on_the_way_fails() -> Outcome {
+    let run = || Integrator::new(&Ball, method(0.5), 0.3, BallState { y: 0.5, dot_y: 0.0 });
+    let [mut at_once, mut one_by_one] = [Dense::new(run()?)?, Dense::new(run()?)?];
+    assert!(at_once.advance_to(10.0).is_err());
+    while one_by_one.advance().is_ok() {}
+    let time = at_once.time() - 0.1;
+    assert_eq!(at_once.state_at(time)?, one_by_one.state_at(time)?);
+    assert!(at_once.state_at(time - 0.3).is_err());
+    Ok(())
+}
+
 /// Long flights, of which some begin and end at a wall: states right behind an impact are found as the run
 /// has found it.
 #[test]
