@@ -117,19 +117,31 @@ fn of_degenerate_systems() {
     }
 }
 
+fn regular_systems(solver: Solver) {
+    let midpoint = Variational { solver, ..Variational::midpoint() };
+    check! {
+        Kepler[3]: midpoint, Galerkin { solver, ..Galerkin::<4>::new() };
+        DoublePendulum[2]: midpoint;
+        Charge[3]: midpoint;
+        Chain[2]: midpoint, Newmark { solver, ..Newmark::new(0.25) };
+        Chain[2]: Galerkin { solver, ..Galerkin::<3>::new() };
+        CoupledMasses[3]: midpoint;
+    }
+}
+
+#[test]
+fn of_regular_systems_by_newton() {
+    regular_systems(Solver::Newton);
+}
+
+#[test]
+fn of_regular_systems_without_a_matrix() {
+    regular_systems(Solver::NewtonKrylov);
+}
+
 #[test]
 fn of_regular_systems() {
-    for solver in [Solver::Automatic, Solver::Newton, Solver::NewtonKrylov] {
-        let midpoint = Variational { solver, ..Variational::midpoint() };
-        check! {
-            Kepler[3]: midpoint, Galerkin { solver, ..Galerkin::<4>::new() };
-            DoublePendulum[2]: midpoint;
-            Charge[3]: midpoint;
-            Chain[2]: midpoint, Newmark { solver, ..Newmark::new(0.25) };
-            Chain[2]: Galerkin { solver, ..Galerkin::<3>::new() };
-            CoupledMasses[3]: midpoint;
-        }
-    }
+    regular_systems(Solver::Automatic);
     check! {
         Kepler[3]: Variational::trapezoid(), Gauss::<8>::new().in_lanes();
         CoupledMasses[3]: Variational::trapezoid(), Gauss::<2>::new();
