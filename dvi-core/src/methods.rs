@@ -133,6 +133,10 @@ pub trait Carries<S: System, T: Real> {
     type Memory: Memory<T>;
 }
 
+/// The discrete energy E_d = −∂L_d/∂h of a step, for L that does not depend on time (Marsden & West 2001,
+/// section 4.2), with storage for a point and a velocity.
+pub type DiscreteEnergy<M, S, T> = fn(&M, Span<'_, S, T>, &mut [Vector<S, T>; 2]) -> T;
+
 /// A method that can step a system `S` in the arithmetic of `T`.
 ///
 /// ```
@@ -260,15 +264,9 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         steps.one_by_one(self, memory)
     }
 
-    /// Whether [`discrete_energy`](Self::discrete_energy) is known.
-    fn has_discrete_energy(&self) -> bool {
-        false
-    }
-
-    /// The discrete energy E_d = −∂L_d/∂h of a step, for L that does not depend on time (Marsden & West
-    /// 2001, section 4.2); not a number if it is not known. `work` is storage for a point and a velocity.
-    fn discrete_energy(&self, _span: Span<'_, S, T>, _work: &mut [Vector<S, T>; 2]) -> T {
-        T::lift(f64::NAN)
+    /// The discrete energy of its steps, if it is known.
+    fn discrete_energy(&self) -> Option<DiscreteEnergy<Self, S, T>> {
+        None
     }
 
     /// Whether [`local_error`](Self::local_error) is known.

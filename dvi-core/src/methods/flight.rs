@@ -1,19 +1,15 @@
-//! The motion between impacts.
+//! Methods on T*Q for regular systems of any kind, and the motion between impacts.
 
-use crate::discrete::Span;
 use crate::error::{StartError, StepFailure};
-use crate::methods::{Carries, Here, Scheme, Step};
+use crate::methods::step::Carried;
+use crate::methods::{Carries, DiscreteEnergy, Scheme, Step};
 use crate::{NondegenerateLagrangian, Real, Vector};
 
-/// A method that takes a system from impact to impact: its steps have any lengths, and its momentum may be
-/// changed between two of them. It knows nothing of constraints and impacts;
-/// [`Impacts`](crate::methods::Impacts) around it does.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` cannot be stopped at impacts",
-    label = "its memory belongs to one length of the step, or it has no momentum",
-    note = "methods that can are `Variational` without a frequency and `Galerkin` without a frequency"
-)]
-pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Scheme + Carries<S, T> {
+/// How a method steps a regular system of any kind, as if it had no constraints and no impacts.
+pub trait Flight<S: NondegenerateLagrangian<T>, T: Real>: Scheme + Carries<S, T> {
+    /// The point of T*Q in what a run carries.
+    fn carried(memory: &Self::Memory) -> &Carried<S, T>;
+
     /// Prepares a run from (`q`, `v`, `t`), whose longest steps have the length `h`.
     ///
     /// # Errors
@@ -25,27 +21,22 @@ pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Scheme + Carries<S
     /// # Errors
     /// Any [`StepFailure`]; nothing has moved then.
     fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure>;
+}
 
-    /// Sets `v` to the velocity at the present point.
-    ///
-    /// # Errors
-    /// [`StepFailure`] where no velocity belongs to the momentum.
-    fn velocity_in_flight(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut [T],
-    ) -> Result<(), StepFailure>;
-
+/// A method that takes a system from impact to impact: its steps have any lengths, and its momentum may be
+/// changed between two of them. It knows nothing of constraints and impacts;
+/// [`Impacts`](crate::methods::Impacts) around it does.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be stopped at impacts",
+    label = "its memory belongs to one length of the step, or it has no momentum",
+    note = "methods that can are `Variational` without a frequency and `Galerkin` without a frequency"
+)]
+pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Flight<S, T> {
     /// Adds `impulse` to the momentum; `velocity` is about what that leads to.
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]);
 
-    /// Whether [`energy_of_flight`](Self::energy_of_flight) is known.
-    const HAS_ENERGY: bool = false;
-
-    /// The discrete energy E_d = −∂L_d/∂h of a flight, for L that does not depend on time; `None` if it is
-    /// not known. `work` is storage for a point and a velocity.
-    fn energy_of_flight(&self, _span: Span<'_, S, T>, _work: &mut [Vector<S, T>; 2]) -> Option<T> {
+    /// As [`Method::discrete_energy`](crate::methods::Method::discrete_energy), of a flight.
+    fn discrete_energy(&self) -> Option<DiscreteEnergy<Self, S, T>> {
         None
     }
 }

@@ -166,7 +166,7 @@ where
             )
         } else if e != 1.0 {
             Some("it is for elastic impacts; with a restitution below 1 take `Impacts::reflecting`")
-        } else if !IfUnilateral::<S, M, T>::HAS_ENERGY {
+        } else if self.scheme.discrete_energy().is_none() {
             Some("the method has no discrete energy; take `Impacts::reflecting`")
         } else {
             None
@@ -217,6 +217,6 @@ where
     }
 
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
-        self.scheme.velocity_in_flight(here, &memory.inner, v)
+        M::carried(&memory.inner).velocity(here, v)
     }
 }

@@ -12,20 +12,16 @@ mod steps;
 mod together;
 mod verlet;
 
-use crate::discrete::Interval;
 use crate::discrete::frequency::{self, Frequency, Local, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
-use crate::error::{StartError, StepFailure};
+use crate::error::StartError;
 use crate::memory::lasting;
-use crate::methods::step::{Attempt, PhaseMemory};
-use crate::methods::{Clock, Step};
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
 use crate::{NondegenerateLagrangian, Real, System};
 
 use coefficients::Coefficients;
 pub use coefficients::Fitting;
-use lagrangian::{Interpolated, read};
 
 /// The quadrature family: the discrete Lagrangian is a quadrature rule of L on an interpolation between the
 /// two ends.
@@ -157,64 +153,6 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
     #[inline]
     fn reads_both_ends(&self) -> bool {
         matches!(self.frequency.reading(), Some(Reading::Averaged | Reading::Variational))
-    }
-
-    /// Takes a step, on a system of any kind.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<S: NondegenerateLagrangian<T>, T: Real>(
-        &self,
-        step: Step<'_, S, T>,
-        memory: &mut PhaseMemory<S, T, Interpolation<S, T>>,
-    ) -> Result<(), StepFailure> {
-        let Step { system, q, t, h, statistics } = step;
-        let PhaseMemory { carried, ladder, own: Interpolation { given, ends } } = memory;
-        if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
-            let (taken, result) = verlet::steps(system, carried, q, Clock::new(t, h), 1);
-            statistics.gradients += taken;
-            return result;
-        }
-        let Self { stopping, summation, .. } = *self;
-        let step = Attempt { system, interval: Interval { t, h }, stopping, summation, q, carried };
-        macro_rules! take {
-            ($read:ident) => {{
-                let equations =
-                    &mut Interpolated::<{ read::$read }, _, _, _, _> { method: self, given, ends };
-                step.take(equations, ladder, statistics)
-            }};
-        }
-        if F::UNFITTED {
-            return take!(AT_THE_START);
-        }
-        match self.frequency.reading() {
-            None | Some(Reading::LeftFrozen) => take!(AT_THE_START),
-            Some(Reading::Averaged) => take!(AT_BOTH_ENDS),
-            Some(Reading::Variational) => take!(WITH_ITS_DERIVATIVES),
-        }
-    }
-
-    /// The memory of a run from (`q`, `v`, `t`) whose steps have the length `h`.
-    fn depart_from<S: NondegenerateLagrangian<T>, T: Real>(
-        &self,
-        system: &S,
-        (q, v, t): (&[T], &[T], T),
-        h: T,
-    ) -> Result<PhaseMemory<S, T, Interpolation<S, T>>, StartError> {
-        self.validate::<S, T>(system)?;
-        let reading = self.frequency.reading();
-        let solver = match self.solver.in_numbers::<T>() {
-            _ if S::SEPARABLE && self.is_explicit() => Solver::FixedPoint,
-            // Without a constant M there is no fixed point, and a variational frequency is stiff in Δ.
-            Solver::Automatic if !S::CONSTANT_MASS || reading == Some(Reading::Variational) => {
-                Solver::Newton
-            }
-            solver => solver,
-        };
-        let mut given = Coefficients::linear(&self.rule);
-        if reading.is_none() {
-            given.fix(self, h).map_err(StartError::Starter)?;
-        }
-        let own = Interpolation { given, ends: [Local::new(system), Local::new(system)] };
-        PhaseMemory::new(system, (q, v, t), (solver, self.summation), own)
     }
 
     fn validate<S: NondegenerateLagrangian<T>, T: Real>(&self, system: &S) -> Result<(), StartError> {

@@ -1,23 +1,51 @@
 //! Which L and which options are stepped, by the traits of a method.
 
 use super::attempt::Attempt;
+use super::coefficients::Fit;
 use super::interior::InteriorNodes;
-use super::memory::GalerkinMemory;
+use super::memory::{Displacements, GalerkinMemory, Path, newton_matrix};
 use super::{Galerkin, NodeEvaluation};
 use crate::discrete::Interval;
-use crate::discrete::frequency::{self, Frequency, Reading, Unfitted};
+use crate::discrete::frequency::{self, Frequency, Local, Reading, Unfitted};
 use crate::error::{StartError, StepFailure};
-use crate::methods::step::PhaseMemory;
+use crate::methods::flight::Flight;
+use crate::methods::step::{Carried, PhaseMemory};
 use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Step, VariableStep, scheme};
 use crate::scalar::simd::widest_if;
-use crate::solve::Solver;
-use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
+use crate::solve::{Ladder, Solver};
+use crate::state::history::History;
+use crate::{Coupled, NondegenerateLagrangian, Real, RegularLagrangian, Space, System, Vector};
 
-impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
-    pub(super) fn validate<S: NondegenerateLagrangian<T>, T: Real>(
-        &self,
-        system: &S,
-    ) -> Result<(), StartError> {
+/// Without a heap, a matrix of fixed size is made on the stack, where threads have two megabytes.
+const MOST_BYTES: usize = 1 << 20;
+
+scheme! {
+    [const S: usize, F: Frequency, E] Galerkin<S, F, E>, |method|
+    order: 2 * S - 2,
+    is_symmetric: true,
+    preserved_form: match method.frequency.reading() {
+        None => PreservedForm::Canonical,
+        Some(_) => PreservedForm::Nothing,
+    },
+}
+
+impl<const NODES: usize, S: System, F, T: Real, E: NodeEvaluation<NODES, S, T>> Carries<S, T>
+    for Galerkin<NODES, F, E>
+{
+    type Memory = GalerkinMemory<NODES, S, T, E::Interior>;
+}
+
+impl<const NODES: usize, S, F, T: Real, E> Flight<S, T> for Galerkin<NODES, F, E>
+where
+    S: NondegenerateLagrangian<T>,
+    F: Frequency,
+    E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
+{
+    fn carried(memory: &Self::Memory) -> &Carried<S, T> {
+        &memory.carried
+    }
+
+    fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
         let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
         frequency::admit(&self.frequency, system)?;
         if let Some(Reading::LeftFrozen | Reading::Variational) = self.frequency.reading() {
@@ -28,19 +56,40 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
                           Solver::Newton";
             return unsupported("Solver::FixedPoint", reason);
         }
-        self.stopping.validate()
+        self.stopping.validate()?;
+        let solver = match self.solver.in_numbers::<T>() {
+            // Any L has no fixed point.
+            Solver::Automatic if !S::SEPARABLE => Solver::Newton,
+            solver => solver,
+        };
+        if solver != Solver::FixedPoint && size_of::<Coupled<NODES, S, T>>() > MOST_BYTES {
+            let reason = "its matrix for so many nodes and coordinates takes more than a megabyte of the stack; take \
+                          Solver::FixedPoint, fewer nodes, or a heap: the feature `alloc`";
+            return Err(StartError::Unsupported { option: "Newton's method", reason });
+        }
+        let (space, eliminates) = (system.space(), S::SEPARABLE && F::UNFITTED);
+        let histories = || Displacements { nodes: core::array::from_fn(|_| History::new(system, None)) };
+        let reading = self.frequency.reading();
+        let carried = Carried::new(system, q, v, t, self.summation)?;
+        let mut path = Path {
+            interior: eliminates.then(|| E::Interior::new(system)),
+            displacements: (!eliminates || matches!(solver, Solver::Newton | Solver::NewtonKrylov))
+                .then(histories),
+            fit: Fit::new(),
+            ends: [Local::new(system), Local::new(system)],
+            unknowns: space.vectors(),
+            residuals: space.vectors(),
+            weights: space.vectors(),
+        };
+        if reading.is_none() {
+            path.fit.to(self.frequency.fixed::<T>() * h).map_err(StartError::Starter)?;
+        }
+        let ladder = Ladder::new(solver, || newton_matrix(system, [q, v], t, solver.storing()));
+        Ok(PhaseMemory { carried, ladder, own: path })
     }
 
-    /// Takes a step from t to t + h.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<S: NondegenerateLagrangian<T>, T: Real>(
-        &self,
-        step: Step<'_, S, T>,
-        memory: &mut GalerkinMemory<NODES, S, T, E::Interior>,
-    ) -> Result<(), StepFailure>
-    where
-        E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
-    {
+    fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
         let Step { system, q, t, h, statistics } = step;
         let PhaseMemory { carried, ladder, own: path } = memory;
         let (interval, Self { frequency, stopping, .. }) = (Interval { t, h }, self);
@@ -72,22 +121,6 @@ impl<const NODES: usize, F: Frequency, E> Galerkin<NODES, F, E> {
     }
 }
 
-scheme! {
-    [const S: usize, F: Frequency, E] Galerkin<S, F, E>, |method|
-    order: 2 * S - 2,
-    is_symmetric: true,
-    preserved_form: match method.frequency.reading() {
-        None => PreservedForm::Canonical,
-        Some(_) => PreservedForm::Nothing,
-    },
-}
-
-impl<const NODES: usize, S: System, F, T: Real, E: NodeEvaluation<NODES, S, T>> Carries<S, T>
-    for Galerkin<NODES, F, E>
-{
-    type Memory = GalerkinMemory<NODES, S, T, E::Interior>;
-}
-
 impl<const NODES: usize, S, F, T: Real, E> Method<S, T> for Galerkin<NODES, F, E>
 where
     S: RegularLagrangian<T>,
@@ -97,12 +130,12 @@ where
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.depart_from(system, [q, v], [t, h])
+        self.depart(system, q, v, t, h)
     }
 
     #[inline]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        self.take(step, memory)
+        self.fly(step, memory)
     }
 
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
@@ -124,20 +157,6 @@ where
     S: NondegenerateLagrangian<T>,
     E: NodeEvaluation<NODES, S, T, Interior: InteriorNodes<NODES, S, T>>,
 {
-    fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.depart_from(system, [q, v], [t, h])
-    }
-    fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        self.take(step, memory)
-    }
-    fn velocity_in_flight(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut [T],
-    ) -> Result<(), StepFailure> {
-        memory.carried.velocity(here, v)
-    }
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
         memory.carried.phase.jump(impulse, velocity);
         if let Some(interior) = &mut memory.own.interior {

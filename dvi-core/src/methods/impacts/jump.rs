@@ -60,9 +60,9 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
 
     /// Sets `v` to the velocity at the present point, after a flight of length `s`.
     fn set_velocity(&mut self, s: T) -> Result<(), StepFailure> {
-        let Self { method, system, memory, q, t, .. } = self;
+        let Self { system, memory, q, t, .. } = self;
         let ImpactsMemory { inner, v, .. } = &mut **memory;
-        method.scheme.velocity_in_flight(Here { system, q, t: *t + s }, inner, v)
+        M::carried(inner).velocity(Here { system, q, t: *t + s }, v)
     }
 
     /// Looks at the gaps there, and leaves the velocity in `v`.
@@ -118,15 +118,15 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
     pub(super) fn energy(&mut self, s: T) -> Result<T, StepFailure> {
         let Self { method, system, memory, q, t, h, .. } = self;
         let ImpactsMemory { start, delta, work, .. } = &mut **memory;
-        if Scalar::abs(s) > T::lift(SHORT) * Scalar::abs(*h) {
+        if Scalar::abs(s) > T::lift(SHORT) * Scalar::abs(*h)
+            && let Some(energy) = method.scheme.discrete_energy()
+        {
             for (delta, (&q1, &q0)) in delta.iter_mut().zip(q.iter().zip(start.q.iter())) {
                 *delta = q1 - q0;
             }
             let interval = Interval { t: *t, h: s };
             let span = Span { system: *system, interval, q0: &start.q, delta };
-            if let Some(energy) = method.scheme.energy_of_flight(span, work) {
-                return Ok(energy);
-            }
+            return Ok(energy(&method.scheme, span, work));
         }
         self.set_velocity(s)?;
         Ok(self.system.energy(self.q, &self.memory.v, self.t + s))

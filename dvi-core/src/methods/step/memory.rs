@@ -12,7 +12,7 @@ use crate::{Lagrangian, Linear, NondegenerateLagrangian, Real, Space, System, Ve
 
 /// What a run carries from step to step, and its work space.
 #[derive(Debug)]
-pub(in crate::methods) struct Carried<S: System, T: Real> {
+pub struct Carried<S: System, T: Real> {
     pub(in crate::methods) phase: PhasePoint<S, T>,
     pub(in crate::methods) inertial: Inertial<S, T>,
     pub(in crate::methods) work: Work<S, T>,

@@ -1,13 +1,18 @@
 //! Which L are stepped, by the traits of a method and of one between impacts, and the discrete energy of a
 //! step, E_d = −∂L_d/∂h = Σⱼ wⱼ E(qʲ, Δ/h) with linear interpolation.
 
+use super::coefficients::Coefficients;
+use super::lagrangian::{Interpolated, read};
 use super::{Interpolation, Variational, verlet};
-use crate::discrete::Span;
-use crate::discrete::frequency::{Frequency, Reading, Unfitted};
+use crate::discrete::frequency::{Frequency, Local, Reading, Unfitted};
 use crate::discrete::quadrature::Rule;
+use crate::discrete::{Interval, Span};
 use crate::error::{StartError, StepFailure};
-use crate::methods::step::PhaseMemory;
-use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Step, Steps, VariableStep, scheme};
+use crate::methods::flight::Flight;
+use crate::methods::step::{Attempt, Carried, PhaseMemory};
+use crate::methods::{Carries, Clock, DiscreteEnergy, FreeFlight, Here, Method, PreservedForm};
+use crate::methods::{Step, Steps, VariableStep, scheme};
+use crate::solve::Solver;
 use crate::{NondegenerateLagrangian, Real, RegularLagrangian, System, Vector};
 
 scheme! {
@@ -24,17 +29,70 @@ impl<S: System, F, R, T: Real> Carries<S, T> for Variational<F, R> {
     type Memory = PhaseMemory<S, T, Interpolation<S, T>>;
 }
 
+impl<S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T: Real> Flight<S, T> for Variational<F, R> {
+    fn carried(memory: &Self::Memory) -> &Carried<S, T> {
+        &memory.carried
+    }
+
+    fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
+        self.validate::<S, T>(system)?;
+        let reading = self.frequency.reading();
+        let solver = match self.solver.in_numbers::<T>() {
+            _ if S::SEPARABLE && self.is_explicit() => Solver::FixedPoint,
+            // Without a constant M there is no fixed point, and a variational frequency is stiff in Δ.
+            Solver::Automatic if !S::CONSTANT_MASS || reading == Some(Reading::Variational) => {
+                Solver::Newton
+            }
+            solver => solver,
+        };
+        let mut given = Coefficients::linear(&self.rule);
+        if reading.is_none() {
+            given.fix(self, h).map_err(StartError::Starter)?;
+        }
+        let own = Interpolation { given, ends: [Local::new(system), Local::new(system)] };
+        PhaseMemory::new(system, (q, v, t), (solver, self.summation), own)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
+        let Step { system, q, t, h, statistics } = step;
+        let PhaseMemory { carried, ladder, own: Interpolation { given, ends } } = memory;
+        if S::SEPARABLE && F::UNFITTED && self.is_verlet() {
+            let (taken, result) = verlet::steps(system, carried, q, Clock::new(t, h), 1);
+            statistics.gradients += taken;
+            return result;
+        }
+        let Self { stopping, summation, .. } = *self;
+        let step = Attempt { system, interval: Interval { t, h }, stopping, summation, q, carried };
+        macro_rules! take {
+            ($read:ident) => {{
+                let equations =
+                    &mut Interpolated::<{ read::$read }, _, _, _, _> { method: self, given, ends };
+                step.take(equations, ladder, statistics)
+            }};
+        }
+        if F::UNFITTED {
+            return take!(AT_THE_START);
+        }
+        match self.frequency.reading() {
+            None | Some(Reading::LeftFrozen) => take!(AT_THE_START),
+            Some(Reading::Averaged) => take!(AT_BOTH_ENDS),
+            Some(Reading::Variational) => take!(WITH_ITS_DERIVATIVES),
+        }
+    }
+}
+
 impl<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real> Method<S, T> for Variational<F, R> {
     type Suited<X> = S::Suited<X>;
 
     fn begin(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.depart_from(system, (q, v, t), h)
+        self.depart(system, q, v, t, h)
     }
 
     // A step of Simpson's rule with a frequency of the motion takes 976 instructions, and 1149 without it.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        self.take(step, memory)
+        self.fly(step, memory)
     }
 
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {
@@ -54,12 +112,8 @@ impl<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real> Method<S, T> for V
         }
     }
 
-    fn has_discrete_energy(&self) -> bool {
-        F::UNFITTED
-    }
-
-    fn discrete_energy(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> T {
-        if F::UNFITTED { self.energy_of(span, work) } else { T::lift(f64::NAN) }
+    fn discrete_energy(&self) -> Option<DiscreteEnergy<Self, S, T>> {
+        if F::UNFITTED { Some(Self::energy_of) } else { None }
     }
 }
 
@@ -90,26 +144,11 @@ impl<F: Frequency, R: Rule> Variational<F, R> {
 }
 
 impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Variational<Unfitted, R> {
-    const HAS_ENERGY: bool = true;
-
-    fn depart(&self, system: &S, q: &Vector<S, T>, v: &[T], t: T, h: T) -> Result<Self::Memory, StartError> {
-        self.depart_from(system, (q, v, t), h)
-    }
-    fn fly(&self, step: Step<'_, S, T>, memory: &mut Self::Memory) -> Result<(), StepFailure> {
-        self.take(step, memory)
-    }
-    fn velocity_in_flight(
-        &self,
-        here: Here<'_, S, T>,
-        memory: &Self::Memory,
-        v: &mut [T],
-    ) -> Result<(), StepFailure> {
-        memory.carried.velocity(here, v)
-    }
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]) {
         memory.carried.phase.jump(impulse, velocity);
     }
-    fn energy_of_flight(&self, span: Span<'_, S, T>, work: &mut [Vector<S, T>; 2]) -> Option<T> {
-        Some(self.energy_of(span, work))
+
+    fn discrete_energy(&self) -> Option<DiscreteEnergy<Self, S, T>> {
+        Some(Self::energy_of)
     }
 }

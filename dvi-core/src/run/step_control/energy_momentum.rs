@@ -168,7 +168,7 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
     }
 
     fn admit<M: Method<S, T>>(&self, method: &M) -> Result<(), StartError> {
-        if method.has_discrete_energy() {
+        if method.discrete_energy().is_some() {
             return Ok(());
         }
         let reason = "the method has no discrete energy: take `Variational` without a frequency";

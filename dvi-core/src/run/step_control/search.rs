@@ -55,9 +55,10 @@ impl<S: RegularLagrangian<T>, M: Method<S, T>, T: Real> Search<'_, '_, S, M, T> 
             *delta = q1 - q0;
         }
         let span = Span { system: run.system(), interval: Interval { t: *t, h }, q0: start, delta };
-        let energy = run.stepper.method.discrete_energy(span, node);
+        let method = &run.stepper.method;
+        let energy = method.discrete_energy().map(|energy| energy(method, span, node));
         let missing = StepFailure::EnergyStep { h: reported(h), defect: f64::NAN };
-        if energy.is_finite() { Ok(energy) } else { Err(missing) }
+        energy.filter(|energy| energy.is_finite()).ok_or(missing)
     }
 
     /// The trial of a length, from which the run has gone back; `None` if there is no such step.
