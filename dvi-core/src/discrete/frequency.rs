@@ -65,17 +65,9 @@ pub trait Frequency: Debug {
         T::lift(f64::NAN)
     }
 
-    /// ω at (q, v, a) after setting `dq`, `dv` and `da` to its derivatives: needed for
-    /// [`Reading::Variational`]. `None` unless they are given; a run with that reading is then refused.
-    fn derivatives<T: Real>(
-        &self,
-        _q: &[T],
-        _v: &[T],
-        _a: &[T],
-        _dq: &mut [T],
-        _dv: &mut [T],
-        _da: &mut [T],
-    ) -> Option<T> {
+    /// ω at (q, v, a) after setting its derivatives by each of them: needed for [`Reading::Variational`].
+    /// `None` unless they are given; a run with that reading is then refused.
+    fn derivatives<T: Real>(&self, _at: [&[T]; 3], _derivatives: [&mut [T]; 3]) -> Option<T> {
         None
     }
 
@@ -172,7 +164,7 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: Frequency, T: Real>(
         ),
         Some(Reading::Variational) => {
             let [point, mut dq, mut dv, mut da] = space.vectors::<T, 4>();
-            match frequency.derivatives(&point, &point, &point, &mut dq, &mut dv, &mut da) {
+            match frequency.derivatives([&point; 3], [&mut dq, &mut dv, &mut da]) {
                 Some(_) => Ok(()),
                 None => unsupported(
                     "Reading::Variational",
@@ -222,15 +214,7 @@ impl Frequency for Curvature {
         area(v, a) / dot(v, v)
     }
 
-    fn derivatives<T: Real>(
-        &self,
-        q: &[T],
-        v: &[T],
-        a: &[T],
-        dq: &mut [T],
-        dv: &mut [T],
-        da: &mut [T],
-    ) -> Option<T> {
+    fn derivatives<T: Real>(&self, [q, v, a]: [&[T]; 3], [dq, dv, da]: [&mut [T]; 3]) -> Option<T> {
         let omega = self.at(q, v, a);
         let (vv, area) = (dot(v, v), area(v, a));
         let ratio = dot(v, a) / vv;
@@ -302,15 +286,7 @@ impl Frequency for Radial {
         if ratio == T::lift(0.0) { T::lift(0.0) } else { Scalar::sqrt(Scalar::sqrt(ratio)) }
     }
 
-    fn derivatives<T: Real>(
-        &self,
-        q: &[T],
-        v: &[T],
-        a: &[T],
-        dq: &mut [T],
-        dv: &mut [T],
-        da: &mut [T],
-    ) -> Option<T> {
+    fn derivatives<T: Real>(&self, [q, v, a]: [&[T]; 3], [dq, dv, da]: [&mut [T]; 3]) -> Option<T> {
         let omega = self.at(q, v, a);
         let half = T::lift(0.5) * omega;
         // Without an acceleration, where ω = 0 has a kink, the derivative is left out.

@@ -140,15 +140,7 @@ impl Frequency for Partial {
         Scalar::sqrt(q[0] - T::lift(0.9))
     }
 
-    fn derivatives<T: Real>(
-        &self,
-        q: &[T],
-        v: &[T],
-        a: &[T],
-        dq: &mut [T],
-        dv: &mut [T],
-        da: &mut [T],
-    ) -> Option<T> {
+    fn derivatives<T: Real>(&self, [q, v, a]: [&[T]; 3], [dq, dv, da]: [&mut [T]; 3]) -> Option<T> {
         let (omega, zero) = (self.at(q, v, a), T::lift(0.0));
         dq.copy_from_slice(&[T::lift(0.5) / omega, zero]);
         dv.fill(zero);

@@ -55,7 +55,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Local<S, T> {
         system.gradient(q, v, t, l_q, l_v);
         mass.solve(l_q, acceleration);
         // Refused at the start if there are none.
-        let Some(omega) = frequency.derivatives(q, v, acceleration, dq, dv, da) else {
+        let Some(omega) = frequency.derivatives([q, v, acceleration], [dq, dv, da]) else {
             return Err(StepFailure::Frequency { omega: f64::NAN });
         };
         self.omega = omega;
