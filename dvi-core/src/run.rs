@@ -172,7 +172,7 @@ pub trait Run {
         const {
             assert!(Self::System::REPORT.events.len() == N, "there is a direction for each declared event");
         }
-        Events::of(self.dense()?, directions, Declared)
+        Events::new(self.dense()?, directions, Declared)
     }
 
     /// The run with the state at any time of its last step: see [`Dense`].

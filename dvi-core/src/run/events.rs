@@ -113,24 +113,9 @@ pub struct Events<R: Run, G, const N: usize> {
     ended: bool,
 }
 
-impl<R: Run, G, const N: usize> Events<R, G, N>
-where
-    G: FnMut(R::Scalar, &StateOf<R>) -> [R::Scalar; N],
-{
-    /// Of the run in `dense`, from its present point on, where each of the conditions `g` crosses zero in
-    /// its direction. All memory is allocated here.
-    ///
-    /// # Errors
-    /// [`StartError::Starter`] if there are no velocities, or a condition is no number, at the present
-    /// point.
-    pub fn new(dense: Dense<R>, directions: [Direction; N], g: G) -> Result<Self, StartError> {
-        Self::of(dense, directions, g)
-    }
-}
-
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G, N> {
-    /// The same for conditions of either kind.
-    pub(super) fn of(mut dense: Dense<R>, directions: [Direction; N], g: G) -> Result<Self, StartError> {
+    /// Of the run in `dense`, from its present point on.
+    pub(super) fn new(mut dense: Dense<R>, directions: [Direction; N], g: G) -> Result<Self, StartError> {
         let watch = Watch::new(&mut dense, directions, g)?;
         Ok(Self { dense, watch, ended: false })
     }
@@ -183,7 +168,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Events<R, G
     /// next, and all others are forgotten.
     ///
     /// # Errors
-    /// As [`Run::set_state`]. As [`new`](Self::new): the run is there then, but no events are known.
+    /// As [`Run::set_state`]. As [`Run::events`]: the run is there then, but no events are known.
     pub fn set_state(&mut self, t: R::Scalar, state: StateOf<R>) -> Result<(), StartError> {
         self.dense.set_state(t, state)?;
         self.watch.begin_anew(&mut self.dense)?;

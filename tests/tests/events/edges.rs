@@ -157,7 +157,7 @@ fn times_that_are_not_ahead_are_errors_with_both_times() -> Outcome {
         }
         assert_eq!(dense.steps(), steps);
         let behind = begun - 1e-9 * sign;
-        let refused = Events::new(dense, [Direction::Either], |_, _| [1.0])?.next_until(behind).err();
+        let refused = run.events([Direction::Either], |_, _| [1.0])?.next_until(behind).err();
         assert!(matches!(refused, Some(StepError { failure: StepFailure::Unreachable { .. }, .. })));
         // It may have passed a time by rounding.
         let now = run.time();
