@@ -6,7 +6,7 @@
 
 use super::Constraints;
 use crate::mechanics::Span;
-use crate::scalar::passes::{multiply, negate};
+use crate::scalar::passes::{add, multiply, negate};
 use crate::space::Sink;
 use crate::system::{Holonomic, Nonholonomic};
 use crate::{HolonomicLagrangian, NonholonomicLagrangian, Real};
@@ -26,9 +26,7 @@ impl<S: HolonomicLagrangian<T>, T: Real> Constraints<S, T> for Holonomic {
         out: &mut [T],
         sink: &mut K,
     ) {
-        for ((point, &q), &delta) in point.iter_mut().zip(q0).zip(delta) {
-            *point = q + delta;
-        }
+        add(q0, delta, point);
         system.constraint_jacobian(point, interval.time(T::lift(1.0)), out, sink);
     }
     fn of_velocity<K: Sink<T>>(system: &S, q: &[T], v: &[T], t: T, out: &mut [T], sink: &mut K) {

@@ -7,7 +7,7 @@ use crate::error::StepFailure;
 use crate::mechanics::constraints::{At, Bordered, ConstrainedLagrangian, Lower, Tangent};
 use crate::memory::Memory;
 use crate::methods::Step;
-use crate::scalar::norm;
+use crate::scalar::{norm, passes};
 use crate::solve::{AtIncrement, Due, Guess, Stopping, from_either_guess, newton, sizes};
 use crate::state::Statistics;
 use crate::state::rates::is_similar;
@@ -91,9 +91,7 @@ impl<S: ConstrainedLagrangian<T>, R: Rule, T: Real> ConstrainedMemory<S, R, T> {
             solver.reduce(increment, impulse);
             Ok(sizes::largest(weights, solver.parts(q.len()).0))
         })?;
-        for ((next, &q), &delta) in next.iter_mut().zip(q).zip(increment.iter()) {
-            *next = q + delta;
-        }
+        passes::add(q, increment, next);
         norm::finite(next)?;
         // On the way from a step of no length the determinant of its equations changes its sign where
         // solutions meet.

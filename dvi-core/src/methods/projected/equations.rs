@@ -3,6 +3,7 @@
 //! r₁ = α(q0) + Dα(q0)ᵀλ − α(q̃) + ½h ∂L/∂q(q̃, Δ/h)      r₂ = α(q̃) + ½h ∂L/∂q(q̃, Δ/h) − α(q1) − Dα(q1)ᵀλ
 
 use crate::error::StepFailure;
+use crate::scalar::passes::subtract;
 use crate::solve::CoupledEquations;
 use crate::space::{NodeSum, Sink};
 use crate::state::Statistics;
@@ -83,9 +84,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> CoupledEquations<NODES, S, T> for Step
             system.one_form_jacobian(point, time, zero, factor, &mut product);
         }
         system.one_form(end, after, one_form);
-        for (r2, &form) in r2.iter_mut().zip(one_form.iter()) {
-            *r2 -= form;
-        }
+        subtract(r2, one_form);
         statistics.gradients += 1;
         Ok(())
     }

@@ -9,11 +9,10 @@ use crate::mechanics::combination::{Combination, Inverse, Product};
 use crate::mechanics::orientation::FormOrientation;
 use crate::mechanics::pattern::of_second_derivatives;
 use crate::scalar::norm;
-use crate::scalar::passes::{add, multiply, negate};
+use crate::scalar::passes::{add, multiply, negate, subtract};
 use crate::solve::{Ladder, Solver};
-use crate::state::Statistics;
 use crate::state::history::History;
-use crate::state::summation;
+use crate::state::{Statistics, summation};
 use crate::{DegenerateLagrangian, Real, Space, Vector};
 
 impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
@@ -110,9 +109,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         if S::AFFINE && method.sigma != T::lift(1.0) {
             carried.shift_by_defect(system);
             let Work { shift, increment, .. } = &mut carried.work;
-            for i in 0..q.len() {
-                increment[i] -= shift[i];
-            }
+            subtract(increment, shift);
             if let Some(Leaps { before, .. }) = &mut carried.leaps {
                 add(q, shift, before);
             }

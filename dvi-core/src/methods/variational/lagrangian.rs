@@ -12,6 +12,7 @@ use crate::discrete::{DiscreteLagrangian, Interval, NodeWork, Nodes, RuleNodes, 
 use crate::error::StepFailure;
 use crate::methods::VariationalMethod;
 use crate::methods::step::{Begin, Equations, Kinetic, Share, set_force};
+use crate::scalar::passes::kick;
 use crate::space::Sink;
 use crate::state::Statistics;
 use crate::{NondegenerateLagrangian, Real, System};
@@ -179,9 +180,7 @@ impl<const READ: usize, S: NondegenerateLagrangian<T>, F: Frequency, R: Rule, T:
                     &node.gradient
                 }
             };
-            for (to, &force) in to.iter_mut().zip(force) {
-                *to += h * weight * by_point * force;
-            }
+            kick(to, h * weight * by_point, force);
         }
         self.vary_frequency(begin, delta, share, (coefficients, node), to);
         Ok(())

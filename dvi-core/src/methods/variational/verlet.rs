@@ -16,7 +16,7 @@ use crate::mechanics::phase::{Arrival, Inertial, PhasePoint};
 use crate::methods::Clock;
 use crate::methods::step::Carried;
 use crate::methods::walk::{Walk, walk};
-use crate::scalar::norm;
+use crate::scalar::{norm, passes};
 use crate::space::scratch;
 use crate::{NondegenerateLagrangian, Real, Vector};
 
@@ -76,9 +76,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
                 *p = kick(*p, *half * f);
             }
             self.mass.solve(p1, v);
-            for (q, &v) in q1.iter_mut().zip(v.iter()) {
-                *q += self.clock.step_size() * v;
-            }
+            passes::kick(q1, self.clock.step_size(), v);
         }
     }
 
@@ -86,9 +84,7 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Kicks<'_, S, T> {
     #[inline]
     fn complete(&mut self) {
         if core::mem::take(&mut self.owed) {
-            for (p, &f) in self.p1.iter_mut().zip(self.f1.iter()) {
-                *p += self.half * f;
-            }
+            passes::kick(self.p1, self.half, self.f1);
         }
     }
 }
