@@ -5,9 +5,8 @@ use crate::mechanics::constraints::consistent::{check, project};
 use crate::mechanics::constraints::{ConstrainedLagrangian, Multipliers};
 use crate::mechanics::motion::Rates;
 use crate::mechanics::motion::constrained::acceleration;
-use crate::system::spinors;
 use crate::system::start::{flatten, named, validate, velocities};
-use crate::system::{Kind, System};
+use crate::system::{Kind, System, spinors};
 use crate::{Lagrangian, Real, Space, State, Vector};
 
 /// What can be asked of a system at one state, at a time `t`, which counts where the Lagrangian depends on it.

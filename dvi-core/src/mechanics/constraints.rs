@@ -18,8 +18,7 @@ mod solver;
 pub(crate) mod turning;
 
 use crate::error::StepFailure;
-use crate::mechanics::Span;
-use crate::mechanics::legendre;
+use crate::mechanics::{Span, legendre};
 use crate::scalar::norm;
 use crate::scalar::passes::negate;
 use crate::solve::{Due, Stopping, newton, sizes};

@@ -14,10 +14,8 @@ pub(crate) mod sphere;
 use nalgebra::{Matrix3, Quaternion, Vector3, Vector4};
 
 use crate::error::StartError;
-use crate::scalar::carries_derivatives;
-use crate::scalar::norm;
+use crate::scalar::{carries_derivatives, norm};
 use crate::system::{Factor, ManifoldSystem};
-
 use crate::{Real, Scalar};
 
 pub(crate) use crate::system::blocks::{Block, blocks};

@@ -7,9 +7,8 @@ use super::pattern::mass_entries;
 use crate::error::StepFailure;
 use crate::scalar::passes::multiply;
 use crate::scalar::{norm, smallest_normal};
-use crate::space::Sink;
-use crate::space::SquareMatrix;
 use crate::space::linear::{scale, set_scales};
+use crate::space::{Sink, SquareMatrix};
 use crate::{NondegenerateLagrangian, Real, Scalar, Space, Square, System, Vector};
 
 /// M and M⁻¹. Where M is not constant there are no numbers here, so that a step that divides by it fails.

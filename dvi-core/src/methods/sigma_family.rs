@@ -20,8 +20,7 @@ mod together;
 
 use crate::discrete::{Between, Interval, OneNode};
 use crate::error::{StartError, StepFailure};
-use crate::methods::VariationalMethod;
-use crate::methods::{self, Carries, Clock, Gauss, Method, PreservedForm, Steps, scheme};
+use crate::methods::{self, Carries, Clock, Gauss, Method, PreservedForm, Steps, VariationalMethod, scheme};
 use crate::solve::{Ladder, Solver, Stopping};
 use crate::state::summation::Summation;
 use crate::{DegenerateLagrangian, Real, System, Vector};

@@ -1,8 +1,7 @@
 //! The last step of a run, taken again in part, whatever its method is.
 
 use crate::error::{StartError, StepFailure};
-use crate::methods::Kept;
-use crate::methods::{Clock, Here, Method, Step, Steps};
+use crate::methods::{Clock, Here, Kept, Method, Step, Steps};
 use crate::run::Stepper;
 use crate::run::stepper::PointOf;
 use crate::scalar::norm::reported;

@@ -3,8 +3,7 @@
 use super::clock::Time;
 use crate::error::{StepError, StepFailure};
 use crate::memory::Aside;
-use crate::methods::Kept;
-use crate::methods::{Carries, Clock, Here, Method, Steps};
+use crate::methods::{Carries, Clock, Here, Kept, Method, Steps};
 use crate::state::Statistics;
 use crate::system::start::step_error;
 use crate::{Lagrangian, Real, Space as _, State as _, System, Vector};

@@ -9,9 +9,8 @@
 //! D₂)L_d.
 
 use crate::Real;
-use crate::discrete::Interval;
 use crate::discrete::basis::{Bases, Basis};
-use crate::discrete::frequency;
+use crate::discrete::{Interval, frequency};
 use crate::error::StepFailure;
 use crate::methods::collocation::lobatto::{Lobatto, MOST};
 use crate::space::elimination;
