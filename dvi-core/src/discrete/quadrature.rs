@@ -214,12 +214,9 @@ impl Quadrature {
     /// # Errors
     /// [`StartError::Parameter`] for another number of nodes.
     pub fn gauss(nodes: usize) -> Result<Self, StartError> {
-        let tables = GAUSS.get(nodes.wrapping_sub(1));
-        tables.map(|&table| Self::of(table, nodes)).ok_or(StartError::Parameter {
-            name: "nodes of the Gauss rule",
-            value: nodes as f64,
-            range: "1 to 5",
-        })
+        let is_known = (1..=NODES).contains(&nodes);
+        StartError::unless(is_known, "nodes of the Gauss rule", nodes as f64, "1 to 5")?;
+        Ok(Self::of(GAUSS[nodes - 1], nodes))
     }
 
     /// The Lobatto rule with two to five nodes, both ends among them, exact to degree 2·`nodes` − 3.
@@ -227,12 +224,9 @@ impl Quadrature {
     /// # Errors
     /// [`StartError::Parameter`] for another number of nodes.
     pub fn lobatto(nodes: usize) -> Result<Self, StartError> {
-        let tables = LOBATTO.get(nodes.wrapping_sub(2));
-        tables.map(|&table| Self::of(table, nodes)).ok_or(StartError::Parameter {
-            name: "nodes of the Lobatto rule",
-            value: nodes as f64,
-            range: "2 to 5",
-        })
+        let is_known = (2..=NODES).contains(&nodes);
+        StartError::unless(is_known, "nodes of the Lobatto rule", nodes as f64, "2 to 5")?;
+        Ok(Self::of(LOBATTO[nodes - 2], nodes))
     }
 }
 
