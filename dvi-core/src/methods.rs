@@ -270,9 +270,7 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     }
 
     /// Whether [`local_error`](Self::local_error) is known.
-    fn estimates_local_error(&self) -> bool {
-        false
-    }
+    const ESTIMATES_LOCAL_ERROR: bool = false;
 
     /// An estimate of the error of the last step, which was taken from time `t` with length `h`, in units of
     /// `tolerance`, without allocation; infinite if the method has none. It is of the order h<sup>p+1</sup>

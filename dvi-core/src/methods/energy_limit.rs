@@ -141,9 +141,7 @@ where
         self.method.velocity(here, &memory.inner, v)
     }
 
-    fn estimates_local_error(&self) -> bool {
-        self.method.estimates_local_error()
-    }
+    const ESTIMATES_LOCAL_ERROR: bool = <Itself<M> as Method<S, T>>::ESTIMATES_LOCAL_ERROR;
 
     fn local_error(
         &self,

@@ -209,9 +209,7 @@ where
         Some(*c)
     }
 
-    fn estimates_local_error(&self) -> bool {
-        true
-    }
+    const ESTIMATES_LOCAL_ERROR: bool = true;
 
     fn local_error(
         &self,

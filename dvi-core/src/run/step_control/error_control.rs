@@ -233,8 +233,8 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         Ok((ErrorControlMemory { h, error: one, excess: one, usual: h, end: None, seams }, h))
     }
 
-    fn admit<M: Method<S, T>>(&self, method: &M) -> Result<(), StartError> {
-        if method.estimates_local_error() {
+    fn admit<M: Method<S, T>>(&self, _method: &M) -> Result<(), StartError> {
+        if M::ESTIMATES_LOCAL_ERROR {
             return Ok(());
         }
         let reason = "the method has no estimate of the error of a step: take `Gauss`; no method for \
