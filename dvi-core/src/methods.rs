@@ -213,27 +213,17 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
         self.step(part, memory)
     }
 
-    /// Sets `q` and `v` to the `index`-th of the places within the last step that are known, such as the
-    /// stages of a method of high order, whose steps are long, and returns the part of the step; in their
-    /// order, from the first one on. Of degenerate systems there is no `v`. There are none if nothing else
-    /// is said. A search for events looks at up to eight.
+    /// Whether the [places](Self::place) that are known are jumps of the velocity, as at an impact.
+    const HAS_JUMPS: bool = false;
+
+    /// Sets `q` to the `index`-th of the places within the last step that are known, such as the stages of a
+    /// method of high order, whose steps are long, or impacts, and `v` to the velocity there or, at
+    /// [jumps](Self::HAS_JUMPS), to those before it and behind it, and returns the part of the step; in their
+    /// order, from the first one on. Of degenerate systems there is no `v`. There are none if nothing else is
+    /// said. A search for events looks at up to eight, and at up to 16 jumps.
     fn place(
         &self,
         _memory: &mut Self::Memory,
-        _index: usize,
-        _q: &mut Vector<S, T>,
-        _v: &mut Vector<S, T>,
-    ) -> Option<T> {
-        None
-    }
-
-    /// Sets `q` to the point of the `index`-th jump of the velocity in the last step, as at an impact, and
-    /// `v` to the velocities before it and behind it, and returns the part of the step; in their order, from
-    /// the first one on. There are none if nothing else is said. A search for events looks at up to 16, and
-    /// at none of a method that has [places](Self::place).
-    fn jump(
-        &self,
-        _memory: &Self::Memory,
         _index: usize,
         _q: &mut Vector<S, T>,
         _v: [&mut Vector<S, T>; 2],

@@ -117,24 +117,16 @@ where
         self.method.part_of_step(part, whole, &mut memory.inner, &taken.inner)
     }
 
+    const HAS_JUMPS: bool = <Itself<M> as Method<S, T>>::HAS_JUMPS;
+
     fn place(
         &self,
         memory: &mut Self::Memory,
         index: usize,
         q: &mut Vector<S, T>,
-        v: &mut Vector<S, T>,
-    ) -> Option<T> {
-        self.method.place(&mut memory.inner, index, q, v)
-    }
-
-    fn jump(
-        &self,
-        memory: &Self::Memory,
-        index: usize,
-        q: &mut Vector<S, T>,
         v: [&mut Vector<S, T>; 2],
     ) -> Option<T> {
-        self.method.jump(&memory.inner, index, q, v)
+        self.method.place(&mut memory.inner, index, q, v)
     }
 
     fn velocity(&self, here: Here<'_, S, T>, memory: &Self::Memory, v: &mut [T]) -> Result<(), StepFailure> {

@@ -191,7 +191,7 @@ where
         memory: &mut Self::Memory,
         index: usize,
         q: &mut Vector<S, T>,
-        v: &mut Vector<S, T>,
+        [v, _]: [&mut Vector<S, T>; 2],
     ) -> Option<T> {
         if STAGES < LONG {
             return None;

@@ -179,9 +179,11 @@ where
         ImpactsMemory::new(system, q, || self.scheme.depart(system, q, v, t, h))
     }
 
-    fn jump(
+    const HAS_JUMPS: bool = true;
+
+    fn place(
         &self,
-        memory: &Self::Memory,
+        memory: &mut Self::Memory,
         index: usize,
         q: &mut Vector<S, T>,
         [before, behind]: [&mut Vector<S, T>; 2],

@@ -38,13 +38,9 @@ pub trait Between<S: System, T: Real> {
     /// As [`Method::step`] and [`Method::velocity`]; [`StepFailure::LeftDomain`].
     fn reach(&mut self, system: &S, t: T, lengths: [T; 2], v: &mut [T]) -> Result<&[T], StepFailure>;
 
-    /// The coordinates at one of the places within the last step that are known, with the part of the step;
-    /// their velocities are written to `v`.
-    fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])>;
-
-    /// The coordinates at one of the jumps of the velocity in the last step, with the part of the step; the
-    /// velocities before it and behind it are written to `v`.
-    fn jump(&mut self, index: usize, v: [&mut Vector<S, T>; 2]) -> Option<(T, &[T])>;
+    /// The coordinates at one of the places within the last step that are known, jumps of the velocity or
+    /// others, with the part of the step; the velocities there are written to `v` as by [`Method::place`].
+    fn place(&mut self, is_jump: bool, index: usize, v: [&mut Vector<S, T>; 2]) -> Option<(T, &[T])>;
 
     /// The coordinates, and their velocities in `v`, at the end of the step.
     ///
@@ -108,18 +104,11 @@ impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Between<S, T> for Stepper<S, M,
         Ok(q)
     }
 
-    fn place(&mut self, index: usize, v: &mut Vector<S, T>) -> Option<(T, &[T])> {
+    fn place(&mut self, is_jump: bool, index: usize, v: [&mut Vector<S, T>; 2]) -> Option<(T, &[T])> {
         let Self { method, memory, points, .. } = self;
-        let [.., reached] = points.as_mut()?;
+        let [.., reached] = points.as_mut().filter(|_| M::HAS_JUMPS == is_jump)?;
         let q = &mut reached.q;
         method.place(memory, index, q, v).map(|part| (part, &q[..]))
-    }
-
-    fn jump(&mut self, index: usize, v: [&mut Vector<S, T>; 2]) -> Option<(T, &[T])> {
-        let Self { method, memory, points, .. } = self;
-        let [.., reached] = points.as_mut()?;
-        let q = &mut reached.q;
-        method.jump(memory, index, q, v).map(|part| (part, &q[..]))
     }
 
     #[inline]

@@ -249,19 +249,15 @@ impl<R: Run> Dense<R> {
         Ok((self.begun + h, Flat { system, q, v }))
     }
 
-    /// A place within the last step that is known: the part of the step, the time, and the state there.
-    pub(super) fn at_place(&mut self, index: usize) -> Option<(R::Scalar, R::Scalar, FlatOf<'_, R>)> {
-        let (begun, h) = (self.last_begun(), self.run.step_size());
+    /// A place within the last step that is known, a jump of the velocity or another: the part of the step,
+    /// and the state there or the states before a jump and behind it.
+    pub(super) fn at_place(
+        &mut self,
+        is_jump: bool,
+        index: usize,
+    ) -> Option<(R::Scalar, [FlatOf<'_, R>; 2])> {
         let (system, between) = self.run.between();
-        let [v, _] = &mut self.v;
-        let (part, q) = between.place(index, v)?;
-        Some((part, begun + part * h, Flat { system, q, v }))
-    }
-
-    /// A jump of the velocity in the last step: the part of the step, and the states before it and behind it.
-    pub(super) fn at_jump(&mut self, index: usize) -> Option<(R::Scalar, [FlatOf<'_, R>; 2])> {
-        let (system, between) = self.run.between();
-        let (part, q) = between.jump(index, self.v.each_mut())?;
+        let (part, q) = between.place(is_jump, index, self.v.each_mut())?;
         Some((part, self.v.each_ref().map(|v| Flat { system, q, v })))
     }
 
@@ -273,7 +269,7 @@ impl<R: Run> Dense<R> {
     pub(super) fn at_part(&mut self, part: R::Scalar) -> Result<(R::Scalar, StateOf<R>), StepFailure> {
         let mut behind_jump = None;
         for jump in 0..JUMPS {
-            let Some((place, [_, behind])) = self.at_jump(jump) else { break };
+            let Some((place, [_, behind])) = self.at_place(true, jump) else { break };
             if are_one(place, part) {
                 behind_jump = Some(behind.state());
             }

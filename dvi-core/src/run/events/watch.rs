@@ -103,9 +103,10 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         self.steps += 1;
         let end = self.at_end(run)?;
         let [mut from, one] = [0.0, 1.0].map(R::Scalar::lift);
+        let (begun, h) = (run.last_begun(), run.step_size());
         for place in 0..PLACES {
-            let Some((part, t, at)) = run.at_place(place) else { break };
-            let values = numbers(self.g.values(t, at, &mut self.state))?;
+            let Some((part, [at, _])) = run.at_place(false, place) else { break };
+            let values = numbers(self.g.values(begun + part * h, at, &mut self.state))?;
             self.find_between::<true>(run, [from, part], values)?;
             from = part;
         }
@@ -122,7 +123,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     fn find_jumps(&mut self, run: &mut Dense<R>) -> Result<R::Scalar, StepFailure> {
         let (mut from, begun, h) = (R::Scalar::lift(0.0), run.last_begun(), run.step_size());
         for jump in 0..JUMPS {
-            let Some((part, sides)) = run.at_jump(jump) else { break };
+            let Some((part, sides)) = run.at_place(true, jump) else { break };
             let values = |at| numbers(self.g.values(begun + part * h, at, &mut self.state));
             let [before, behind] = sides.map(values);
             let [before, behind] = self.closed([before?, behind?], Scalar::abs(h));
