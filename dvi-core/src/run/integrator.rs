@@ -206,7 +206,7 @@ where
     /// | `Rattle`, `Constrained` | `p()`; `multipliers()`: λ of the last step, one for each constraint |
     /// | `Impacts` | `impacts()` of the last step, each an [`Impact`](crate::methods::Impact); how many there were, in `total()` and `grazing()` |
     /// | `Sigma` | `defect()`: p − α(q); `parasitic_mode()`, as it was measured last |
-    /// | `Impacts`, `Composition`, `EnergyLimit` | `inner()`: the memory of the method inside |
+    /// | `Impacts` | `inner()`: the memory of the method inside |
     ///
     /// ```
     #[doc = include_str!("../../docs/hidden/kepler.txt")]
