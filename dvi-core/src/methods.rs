@@ -255,9 +255,7 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     }
 
     /// The discrete energy of its steps, if it is known.
-    fn discrete_energy(&self) -> Option<DiscreteEnergy<Self, S, T>> {
-        None
-    }
+    const DISCRETE_ENERGY: Option<DiscreteEnergy<Self, S, T>> = None;
 
     /// Whether [`local_error`](Self::local_error) is known.
     const ESTIMATES_LOCAL_ERROR: bool = false;

@@ -35,8 +35,6 @@ pub trait FreeFlight<S: NondegenerateLagrangian<T>, T: Real>: Flight<S, T> {
     /// Adds `impulse` to the momentum; `velocity` is about what that leads to.
     fn kick(&self, memory: &mut Self::Memory, impulse: &[T], velocity: &[T]);
 
-    /// As [`Method::discrete_energy`](crate::methods::Method::discrete_energy), of a flight.
-    fn discrete_energy(&self) -> Option<DiscreteEnergy<Self, S, T>> {
-        None
-    }
+    /// As [`Method::DISCRETE_ENERGY`](crate::methods::Method::DISCRETE_ENERGY), of a flight.
+    const DISCRETE_ENERGY: Option<DiscreteEnergy<Self, S, T>> = None;
 }

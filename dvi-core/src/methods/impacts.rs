@@ -166,7 +166,7 @@ where
             )
         } else if e != 1.0 {
             Some("it is for elastic impacts; with a restitution below 1 take `Impacts::reflecting`")
-        } else if self.scheme.discrete_energy().is_none() {
+        } else if IfUnilateral::<S, M, T>::DISCRETE_ENERGY.is_none() {
             Some("the method has no discrete energy; take `Impacts::reflecting`")
         } else {
             None

@@ -71,7 +71,7 @@ pub(super) fn begun<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T: 
     start: &S::State<T>,
 ) -> Result<BegunOf<S, M::Memory, C, T>, StartError> {
     let at = point(system, t, start)?;
-    control.admit(method)?;
+    control.admit::<M>()?;
     let lengths = |q: &_, v: &_| control.begin(system, q, v, t);
     carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin(system, q, v, t, h))
 }

@@ -44,7 +44,7 @@ pub(super) fn resumed<S: Lagrangian<T>, M: Method<S, T>, C: StepControl<S, T>, T
     let (t, h, statistics) = (checkpoint.time(), checkpoint.step_size(), checkpoint.statistics());
     validate(system, t)?;
     let at = checkpoint.point(system)?;
-    control.admit(method)?;
+    control.admit::<M>()?;
     let lengths = |q: &_, v: &_| Ok((control.begin_again(system, q, v, t)?, h));
     let mut begun =
         carried::<S, C, _, T>(system, at, t, lengths, |q, v, h| method.begin_again(system, q, v, t, h))?;

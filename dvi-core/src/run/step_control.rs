@@ -76,11 +76,11 @@ pub trait StepControl<S: Lagrangian<T>, T: Real>: Carries<S, T> + Debug {
         self.begin(system, q, v, t).map(|(memory, _)| memory)
     }
 
-    /// Whether `method` has what the control needs.
+    /// Whether a method of type `M` has what the control needs.
     ///
     /// # Errors
     /// [`StartError::Unsupported`].
-    fn admit<M: Method<S, T>>(&self, _method: &M) -> Result<(), StartError> {
+    fn admit<M: Method<S, T>>(&self) -> Result<(), StartError> {
         Ok(())
     }
 

@@ -119,7 +119,7 @@ impl<S: UnilateralLagrangian<T>, M: FreeFlight<S, T>, T: Real> Passage<'_, S, M,
         let Self { method, system, memory, q, t, h, .. } = self;
         let ImpactsMemory { start, delta, work, .. } = &mut **memory;
         if Scalar::abs(s) > T::lift(SHORT) * Scalar::abs(*h)
-            && let Some(energy) = method.scheme.discrete_energy()
+            && let Some(energy) = M::DISCRETE_ENERGY
         {
             for (delta, (&q1, &q0)) in delta.iter_mut().zip(q.iter().zip(start.q.iter())) {
                 *delta = q1 - q0;

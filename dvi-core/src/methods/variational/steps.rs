@@ -112,9 +112,8 @@ impl<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real> Method<S, T> for V
         }
     }
 
-    fn discrete_energy(&self) -> Option<DiscreteEnergy<Self, S, T>> {
-        if F::UNFITTED { Some(Self::energy_of) } else { None }
-    }
+    const DISCRETE_ENERGY: Option<DiscreteEnergy<Self, S, T>> =
+        if F::UNFITTED { Some(Self::energy_of) } else { None };
 }
 
 impl<S: RegularLagrangian<T>, F: Frequency, R: Rule, T: Real> VariableStep<S, T> for Variational<F, R> {
@@ -148,7 +147,5 @@ impl<S: NondegenerateLagrangian<T>, R: Rule, T: Real> FreeFlight<S, T> for Varia
         memory.carried.phase.jump(impulse, velocity);
     }
 
-    fn discrete_energy(&self) -> Option<DiscreteEnergy<Self, S, T>> {
-        Some(Self::energy_of)
-    }
+    const DISCRETE_ENERGY: Option<DiscreteEnergy<Self, S, T>> = Some(Self::energy_of);
 }

@@ -167,8 +167,8 @@ impl<S: RegularLagrangian<T>, T: Real> StepControl<S, T> for EnergyMomentum {
         Ok((memory, h))
     }
 
-    fn admit<M: Method<S, T>>(&self, method: &M) -> Result<(), StartError> {
-        if method.discrete_energy().is_some() {
+    fn admit<M: Method<S, T>>(&self) -> Result<(), StartError> {
+        if M::DISCRETE_ENERGY.is_some() {
             return Ok(());
         }
         let reason = "the method has no discrete energy: take `Variational` without a frequency";

@@ -233,7 +233,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for ErrorControl<'_> {
         Ok((ErrorControlMemory { h, error: one, excess: one, usual: h, end: None, seams }, h))
     }
 
-    fn admit<M: Method<S, T>>(&self, _method: &M) -> Result<(), StartError> {
+    fn admit<M: Method<S, T>>(&self) -> Result<(), StartError> {
         if M::ESTIMATES_LOCAL_ERROR {
             return Ok(());
         }

@@ -56,7 +56,7 @@ impl<S: RegularLagrangian<T>, M: Method<S, T>, T: Real> Search<'_, '_, S, M, T> 
         }
         let span = Span { system: run.system(), interval: Interval { t: *t, h }, q0: start, delta };
         let method = &run.stepper.method;
-        let energy = method.discrete_energy().map(|energy| energy(method, span, node));
+        let energy = M::DISCRETE_ENERGY.map(|energy| energy(method, span, node));
         let missing = StepFailure::EnergyStep { h: reported(h), defect: f64::NAN };
         energy.filter(|energy| energy.is_finite()).ok_or(missing)
     }
