@@ -57,7 +57,7 @@ use evaluation::NodeEvaluation;
 /// assert!((run.energy() - energy).abs() < 1e-10);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Galerkin<const S: usize, F = Unfitted, E = OneByOne> {
     /// What the interpolation between the ends is fitted to.
     pub frequency: F,
@@ -78,13 +78,7 @@ impl<const S: usize> Galerkin<S> {
     where
         Self: Tabulated,
     {
-        Self {
-            frequency: Unfitted,
-            solver: Solver::default(),
-            stopping: Stopping::default(),
-            summation: Summation::default(),
-            evaluation: OneByOne,
-        }
+        Self::default()
     }
 
     /// The same with ∂L/∂q at all interior nodes evaluated at once, for 4 ≤ `S`.
@@ -95,15 +89,6 @@ impl<const S: usize> Galerkin<S> {
     pub fn in_lanes(self) -> Galerkin<S, Unfitted, InLanes> {
         let Self { frequency, solver, stopping, summation, .. } = self;
         Galerkin { frequency, solver, stopping, summation, evaluation: InLanes }
-    }
-}
-
-impl<const S: usize> Default for Galerkin<S>
-where
-    Self: Tabulated,
-{
-    fn default() -> Self {
-        Self::new()
     }
 }
 
