@@ -18,6 +18,13 @@ pub(crate) type Aside<R> = alloc::boxed::Box<R>;
 #[cfg(not(feature = "alloc"))]
 pub(crate) type Aside<R> = R;
 
+/// What is made in a frame of its own on the stack, which it may fill.
+#[cfg_attr(not(feature = "alloc"), allow(clippy::useless_conversion))]
+#[inline(never)]
+pub(crate) fn aside<R>(make: impl FnOnce() -> R) -> Aside<R> {
+    make().into()
+}
+
 /// What a run of a method carries from step to step besides the coordinates. Of work space, which each step
 /// writes before it reads it, these functions take no notice.
 pub trait Memory<T> {

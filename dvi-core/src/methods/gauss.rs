@@ -22,6 +22,8 @@ mod second_order;
 
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{Evaluation, FirstOrder, FirstOrderAtStages, InLanes, OneByOne};
+use crate::memory::aside;
+use crate::methods::collocation::stages::NewtonStages;
 use crate::methods::{
     Carries, Here, Method, PreservedForm, Step, Tabulated, Tolerance, VariableStep, scheme,
 };
@@ -137,7 +139,8 @@ where
         self.stopping.validate()?;
         let path = Path::begin(system, q, v, t)?;
         let solver = newton::solver::<STAGES, S, T>(self.solver)?;
-        let ladder = Ladder::new(solver, || newton::storage(system, [q, v], t, solver.storing()));
+        let stages = || NewtonStages::new(system, [q, v], t, solver.storing());
+        let ladder = Ladder::new(solver, || aside(stages));
         Ok(GaussMemory { ladder, path })
     }
 

@@ -2,12 +2,10 @@
 
 use super::coefficients::Fit;
 use crate::discrete::frequency::Local;
-use crate::mechanics::pattern::coupled_by_second_derivatives;
 use crate::memory::{Aside, Memory, lasting};
 use crate::methods::step::PhaseMemory;
-use crate::space::Storing;
 use crate::state::history::History;
-use crate::{Coupled, Lagrangian, Real, System, Vector};
+use crate::{Coupled, Real, System, Vector};
 
 /// What a run with interior displacements carries.
 pub(super) type GalerkinMemory<const NODES: usize, S, T, I> =
@@ -41,15 +39,3 @@ lasting!([const NODES: usize, S: System, T: Real] Displacements<NODES, S, T>, T;
 
 lasting!([const NODES: usize, S: System, T: Real, I: Memory<T>] Path<NODES, S, T, I>, T;
     parts interior, parts displacements);
-
-/// Storage for the equations of Newton's method, apart from the rest: with nine nodes it is some 80 n²
-/// numbers for n coordinates.
-#[inline(never)]
-pub(super) fn newton_matrix<const NODES: usize, S: Lagrangian<T>, T: Real>(
-    system: &S,
-    points: [&[T]; 2],
-    t: T,
-    storing: Storing,
-) -> Aside<Coupled<NODES, S, T>> {
-    coupled_by_second_derivatives(system, points, t, NODES - 1, storing).into()
-}

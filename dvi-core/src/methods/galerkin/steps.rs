@@ -3,11 +3,13 @@
 use super::attempt::Attempt;
 use super::coefficients::Fit;
 use super::interior::InteriorNodes;
-use super::memory::{Displacements, GalerkinMemory, Path, newton_matrix};
+use super::memory::{Displacements, GalerkinMemory, Path};
 use super::{Galerkin, NodeEvaluation};
 use crate::discrete::Interval;
 use crate::discrete::frequency::{self, Frequency, Local, Reading, Unfitted};
 use crate::error::{StartError, StepFailure};
+use crate::mechanics::pattern::coupled_by_second_derivatives;
+use crate::memory::aside;
 use crate::methods::flight::Flight;
 use crate::methods::step::{Carried, PhaseMemory};
 use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Step, VariableStep, scheme};
@@ -84,7 +86,9 @@ where
         if reading.is_none() {
             path.fit.to(self.frequency.fixed::<T>() * h).map_err(StartError::Starter)?;
         }
-        let ladder = Ladder::new(solver, || newton_matrix(system, [q, v], t, solver.storing()));
+        // With nine nodes it is some 80 n² numbers for n coordinates.
+        let matrix = || coupled_by_second_derivatives(system, [q, v], t, NODES - 1, solver.storing());
+        let ladder = Ladder::new(solver, || aside(matrix));
         Ok(PhaseMemory { carried, ladder, own: path })
     }
 

@@ -6,13 +6,11 @@ use super::memory::Path;
 use crate::discrete::NodeWork;
 use crate::error::{StartError, StepFailure};
 use crate::mechanics::motion::{FirstOrder, StageWork, weigh};
-use crate::memory::Aside;
 use crate::methods::collocation::stages::{Departure, NewtonStages};
 use crate::scalar::Lanes;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::passes::multiply;
 use crate::solve::{Guess, Solver, Stopping};
-use crate::space::Storing;
 use crate::state::Statistics;
 use crate::{Coupled, Lagrangian, Real, System, Vector};
 
@@ -39,17 +37,6 @@ pub(super) fn solver<const STAGES: usize, S: System, T: Real>(solver: Solver) ->
         }
     }
     Ok(solver.in_numbers::<T>())
-}
-
-/// The storage of Newton's method, apart from the rest.
-#[inline(never)]
-pub(super) fn storage<const STAGES: usize, S: Lagrangian<T>, T: Real>(
-    system: &S,
-    points: [&[T]; 2],
-    t: T,
-    storing: Storing,
-) -> Aside<NewtonStages<STAGES, S, T>> {
-    NewtonStages::new(system, points, t, storing).into()
 }
 
 /// Finds the slopes and terms of the step from `q`.
