@@ -149,31 +149,25 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: Frequency, T: Real>(
     system: &S,
 ) -> Result<(), StartError> {
     frequency.validate()?;
-    let space = system.space();
-    let unsupported = |option, reason| Err(StartError::Unsupported { option, reason });
-    if !S::SEPARABLE && frequency.reading().is_some() {
-        return unsupported(
+    let lacks_derivatives = || {
+        let [point, mut dq, mut dv, mut da] = system.space().vectors::<T, 4>();
+        frequency.derivatives([&point; 3], [&mut dq, &mut dv, &mut da]).is_none()
+    };
+    let (option, reason) = match frequency.reading() {
+        Some(_) if !S::SEPARABLE => (
             "a frequency read from the motion",
             "it needs L = ½ v·M v − V(q, t) with a constant matrix M, and forces without velocities",
-        );
-    }
-    match frequency.reading() {
-        None if !frequency.fixed::<T>().is_finite() => unsupported(
+        ),
+        None if !frequency.fixed::<T>().is_finite() => (
             "a frequency that is not read from the motion",
             "Frequency::fixed does not give a finite number",
         ),
-        Some(Reading::Variational) => {
-            let [point, mut dq, mut dv, mut da] = space.vectors::<T, 4>();
-            match frequency.derivatives([&point; 3], [&mut dq, &mut dv, &mut da]) {
-                Some(_) => Ok(()),
-                None => unsupported(
-                    "Reading::Variational",
-                    "Frequency::derivatives is not implemented; take Reading::Averaged",
-                ),
-            }
+        Some(Reading::Variational) if lacks_derivatives() => {
+            ("Reading::Variational", "Frequency::derivatives is not implemented; take Reading::Averaged")
         }
-        None | Some(Reading::LeftFrozen | Reading::Averaged) => Ok(()),
-    }
+        None | Some(_) => return Ok(()),
+    };
+    Err(StartError::Unsupported { option, reason })
 }
 
 /// ω = |v × a|/|v|², the angular velocity of the osculating circle (Kosmas & Vlachos, eq. 19), in any number
