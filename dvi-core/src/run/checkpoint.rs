@@ -169,8 +169,7 @@ impl<T: Real> Checkpoint<T> {
         if self.0.statistics.counts().iter().any(|&count| count > BEYOND) {
             return Err(CheckpointError::Damaged.into());
         }
-        let (mut q, mut v): (Vector<S, T>, Vector<S, T>) =
-            (system.space().vector(), system.space().vector());
+        let [mut q, mut v]: [Vector<S, T>; 2] = system.space().vectors();
         q.copy_from_slice(&self.0.q);
         v[..found].copy_from_slice(&self.0.v);
         if !self.goes_on() {

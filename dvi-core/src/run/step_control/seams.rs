@@ -73,9 +73,8 @@ lasting!([S: System, T: Real] Seams<S, T>, T; count hops, number usual);
 
 impl<S: Lagrangian<T>, T: Real> Seams<S, T> {
     pub(super) fn new(system: &S) -> Self {
-        let [q, v, v_end, near_q, near_v] = [(); 5].map(|()| system.space().vector());
-        let zero = T::lift(0.0);
-        Self { t: zero, q, v, v_end, near: [near_q, near_v], hops: 0, usual: zero }
+        let ([q, v, v_end], zero) = (system.space().vectors(), T::lift(0.0));
+        Self { t: zero, q, v, v_end, near: system.space().vectors(), hops: 0, usual: zero }
     }
 
     /// Keeps the present point, at time `t`, where steps begin.
