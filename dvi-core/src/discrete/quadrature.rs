@@ -59,24 +59,21 @@ pub trait Rule: Copy + core::fmt::Debug {
 }
 
 macro_rules! rules {
-    ($($(#[$doc:meta])* $name:ident = $nodes:expr, $weights:expr;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident = $table:expr;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct $name;
 
         impl Rule for $name {
-            const TRAPEZOIDAL: bool = {
-                let nodes: &[f64] = &$nodes;
-                matches!(nodes, [0.0, 1.0])
-            };
+            const TRAPEZOIDAL: bool = matches!($table.0, [0.0, 1.0]);
 
             #[inline]
             fn nodes(&self) -> &[f64] {
-                &$nodes
+                const { $table.0 }
             }
             #[inline]
             fn weights(&self) -> &[f64] {
-                &$weights
+                const { $table.1 }
             }
         }
     )*};
@@ -89,21 +86,21 @@ rules! {
     /// use dvi_core::prelude::*;
     /// assert_eq!(Variational::midpoint().rule, Midpoint);
     /// ```
-    Midpoint = [0.5], [1.0];
+    Midpoint = GAUSS[0];
     /// The trapezoidal rule: nodes 0 and 1 with weights ½, exact for linear functions.
     ///
     /// ```
     /// use dvi_core::prelude::*;
     /// assert_eq!(Variational::trapezoid().rule, Trapezoid);
     /// ```
-    Trapezoid = [0.0, 1.0], [0.5, 0.5];
+    Trapezoid = LOBATTO[0];
     /// Simpson's rule: nodes 0, ½ and 1 with weights 1/6, 2/3 and 1/6, exact for cubic functions.
     ///
     /// ```
     /// use dvi_core::prelude::*;
     /// assert_eq!(Variational::simpson().rule, Simpson);
     /// ```
-    Simpson = [0.0, 0.5, 1.0], [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
+    Simpson = LOBATTO[1];
 }
 
 /// Any rule, as data.
@@ -127,44 +124,42 @@ pub struct Quadrature {
     len: usize,
 }
 
-type Table = ([f64; NODES], [f64; NODES]);
+/// Nodes and weights.
+type Table<'a> = (&'a [f64], &'a [f64]);
 
 #[rustfmt::skip]
-const GAUSS: [Table; 5] = [
-    // ½
-    ([0.5, 0.0, 0.0, 0.0, 0.0],
-     [1.0, 0.0, 0.0, 0.0, 0.0]),
+const GAUSS: [Table<'static>; 5] = [
+    (&[0.5], &[1.0]),
     // ½ ∓ √3/6
-    ([0.211_324_865_405_187_1, 0.788_675_134_594_812_9, 0.0, 0.0, 0.0],
-     [0.5,                      0.5,                     0.0, 0.0, 0.0]),
+    (&[0.211_324_865_405_187_1, 0.788_675_134_594_812_9], &[0.5, 0.5]),
     // ½ ∓ √15/10
-    ([0.112_701_665_379_258_31, 0.5,       0.887_298_334_620_741_7, 0.0, 0.0],
-     [5.0 / 18.0,               4.0 / 9.0, 5.0 / 18.0,              0.0, 0.0]),
+    (&[0.112_701_665_379_258_31, 0.5, 0.887_298_334_620_741_7], &[5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0]),
     // ½ ∓ ½√(3/7 ± (2/7)√(6/5)), weights (18 ∓ √30)/72
-    ([0.069_431_844_202_973_71, 0.330_009_478_207_571_87, 0.669_990_521_792_428_1,  0.930_568_155_797_026_3, 0.0],
-     [0.173_927_422_568_726_93, 0.326_072_577_431_273_1,  0.326_072_577_431_273_1,  0.173_927_422_568_726_93, 0.0]),
+    (&[0.069_431_844_202_973_71, 0.330_009_478_207_571_87, 0.669_990_521_792_428_1, 0.930_568_155_797_026_3],
+     &[0.173_927_422_568_726_93, 0.326_072_577_431_273_1,  0.326_072_577_431_273_1, 0.173_927_422_568_726_93]),
     // ½ ∓ ⅙√(5 ± 2√(10/7)), weights (322 ∓ 13√70)/1800 and 64/225
-    ([0.046_910_077_030_668_004, 0.230_765_344_947_158_45, 0.5,          0.769_234_655_052_841_5,  0.953_089_922_969_332],
-     [0.118_463_442_528_094_54,  0.239_314_335_249_683_23, 64.0 / 225.0, 0.239_314_335_249_683_23, 0.118_463_442_528_094_54]),
+    (&[0.046_910_077_030_668_004, 0.230_765_344_947_158_45, 0.5,          0.769_234_655_052_841_5,  0.953_089_922_969_332],
+     &[0.118_463_442_528_094_54,  0.239_314_335_249_683_23, 64.0 / 225.0, 0.239_314_335_249_683_23, 0.118_463_442_528_094_54]),
 ];
 
 #[rustfmt::skip]
-const LOBATTO: [Table; 4] = [
-    ([0.0, 1.0, 0.0, 0.0, 0.0],
-     [0.5, 0.5, 0.0, 0.0, 0.0]),
-    ([0.0,       0.5,       1.0,       0.0, 0.0],
-     [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0, 0.0]),
+const LOBATTO: [Table<'static>; 4] = [
+    (&[0.0, 1.0], &[0.5, 0.5]),
+    (&[0.0, 0.5, 1.0], &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]),
     // ½ ∓ √5/10
-    ([0.0,        0.276_393_202_250_021, 0.723_606_797_749_979, 1.0,        0.0],
-     [1.0 / 12.0, 5.0 / 12.0,            5.0 / 12.0,            1.0 / 12.0, 0.0]),
+    (&[0.0,        0.276_393_202_250_021, 0.723_606_797_749_979, 1.0       ],
+     &[1.0 / 12.0, 5.0 / 12.0,            5.0 / 12.0,            1.0 / 12.0]),
     // ½ ∓ √21/14
-    ([0.0,        0.172_673_164_646_011_43, 0.5,         0.827_326_835_353_988_6, 1.0       ],
-     [1.0 / 20.0, 49.0 / 180.0,             16.0 / 45.0, 49.0 / 180.0,            1.0 / 20.0]),
+    (&[0.0,        0.172_673_164_646_011_43, 0.5,         0.827_326_835_353_988_6, 1.0       ],
+     &[1.0 / 20.0, 49.0 / 180.0,             16.0 / 45.0, 49.0 / 180.0,            1.0 / 20.0]),
 ];
 
 impl Quadrature {
-    const fn of((nodes, weights): Table, len: usize) -> Self {
-        Self { nodes, weights, len }
+    const fn of((nodes, weights): Table<'_>) -> Self {
+        let mut rule = Self { nodes: [0.0; NODES], weights: [0.0; NODES], len: nodes.len() };
+        rule.nodes.split_at_mut(nodes.len()).0.copy_from_slice(nodes);
+        rule.weights.split_at_mut(nodes.len()).0.copy_from_slice(weights);
+        rule
     }
 
     /// Any rule, of one to five nodes.
@@ -183,30 +178,27 @@ impl Quadrature {
         let sum: f64 = weights.iter().sum();
         let differs = if sum > 1.0 { sum - 1.0 } else { 1.0 - sum };
         StartError::unless(differs <= 1e-12, "sum of the weights", sum, "1")?;
-        let mut rule = Self::of(([0.0; NODES], [0.0; NODES]), nodes.len());
-        rule.nodes[..nodes.len()].copy_from_slice(nodes);
-        rule.weights[..nodes.len()].copy_from_slice(weights);
-        Ok(rule)
+        Ok(Self::of((nodes, weights)))
     }
 
     /// ½.
     pub const fn midpoint() -> Self {
-        Self::of(GAUSS[0], 1)
+        Self::of(GAUSS[0])
     }
 
     /// 0 and 1, with weights ½.
     pub const fn trapezoid() -> Self {
-        Self::of(LOBATTO[0], 2)
+        Self::of(LOBATTO[0])
     }
 
     /// 0, ½ and 1, with weights 1/6, 2/3, 1/6.
     pub const fn simpson() -> Self {
-        Self::of(LOBATTO[1], 3)
+        Self::of(LOBATTO[1])
     }
 
     /// One node at `sigma`. A run refuses one that is not in \[0, 1\].
     pub const fn sigma(sigma: f64) -> Self {
-        Self::of(([sigma, 0.0, 0.0, 0.0, 0.0], GAUSS[0].1), 1)
+        Self::of((&[sigma], &[1.0]))
     }
 
     /// The Gauss rule with one to five nodes, exact to degree 2·`nodes` − 1.
@@ -216,7 +208,7 @@ impl Quadrature {
     pub fn gauss(nodes: usize) -> Result<Self, StartError> {
         let is_known = (1..=NODES).contains(&nodes);
         StartError::unless(is_known, "nodes of the Gauss rule", nodes as f64, "1 to 5")?;
-        Ok(Self::of(GAUSS[nodes - 1], nodes))
+        Ok(Self::of(GAUSS[nodes - 1]))
     }
 
     /// The Lobatto rule with two to five nodes, both ends among them, exact to degree 2·`nodes` − 3.
@@ -226,7 +218,7 @@ impl Quadrature {
     pub fn lobatto(nodes: usize) -> Result<Self, StartError> {
         let is_known = (2..=NODES).contains(&nodes);
         StartError::unless(is_known, "nodes of the Lobatto rule", nodes as f64, "2 to 5")?;
-        Ok(Self::of(LOBATTO[nodes - 2], nodes))
+        Ok(Self::of(LOBATTO[nodes - 2]))
     }
 }
 
