@@ -235,12 +235,7 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
     ///
     /// # Errors
     /// [`StepFailure`] if the momenta of the run have no velocity: the mass matrix is singular there.
-    fn velocity(
-        &self,
-        _here: Here<'_, S, T>,
-        _memory: &Self::Memory,
-        _v: &mut [T],
-    ) -> Result<(), StepFailure> {
+    fn velocity(&self, _: Here<'_, S, T>, _memory: &Self::Memory, _v: &mut [T]) -> Result<(), StepFailure> {
         Ok(())
     }
 

@@ -84,17 +84,13 @@ pub trait StageEquations<S: System, T: Real> {
     /// The weights of the second derivatives at stage j in that of the residual of stage r along h times the
     /// velocity of stage k, where each stage has its own p: for whether r = j and j = k, aᵣⱼ and aⱼₖ, and h
     /// and 1/h. That of L_vv is the weight of [`newton_matrix`](Self::newton_matrix).
-    fn newton_weights(
-        [of_row, of_column]: [bool; 2],
-        [before, after]: [T; 2],
-        [h, per_h]: [T; 2],
-    ) -> Weights<T> {
+    fn newton_weights([row, column]: [bool; 2], [before, after]: [T; 2], [h, per_h]: [T; 2]) -> Weights<T> {
         let if_so = |is: bool, weight: T| if is { weight } else { T::lift(0.0) };
         Weights {
             qq: -h * before * after,
-            qv: if_so(of_column, -before),
-            vq: if_so(of_row, after),
-            vv: if_so(of_row && of_column, per_h),
+            qv: if_so(column, -before),
+            vq: if_so(row, after),
+            vv: if_so(row && column, per_h),
         }
     }
     /// Adds what stands beside L_qq, L_qv and L_vq in that derivative, at (q, v), t of a step of length h:
@@ -196,12 +192,7 @@ pub trait FirstOrder<S: System, T: Real>: Kind + StageEquations<S, T> {
     ///
     /// # Errors
     /// [`StepFailure::Orientation`].
-    fn compare(
-        _equations: &mut Self::Equations,
-        _system: &S,
-        _y: &Self::Point<T>,
-        _t: T,
-    ) -> Result<(), StepFailure> {
+    fn compare(_: &mut Self::Equations, _system: &S, _y: &Self::Point<T>, _t: T) -> Result<(), StepFailure> {
         Ok(())
     }
     /// Moves to `y`, the end of a step; all but `q` is kept here.
@@ -220,13 +211,7 @@ pub trait FirstOrder<S: System, T: Real>: Kind + StageEquations<S, T> {
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
-    fn velocity(
-        _equations: &Self::Equations,
-        _system: &S,
-        _q: &[T],
-        _t: T,
-        _v: &mut [T],
-    ) -> Result<(), StepFailure> {
+    fn velocity(_: &Self::Equations, _: &S, _q: &[T], _t: T, _v: &mut [T]) -> Result<(), StepFailure> {
         Ok(())
     }
 }

@@ -28,19 +28,13 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         let ([gradient, entries], inverse) =
             (system.space().vectors(), Inverse::new(system, q, t, Self::omega()));
         let mut field = Self { inverse, gradient, entries };
-        field.prepare(system, q, t, &mut Statistics::default())?;
+        field.invert(system, q, t, &mut Statistics::default())?;
         Ok(field)
     }
 
     /// Inverts Ω at another point.
     #[inline]
-    fn prepare(
-        &mut self,
-        system: &S,
-        q: &[T],
-        t: T,
-        statistics: &mut Statistics,
-    ) -> Result<(), StepFailure> {
+    fn invert(&mut self, system: &S, q: &[T], t: T, statistics: &mut Statistics) -> Result<(), StepFailure> {
         let prepared = self.inverse.prepare(system, q, t, Self::omega(), &mut self.entries, statistics);
         prepared.map_err(|failure| failure.of(StepFailure::OMEGA))
     }
@@ -101,7 +95,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         for lane in 0..W {
             if !<S as DegenerateLagrangian<T>>::AFFINE {
                 read_lane(lane, q, vector);
-                self.prepare(system, vector, t.0[lane], statistics)?;
+                self.invert(system, vector, t.0[lane], statistics)?;
             }
             read_lane(lane, gradient, &mut self.gradient);
             self.inverse.solve(system, &self.gradient, vector);
@@ -136,7 +130,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> VectorField<S, T> {
         statistics: &mut Statistics,
     ) -> Result<(), StepFailure> {
         if !S::AFFINE {
-            self.prepare(system, q, t, statistics)?;
+            self.invert(system, q, t, statistics)?;
         }
         self.inverse.solve(system, &self.gradient, out);
         Ok(())

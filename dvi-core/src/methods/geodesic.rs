@@ -24,7 +24,7 @@ use crate::{ManifoldLagrangian, Real, Space, Vector};
 
 use covectors::{force, momentum};
 use equations::has_spheres;
-use memory::{GeodesicMemory, Kicks, is_positive, mass_rows};
+use memory::{GeodesicMemory, Kicks, is_positive, mass_at};
 use tangents::{Equations, Legendre, TangentMass};
 
 /// The variational integrator for coordinates that are rotations, `R: SO3`, or unit vectors, `s: S2`, or
@@ -138,7 +138,7 @@ impl<S: ManifoldLagrangian<T>, R: Rule, T: Real> Method<S, T> for Geodesic<R> {
         legendre.linearize(v, tangents, &mut Statistics::default());
         tangents.matrix.factor().map_err(StartError::Starter)?;
         memory.is_positive = tangents.matrix.is_positive();
-        let mass = if S::CONSTANT_MASS { Some(mass_rows(system, [q, v], t)) } else { None };
+        let mass = if S::CONSTANT_MASS { Some(mass_at(system, [q, v], t)) } else { None };
         let is_definite = |mass| !has_spheres::<S, T>() || is_positive(system, mass);
         if !mass.as_ref().is_some_and(is_definite) {
             let orientation = TangentMass::new(system, &mut tangents.node, [q, v], t);

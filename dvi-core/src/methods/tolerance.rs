@@ -38,12 +38,8 @@ impl Tolerance {
     pub(crate) fn validate<T: Real>(self) -> Result<(), StartError> {
         let Self { relative, absolute } = self;
         let in_range = relative >= reported(T::default_epsilon()) && relative.is_finite();
-        StartError::unless(
-            in_range,
-            "relative",
-            relative,
-            "finite, and at least the rounding of the numbers",
-        )?;
+        let range = "finite, and at least the rounding of the numbers";
+        StartError::unless(in_range, "relative", relative, range)?;
         let in_range = absolute >= 0.0 && absolute.is_finite();
         StartError::unless(in_range, "absolute", absolute, "zero or positive, and finite")
     }

@@ -251,13 +251,9 @@ impl<R: Run> Dense<R> {
 
     /// A place within the last step that is known, a jump of the velocity or another: the part of the step,
     /// and the state there or the states before a jump and behind it.
-    pub(super) fn at_place(
-        &mut self,
-        is_jump: bool,
-        index: usize,
-    ) -> Option<(R::Scalar, [FlatOf<'_, R>; 2])> {
+    pub(super) fn at_place(&mut self, jump: bool, index: usize) -> Option<(R::Scalar, [FlatOf<'_, R>; 2])> {
         let (system, between) = self.run.between();
-        let (part, q) = between.place(is_jump, index, self.v.each_mut())?;
+        let (part, q) = between.place(jump, index, self.v.each_mut())?;
         Some((part, self.v.each_ref().map(|v| Flat { system, q, v })))
     }
 

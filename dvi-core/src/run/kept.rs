@@ -22,12 +22,7 @@ const BLOCK: u64 = 64;
 
 impl<S: Lagrangian<T>, M: Method<S, T>, T: Real> Stepper<S, M, T> {
     /// Takes `count` steps from the present time of `clock`, or as many as succeed and lead where they may.
-    pub(super) fn steps_looked_at(
-        &mut self,
-        system: &S,
-        clock: Clock<T>,
-        count: u64,
-    ) -> Result<(), StepFailure> {
+    pub(super) fn steps_seen(&mut self, system: &S, clock: Clock<T>, count: u64) -> Result<(), StepFailure> {
         // The physical time is compared with that at the start of each step.
         let block = if S::TIME_TRANSFORMED { 1 } else { BLOCK };
         let (mut taken, mut end, mut lost) = (0, count, None);

@@ -143,14 +143,10 @@ impl<S: System, T: Real> History<S, T> {
     }
 }
 
-/// Sets `guess` to the extrapolation of a full ring, of which the oldest increment is at `place`.
+/// Sets `guess` to the extrapolation of a full ring, of which the oldest increment is in place `at`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn extrapolate<P: Scalar>(
-    ring: &[impl Deref<Target = [P]>; DEPTH],
-    place: usize,
-    guess: &mut [P],
-) {
-    combine(ring, &OF_PLACES[DEPTH][place], guess);
+pub(crate) fn extrapolate<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], at: usize, guess: &mut [P]) {
+    combine(ring, &OF_PLACES[DEPTH][at], guess);
 }
 
 /// Row m, by where the next increment goes: the coefficients of the places of the ring.
@@ -169,15 +165,11 @@ const OF_PLACES: [[[f64; DEPTH]; DEPTH]; DEPTH + 1] = {
 /// takes 40 instructions less from a step of four vortices
 /// (`cargo bench -p dvi-kernels --bench instructions`).
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn combine<P: Scalar>(
-    ring: &[impl Deref<Target = [P]>; DEPTH],
-    coefficients: &[f64; DEPTH],
-    guess: &mut [P],
-) {
+fn combine<P: Scalar>(ring: &[impl Deref<Target = [P]>; DEPTH], factors: &[f64; DEPTH], guess: &mut [P]) {
     let rows = ring.each_ref().map(|s| &s[..guess.len()]);
     for (k, guess) in guess.iter_mut().enumerate() {
         lanes_stay_together::<P>();
-        let terms = rows.iter().zip(coefficients).map(|(s, &coefficient)| P::lift(coefficient) * s[k]);
+        let terms = rows.iter().zip(factors).map(|(s, &factor)| P::lift(factor) * s[k]);
         // −0 is neutral for every number.
         *guess = terms.fold(P::lift(-0.0), |sum, term| sum + term);
     }

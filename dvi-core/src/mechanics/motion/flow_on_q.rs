@@ -50,13 +50,8 @@ impl<S: DegenerateLagrangian<T>, T: Real> FirstOrder<S, T> for Degenerate {
     ) -> Result<(), StepFailure> {
         equations.field.evaluate(system, &y.0[0], t, &mut slope.0[0], statistics)
     }
-    fn compare(
-        equations: &mut FlowOnQ<S, T>,
-        system: &S,
-        y: &Self::Point<T>,
-        t: T,
-    ) -> Result<(), StepFailure> {
-        equations.orientation.compare(system, &y.0[0], t)
+    fn compare(flow: &mut FlowOnQ<S, T>, system: &S, y: &Self::Point<T>, t: T) -> Result<(), StepFailure> {
+        flow.orientation.compare(system, &y.0[0], t)
     }
     fn arrive(
         equations: &mut FlowOnQ<S, T>,

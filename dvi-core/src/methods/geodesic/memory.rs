@@ -46,11 +46,7 @@ pub(super) struct Kicks<S: System, T: Real> {
 }
 
 /// M, from its entries at a point.
-pub(super) fn mass_rows<S: ManifoldLagrangian<T>, T: Real>(
-    system: &S,
-    at: [&[T]; 2],
-    t: T,
-) -> MassRows<S, T> {
+pub(super) fn mass_at<S: ManifoldLagrangian<T>, T: Real>(system: &S, at: [&[T]; 2], t: T) -> MassRows<S, T> {
     let space = system.space();
     let mut rows: MassRows<S, T> =
         space.rows(space, |visit| mass_entries(system, at, t, |row, column, _| visit(row, column)));

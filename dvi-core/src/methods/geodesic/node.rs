@@ -148,16 +148,10 @@ impl<S: ManifoldLagrangian<T>, T: Real> Node<S, T> {
 
     /// Adds `weight` times the second derivatives of ½ v·M v.
     #[inline]
-    pub(super) fn add_kinetic<K: Sink<T>>(
-        &self,
-        system: &S,
-        mass: &MassRows<S, T>,
-        weight: T,
-        sink: &mut K,
-    ) {
+    pub(super) fn add_kinetic<K: Sink<T>>(&self, system: &S, mass: &MassRows<S, T>, weight: T, to: &mut K) {
         let Self { first, displacement, slots, .. } = self;
         let (left, right) = (&first.velocity, &displacement.velocity);
-        let mut between = Between::<S, T, K> { left, right, slots, sink };
+        let mut between = Between::<S, T, K> { left, right, slots, sink: to };
         for row in blocks(system).flat_map(Block::velocities) {
             mass.row(row, |column, entry| {
                 if entry != T::lift(0.0) {

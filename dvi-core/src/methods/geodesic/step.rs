@@ -59,7 +59,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
             rates.guess(h, guess, [&mut *displacement]);
             multiply(displacement, h);
             tangents.solve(&begin, system, displacement, stopping, statistics)?;
-            check_angles(system, displacement)
+            check(system, displacement)
         })?;
         // The determinant of the equations has the sign of that of a short step.
         let is_odd = h < T::lift(0.0) && tangents.residual.len() % 2 == 1;
@@ -105,10 +105,7 @@ impl<S: ManifoldLagrangian<T>, T: Real> GeodesicMemory<S, T> {
 
 /// Beyond half a turn a geodesic is not the shortest way.
 #[inline]
-fn check_angles<S: ManifoldLagrangian<T>, T: Real>(
-    system: &S,
-    displacement: &[T],
-) -> Result<(), StepFailure> {
+fn check<S: ManifoldLagrangian<T>, T: Real>(system: &S, displacement: &[T]) -> Result<(), StepFailure> {
     let half = T::lift(core::f64::consts::PI);
     for block in blocks(system).filter(|block| block.factor != Factor::Line) {
         let angle = vector(displacement, block).norm();

@@ -61,7 +61,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
 
     fn new(system: &S, method: &Sigma<T>, q: &Vector<S, T>, t: T, h: T) -> Result<Self, StartError> {
         let (space, sigma) = (system.space(), method.sigma);
-        let (scale, matrix) = scaled_matrix::<S, T>(method, h);
+        let (scale, matrix) = scaled::<S, T>(method, h);
         let mut inverse = Inverse::new(system, q, t, matrix);
         let [shift, increment, mut trial, weights, sum, next, rest, mut one_form] = space.vectors();
         if S::AFFINE {
@@ -131,7 +131,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
         let Carried { defect, inverse, scale, work, .. } = &mut self.carried;
         if S::AFFINE {
             let matrix;
-            (*scale, matrix) = scaled_matrix::<S, T>(method, h);
+            (*scale, matrix) = scaled::<S, T>(method, h);
             inverse.prepare(system, q, t, matrix, &mut work.trial, &mut Statistics::default())?;
         }
         let part = h / whole;
@@ -146,10 +146,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> SigmaMemory<S, T> {
 
 /// The scale of the matrix that is inverted, and the matrix, K times it. If α is affine and σ ≠ 1, the scale
 /// is −1/((1−σ)h), so that the inverse maps ∇H to s; else one.
-pub(super) fn scaled_matrix<S: DegenerateLagrangian<T>, T: Real>(
-    method: &Sigma<T>,
-    h: T,
-) -> (T, Combination<T>) {
+pub(super) fn scaled<S: DegenerateLagrangian<T>, T: Real>(method: &Sigma<T>, h: T) -> (T, Combination<T>) {
     let (sigma, one) = (method.sigma, T::lift(1.0));
     let left = one - sigma;
     let scale = if S::AFFINE && sigma != one { -one / (left * h) } else { one };

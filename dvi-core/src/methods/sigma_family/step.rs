@@ -13,7 +13,7 @@
 
 use super::Step;
 use super::affine::fixed_point;
-use super::begin::scaled_matrix;
+use super::begin::scaled;
 use super::memory::{Carried, SigmaMemory, Work};
 use crate::discrete::{Departing, Span};
 use crate::error::StepFailure;
@@ -79,7 +79,7 @@ impl<S: DegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         let system = step.system;
         history.extrapolate(increment);
         l_d.place(step.h, [q, increment]);
-        let (_, matrix) = scaled_matrix::<S, T>(step.method, step.h);
+        let (_, matrix) = scaled::<S, T>(step.method, step.h);
         inverse.prepare(system, &l_d.work.point, step.node_time(), matrix, trial, statistics)?;
         let criterion = Some((step.method.stopping, *budget));
         let storage = [&mut increment[..], trial, weights];

@@ -78,15 +78,10 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             return Ok(None);
         }
         self.found.remove(first);
-        self.event(run, part, index).map(Some).map_err(|failure| run.error(failure))
+        self.at(run, part, index).map(Some).map_err(|failure| run.error(failure))
     }
 
-    fn event(
-        &mut self,
-        run: &mut Dense<R>,
-        part: R::Scalar,
-        index: usize,
-    ) -> Result<EventOf<R>, StepFailure> {
+    fn at(&mut self, run: &mut Dense<R>, part: R::Scalar, index: usize) -> Result<EventOf<R>, StepFailure> {
         let (time, state) = run.at_part(part)?;
         // What happens where the state has been set is part of that event.
         if part > R::Scalar::lift(0.0) {

@@ -49,7 +49,7 @@ impl<S: Lagrangian<T>, T: Real> StepControl<S, T> for OneLength<T> {
         let clock = run.stepper.clock();
         // One of the two is not compiled.
         if S::TIME_TRANSFORMED || S::HAS_DOMAIN {
-            run.stepper.steps_looked_at(run.system, clock, count)
+            run.stepper.steps_seen(run.system, clock, count)
         } else {
             run.stepper.steps(run.system, clock, count)
         }
