@@ -11,7 +11,6 @@ mod pace;
 
 use crate::error::StepFailure;
 use crate::memory::{Memory, lasting};
-use crate::methods::walk::BLOCK;
 use crate::scalar::norm::{larger, reported};
 use crate::{Real, Scalar, Space, System, Vector};
 
@@ -237,7 +236,7 @@ impl<S: System, T: Real> Monitor<S, T> {
     #[cfg(feature = "alloc")]
     fn is_sound(&self) -> bool {
         let in_order = self.examined <= self.steps && self.steps < u64::MAX / 2;
-        in_order && self.period.is_power_of_two() && self.period <= BLOCK
+        in_order && self.period.is_power_of_two() && self.period <= crate::methods::walk::BLOCK
     }
 }
 
