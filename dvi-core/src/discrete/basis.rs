@@ -96,8 +96,9 @@ impl<T: Real> Pair<T> {
 pub(crate) struct Bases<T> {
     u: T,
     half: Pair<T>,
-    whole: Pair<T>,
-    reciprocal: T,
+    pub(crate) whole: Pair<T>,
+    /// 1/σ.
+    pub(crate) reciprocal: T,
 }
 
 impl<T: Real> Bases<T> {
@@ -108,18 +109,6 @@ impl<T: Real> Bases<T> {
         let half = Pair::at(middle);
         let whole = if middle * middle <= T::lift(SERIES_TO) { half.doubled(middle) } else { Pair::at(u) };
         Self { u, half, whole, reciprocal: T::lift(1.0) / whole.sinc }
-    }
-
-    /// σ = sin u/u.
-    #[inline]
-    pub(crate) fn sinc(&self) -> T {
-        self.whole.sinc
-    }
-
-    /// 1/σ.
-    #[inline]
-    pub(crate) fn reciprocal(&self) -> T {
-        self.reciprocal
     }
 
     /// κ and σ at (1 − c)u and at cu.

@@ -56,10 +56,10 @@ pub(super) const COEFFICIENTS: [[f64; DEPTH]; DEPTH + 1] = [
 /// A ring of the last increments.
 #[derive(Debug)]
 pub(crate) struct History<S: System, T: Real> {
-    ring: [Vector<S, T>; DEPTH],
+    pub(crate) ring: [Vector<S, T>; DEPTH],
     len: usize,
     /// Where the next increment goes: the place of the oldest once the ring is full.
-    next: usize,
+    pub(crate) next: usize,
     /// The first guess.
     seed: Vector<S, T>,
 }
@@ -74,21 +74,6 @@ impl<S: System, T: Real> History<S, T> {
     /// Where the next increment goes, if as many are kept as can be.
     pub(crate) fn place_if_full(&self) -> Option<usize> {
         (self.len == DEPTH).then_some(self.next)
-    }
-
-    /// Says where the next increment goes.
-    pub(crate) fn set_place(&mut self, place: usize) {
-        self.next = place % DEPTH;
-    }
-
-    /// The increments, not in order.
-    pub(crate) fn ring(&self) -> &[Vector<S, T>; DEPTH] {
-        &self.ring
-    }
-
-    /// The increments, not in order.
-    pub(crate) fn ring_mut(&mut self) -> &mut [Vector<S, T>; DEPTH] {
-        &mut self.ring
     }
 
     /// Sets `guess` to the extrapolated increment.

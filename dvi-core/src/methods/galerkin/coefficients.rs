@@ -93,7 +93,7 @@ impl<const NODES: usize, T: Real> Fit<NODES, T> {
         for r in 0..NODES {
             self.kinetic[r] = core::array::from_fn(|k| self.sum(r, k, zero));
         }
-        let sinc = nodes.sinc();
+        let sinc = nodes.whole.sinc;
         [sinc, self.invert().map_or(zero, |multiplier| multiplier * sinc * sinc)]
     }
 

@@ -87,14 +87,14 @@ impl<T: Real> Coefficients<T> {
             right -= at_right * difference;
             inner += T::lift(w * c * (1.0 - c)) * (l.sinc * r.sinc);
         }
-        let sinc = nodes.sinc();
+        let sinc = nodes.whole.sinc;
         let cosine_sum = mixed + u * u * inner;
         if let Err(resonance) = frequency::determined(u, sinc, cosine_sum) {
             // Not the coefficients of any step.
             self.u = T::lift(f64::NAN);
             return Err(resonance);
         }
-        let mut factor = nodes.reciprocal() * nodes.reciprocal();
+        let mut factor = nodes.reciprocal * nodes.reciprocal;
         if fitting == Fitting::PhaseAndMomentum {
             let fitted = sinc / cosine_sum;
             factor *= fitted;

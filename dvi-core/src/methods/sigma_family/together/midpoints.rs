@@ -39,7 +39,7 @@ where
     }
     load(q, |run| &*runs[run].q, runs.len());
     for (entry, packs) in history.iter_mut().enumerate() {
-        load(packs, |run| &*runs[run].memory.carried.history.ring()[entry], runs.len());
+        load(packs, |run| &*runs[run].memory.carried.history.ring[entry], runs.len());
     }
     let taken = S::packed(&of_lanes(systems), |system| {
         let mut taken = 0;
@@ -77,9 +77,9 @@ where
     for (lane, run) in runs.iter_mut().enumerate() {
         read_lane(lane, q, run.q);
         for (entry, packs) in history.iter().enumerate() {
-            read_lane(lane, packs, &mut run.memory.carried.history.ring_mut()[entry]);
+            read_lane(lane, packs, &mut run.memory.carried.history.ring[entry]);
         }
-        run.memory.carried.history.set_place(place);
+        run.memory.carried.history.next = place;
         run.statistics.steps += taken;
     }
     taken
