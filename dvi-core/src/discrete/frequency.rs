@@ -165,7 +165,7 @@ pub(crate) fn admit<S: NondegenerateLagrangian<T>, F: Frequency, T: Real>(
         Some(Reading::Variational) if lacks_derivatives() => {
             ("Reading::Variational", "Frequency::derivatives is not implemented; take Reading::Averaged")
         }
-        None | Some(_) => return Ok(()),
+        None | Some(Reading::LeftFrozen | Reading::Averaged | Reading::Variational) => return Ok(()),
     };
     Err(StartError::Unsupported { option, reason })
 }
