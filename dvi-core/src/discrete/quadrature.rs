@@ -59,7 +59,7 @@ pub trait Rule: Copy + core::fmt::Debug {
 }
 
 macro_rules! rules {
-    ($($(#[$doc:meta])* $name:ident = $table:expr;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident = [$table:expr];)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct $name;
@@ -86,21 +86,21 @@ rules! {
     /// use dvi_core::prelude::*;
     /// assert_eq!(Variational::midpoint().rule, Midpoint);
     /// ```
-    Midpoint = GAUSS[0];
+    Midpoint = [GAUSS[0]];
     /// The trapezoidal rule: nodes 0 and 1 with weights ½, exact for linear functions.
     ///
     /// ```
     /// use dvi_core::prelude::*;
     /// assert_eq!(Variational::trapezoid().rule, Trapezoid);
     /// ```
-    Trapezoid = LOBATTO[0];
+    Trapezoid = [LOBATTO[0]];
     /// Simpson's rule: nodes 0, ½ and 1 with weights 1/6, 2/3 and 1/6, exact for cubic functions.
     ///
     /// ```
     /// use dvi_core::prelude::*;
     /// assert_eq!(Variational::simpson().rule, Simpson);
     /// ```
-    Simpson = LOBATTO[1];
+    Simpson = [LOBATTO[1]];
 }
 
 /// Any rule, as data.
