@@ -15,6 +15,8 @@ mod verlet;
 use crate::discrete::frequency::{self, Frequency, Local, Reading, Unfitted};
 use crate::discrete::quadrature::{Midpoint, Quadrature, Rule, Simpson, Trapezoid};
 use crate::error::StartError;
+#[cfg(doc)]
+use crate::error::StepFailure;
 use crate::memory::lasting;
 use crate::solve::{Solver, Stopping};
 use crate::state::summation::Summation;
