@@ -4,6 +4,7 @@ mod changes;
 mod declared;
 mod edges;
 mod jumps;
+mod scales;
 
 use approx::abs_diff_eq;
 use core::f64::consts::{FRAC_PI_2, TAU};

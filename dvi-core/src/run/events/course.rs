@@ -1,6 +1,6 @@
 //! How a condition has changed from step to step: whether a step may have led to zero and back.
 
-use crate::scalar::norm::larger;
+use crate::scalar::norm::{larger, reported};
 use crate::{Real, Scalar};
 
 /// Of the rate at which g changes, what is kept from step to step.
@@ -33,9 +33,15 @@ pub(super) struct Course<T> {
 impl<T: Real> Course<T> {
     /// After a step in which the mean rate is `slope`.
     pub(super) fn after(before: Option<Self>, slope: T) -> Self {
-        let size = Scalar::abs(slope);
-        let rate = before.map_or(size, |before| larger(size, T::lift(FORGETTING) * before.rate));
-        Self { slope, bend: before.map(|before| slope - before.slope), rate }
+        let zero = T::lift(0.0);
+        // From a pole it comes at no rate.
+        let slope = if reported(slope).is_finite() { slope } else { zero };
+        let rate = before.map_or(zero, |before| T::lift(FORGETTING) * before.rate);
+        Self {
+            slope,
+            bend: before.map(|before| slope - before.slope),
+            rate: larger(Scalar::abs(slope), rate),
+        }
     }
 
     /// Where the motion goes on as another one: what it has bent by says nothing any more.

@@ -9,8 +9,11 @@ use crate::scalar::norm::{larger, reported, smaller};
 use crate::solve::crossing::{Sample, Zero, dip, zero};
 use crate::{Real, Scalar};
 
-/// The part of a step between places at which a condition is looked at for its slope, at most.
+/// The part of a step between places at which a condition is looked at for its slope; more of it in numbers of
+/// few digits, and where the time has few digits in a step.
 const CHORD: f64 = 1e-5;
+const SOME: f64 = 16.0;
+const MANY: f64 = 64.0;
 
 /// Looks at the turn of a condition whose slopes at the ends of a step point to zero and away from it.
 const SURE: usize = 6;
@@ -123,7 +126,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         for _ in 0..polished {
             let value = self.look(place)?;
             let change = value / self.sample(R::Scalar::lift(1.0), [place, value])?.slope;
-            if Scalar::abs(change) <= R::Scalar::lift(SLIGHT) {
+            if Scalar::abs(change) <= above_rounding(SLIGHT) {
                 place -= change;
             }
         }
@@ -147,7 +150,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
 
     /// The distance of the condition from zero at a part of the step, and its slope: that of a parabola
     /// through three places.
-    fn sample(
+    pub(super) fn sample(
         &mut self,
         side: R::Scalar,
         [place, value]: [R::Scalar; 2],
@@ -167,8 +170,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
 
     /// The part of the step between places at which a condition is looked at for its slope.
     fn chord(&self) -> R::Scalar {
-        let [from, to] = self.motion;
-        smaller(R::Scalar::lift(CHORD), R::Scalar::lift(0.25) * (to - from))
+        chord(self.motion, self.run.time() / self.run.step_size())
     }
 
     /// The condition at a part of the step.
@@ -176,6 +178,19 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Within<'_, 
         let (t, at) = self.run.reach(part * self.run.step_size())?;
         Ok(numbers(self.g.values(t, at, self.state))?[self.index])
     }
+}
+
+/// The same of a motion within a step that ends at time `t`, in units of its length.
+fn chord<T: Real>([from, to]: [T; 2], t: T) -> T {
+    let (rounding, [chord, some, many, most]) =
+        (T::default_epsilon(), [CHORD, SOME, MANY, 0.25].map(T::lift));
+    let least = larger(some * Scalar::sqrt(rounding), many * rounding * Scalar::abs(t));
+    smaller(larger(chord, least), most * (to - from))
+}
+
+/// A part of a step that is more than some roundings, also in numbers of few digits.
+pub(super) fn above_rounding<T: Real>(part: f64) -> T {
+    larger(T::lift(part), T::lift(SOME) * T::default_epsilon())
 }
 
 /// The values of conditions.

@@ -4,7 +4,7 @@ use super::Direction;
 use super::conditions::Conditions;
 use super::course::{Course, Watched};
 use super::found::Found;
-use super::search::{Within, numbers};
+use super::search::{Within, above_rounding, numbers};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::methods::JUMPS;
 use crate::run::Run;
@@ -39,7 +39,7 @@ const UNSURE: f64 = 0.05;
 /// and in so many roundings of the time. A step of no more of these says nothing of the side to which it
 /// leads from there.
 const LEFT: f64 = 1e-9;
-const ROUNDINGS: f64 = 1024.0;
+const ROUNDINGS: f64 = 32.0;
 /// At a jump of the velocity a condition is zero if it is no more than this part of what changes in a step.
 const CLOSED: f64 = 1e-11;
 /// A shorter part of a step, as a jump is one, is not looked into: where it begins and ends is no better
@@ -126,7 +126,9 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             let Some((part, sides)) = run.at_place(true, jump) else { break };
             let values = |at| numbers(self.g.values(begun + part * h, at, &mut self.state));
             let [before, behind] = sides.map(values);
-            let [before, behind] = self.closed([before?, behind?], Scalar::abs(h));
+            let (before, behind) = (before?, behind?);
+            let before = self.closed(run, [from, part], (part, before))?;
+            let behind = self.closed(run, [part, R::Scalar::lift(1.0)], (part, behind))?;
             self.find_between::<false>(run, [from, part], before)?;
             self.find_between::<false>(run, [part, part], behind)?;
             from = part;
@@ -134,16 +136,42 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         Ok(from)
     }
 
-    /// The values on both sides of a jump, of which that of a gap that is closed but for rounding is zero.
-    fn closed(&self, sides: [[R::Scalar; N]; 2], h: R::Scalar) -> [[R::Scalar; N]; 2] {
-        let [zero, closed] = [0.0, CLOSED].map(R::Scalar::lift);
-        let change: [_; N] = core::array::from_fn(|index| {
+    /// The values on one side of a jump, where a motion begins or ends, of which that of a gap that is closed
+    /// but for rounding is zero.
+    fn closed(
+        &mut self,
+        run: &mut Dense<R>,
+        motion: [R::Scalar; 2],
+        (place, mut values): (R::Scalar, [R::Scalar; N]),
+    ) -> Result<[R::Scalar; N], StepFailure> {
+        let (zero, closed) = (R::Scalar::lift(0.0), above_rounding::<R::Scalar>(CLOSED));
+        for (index, value) in values.iter_mut().enumerate() {
             let Watched { g, course } = self.watched[index];
-            let change = Scalar::abs(sides[0][index] - g);
-            course.map_or(change, |course| larger(change, course.rate * h))
-        });
-        let of = |g: R::Scalar, change| if Scalar::abs(g) <= closed * change { zero } else { g };
-        sides.map(|side| core::array::from_fn(|index| of(side[index], change[index])))
+            let rate = course.map_or(zero, |course| course.rate * Scalar::abs(run.step_size()));
+            let may_be_zero = Scalar::abs(*value) <= closed * larger(Scalar::abs(*value - g), rate);
+            if may_be_zero && self.is_rounding(run, index, motion, [place, *value])? {
+                *value = zero;
+            }
+        }
+        Ok(values)
+    }
+
+    /// Whether a condition that is small for what it has been, at one end of a motion within the last step,
+    /// is so for what it is there too.
+    fn is_rounding(
+        &mut self,
+        run: &mut Dense<R>,
+        index: usize,
+        motion: [R::Scalar; 2],
+        [place, value]: [R::Scalar; 2],
+    ) -> Result<bool, StepFailure> {
+        let (one, left) = (R::Scalar::lift(1.0), above_rounding::<R::Scalar>(LEFT));
+        if motion[1] - motion[0] <= above_rounding(SHORT) {
+            return Ok(true);
+        }
+        run.settle()?;
+        let slope = self.within(run, index, motion).sample(one, [place, value])?.slope;
+        Ok(Scalar::abs(value) <= left * Scalar::abs(slope))
     }
 
     /// Finds the events of a part of the last step, or of the whole, with the values of the conditions at its
@@ -155,7 +183,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         [from, to]: [R::Scalar; 2],
         end: [R::Scalar; N],
     ) -> Result<(), StepFailure> {
-        let [zero, one, left, unsure, short] = [0.0, 1.0, LEFT, UNSURE, SHORT].map(R::Scalar::lift);
+        let [zero, one, unsure] = [0.0, 1.0, UNSURE].map(R::Scalar::lift);
+        let [left, short] = [LEFT, SHORT].map(above_rounding::<R::Scalar>);
         let whole = Scalar::abs(run.step_size());
         let (h, instant) = (whole * (to - from), instant(run.time(), whole));
         // Stages divide one motion, a jump begins another.
@@ -186,7 +215,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
                 b = self.within(run, index, motion).look(to)?;
             }
             // What lies at the end of a step but for rounding has no derivative in the next one.
-            if carries_derivatives::<R::Scalar>() && Scalar::abs(b) <= left * change {
+            let may_be_zero = carries_derivatives::<R::Scalar>() && Scalar::abs(b) <= left * change;
+            if may_be_zero && self.is_rounding(run, index, motion, [to, b])? {
                 b = zero;
             }
             self.watched[index] = Watched { g: b, course: Some(course) };
@@ -230,7 +260,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
             StartError::Starter(failure)
         })?;
         let h = Scalar::abs(run.step_size());
-        let (zero, short) = (R::Scalar::lift(0.0), R::Scalar::lift(LEFT) * h + instant(run.time(), h));
+        let (zero, short) =
+            (R::Scalar::lift(0.0), above_rounding::<R::Scalar>(LEFT) * h + instant(run.time(), h));
         let before = core::mem::replace(&mut self.found, Found::new());
         for (index, (watched, g)) in self.watched.iter_mut().zip(values).enumerate() {
             let is_zero =
