@@ -187,8 +187,9 @@ impl<'s, S: PairSum<f64, D>, const D: usize> FastSum<'s, S, D> {
     /// Sums the pairs of `system` with forces of a relative error of about `tolerance`, ‖∇H̃ − ∇H‖/‖∇H‖ over
     /// all bodies. Tests find it below the tolerance for ln(r² + c²) with several c, with bodies in a
     /// square, near a line and in clusters, and for 1/√(r² + c²) in space, r² and two kernels more. It is
-    /// larger where the forces on most bodies cancel, and, by up to ten times, near rounding and where
-    /// bodies fill a thin strip. For other systems than these, ask [`measured_error`](Self::measured_error).
+    /// larger where the forces on most bodies cancel, and, by up to ten times or so, near rounding, where
+    /// bodies fill a thin strip, and where one weight is that of all others together. For other systems than
+    /// these, ask [`measured_error`](Self::measured_error).
     ///
     /// # Errors
     /// [`FastSumError::Tolerance`] if the tolerance is not between 1e-10, in space 1e-6, and 1e-2;
