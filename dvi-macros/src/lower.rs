@@ -294,14 +294,10 @@ impl<'a> Lowering<'a> {
     }
 
     fn binary(&mut self, syntax: &syn::ExprBinary) -> Option<Value> {
-        if let (BinOp::Mul(_), Syntax::Unary(power)) = (syntax.op, &*syntax.right)
-            && matches!(power.op, UnOp::Deref(_))
-        {
-            self.not_a_power(&syntax.left, &power.expr);
-            return None;
-        }
-        if let BinOp::BitXor(_) = syntax.op {
-            self.not_a_power(&syntax.left, &syntax.right);
+        let is_dereferenced =
+            matches!(&*syntax.right, Syntax::Unary(power) if matches!(power.op, UnOp::Deref(_)));
+        if matches!(syntax.op, BinOp::BitXor(_)) || (matches!(syntax.op, BinOp::Mul(_)) && is_dereferenced) {
+            self.not_a_power(syntax);
             return None;
         }
         let (left, right) = (self.value(&syntax.left), self.value(&syntax.right));

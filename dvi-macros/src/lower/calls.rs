@@ -51,6 +51,11 @@ impl Lowering<'_> {
                 );
                 return self.refuse(&call.method, message);
             }
+            if self.model.size(&Syntax::MethodCall(call.clone())).is_some() {
+                let size = text(call);
+                let message = format!("`{size}` is a size: as a number it is written `{size} as f64`");
+                return self.refuse(call, message);
+            }
             let arguments: Vec<&Syntax> = call.args.iter().collect();
             match self.quietly(&call.receiver) {
                 Some(vector @ Value::Vector(_)) => self.no_method(call, &vector),

@@ -1,6 +1,6 @@
 //! What people write who come from paper, Python, Mathematica or C, and what to write instead.
 
-use syn::{BinOp, Expr as Syntax, ExprLit, ExprMethodCall, Ident, Lit, Pat};
+use syn::{BinOp, Expr as Syntax, ExprBinary, ExprLit, ExprMethodCall, Ident, Lit, Pat};
 
 use super::sums::signed_literal;
 use super::{Lowering, Role, is_number_type};
@@ -49,18 +49,22 @@ const JUMPING: [&str; 13] = [
     "unitstep",
 ];
 
+/// Functions with the exponent at the name: `sin2(x)` is sin²(x); `exp10(x)` is 10ˣ.
+const SQUARED_BY_NAME: [&str; 7] = ["sin", "cos", "tan", "sinh", "cosh", "tanh", "abs"];
+
 /// What is meant by a function of another language with this receiver and these arguments.
 pub(super) fn meant(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]) -> Option<String> {
     let x = receiver.map_or_else(|| "x".to_string(), as_receiver);
+    let alone = match receiver {
+        Some(Syntax::Paren(inner)) => text(&inner.expr),
+        _ => x.clone(),
+    };
     let texts: Vec<String> = arguments.iter().map(text).collect();
     let arguments: Vec<&str> = texts.iter().map(String::as_str).collect();
     // Functions of Mathematica begin with a capital letter.
     let lower = name.to_lowercase();
     let written = match (lower.as_str(), arguments.as_slice()) {
-        ("dot", []) => match receiver {
-            Some(Syntax::Paren(inner)) => format!("dot({})", text(&inner.expr)),
-            _ => format!("dot({x})"),
-        },
+        ("dot", []) => format!("dot({alone})"),
         ("dot", [y]) => format!("sum(0..n, |j| {x}[j] * {y}[j])"),
         ("log", ["2" | "2." | "2.0"]) => format!("{x}.log2()"),
         ("log", ["10" | "10." | "10.0"]) => format!("{x}.log10()"),
@@ -73,19 +77,20 @@ pub(super) fn meant(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]
         ("erfc", []) => format!("1.0 - {x}.erf()"),
         ("sinpi", []) => format!("({x} * PI).sin()"),
         ("cospi", []) => format!("({x} * PI).cos()"),
+        ("exp10" | "pow10", []) => format!("10.0_f64.powf({alone})"),
         ("pow2" | "pow3" | "pow4", []) => format!("{x}.powi({})", lower.trim_start_matches("pow")),
         (other, []) if OTHER_NAMES.iter().any(|(names, _)| names.contains(&other)) => {
             let (_, meant) = OTHER_NAMES.iter().find(|(names, _)| names.contains(&other))?;
             if meant.is_empty() { x } else { format!("{x}.{meant}") }
         }
         (other, given) => {
-            // `dsqrt` is that of Fortran, `sin2` the square.
+            // `dsqrt` is that of Fortran.
             let without_type = other.strip_prefix('d').unwrap_or(other);
             let base = other.trim_end_matches(|digit: char| digit.is_ascii_digit());
             let known = [other, without_type].into_iter().find(|name| Method::by_name(name).is_some());
             match known {
                 Some(known) => format!("{x}.{known}({})", given.join(", ")),
-                None if given.is_empty() && base != other && Method::by_name(base).is_some() => {
+                None if given.is_empty() && base != other && SQUARED_BY_NAME.contains(&base) => {
                     format!("{x}.{base}().powi({})", &other[base.len()..])
                 }
                 None => return None,
@@ -153,13 +158,19 @@ pub(super) fn as_receiver(syntax: &Syntax) -> String {
 }
 
 impl Lowering<'_> {
-    /// `x ** 2` and `x ^ 2`, where the right side binds more loosely than a power does.
-    pub(super) fn not_a_power(&mut self, base: &Syntax, exponent: &Syntax) {
+    /// `x ** 2` and `x ^ 2`, where the right side binds more loosely than a power does. `x ** k` and
+    /// `x * *k` are the same to the parser.
+    pub(super) fn not_a_power(&mut self, power: &ExprBinary) {
+        let (mut base, mut exponent) = (&*power.left, &*power.right);
+        if let (BinOp::Mul(_), Syntax::Unary(dereferenced)) = (power.op, exponent) {
+            exponent = &dereferenced.expr;
+        }
+        let is_place = matches!(exponent, Syntax::Path(_) | Syntax::Field(_) | Syntax::Index(_));
+        let may_be_product = is_place && matches!(power.op, BinOp::Mul(_));
         // `^` binds more loosely than `+` and `*`: what is meant are the operands beside it.
-        let (mut base, mut exponent) = (base, exponent);
         while let Syntax::Binary(product) = base {
             if matches!(product.op, BinOp::BitXor(_)) {
-                self.not_a_power(&product.left, &product.right);
+                self.not_a_power(product);
             }
             base = &product.right;
         }
@@ -199,7 +210,12 @@ impl Lowering<'_> {
             },
             _ => format!("{}.{function}({power})", as_receiver(base)),
         };
-        self.errors.push(quote::quote!(#base #exponent), format!("a power is written `{meant}`"));
+        let product = match may_be_product {
+            true => format!(", and a product with what a reference points to `{} * {power}`", text(base)),
+            false => String::new(),
+        };
+        let message = format!("a power is written `{meant}`{product}");
+        self.errors.push(quote::quote!(#base #exponent), message);
     }
 
     /// Whether a name is that of 2.718… on paper, and of nothing here.

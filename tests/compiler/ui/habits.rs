@@ -69,4 +69,17 @@ degenerate! { FunctionByAnotherNameAsInC FunctionByAnotherNameAsInCState: hamilt
 pub struct VelocityAsAMethod;
 const _: fn() = || moved(VelocityAsAMethod, VelocityAsAMethodState { x: 1.0, dot_x: 0.0 });
 
+degenerate! { PowerOfTen PowerOfTenState: hamiltonian = (x + y).exp10() + y }
+degenerate! { PowerOfTenAsInC PowerOfTenAsInCState: hamiltonian = exp10(x) + y }
+degenerate! { FunctionWithADigit FunctionWithADigitState: hamiltonian = x.sqrt2() + y }
+degenerate! { SquareByName SquareByNameState: hamiltonian = x.sin2() + y }
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * *k + y)]
+pub struct StarOfAReference<'a> { pub k: &'a f64 }
+const _: fn() = || stepped(StarOfAReference { k: &1.0 }, StarOfAReferenceState { x: 1.0, y: 0.0 });
+
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * k.len() + y)]
+pub struct SizeAsANumber { pub k: Vec<f64> }
+const _: fn() = || stepped(SizeAsANumber { k: vec![] }, SizeAsANumberState { x: 1.0, y: 0.0 });
+
 fn main() {}
