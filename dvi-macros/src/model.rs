@@ -297,8 +297,8 @@ impl Model {
     }
 
     /// Whether a function of several variables of this name is declared by its path.
-    pub(crate) fn is_declared_scalar_field(&self, name: &Ident) -> bool {
-        self.declared_scalar_fields.iter().any(|field| field.name == *name)
+    pub(crate) fn is_declared_scalar_field(&self, name: &str) -> bool {
+        self.declared_scalar_fields.iter().any(|field| field.name == name)
     }
 
     /// The function of several variables of this name, called with so many arguments; `None` if there is

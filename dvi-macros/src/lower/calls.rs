@@ -258,22 +258,17 @@ impl Lowering<'_> {
         let is_field = self.model.parameters.iter().any(|parameter| {
             *name == parameter.text && matches!(parameter.shape, Shape::Unknown | Shape::Other)
         });
-        is_field || self.model.is_declared_scalar_field(name)
+        is_field || self.model.is_declared_scalar_field(&name.to_string())
     }
 
     /// A function of several variables, if there is one of this name; nothing inside if it is called in a
     /// wrong way.
     fn scalar_field(&mut self, name: &str, call: &ExprCall) -> Option<Option<Expr>> {
         let ident = ident(&call.func).filter(|_| !is_method(name))?;
-        let parameter = self.parameter(ident);
         if let Some(Shape::Number | Shape::Count | Shape::Array(..)) =
-            parameter.map(|field| self.shape_of(field))
+            self.parameter(ident).map(|field| self.shape_of(field))
         {
-            let message = format!(
-                "the field `{name}` holds numbers, it is no function: a product is written with `*`"
-            );
-            self.errors.push(&call.func, message);
-            return Some(None);
+            return None;
         }
         if let (Some(list), 1, true) =
             (call.args.first().and_then(elements), call.args.len(), self.is_scalar_field(ident))
@@ -320,18 +315,17 @@ impl Lowering<'_> {
             self.errors.push(at, format!("`{name}` calls itself: a formula has no recursion"));
             return;
         }
-        if self.stands_behind(name) {
-            let message = format!("a definition sees the names before it: `{name}` stands behind this one");
-            self.errors.push(at, message);
+        let all = receiver.into_iter().chain(arguments.iter().copied());
+        let listed = all.map(text).collect::<Vec<_>>().join(", ");
+        if let Some(message) = self.number_called(name, &listed) {
+            self.errors.push_once(&kind, at, message);
+            return;
+        }
+        if self.stands_behind(at, name) {
             return;
         }
         if self.model.parameters.iter().any(|parameter| parameter.text == name) {
-            let listed: Vec<String> =
-                receiver.into_iter().chain(arguments.iter().copied()).map(text).collect();
-            let message = format!(
-                "what the struct holds is called by its name: write `{name}({})`",
-                listed.join(", ")
-            );
+            let message = format!("what the struct holds is called by its name: write `{name}({listed})`");
             self.errors.push_once(&kind, at, message);
             return;
         }

@@ -254,15 +254,6 @@ impl Lowering<'_> {
     ) -> Option<String> {
         let all: Vec<&Syntax> = receiver.into_iter().chain(arguments.iter().copied()).collect();
         let block = |syntax: &Syntax| self.model.blocks.iter().find(|block| block.name == text(syntax));
-        if let Some(block) = self.model.blocks.iter().find(|block| block.name == name) {
-            let listed = all.iter().map(text).collect::<Vec<_>>().join(", ");
-            return Some(match block.array {
-                Some(_) => format!("an entry of `{name}` is written `{name}[{listed}]`"),
-                None => format!(
-                    "`{name}` is a coordinate, it is no function: a product is written `{name} * ({listed})`"
-                ),
-            });
-        }
         if let Some(jumps) = jumps(name) {
             return Some(jumps);
         }

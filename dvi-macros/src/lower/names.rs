@@ -75,10 +75,10 @@ impl Lowering<'_> {
         if name == words::TIME {
             return Some(Expr::from(self.graph.intern(Node::Time)).into());
         }
-        if self.stands_behind(&name) {
-            let message = format!("a definition sees the names before it: `{name}` stands behind this one");
-            self.errors.push(path, message);
-        } else if self.index_names.contains(&name) {
+        if self.stands_behind(path, &name) {
+            return None;
+        }
+        if self.index_names.contains(&name) {
             self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
         } else if words::constant(&name).is_some() {
             let message =
@@ -88,6 +88,35 @@ impl Lowering<'_> {
             self.unknown_name(path, &name, "unknown name");
         }
         None
+    }
+
+    /// What is wrong with a call of a name that is that of numbers.
+    pub(super) fn number_called(&mut self, name: &str, listed: &str) -> Option<String> {
+        let block = self.model.blocks.iter().find(|block| block.name == name);
+        let field = self.model.parameters.iter().find(|parameter| parameter.text == name);
+        let is_array = match (self.binding_of(name), block, field.map(|field| &field.shape)) {
+            (Some(Binding::Index { .. }), ..) => {
+                return Some(format!(
+                    "`{name}` is an index: a product is written `{name} as f64 * ({listed})`"
+                ));
+            }
+            (Some(Binding::Function(_)), ..) => {
+                return Some(format!("a function of your own is called as `{name}({listed})`"));
+            }
+            (Some(Binding::Value { value, .. }), ..) => matches!(value, Some(Value::Vector(_))),
+            (None, Some(block), _) => block.array.is_some(),
+            (None, None, Some(Shape::Unknown | Shape::Other)) => return None,
+            (None, None, Some(shape)) => matches!(shape, Shape::Array(..)),
+            (None, None, None) => {
+                let is_number =
+                    [words::PI, words::TIME].contains(&name) || self.model.named_size(name).is_some();
+                return is_number.then(|| product(name, listed));
+            }
+        };
+        Some(match is_array {
+            true => format!("an entry of `{name}` is written `{name}[{listed}]`"),
+            false => product(name, listed),
+        })
     }
 
     fn whole_parameter(&mut self, at: &impl quote::ToTokens, field: u32) -> Option<Value> {
@@ -330,6 +359,11 @@ impl Lowering<'_> {
         let indices = indices.collect();
         self.parameter_node(field, indices)
     }
+}
+
+fn product(number: &str, listed: &str) -> String {
+    let written = if listed.is_empty() { number.to_string() } else { format!("{number} * ({listed})") };
+    format!("`{number}` is a number, it is no function: a product is written `{written}`")
 }
 
 /// The value of `std::f64::consts::PI` and its like, written out in full: a shorter path may lead to a

@@ -34,7 +34,7 @@ impl Lowering<'_> {
             let other = if before.contains(name) {
                 Some("the name of another definition")
             } else {
-                self.meaning(name)
+                self.meaning(&name.to_string())
             };
             if let Some(other) = other {
                 let message = format!("`{name}` is {other} in all formulas: give this one another name");
@@ -47,20 +47,20 @@ impl Lowering<'_> {
     }
 
     /// What formulas have a name for, if they do.
-    fn meaning(&mut self, name: &Ident) -> Option<&'static str> {
-        let (text, model) = (name.to_string(), &mut *self.model);
-        let is_function = model.functions.iter().any(|function| function.name == *name);
-        Some(if model.blocks.iter().any(|block| block.name == *name) {
+    fn meaning(&mut self, name: &str) -> Option<&'static str> {
+        let model = &mut *self.model;
+        let is_function = model.functions.iter().any(|function| function.name == name);
+        Some(if model.blocks.iter().any(|block| block.name == name) {
             "a coordinate"
-        } else if model.parameters.iter().any(|parameter| parameter.text == text) {
+        } else if model.parameters.iter().any(|parameter| parameter.text == name) {
             "a field of the struct"
-        } else if model.named_size(&text).is_some() {
+        } else if model.named_size(name).is_some() {
             "a size"
         } else if is_function || model.is_declared_scalar_field(name) {
             "a function of the system"
-        } else if text == words::TIME {
+        } else if name == words::TIME {
             "the time"
-        } else if text == words::PI || words::reserved().any(|word| word == text) {
+        } else if name == words::PI || words::reserved().any(|word| word == name) {
             "a word of the language"
         } else {
             return None;
@@ -84,10 +84,16 @@ impl Lowering<'_> {
         self.role != Role::Shared && position < self.shared.count
     }
 
-    /// Whether a name that is not seen here stands further behind.
-    pub(super) fn stands_behind(&self, name: &str) -> bool {
-        self.scope.iter().any(|(known, _)| known == name)
-            || self.shared.names.iter().any(|known| known == name)
+    /// Whether a name that is not seen here stands further behind, which is reported. What formulas have for
+    /// something else was refused where it is defined.
+    pub(super) fn stands_behind(&mut self, at: &impl ToTokens, name: &str) -> bool {
+        let is_behind = self.scope.iter().any(|(known, _)| known == name)
+            || self.shared.names.iter().any(|known| known == name);
+        if is_behind && self.meaning(name).is_none() {
+            let message = format!("a definition sees the names before it: `{name}` stands behind this one");
+            self.errors.push(at, message);
+        }
+        is_behind
     }
 }
 

@@ -76,4 +76,17 @@ struct Places {
 )]
 struct Order;
 
+/// What is no function has no arguments.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = {
+        let a = x;
+        let f = |b| b;
+        dot(x).powi(2) - a(x) - t(x + 1.0) - PI(x) - k(0) - sum(0..3, |i| i(x)) - x.f()
+    },
+)]
+struct Numbers {
+    k: [f64; 3],
+}
+
 fn main() {}

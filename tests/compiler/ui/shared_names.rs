@@ -74,6 +74,17 @@ struct Once {
     stiffness: f64,
 }
 
+/// A name that stands before is no function; one that was refused is refused once.
+#[lagrangian(
+    coordinates(x),
+    lagrangian = dot(x).powi(2) / 2.0 - a(x) - sum,
+    let = {
+        let a = x;
+        let sum = x;
+    },
+)]
+struct Called;
+
 macro_rules! one {
     ($name:ident: $($arguments:tt)*) => {
         #[lagrangian(coordinates(x), $($arguments)*)]
