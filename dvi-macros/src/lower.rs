@@ -256,6 +256,8 @@ impl<'a> Lowering<'a> {
             Syntax::Cast(cast) => self.cast(cast).map(Value::Number),
             Syntax::Block(block) => self.statements(&block.block),
             Syntax::If(choice) => self.choice(choice),
+            // What stood here was reported.
+            Syntax::Verbatim(nothing) if nothing.is_empty() => None,
             other => {
                 self.unsupported(other);
                 None

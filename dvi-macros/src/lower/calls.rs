@@ -333,7 +333,9 @@ impl Lowering<'_> {
             self.errors.push_once(&kind, at, message);
             return;
         }
-        if let Some(meant) = meant(name, receiver, arguments) {
+        let as_number = receiver.filter(|receiver| self.is_index(receiver));
+        let as_number: Option<Syntax> = as_number.map(|index| syn::parse_quote!(#index as f64));
+        if let Some(meant) = meant(name, as_number.as_ref().or(receiver), arguments) {
             self.errors.push_once(&kind, at, format!("unknown function `{name}`; write `{meant}`"));
             return;
         }

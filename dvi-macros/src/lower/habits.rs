@@ -357,7 +357,16 @@ impl Lowering<'_> {
         };
         let advice = match source {
             Syntax::Range(range) => format!("`sum({}, |{index}| …)`", text(range)),
-            other => format!("`sum(0..{0}.len(), |j| … {0}[j] …)`", text(other)),
+            other => {
+                let count = match elements(other) {
+                    Some(list) => list.len().to_string(),
+                    None if self.model.size(&syn::parse_quote!(#other.len())).is_some() => {
+                        format!("{}.len()", text(other))
+                    }
+                    None => "n".to_string(),
+                };
+                format!("`sum(0..{count}, |j| … {}[j] …)`", as_receiver(other))
+            }
         };
         self.errors.push(call, format!("a formula has no iterators; a sum is written {advice}"));
         true

@@ -157,8 +157,10 @@ impl Parse for Declaration {
         let name = match input.call(Ident::parse_any) {
             Ok(name) if syn::parse2::<Ident>(name.clone().into_token_stream()).is_ok() => name,
             Ok(keyword) => {
-                let message =
-                    format!("`{keyword}` is a keyword of Rust: write `r#{keyword}`, or another name");
+                let is_never_raw =
+                    ["self", "Self", "super", "crate", "_"].iter().any(|word| keyword == word);
+                let raw = if is_never_raw { String::new() } else { format!("write `r#{keyword}`, or ") };
+                let message = format!("`{keyword}` is a keyword of Rust: {raw}take another name");
                 return Err(syn::Error::new(keyword.span(), message));
             }
             Err(error) => {

@@ -80,7 +80,7 @@ impl Known {
 }
 
 /// Replaces what is written of rotations by coordinates and velocities. What cannot be is reported, and
-/// replaced by a number, so that it is not reported again.
+/// replaced by nothing, of which nothing is reported.
 struct Entries<'a> {
     coordinates: &'a [(Ident, Known)],
     /// The names that a `let` or a closure around has given to something else.
@@ -234,14 +234,7 @@ impl Entries<'_> {
             return Some(self.refused(inner, message));
         }
         let (at, message) = self.no_rotation(syntax).or_else(|| self.whole(syntax))?;
-        let refused = self.refused(at, message);
-        let is_axis = matches!(unwrapped(syntax), Expr::MethodCall(call) if call.method == "column");
-        // A vector takes the place of one.
-        Some(if is_axis || called(ANGULAR_VELOCITY, syntax).is_some() {
-            parse_quote_spanned!(span=> [0.0, 0.0, 0.0])
-        } else {
-            refused
-        })
+        Some(self.refused(at, message))
     }
 
     /// What is wrong with `omega(x)` or `omega(x)[k]` of another coordinate.
@@ -277,7 +270,7 @@ impl Entries<'_> {
 
     fn refused(&mut self, at: &Expr, message: String) -> Expr {
         self.errors.push(at, message);
-        parse_quote_spanned!(at.span()=> 0.0)
+        Expr::Verbatim(TokenStream::new())
     }
 }
 

@@ -27,6 +27,10 @@ const _: fn() = || stepped(CoordinatesWithoutComma, CoordinatesWithoutCommaState
 pub struct KeywordAsACoordinate;
 const _: fn() = || stepped(KeywordAsACoordinate, KeywordAsACoordinateState { x: 1.0, y: 0.0 });
 
+#[degenerate_lagrangian(coordinates(x, self), one_form = x * d(y), hamiltonian = x * y)]
+pub struct KeywordThatIsNoName;
+const _: fn() = || stepped(KeywordThatIsNoName, KeywordThatIsNoNameState { x: 1.0, y: 0.0 });
+
 #[degenerate_lagrangian(coordinates(x, 2), one_form = x * d(y), hamiltonian = x * y)]
 pub struct LiteralAsACoordinate;
 const _: fn() = || stepped(LiteralAsACoordinate, LiteralAsACoordinateState { x: 1.0, y: 0.0 });

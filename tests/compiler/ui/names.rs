@@ -59,4 +59,12 @@ degenerate! { NumberWithASuffix NumberWithASuffixState: hamiltonian = 2u8 * x + 
 degenerate! { NumberBeyondAll NumberBeyondAllState: hamiltonian = 1e999 * x + y }
 degenerate! { LogarithmOfZero LogarithmOfZeroState: hamiltonian = 0.0.ln() * x + y }
 
+#[degenerate_lagrangian(
+    coordinates(x[2], y[2]),
+    one_form = sum(0..2, |j| x[j] * d(y[j])),
+    hamiltonian = sum(0..2, |j| x[j] * f64::from(j)) + [1.0, 2.0].iter().sum(),
+)]
+pub struct NumbersOfIndices;
+const _: fn() = || stepped(NumbersOfIndices, NumbersOfIndicesState { x: [1.0, 2.0], y: [0.0, 1.0] });
+
 fn main() {}

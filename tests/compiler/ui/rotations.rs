@@ -45,6 +45,12 @@ struct EntriesY;
 #[lagrangian(coordinates(R: SO3), lagrangian = dot(R) + R.sqrt())]
 struct EntriesZ;
 
+#[lagrangian(
+    coordinates(R: SO3, r[3]),
+    lagrangian = omega(R).norm_squared() + dot(r).norm_squared() - R.norm_squared() - r.dot(R) - R[0].norm(),
+)]
+struct NoVectors;
+
 #[lagrangian(coordinates(R: SO3), lagrangian = omega(R)[0].powi(2) + omega(R)[2].powi(2) - R[2][2])]
 struct MassesS;
 
