@@ -165,11 +165,18 @@ impl Lowering<'_> {
             self.errors.push(names, message);
         }
         let mut values = values.into_iter().flatten();
-        for name in &names.elems {
+        let mut before = Vec::new();
+        for pattern in &names.elems {
             let (value, written) = values.next().unwrap_or((None, Written::Real));
-            match bound_name(name) {
-                Some(name) => self.scope.push((name, Binding::Value { value, written })),
-                None => self.errors.push(name, "expected a name: write `let (a, b) = (…, …);`"),
+            match bound_name(pattern) {
+                Some(name) if name != "_" && before.contains(&name) => {
+                    self.errors.push(pattern, "two values have this name");
+                }
+                Some(name) => {
+                    before.push(name.clone());
+                    self.scope.push((name, Binding::Value { value, written }));
+                }
+                None => self.errors.push(pattern, "expected a name: write `let (a, b) = (…, …);`"),
             }
         }
     }

@@ -15,8 +15,20 @@ use crate::words;
 impl Lowering<'_> {
     pub(super) fn path(&mut self, path: &Path) -> Option<Value> {
         let Some(ident) = path.get_ident() else {
-            if let Some(value) = standard_constant(path) {
-                return Some(Expr::number(value).into());
+            let segments: Vec<String> = path.segments.iter().map(|part| part.ident.to_string()).collect();
+            match segments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+                // Written out in full: a shorter path may lead to a module of the user's own.
+                ["std" | "core", "f64", "consts", name] => {
+                    if let Some((value, _)) = words::constant(name) {
+                        return Some(Expr::number(value).into());
+                    }
+                }
+                [.., "f64", "NAN" | "INFINITY" | "NEG_INFINITY"] => {
+                    let message = "a formula has finite values: write a number in the place of this, or \
+                                   leave out what is infinitely far";
+                    return self.refuse(path, message);
+                }
+                _ => {}
             }
             let field = self.model.path_parameter(path);
             return Some(self.parameter_node(field, Vec::new()).into());
@@ -364,14 +376,4 @@ impl Lowering<'_> {
 fn product(number: &str, listed: &str) -> String {
     let written = if listed.is_empty() { number.to_string() } else { format!("{number} * ({listed})") };
     format!("`{number}` is a number, it is no function: a product is written `{written}`")
-}
-
-/// The value of `std::f64::consts::PI` and its like, written out in full: a shorter path may lead to a
-/// module of the user's own.
-fn standard_constant(path: &Path) -> Option<f64> {
-    let segments: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
-    match segments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-        ["std" | "core", "f64", "consts", name] => words::constant(name).map(|(value, _)| value),
-        _ => None,
-    }
 }

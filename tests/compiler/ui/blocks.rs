@@ -33,4 +33,7 @@ degenerate! { ValueUsedAfterItsBlock ValueUsedAfterItsBlockState:
 degenerate! { UnusedAndWrong UnusedAndWrongState: hamiltonian = { let unused = z; x * y } }
 degenerate! { EqualIndex EqualIndexState: hamiltonian = sum(0..3, |i| if i == 1 { x } else { y }) }
 
+#[lagrangian(coordinates(x), lagrangian = { let (a, a) = x.sin_cos(); dot(x).powi(2) - a })]
+pub struct OneNameForTwo;
+
 fn main() {}

@@ -38,4 +38,7 @@ mod field_is_of_a_type_of_the_user {
     }
 }
 
+#[degenerate_lagrangian(coordinates(x, y), one_form = x * d(y), hamiltonian = x * f64::NAN - std::f64::INFINITY)]
+pub struct Infinite;
+
 fn main() {}
