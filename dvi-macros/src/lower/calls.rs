@@ -241,7 +241,7 @@ impl Lowering<'_> {
     }
 
     /// A call as it is written; with other arguments if there are too many or too few.
-    fn as_method(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]) -> String {
+    pub(super) fn as_method(name: &str, receiver: Option<&Syntax>, arguments: &[&Syntax]) -> String {
         let arity = Method::by_name(name).map_or(0, Method::arity);
         match receiver {
             Some(receiver) if arguments.len() == arity => {

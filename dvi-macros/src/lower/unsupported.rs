@@ -5,6 +5,7 @@ use syn::{BinOp, Expr as Syntax, Member, Pat, UnOp};
 use super::{Binding, Lowering, Value};
 use crate::errors::text;
 use crate::syntax::{ident, indexed};
+use crate::words::is_method;
 
 impl Lowering<'_> {
     pub(super) fn unsupported(&mut self, syntax: &Syntax) {
@@ -51,6 +52,12 @@ impl Lowering<'_> {
                 _ => None,
             },
             Syntax::Field(field) => self.component_called(field).or_else(|| {
+                if let Member::Named(method) = &field.member
+                    && is_method(&method.to_string())
+                {
+                    let written = Self::as_method(&method.to_string(), Some(&field.base), &[]);
+                    return Some(format!("write `{written}`"));
+                }
                 let of = text(&field.base);
                 let block = self.model.blocks.iter().find(|block| block.name == of)?;
                 match &field.member {
@@ -87,7 +94,7 @@ fn describe(syntax: &Syntax) -> (&'static str, &'static str) {
         Syntax::Try(_) => ("`?`", "; all values are numbers"),
         Syntax::Unsafe(_) => ("unsafe code", "; all values are numbers"),
         Syntax::Field(_) => {
-            ("fields of values", "; parameters are written `name`, `name[i]` or `self.name`")
+            ("fields of values", "; parameters are written `name`, `name[i]`, `name.field` or `self.name`")
         }
         Syntax::Path(_) => ("a qualified path", "; a constant is written `NAME` or `Type::NAME`"),
         Syntax::Let(_) => ("a pattern", "; a condition compares with `<`, `<=`, `>` or `>=`"),

@@ -44,6 +44,7 @@ degenerate! { StringSystem StringSystemState: hamiltonian = x + "y" }
 degenerate! { Boolean BooleanState: hamiltonian = x + true }
 degenerate! { FieldOfField FieldOfFieldState: hamiltonian = x + y.re }
 degenerate! { TupleField TupleFieldState: hamiltonian = x + y.0 }
+degenerate! { MethodWithoutParentheses MethodWithoutParenthesesState: hamiltonian = x.sqrt + (x + y).sin }
 degenerate! { Turbofish TurbofishState: hamiltonian = x + y.powi::<i32>(2) }
 degenerate! { CallOfAClosure CallOfAClosureState: hamiltonian = (|s| s)(x) + y }
 degenerate! { ConstBlock ConstBlockState: hamiltonian = x + const { 1.0 } }
