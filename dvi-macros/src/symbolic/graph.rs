@@ -148,7 +148,7 @@ pub(crate) enum Fold {
     Product,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
     /// The indices on which each node depends.
@@ -156,12 +156,16 @@ pub(crate) struct Graph {
     /// The height that a fold around each node takes.
     heights: Vec<u32>,
     known: HashMap<Node, Id>,
+    /// Whether the form of each node shows that it is zero or more.
+    pub(super) never_negative: Vec<bool>,
     /// What each node depends on, of what has a number.
     pub(super) variables: Vec<Variables>,
     pub(super) numbers: HashMap<Id, usize>,
     /// Sums that derivatives made and that stand in no formula as written.
     pub(super) unsigned_sums: HashSet<Id>,
     pub(super) derivatives: HashMap<(Id, Id), Expr>,
+    /// How many terms the sums of each node have, of those that were asked.
+    pub(super) term_counts: HashMap<Id, Expr>,
     /// Nodes multiplied out, strictly and loosely, or nothing for those that are too long.
     pub(super) multiplied_out: HashMap<(Id, bool), Option<Rc<Polynomial>>>,
     /// The number of coordinates in each block of the declaration.
@@ -263,18 +267,7 @@ impl Graph {
     pub(crate) const ONE: Id = Id(0);
 
     pub(crate) fn new(block_sizes: Vec<Index>) -> Self {
-        let mut graph = Self {
-            nodes: Vec::new(),
-            free: Vec::new(),
-            heights: Vec::new(),
-            known: HashMap::default(),
-            variables: Vec::new(),
-            numbers: HashMap::default(),
-            unsigned_sums: HashSet::default(),
-            derivatives: HashMap::default(),
-            multiplied_out: HashMap::default(),
-            block_sizes,
-        };
+        let mut graph = Self { block_sizes, ..Self::default() };
         graph.intern(Node::One);
         graph
     }
@@ -319,6 +312,7 @@ impl Graph {
         };
         let Ok(number) = u32::try_from(self.nodes.len()) else { internal("the graph is full") };
         let id = Id(number);
+        self.never_negative.push(self.stays_above_zero(&node));
         let variables = self.variables_below(&node, &operands);
         self.variables.push(variables);
         self.nodes.push(node.clone());
@@ -335,12 +329,21 @@ impl Graph {
 
     /// The nodes that the roots depend on, in id order.
     pub(crate) fn reachable(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
+        self.reachable_by(roots, Node::operands)
+    }
+
+    /// The same by some of the operands.
+    pub(super) fn reachable_by(
+        &self,
+        roots: impl IntoIterator<Item = Id>,
+        operands: impl Fn(&Node) -> Vec<Id>,
+    ) -> Vec<Id> {
         let mut seen: HashSet<Id> = HashSet::default();
         let mut found: Vec<Id> = roots.into_iter().filter(|root| seen.insert(*root)).collect();
         let mut next = 0;
         while let Some(id) = found.get(next) {
             step();
-            let operands = self.node(*id).operands();
+            let operands = operands(self.node(*id));
             found.extend(operands.into_iter().filter(|operand| seen.insert(*operand)));
             next += 1;
         }

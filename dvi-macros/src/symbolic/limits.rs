@@ -15,10 +15,13 @@
 //! | Rᵖ, p > 1; uᵖ, ½ < p < 1 | p·Rᵖ⁻¹·((R²)'/2)/R; p·uᵖ⁻¹ᐟ²·u'/√u |
 //! | √(a²ᵐ·b²ⁿ…) | it is \|a\|ᵐ·\|b\|ⁿ…, whose derivative at 0 is 0 |
 
+use rustc_hash::FxHashMap as HashMap;
+
 use super::functions::{Property, Unary};
 use super::graph::{Binary, Coordinate, Expr, Fold, Graph, Id, Node, Relation, leaf};
 use super::index::{Atom, Index, Range};
 use super::powers::{Part, Root, take};
+use crate::work::step;
 
 impl Graph {
     /// The derivative of `part` with a factor of the others taken in.
@@ -106,17 +109,24 @@ impl Graph {
 
     /// Whether |w| ≤ C·R near the zeros of R.
     fn is_below(&self, w: Id, root: Root) -> bool {
-        if self.is_part_of(w, root) {
-            return true;
+        self.is_below_with(w, root, &mut HashMap::default())
+    }
+
+    fn is_below_with(&self, w: Id, root: Root, known: &mut HashMap<Id, bool>) -> bool {
+        step();
+        if let Some(is_below) = known.get(&w) {
+            return *is_below;
         }
-        match self.node(w) {
-            Node::Sum(terms) => terms.iter().all(|term| self.is_below(term.node, root)),
-            Node::Product(factors) => factors.iter().any(|(factor, _)| self.is_below(*factor, root)),
-            Node::Unary(function, of) if function.has(Property::BelowItsArgument) => {
-                self.is_below(of.node, root)
-            }
+        let mut of = |part: Id| self.is_below_with(part, root, known);
+        let is_below = match self.node(w) {
+            _ if self.is_part_of(w, root) => true,
+            Node::Sum(terms) => terms.iter().all(|term| of(term.node)),
+            Node::Product(factors) => factors.iter().any(|(factor, _)| of(*factor)),
+            Node::Unary(function, argument) if function.has(Property::BelowItsArgument) => of(argument.node),
             _ => false,
-        }
+        };
+        known.insert(w, is_below);
+        is_below
     }
 
     /// Whether w is R itself, or w² is a term of R²; and R² is smooth and has no term that can be negative,
@@ -140,21 +150,26 @@ impl Graph {
 
     /// Whether w² is a term of a sum, or of a sum in it.
     fn holds_square(&self, of: Id, w: Id) -> bool {
-        match self.node(of) {
-            Node::Sum(terms) => terms.iter().any(|term| self.holds_square(term.node, w)),
+        self.terms_inside(of).into_iter().any(|term| match self.node(term) {
             Node::Reduce { fold: Fold::Sum, height, range, body } => {
-                self.holds_entry(body.node, w, *height, range)
+                let mut entries = self.terms_inside(body.node).into_iter();
+                entries.any(|entry| self.is_entry(entry, w, *height, range))
             }
-            _ => self.factors(of) == [(w, 2)],
-        }
+            _ => self.factors(term) == [(w, 2)],
+        })
     }
 
-    /// Whether the terms of a sum over `range` hold the squares of all entries of an array, of which w is
+    /// The terms of a sum, and of the sums in it.
+    fn terms_inside(&self, of: Id) -> Vec<Id> {
+        self.reachable_by([of], |node| match node {
+            Node::Sum(terms) => terms.iter().map(|term| term.node).collect(),
+            _ => Vec::new(),
+        })
+    }
+
+    /// Whether a term of a sum over `range` stands for the squares of all entries of an array, of which w is
     /// one.
-    fn holds_entry(&self, of: Id, w: Id, height: u32, range: &Range) -> bool {
-        if let Node::Sum(terms) = self.node(of) {
-            return terms.iter().any(|term| self.holds_entry(term.node, w, height, range));
-        }
+    fn is_entry(&self, of: Id, w: Id, height: u32, range: &Range) -> bool {
         let [(of, 2)] = *self.factors(of).as_slice() else { return false };
         let (entry, w) = match (self.node(of), self.node(w)) {
             (Node::Coordinate(entry), Node::Coordinate(w)) | (Node::Velocity(entry), Node::Velocity(w)) => {
@@ -249,8 +264,18 @@ impl Graph {
     }
 
     /// The number of terms in a sum over indices, in the sums inside of it, and in products with such sums;
-    /// a branch that is written as zero has none.
+    /// a branch that is written as zero has none. They are counted once, wherever the sum stands.
     fn terms(&mut self, node: Id) -> Expr {
+        step();
+        if let Some(known) = self.term_counts.get(&node) {
+            return *known;
+        }
+        let count = self.count_terms(node);
+        self.term_counts.insert(node, count);
+        count
+    }
+
+    fn count_terms(&mut self, node: Id) -> Expr {
         match self.node(node).clone() {
             Node::Reduce { fold: Fold::Sum, height, range, body } => {
                 let depth = self.free(node).depth();
@@ -307,12 +332,16 @@ impl Graph {
         Some(self.product(&factors))
     }
 
-    pub(super) fn is_never_negative(&self, node: Id) -> bool {
-        match self.node(node) {
+    pub(super) fn is_never_negative(&self, id: Id) -> bool {
+        self.never_negative[id.0 as usize]
+    }
+
+    /// The same of a node that is new, from what is known of its operands.
+    pub(super) fn stays_above_zero(&self, node: &Node) -> bool {
+        let is_positive = |term: &Expr| term.scale > 0.0 && self.is_never_negative(term.node);
+        match node {
             Node::One => true,
-            Node::Sum(terms) => {
-                terms.iter().all(|term| term.scale > 0.0 && self.is_never_negative(term.node))
-            }
+            Node::Sum(terms) => terms.iter().all(is_positive),
             Node::Product(factors) => {
                 let even = |(base, exponent): &(Id, u32)| {
                     exponent.is_multiple_of(2) || self.is_never_negative(*base)
@@ -321,9 +350,7 @@ impl Graph {
             }
             Node::Unary(function, _) => function.has(Property::NeverNegative),
             Node::Binary(function, ..) => *function == Binary::Hypot,
-            Node::Reduce { fold: Fold::Sum, body, .. } => {
-                body.scale > 0.0 && self.is_never_negative(body.node)
-            }
+            Node::Reduce { fold: Fold::Sum, body, .. } => is_positive(body),
             _ => false,
         }
     }
