@@ -71,6 +71,17 @@
 //! two sides of a jump: give such methods a [`Stopping`](crate::solve::Stopping) whose tolerance is not far
 //! below that of the sum. With the default, to rounding errors, steps take more iterations, or fail.
 
+/// The value of an expression, computed by the widest instructions that the processor has.
+macro_rules! widest {
+    ($body:expr) => {
+        $crate::scalar::widest_if(
+            true,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            || $body,
+        )
+    };
+}
+
 mod basis;
 mod directions;
 mod expansion;

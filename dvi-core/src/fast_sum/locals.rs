@@ -15,7 +15,6 @@ use super::shares::Piece;
 use super::subspace::Subspace;
 use super::transfer::Transfer;
 use super::work::Sorted;
-use crate::scalar::widest_if;
 
 /// What acts on the cubes of a level.
 #[derive(Clone, Copy, Debug)]
@@ -92,31 +91,23 @@ impl<const D: usize> Actions<'_, D> {
             }
             room[..count * size].fill(0.0);
             subspace.expand.add_products(&ends[..count], locals, room);
-            widest_if(
-                true,
-                #[cfg_attr(not(debug_assertions), inline(always))]
-                || {
-                    for (cube, local) in some.iter().flatten().zip(room.chunks_exact(size)) {
-                        let frame = tree.frame(cube);
-                        for body in cube.bodies().step_by(TOGETHER * LANES) {
-                            // Packs without a body are in the middle of the cube.
-                            for (pack, at) in at.iter_mut().enumerate() {
-                                let u = coordinates(
-                                    places,
-                                    frame,
-                                    (body + pack * LANES).min(cube.past),
-                                    cube.past,
-                                );
-                                set_polynomials(at, &u, basis.order);
-                            }
-                            let found = evaluated::<D, Q>(local, rows, &at, 1.0 / frame.1);
-                            for (body, found) in (body..cube.past).step_by(LANES).zip(&found) {
-                                add_before(cube.past - first, sums, body - first, found.as_ref());
-                            }
+            widest!({
+                for (cube, local) in some.iter().flatten().zip(room.chunks_exact(size)) {
+                    let frame = tree.frame(cube);
+                    for body in cube.bodies().step_by(TOGETHER * LANES) {
+                        // Packs without a body are in the middle of the cube.
+                        for (pack, at) in at.iter_mut().enumerate() {
+                            let u =
+                                coordinates(places, frame, (body + pack * LANES).min(cube.past), cube.past);
+                            set_polynomials(at, &u, basis.order);
+                        }
+                        let found = evaluated::<D, Q>(local, rows, &at, 1.0 / frame.1);
+                        for (body, found) in (body..cube.past).step_by(LANES).zip(&found) {
+                            add_before(cube.past - first, sums, body - first, found.as_ref());
                         }
                     }
-                },
-            );
+                }
+            });
         }
     }
 }

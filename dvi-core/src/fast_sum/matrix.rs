@@ -6,7 +6,6 @@ use core::ops::Range;
 use nalgebra::DMatrix;
 
 use super::packs::{LANES, Pack, load};
-use crate::scalar::widest_if;
 
 /// A matrix, column by column, of which each has zeros behind it up to a whole number of packs.
 #[derive(Clone, Debug, Default)]
@@ -70,19 +69,15 @@ impl Matrix {
         if self.entries.is_empty() {
             return;
         }
-        widest_if(
-            true,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || {
-                let mut fours = ends.chunks_exact(VECTORS);
-                for four in &mut fours {
-                    self.add_several([four[0], four[1], four[2], four[3]], ROWS, from, to);
-                }
-                for one in fours.remainder() {
-                    self.add_several([*one], ROWS_OF_ONE, from, to);
-                }
-            },
-        );
+        widest!({
+            let mut fours = ends.chunks_exact(VECTORS);
+            for four in &mut fours {
+                self.add_several([four[0], four[1], four[2], four[3]], ROWS, from, to);
+            }
+            for one in fours.remainder() {
+                self.add_several([*one], ROWS_OF_ONE, from, to);
+            }
+        });
     }
 
     /// Adds the products with `V` vectors, so many packs of rows at once at most.

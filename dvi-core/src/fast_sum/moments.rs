@@ -8,7 +8,6 @@ use super::shares::Piece;
 use super::subspace::Subspace;
 use super::tree::Cube;
 use super::work::Sorted;
-use crate::scalar::widest_if;
 
 /// What the moments of a level are made of.
 #[derive(Clone, Copy, Debug)]
@@ -38,19 +37,15 @@ impl<const D: usize> Sources<'_, D> {
         loop {
             let mut ends = [Ends::default(); VECTORS];
             let mut count = 0;
-            widest_if(
-                true,
-                #[cfg_attr(not(debug_assertions), inline(always))]
-                || {
-                    let rooms = room.chunks_exact_mut(size).take(VECTORS);
-                    for (number, (room, (place, cube))) in rooms.zip(&mut leaves).enumerate() {
-                        room.fill(0.0);
-                        self.add_bodies(cube, &mut at, room);
-                        ends[number] = Ends { from: number * size, to: place * stride };
-                        count = number + 1;
-                    }
-                },
-            );
+            widest!({
+                let rooms = room.chunks_exact_mut(size).take(VECTORS);
+                for (number, (room, (place, cube))) in rooms.zip(&mut leaves).enumerate() {
+                    room.fill(0.0);
+                    self.add_bodies(cube, &mut at, room);
+                    ends[number] = Ends { from: number * size, to: place * stride };
+                    count = number + 1;
+                }
+            });
             if count == 0 {
                 break;
             }

@@ -16,7 +16,6 @@ use super::quantity::Quantity;
 use super::shares::Piece;
 use super::tree::Cube;
 use super::work::Sorted;
-use crate::scalar::widest_if;
 
 /// What acts nearby: the quantity Q, of which `factor` is what depends on the squared distance.
 pub(super) struct Nearby<'w, Q, F, const D: usize> {
@@ -32,46 +31,42 @@ impl<Q: Quantity<D>, F: Fn(Pack) -> Pack, const D: usize> Nearby<'_, Q, F, D> {
         let Sorted { tree, lists, .. } = self.bodies;
         let near = on(&lists.near, &cubes);
         let (origin, first_pack) = (tree.cubes[cubes.start].first, lists.packs[near.start]);
-        widest_if(
-            true,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || {
-                let mut kept = [Q::NONE; TOGETHER];
-                let mut number = near.start;
-                for pairs in lists.near[near].chunk_by(|pair, next| pair.target == next.target) {
-                    let one = &tree.cubes[pairs[0].target as usize];
-                    let mut later = number;
-                    for Pair { target, source } in pairs {
-                        if target == source {
-                            self.add_within(one, origin, &mut sums);
-                        }
-                        later += usize::from(source <= target);
+        widest!({
+            let mut kept = [Q::NONE; TOGETHER];
+            let mut number = near.start;
+            for pairs in lists.near[near].chunk_by(|pair, next| pair.target == next.target) {
+                let one = &tree.cubes[pairs[0].target as usize];
+                let mut later = number;
+                for Pair { target, source } in pairs {
+                    if target == source {
+                        self.add_within(one, origin, &mut sums);
                     }
-                    number += pairs.len();
-                    let packs = [later, number].map(|number| D * (lists.packs[number] - first_pack));
-                    let reactions = &mut reactions[packs[0]..packs[1]];
-                    reactions.fill(NOTHING);
-                    for first in one.bodies().step_by(TOGETHER) {
-                        let bodies = first..one.past.min(first + TOGETHER);
-                        let kept = &mut kept[..bodies.len()];
-                        kept.fill(Q::NONE);
-                        let mut rest = &mut *reactions;
-                        for pair in &lists.near[later..number] {
-                            let other = &tree.cubes[pair.source as usize];
-                            let (own, others) = rest.split_at_mut(D * other.bodies().len().div_ceil(LANES));
-                            self.add_between(bodies.clone(), other, kept, own);
-                            rest = others;
-                        }
-                        for (axis, sums) in sums.iter_mut().enumerate() {
-                            add_lanes(
-                                kept.iter().filter_map(|found| found.as_ref().get(axis)),
-                                &mut sums[bodies.start - origin..],
-                            );
-                        }
+                    later += usize::from(source <= target);
+                }
+                number += pairs.len();
+                let packs = [later, number].map(|number| D * (lists.packs[number] - first_pack));
+                let reactions = &mut reactions[packs[0]..packs[1]];
+                reactions.fill(NOTHING);
+                for first in one.bodies().step_by(TOGETHER) {
+                    let bodies = first..one.past.min(first + TOGETHER);
+                    let kept = &mut kept[..bodies.len()];
+                    kept.fill(Q::NONE);
+                    let mut rest = &mut *reactions;
+                    for pair in &lists.near[later..number] {
+                        let other = &tree.cubes[pair.source as usize];
+                        let (own, others) = rest.split_at_mut(D * other.bodies().len().div_ceil(LANES));
+                        self.add_between(bodies.clone(), other, kept, own);
+                        rest = others;
+                    }
+                    for (axis, sums) in sums.iter_mut().enumerate() {
+                        add_lanes(
+                            kept.iter().filter_map(|found| found.as_ref().get(axis)),
+                            &mut sums[bodies.start - origin..],
+                        );
                     }
                 }
-            },
-        );
+            }
+        });
     }
 
     /// Adds what the bodies of a cube do to each other.

@@ -40,7 +40,7 @@ pub(super) fn load_places<const D: usize>(places: &[Vec<f64>; D], first: usize) 
 }
 
 /// The same for those before `past`, and the place of the last one for the others.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(super) fn load_places_before<const D: usize>(
     past: usize,
     places: &[Vec<f64>; D],
@@ -70,7 +70,7 @@ pub(super) fn repeat_place<const D: usize>(places: &[Vec<f64>; D], body: usize) 
 
 /// Where some bodies of a cube are in it, from −1 to 1 along each axis; those from `past` on count as in its
 /// middle.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(super) fn coordinates<const D: usize>(
     places: &[Vec<f64>; D],
     (middle, half): ([f64; D], f64),
@@ -90,7 +90,7 @@ pub(super) fn coordinates<const D: usize>(
 }
 
 /// Adds the components of what was found for some bodies, those before `past`.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(super) fn add_before<const D: usize>(
     past: usize,
     sums: &mut [&mut [f64]; D],

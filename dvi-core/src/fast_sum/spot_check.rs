@@ -12,7 +12,6 @@ use super::quantity::Quantity;
 use super::transfer::larger;
 use super::work::Sorted;
 use crate::Scalar;
-use crate::scalar::widest_if;
 
 /// Bodies whose sums are checked, at equal distances in the order of the tree: so they are from all regions.
 const BODIES: usize = 8;
@@ -76,24 +75,20 @@ fn over_all<Q: Quantity<D>, const D: usize>(
 ) -> [Q::Sums; 2] {
     let at = repeat_place(places, body);
     let [mut sums, mut sizes] = [Q::NONE; 2];
-    widest_if(
-        true,
-        #[cfg_attr(not(debug_assertions), inline(always))]
-        || {
-            for others in [0..body, body + 1..tree.order.len()] {
-                let last = others.end;
-                for first in others.step_by(LANES) {
-                    let place = load_places_before(last, places, first);
-                    let weight = load_before(last, weights, first);
-                    let terms = of_pair::<Q, D>(factor, at, place);
-                    for (number, term) in terms.as_ref().iter().enumerate() {
-                        sums.as_mut()[number] += *term * weight;
-                        sizes.as_mut()[number] += Scalar::abs(*term * weight);
-                    }
+    widest!({
+        for others in [0..body, body + 1..tree.order.len()] {
+            let last = others.end;
+            for first in others.step_by(LANES) {
+                let place = load_places_before(last, places, first);
+                let weight = load_before(last, weights, first);
+                let terms = of_pair::<Q, D>(factor, at, place);
+                for (number, term) in terms.as_ref().iter().enumerate() {
+                    sums.as_mut()[number] += *term * weight;
+                    sizes.as_mut()[number] += Scalar::abs(*term * weight);
                 }
             }
-        },
-    );
+        }
+    });
     [sums, sizes]
 }
 
