@@ -27,7 +27,7 @@ use crate::methods::collocation::stages::NewtonStages;
 use crate::methods::{
     Carries, Here, Method, PreservedForm, Step, Tabulated, Tolerance, VariableStep, scheme,
 };
-use crate::scalar::simd::widest_if;
+use crate::scalar::simd::wide_if;
 use crate::solve::{Convergence, Due, Guess, Ladder, Solver, Stopping, from_either_guess, repeat};
 use crate::state::Statistics;
 use crate::state::summation::Summation;
@@ -150,27 +150,23 @@ where
         let GaussMemory { ladder, path } = memory;
         // Where Newton's method stands by, a fixed point that is slow is left to it.
         let budget = ladder.budget(self.stopping.max_iterations, 24 + q.len());
-        widest_if(
-            E::WIDE,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || {
-                ladder.solve(
-                    &mut (path, q),
-                    statistics,
-                    #[cfg_attr(not(debug_assertions), inline(always))]
-                    |(path, q), statistics| {
-                        from_either_guess(
-                            #[cfg_attr(not(debug_assertions), inline(always))]
-                            |guess| self.attempt(system, path, q, [t, h], (guess, budget), statistics),
-                        )
-                    },
-                    |(path, q), newton, guess, statistics| {
-                        newton::solve(newton, system, path, (q, [t, h]), guess, self.stopping, statistics)?;
-                        path.arrive(0, self.summation, system, q, [t, h])
-                    },
-                )
-            },
-        )
+        wide_if!(E::WIDE, {
+            ladder.solve(
+                &mut (path, q),
+                statistics,
+                #[cfg_attr(not(debug_assertions), inline(always))]
+                |(path, q), statistics| {
+                    from_either_guess(
+                        #[cfg_attr(not(debug_assertions), inline(always))]
+                        |guess| self.attempt(system, path, q, [t, h], (guess, budget), statistics),
+                    )
+                },
+                |(path, q), newton, guess, statistics| {
+                    newton::solve(newton, system, path, (q, [t, h]), guess, self.stopping, statistics)?;
+                    path.arrive(0, self.summation, system, q, [t, h])
+                },
+            )
+        })
     }
 
     fn part_of_step(

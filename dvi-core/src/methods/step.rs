@@ -19,7 +19,7 @@ use crate::error::StepFailure;
 use crate::mechanics::phase::{Arrival, Inertial, PhasePoint};
 use crate::scalar::norm;
 use crate::scalar::passes::{add, blocks};
-use crate::scalar::simd::widest_if;
+use crate::scalar::simd::wide_if;
 use crate::solve::{Convergence, Guess, Ladder, Linearize, Stopping};
 use crate::solve::{sizes, solve_by_fixed_point, solve_by_newton};
 use crate::space::Sink;
@@ -100,24 +100,13 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Attempt<'_, S, T> {
         } else {
             work
         };
-        widest_if(
-            !<S::Space as Space>::ON_STACK,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || {
-                let begin = Begin { system: *system, interval: *interval, q, phase, mass: &inertial.mass };
-                let mut coefficients = equations.begin(&begin, &mut work.node)?;
-                let mut scheme = (equations, &mut coefficients);
-                iterate_by_mass::<PLAIN, _, _, _>(&mut scheme, &begin, work, criterion, statistics)?;
-                arrive::<PLAIN, _, _, _>(
-                    scheme,
-                    (*system, *interval),
-                    q,
-                    (phase, inertial),
-                    work,
-                    statistics,
-                )
-            },
-        )
+        wide_if!(!<S::Space as Space>::ON_STACK, {
+            let begin = Begin { system: *system, interval: *interval, q, phase, mass: &inertial.mass };
+            let mut coefficients = equations.begin(&begin, &mut work.node)?;
+            let mut scheme = (equations, &mut coefficients);
+            iterate_by_mass::<PLAIN, _, _, _>(&mut scheme, &begin, work, criterion, statistics)?;
+            arrive::<PLAIN, _, _, _>(scheme, (*system, *interval), q, (phase, inertial), work, statistics)
+        })
     }
 
     /// A step by Newton's method from a guess.

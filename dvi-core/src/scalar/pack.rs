@@ -225,7 +225,7 @@ const FEW: usize = 32;
 
 /// What `body` returns; where it takes many numbers at once, it runs compiled for the widest instructions of
 /// the processor.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub fn widest<T: Scalar, R>(size: usize, body: impl FnOnce() -> R) -> R {
     widest_if(T::Pack::WIDTH > 1 && size >= FEW, body)
 }

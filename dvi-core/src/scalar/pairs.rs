@@ -8,7 +8,7 @@
 
 use crate::Scalar;
 use crate::scalar::pack::CHUNK;
-use crate::scalar::simd::widest_if;
+use crate::scalar::simd::wide_if;
 use crate::threads::{at_once, is_in_pool, largest_part};
 
 /// So many bodies are halved. The pairs of fewer are taken as they come.
@@ -41,11 +41,7 @@ pub fn halves<const B: usize, T: Scalar>(
     let is_worth_it = is_in_pool() || all > LEAST_FROM_OUTSIDE;
     let largest = if is_worth_it { largest_part(all, LEAST) } else { usize::MAX };
     let pairs = |one: Option<&mut Bodies<'_, B, T>>, others: &mut Bodies<'_, B, T>| {
-        widest_if(
-            true,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || rows(one, others, &row),
-        );
+        wide_if!(true, rows(one, others, &row));
     };
     within(&mut Bodies { first: 0, past: bodies, entries }, &Work { largest, pairs: &pairs });
 }

@@ -64,6 +64,19 @@ pub fn widest_if<R>(worth_it: bool, body: impl FnOnce() -> R) -> R {
     if worth_it { widest(body) } else { body() }
 }
 
+/// The value of an expression, by [`widest_if`].
+macro_rules! wide_if {
+    ($worth_it:expr, $body:expr) => {
+        $crate::scalar::simd::widest_if(
+            $worth_it,
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            || $body,
+        )
+    };
+}
+
+pub(crate) use wide_if;
+
 /// Runs `body` apart from its caller, if it is `worth_it`: compiled for the instructions of every processor,
 /// as far as it does not choose others itself.
 ///

@@ -13,7 +13,7 @@ use crate::memory::aside;
 use crate::methods::flight::Flight;
 use crate::methods::step::{Carried, PhaseMemory};
 use crate::methods::{Carries, FreeFlight, Here, Method, PreservedForm, Step, VariableStep, scheme};
-use crate::scalar::simd::widest_if;
+use crate::scalar::simd::wide_if;
 use crate::solve::{Ladder, Solver};
 use crate::state::history::History;
 use crate::{Coupled, NondegenerateLagrangian, Real, RegularLagrangian, Space, System, Vector};
@@ -98,30 +98,26 @@ where
         let PhaseMemory { carried, ladder, own: path } = memory;
         let (interval, Self { frequency, stopping, .. }) = (Interval { t, h }, self);
         let budget = ladder.budget(stopping.max_iterations, 24 + q.len());
-        widest_if(
-            E::WIDE,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || {
-                let mut step = Attempt {
-                    system,
-                    frequency,
-                    stopping: *stopping,
-                    interval,
-                    q,
-                    carried,
-                    path,
-                    by_newton: true,
-                };
-                ladder.solve(
-                    &mut step,
-                    statistics,
-                    #[cfg_attr(not(debug_assertions), inline(always))]
-                    |step, statistics| step.by_fixed_point(budget, statistics),
-                    |step, solver, guess, statistics| step.by_newton(solver, guess, statistics),
-                )?;
-                step.arrive(statistics)
-            },
-        )
+        wide_if!(E::WIDE, {
+            let mut step = Attempt {
+                system,
+                frequency,
+                stopping: *stopping,
+                interval,
+                q,
+                carried,
+                path,
+                by_newton: true,
+            };
+            ladder.solve(
+                &mut step,
+                statistics,
+                #[cfg_attr(not(debug_assertions), inline(always))]
+                |step, statistics| step.by_fixed_point(budget, statistics),
+                |step, solver, guess, statistics| step.by_newton(solver, guess, statistics),
+            )?;
+            step.arrive(statistics)
+        })
     }
 }
 

@@ -8,7 +8,7 @@ use super::memory::{Carried, Work};
 use crate::error::StepFailure;
 use crate::mechanics::combination::Inverse;
 use crate::scalar::norm;
-use crate::scalar::simd::{apart_if, widest_if};
+use crate::scalar::simd::{apart_if, wide_if};
 use crate::solve::{Convergence, Course, Due, Iteration, Judge, Quick, repeat, sizes};
 use crate::space::scratch;
 use crate::state::Statistics;
@@ -28,10 +28,9 @@ pub(super) fn fixed_point<S: DegenerateLagrangian<T>, T: Real>(
         return carefully::<true, S, T>(step, q, carried, budget, statistics);
     }
     let quick = Quick::of(Course::fixed_point(step.method.stopping, budget));
-    let result = widest_if(
+    let result = wide_if!(
         !<S::Space as Space>::ON_STACK,
-        #[cfg_attr(not(debug_assertions), inline(always))]
-        || iterate::<false, S, T>(step, q, carried, quick, statistics),
+        iterate::<false, S, T>(step, q, carried, quick, statistics)
     );
     match result {
         Err(StepFailure::NotConverged { .. }) => {
@@ -197,11 +196,9 @@ where
         if !Nodes::<COMPENSATED, S, T, P>::IS_LONG {
             place([origin, increment], sigma, (0, &*part), point);
         }
-        apart_if(
-            Nodes::<COMPENSATED, S, T, P>::IS_LONG,
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            || system.hamiltonian_gradient(point, time, gradient),
-        );
+        apart_if(Nodes::<COMPENSATED, S, T, P>::IS_LONG, || {
+            system.hamiltonian_gradient(point, time, gradient)
+        });
         let mut largest = T::lift(0.0);
         inverse.solve_in_blocks(
             system,
