@@ -129,7 +129,7 @@ fn factor_by<T: Real>(
 }
 
 /// The size of an entry in a row, times its scale if rows have one.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 fn scaled<T: Real>(entry: T, row: usize, scales: &[T]) -> T {
     Scalar::abs(scales.get(row).map_or(entry, |&scale| entry * scale))
 }
@@ -252,7 +252,7 @@ pub(crate) fn eliminate<T: Real>(
 ///
 /// # Errors
 /// As [`factor`]; [`StepFailure::NotFinite`] if A is singular and `x` is no number.
-#[cfg_attr(not(debug_assertions), inline(always))]
+#[inline]
 pub(crate) fn eliminate_two<T: Real>(
     matrix: &[T],
     weights: &[T],

@@ -150,7 +150,7 @@ pub struct Stored<S: Space, T: Real> {
 }
 
 impl<S: Space, T: Real> Stored<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn new(space: S, matrix: S::Square<T>) -> Self {
         Self { matrix, scales: space.vector() }
     }

@@ -135,7 +135,7 @@ impl<S: Space, T: Real> SquareMatrix<T> for Full<S, T> {
         self.matrix.fill(T::lift(-0.0));
         &mut self.matrix
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn scale_rows(&mut self, scales: &[T]) {
         for (line, &scale) in lines_mut(&mut self.matrix, scales.len()).zip(scales) {
             multiply(line, scale);
@@ -145,7 +145,7 @@ impl<S: Space, T: Real> SquareMatrix<T> for Full<S, T> {
     fn eliminate(&mut self, scales: &mut [T], x: &mut [T]) -> Result<(), StepFailure> {
         elimination::eliminate(&mut self.matrix, scales, x)
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn eliminate_two(&self, weights: &[T], x: &mut [T]) -> Option<Result<(), StepFailure>> {
         elimination::eliminate_two(&self.matrix, weights, x)
     }

@@ -56,7 +56,7 @@ impl<T: Scalar> Banded<T> {
 }
 
 impl<T: Real> Sink<T> for Banded<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn add(&mut self, row: usize, column: usize, entry: T) {
         let (i, j) = (self.order.place[row] as usize, self.order.place[column] as usize);
         if i.abs_diff(j) > self.order.bandwidth {
