@@ -28,7 +28,7 @@ pub(crate) struct NodeWork<S: System, T: Real> {
 }
 
 impl<S: Lagrangian<T>, T: Real> NodeWork<S, T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn new(system: &S) -> Self {
         let vector = || system.space().vector();
         Self { point: vector(), velocity: vector(), gradient: vector(), momentum: vector() }
@@ -136,7 +136,7 @@ impl<S: Lagrangian<T>, N: Nodes<T>, T: Real> DiscreteLagrangian<S, N, T> {
     }
 
     /// Adds D₁L_d to `d1` and D₁D₂L_d to `sink`, entry (i, j) of q0ⁱ and q1ʲ.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub fn linearize<K: Sink<T>>(&mut self, span: Span<'_, S, T>, d1: &mut [T], sink: &mut K) {
         linearize(&self.nodes, span, &mut self.work, d1, sink);
     }
@@ -193,7 +193,7 @@ impl<S: Lagrangian<T>, T: Real> OneNode<S, T> {
     }
 
     /// Sets `point` to q_σ and `velocity` to Δ/h.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn place(&mut self, h: T, ends: [&[T]; 2]) {
         self.nodes.place(0, h, ends, [&mut self.work.point, &mut self.work.velocity]);
     }
@@ -212,7 +212,7 @@ impl<T: Real> Nodes<T> for Between<T> {
         Node { time: self.0, weight: one, left, right, both: [one, zero] }
     }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn place(&self, _j: usize, h: T, [q0, delta]: [&[T]; 2], [point, velocity]: [&mut [T]; 2]) {
         let per_h = T::lift(1.0) / h;
         for i in 0..q0.len() {

@@ -159,7 +159,7 @@ impl Due {
 
     /// The same of velocities of several stages, in a step of length `h`; weights are those of velocities
     /// then. Whether they have been moved.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     pub(crate) fn prepare_slopes<const W: usize, S: System, T: Real>(
         &mut self,
         system: &S,
