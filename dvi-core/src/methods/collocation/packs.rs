@@ -102,25 +102,6 @@ pub(in crate::methods) struct Nystrom<const STAGES: usize, T> {
     pub(in crate::methods) nodes: Lanes<STAGES, T>,
 }
 
-impl<const STAGES: usize, T: Real> Nystrom<STAGES, T> {
-    /// Sets the positions of the stages by the displacements x of the first `count`, and returns the largest
-    /// change of one. For coordinate k, `from`(k) is q and what is added to the sum; changes are in units of
-    /// `weights`. `renewed` is storage.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(in crate::methods) fn place<S: System>(
-        &self,
-        system: &S,
-        count: usize,
-        displacements: &[Lanes<STAGES, T>],
-        from: impl Fn(usize) -> (T, Lanes<STAGES, T>),
-        weights: &[T],
-        [places, renewed]: [&mut [Lanes<STAGES, T>]; 2],
-    ) -> T {
-        combine(&self.nu[..count], displacements, from, renewed);
-        replace(system, weights, places, renewed, |_, _| ())
-    }
-}
-
 /// Sets packs to new ones, each of which it shows to `see` with its place, and returns the largest change of
 /// a number in units of `weights`, which are those of blocks.
 #[cfg_attr(not(debug_assertions), inline(always))]

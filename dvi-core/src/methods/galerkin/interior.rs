@@ -21,7 +21,7 @@ use crate::error::StepFailure;
 use crate::mechanics::motion::{weigh, weigh_each};
 use crate::memory::{Memory, lasting};
 use crate::methods::collocation::lobatto::Lobatto;
-use crate::methods::collocation::packs::{Nystrom, combine, continuation, moved, sum};
+use crate::methods::collocation::packs::{Nystrom, combine, continuation, moved, replace, sum};
 use crate::methods::step::Begin;
 use crate::scalar::lanes::{read_lane, write_lane};
 use crate::scalar::{Lanes, norm};
@@ -274,6 +274,7 @@ impl<const NODES: usize, const W: usize, S: NondegenerateLagrangian<T>, T: Real,
                 write_lane(lane, displacement, displacements);
             }
         }
-        nystrom.place(system, Self::COUNT, displacements, moved(q, free), sizes, [places, renewed])
+        combine(&nystrom.nu[..Self::COUNT], displacements, moved(q, free), renewed);
+        replace(system, sizes, places, renewed, |_, _| ())
     }
 }

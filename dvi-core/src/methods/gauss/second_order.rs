@@ -10,7 +10,7 @@
 
 use super::memory::Path;
 use crate::mechanics::motion::{FirstOrder, weigh_each};
-use crate::methods::collocation::packs::{at, combine, moved, sum};
+use crate::methods::collocation::packs::{at, combine, moved, replace, sum};
 use crate::scalar::Lanes;
 use crate::{Real, System};
 
@@ -39,8 +39,8 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             return None;
         };
         weigh_each(h, reciprocals, momenta, displacements);
-        let nystrom = &coefficients.nystrom;
-        Some(nystrom.place(system, STAGES, displacements, moved(&y[0], free), weights, [places, renewed]))
+        combine(&coefficients.nystrom.nu, displacements, moved(&y[0], free), renewed);
+        Some(replace(system, weights, places, renewed, |_, _| ()))
     }
 
     /// Sets the increment of the coordinates, if the equations are of second order.
