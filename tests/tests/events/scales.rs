@@ -45,12 +45,12 @@ fn a_floor_is_met_at_late_times() -> Outcome {
         for (roundings, steps) in [(1000.0, 20.0), (2000.0, 20.0), (4000.0, 0.7), (64_000.0, 0.7)] {
             let hop: f64 = rounding * roundings;
             let up = BallState { y: 0.0, dot_y: hop / 2.0 };
-            let mut run = Integrator::new_at(&Ball, Variational::trapezoid(), t0, hop / steps, up.clone())?;
+            let mut run = Integrator::new_at(&Ball, Variational::trapezoid(), t0, hop / steps, up)?;
             let mut events = run.events([Direction::Falling], |_, ball| [ball.y])?;
             for k in 1..=20 {
                 let Event { time, .. } = events.next_until(t0 + 21.0 * hop)?.ok_or("it falls through")?;
                 assert_abs_diff_eq!(time, t0 + f64::from(k) * hop, epsilon = 20.0 * rounding);
-                events.set_state(time, up.clone())?;
+                events.set_state(time, up)?;
             }
         }
     }

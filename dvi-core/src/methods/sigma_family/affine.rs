@@ -197,7 +197,7 @@ where
             place([origin, increment], sigma, (0, &*part), point);
         }
         apart_if(Nodes::<COMPENSATED, S, T, P>::IS_LONG, || {
-            system.hamiltonian_gradient(point, time, gradient)
+            system.hamiltonian_gradient(point, time, gradient);
         });
         let mut largest = T::lift(0.0);
         inverse.solve_in_blocks(
