@@ -76,13 +76,26 @@ fn quotients(count: usize) -> u64 {
     steps(degenerate_lagrangian, &attribute)
 }
 
+/// A potential that the same statements make again and again of two formulas, with each in it more than once.
+fn recursion(statements: &str, last: &str, count: usize) -> u64 {
+    let kinetic = "0.5 * (dot(x).powi(2) + dot(y).powi(2))";
+    let all = format!("{statements}\n").repeat(count);
+    let formula = format!("{kinetic} - {{ let a = x; let b = y; {all} {last} }}");
+    steps(lagrangian, &format!("coordinates(x, y), lagrangian = {formula}"))
+}
+
 /// Twice as many terms are little more than twice the work.
 fn grows_with_the_terms(name: &str, work: impl Fn(usize) -> u64, sizes: [usize; 3]) {
+    grows_by(2.4, name, work, sizes);
+}
+
+/// Twice as many terms are less than `most` times the work.
+fn grows_by(most: f64, name: &str, work: impl Fn(usize) -> u64, sizes: [usize; 3]) {
     let steps = sizes.map(&work);
     for (size, pair) in sizes.iter().zip(steps.windows(2)) {
         let ratio = pair[1] as f64 / pair[0] as f64;
         assert!(
-            ratio < 2.4,
+            ratio < most,
             "{name}: {size} terms take {} steps, twice as many {ratio:.2} times that",
             pair[0]
         );
@@ -107,4 +120,15 @@ fn pairs_without_end() {
 #[test]
 fn quotients_of_quotients_without_end() {
     grows_with_the_terms("quotients of quotients", quotients, [8, 16, 32]);
+}
+
+/// Each formula stands in the next one twice: as a tree they grow with a power of their number.
+#[test]
+fn recursions_without_end() {
+    for (statements, last) in [
+        ("let c = x * b - 0.5 * a; let a = b; let b = c;", "(2.0 + b).sqrt()"),
+        ("let b = (b * y).hypot(a + b);", "b"),
+    ] {
+        grows_by(8.0, statements, |count| recursion(statements, last, count), [8, 16, 32]);
+    }
 }
