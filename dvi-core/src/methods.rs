@@ -218,9 +218,9 @@ pub trait Method<S: Lagrangian<T>, T: Real>: Scheme + Carries<S, T> {
 
     /// Sets `q` to the `index`-th of the places within the last step that are known, such as the stages of a
     /// method of high order, whose steps are long, or impacts, and `v` to the velocity there or, at
-    /// [jumps](Self::HAS_JUMPS), to those before it and behind it, and returns the part of the step; in their
-    /// order, from the first one on. Of degenerate systems there is no `v`. There are none if nothing else is
-    /// said. A search for events looks at up to eight, and at up to 16 jumps.
+    /// [jumps](Self::HAS_JUMPS), to those before it and behind it, and returns the part of the step; in
+    /// their order, from the first one on. Of degenerate systems there is no `v`. There are none if nothing
+    /// else is said. A search for events looks at up to eight, and at up to 16 jumps.
     fn place(
         &self,
         _memory: &mut Self::Memory,

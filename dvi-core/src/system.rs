@@ -285,8 +285,8 @@ pub trait Lagrangian<T: Scalar = f64>: System {
         None
     }
 
-    /// A finite number where L and forces, and what their conditions compare, are numbers, as far as that does
-    /// not depend on velocities, and none outside, if the system [has a domain](System::HAS_DOMAIN).
+    /// A finite number where L and forces, and what their conditions compare, are numbers, as far as that
+    /// does not depend on velocities, and none outside, if the system [has a domain](System::HAS_DOMAIN).
     #[allow(unused_variables)]
     fn domain(&self, q: &[T], t: T) -> T {
         T::lift(0.0)

@@ -12,8 +12,8 @@ use crate::{Lagrangian, Real, Scalar, State, System, Vector};
 /// What a run of any method does for [`Dense`](crate::run::Dense): it keeps the point at which steps begin,
 /// and a copy of it is moved within the last one.
 pub trait Between<S: System, T: Real> {
-    /// Makes room, unless it is there already, and keeps the present point, which is reached at time `t`. All
-    /// memory is allocated here.
+    /// Makes room, unless it is there already, and keeps the present point, which is reached at time `t`.
+    /// All memory is allocated here.
     ///
     /// # Errors
     /// [`StartError`] if no run of the method can begin here.

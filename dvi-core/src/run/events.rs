@@ -199,4 +199,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Iterator fo
 
 impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> FusedIterator for Events<R, G, N> {}
 
-shown!([R: Run + Debug, G, const N: usize] Events<R, G, N>, |events| run: events.dense, directions: events.watch.directions);
+shown!(
+    [R: Run + Debug, G, const N: usize] Events<R, G, N>, |events|
+    run: events.dense,
+    directions: events.watch.directions
+);

@@ -76,7 +76,8 @@ fn quotients(count: usize) -> u64 {
     steps(degenerate_lagrangian, &attribute)
 }
 
-/// A potential that the same statements make again and again of two formulas, with each in it more than once.
+/// A potential that the same statements make again and again of two formulas, with each in it more than
+/// once.
 fn recursion(statements: &str, last: &str, count: usize) -> u64 {
     let kinetic = "0.5 * (dot(x).powi(2) + dot(y).powi(2))";
     let all = format!("{statements}\n").repeat(count);

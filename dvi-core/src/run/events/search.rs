@@ -9,8 +9,8 @@ use crate::scalar::norm::{larger, reported, smaller};
 use crate::solve::crossing::{Sample, Zero, dip, zero};
 use crate::{Real, Scalar};
 
-/// The part of a step between places at which a condition is looked at for its slope; more of it in numbers of
-/// few digits, and where the time has few digits in a step.
+/// The part of a step between places at which a condition is looked at for its slope; more of it in numbers
+/// of few digits, and where the time has few digits in a step.
 const CHORD: f64 = 1e-5;
 const SOME: f64 = 16.0;
 const MANY: f64 = 64.0;

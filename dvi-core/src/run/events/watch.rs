@@ -136,8 +136,8 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
         Ok(from)
     }
 
-    /// The values on one side of a jump, where a motion begins or ends, of which that of a gap that is closed
-    /// but for rounding is zero.
+    /// The values on one side of a jump, where a motion begins or ends, of which that of a gap that is
+    /// closed but for rounding is zero.
     fn closed(
         &mut self,
         run: &mut Dense<R>,
