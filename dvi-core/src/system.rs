@@ -237,7 +237,8 @@ pub trait System: Held<System = Self> {
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a system that can be computed in `{T}`",
-    label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`, or a parameter that is no number",
+    label = "it has neither `#[lagrangian]` nor `#[degenerate_lagrangian]`, or a parameter that is no \
+        number",
     note = "parameters are numbers of Rust, or of type `Varied<{T}>`"
 )]
 pub trait Lagrangian<T: Scalar = f64>: System {

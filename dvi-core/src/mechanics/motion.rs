@@ -123,8 +123,10 @@ impl<S: System, T: Real> StageEquations<S, T> for Regular {}
 /// ```
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` cannot be solved in `{T}`",
-    label = "it is no system, it has constraints, impacts, rotations or unit vectors, or a parameter of it is no number",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` with any rule, and those with `constraint = …` by `Rattle` too",
+    label = "it is no system, it has constraints, impacts, rotations or unit vectors, or a parameter of it \
+        is no number",
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` with any rule, \
+        and those with `constraint = …` by `Rattle` too",
     note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
     note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]

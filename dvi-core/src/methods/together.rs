@@ -29,7 +29,8 @@ shown!([S: System, M: Carries<S, f64>] Companion<'_, S, M>, |run| q: run.q, stat
 /// matrix diagonal, take steps in lanes. Of other systems and options each run is taken alone.
 #[diagnostic::on_unimplemented(
     message = "runs of `{Self}` on `{S}` cannot be taken together in lanes",
-    label = "it is neither `Sigma` nor `Variational`, or a parameter of the system is not of one type in all lanes"
+    label = "it is neither `Sigma` nor `Variational`, or a parameter of the system is not of one type in \
+        all lanes"
 )]
 pub trait InStep<const W: usize, S: Lagrangian>: Method<S, f64> {
     /// What is loaded.

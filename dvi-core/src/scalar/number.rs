@@ -62,7 +62,8 @@ impl<N: Number> Number for &N {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "a parameter of a system that is computed in `{T}` is a number or `Varied<{T}>`, `{Self}` is neither",
+    message = "a parameter of a system that is computed in `{T}` is a number or `Varied<{T}>`, `{Self}` is \
+        neither",
     label = "cannot be a parameter in `{T}`"
 )]
 pub trait Parameter<T>: Copy + Sync {

@@ -50,7 +50,8 @@ impl Kind for Unilateral {}
 /// The kinds of systems whose motion is a smooth curve of numbers, between two of which one may interpolate:
 /// all but [`Unilateral`] and [`Manifold`].
 #[diagnostic::on_unimplemented(
-    message = "the motion of the system jumps at impacts, or has rotations or unit vectors, and this interpolates numbers",
+    message = "the motion of the system jumps at impacts, or has rotations or unit vectors, and this \
+        interpolates numbers",
     label = "it would go through the impacts, or leave the manifold",
     note = "the memory of a run with `Impacts` has the impacts of the last step, with their times and states"
 )]

@@ -19,7 +19,8 @@ use crate::system::{Lagrangian, Regular, Same, System};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a regular system, and this is for systems with `#[lagrangian]`",
     label = "its Lagrangian is degenerate, a parameter is no number, or it has no attribute",
-    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`"
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, \
+        `Projected`, `Gauss` or `RungeKutta`"
 )]
 pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
     /// Whether L = ½ v·M v − V(q, t) with a constant matrix M: M depends on none of q, v and t, and no term
@@ -60,10 +61,14 @@ pub trait NondegenerateLagrangian<T: Scalar = f64>: Lagrangian<T> {
 /// assert_eq!(kinetic(&Pendulum, &[1.0], &[3.0]), 4.5);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a regular system without constraints or impacts, and this is for systems with `#[lagrangian]`",
-    label = "its Lagrangian is degenerate, it has constraints, impacts, rotations or unit vectors, a parameter is no number, or it has no attribute",
-    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, `Projected`, `Gauss` or `RungeKutta`",
-    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` with any rule, and those with `constraint = …` by `Rattle` too",
+    message = "`{Self}` is not a regular system without constraints or impacts, and this is for systems \
+        with `#[lagrangian]`",
+    label = "its Lagrangian is degenerate, it has constraints, impacts, rotations or unit vectors, a \
+        parameter is no number, or it has no attribute",
+    note = "degenerate systems, with `#[degenerate_lagrangian]`, are stepped by `Sigma`, `OneStep`, \
+        `Projected`, `Gauss` or `RungeKutta`",
+    note = "systems with `constraint = …` or `nonholonomic = …` are stepped by `Constrained` with any rule, \
+        and those with `constraint = …` by `Rattle` too",
     note = "systems with `impact = …` are stepped by `Impacts` around a variational method",
     note = "systems with rotations `R: SO3` or unit vectors `s: S2` are stepped by `Geodesic`"
 )]
@@ -75,7 +80,8 @@ pub trait RegularLagrangian<T: Scalar = f64>: NondegenerateLagrangian<T> + Syste
 /// A system with L = ½ v·M v − V(q, t) and a constant matrix M. The attribute implements it where
 /// [`SEPARABLE`](NondegenerateLagrangian::SEPARABLE) holds.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not separable: its Lagrangian is not ½ v·M v − V(q, t) with a constant matrix M, or a force depends on velocities",
+    message = "`{Self}` is not separable: its Lagrangian is not ½ v·M v − V(q, t) with a constant matrix M, \
+        or a force depends on velocities",
     label = "its report says what the mass matrix and the forces depend on",
     note = "`Variational` and `Galerkin` step any regular system, and `Constrained` any one with constraints"
 )]

@@ -13,7 +13,8 @@ use crate::{System, Varied};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not say how its parameters stand in the lanes of a pack",
     label = "its runs cannot be taken together",
-    note = "the attributes implement `Packable`, of a struct with parameters of a generic type where that is `f64`"
+    note = "the attributes implement `Packable`, of a struct with parameters of a generic type where that \
+        is `f64`"
 )]
 pub trait Packable<const W: usize>: System {
     /// A system in packs.

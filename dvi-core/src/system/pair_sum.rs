@@ -20,11 +20,13 @@ use crate::{Lagrangian, Scalar, Weights};
 /// constraints, impacts, rotations or unit vectors. `fast_sum::FastSum`, with the feature `fast-sums`, is
 /// for such systems.
 #[diagnostic::on_unimplemented(
-    message = "no sum over all pairs of bodies of a function of their distance is seen in the energy of `{Self}`",
+    message = "no sum over all pairs of bodies of a function of their distance is seen in the energy of \
+        `{Self}`",
     label = "its pairs cannot be summed fast",
     note = "such a sum is written `sum_pairs(0..n, |j, k| w[j] * w[k] * f((x[j] - x[k]).powi(2) + (y[j] - y[k]).powi(2)))`, with arrays \
             of coordinates and weights whose length n is known at run time only",
-    note = "it is a term of `lagrangian = …` or `hamiltonian = …`, of a system without constraints or impacts"
+    note = "it is a term of `lagrangian = …` or `hamiltonian = …`, of a system without constraints or \
+        impacts"
 )]
 pub trait PairSum<T: Scalar, const D: usize>: Lagrangian<T> {
     /// The number of bodies.

@@ -122,7 +122,8 @@ impl Evaluation for InLanes {
 /// The equations of motion of a system `S` at the `W` stages of a step, evaluated as `E` says.
 #[diagnostic::on_unimplemented(
     message = "the equations of motion of `{S}` cannot be evaluated in lanes",
-    label = "it is no system, it has constraints, impacts, rotations or unit vectors, or a parameter of it is not of one type in all of them",
+    label = "it is no system, it has constraints, impacts, rotations or unit vectors, or a parameter of it \
+        is not of one type in all of them",
     note = "`Gauss` without `in_lanes` takes parameters of type `Varied`"
 )]
 pub trait FirstOrderAtStages<E, const W: usize, S: System, T: Real>: FirstOrder<S, T> {

@@ -65,8 +65,8 @@ where
             solver => solver,
         };
         if solver != Solver::FixedPoint && size_of::<Coupled<NODES, S, T>>() > MOST_BYTES {
-            let reason = "its matrix for so many nodes and coordinates takes more than a megabyte of the stack; take \
-                          Solver::FixedPoint, fewer nodes, or a heap: the feature `alloc`";
+            let reason = "its matrix for so many nodes and coordinates takes more than a megabyte of the \
+                          stack; take Solver::FixedPoint, fewer nodes, or a heap: the feature `alloc`";
             return Err(StartError::Unsupported { option: "Newton's method", reason });
         }
         let (space, eliminates) = (system.space(), S::SEPARABLE && F::UNFITTED);
