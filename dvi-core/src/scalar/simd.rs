@@ -1,45 +1,29 @@
 //! The widest SIMD instructions that the processor has, chosen when a program runs.
 
-/// Something to do. What is not inlined is compiled for the instructions that all processors have.
-pub(crate) trait Task {
-    /// What comes of it.
-    type Output;
-    /// Does it. Implementations are `#[cfg_attr(not(debug_assertions), inline(always))]`.
-    fn run(self) -> Self::Output;
-}
-
-impl<R, F: FnOnce() -> R> Task for F {
-    type Output = R;
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(self) -> R {
-        self()
-    }
-}
-
-/// Runs `task`, compiled for the widest instructions that this processor has, as far as it is inlined.
+/// Runs `body`, compiled for the widest instructions that this processor has, as far as it is inlined.
 ///
 /// The results are the same on every processor: operations on packs are those on their lanes. Where there
 /// are debug assertions, nothing is forced inline, and all instructions are those of every processor: there
 /// code is compiled once, and not for each of them.
 #[cfg(all(feature = "simd", not(debug_assertions)))]
-pub(crate) fn widest<K: Task>(task: K) -> K::Output {
-    struct Dispatched<K>(K);
+fn widest<R>(body: impl FnOnce() -> R) -> R {
+    struct Dispatched<F>(F);
 
-    impl<K: Task> pulp::WithSimd for Dispatched<K> {
-        type Output = K::Output;
+    impl<R, F: FnOnce() -> R> pulp::WithSimd for Dispatched<F> {
+        type Output = R;
         #[cfg_attr(not(debug_assertions), inline(always))]
-        fn with_simd<S: pulp::Simd>(self, _simd: S) -> K::Output {
-            self.0.run()
+        fn with_simd<S: pulp::Simd>(self, _simd: S) -> R {
+            (self.0)()
         }
     }
 
-    pulp::Arch::new().dispatch(Dispatched(task))
+    pulp::Arch::new().dispatch(Dispatched(body))
 }
 
-/// Runs `task`.
+/// Runs `body`.
 #[cfg(not(all(feature = "simd", not(debug_assertions))))]
-pub(crate) fn widest<K: Task>(task: K) -> K::Output {
-    task.run()
+fn widest<R>(body: impl FnOnce() -> R) -> R {
+    body()
 }
 
 /// Runs `body`, if it is `worth_it` compiled for the widest instructions that the processor has: for loops

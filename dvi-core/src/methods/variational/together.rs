@@ -10,7 +10,7 @@ use crate::methods::together::{Companion, InStep, all_finite, load, load_if_all_
 use crate::methods::walk::BLOCK;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::read_lane;
-use crate::scalar::simd::{Task, widest};
+use crate::scalar::simd::wide_if;
 use crate::system::Packable;
 use crate::{NondegenerateLagrangian, RegularLagrangian, Space, System, Vector};
 
@@ -62,6 +62,7 @@ where
         if !load_if_all_have(reciprocals, of_run, runs.len()) {
             return 0;
         }
+        let [h, half] = [clock.step_size(), 0.5 * clock.step_size()].map(Lanes::all);
         let taken = S::packed(&of_lanes(systems), |system| {
             let mut taken = 0;
             while taken < count {
@@ -69,9 +70,21 @@ where
                 for (kept, now) in kept.iter_mut().zip(now.iter()) {
                     kept.copy_from_slice(now);
                 }
-                let clock = clock.after(taken);
-                widest(Kicks { system, reciprocals, clock, steps, packs: now });
-                let [q, p, _] = &*now;
+                let [q, p, force] = &mut *now;
+                wide_if!(true, {
+                    for step in taken..taken + steps {
+                        for (((q, p), &force), &reciprocal) in
+                            q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals.iter())
+                        {
+                            *p += half * force;
+                            *q += h * (*p * reciprocal);
+                        }
+                        system.force(q, &[], Lanes::all(clock.after(step + 1).time()), force);
+                        for (p, &force) in p.iter_mut().zip(force.iter()) {
+                            *p += half * force;
+                        }
+                    }
+                });
                 // A collision shows in the force, which is in the momentum.
                 if !(all_finite(q) && all_finite(p)) {
                     for (now, kept) in now.iter_mut().zip(kept.iter()) {
@@ -93,36 +106,5 @@ where
             run.statistics.steps += taken;
         }
         taken
-    }
-}
-
-/// Some steps.
-struct Kicks<'a, const W: usize, S: System> {
-    system: &'a S,
-    reciprocals: &'a [Lanes<W>],
-    clock: Clock<f64>,
-    steps: u64,
-    packs: &'a mut [Vector<S, Lanes<W>>; 3],
-}
-
-impl<const W: usize, S: NondegenerateLagrangian<Lanes<W>>> Task for Kicks<'_, W, S> {
-    type Output = ();
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(self) {
-        let Self { system, reciprocals, clock, steps, packs: [q, p, force] } = self;
-        let (h, half) = (Lanes::all(clock.step_size()), Lanes::all(0.5 * clock.step_size()));
-        for step in 0..steps {
-            for (((q, p), &force), &reciprocal) in
-                q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals)
-            {
-                *p += half * force;
-                *q += h * (*p * reciprocal);
-            }
-            system.force(q, &[], Lanes::all(clock.after(step + 1).time()), force);
-            for (p, &force) in p.iter_mut().zip(force.iter()) {
-                *p += half * force;
-            }
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! The explicit steps of σ = 0 in lanes, where the point ahead is the point before.
 
-use super::{Packed, Packs, look};
+use super::{Packs, look};
+use crate::DegenerateLagrangian;
 use crate::methods::Clock;
 use crate::methods::sigma_family::Sigma;
 use crate::methods::sigma_family::memory::{Carried, Leaps};
@@ -8,9 +9,8 @@ use crate::methods::together::{Companion, all_finite, load, load_if_all_have, of
 use crate::methods::walk::BLOCK;
 use crate::scalar::Lanes;
 use crate::scalar::lanes::read_lane;
-use crate::scalar::simd::{Task, widest};
+use crate::scalar::simd::wide_if;
 use crate::system::Packable;
-use crate::{DegenerateLagrangian, System};
 
 /// Up to `count` steps; returns how many.
 pub(super) fn leaps<const W: usize, S>(
@@ -38,8 +38,17 @@ where
             for (kept, now) in kept.iter_mut().zip([&*q, &*ahead]) {
                 kept.copy_from_slice(now);
             }
-            let clock = clock.after(taken);
-            widest(Steps { system, reciprocals, clock, steps, q, ahead, gradient });
+            wide_if!(true, {
+                for step in taken..taken + steps {
+                    system.hamiltonian_gradient(q, Lanes::all(clock.after(step).time()), gradient);
+                    let points = q.iter_mut().zip(ahead.iter_mut());
+                    for (j, ((q, ahead), &reciprocal)) in points.zip(reciprocals.iter()).enumerate() {
+                        let now = *q;
+                        *q = *ahead + gradient[system.conjugate(j)] * reciprocal;
+                        *ahead = now;
+                    }
+                }
+            });
             if !(all_finite(q) && all_finite(ahead)) {
                 for (now, kept) in [&mut *q, ahead].into_iter().zip(kept.iter()) {
                     now.copy_from_slice(kept);
@@ -71,34 +80,4 @@ where
         run.statistics.steps += taken;
     }
     taken
-}
-
-/// Some steps with σ = 0.
-struct Steps<'a, const W: usize, S: System> {
-    system: &'a S,
-    // Of the type of a vector, so that where a size is known the loops have no ends of their own.
-    reciprocals: &'a Packed<W, S>,
-    clock: Clock<f64>,
-    steps: u64,
-    q: &'a mut Packed<W, S>,
-    ahead: &'a mut Packed<W, S>,
-    gradient: &'a mut Packed<W, S>,
-}
-
-impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Steps<'_, W, S> {
-    type Output = ();
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(self) {
-        let Self { system, reciprocals, clock, steps, q, ahead, gradient } = self;
-        for step in 0..steps {
-            system.hamiltonian_gradient(q, Lanes::all(clock.after(step).time()), gradient);
-            let points = q.iter_mut().zip(ahead.iter_mut());
-            for (j, ((q, ahead), &reciprocal)) in points.zip(reciprocals.iter()).enumerate() {
-                let now = *q;
-                *q = *ahead + gradient[system.conjugate(j)] * reciprocal;
-                *ahead = now;
-            }
-        }
-    }
 }

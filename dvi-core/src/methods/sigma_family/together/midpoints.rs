@@ -6,7 +6,7 @@ use crate::methods::sigma_family::Sigma;
 use crate::methods::together::{Companion, all_finite, load, of_lanes};
 use crate::scalar::lanes::read_lane;
 use crate::scalar::passes::lanes_stay_together;
-use crate::scalar::simd::{Task, widest};
+use crate::scalar::simd::wide_if;
 use crate::scalar::{Comparison, Lanes, smallest_normal};
 use crate::solve::{Convergences, Stopping, Verdict, sizes};
 use crate::state::history::{DEPTH, extrapolate};
@@ -46,13 +46,12 @@ where
         while taken < count {
             let steps = look(runs, q, one, count - taken);
             let [corrected, weights] = &mut *kept;
-            let (done, iterations) = widest(Midpoints {
+            let mut midpoints = Midpoints {
                 system,
                 stopping: method.stopping,
                 budget,
                 reciprocals,
-                clock: clock.after(taken),
-                steps,
+                clock,
                 q,
                 increment,
                 corrected,
@@ -61,6 +60,12 @@ where
                 weights,
                 history,
                 place: &mut place,
+            };
+            let (mut done, mut iterations) = (0, [0; W]);
+            wide_if!(true, {
+                while done < steps && midpoints.step(taken + done, &mut iterations) {
+                    done += 1;
+                }
             });
             taken += done;
             for (run, iterations) in runs.iter_mut().zip(iterations) {
@@ -85,14 +90,13 @@ where
     taken
 }
 
-/// Some steps with σ = ½: s ← −½h K⁻¹∇H(q0 + ½s), q1 = q0 + s.
+/// Steps with σ = ½: s ← −½h K⁻¹∇H(q0 + ½s), q1 = q0 + s.
 struct Midpoints<'a, const W: usize, S: System> {
     system: &'a S,
     stopping: Stopping,
     budget: usize,
     reciprocals: &'a Packed<W, S>,
     clock: Clock<f64>,
-    steps: u64,
     q: &'a mut Packed<W, S>,
     increment: &'a mut Packed<W, S>,
     /// The increment that is to take its place.
@@ -104,23 +108,6 @@ struct Midpoints<'a, const W: usize, S: System> {
     history: &'a mut [Packed<W, S>; DEPTH],
     /// Where the next increment goes in the history.
     place: &'a mut usize,
-}
-
-impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Task for Midpoints<'_, W, S> {
-    /// How many steps all runs have taken, and the iterations of each in these.
-    type Output = (u64, [u64; W]);
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(mut self) -> (u64, [u64; W]) {
-        let mut iterations = [0; W];
-        for step in 0..self.steps {
-            let Some(of_step) = self.step(step) else { return (step, iterations) };
-            for (sum, of_step) in iterations.iter_mut().zip(of_step) {
-                *sum += of_step;
-            }
-        }
-        (self.steps, iterations)
-    }
 }
 
 impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
@@ -135,9 +122,10 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
         }
     }
 
-    /// Takes a step and returns the iterations; nothing has moved if there is none that all runs agree on.
+    /// Takes a step and counts the iterations of each run. Returns whether there is one that all runs agree
+    /// on; nothing has moved else.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn step(&mut self, number: u64) -> Option<[u64; W]> {
+    fn step(&mut self, number: u64, iterations: &mut [u64; W]) -> bool {
         extrapolate(self.history, *self.place, self.increment);
         let mut convergence = Convergences::fixed_point(self.stopping, self.budget);
         let time = self.clock.after(number);
@@ -150,7 +138,7 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
             match convergence.judge(correction) {
                 Verdict::Continue => {}
                 Verdict::Accept => break,
-                Verdict::GiveUp => return None,
+                Verdict::GiveUp => return false,
             }
         }
         for ((next, &q), &s) in self.point.iter_mut().zip(self.q.iter()).zip(self.increment.iter()) {
@@ -158,12 +146,15 @@ impl<const W: usize, S: DegenerateLagrangian<Lanes<W>>> Midpoints<'_, W, S> {
             *next = q + s;
         }
         if !(all_finite(self.increment) && all_finite(self.point)) {
-            return None;
+            return false;
         }
         self.q.copy_from_slice(self.point);
         self.history[*self.place].copy_from_slice(self.increment);
         *self.place = (*self.place + 1) % DEPTH;
-        Some(convergence.iterations())
+        for (sum, of_step) in iterations.iter_mut().zip(convergence.iterations()) {
+            *sum += of_step;
+        }
+        true
     }
 
     /// Applies a correction in the lanes that are `active`, and returns its size.
