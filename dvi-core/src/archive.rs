@@ -23,7 +23,7 @@ use std::vec::Vec;
 
 use crate::ensemble::facts::{self, Facts};
 use crate::methods::Method;
-use crate::run::{Integrator, Run, StepControl};
+use crate::run::{Integrator, Run, StepControl, is_now};
 use crate::state::fingerprint::Fingerprint;
 use crate::{Held, Lagrangian};
 use file::File;
@@ -194,15 +194,15 @@ where
         Ok(run)
     }
 
-    /// The run as it was at time `t`, after the last step up to there: another one, bit for bit. It takes
-    /// the steps from the last checkpoint before twice.
+    /// The run as it was at time `t`, after the last step up to there, or to its rounding: another one, bit
+    /// for bit. It takes the steps from the last checkpoint before twice.
     ///
     /// # Errors
     /// [`ArchiveError::Time`] if it has not come to `t`, or has begun later.
     pub fn run_at(&self, t: f64) -> Result<Integrator<H, M, f64, C>, ArchiveError> {
-        let is_forward = self.run.step_size() > 0.0;
-        let is_reached = |time: f64| if is_forward { time <= t } else { time >= t };
-        let is_past = |time: f64| if is_forward { time >= t } else { time <= t };
+        let h = self.run.step_size();
+        let is_reached = |time: f64| is_now(t, [time, h]) || if h > 0.0 { time <= t } else { time >= t };
+        let is_past = |time: f64| is_now(t, [time, h]) || if h > 0.0 { time >= t } else { time <= t };
         let kept = self.file.kept().iter().take_while(|kept| is_reached(kept.time)).last();
         let Some(kept) = kept.filter(|_| is_past(self.run.time())) else {
             return Err(ArchiveError::Time { t, reached: self.run.time() });

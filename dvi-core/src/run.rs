@@ -32,6 +32,8 @@ use between::Between;
 #[cfg(feature = "alloc")]
 pub use checkpoint::Checkpoint;
 pub use dense::Dense;
+#[cfg(feature = "ensembles")]
+pub(crate) use dense::is_now;
 use events::{Conditions, Declared};
 pub use events::{Direction, Event, Events};
 pub use integrator::Integrator;

@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use dvi_core::ensemble::Ensemble;
 use dvi_core::error::StartError;
 use dvi_core::methods::{Method, Start};
 use dvi_core::prelude::*;
@@ -92,6 +93,20 @@ fn rates(ring: &Ring<5>, s: [Vector; 5]) -> [Vector; 5] {
         let field = plus(neighbours, ring.anisotropy * s[i][2], [0.0, 0.0, 1.0]);
         cross(field, s[i]).map(|rate| rate / ring.length[i])
     })
+}
+
+#[test]
+fn a_member_of_an_ensemble_is_the_run_alone() -> Outcome {
+    let system = InField { kappa: 0.7, b: [0.3, -0.4, 0.8] };
+    let starts: Vec<_> =
+        (0..6).map(f64::from).map(|k| InFieldState { s: spin(0.2 + 0.4 * k, 0.5 * k) }).collect();
+    let results = Ensemble::new(&system, Sigma::midpoint(), 0.02, starts.clone()).take_steps(50)?;
+    for (member, start) in results.members().iter().zip(starts) {
+        let mut run = Integrator::new(&system, Sigma::midpoint(), 0.02, start)?;
+        run.take_steps(50)?;
+        assert_eq!(member.state, run.state().s);
+    }
+    Ok(())
 }
 
 #[test]

@@ -122,10 +122,6 @@ impl<'a, S: Lagrangian> At<'a, S> {
         Ok(Self { system, time: event.time, q, v })
     }
 
-    fn state(&self) -> S::State<f64> {
-        S::State::read(&|block| self.system.block_len(block), &self.q, &self.v)
-    }
-
     fn energy(&self) -> f64 {
         self.system.energy(&self.q, &self.v, self.time)
     }
@@ -172,7 +168,7 @@ impl Seen {
             time: at.time,
             steps,
             iterations,
-            state: flat(at.system, &at.state()),
+            state: at.system.values_of(&at.q, &at.v).map(plain).collect(),
             energy: self.energy.with(at.energy()),
             momenta: self.first_momenta.into_iter().zip(at.momenta()).map(Into::into).collect(),
         }

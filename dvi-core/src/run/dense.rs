@@ -72,7 +72,7 @@ pub(super) fn are_one<T: Real>(a: T, b: T) -> bool {
 }
 
 /// Whether `t` is the present time of a run, which may have passed it by rounding, in steps of length `h`.
-pub(super) fn is_now<T: Real>(t: T, [now, h]: [T; 2]) -> bool {
+pub(crate) fn is_now<T: Real>(t: T, [now, h]: [T; 2]) -> bool {
     Scalar::abs(now - t) <= T::lift(2.0) * T::default_epsilon() * (Scalar::abs(t) + Scalar::abs(h))
 }
 

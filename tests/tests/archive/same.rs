@@ -117,6 +117,10 @@ fn what_the_run_has_not_seen_is_an_error() -> Outcome {
     let mut archive = Archive::new(file("unseen")?, planet()?, Every::Steps(10))?;
     archive.take_steps(25)?;
     assert_eq!(place(&archive.run_at(1.249)?), alone(planet()?, 24)?);
+    // 1.15 is the time of 23 steps of 0.05, to their rounding, which is behind it.
+    for steps in 1..=25 {
+        assert_eq!(place(&archive.run_at(steps as f64 / 20.0)?), alone(planet()?, steps)?, "{steps} steps");
+    }
     for t in [-0.01, 1.26, f64::NAN, f64::INFINITY] {
         assert!(matches!(archive.run_at(t), Err(ArchiveError::Time { .. })), "{t}");
     }

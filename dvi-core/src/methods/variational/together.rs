@@ -72,6 +72,8 @@ where
                 }
                 let [q, p, force] = &mut *now;
                 wide_if!(true, {
+                    // Copies: what is outside would be looked up again after each store.
+                    let (clock, [h, half]) = (clock, [h, half]);
                     for step in taken..taken + steps {
                         for (((q, p), &force), &reciprocal) in
                             q.iter_mut().zip(p.iter_mut()).zip(force.iter()).zip(reciprocals.iter())

@@ -46,7 +46,7 @@ where
         while taken < count {
             let steps = look(runs, q, one, count - taken);
             let [corrected, weights] = &mut *kept;
-            let mut midpoints = Midpoints {
+            let midpoints = Midpoints {
                 system,
                 stopping: method.stopping,
                 budget,
@@ -63,6 +63,7 @@ where
             };
             let (mut done, mut iterations) = (0, [0; W]);
             wide_if!(true, {
+                let mut midpoints = midpoints;
                 while done < steps && midpoints.step(taken + done, &mut iterations) {
                     done += 1;
                 }
