@@ -166,8 +166,9 @@ impl<S: Separable<T> + RegularLagrangian<T>, T: Real> Method<S, T> for Langevin 
         kick(p1, half, &phase.force);
         mass.solve(p1, velocity);
         kick(q1, half, velocity);
-        generator.set_stream(*step);
+        // In this order no numbers are made that are not drawn.
         generator.set_word_pos(0);
+        generator.set_stream(*step);
         self.exchange(p1, root.as_ref(), h, generator, [trial, velocity]);
         mass.solve(p1, velocity);
         kick(q1, half, velocity);
