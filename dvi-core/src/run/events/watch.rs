@@ -284,7 +284,7 @@ impl<R: Run, G: Conditions<R::System, R::Scalar, N>, const N: usize> Watch<R, G,
     /// # Errors
     /// Why they are not.
     pub(super) fn check_known(&self) -> Result<(), StepError> {
-        self.lost.map_or(Ok(()), Err)
+        self.lost.as_ref().map_or(Ok(()), |lost| Err(*lost))
     }
 }
 
