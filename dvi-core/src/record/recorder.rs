@@ -152,11 +152,12 @@ impl<'f, S: Lagrangian> Recorder<'f, S> {
             .chain([system.energy(q, v, time)])
             .chain((0..S::REPORT.momenta.len()).map(momentum))
             .chain(functions);
-        for (column, value) in self.record.columns.iter_mut().zip(row) {
-            if let Values::Numbers(numbers) = &mut column.values {
+        let mut columns = self.record.columns.iter_mut();
+        row.for_each(|value| {
+            if let Some(Column { values: Values::Numbers(numbers), .. }) = columns.next() {
                 numbers.push(value);
             }
-        }
+        });
         Ok(())
     }
 
