@@ -270,7 +270,7 @@ impl<const STAGES: usize, E> Gauss<STAGES, E> {
                     }
                     path.evaluate_part::<E>(part, system, [t, h], statistics)?;
                 }
-                if let Some(change) = path.place(system, h) {
+                if let Some(change) = path.place::<false>(system, h) {
                     return Ok(change);
                 }
                 path.reach(1 % path.y.len());

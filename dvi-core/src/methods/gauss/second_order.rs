@@ -26,21 +26,22 @@ impl<const STAGES: usize, S: System<Kind: FirstOrder<S, T>>, T: Real> Path<STAGE
             let small = Lanes::all(rest[0][k]) + nodes * Lanes::all(by * rest[1][k]);
             *free = small + nodes * Lanes::all(by * y[1][k]);
         }
-        self.place(system, h);
+        self.place::<true>(system, h);
     }
 
-    /// Sets the positions of all stages by the forces, and returns the largest change of one; `None` if the
-    /// equations are not of second order.
+    /// Sets the positions of all stages by the forces, and returns the largest change of one, if they are not
+    /// the `FIRST`; `None` if the equations are not of second order.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn place(&mut self, system: &S, h: T) -> Option<T> {
+    pub(super) fn place<const FIRST: bool>(&mut self, system: &S, h: T) -> Option<T> {
         let Self { equations, coefficients, terms, stages, y, renewed: free, weights, .. } = self;
         let reciprocals = S::Kind::reciprocal_masses(equations)?;
         let ([displacements, momenta], [places, renewed]) = (&mut terms[..], &mut stages[..]) else {
             return None;
         };
         weigh_each(h, reciprocals, momenta, displacements);
-        combine(&coefficients.nystrom.nu, displacements, moved(&y[0], free), renewed);
-        Some(replace(system, weights, places, renewed, |_, _| ()))
+        let set = if FIRST { &mut *places } else { &mut *renewed };
+        combine(&coefficients.nystrom.nu, displacements, moved(&y[0], free), set);
+        Some(if FIRST { T::lift(0.0) } else { replace(system, weights, places, renewed, |_, _| ()) })
     }
 
     /// Sets the increment of the coordinates, if the equations are of second order.
