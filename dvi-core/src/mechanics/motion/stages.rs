@@ -155,11 +155,15 @@ impl<K: FirstOrder<S, T>, const W: usize, S: System, T: Real> FirstOrderAtStages
         S: System<Kind = Self>,
     {
         let StageWork { point, slope, .. } = work;
+        // Forces of equations of second order depend on positions alone.
+        let is_alone = Self::OF_SECOND_ORDER && at.part > 0;
         for stage in 0..W {
-            for (to, from) in point.iter_mut().zip(at.y.iter()) {
+            for (to, from) in point.iter_mut().zip(at.y.iter()).take(if is_alone { 1 } else { usize::MAX }) {
                 read_lane(stage, from, to);
             }
-            read_lane(stage, at.velocity, &mut slope[0]);
+            if !is_alone {
+                read_lane(stage, at.velocity, &mut slope[0]);
+            }
             Self::evaluate_part(equations, at.system, at.part, point, at.t.0[stage], slope, statistics)?;
             write_lane(stage, &slope[at.part], out);
         }
