@@ -13,6 +13,7 @@ use crate::error::StepFailure;
 use crate::memory::lasting;
 use crate::scalar::norm::reported;
 use crate::space::inertia::{Inertia, inertia};
+use crate::space::scratch;
 use crate::{
     DegenerateLagrangian, Matrix, NondegenerateLagrangian, Real, Scalar, Space, System, Vector, Weights,
 };
@@ -233,6 +234,9 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
     fn evaluate(&mut self, system: &S, q: &[T], v: &[T], t: T) -> Result<Inertia<T>, StepFailure> {
         let (zero, Self { entries, l_q, l_v }) = (T::lift(0.0), self);
         let weights = Weights::mass();
+        // The gradients are not needed: on the stack, where nobody reads them, they are not computed.
+        scratch!(gradient = system, *l_q);
+        scratch!(momentum = system, *l_v);
         match entries {
             Entries::Diagonal(diagonal) => {
                 diagonal.fill(zero);
@@ -241,13 +245,12 @@ impl<S: NondegenerateLagrangian<T>, T: Real> Work<S, T> {
                         diagonal[row] += entry;
                     }
                 };
-                system.linearize(q, v, t, weights, l_q, l_v, &mut sink);
+                system.linearize(q, v, t, weights, gradient, momentum, &mut sink);
                 Inertia::of_diagonal(diagonal)
             }
             Entries::All(matrix) => {
                 matrix.fill(zero);
-                system.linearize(q, v, t, weights, l_q, l_v, matrix);
-                // The gradients are not needed.
+                system.linearize(q, v, t, weights, gradient, momentum, matrix);
                 inertia(matrix, l_q)
             }
         }
