@@ -9,11 +9,10 @@ use crate::error::StepFailure;
 /// The largest number of steps between two examinations.
 pub(crate) const BLOCK: u64 = 256;
 
-/// How many points are looked at before a block ends.
-const WATCHED: u64 = 4;
-
 /// A state that moves from step to step, and the place where its last good value is kept.
 pub(crate) trait Walk {
+    /// How many points are looked at before a block ends.
+    const WATCHED: u64 = 0;
     /// Takes the step with this number; numbers begin at zero.
     fn step(&mut self, number: u64);
     /// The number of steps in the block at hand, a power of two up to [`BLOCK`].
@@ -43,9 +42,9 @@ pub(crate) trait Walk {
 /// Takes `count` steps after `before` steps of the run, or as many as succeed, and returns how many; the
 /// last good state has been kept. Blocks begin at the same steps, however many are taken at once.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn walk(mut state: impl Walk, before: u64, count: u64) -> (u64, Result<(), StepFailure>) {
+pub(crate) fn walk<W: Walk>(mut state: W, before: u64, count: u64) -> (u64, Result<(), StepFailure>) {
     let position = before & (state.block() - 1);
-    if count == 1 && position != 0 && position + WATCHED < state.block() {
+    if count == 1 && position != 0 && position + W::WATCHED < state.block() {
         // The usual case of a run that is read at each step.
         state.step(0);
         return match state.examine(1) {
@@ -67,7 +66,7 @@ pub(crate) fn walk(mut state: impl Walk, before: u64, count: u64) -> (u64, Resul
         let block = state.block();
         let position = (before + taken) & (block - 1);
         let steps = at_once.min(count - taken).min(block - position);
-        let unseen = block.saturating_sub(WATCHED).saturating_sub(position).min(steps);
+        let unseen = block.saturating_sub(W::WATCHED).saturating_sub(position).min(steps);
         for number in taken..taken + unseen {
             state.step(number);
         }

@@ -71,6 +71,8 @@ struct Leapfrog<'a, 'b, S: System, T: Real> {
 }
 
 impl<S: DegenerateLagrangian<T>, T: Real> Walk for Leapfrog<'_, '_, S, T> {
+    const WATCHED: u64 = 4;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn step(&mut self, number: u64) {
         let Self { system, inverse, clock, q0, q1, gradient, next, .. } = self;
