@@ -10,7 +10,7 @@ use dvi_core::record::{Column, Recorder};
 /// A comet around a fixed sun.
 #[lagrangian(
     coordinates(x, y),
-    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / x.hypot(y),
+    lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + mu / (x * x + y * y).sqrt(),
     momenta(angular = x * dot(y) - y * dot(x)),
 )]
 struct Kepler {

@@ -8,7 +8,7 @@
 //! /// A planet around a fixed sun.
 //! #[lagrangian(
 //!     coordinates(x, y),
-//!     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / x.hypot(y),
+//!     lagrangian = (dot(x).powi(2) + dot(y).powi(2)) / 2.0 + 1.0 / (x * x + y * y).sqrt(),
 //!     momenta(angular = x * dot(y) - y * dot(x)),
 //! )]
 //! struct Kepler;
