@@ -1,8 +1,10 @@
 //! The names in generated code that users read in messages and documentation: that of the type of numbers,
 //! and those of generics and arguments of functions, which are called nearly as in the traits.
 
-use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt as _;
+
+use crate::syntax::tidy;
 
 /// The type as the stages write it: nobody else's.
 const INTERNAL: &str = "__T";
@@ -73,23 +75,9 @@ fn mentioned(tokens: &TokenStream, taken: &mut Vec<&'static str>) {
 
 /// `tokens` with the names that users read.
 pub(super) fn renamed(tokens: TokenStream, renaming: &Renaming) -> TokenStream {
-    let rename = |token: TokenTree| match token {
-        TokenTree::Ident(ident) => {
-            let text = ident.to_string();
-            let known = renaming.iter().find(|(internal, _)| *internal == text);
-            known.map_or(ident.clone(), |(_, name)| Ident::new(name, in_place(ident.span()))).into()
-        }
-        TokenTree::Group(group) => {
-            let mut inside = Group::new(group.delimiter(), renamed(group.stream(), renaming));
-            inside.set_span(group.span());
-            inside.into()
-        }
-        token => token,
-    };
-    tokens.into_iter().map(rename).collect()
-}
-
-/// The user's own names are not what it is resolved to, nor is it what they are.
-fn in_place(span: Span) -> Span {
-    span.resolved_at(Span::mixed_site())
+    tidy::renamed(tokens, |ident| {
+        let (_, name) = renaming.iter().find(|(internal, _)| ident == internal)?;
+        // The user's own names are not what it is resolved to, nor is it what they are.
+        Some(Ident::new(name, ident.span().resolved_at(Span::mixed_site())))
+    })
 }

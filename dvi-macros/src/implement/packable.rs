@@ -22,6 +22,7 @@ use quote::{ToTokens as _, quote};
 use syn::{Field, GenericParam, Ident, ItemStruct, Path, TypeParam, TypeParamBound};
 
 use super::{allow, over};
+use crate::syntax::tidy;
 
 pub(super) fn packable(krate: &Path, item: &ItemStruct) -> TokenStream {
     match generic(item) {
@@ -83,9 +84,9 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
     let [of_numbers, of_packs] = [&number, &pack].map(arguments);
     let (mut bounds, mut fits, mut values) = (Vec::new(), Vec::new(), Vec::new());
     for Field { ident: field, ty, .. } in &item.fields {
-        let [of_numbers, of_packs] =
+        let [(of_numbers, is_packed), (of_packs, _)] =
             [&number, &pack].map(|of| replaced(ty.to_token_stream(), &generic.ident, of));
-        if of_numbers.to_string() == ty.to_token_stream().to_string() {
+        if !is_packed {
             bounds.push(quote!(#ty: #private::Shared<__W>));
             fits.push(quote!(#private::Shared::<__W>::same(&self.#field, &__other.#field)));
             values.push(quote!(#field: #private::Shared::<__W>::copy(&__systems[0].#field)));
@@ -115,22 +116,19 @@ fn in_lanes(krate: &Path, item: &ItemStruct, generic: &TypeParam) -> TokenStream
     }
 }
 
-/// A type with `by` in place of `generic`, where that is no part of a path and no lifetime.
-fn replaced(ty: TokenStream, generic: &Ident, by: &TokenStream) -> TokenStream {
-    let mut is_next_part = false;
-    ty.into_iter()
-        .flat_map(|token| {
+/// A type with `by` in place of `generic`, where that is no part of a path and no lifetime; whether it is
+/// there.
+fn replaced(ty: TokenStream, generic: &Ident, by: &TokenStream) -> (TokenStream, bool) {
+    tidy::replaced(ty, |tokens| {
+        let (mut is_next_part, mut changes) = (false, false);
+        let change = |token: TokenTree| {
             let is_part = is_next_part;
             is_next_part =
                 matches!(&token, TokenTree::Punct(punct) if [':', '\''].contains(&punct.as_char()));
-            match token {
-                TokenTree::Ident(name) if name == *generic && !is_part => by.clone(),
-                TokenTree::Group(group) => {
-                    let inner = replaced(group.stream(), generic, by);
-                    TokenTree::Group(proc_macro2::Group::new(group.delimiter(), inner)).into()
-                }
-                other => other.into(),
-            }
-        })
-        .collect()
+            let is_generic = matches!(&token, TokenTree::Ident(name) if name == generic) && !is_part;
+            changes |= is_generic;
+            if is_generic { by.clone() } else { token.into() }
+        };
+        (tokens.into_iter().flat_map(change).collect(), changes)
+    })
 }

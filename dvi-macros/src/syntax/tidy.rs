@@ -16,14 +16,22 @@ use super::depth::OPENING;
 
 /// `tokens` in which each name has one spelling.
 pub(crate) fn names(tokens: TokenStream) -> TokenStream {
+    renamed(tokens, plain)
+}
+
+/// `tokens` with other names, for those names that have another one.
+pub(crate) fn renamed(tokens: TokenStream, other: impl Fn(&Ident) -> Option<Ident> + Copy) -> TokenStream {
     replaced(tokens, |tokens| {
-        let is_raw = |token: &TokenTree| matches!(token, TokenTree::Ident(ident) if plain(ident).is_some());
-        let with_one_spelling = |token| match token {
-            TokenTree::Ident(ident) => plain(&ident).unwrap_or(ident).into(),
+        let mut changes = false;
+        let rename = |token| match token {
+            TokenTree::Ident(ident) => {
+                let name = other(&ident);
+                changes |= name.is_some();
+                name.unwrap_or(ident).into()
+            }
             token => token,
         };
-        let changes = tokens.iter().any(is_raw);
-        (tokens.into_iter().map(with_one_spelling).collect(), changes)
+        (tokens.into_iter().map(rename).collect(), changes)
     })
     .0
 }
@@ -57,7 +65,7 @@ pub(super) fn sums(tokens: TokenStream) -> TokenStream {
 
 /// The tokens that `change` makes of these and of those in groups, from the innermost on, and whether it
 /// changes any: groups in which it does not keep the places of their brackets.
-fn replaced(
+pub(crate) fn replaced(
     tokens: TokenStream,
     change: impl Fn(Vec<TokenTree>) -> (Vec<TokenTree>, bool) + Copy,
 ) -> (TokenStream, bool) {
