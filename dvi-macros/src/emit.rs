@@ -242,7 +242,7 @@ impl Function<'_> {
         let target = match place {
             Place::Result => return self.signed(value),
             Place::Entry(output, coordinate) => {
-                let array = output_array(*output, coordinate.block);
+                let array = output.slice(coordinate.block);
                 let index = self.entry(&coordinate.index);
                 quote!(#array[#index])
             }
@@ -253,12 +253,11 @@ impl Function<'_> {
             }
             Place::Constraint(row) => {
                 let (members, member) =
-                    (local(constraint_members(row.constraint)), self.emitter.member(&row.member));
+                    (constraint_members(row.constraint), self.emitter.member(&row.member));
                 quote!(#members[#member])
             }
             Place::ConstraintDerivative(row, column) => {
-                let (first, member) =
-                    (local(first_constraint(row.constraint)), self.emitter.member(&row.member));
+                let (first, member) = (first_constraint(row.constraint), self.emitter.member(&row.member));
                 let (krate, column, value) = (self.emitter.krate(), self.flat(column), self.signed(value));
                 return quote!(#krate::Sink::add(__sink, #first + #member, #column, #value););
             }
@@ -308,24 +307,31 @@ pub(crate) fn scalar_field(field: usize) -> Ident {
 }
 
 /// The slice of g or a with the members of a declared constraint.
-pub(crate) fn constraint_members(constraint: u32) -> String {
-    format!("g{constraint}")
+pub(crate) fn constraint_members(constraint: u32) -> Ident {
+    slice("g", constraint)
 }
 
 /// The number of the first member of a declared constraint.
-pub(crate) fn first_constraint(constraint: u32) -> String {
-    format!("row{constraint}")
+pub(crate) fn first_constraint(constraint: u32) -> Ident {
+    local(format_args!("row{constraint}"))
 }
 
-/// The slice of a block of an output.
-fn output_array(output: Output, block: u32) -> Ident {
-    format_ident!("{}", output_block(output, block), span = Span::mixed_site())
+/// The slice of a block of an array, or of g.
+pub(crate) fn slice(array: &str, block: u32) -> Ident {
+    local(format_args!("{array}{block}"))
 }
 
-pub(crate) fn output_block(output: Output, block: u32) -> String {
-    match output {
-        Output::Lq => format!("__l_q{block}"),
-        Output::Lv => format!("__l_v{block}"),
-        Output::Vector => format!("__vector{block}"),
+impl Output {
+    pub(crate) fn array(self) -> &'static str {
+        match self {
+            Self::Lq => "l_q",
+            Self::Lv => "l_v",
+            Self::Vector => "vector",
+        }
+    }
+
+    /// The slice of one of its blocks.
+    fn slice(self, block: u32) -> Ident {
+        slice(self.array(), block)
     }
 }

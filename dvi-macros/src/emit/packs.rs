@@ -38,7 +38,7 @@ use quote::{ToTokens as _, quote};
 use syn::Ident;
 
 use super::indices::open;
-use super::{Element, Function, local, name, output_array};
+use super::{Element, Function, local, name};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::internal::internal;
 use crate::schedule::{Accumulated, Step};
@@ -52,7 +52,7 @@ const APART: u64 = 8;
 
 /// What a statement adds to the entries of an array, in packs.
 struct Addition<'a> {
-    array: (Output, u32),
+    array: Ident,
     index: Index,
     value: &'a Signed,
     /// So many places before are the first entries of the array that a term adds to; those of this statement
@@ -227,14 +227,14 @@ impl Function<'_> {
                 internal("packs add to entries alone")
             };
             let waiting = local(format_args!("waiting{statement}"));
-            let (array, index) = ((output, entry.block), entry.index.unturned());
+            let (array, index) = (output.slice(entry.block), entry.index.unturned());
             additions.push(Addition { array, index, value, behind: 0, waiting });
         }
         additions.sort_by_key(|addition| Reverse(addition.index.constant));
-        let mut first: Vec<((Output, u32), i64)> = Vec::new();
+        let mut first: Vec<(Ident, i64)> = Vec::new();
         for Addition { array, index, behind, .. } in additions.iter_mut().rev() {
             let Some((_, constant)) = first.iter().find(|(known, _)| known == array) else {
-                first.push((*array, index.constant));
+                first.push((array.clone(), index.constant));
                 continue;
             };
             let apart = index.constant.abs_diff(*constant);
@@ -257,15 +257,14 @@ impl Function<'_> {
 
     /// Adds the terms of a pack.
     fn add(&self, Addition { array, index, value, behind, waiting }: &Addition<'_>) -> TokenStream {
-        let (array, index) = (output_array(array.0, array.1), self.entry(index));
-        let (krate, terms) = (self.emitter.krate(), self.signed(**value));
+        let (krate, index, terms) = (self.emitter.krate(), self.entry(index), self.signed(**value));
         let terms = if *behind == 0 { terms } else { quote!(#waiting.exchange(#terms)) };
         quote!(#krate::__private::add_to(#array, #index, #terms);)
     }
 
     /// Adds what waits after the last pack.
     fn arrive(&self, Addition { array, index, behind, waiting, .. }: &Addition<'_>) -> TokenStream {
-        let (array, index) = (output_array(array.0, array.1), self.entry(index));
+        let index = self.entry(index);
         if *behind == 0 { TokenStream::new() } else { quote!(#waiting.add_to(#array, #index);) }
     }
 

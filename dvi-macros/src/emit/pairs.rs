@@ -30,10 +30,9 @@ use syn::Ident;
 use super::indices::open;
 use super::inlining::ForceInline;
 use super::values::parameter_slice;
-use super::{Element, Function, added, local, output_array};
+use super::{Element, Function, added, local};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::schedule::{Accumulated, Step};
-use crate::statement::Output;
 use crate::symbolic::{Atom, Index, Loop, Node};
 
 /// How a value depends on the sums over the other bodies.
@@ -50,8 +49,7 @@ enum Dependence {
 
 /// Something that is added to an entry of a body itself.
 struct Own {
-    output: Output,
-    block: u32,
+    array: Ident,
     value: Signed,
     dependence: Dependence,
 }
@@ -65,14 +63,14 @@ struct Nest<'a> {
     /// Registers of a body itself, in order.
     known: Vec<(Register, Dependence)>,
     own: Vec<Own>,
-    /// The entries that are added to, without repetition.
-    outputs: Vec<(Output, u32)>,
+    /// The slices whose entries are added to, without repetition.
+    arrays: Vec<Ident>,
 }
 
 impl Nest<'_> {
-    fn add_output(&mut self, entries: (Output, u32)) {
-        if !self.outputs.contains(&entries) {
-            self.outputs.push(entries);
+    fn add_array(&mut self, array: Ident) {
+        if !self.arrays.contains(&array) {
+            self.arrays.push(array);
         }
     }
 
@@ -111,9 +109,7 @@ impl Function<'_> {
                 (parameter_slice(field), &self.emitter.model.parameters[field as usize].tokens);
             quote!(let #slice = &#place[..];)
         });
-        let arrays: Vec<Ident> =
-            nest.outputs.iter().map(|(output, block)| output_array(*output, *block)).collect();
-        let (count, part) = (arrays.len(), self.part(&nest));
+        let (arrays, count, part) = (&nest.arrays, nest.arrays.len(), self.part(&nest));
         let (body, [lower, upper, first]) = (open(over.depth), ["lower", "upper", "first"].map(local));
         let parts = quote! {
             #alone
@@ -146,11 +142,11 @@ impl Function<'_> {
             return None;
         }
         let known = folds.iter().map(|fold| (fold.result, Dependence::Linear)).collect();
-        let mut nest = Nest { body, inner, folds, terms, known, own: Vec::new(), outputs: Vec::new() };
+        let mut nest = Nest { body, inner, folds, terms, known, own: Vec::new(), arrays: Vec::new() };
         for step in terms {
             match step {
                 Step::Let(register) => self.is_of_slices(*register).then_some(())?,
-                Step::Write(statement, _) => nest.add_output(self.entry_of(*statement, inner.depth)?),
+                Step::Write(statement, _) => nest.add_array(self.array_of(*statement, inner.depth)?),
                 Step::Loop { .. } => return None,
             }
         }
@@ -161,23 +157,23 @@ impl Function<'_> {
                     nest.known.push((*register, dependence));
                 }
                 Step::Write(statement, value) => {
-                    let (output, block) = self.entry_of(*statement, over.depth)?;
+                    let array = self.array_of(*statement, over.depth)?;
                     let dependence = nest.dependence(value.register);
                     if dependence != Dependence::Free {
-                        nest.add_output((output, block));
+                        nest.add_array(array.clone());
                     }
-                    nest.own.push(Own { output, block, value: *value, dependence });
+                    nest.own.push(Own { array, value: *value, dependence });
                 }
                 Step::Loop { .. } => {}
             }
         }
-        (!nest.outputs.is_empty()).then_some(nest)
+        (!nest.arrays.is_empty()).then_some(nest)
     }
 
-    /// The block that a statement adds to, at the index of the loop at `depth` itself.
-    fn entry_of(&self, statement: usize, depth: u32) -> Option<(Output, u32)> {
+    /// The slice that a statement adds to, at the index of the loop at `depth` itself.
+    fn array_of(&self, statement: usize, depth: u32) -> Option<Ident> {
         let (output, entry) = self.routine.statements[statement].place.entry()?;
-        (entry.index == Index::open(depth)).then_some((output, entry.block))
+        (entry.index == Index::open(depth)).then(|| output.slice(entry.block))
     }
 
     /// Whether a register, if it is a leaf, is read from a slice at a place that the loops know.
@@ -255,7 +251,7 @@ impl Function<'_> {
                     Dependence::Both { free, .. } => self.sum(free),
                     Dependence::Linear => return TokenStream::new(),
                 };
-                let (array, index) = (output_array(own.output, own.block), open(over.depth));
+                let (array, index) = (&own.array, open(over.depth));
                 added(&quote!(#array[#index]), own.value.negative, &value)
             })
             .collect();
@@ -288,14 +284,14 @@ impl Function<'_> {
                 Step::Write(..) => TokenStream::new(),
             })
             .collect();
-        let added = nest.outputs.iter().map(|entries| function.added(nest, *entries));
+        let added = nest.arrays.iter().map(|array| function.added(nest, array));
         quote!(#steps [#(#added),*])
     }
 
     /// What is to be added to one of a body's own entries.
-    fn added(&self, nest: &Nest<'_>, entries: (Output, u32)) -> TokenStream {
+    fn added(&self, nest: &Nest<'_>, array: &Ident) -> TokenStream {
         let krate = self.emitter.krate();
-        let own = nest.own.iter().filter(|own| (own.output, own.block) == entries);
+        let own = nest.own.iter().filter(|own| own.array == *array);
         let added = own.filter_map(|own| {
             let value = match &own.dependence {
                 Dependence::Linear => self.register(own.value.register),

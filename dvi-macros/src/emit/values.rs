@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens as _, format_ident, quote, quote_spanned};
 use syn::Ident;
 
-use super::{Element, Emitter, Function, local, name, own_function, scalar_field};
+use super::{Element, Emitter, Function, local, name, own_function, scalar_field, slice};
 use crate::instructions::{Instruction, Register, Signed};
 use crate::internal::internal;
 use crate::model::ScalarField;
@@ -132,7 +132,7 @@ impl Function<'_> {
     }
 
     fn gather(&self, array: &str, coordinate: &Coordinate) -> TokenStream {
-        let array = local(format_args!("{array}{}", coordinate.block));
+        let array = slice(array, coordinate.block);
         let index = self.index(&coordinate.index);
         match self.element {
             Element::Number => quote!(#array[#index]),

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use super::state::space_of;
 use super::{in_numbers, of_type, suited};
 use crate::emit::inlining::ForceInline;
-use crate::emit::{Emitter, constraint_members, first_constraint, local};
+use crate::emit::{Emitter, constraint_members, first_constraint};
 use crate::program::Constraints;
 use crate::routine::Routine;
 use crate::symbolic::Count;
@@ -16,10 +16,11 @@ impl Emitter<'_> {
     /// Sets g, or a in its place, to zero and cuts it into one slice for each declared constraint.
     fn constraint_output(&self, constraints: &Constraints) -> TokenStream {
         let krate = self.krate();
-        let parts =
-            constraints.lengths.iter().enumerate().map(|(constraint, length)| {
-                (local(constraint_members(constraint as u32)), self.length(length))
-            });
+        let parts = constraints
+            .lengths
+            .iter()
+            .enumerate()
+            .map(|(constraint, length)| (constraint_members(constraint as u32), self.length(length)));
         let split = super::slices::split(&format_ident!("__g"), parts, "split_at_mut");
         quote!(__g.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
     }
@@ -33,27 +34,11 @@ impl Emitter<'_> {
         let mut first = quote!(0usize);
         let mut tokens = TokenStream::new();
         for (constraint, length) in constraints.lengths.iter().enumerate() {
-            let (name, length) = (local(first_constraint(constraint as u32)), self.length(length));
+            let (name, length) = (first_constraint(constraint as u32), self.length(length));
             tokens.extend(quote!(let #name: ::core::primitive::usize = #first;));
             first = quote!(#name + #length);
         }
         tokens
-    }
-
-    /// The body of a function that sets one number for each constraint.
-    fn for_constraints(&self, constraints: &Constraints, routine: &Routine) -> TokenStream {
-        let (read, output) = (self.read(routine), self.constraint_output(constraints));
-        let body = self.body(routine);
-        quote!(#read #output #body)
-    }
-
-    /// The body of the function that sets one number for each constraint and adds its derivatives to a sink.
-    fn constraint_jacobian(&self, constraints: &Constraints) -> TokenStream {
-        let routine = &constraints.jacobian;
-        let (read, output) = (self.read(routine), self.constraint_output(constraints));
-        let (rows, offsets) = (self.first_constraints(constraints), self.offsets());
-        let body = self.body(routine);
-        quote!(#read #output #rows #offsets #body)
     }
 }
 
@@ -95,9 +80,11 @@ fn lagrangian(emitter: &Emitter<'_>, constraints: &Constraints) -> TokenStream {
     let suited = (constraints.of == Constrained::Gaps).then(suited);
     let velocity = of_velocities.then(|| quote!(__v: &[__T],));
     let weights = of_velocities.then(|| quote!(__weights: [__T; 2],));
-    let for_constraints = |routine: &Routine| emitter.for_constraints(constraints, routine);
+    let output = emitter.constraint_output(constraints);
+    let for_constraints = |routine: &Routine| emitter.function(routine, &output);
     let [value, rate] = [&constraints.value, &constraints.rate].map(for_constraints);
-    let jacobian = emitter.constraint_jacobian(constraints);
+    let (rows, offsets) = (emitter.first_constraints(constraints), emitter.offsets());
+    let jacobian = emitter.function(&constraints.jacobian, &quote!(#output #rows #offsets));
     let curvature = constraints.curvature.as_ref().map(for_constraints).map(|curvature| {
         quote! {
             #[inline]

@@ -123,8 +123,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
     let hamiltonian_gradient = emitter.vector(&programs.hamiltonian_gradient);
     let one_form = emitter.vector(&programs.one_form);
     let flow_source = emitter.vector(&programs.flow_source);
-    let (read, offsets) = (emitter.read(&programs.one_form_jacobian), emitter.offsets());
-    let jacobian = emitter.body(&programs.one_form_jacobian);
+    let jacobian = emitter.function(&programs.one_form_jacobian, &emitter.offsets());
     let conjugate_entries = emitter.vector(&programs.conjugate_entries);
     let [conjugate, conjugates_end] = conjugates(emitter, structure);
     let nothing = super::nothing(krate);
@@ -153,7 +152,7 @@ fn implementation(emitter: &Emitter<'_>, programs: &DegeneratePrograms, structur
             fn one_form_jacobian<__K: #krate::Sink<__T>>(
                 &self, __q: &[__T], __t: __T, __a: __T, __b: __T, __sink: &mut __K,
             ) {
-                #read #offsets #jacobian
+                #jacobian
             }
             #ForceInline
             fn conjugate_entries(

@@ -13,18 +13,16 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::Ident;
 
-use crate::emit::{Emitter, local, output_block};
+use crate::emit::{Emitter, local, slice};
 use crate::routine::Routine;
 use crate::statement::Output;
 use crate::symbolic::Node;
 
 impl Emitter<'_> {
     /// One slice for each block of coordinates.
-    fn split(&self, array: &str, block_name: impl Fn(u32) -> String, method: &str) -> TokenStream {
-        let parts = (0..self.model.blocks.len()).map(|block| {
-            let name = block_name(block as u32);
-            (local(name.trim_start_matches('_')), self.index(&self.model.block_size(block)))
-        });
+    fn split(&self, array: &str, method: &str) -> TokenStream {
+        let parts = (0..self.model.blocks.len())
+            .map(|block| (slice(array, block as u32), self.index(&self.model.block_size(block))));
         split(&format_ident!("__{array}"), parts, method)
     }
 
@@ -33,7 +31,7 @@ impl Emitter<'_> {
         let nodes = self.graph.reachable(routine.statements.iter().map(|statement| statement.value.node));
         let cut = |array: &str, is_read: fn(&Node) -> bool| {
             let is_read = nodes.iter().any(|id| is_read(self.graph.node(*id)));
-            is_read.then(|| self.split(array, |block| format!("{array}{block}"), "split_at"))
+            is_read.then(|| self.split(array, "split_at"))
         };
         let q = cut("q", Node::is_position);
         let v = cut("v", Node::is_velocity);
@@ -41,10 +39,9 @@ impl Emitter<'_> {
     }
 
     /// Clears an output and cuts it.
-    pub(super) fn output(&self, array: &str, output: Output) -> TokenStream {
-        let krate = self.krate();
-        let split = self.split(array, |block| output_block(output, block), "split_at_mut");
-        let array = format_ident!("__{array}");
+    fn output(&self, output: Output) -> TokenStream {
+        let (krate, split) = (self.krate(), self.split(output.array(), "split_at_mut"));
+        let array = format_ident!("__{}", output.array());
         quote!(#array.fill(<__T as #krate::Scalar>::lift(-0.0)); #split)
     }
 
@@ -58,31 +55,32 @@ impl Emitter<'_> {
         (0..self.model.blocks.len()).map(offset).collect()
     }
 
+    /// The body of a function, which has its outputs and what else it needs `before` it.
+    pub(super) fn function(&self, routine: &Routine, before: &TokenStream) -> TokenStream {
+        let (read, body) = (self.read(routine), self.body(routine));
+        quote!(#read #before #body)
+    }
+
     /// The body of a function that returns a value.
     pub(super) fn value(&self, routine: &Routine) -> TokenStream {
-        let (read, body) = (self.read(routine), self.body(routine));
-        quote!(#read #body)
+        self.function(routine, &TokenStream::new())
     }
 
     /// The body of a function that sets ∂/∂q and ∂/∂v.
     pub(super) fn gradient(&self, routine: &Routine) -> TokenStream {
-        let (read, body) = (self.read(routine), self.body(routine));
-        let (l_q, l_v) = (self.output("l_q", Output::Lq), self.output("l_v", Output::Lv));
-        quote!(#read #l_q #l_v #body)
+        let before = [self.output(Output::Lq), self.output(Output::Lv)];
+        self.function(routine, &before.into_iter().collect())
     }
 
     /// The body of a function that sets these and adds second derivatives to a sink.
     pub(super) fn linearized(&self, routine: &Routine) -> TokenStream {
-        let (read, offsets, body) = (self.read(routine), self.offsets(), self.body(routine));
-        let (l_q, l_v) = (self.output("l_q", Output::Lq), self.output("l_v", Output::Lv));
-        quote!(#read #l_q #l_v #offsets #body)
+        let before = [self.output(Output::Lq), self.output(Output::Lv), self.offsets()];
+        self.function(routine, &before.into_iter().collect())
     }
 
     /// The body of a function that sets one vector.
     pub(super) fn vector(&self, routine: &Routine) -> TokenStream {
-        let (read, output) = (self.read(routine), self.output("vector", Output::Vector));
-        let body = self.body(routine);
-        quote!(#read #output #body)
+        self.function(routine, &self.output(Output::Vector))
     }
 }
 
