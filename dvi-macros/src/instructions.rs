@@ -114,22 +114,23 @@ impl Instructions {
         register
     }
 
-    /// The registers that the roots depend on, in order.
-    pub(crate) fn reachable(&self, roots: impl IntoIterator<Item = Register>) -> Vec<Register> {
+    /// The registers that the roots depend on, in order, down to those that are known `outside`.
+    pub(crate) fn reachable(
+        &self,
+        roots: impl IntoIterator<Item = Register>,
+        outside: &[bool],
+    ) -> Vec<Register> {
         let mut seen = vec![false; self.list.len()];
         roots.into_iter().for_each(|root| seen[root.0 as usize] = true);
         for position in (0..seen.len()).rev() {
             step();
+            seen[position] &= !outside.get(position).is_some_and(|known| *known);
             if seen[position] {
-                self.list[position]
-                    .operands()
-                    .into_iter()
-                    .for_each(|operand| seen[operand.0 as usize] = true);
+                let operands = self.list[position].operands();
+                operands.into_iter().for_each(|operand| seen[operand.0 as usize] = true);
             }
         }
-        (0..seen.len())
-            .filter(|position| seen[*position])
-            .map(|position| Register(position as u32))
-            .collect()
+        let found = (0..seen.len()).filter(|position| seen[*position]);
+        found.map(|position| Register(position as u32)).collect()
     }
 }

@@ -8,7 +8,6 @@ use crate::instructions::{Instruction, Instructions, Register, Signed};
 use crate::internal::internal;
 use crate::statement::Statement;
 use crate::symbolic::{Fold, Loop};
-use crate::work::step;
 
 #[derive(Debug)]
 pub(crate) enum Step {
@@ -74,11 +73,9 @@ pub(crate) fn schedule(code: &Instructions, statements: &[Statement], values: &[
 impl<'a> Scheduler<'a> {
     /// The steps inside of `depth` loops.
     fn scope(&self, depth: u32, outside: &[bool], duties: &[Duty<'a>]) -> Vec<Step> {
-        let needed: Vec<Register> = self
-            .unknown(outside, duties)
-            .into_iter()
-            .filter(|register| self.code.is_known(*register, depth))
-            .collect();
+        // The body of a sum that is known is of no use here, even if it stands in a loop with the same index.
+        let mut needed = self.code.reachable(duties.iter().map(Duty::register), outside);
+        needed.retain(|register| self.code.is_known(*register, depth));
         let stages = self.stages(&needed);
         let mut defined = outside.to_vec();
         needed.iter().for_each(|register| defined[register.0 as usize] = true);
@@ -113,23 +110,6 @@ impl<'a> Scheduler<'a> {
         steps
     }
 
-    /// The registers below the duties, down to those that are known outside: the body of a sum that is
-    /// known is of no use here, even if it stands in a loop with the same index.
-    fn unknown(&self, outside: &[bool], duties: &[Duty<'a>]) -> Vec<Register> {
-        let mut wanted = vec![false; self.code.len()];
-        duties.iter().for_each(|duty| wanted[duty.register().0 as usize] = true);
-        for position in (0..wanted.len()).rev() {
-            step();
-            wanted[position] &= !outside[position];
-            if wanted[position] {
-                let operands = self.code.get(Register(position as u32)).operands();
-                operands.into_iter().for_each(|operand| wanted[operand.0 as usize] = true);
-            }
-        }
-        let registers = (0..wanted.len()).filter(|position| wanted[*position]);
-        registers.map(|position| Register(position as u32)).collect()
-    }
-
     /// How many loops of this scope must have run before a register of it is known.
     fn stages(&self, needed: &[Register]) -> Vec<usize> {
         let mut stages = vec![0; self.code.len()];
@@ -146,7 +126,7 @@ impl<'a> Scheduler<'a> {
 
     /// The stage after which everything below `register` that this scope computes is known.
     fn entry(&self, register: Register, stages: &[usize]) -> usize {
-        self.code.reachable([register]).iter().map(|below| stages[below.0 as usize]).max().unwrap_or(0)
+        self.code.reachable([register], &[]).iter().map(|below| stages[below.0 as usize]).max().unwrap_or(0)
     }
 
     fn groups(&self, needed: &[Register], stages: &[usize], duties: &[Duty<'a>]) -> Vec<Group<'a>> {

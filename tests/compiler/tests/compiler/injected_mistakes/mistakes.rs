@@ -44,7 +44,8 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     // A loop runs before the sum that its terms use.
     mistake(
         "schedule.rs",
-        "self.code.reachable([register]).iter().map(|below| stages[below.0 as usize]).max().unwrap_or(0)",
+        "self.code.reachable([register], &[]).iter().map(|below| stages[below.0 as usize]).max()\
+         .unwrap_or(0)",
         "stages[register.0 as usize].min(0)",
     ),
     // Sums over different ranges share a loop.
