@@ -258,10 +258,7 @@ impl<'a> Lowering<'a> {
             Syntax::If(choice) => self.choice(choice),
             // What stood here was reported.
             Syntax::Verbatim(nothing) if nothing.is_empty() => None,
-            other => {
-                self.unsupported(other);
-                None
-            }
+            other => self.unsupported(other),
         }
     }
 
@@ -269,12 +266,8 @@ impl<'a> Lowering<'a> {
         let (digits, suffix) = match literal {
             Lit::Float(value) => (value.base10_digits(), value.suffix()),
             Lit::Int(value) => (value.base10_digits(), value.suffix()),
-            Lit::Str(_) => {
-                return self.refuse(literal, "a formula is written as it is, without quotes");
-            }
-            _ => {
-                return self.refuse(literal, "expected a number");
-            }
+            Lit::Str(_) => return self.refuse(literal, "a formula is written as it is, without quotes"),
+            _ => return self.refuse(literal, "expected a number"),
         };
         if !matches!(suffix, "" | "f64") {
             let message = if is_number_type(suffix) {
@@ -288,19 +281,17 @@ impl<'a> Lowering<'a> {
             };
             return self.refuse(literal, message);
         }
-        let value = digits.parse::<f64>().ok();
-        if value.is_none() {
-            self.errors.push(literal, "expected a number");
+        match digits.parse() {
+            Ok(value) => Some(Expr::number(value)),
+            Err(_) => self.refuse(literal, "expected a number"),
         }
-        value.map(Expr::number)
     }
 
     fn binary(&mut self, syntax: &syn::ExprBinary) -> Option<Value> {
         let is_dereferenced =
             matches!(&*syntax.right, Syntax::Unary(power) if matches!(power.op, UnOp::Deref(_)));
         if matches!(syntax.op, BinOp::BitXor(_)) || (matches!(syntax.op, BinOp::Mul(_)) && is_dereferenced) {
-            self.not_a_power(syntax);
-            return None;
+            return self.not_a_power(syntax);
         }
         let (left, right) = (self.value(&syntax.left), self.value(&syntax.right));
         match syntax.op {
@@ -315,10 +306,7 @@ impl<'a> Lowering<'a> {
             }
             BinOp::Mul(_) => self.product(syntax, left?, right?),
             BinOp::Div(_) => self.quotient(syntax, left?, right?),
-            _ => {
-                self.unsupported(&Syntax::Binary(syntax.clone()));
-                None
-            }
+            _ => self.unsupported(&Syntax::Binary(syntax.clone())),
         }
     }
 
@@ -341,9 +329,9 @@ impl<'a> Lowering<'a> {
     }
 
     /// Reports an unknown name once; where declarations were lost, it may be one of them.
-    fn unknown_name(&mut self, at: impl quote::ToTokens, name: &str, what: &str) {
+    fn unknown_name<T>(&mut self, at: impl quote::ToTokens, name: &str, what: &str) -> Option<T> {
         if self.model.lost_coordinates || self.model.lost_names {
-            return;
+            return None;
         }
         let blocks = &self.model.blocks[..self.model.declared_blocks()];
         let mut declared: Vec<String> = blocks.iter().map(|block| block.name.to_string()).collect();
@@ -364,7 +352,7 @@ impl<'a> Lowering<'a> {
                 listed(declared.iter().take(coordinates).map(String::as_str))
             ),
         };
-        self.errors.push_once(&format!("name {name}"), at, format!("{what} `{name}`; {hint}"));
+        self.errors.refuse_once(&format!("name {name}"), at, format!("{what} `{name}`; {hint}"))
     }
 
     fn shape_of(&self, field: u32) -> &Shape {

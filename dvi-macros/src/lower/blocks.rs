@@ -71,21 +71,12 @@ impl Lowering<'_> {
             return self.refuse(choice, "an `if` of a formula needs its `else` branch");
         };
         let value = self.value(otherwise);
-        let branches = match (then, value) {
-            (Some(then), Some(value)) => {
-                let block = Syntax::Block(syn::ExprBlock {
-                    attrs: Vec::new(),
-                    label: None,
-                    block: choice.then_branch.clone(),
-                });
-                self.alike((&block, then), (otherwise, value), "a choice")
-            }
-            _ => None,
-        };
-        let [then, otherwise] = match branches {
-            Some(branches) => branches.map(Some),
-            None => [None, None],
-        };
+        let branches = then.zip(value).and_then(|(then, value)| {
+            let block = choice.then_branch.clone();
+            let block = Syntax::Block(syn::ExprBlock { attrs: Vec::new(), label: None, block });
+            self.alike((&block, then), (otherwise, value), "a choice")
+        });
+        let [then, otherwise] = branches.map_or([None, None], |branches| branches.map(Some));
         self.condition(&choice.cond, then, otherwise)
     }
 

@@ -57,18 +57,18 @@ impl Lowering<'_> {
                 return self.refuse(call, message);
             }
             let arguments: Vec<&Syntax> = call.args.iter().collect();
-            match self.quietly(&call.receiver) {
+            let refused = match self.quietly(&call.receiver) {
                 Some(vector @ Value::Vector(_)) => self.no_method(call, &vector),
                 Some(Value::Number(_)) | None => {
-                    self.unknown_function(&call.method, &name, Some(&call.receiver), &arguments);
+                    self.unknown_function(&call.method, &name, Some(&call.receiver), &arguments)
                 }
-            }
+            };
             for argument in &call.args {
                 if !self.is_long_array(argument) {
                     self.value(argument);
                 }
             }
-            return None;
+            return refused;
         };
         if call.args.len() == method.arity() + 1
             && ident(&call.receiver).is_some_and(|module| !self.is_declared(&module.to_string()))
@@ -83,10 +83,7 @@ impl Lowering<'_> {
         }
         let receiver = match self.value(&call.receiver) {
             Some(Value::Number(receiver)) => Some(receiver),
-            Some(vector) => {
-                self.no_method(call, &vector);
-                return None;
-            }
+            Some(vector) => return self.no_method(call, &vector),
             None => None,
         };
         if let Method::Arithmetic("powi", _) = method {
@@ -218,18 +215,14 @@ impl Lowering<'_> {
                 && let Some(Value::Vector(_)) = self.quietly(receiver)
             {
                 let listed = arguments.iter().map(text).collect::<Vec<_>>().join(", ");
-                let message = format!(
-                    "functions are written as methods: `{}.{name}({listed})`",
-                    as_receiver(receiver)
-                );
-                self.errors.push(&call.func, message);
-            } else if is_method(name) {
-                let written = Self::as_method(name, receiver, &arguments);
-                self.errors.push(&call.func, format!("functions are written as methods: `{written}`"));
-            } else {
-                self.unknown_function(&call.func, name, receiver, &arguments);
+                let written = format!("{}.{name}({listed})", as_receiver(receiver));
+                return self.refuse(&call.func, format!("functions are written as methods: `{written}`"));
             }
-            return None;
+            if is_method(name) {
+                let written = Self::as_method(name, receiver, &arguments);
+                return self.refuse(&call.func, format!("functions are written as methods: `{written}`"));
+            }
+            return self.unknown_function(&call.func, name, receiver, &arguments);
         };
         if call.args.len() != 1 {
             return self
@@ -275,23 +268,21 @@ impl Lowering<'_> {
         {
             let listed = list.iter().map(text).collect::<Vec<_>>().join(", ");
             let message = format!("arguments are written one by one: `{name}({listed})`");
-            self.errors.push(&call.args[0], message);
-            return Some(None);
+            return Some(self.refuse(&call.args[0], message));
         }
         let arity = call.args.len();
         let field = self.model.scalar_field(ident, arity)?;
         let at = all(call.args.iter().map(|argument| self.expr(argument)));
         let field = match field {
             Ok(_) if arity == 0 => {
-                self.errors.push(call, format!("`{name}` takes one argument or more; here are none"));
-                return Some(None);
+                let message = format!("`{name}` takes one argument or more; here are none");
+                return Some(self.refuse(call, message));
             }
             Ok(field) => field,
             Err(before) => {
                 let message =
                     format!("`{name}` is called with {} elsewhere; {}", arguments(before), here(arity));
-                self.errors.push(call, message);
-                return Some(None);
+                return Some(self.refuse(call, message));
             }
         };
         Some(at.and_then(|at| {
@@ -300,44 +291,40 @@ impl Lowering<'_> {
         }))
     }
 
-    fn unknown_function(
+    fn unknown_function<T>(
         &mut self,
         at: &impl quote::ToTokens,
         name: &str,
         receiver: Option<&Syntax>,
         arguments: &[&Syntax],
-    ) {
+    ) -> Option<T> {
         if self.model.lost_functions || self.model.lost_names {
-            return;
+            return None;
         }
         let kind = format!("function {name}");
         if self.calls.are_of(name) {
-            self.errors.push(at, format!("`{name}` calls itself: a formula has no recursion"));
-            return;
+            return self.refuse(at, format!("`{name}` calls itself: a formula has no recursion"));
         }
         let all = receiver.into_iter().chain(arguments.iter().copied());
         let listed = all.map(text).collect::<Vec<_>>().join(", ");
         if let Some(message) = self.number_called(name, &listed) {
-            self.errors.push_once(&kind, at, message);
-            return;
+            return self.errors.refuse_once(&kind, at, message);
         }
         if self.stands_behind(at, name) {
-            return;
+            return None;
         }
         if self.model.parameters.iter().any(|parameter| parameter.text == name) {
             let message = format!("what the struct holds is called by its name: write `{name}({listed})`");
-            self.errors.push_once(&kind, at, message);
-            return;
+            return self.errors.refuse_once(&kind, at, message);
         }
         if let Some(message) = self.call_called(name, receiver, arguments) {
-            self.errors.push_once(&kind, at, message);
-            return;
+            return self.errors.refuse_once(&kind, at, message);
         }
         let as_number = receiver.filter(|receiver| self.is_index(receiver));
         let as_number: Option<Syntax> = as_number.map(|index| syn::parse_quote!(#index as f64));
         if let Some(meant) = meant(name, as_number.as_ref().or(receiver), arguments) {
-            self.errors.push_once(&kind, at, format!("unknown function `{name}`; write `{meant}`"));
-            return;
+            let message = format!("unknown function `{name}`; write `{meant}`");
+            return self.errors.refuse_once(&kind, at, message);
         }
         let own: Vec<String> =
             self.model.functions.iter().map(|function| function.name.to_string()).collect();
@@ -345,18 +332,15 @@ impl Lowering<'_> {
         known.extend(own.iter().map(String::as_str));
         let is_function = |binding: &Binding| matches!(binding, Binding::Function(_));
         known.extend(self.scope.iter().filter(|(_, b)| is_function(b)).map(|(name, _)| name.as_str()));
-        let mut message = format!("unknown function `{name}`");
-        match nearest(name, known.iter().copied()) {
-            Some(near) => message += &format!("; did you mean `{near}`?"),
-            None => {
-                message += &format!(
-                    "; a function of your own is declared with its derivatives: \
-                     `functions({name} = [{name}, d{name}, d2{name}])`; one of several numbers, or from a \
-                     table, is a field of the struct that implements `ScalarField`"
-                );
-            }
-        }
-        self.errors.push_once(&kind, at, message);
+        let message = match nearest(name, known) {
+            Some(near) => format!("unknown function `{name}`; did you mean `{near}`?"),
+            None => format!(
+                "unknown function `{name}`; a function of your own is declared with its derivatives: \
+                 `functions({name} = [{name}, d{name}, d2{name}])`; one of several numbers, or from a table, is a \
+                 field of the struct that implements `ScalarField`"
+            ),
+        };
+        self.errors.refuse_once(&kind, at, message)
     }
 }
 

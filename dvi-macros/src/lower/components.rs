@@ -210,20 +210,19 @@ impl Lowering<'_> {
         value: Value,
     ) -> Option<Vec<Expr>> {
         match value {
-            Value::Vector(components) if components.len() == count => return Some(components),
+            Value::Vector(components) if components.len() == count => Some(components),
             Value::Vector(components) => {
                 let message =
                     format!("`{name}` has {count} components, and this is a vector of {}", components.len());
-                self.errors.push(at, message);
+                self.refuse(at, message)
             }
             Value::Number(_) => {
                 let components = vec!["…"; count].join(", ");
                 let message = format!(
                     "`{name}` is a vector of {count} components, and this is a number: write a vector, as `[{components}]`{instead}"
                 );
-                self.errors.push(at, message);
+                self.refuse(at, message)
             }
         }
-        None
     }
 }

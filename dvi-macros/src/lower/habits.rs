@@ -160,7 +160,7 @@ pub(super) fn as_receiver(syntax: &Syntax) -> String {
 impl Lowering<'_> {
     /// `x ** 2` and `x ^ 2`, where the right side binds more loosely than a power does. `x ** k` and
     /// `x * *k` are the same to the parser.
-    pub(super) fn not_a_power(&mut self, power: &ExprBinary) {
+    pub(super) fn not_a_power<T>(&mut self, power: &ExprBinary) -> Option<T> {
         let (mut base, mut exponent) = (&*power.left, &*power.right);
         if let (BinOp::Mul(_), Syntax::Unary(dereferenced)) = (power.op, exponent) {
             exponent = &dereferenced.expr;
@@ -170,7 +170,7 @@ impl Lowering<'_> {
         // `^` binds more loosely than `+` and `*`: what is meant are the operands beside it.
         while let Syntax::Binary(product) = base {
             if matches!(product.op, BinOp::BitXor(_)) {
-                self.not_a_power(product);
+                self.not_a_power::<()>(product);
             }
             base = &product.right;
         }
@@ -195,8 +195,7 @@ impl Lowering<'_> {
             _ if self.role == Role::OneForm && is_differential(base) => {
                 let message =
                     "a one-form is linear in d(·), and Ω is made of it: write α, as `x * d(y)` for dx ∧ dy";
-                self.errors.push(quote::quote!(#base #exponent), message);
-                return;
+                return self.refuse(quote::quote!(#base #exponent), message);
             }
             (Syntax::Unary(negative), _) => format!("-{}.{function}({power})", as_receiver(&negative.expr)),
             (Syntax::Cast(_), _) => format!("(…).{function}({power})"),
@@ -214,8 +213,7 @@ impl Lowering<'_> {
             true => format!(", and a product with what a reference points to `{} * {power}`", text(base)),
             false => String::new(),
         };
-        let message = format!("a power is written `{meant}`{product}");
-        self.errors.push(quote::quote!(#base #exponent), message);
+        self.refuse(quote::quote!(#base #exponent), format!("a power is written `{meant}`{product}"))
     }
 
     /// Whether a name is that of 2.718… on paper, and of nothing here.

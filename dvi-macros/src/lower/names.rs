@@ -91,15 +91,19 @@ impl Lowering<'_> {
             return None;
         }
         if self.index_names.contains(&name) {
-            self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
-        } else if words::constant(&name).is_some() {
+            return self.outside_of_sum(path, &name);
+        }
+        if words::constant(&name).is_some() {
             let message =
                 format!("write `std::f64::consts::{name}`, or `self::{name}` for a constant of your own");
-            self.errors.push(path, message);
-        } else {
-            self.unknown_name(path, &name, "unknown name");
+            return self.refuse(path, message);
         }
-        None
+        self.unknown_name(path, &name, "unknown name")
+    }
+
+    /// Reports the name of an index where there is no such index.
+    pub(super) fn outside_of_sum<T>(&mut self, at: impl quote::ToTokens, name: &str) -> Option<T> {
+        self.refuse(at, format!("the index `{name}` is used outside of its sum"))
     }
 
     /// What is wrong with a call of a name that is that of numbers.
@@ -166,14 +170,12 @@ impl Lowering<'_> {
     pub(super) fn field(&mut self, syntax: &Syntax) -> Option<Value> {
         if let Some(name) = own_field(syntax) {
             let Some(parameter) = self.parameter(name) else {
-                self.unknown_name(name, &name.to_string(), "the struct has no field");
-                return None;
+                return self.unknown_name(name, &name.to_string(), "the struct has no field");
             };
             return self.whole_parameter(syntax, parameter);
         }
         let Some(parameter) = self.nested_parameter(syntax) else {
-            self.unsupported(syntax);
-            return None;
+            return self.unsupported(syntax);
         };
         Some(self.parameter_node(parameter, Vec::new()).into())
     }
@@ -230,8 +232,7 @@ impl Lowering<'_> {
         }
         let lowered = all(indices.iter().map(|index| self.index(index)));
         let Some(field) = self.parameter(name) else {
-            self.unknown_name(name, &name.to_string(), "unknown name");
-            return None;
+            return self.unknown_name(name, &name.to_string(), "unknown name");
         };
         let lowered = lowered?;
         let name = name.to_string();
@@ -246,9 +247,7 @@ impl Lowering<'_> {
                     *entry
                 }
                 Shape::Unknown => Shape::Unknown,
-                _ => {
-                    return self.refuse(syntax, format!("this is one index too many for `{name}`"));
-                }
+                _ => return self.refuse(syntax, format!("this is one index too many for `{name}`")),
             };
         }
         match shape {
@@ -322,19 +321,16 @@ impl Lowering<'_> {
                 let place = self.model.blocks[block].place(&[row, column]);
                 if is_inside { place } else { self.tied_to_loops(place) }
             }
-            (_, grid) => {
-                self.number_of_indices(syntax, &name, grid.is_some(), indices.len());
-                return None;
-            }
+            (_, grid) => return self.number_of_indices(syntax, &name, grid.is_some(), indices.len()),
         };
         Some(self.coordinate_node(block, index))
     }
 
     /// Reports another number of indices than that of an array of numbers.
-    fn number_of_indices(&mut self, at: &Syntax, name: &str, is_grid: bool, found: usize) {
+    fn number_of_indices<T>(&mut self, at: &Syntax, name: &str, is_grid: bool, found: usize) -> Option<T> {
         // What was declared may be another array.
         if self.model.lost_coordinates {
-            return;
+            return None;
         }
         let message = match (is_grid, found) {
             (false, _) => format!("`{name}` takes one index"),
@@ -345,7 +341,7 @@ impl Lowering<'_> {
             ),
             (true, _) => format!("`{name}` takes two indices; {}", here(found)),
         };
-        self.errors.push(at, message);
+        self.refuse(at, message)
     }
 
     pub(super) fn coordinate_index(&mut self, block: usize, syntax: &Syntax) -> Option<Index> {

@@ -112,15 +112,16 @@ impl Lowering<'_> {
         let depth = self.loops;
         let (first_form, outer) = natural(depth, &lower, last);
         let (second_form, inner) = natural(depth + 1, &first_form.plus(&Index::literal(1), 1), &upper);
-        let body = self.inside(&[(first, first_form, &outer), (second, second_form, &inner)], body)?;
-        self.twice(depth, [outer, inner], body)
+        self.twice([(first, first_form, &outer), (second, second_form, &inner)], body)
     }
 
-    /// The sum of a body in two loops.
-    fn twice(&mut self, depth: u32, [outer, inner]: [Loop; 2], body: Value) -> Option<Value> {
-        body.map(|body| {
-            let body = self.graph.fold(Fold::Sum, Atom::Open(depth + 1), inner.range.clone(), body);
-            Some(self.graph.fold(Fold::Sum, Atom::Open(depth), outer.range.clone(), body))
+    /// The sum of the body of a closure over two indices with these forms in these loops.
+    fn twice(&mut self, indices: [(String, Index, &Loop); 2], body: &Syntax) -> Option<Value> {
+        self.inside(&indices, body)?.map(|body| {
+            let loops = indices.iter().rev().map(|(_, _, over)| *over);
+            Some(loops.fold(body, |body, Loop { depth, range }| {
+                self.graph.fold(Fold::Sum, Atom::Open(*depth), range.clone(), body)
+            }))
         })
     }
 
@@ -137,8 +138,7 @@ impl Lowering<'_> {
         // Both indices are shifted alike.
         let range = Range { except: Some(Index::open(depth)), ..all.range };
         let inner = Loop { range, ..all };
-        let body = self.inside(&[(first, first_form, &outer), (second, second_form, &inner)], body)?;
-        self.twice(depth, [outer, inner], body)
+        self.twice([(first, first_form, &outer), (second, second_form, &inner)], body)
     }
 
     /// The body of a closure with its indices bound to these forms in these loops.
@@ -249,14 +249,12 @@ impl Lowering<'_> {
         match syntax {
             Syntax::Lit(literal) => match &literal.lit {
                 // What is too large is reported as such.
-                Lit::Int(value) => {
-                    return Some(Index::literal(value.base10_digits().parse().unwrap_or(i64::MAX)));
-                }
-                _ => self.errors.push(syntax, "an index is an integer"),
+                Lit::Int(value) => Some(Index::literal(value.base10_digits().parse().unwrap_or(i64::MAX))),
+                _ => self.refuse(syntax, "an index is an integer"),
             },
-            Syntax::Paren(inner) => return self.index(&inner.expr),
+            Syntax::Paren(inner) => self.index(&inner.expr),
             Syntax::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => {
-                return Some(self.index(&unary.expr)?.times(-1));
+                Some(self.index(&unary.expr)?.times(-1))
             }
             Syntax::Path(path) => {
                 let name = path.path.get_ident().map(ToString::to_string).unwrap_or_default();
@@ -272,26 +270,23 @@ impl Lowering<'_> {
                     return Some(size);
                 }
                 if self.index_names.contains(&name) {
-                    self.errors.push(path, format!("the index `{name}` is used outside of its sum"));
-                } else if !self.model.lost_coordinates {
-                    // Where declarations were lost, it may be a size of one of them.
-                    let suggestion = self.index_suggestion(&name);
-                    self.errors
-                        .push(path, format!("`{}` is not an index{suggestion}", path.to_token_stream()));
+                    return self.outside_of_sum(path, &name);
                 }
+                // Where declarations were lost, it may be a size of one of them.
+                if self.model.lost_coordinates {
+                    return None;
+                }
+                let suggestion = self.index_suggestion(&name);
+                self.refuse(path, format!("`{}` is not an index{suggestion}", path.to_token_stream()))
             }
-            Syntax::MethodCall(_) | Syntax::Field(_) => match self.model.size(syntax) {
-                Some(size) => return Some(size),
-                None => self
-                    .errors
-                    .push(syntax, "expected an index or a size: `field.len()` of an array of the struct"),
-            },
-            Syntax::Binary(binary) => return self.index_arithmetic(binary),
-            other => self
-                .errors
-                .push(other, "expected an index: sums and differences of indices, sizes and integers"),
+            Syntax::MethodCall(_) | Syntax::Field(_) => self.model.size(syntax).or_else(|| {
+                self.refuse(syntax, "expected an index or a size: `field.len()` of an array of the struct")
+            }),
+            Syntax::Binary(binary) => self.index_arithmetic(binary),
+            other => {
+                self.refuse(other, "expected an index: sums and differences of indices, sizes and integers")
+            }
         }
-        None
     }
 
     fn index_arithmetic(&mut self, binary: &syn::ExprBinary) -> Option<Index> {

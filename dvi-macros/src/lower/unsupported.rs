@@ -8,17 +8,14 @@ use crate::syntax::{ident, indexed};
 use crate::words::is_method;
 
 impl Lowering<'_> {
-    pub(super) fn unsupported(&mut self, syntax: &Syntax) {
+    pub(super) fn unsupported<T>(&mut self, syntax: &Syntax) -> Option<T> {
         if let Some(message) = self.meant_by(syntax) {
-            self.errors.push(syntax, message);
-            return;
+            return self.refuse(syntax, message);
         }
         let (kind, advice) = describe(syntax);
-        self.errors.push_once(kind, syntax, format!("a formula cannot hold {kind}{advice}"));
+        self.errors.refuse_once(kind, syntax, format!("a formula cannot hold {kind}{advice}"))
     }
-}
 
-impl Lowering<'_> {
     /// What to write for `r[i].x` of a vector.
     fn component_called(&self, field: &syn::ExprField) -> Option<String> {
         let Member::Named(name) = &field.member else { return None };

@@ -269,18 +269,14 @@ impl Lowering<'_> {
         other: Value,
     ) -> Option<Vec<Expr>> {
         match other {
-            Value::Vector(b) if b.len() == a.len() => return Some(b),
+            Value::Vector(b) if b.len() == a.len() => Some(b),
             other => {
-                let message = format!(
-                    "`{}` is of two vectors of {} components, and this is {}",
-                    call.method,
-                    a.len(),
-                    other.kind()
-                );
-                self.errors.push(arguments[0], message);
+                let (method, count, kind) = (&call.method, a.len(), other.kind());
+                let message =
+                    format!("`{method}` is of two vectors of {count} components, and this is {kind}");
+                self.refuse(arguments[0], message)
             }
         }
-        None
     }
 
     /// As it is written: term after term.
@@ -311,7 +307,7 @@ impl Lowering<'_> {
     }
 
     /// Reports a method of numbers that is called of a vector.
-    pub(super) fn no_method(&mut self, call: &ExprMethodCall, value: &Value) {
+    pub(super) fn no_method<T>(&mut self, call: &ExprMethodCall, value: &Value) -> Option<T> {
         let (method, name) = (call.method.to_string(), name_of(&call.receiver));
         let lower = method.to_lowercase();
         let is_square = call.args.first().is_some_and(|exponent| text(exponent) == "2");
@@ -331,8 +327,7 @@ impl Lowering<'_> {
                 "of a vector there are `norm`, `norm_squared`, `dot` and `cross`; a component is a number, as `{name}[0]`"
             ),
         };
-        self.errors
-            .push(&call.method, format!("this is {}, which has no `{method}`: {meant}", value.kind()));
+        self.refuse(&call.method, format!("this is {}, which has no `{method}`: {meant}", value.kind()))
     }
 
     /// Whether this is an array of numbers that is no vector: sums are taken over it.

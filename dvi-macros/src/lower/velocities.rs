@@ -23,9 +23,7 @@ impl Lowering<'_> {
         }
         let wanted = match self.velocity_word() {
             Ok(wanted) => wanted,
-            Err(reason) => {
-                return self.refuse(call, reason);
-            }
+            Err(reason) => return self.refuse(call, reason),
         };
         if name != wanted {
             let message = format!("in {} a velocity is written `{wanted}(x)`", self.role.name());
@@ -52,23 +50,21 @@ impl Lowering<'_> {
         }
         let value = self.value(&call.args[0])?;
         if place.is_none() {
-            self.no_coordinate(name, call);
-            return None;
+            return self.no_coordinate(name, call);
         }
         value.map(|coordinate| self.velocity_of(name, call, coordinate))
     }
 
-    fn no_coordinate(&mut self, name: &str, call: &ExprCall) {
+    fn no_coordinate<T>(&mut self, name: &str, call: &ExprCall) -> Option<T> {
         let message = format!("`{name}` takes a coordinate, as in `{name}(x)` or `{name}(x[j])`");
-        self.errors.push(&call.args[0], message);
+        self.refuse(&call.args[0], message)
     }
 
     fn velocity_of(&mut self, name: &str, call: &ExprCall, coordinate: Expr) -> Option<Expr> {
         let (true, Node::Coordinate(coordinate)) =
             (coordinate.scale == 1.0, self.graph.node(coordinate.node).clone())
         else {
-            self.no_coordinate(name, call);
-            return None;
+            return self.no_coordinate(name, call);
         };
         if self.model.extended.is_some_and(|extended| extended.time == coordinate.block as usize) {
             let message = "`t` is the physical time: its velocity is the time transformation";
